@@ -1,0 +1,53 @@
+"""Friction, wear particles, running-in and tribofilms of rough lubricated contacts.
+
+Everything public is importable from here and loaded only when first used.
+"""
+
+from __future__ import annotations
+
+import importlib
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+_HOMES = {
+    "grid": ["Grid"],
+    "materials": ["Body", "Layer", "Material", "contact_modulus", "dundurs_beta"],
+    "errors": [
+        "BemError",
+        "ConvergenceError",
+        "InfeasibleError",
+        "InputError",
+        "ResultsError",
+        "Status",
+        "SurfaceFileError",
+    ],
+    "convolution": ["displacement_operator"],
+    "contact": ["ContactSolution", "solve_contact"],
+    "stress": ["subsurface_stress", "von_mises"],
+    "surfaces": ["Surface", "SurfaceDescription", "describe_surface", "generate_surface", "read_surface"],
+    "lubrication": ["FilmSolution", "Lubricant", "march_line_film", "solve_line_film"],
+    "friction": ["MixedSolution", "solve_mixed", "stribeck_curve"],
+    "wear": ["find_particles", "run_in"],
+    "particles": ["Particle", "particle_statistics", "particles_from_height_map"],
+    "tribofilm": ["grow_tribofilm"],
+}
+_HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
+
+__all__ = sorted([*_HOME_OF, "__version__"])
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        try:
+            return version("bem")
+        except PackageNotFoundError:  # run from a source tree that was never installed
+            return "0.0.0"
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'bem' has no attribute {name!r}")
+    value = getattr(importlib.import_module(f"bem.{_HOME_OF[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,64 @@
+"""What can go wrong: exception taxonomy and the outcomes of solvers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import StrEnum
+
+
+class Status(StrEnum):
+    """Outcome of an iterative solver; `message` says what it means and what to do."""
+
+    CONVERGED = "converged"
+    MAX_ITERATIONS = "max_iterations"
+    STALLED = "stalled"
+    INFEASIBLE = "infeasible"
+
+    @property
+    def message(self) -> str:
+        """Sentence for people."""
+        return _MESSAGES[self]
+
+
+_MESSAGES = {
+    Status.CONVERGED: "converged to the requested tolerance",
+    Status.MAX_ITERATIONS: "stopped at the iteration limit before the tolerance was met; raise max_iterations or the tolerance",
+    Status.STALLED: "no further progress is possible in double precision; the residual says how far it came",
+    Status.INFEASIBLE: "no solution exists within the bounds; lower the load or raise the hardness",
+}
+
+
+class BemError(Exception):
+    """Base of every error raised on purpose; `exit_code` is what the command line returns."""
+
+    exit_code = 1
+
+
+class InputError(BemError, ValueError):
+    """An argument, scene or file that cannot be used. The message names it, its value and what is allowed."""
+
+    exit_code = 2
+
+    def __init__(self, message: str | Sequence[str]) -> None:
+        self.messages: tuple[str, ...] = (message,) if isinstance(message, str) else tuple(message)
+        super().__init__("\n".join(self.messages))
+
+
+class InfeasibleError(InputError):
+    """A load that the bounds cannot carry, such as more than hardness x area."""
+
+
+class SurfaceFileError(InputError):
+    """A surface file that is missing, unreadable, truncated or has points missing where none may be."""
+
+
+class ConvergenceError(BemError):
+    """A run that cannot go on because a solver did not converge; says where."""
+
+    exit_code = 3
+
+
+class ResultsError(BemError, OSError):
+    """Results that cannot be written or read: folder read-only, disk full, damaged file, folder in use."""
+
+    exit_code = 4

@@ -1,0 +1,125 @@
+"""Materials, bonded layers and bodies; the contact modulus; a small catalogue with sources."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from bem.errors import InputError
+
+HARDNESS_TO_YIELD = 2.8
+"""Hardness over yield stress in uniaxial tension; Tabor, *The Hardness of Metals* (1951); used by the thesis' paper C."""
+
+
+@dataclass(frozen=True)
+class Material:
+    """An isotropic, linear elastic, perfectly plastic solid.
+
+    Parameters
+    ----------
+    name : what to call it in reports.
+    youngs_modulus : E [Pa], positive.
+    poissons_ratio : nu, between -1 and 0.5, both excluded.
+    hardness : H [Pa], the highest pressure a contact cell can carry; None for purely elastic.
+    yield_stress : sigma_y [Pa] in uniaxial tension; hardness / 2.8 where not given.
+
+    Raises
+    ------
+    InputError : one message per value out of range.
+    """
+
+    name: str
+    youngs_modulus: float
+    poissons_ratio: float
+    hardness: float | None = None
+    yield_stress: float | None = None
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        youngs_modulus: float,
+        poissons_ratio: float,
+        hardness: float | None = None,
+        yield_stress: float | None = None,
+    ) -> None:
+        messages = []
+        if not (math.isfinite(youngs_modulus) and youngs_modulus > 0):
+            messages.append(f"Material {name!r}: youngs_modulus {youngs_modulus!r} must be positive and finite [Pa]")
+        if not -1 < poissons_ratio < 0.5:
+            messages.append(f"Material {name!r}: poissons_ratio {poissons_ratio!r} must lie between -1 and 0.5, both excluded")
+        for key, value in (("hardness", hardness), ("yield_stress", yield_stress)):
+            if value is not None and not (math.isfinite(value) and value > 0):
+                messages.append(f"Material {name!r}: {key} {value!r} must be positive and finite [Pa], or left out")
+        if messages:
+            raise InputError(messages)
+        if yield_stress is None and hardness is not None:
+            yield_stress = hardness / HARDNESS_TO_YIELD
+        object.__setattr__(self, "name", name)
+        object.__setattr__(self, "youngs_modulus", float(youngs_modulus))
+        object.__setattr__(self, "poissons_ratio", float(poissons_ratio))
+        object.__setattr__(self, "hardness", None if hardness is None else float(hardness))
+        object.__setattr__(self, "yield_stress", None if yield_stress is None else float(yield_stress))
+
+    @property
+    def shear_modulus(self) -> float:
+        """G = E / 2(1 + nu) [Pa]."""
+        return self.youngs_modulus / (2 * (1 + self.poissons_ratio))
+
+    @property
+    def plane_strain_modulus(self) -> float:
+        """E / (1 - nu^2) [Pa]."""
+        return self.youngs_modulus / (1 - self.poissons_ratio**2)
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A bonded surface layer of uniform thickness [m]."""
+
+    material: Material
+    thickness: float
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.thickness) and self.thickness > 0):
+            raise InputError(f"Layer: thickness {self.thickness!r} must be positive and finite [m]; for none, leave the layer out")
+
+
+@dataclass(frozen=True)
+class Body:
+    """A half-space, optionally with one bonded layer."""
+
+    material: Material
+    layer: Layer | None = None
+
+    def __init__(self, material: Material, *, layer: Layer | None = None) -> None:
+        object.__setattr__(self, "material", material)
+        object.__setattr__(self, "layer", layer)
+
+    @property
+    def surface_material(self) -> Material:
+        """The material that the other body touches."""
+        return self.material if self.layer is None else self.layer.material
+
+
+def contact_modulus(a: Material, b: Material | None = None) -> float:
+    """Contact modulus E* [Pa]: 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; `b=None` is rigid.
+
+    Johnson, *Contact Mechanics* (1985), eq. 4.2. The thesis' E' is 2 E*.
+    """
+    compliance = 1 / a.plane_strain_modulus
+    if b is not None:
+        compliance += 1 / b.plane_strain_modulus
+    return 1 / compliance
+
+
+def dundurs_beta(a: Material, b: Material | None = None) -> float:
+    """Dundurs' beta of two half-spaces: how strongly traction couples into the normal gap (0 for equal bodies).
+
+    beta = [(1-2 nu1)/G1 - (1-2 nu2)/G2] / [2 (1-nu1)/G1 + 2 (1-nu2)/G2]; Johnson (1985), eq. 5.3-5.4. `b=None` is rigid.
+    """
+    numerator = (1 - 2 * a.poissons_ratio) / a.shear_modulus
+    denominator = 2 * (1 - a.poissons_ratio) / a.shear_modulus
+    if b is not None:
+        numerator -= (1 - 2 * b.poissons_ratio) / b.shear_modulus
+        denominator += 2 * (1 - b.poissons_ratio) / b.shear_modulus
+    return numerator / denominator
