@@ -97,8 +97,8 @@ class Grid:
         """Angular wavevectors (kx, ky) of the real transform, shapes (nx, 1) and (1, ny//2 + 1) [rad/m]."""
         nx, ny = self.shape
         dx, dy = self.spacing
-        kx = 2 * np.pi * np.fft.fftfreq(nx, dx)
-        ky = 2 * np.pi * np.fft.rfftfreq(ny, dy)
+        kx = 2 * np.pi * np.fft.fftfreq(nx, dx).astype(np.float64)
+        ky = 2 * np.pi * np.fft.rfftfreq(ny, dy).astype(np.float64)
         return kx[:, None], ky[None, :]
 
     def check_field(self, field: object, name: str) -> FloatArray:
@@ -121,4 +121,4 @@ class Grid:
 
 
 def _centres(cells: int, spacing: float) -> FloatArray:
-    return (np.arange(cells) - 0.5 * (cells - 1)) * spacing
+    return (np.arange(cells, dtype=np.float64) - 0.5 * (cells - 1)) * spacing

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from bem.errors import InputError
 
 HARDNESS_TO_YIELD = 2.8
-"""Hardness over yield stress in uniaxial tension; Tabor, *The Hardness of Metals* (1951); used by the thesis' paper C."""
+"""Hardness over yield stress in uniaxial tension; Tabor, *The Hardness of Metals* (1951); the thesis' paper C."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,9 @@ class Material:
         if not (math.isfinite(youngs_modulus) and youngs_modulus > 0):
             messages.append(f"Material {name!r}: youngs_modulus {youngs_modulus!r} must be positive and finite [Pa]")
         if not -1 < poissons_ratio < 0.5:
-            messages.append(f"Material {name!r}: poissons_ratio {poissons_ratio!r} must lie between -1 and 0.5, both excluded")
+            messages.append(
+                f"Material {name!r}: poissons_ratio {poissons_ratio!r} must lie between -1 and 0.5, both excluded"
+            )
         for key, value in (("hardness", hardness), ("yield_stress", yield_stress)):
             if value is not None and not (math.isfinite(value) and value > 0):
                 messages.append(f"Material {name!r}: {key} {value!r} must be positive and finite [Pa], or left out")
@@ -81,7 +83,9 @@ class Layer:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.thickness) and self.thickness > 0):
-            raise InputError(f"Layer: thickness {self.thickness!r} must be positive and finite [m]; for none, leave the layer out")
+            raise InputError(
+                f"Layer: thickness {self.thickness!r} must be positive and finite [m]; for none, leave the layer out"
+            )
 
 
 @dataclass(frozen=True)
@@ -115,7 +119,8 @@ def contact_modulus(a: Material, b: Material | None = None) -> float:
 def dundurs_beta(a: Material, b: Material | None = None) -> float:
     """Dundurs' beta of two half-spaces: how strongly traction couples into the normal gap (0 for equal bodies).
 
-    beta = [(1-2 nu1)/G1 - (1-2 nu2)/G2] / [2 (1-nu1)/G1 + 2 (1-nu2)/G2]; Johnson (1985), eq. 5.3-5.4. `b=None` is rigid.
+    beta = [(1-2 nu1)/G1 - (1-2 nu2)/G2] / [2 (1-nu1)/G1 + 2 (1-nu2)/G2]; Johnson (1985), eq. 5.3-5.4;
+    `b=None` is rigid.
     """
     numerator = (1 - 2 * a.poissons_ratio) / a.shear_modulus
     denominator = 2 * (1 - a.poissons_ratio) / a.shear_modulus
