@@ -1,0 +1,50 @@
+# Everything a newcomer needs: `make run`, `make test`. Each target sets up what it uses, once.
+
+PYTHON ?= python3
+BIN := .venv/bin
+STAMP := .venv/.installed
+
+.PHONY: setup setup-fem setup-browser run test test-fast lint bench report gallery wheel clean
+
+setup: $(STAMP)
+
+$(STAMP): pyproject.toml .ci/constraints.txt .ci/setup
+	PYTHON=$(PYTHON) .ci/setup
+	@touch $(STAMP)
+
+# Debian's dolfinx lives with Debian's python; only the finite-element tests and reports need it.
+setup-fem:
+	bash fem_reference/setup.sh
+
+# A headless browser, for the tests that look at the reports.
+setup-browser:
+	.ci/apt chromium
+
+run: setup
+	$(BIN)/bem run rough-contact
+
+test: setup setup-fem setup-browser
+	$(BIN)/python -m pytest -n 2 --dist worksteal
+
+test-fast: setup
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow and not fem and not browser"
+
+lint: setup
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+bench: setup
+	$(BIN)/bem bench
+
+report: setup
+	$(BIN)/python -m reports
+
+gallery: setup
+	$(BIN)/python -m reports gallery
+
+wheel: setup
+	$(BIN)/python -m build --installer uv --outdir dist .
+
+clean:
+	rm -rf .venv .venv-fem build dist .pytest_cache .mypy_cache .ruff_cache
