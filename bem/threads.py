@@ -1,0 +1,86 @@
+"""How many threads the numerical work may use, and one way to share blocks of work between them.
+
+Blocks never depend on the number of threads, so neither do the bits of a result.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+from bem.errors import InputError
+
+
+def _from_environment() -> int:
+    try:
+        return max(1, int(os.environ.get("BEM_THREADS", "1")))
+    except ValueError:
+        return 1
+
+
+class _Pool:
+    """Threads besides the caller's; made when first needed, and made anew in a forked process."""
+
+    def __init__(self) -> None:
+        self.threads = _from_environment()
+        self.lock = threading.Lock()
+        self.executor: ThreadPoolExecutor | None = None
+        self.size = 0
+        self.process = 0
+
+    def helpers(self, count: int) -> ThreadPoolExecutor:
+        with self.lock:
+            if self.executor is None or self.size < count or self.process != os.getpid():
+                self.executor = ThreadPoolExecutor(count, thread_name_prefix="bem")
+                self.size, self.process = count, os.getpid()
+            return self.executor
+
+
+_POOL = _Pool()
+
+
+def set_threads(count: int) -> None:
+    """Let transforms and elementwise passes use `count` threads (default 1, or the variable BEM_THREADS).
+
+    Raises
+    ------
+    InputError : `count` is not a positive integer.
+    """
+    if isinstance(count, bool) or not isinstance(count, int) or count < 1:
+        raise InputError(f"set_threads: count {count!r} must be a positive integer")
+    _POOL.threads = count
+
+
+def get_threads() -> int:
+    """Number of threads that the next computation may use."""
+    return _POOL.threads
+
+
+def share(work: Callable[[int, int], None], blocks: int) -> None:
+    """Call `work(worker, block)` once for every block in 0..blocks-1.
+
+    `worker` numbers the thread (0..get_threads()-1): scratch that may not be shared is indexed by it. `work` must
+    release the interpreter lock in its heavy parts for this to be worth anything, and may not call `share` again.
+    The first exception of any block is raised here.
+    """
+    workers = min(_POOL.threads, blocks)
+    if workers <= 1:
+        for block in range(blocks):
+            work(0, block)
+        return
+
+    def run(worker: int) -> None:
+        for block in range(worker, blocks, workers):
+            work(worker, block)
+
+    executor = _POOL.helpers(workers - 1)
+    futures = [executor.submit(run, worker) for worker in range(1, workers)]
+    try:
+        run(0)
+    finally:
+        errors = [future.exception() for future in futures]
+    for error in errors:
+        if error is not None:
+            raise error

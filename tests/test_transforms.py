@@ -1,0 +1,190 @@
+"""Pruned real transforms against numpy's full ones; counts; bits across threads and processes."""
+
+import hashlib
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bem import threads, transforms
+from bem.errors import InputError
+
+SHAPES = [
+    ((7, 11), (7, 11)),
+    ((8, 8), (16, 16)),
+    ((13, 6), (13, 12)),
+    ((1, 9), (1, 18)),
+    ((5, 1), (10, 1)),
+    ((1, 1), (1, 1)),
+    ((97, 64), (200, 64)),
+    ((48, 131), (96, 270)),
+]
+PARITIES = [(1, 1), (-1, 1), (1, -1), (-1, -1)]
+# a transform loses a few units in the last place times the logarithm of its length
+ROUND_OFF = {np.float64: 1e-14, np.float32: 2e-6}
+
+
+@pytest.fixture
+def one_thread():
+    before = threads.get_threads()
+    yield
+    threads.set_threads(before)
+
+
+def wrapped(coefficients, padded, parity):
+    """A full periodic kernel from non-negative offsets; where an odd one meets itself it is zero."""
+    full = np.zeros(padded)
+    for i in range(padded[0]):
+        for j in range(padded[1]):
+            a, b = min(i, padded[0] - i), min(j, padded[1] - j)
+            value = coefficients[a, b]
+            for along, (offset, length) in enumerate(((i, padded[0]), (j, padded[1]))):
+                if parity[along] == -1:
+                    value *= 0 if 2 * offset % length == 0 else (1 if 2 * offset < length else -1)
+            full[i, j] = value
+    return full
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize(("shape", "padded"), SHAPES)
+def test_forward_and_inverse_match_numpy(shape, padded, dtype):
+    transform = transforms.PaddedTransform(shape, padded, dtype)
+    field = np.random.default_rng(1).standard_normal(shape).astype(dtype)
+    expected = np.fft.rfft2(field.astype(float), s=padded).T
+    spectrum = transform.forward(field)
+    assert np.abs(spectrum - expected).max() <= ROUND_OFF[dtype] * np.abs(expected).max()
+    assert np.abs(transform.inverse(spectrum) - field).max() <= ROUND_OFF[dtype] * np.abs(field).max()
+
+
+@pytest.mark.parametrize("parity", PARITIES)
+@pytest.mark.parametrize(("shape", "padded"), [case for case in SHAPES if case[1][0] * case[1][1] < 500])
+def test_convolution_with_even_and_odd_kernels(shape, padded, parity):
+    rng = np.random.default_rng(2)
+    field = rng.standard_normal(shape)
+    coefficients = rng.standard_normal((padded[0] // 2 + 1, padded[1] // 2 + 1))
+    kernel = wrapped(coefficients, padded, parity)
+    expected = np.fft.irfft2(np.fft.rfft2(field, s=padded) * np.fft.rfft2(kernel), s=padded)[: shape[0], : shape[1]]
+    factor = transforms.multiplier([(transforms.kernel_spectrum(coefficients, padded, parity), parity, 1.0)])
+    transform = transforms.PaddedTransform(shape, padded)
+    scale = np.abs(kernel).sum() * np.abs(field).max()
+    assert np.abs(transform.convolve(field, factor) - expected).max() <= 1e-14 * scale
+    assert np.abs(transform.inverse(transform.forward(field), factor) - expected).max() <= 1e-14 * scale
+
+
+def test_even_and_odd_parts_add_to_one_multiplier():
+    rng = np.random.default_rng(3)
+    shape, padded = (6, 5), (12, 10)
+    field, even, odd = rng.standard_normal(shape), rng.standard_normal((7, 6)), rng.standard_normal((7, 6))
+    parts = [(transforms.kernel_spectrum(c, padded, p), p, f) for c, p, f in ((even, (1, 1), 1.0), (odd, (-1, 1), 0.3))]
+    transform = transforms.PaddedTransform(shape, padded)
+    both = transform.convolve(field, transforms.multiplier(parts))
+    apart = sum(transform.convolve(field, transforms.multiplier([part])) for part in parts)
+    # three convolutions of the same numbers; only round-off differs
+    assert np.abs(both - apart).max() <= 1e-13 * np.abs(both).max()
+
+
+def test_adjoint_is_the_transposed_operator():
+    rng = np.random.default_rng(4)
+    shape, padded = (6, 5), (12, 10)
+    odd = transforms.kernel_spectrum(rng.standard_normal((7, 6)), padded, (-1, 1))
+    factor = transforms.multiplier([(odd, (-1, 1), 1.0)])
+    transform = transforms.PaddedTransform(shape, padded)
+    a, b = rng.standard_normal((2, *shape))
+    left = np.vdot(transform.convolve(a, factor), b)
+    right = np.vdot(a, transform.convolve(b, factor.adjoint()))
+    assert left == pytest.approx(right, rel=1e-12)  # round-off of a 30-term sum
+
+
+def test_parts_of_different_parity_are_refused():
+    quarter = np.ones((3, 3))
+    with pytest.raises(InputError, match="parity"):
+        transforms.multiplier([(quarter, (-1, 1), 1.0), (quarter, (1, -1), 1.0)])
+
+
+def test_only_the_rows_that_matter_are_transformed():
+    transform = transforms.PaddedTransform((30, 20), (60, 40))
+    field = np.ones((30, 20))
+    transforms.COUNT.reset()
+    spectrum = transform.forward(field)
+    assert (transforms.COUNT.forward, transforms.COUNT.rows, transforms.COUNT.columns) == (1, 30, 21)
+    transform.inverse(spectrum)
+    assert (transforms.COUNT.inverse, transforms.COUNT.rows, transforms.COUNT.columns) == (1, 60, 42)
+
+
+@pytest.mark.usefixtures("one_thread")
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+def test_threads_leave_the_bits_alone(dtype):
+    transform = transforms.PaddedTransform((200, 150), (400, 300), dtype)
+    field = np.random.default_rng(5).standard_normal((200, 150)).astype(dtype)
+    factor = transforms.Multiplier(np.random.default_rng(6).standard_normal((151, 201)))
+    results = []
+    for count in (1, 2, 3):
+        threads.set_threads(count)
+        results.append(transform.convolve(field, factor))
+    assert all(np.array_equal(results[0], other) for other in results[1:])
+
+
+def _digest():
+    transform = transforms.PaddedTransform((120, 77), (240, 77))
+    field = np.random.default_rng(7).standard_normal((120, 77))
+    return hashlib.sha256(transform.forward(field).tobytes()).hexdigest()
+
+
+def test_another_process_gives_the_same_bits():
+    here = str(Path(__file__).parent)
+    code = f"import sys; sys.path.insert(0, {here!r}); import test_transforms as t; print(t._digest())"
+    other = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.strip()
+    assert other == _digest()
+
+
+def test_cached_transforms_are_bounded():
+    transforms.set_transform_memory(1 << 20)
+    try:
+        for size in range(100, 400, 20):
+            transforms.transform_of((size, size), (size, size)).forward(np.zeros((size, size)))
+        transforms.transform_of((16, 16), (16, 16)).forward(np.zeros((16, 16)))
+        assert transforms.transform_memory() <= 1 << 20
+    finally:
+        transforms.set_transform_memory(1 << 29)
+    assert transforms.transform_of((16, 16), (16, 16)) is transforms.transform_of((16, 16), (16, 16))
+
+
+@pytest.mark.parametrize(
+    "arguments", [((4, 4), (3, 4)), ((0, 4), (4, 4)), ((4, 4), (4, 4), np.int32)], ids=["short", "empty", "integers"]
+)
+def test_what_cannot_be_transformed_is_refused(arguments):
+    with pytest.raises(InputError):
+        transforms.transform_of(*arguments)
+
+
+@pytest.mark.parametrize("count", [0, -1, 1.5, True, "2"])
+def test_thread_counts_are_positive_integers(count):
+    with pytest.raises(InputError, match="set_threads"):
+        threads.set_threads(count)
+
+
+@settings(deadline=None, max_examples=30)
+@given(nx=st.integers(1, 40), ny=st.integers(1, 40), px=st.integers(0, 40), py=st.integers(0, 40))
+def test_any_shape_and_padding_round_trips(nx, ny, px, py):
+    transform = transforms.PaddedTransform((nx, ny), (nx + px, ny + py))
+    field = np.random.default_rng(nx + 41 * ny).standard_normal((nx, ny))
+    assert np.abs(transform.inverse(transform.forward(field)) - field).max() <= 1e-13
+
+
+def test_errors_in_threads_are_raised():
+    before = threads.get_threads()
+    threads.set_threads(2)
+
+    def work(worker, block):
+        if block == 3:
+            raise ZeroDivisionError
+
+    try:
+        with pytest.raises(ZeroDivisionError):
+            threads.share(work, 4)
+    finally:
+        threads.set_threads(before)
