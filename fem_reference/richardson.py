@@ -1,0 +1,103 @@
+"""Error bars from at least three meshes:
+
+Richardson extrapolation, with a cautious bar where the sequence is not regular. Needs numpy only.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+SAFETY = 1.25
+"""Factor on the extrapolated difference for three or more meshes, as in the grid convergence index (Roache 1994)."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """What a sequence of meshes says.
+
+    Parameters
+    ----------
+    values : on the finest mesh, shape (n,).
+    error_bar : half-width at each point, shape (n,).
+    order : observed order of the sequence as a whole (maximum norm), None where the differences are at round-off or do
+        not fall.
+    """
+
+    values: NDArray[np.float64]
+    error_bar: NDArray[np.float64]
+    order: float | None
+
+
+def observed_order(sizes: ArrayLike, differences: ArrayLike) -> float | None:
+    """Order p of an error c h^p from the last two successive differences of a sequence on meshes of three sizes.
+
+    ``differences`` are |f2 - f1| and |f3 - f2| (positive). Solves (h1^p - h2^p)/(h2^p - h3^p) = d1/d2 by bisection; the
+    left side grows with p. None when the differences do not fall as any order between 0.1 and 20 would make them.
+    """
+    h1, h2, h3 = np.asarray(sizes, dtype=float)[-3:]
+    d1, d2 = np.asarray(differences, dtype=float)[-2:]
+    if not (h1 > h2 > h3 > 0):
+        raise ValueError(f"sizes must fall, from coarse to fine: {h1}, {h2}, {h3}")
+    if d1 <= 0 or d2 <= 0:
+        return None
+
+    def excess(p: float) -> float:
+        return float((h1**p - h2**p) / (h2**p - h3**p)) - d1 / d2
+
+    low, high = 0.1, 20.0
+    if excess(low) > 0 or excess(high) < 0:
+        return None
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if excess(middle) > 0 else (middle, high)
+    return 0.5 * (low + high)
+
+
+def estimate(
+    sizes: ArrayLike,
+    values: ArrayLike,
+    *,
+    expected_order: float,
+    round_off: float = 1e-10,
+    other_error: ArrayLike = 0.0,
+) -> Estimate:
+    """Value, error bar and observed order at points computed on three or more meshes.
+
+    Parameters
+    ----------
+    sizes : (m,) relative mesh sizes, falling, m >= 3.
+    values : (m, n) figures on them.
+    expected_order : order the elements should give; a higher observed one is not trusted.
+    round_off : floor of the bar, relative to the largest value of the curve (linear solver and evaluation).
+    other_error : (n,) or scalar, added to the bar: what the far field leaves.
+
+    The bar at a point is SAFETY |f3 - f2| / ((h2/h3)^p - 1) with p the observed order of the whole curve, at most the
+    expected one, at least one half; at a point where
+    the last difference is untypically small (the error passes through zero) a tenth of the typical difference of the
+    curve is taken instead.
+    Where no order can be seen the differences themselves (times SAFETY) are the bar: then the sequence has not
+    converged regularly, and the bar says so.
+    """
+    sizes = np.asarray(sizes, dtype=float)
+    values = np.asarray(values, dtype=float)
+    if values.ndim != 2 or values.shape[0] != sizes.size or sizes.size < 3:
+        raise ValueError(
+            f"values must be (meshes, points) with at least three meshes: {values.shape}, {sizes.size} sizes"
+        )
+    scale = np.max(np.abs(values[-1]), initial=0.0)
+    first = np.abs(values[-2] - values[-3])
+    last = np.abs(values[-1] - values[-2])
+    floor = round_off * scale
+    order = None
+    if np.max(last, initial=0.0) > 10 * floor:
+        order = observed_order(sizes, (np.max(first), np.max(last)))
+    if order is None:
+        extrapolated = last
+    else:
+        used = min(max(order, 0.5), expected_order)
+        typical = np.sqrt(np.mean(last**2))
+        extrapolated = np.maximum(last, 0.1 * typical) / ((sizes[-2] / sizes[-1]) ** used - 1)
+    return Estimate(values[-1], SAFETY * extrapolated + floor + np.abs(other_error), order)
