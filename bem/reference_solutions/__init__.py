@@ -1,0 +1,1 @@
+"""Closed forms, one small file each. Tests and reports measure against them; solvers never use them."""
