@@ -1,0 +1,73 @@
+"""Influence coefficients on a grid: one door to all kernels, chosen by the grid's periodicity and the body's layer.
+
+A coefficient belongs to an offset of (i dx, j dy) between a loaded cell and the centre of another one. Free axes are
+bare; along a periodic axis the images of the loaded cell are summed. Doubly periodic grids have no coefficients: their
+operator is diagonal, see `spectral`.
+"""
+
+from __future__ import annotations
+
+import importlib
+
+import numpy as np
+
+from bem.errors import InputError
+from bem.grid import FloatArray, Grid
+from bem.kernels import half_space
+from bem.kernels.half_space import Load
+from bem.materials import Body
+
+__all__ = ["STRESS_PARITY", "SURFACE_PARITY", "Load", "stress_coefficients", "surface_coefficients"]
+
+SURFACE_PARITY: dict[Load, tuple[int, int]] = {Load.NORMAL: (1, 1), Load.TANGENTIAL: (-1, 1)}
+"""Parity (in x, in y) of the normal surface displacement: +1 even, -1 odd."""
+
+STRESS_PARITY: dict[Load, tuple[tuple[int, int], ...]] = {
+    Load.NORMAL: ((1, 1), (1, 1), (1, 1), (1, -1), (-1, 1), (-1, -1)),
+    Load.TANGENTIAL: ((-1, 1), (-1, 1), (-1, 1), (-1, -1), (1, 1), (1, -1)),
+}
+"""Parity (in x, in y) of each stress (xx yy zz yz xz xy). A spectrum is real where the product is +1, else imaginary."""
+
+
+def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
+    """Normal surface displacement [m/Pa] of a unit load on the cell at the origin, shape (nx, ny).
+
+    Entry [i, j] belongs to the offset (i dx, j dy), i = 0..nx-1, j = 0..ny-1. Other offsets follow from
+    `SURFACE_PARITY`. On a grid with one periodic axis the datum is that of `semi_periodic`.
+
+    Raises
+    ------
+    InputError : a doubly periodic grid.
+    """
+    _refuse_doubly_periodic(grid)
+    if body.layer is not None:
+        layered = importlib.import_module("bem.kernels.layered")
+        table: FloatArray = layered.surface_coefficients(grid, body, load)
+        return table
+    if grid.periodic == (False, False):
+        return half_space.surface_table(grid.shape, grid.spacing, body.material, load)
+    raise NotImplementedError
+
+
+def stress_coefficients(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
+    """Six stresses (xx yy zz yz xz xy) at `depth` [m] of a unit load on the cell at the origin, shape (6, nx, ny).
+
+    Dimensionless [Pa/Pa]. Entry [:, i, j] belongs to the offset (i dx, j dy); others follow from `STRESS_PARITY`.
+
+    Raises
+    ------
+    InputError : a doubly periodic grid; a depth that is negative or not finite.
+    """
+    _refuse_doubly_periodic(grid)
+    if not (np.isfinite(depth) and depth >= 0):
+        raise InputError(f"depth: {depth!r} must be finite and not negative [m]")
+    if body.layer is not None:
+        layered = importlib.import_module("bem.kernels.layered")
+        table: FloatArray = layered.stress_coefficients(grid, body, depth, load)
+        return table
+    raise NotImplementedError
+
+
+def _refuse_doubly_periodic(grid: Grid) -> None:
+    if grid.periodic == (True, True):
+        raise InputError("grid: periodic along both axes; use the spectral responses, not influence coefficients")

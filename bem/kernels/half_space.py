@@ -1,0 +1,299 @@
+"""Displacements of an elastic half-space under a uniformly loaded rectangle, at the surface and below.
+
+With the potentials of Johnson, *Contact Mechanics* (1985), eq. 3.2-3.5 (Boussinesq, Cerruti; Love 1929),
+
+    V   = integral of 1/R        chi = integral of ln(R + z)        F = integral of z ln(R + z) - R
+
+over the loaded rectangle, G the shear modulus, unit pressure gives
+
+    4 pi G (ux, uy, uz) = (-(1-2nu) chi_x - z V_x,  -(1-2nu) chi_y - z V_y,  2(1-nu) V - z V_z)
+
+and unit traction along +x
+
+    4 pi G (ux, uy, uz) = (2 V + 2nu F_xx - z chi_xx,  2nu F_xy - z chi_xy,  (1-2nu) chi_x - z V_x).
+
+Each is a sum over the four corners near the rectangle and a Gauss rule of the point-force solution far from it. A
+rectangle that is too long for either is cut across its long side until one of them serves.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+
+import numba as nb
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bem.errors import InputError
+from bem.grid import FloatArray
+from bem.kernels.cell_rules import COMPILE, NEAR, NODES, WEIGHTS, angle, log_ratio, points_needed, slant
+from bem.materials import Material
+
+
+class Load(Enum):
+    """What acts on a cell: unit pressure, or unit traction along +x."""
+
+    NORMAL = 0
+    TANGENTIAL = 1
+
+
+@nb.njit(**COMPILE)
+def _point(x: float, y: float, z: float, nu: float, tangential: bool, weight: float, out: FloatArray) -> None:
+    """Add `weight` times 4 pi G u of a unit point force at the origin."""
+    r = np.sqrt(x * x + y * y + z * z)
+    inv = 1.0 / r
+    inv3 = inv * inv * inv
+    s = 1.0 / (r + z)
+    if tangential:
+        curl = (2.0 * r + z) * inv3 * s * s
+        out[0] += weight * (2.0 * inv + 2.0 * nu * s * (x * x * inv * s - 1.0) - z * (inv * s - x * x * curl))
+        out[1] += weight * x * y * (2.0 * nu * inv * s * s + z * curl)
+        out[2] += weight * x * ((1.0 - 2.0 * nu) * inv * s + z * inv3)
+    else:
+        side = z * inv3 - (1.0 - 2.0 * nu) * inv * s
+        out[0] += weight * x * side
+        out[1] += weight * y * side
+        out[2] += weight * (2.0 * (1.0 - nu) * inv + z * z * inv3)
+
+
+@nb.njit(**COMPILE)
+def _chi_x(x0: float, x1: float, y0: float, y1: float, z: float) -> float:
+    """Integral of d/dx ln(R + z) over the rectangle whose corner differences are (x0, x1) x (y0, y1)."""
+    total = 0.0
+    for i in range(2):
+        u = x1 if i else x0
+        sign = 1.0 if i else -1.0
+        across = np.sqrt(u * u + z * z)
+        if across > 0.0 and z > 0.0:
+            total += sign * z * log_ratio(y1, y0, across)
+        for j in range(2):
+            v = y1 if j else y0
+            r = np.sqrt(u * u + v * v + z * z)
+            if r > 0.0:
+                term = u * slant(u, v, z, r)
+                if v != 0.0:
+                    term += v * np.log(r + z)
+                total += term if i == j else -term
+    return total
+
+
+@nb.njit(**COMPILE)
+def _corners(x: float, y: float, z: float, a: float, b: float, nu: float, tangential: bool, out: FloatArray) -> None:
+    """Add 4 pi G u of unit load on |x| < a, |y| < b."""
+    x0, x1, y0, y1 = x - a, x + a, y - b, y + b
+    v_x0 = 0.0
+    v_x1 = 0.0
+    v_y0 = 0.0
+    v_y1 = 0.0
+    newton = 0.0  # V
+    across = np.sqrt(x0 * x0 + z * z)
+    if across > 0.0:
+        v_x0 = log_ratio(y1, y0, across)
+    across = np.sqrt(x1 * x1 + z * z)
+    if across > 0.0:
+        v_x1 = log_ratio(y1, y0, across)
+    across = np.sqrt(y0 * y0 + z * z)
+    if across > 0.0:
+        v_y0 = log_ratio(x1, x0, across)
+    across = np.sqrt(y1 * y1 + z * z)
+    if across > 0.0:
+        v_y1 = log_ratio(x1, x0, across)
+    newton = x1 * v_x1 - x0 * v_x0 + y1 * v_y1 - y0 * v_y0
+    solid = 0.0  # -V_z
+    slants = 0.0  # chi_xx
+    omega = 0.0  # F_xy
+    logs = 0.0  # chi_xy
+    for i in range(2):
+        u = x1 if i else x0
+        for j in range(2):
+            v = y1 if j else y0
+            sign = 1.0 if i == j else -1.0
+            r = np.sqrt(u * u + v * v + z * z)
+            solid += sign * angle(u, v, z, r)
+            if tangential:
+                slants += sign * slant(u, v, z, r)
+                omega -= sign * r
+                if z > 0.0:
+                    logs += sign * np.log(r + z)
+    newton -= z * solid
+    v_x = v_x1 - v_x0
+    if tangential:
+        f_xx = -(x1 * v_x1 - x0 * v_x0) + z * slants
+        out[0] += 2.0 * newton + 2.0 * nu * f_xx - z * slants
+        out[1] += 2.0 * nu * (omega + z * logs) - z * logs
+        out[2] += (1.0 - 2.0 * nu) * _chi_x(x0, x1, y0, y1, z)
+        if z > 0.0:
+            out[2] -= z * v_x
+    else:
+        out[0] -= (1.0 - 2.0 * nu) * _chi_x(x0, x1, y0, y1, z)
+        out[1] -= (1.0 - 2.0 * nu) * _chi_x(y0, y1, x0, x1, z)
+        out[2] += 2.0 * (1.0 - nu) * newton + z * solid
+        if z > 0.0:
+            out[0] -= z * v_x
+            out[1] -= z * (v_y1 - v_y0)
+
+
+@nb.njit(**COMPILE)
+def _gauss(
+    x: float, y: float, z: float, a: float, b: float, nu: float, tangential: bool, ratio: float, out: FloatArray
+) -> None:
+    n = points_needed(ratio)
+    area = 4.0 * a * b
+    for i in range(n):
+        for j in range(n):
+            weight = area * WEIGHTS[n, i] * WEIGHTS[n, j]
+            _point(x - a * NODES[n, i], y - b * NODES[n, j], z, nu, tangential, weight, out)
+
+
+@nb.njit(**COMPILE)
+def _rectangle(x: float, y: float, z: float, a: float, b: float, nu: float, tangential: bool, out: FloatArray) -> None:
+    """Add 4 pi G u of unit load on |x| < a, |y| < b: closed form near, Gauss points far, cut where neither serves."""
+    ratio = np.sqrt(x * x + y * y + z * z) / max(a, b)
+    if ratio >= NEAR:
+        _gauss(x, y, z, a, b, nu, tangential, ratio, out)
+        return
+    short = min(a, b)
+    gap = np.sqrt(max(abs(x) - a, 0.0) ** 2 + max(abs(y) - b, 0.0) ** 2 + z * z)
+    if max(a, b) <= 2.0 * short or gap <= short:
+        _corners(x, y, z, a, b, nu, tangential, out)
+        return
+    cx = np.zeros(64)
+    cy = np.zeros(64)
+    ha = np.zeros(64)
+    hb = np.zeros(64)
+    ha[0] = a
+    hb[0] = b
+    top = 1
+    while top > 0:
+        top -= 1
+        px = x - cx[top]
+        py = y - cy[top]
+        pa = ha[top]
+        pb = hb[top]
+        ratio = np.sqrt(px * px + py * py + z * z) / max(pa, pb)
+        if ratio >= NEAR:
+            _gauss(px, py, z, pa, pb, nu, tangential, ratio, out)
+            continue
+        short = min(pa, pb)
+        gap = np.sqrt(max(abs(px) - pa, 0.0) ** 2 + max(abs(py) - pb, 0.0) ** 2 + z * z)
+        if max(pa, pb) <= 2.0 * short or gap <= short:
+            _corners(px, py, z, pa, pb, nu, tangential, out)
+            continue
+        centre_x = cx[top]
+        centre_y = cy[top]
+        if pa > pb:
+            cx[top] = centre_x - 0.5 * pa
+            cx[top + 1] = centre_x + 0.5 * pa
+            cy[top + 1] = centre_y
+            pa *= 0.5
+        else:
+            cy[top] = centre_y - 0.5 * pb
+            cy[top + 1] = centre_y + 0.5 * pb
+            cx[top + 1] = centre_x
+            pb *= 0.5
+        ha[top] = pa
+        hb[top] = pb
+        ha[top + 1] = pa
+        hb[top + 1] = pb
+        top += 2
+
+
+@nb.njit(**COMPILE)
+def _many(
+    x: FloatArray, y: FloatArray, z: FloatArray, a: float, b: float, nu: float, tangential: bool, out: FloatArray
+) -> None:
+    scale = max(a, b)
+    local = np.zeros(3)
+    for i in range(x.size):
+        local[:] = 0.0
+        _rectangle(x[i] / scale, y[i] / scale, z[i] / scale, a / scale, b / scale, nu, tangential, local)
+        for c in range(3):
+            out[c, i] = scale * local[c]
+
+
+@nb.njit(**COMPILE)
+def _surface_table(
+    nx: int, ny: int, dx: float, dy: float, nu: float, tangential: bool, first: int, out: FloatArray
+) -> None:
+    """4 pi G uz on the surface at offsets (i dx, (j + first) dy)."""
+    scale = max(dx, dy)
+    local = np.zeros(3)
+    for i in range(nx):
+        for j in range(ny):
+            local[:] = 0.0
+            x = i * (dx / scale)
+            y = (j + first) * (dy / scale)
+            _rectangle(x, y, 0.0, 0.5 * dx / scale, 0.5 * dy / scale, nu, tangential, local)
+            out[i, j] = scale * local[2]
+
+
+def check_points(
+    x: ArrayLike, y: ArrayLike, depth: ArrayLike, sides: tuple[float, float]
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Broadcast the coordinates of evaluation points; refuse what is not finite, above the surface or without area."""
+    messages = []
+    arrays = []
+    for name, values in (("x", x), ("y", y), ("depth", depth)):
+        array = np.asarray(values, dtype=np.float64)
+        if not np.isfinite(array).all():
+            messages.append(f"{name}: every coordinate must be finite [m]")
+        elif name == "depth" and (array < 0).any():
+            messages.append(f"depth: {float(array.min())!r} lies above the surface; depths start at 0 [m]")
+        arrays.append(array)
+    if not (len(sides) == 2 and all(np.isfinite(s) and s > 0 for s in sides)):
+        messages.append(f"sides: {sides!r} must be two positive, finite lengths [m]")
+    if messages:
+        raise InputError(messages)
+    px, py, pz = np.broadcast_arrays(*arrays)
+    return px, py, pz
+
+
+def rectangle_displacement(
+    x: ArrayLike,
+    y: ArrayLike,
+    depth: ArrayLike,
+    sides: tuple[float, float],
+    material: Material,
+    load: Load = Load.NORMAL,
+) -> FloatArray:
+    """Displacement (ux, uy, uz) per unit load on a rectangle centred at the origin.
+
+    Parameters
+    ----------
+    x, y, depth : coordinates of the points [m], broadcast together; depth >= 0.
+    sides : (along x, along y), full sides of the rectangle [m].
+    load : unit pressure, or unit traction along +x.
+
+    Returns
+    -------
+    array (3, ...) [m/Pa], z positive into the body; zero at infinity.
+
+    Raises
+    ------
+    InputError : coordinates that are not finite, negative depths, sides that are not positive.
+    """
+    px, py, pz = check_points(x, y, depth, sides)
+    out = np.empty((3, px.size))
+    _many(
+        px.ravel(),
+        py.ravel(),
+        pz.ravel(),
+        0.5 * float(sides[0]),
+        0.5 * float(sides[1]),
+        material.poissons_ratio,
+        load is Load.TANGENTIAL,
+        out,
+    )
+    out /= 4 * np.pi * material.shear_modulus
+    return out.reshape(3, *px.shape)
+
+
+def surface_table(
+    shape: tuple[int, int], spacing: tuple[float, float], material: Material, load: Load, first: int = 0
+) -> FloatArray:
+    """Normal surface displacement [m/Pa] at offsets (i dx, (j + first) dy) from the centre of a loaded cell."""
+    out = np.empty(shape)
+    tangential = load is Load.TANGENTIAL
+    _surface_table(shape[0], shape[1], spacing[0], spacing[1], material.poissons_ratio, tangential, first, out)
+    out /= 4 * np.pi * material.shear_modulus
+    return out

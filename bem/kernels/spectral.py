@@ -1,0 +1,106 @@
+"""Doubly periodic half-space: the response to a harmonic load, in closed form.
+
+A load exp(i (kx x + ky y)) on the surface of a homogeneous half-space decays as exp(-q z), q = |k|. Fields are sampled
+at the cell centres and loads are their trigonometric interpolants: the response is taken at the grid's own wavevectors,
+with no average over a cell. Arrays follow the real transform over y (`numpy.fft.rfft2`): kx in the order of
+`fftfreq`, ky >= 0.
+
+Every response is real or purely imaginary, by the parity of its kernel in real space; the array returned is the real
+number that is left (spectrum = array, or i x array where the kernel is odd). At the highest wavenumber of an even
+number of cells the sign of a derivative is undefined: responses odd in that wavenumber are 0 there.
+
+Mean mode (q = 0): the displacement is 0 (a mean pressure moves the datum only: a half-space has no finite answer);
+the stresses are those of the laterally constrained uniform state, zz = -1, xx = yy = -nu/(1-nu) per unit pressure, and
+xz = -1 per unit traction.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bem.errors import InputError
+from bem.grid import FloatArray, Grid
+from bem.kernels.half_space import Load
+from bem.materials import Body
+
+
+def _check(grid: Grid, body: Body) -> None:
+    if grid.periodic != (True, True):
+        raise InputError(f"grid: periodic {grid.periodic!r}; spectral responses need both axes periodic")
+    if body.layer is not None:
+        raise InputError("body: has a layer; this is the response of a homogeneous half-space")
+
+
+def _wavevectors(grid: Grid) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+    """kx, ky, q (with 1 in place of the mean), and kx, ky with the ambiguous highest wavenumber zeroed."""
+    kx, ky = grid.wavevectors()
+    q = np.hypot(kx, ky)
+    q[0, 0] = 1.0
+    odd_x, odd_y = kx.copy(), ky.copy()
+    nx, ny = grid.shape
+    if nx % 2 == 0:
+        odd_x[nx // 2] = 0.0
+    if ny % 2 == 0:
+        odd_y[:, ny // 2] = 0.0
+    return kx, ky, q, odd_x, odd_y
+
+
+def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
+    """Normal surface displacement of a harmonic unit load, shape (nx, ny//2 + 1) [m/Pa].
+
+    Pressure: 2 / (E* q), the spectrum itself. Traction along +x: -(1-2nu) kx / (2 G q^2), its imaginary part.
+    Mean mode 0. Johnson (1985), section 13.2, and the transform of Cerruti's solution.
+
+    Raises
+    ------
+    InputError : a grid that is not periodic along both axes, or a body with a layer.
+    """
+    _check(grid, body)
+    _, _, q, odd_x, _ = _wavevectors(grid)
+    material = body.material
+    if load is Load.NORMAL:
+        out = 2 / (material.plane_strain_modulus * q)
+    else:
+        out = -(1 - 2 * material.poissons_ratio) / (2 * material.shear_modulus) * odd_x / q**2
+    out[0, 0] = 0.0
+    return out
+
+
+def stress_response(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
+    """Six stresses (xx yy zz yz xz xy) at `depth` [m] of a harmonic unit load, shape (6, nx, ny//2 + 1) [Pa/Pa].
+
+    The spectrum where the kernel is even, its imaginary part where it is odd (see `coefficients.STRESS_PARITY`).
+
+    Raises
+    ------
+    InputError : a grid that is not periodic along both axes, a body with a layer, a depth that is negative or not finite.
+    """
+    _check(grid, body)
+    if not (np.isfinite(depth) and depth >= 0):
+        raise InputError(f"depth: {depth!r} must be finite and not negative [m]")
+    kx, ky, q, odd_x, odd_y = _wavevectors(grid)
+    nu = body.material.poissons_ratio
+    z = float(depth)
+    decay = np.exp(-q * z)
+    cx, cy = kx / q, ky / q
+    ox, oy = odd_x / q, odd_y / q
+    qz = q * z
+    out = np.empty((6, *q.shape))
+    if load is Load.NORMAL:
+        out[0] = decay * ((qz - (1 - 2 * nu)) * cx**2 - 2 * nu)
+        out[1] = decay * ((qz - (1 - 2 * nu)) * cy**2 - 2 * nu)
+        out[2] = -decay * (1 + qz)
+        out[3] = decay * qz * oy
+        out[4] = decay * qz * ox
+        out[5] = decay * (qz - (1 - 2 * nu)) * ox * oy
+        mean = [-nu / (1 - nu), -nu / (1 - nu), -1.0, 0.0, 0.0, 0.0]
+    else:
+        out[0] = decay * ox * (2 + 2 * nu - (2 * nu + qz) * cx**2)
+        out[1] = decay * ox * (2 * nu - (2 * nu + qz) * cy**2)
+        out[2] = decay * qz * ox
+        out[3] = decay * qz * ox * oy
+        out[4] = decay * (qz * cx**2 - 1)
+        out[5] = decay * oy * (1 - (2 * nu + qz) * cx**2)
+        mean = [0.0, 0.0, 0.0, 0.0, -1.0, 0.0]
+    out[:, 0, 0] = mean
+    return out
