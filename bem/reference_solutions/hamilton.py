@@ -59,16 +59,21 @@ def sphere_stress(
 
     Traction friction x pressure along +x on the body; z into it; tension positive.
     """
-    x, y, z = np.broadcast_arrays(*(np.asarray(v, dtype=np.float64) / contact_radius for v in (x, y, z)))
-    shape = x.shape
-    x, y, z = x.ravel(), y.ravel(), np.abs(z).ravel()
+    arrays = np.broadcast_arrays(*(np.asarray(v, dtype=np.float64) / contact_radius for v in (x, y, z)))
+    shape = arrays[0].shape
+    flat_x, flat_y, flat_z = (v.ravel() for v in arrays)
+    sphere = _sphere_stress(flat_x, flat_y, flat_z, poissons_ratio, friction)
+    return (maximum_pressure * sphere).reshape(6, *shape)
+
+
+def _sphere_stress(x: FloatArray, y: FloatArray, z: FloatArray, nu: float, friction: float) -> FloatArray:
+    z = np.abs(z)
     r2 = x * x + y * y
     fields = np.empty((9, x.size))
     near = r2 + z * z < _FAR**2
     fields[:, near] = _near(r2[near], z[near])
     fields[:, ~near] = _far(r2[~near], z[~near])
     p = _Potentials(*fields)
-    nu = poissons_ratio
     z_v_zz = -(2 * z * p.d_v + r2 * p.z_d2_v)
     z_v_xx = z * p.d_v + x * x * p.z_d2_v
     z_v_yy = z * p.d_v + y * y * p.z_d2_v
@@ -97,7 +102,7 @@ def sphere_stress(
         )
         normal = normal + friction * sliding
     # (pi p0 / 2) of the potential times 1 / 2 pi of the stress
-    return (0.25 * maximum_pressure * normal).reshape(6, *shape)
+    return 0.25 * normal
 
 
 def _near(r2: FloatArray, z: FloatArray) -> FloatArray:
