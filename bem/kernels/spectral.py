@@ -1,4 +1,4 @@
-"""Doubly periodic half-space: the response to a harmonic load, in closed form.
+"""Doubly periodic half-space, bare or with a bonded layer: the response to a harmonic load, in closed form.
 
 A load exp(i (kx x + ky y)) on the surface of a homogeneous half-space decays as exp(-q z), q = |k|. Fields are sampled
 at the cell centres and loads are their trigonometric interpolants: the response is taken at the grid's own wavevectors,
@@ -20,16 +20,15 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
+from bem.kernels import layered
+from bem.kernels.coefficients import STRESS_PARITY
 from bem.kernels.half_space import Load
 from bem.materials import Body
 
 
-def _check(grid: Grid, body: Body) -> None:
+def _check(grid: Grid) -> None:
     if grid.periodic != (True, True):
         raise InputError(f"grid: periodic {grid.periodic!r}; spectral responses need both axes periodic")
-    if body.layer is not None:
-        raise InputError("body: has a layer; this is the response of a homogeneous half-space")
-
 
 def _wavevectors(grid: Grid) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
     """kx, ky, q (with 1 in place of the mean), and kx, ky with the ambiguous highest wavenumber zeroed."""
@@ -49,14 +48,17 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
     """Normal surface displacement of a harmonic unit load, shape (nx, ny//2 + 1) [m/Pa].
 
     Pressure: 2 / (E* q), the spectrum itself. Traction along +x: -(1-2nu) kx / (2 G q^2), its imaginary part.
-    Mean mode 0. Johnson (1985), section 13.2, and the transform of Cerruti's solution.
+    Mean mode 0. Johnson (1985), section 13.2, and the transform of Cerruti's solution. With a layer: see `layered`.
 
     Raises
     ------
-    InputError : a grid that is not periodic along both axes, or a body with a layer.
+    InputError : a grid that is not periodic along both axes.
     """
-    _check(grid, body)
-    _, _, q, odd_x, _ = _wavevectors(grid)
+    _check(grid)
+    kx, ky, q, odd_x, _ = _wavevectors(grid)
+    if body.layer is not None:
+        tangential = load is Load.TANGENTIAL
+        return layered.surface_response(odd_x if tangential else kx, ky, body, tangential=tangential)
     material = body.material
     if load is Load.NORMAL:
         out = 2 / (material.plane_strain_modulus * q)
@@ -73,12 +75,20 @@ def stress_response(grid: Grid, body: Body, depth: float, load: Load) -> FloatAr
 
     Raises
     ------
-    InputError : a grid that is not periodic along both axes, a body with a layer, a depth that is negative or not finite.
+    InputError : a grid that is not periodic along both axes or a negative depth.
     """
-    _check(grid, body)
+    _check(grid)
     if not (np.isfinite(depth) and depth >= 0):
         raise InputError(f"depth: {depth!r} must be finite and not negative [m]")
     kx, ky, q, odd_x, odd_y = _wavevectors(grid)
+    if body.layer is not None:
+        out = layered.stress_response(kx, ky, body, float(depth), tangential=load is Load.TANGENTIAL)
+        for component, (parity_x, parity_y) in enumerate(STRESS_PARITY[load]):
+            if parity_x < 0:
+                out[component] *= odd_x == kx
+            if parity_y < 0:
+                out[component] *= odd_y == ky
+        return out
     nu = body.material.poissons_ratio
     z = float(depth)
     decay = np.exp(-q * z)

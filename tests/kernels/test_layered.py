@@ -1,0 +1,287 @@
+"""Layered frequency response against a many-digit solution of the equations of elasticity, limits and invariances."""
+
+import itertools
+
+import mpmath as mp
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bem import Body, Grid, Layer, Material
+from bem.errors import InputError
+from bem.kernels import layered, spectral
+from bem.kernels.half_space import Load
+
+
+def material(shear_modulus, poissons_ratio):
+    return Material("solid", youngs_modulus=2 * shear_modulus * (1 + poissons_ratio), poissons_ratio=poissons_ratio)
+
+
+def coated(ratio, nu1, nu2, thickness, substrate_modulus=1.0):
+    return Body(material(substrate_modulus, nu2), layer=Layer(material(ratio * substrate_modulus, nu1), thickness))
+
+
+def elasticity(body, kx, ky, depth, traction):
+    """(ux, uy, uz) and (xx, yy, zz, yz, xz, xy) at `depth` under the traction (x, y, z) exp(i k.x) on z = 0.
+
+    Hooke's law and equilibrium as y' = A y for y = (u, sigma.z), its matrix exponential, and the decaying invariant
+    subspace of the substrate, in as many digits as the exponentials eat. Shares nothing with the package.
+    """
+    i = mp.mpc(0, 1)
+
+    def lame(solid):
+        e, nu = mp.mpf(solid.youngs_modulus), mp.mpf(solid.poissons_ratio)
+        return e / (2 * (1 + nu)), e * nu / ((1 + nu) * (1 - 2 * nu))
+
+    def strains_to_stress(solid):
+        """Rows xx, yy, xy of the stress in terms of y."""
+        mu, la = lame(solid)
+        stretch = mp.matrix([[-la * i * kx / (la + 2 * mu), -la * i * ky / (la + 2 * mu), 0, 0, 0, 1 / (la + 2 * mu)]])
+        divergence = mp.matrix([[i * kx, i * ky, 0, 0, 0, 0]]) + stretch
+        xx = la * divergence + 2 * mu * mp.matrix([[i * kx, 0, 0, 0, 0, 0]])
+        yy = la * divergence + 2 * mu * mp.matrix([[0, i * ky, 0, 0, 0, 0]])
+        xy = mu * mp.matrix([[i * ky, i * kx, 0, 0, 0, 0]])
+        return stretch, xx, yy, xy
+
+    def system(solid):
+        mu, _ = lame(solid)
+        stretch, xx, yy, xy = strains_to_stress(solid)
+        rows = [
+            mp.matrix([[0, 0, -i * kx, 1 / mu, 0, 0]]),
+            mp.matrix([[0, 0, -i * ky, 0, 1 / mu, 0]]),
+            stretch,
+            -(i * kx * xx + i * ky * xy),
+            -(i * kx * xy + i * ky * yy),
+            mp.matrix([[0, 0, 0, -i * kx, -i * ky, 0]]),
+        ]
+        a = mp.matrix(6, 6)
+        for r, row in enumerate(rows):
+            for c in range(6):
+                a[r, c] = row[c]
+        return a
+
+    kx, ky, depth = mp.mpf(kx), mp.mpf(ky), mp.mpf(depth)
+    q, h = mp.sqrt(kx**2 + ky**2), mp.mpf(body.layer.thickness)
+    above, below = system(body.layer.material), system(body.material)
+    mix = mp.matrix([[1, 2, -1], [3, 1, 2], [-2, 1, 1], [1, -1, 3], [2, 2, 1], [-1, 3, 2]])
+    decaying = (below - q * mp.eye(6)) ** 3 * mix
+    surface = mp.expm(-above * h) * decaying
+    load = -mp.matrix(traction)  # the outward normal is -z
+    weights = mp.lu_solve(surface[3:6, 0:3], load)
+    if depth <= h:
+        y, solid = mp.expm(above * (depth - h)) * decaying * weights, body.layer.material
+    else:
+        y, solid = mp.expm(below * (depth - h)) * decaying * weights, body.material
+    _, xx, yy, xy = strains_to_stress(solid)
+    stress = [(xx * y)[0], (yy * y)[0], y[5], y[4], y[3], (xy * y)[0]]
+    return np.array([complex(y[n]) for n in range(3)]), np.array([complex(s) for s in stress])
+
+
+def package(body, kx, ky, depth, tangential):
+    """The same from the package: complex displacement (3,) and stress (6,)."""
+    q = np.hypot(kx, ky)
+    cosine, sine = kx / q, ky / q
+    f = layered.wave_functions(np.array([q]), body, depth)[:, 0]
+    scale = 2 * body.layer.material.shear_modulus * q
+    stress = layered.stress_response([kx], [ky], body, depth, tangential=tangential)[:, 0].astype(complex)
+    if tangential:
+        along = 1j * cosine * 1j * f[layered.TANGENTIAL_U]
+        across = -sine * f[layered.ACROSS_U]
+        normal = 1j * cosine * f[layered.TANGENTIAL_W]
+        stress[[0, 1, 2, 5]] *= 1j
+    else:
+        along, across, normal = 1j * f[layered.NORMAL_U], 0.0, f[layered.NORMAL_W]
+        stress[[3, 4]] *= 1j
+    return np.array([cosine * along - sine * across, sine * along + cosine * across, normal]) / scale, stress
+
+
+def disagreement(body, kx, ky, depth, tangential):
+    """Largest error of the displacement and of the stress, each over its own largest component."""
+    with mp.workdps(60 + int(3 * np.hypot(kx, ky) * max(depth, body.layer.thickness))):
+        displacement, stress = elasticity(body, kx, ky, depth, (1, 0, 0) if tangential else (0, 0, 1))
+    mine, mine_stress = package(body, kx, ky, depth, tangential)
+    return max(
+        np.abs(mine - displacement).max() / np.abs(displacement).max(),
+        np.abs(mine_stress - stress).max() / np.abs(stress).max(),
+    )
+
+
+PAIRS = [(1e-3, 0.2, 0.35), (0.05, 0.4999, 0.1), (1.0, 0.3, 0.3), (20.0, -0.6, 0.45), (1e3, 0.25, -0.3)]
+
+
+@pytest.mark.parametrize(("ratio", "nu1", "nu2"), PAIRS)
+@pytest.mark.parametrize("tangential", [False, True])
+def test_elasticity_is_solved(ratio, nu1, nu2, tangential):
+    """Both sides of the switch at q h = 1, in the layer, on the interface and below, oblique wavevectors."""
+    for qh, angle in ((1e-3, 0.4), (0.7, 2.0), (1.3, -1.1), (9.0, 0.9)):
+        kx, ky = qh * np.cos(angle), qh * np.sin(angle)
+        for depth in (0.0, 0.4, 1.0, 1.7):
+            body = coated(ratio, nu1, nu2, 1.0)
+            # round-off: a dozen sums and products, and pi-like loss of half a digit in the smaller of two waves
+            assert disagreement(body, kx, ky, depth, tangential) < 1e-13
+
+
+@pytest.mark.slow
+def test_elasticity_is_solved_widely():
+    worst = 0.0
+    for (ratio, nu1, nu2), qh, depth, tangential in itertools.product(
+        [(1e6, 0.3, 0.2), (1e-6, 0.3, 0.2), (1e-3, 0.4999999, 0.3), (300.0, 0.3, 0.499), (1e3, -0.9, 0.1)],
+        (1e-6, 1e-4, 1e-2, 0.2, 0.99, 1.01, 3.0, 30.0),
+        (0.0, 0.5, 1.0, 1.01, 2.0),
+        (False, True),
+    ):
+        body = coated(ratio, nu1, nu2, 1.0)
+        worst = max(worst, disagreement(body, qh * np.cos(0.7), qh * np.sin(0.7), depth, tangential))
+    assert worst < 1e-12  # measured 6e-14, at a ratio of 1e6
+
+
+def closed_form(q, body):
+    """Normal displacement of the surface under pressure, the closed form of the literature, in 50 digits."""
+    with mp.workdps(50):
+        one, two = body.layer.material, body.material
+        nu1, nu2 = mp.mpf(one.poissons_ratio), mp.mpf(two.poissons_ratio)
+        mu1 = mp.mpf(one.youngs_modulus) / (2 * (1 + nu1))
+        m = mu1 / (mp.mpf(two.youngs_modulus) / (2 * (1 + nu2)))
+        x = mp.mpf(q) * mp.mpf(body.layer.thickness)
+        ell = 1 - 4 * (1 - nu1) / (1 + m * (3 - 4 * nu2))
+        k = (m - 1) / (m + 3 - 4 * nu1)
+        e = mp.exp(-2 * x)
+        ratio = (1 + 4 * x * k * e - ell * k * e**2) / (1 - (ell + k + 4 * k * x**2) * e + ell * k * e**2)
+        return float((1 - nu1) / (mu1 * mp.mpf(q)) * ratio)
+
+
+@settings(deadline=None, max_examples=60, derandomize=True)
+@given(
+    ratio=st.floats(-6, 6).map(lambda e: 10.0**e),
+    qh=st.floats(-6, 3).map(lambda e: 10.0**e),
+    nu1=st.floats(-0.9, 0.499999),
+    nu2=st.floats(-0.9, 0.499999),
+)
+def test_normal_displacement_keeps_its_digits(ratio, qh, nu1, nu2):
+    body = coated(ratio, nu1, nu2, 0.25)
+    q = qh / 0.25
+    value = layered.surface_response(q, 0.0, body, tangential=False)
+    assert value == pytest.approx(closed_form(q, body), rel=1e-11)  # the figure promised for any ratio
+
+
+@settings(deadline=None, max_examples=60, derandomize=True)
+@given(
+    ratio=st.floats(-3, 3).map(lambda e: 10.0**e),
+    qh=st.floats(-6, 6).map(lambda e: 10.0**e),
+    nu1=st.floats(-0.9, 0.499),
+    nu2=st.floats(-0.9, 0.499),
+    depth=st.floats(0, 3),
+)
+def test_finite_everywhere_and_forces_balance(ratio, qh, nu1, nu2, depth):
+    """No overflow; tractions pass the interface unbroken; the surface carries the load."""
+    body = coated(ratio, nu1, nu2, 1.0)
+    q = np.array([qh])
+    assert np.isfinite(layered.wave_functions(q, body, depth)).all()
+    surface = layered.wave_functions(q, body, 0.0)[:, 0]
+    loads = surface[[layered.NORMAL_TAU, layered.NORMAL_SIGMA, layered.TANGENTIAL_TAU, layered.TANGENTIAL_SIGMA, 14]]
+    assert loads == pytest.approx(
+        [0, -1, 1, 0, -1], abs=1e-9
+    )  # worst at m = 1e3, thin: the layer carries m times the load
+    above = layered.wave_functions(q, body, 1.0)[:, 0]
+    below = layered.wave_functions(q, body, 1.0 + 1e-15)[:, 0]
+    keep = [0, 1, 2, 3, 6, 7, 8, 9, 12, 14]
+    # the step of one last digit in depth, times q
+    assert above[keep] == pytest.approx(below[keep], rel=1e-8, abs=1e-10 * np.abs(surface).max())
+
+
+@pytest.mark.parametrize("nu", [-0.5, 0.0, 0.3, 0.4999])
+def test_identical_materials_are_a_half_space(nu):
+    body = coated(1.0, nu, nu, 0.3, 70e9)
+    q = np.geomspace(1e-6, 1e6, 60) / 0.3
+    g = body.material.shear_modulus
+    assert np.array_equal(
+        layered.wave_functions(q, body, 0.2, remainder=True)[:, q * 0.3 > 1], np.zeros((15, (q * 0.3 > 1).sum()))
+    )
+    for depth in (0.0, 0.1, 0.3, 0.5):
+        f = layered.wave_functions(q, body, depth)
+        s, decay = q * depth, np.exp(-q * depth)
+        expected = np.stack(  # Johnson (1985) 13.2 and the transform of Cerruti's solution
+            [
+                (1 - 2 * nu - s) * decay,
+                (2 * (1 - nu) + s) * decay,
+                s * decay,
+                -(1 + s) * decay,
+            ]
+        )
+        assert f[:4] == pytest.approx(expected, abs=4e-15)  # round-off
+        assert f[layered.ACROSS_TZ] == pytest.approx(-decay, abs=2e-15)
+    w = layered.surface_response(q, 0.0, body, tangential=False)
+    assert w == pytest.approx((1 - nu) / (g * q), rel=1e-14)
+
+
+def test_thin_and_thick_layers_tend_to_their_half_spaces():
+    one, two = material(40.0, 0.2), material(3.0, 0.4)
+    for thickness, solid in ((1e-9, two), (1e6, one)):
+        body = Body(two, layer=Layer(one, thickness))
+        value = layered.surface_response([1.0], [0.5], body, tangential=False)
+        expected = (1 - solid.poissons_ratio) / (solid.shear_modulus * np.hypot(1.0, 0.5))
+        assert value == pytest.approx(expected, rel=1e-7)  # thin: first order in q h m = 4e-8
+
+
+def test_incompressible_thin_layer_on_a_rigid_base():
+    """nu = 1/2, q h << 1 << G2/G1: the squeezed film q^2 h^3 / 3 G1; a compressible one (1-2nu) h / 2(1-nu) G1."""
+    q, h = 1e-2, 1.0
+    tight = coated(1e-12, 0.5 - 1e-15, 0.3, h, 1e12)
+    assert layered.surface_response(q, 0.0, tight, tangential=False) == pytest.approx(q**2 * h**3 / 3, rel=1e-3)
+    loose = coated(1e-12, 0.3, 0.3, h, 1e12)
+    assert layered.surface_response(q, 0.0, loose, tangential=False) == pytest.approx(0.4 / 1.4 * h, rel=1e-3)
+
+
+def test_stiff_layer_on_a_soft_base_is_a_plate():
+    """1/m << (q h)^3: normal displacement tends to p / (bending stiffness q^4 + 2 G2 (2-2nu2)/(3-4nu2) q ...)."""
+    nu1, q, h, m = 0.3, 1e-2, 1.0, 1e10
+    body = coated(m, nu1, 0.2, h)
+    bending = m * h**3 / (6 * (1 - nu1))
+    assert layered.surface_response(q, 0.0, body, tangential=False) == pytest.approx(1 / (bending * q**4), rel=1e-3)
+
+
+def test_complex_wavenumbers_continue_the_real_ones():
+    """Cauchy: the mean over a small circle is the value at its centre, on both sides of the switch and across it."""
+    body = coated(30.0, 0.25, 0.4, 1.0)
+    circle = 0.3 * np.exp(2j * np.pi * np.arange(64) / 64)
+    for centre in (0.6, 1.0, 2.0):
+        for depth in (0.0, 0.5, 1.5):
+            mean = layered.wave_functions(centre + circle, body, depth).mean(axis=1)
+            here = layered.wave_functions(np.array([centre]), body, depth)[:, 0]
+            assert mean == pytest.approx(
+                here, abs=1e-13 * np.abs(here).max()
+            )  # trapezoidal rule on a circle: round-off
+
+
+@pytest.mark.parametrize("load", list(Load))
+def test_doubly_periodic_grids(load):
+    """Identical materials give the homogeneous responses; a layered one has the same symmetries and mean mode."""
+    grid = Grid((12, 10), (0.3, 0.5), periodic=(True, True))
+    solid = material(2.0, 0.3)
+    same = Body(solid, layer=Layer(solid, 0.7))
+    plain = Body(solid)
+    assert spectral.surface_response(grid, same, load) == pytest.approx(
+        spectral.surface_response(grid, plain, load), abs=1e-15
+    )
+    for depth in (0.0, 0.4, 0.7, 1.0):
+        assert spectral.stress_response(grid, same, depth, load) == pytest.approx(
+            spectral.stress_response(grid, plain, depth, load), abs=5e-15
+        )
+    other = Body(solid, layer=Layer(material(9.0, 0.2), 0.7))
+    stress = spectral.stress_response(grid, other, 0.3, load)
+    lateral = -0.2 / 0.8
+    assert stress[:, 0, 0] == pytest.approx(
+        [lateral, lateral, -1, 0, 0, 0] if load is Load.NORMAL else [0, 0, 0, 0, -1, 0]
+    )
+    assert spectral.surface_response(grid, other, load)[0, 0] == 0
+    assert np.abs(stress[4 if load is Load.NORMAL else 0, 6]).max() == 0  # odd in kx at the highest wavenumber
+    with pytest.raises(InputError):
+        spectral.stress_response(grid, other, -0.1, load)
+
+
+def test_bad_input_is_named():
+    with pytest.raises(InputError, match="no layer"):
+        layered.wave_functions(np.ones(1), Body(material(1.0, 0.3)), 0.0)
+    with pytest.raises(InputError, match="layer only"):
+        layered.wave_functions(np.ones(1), coated(2.0, 0.3, 0.3, 1.0), 1.1, remainder=True)
