@@ -47,7 +47,7 @@ class Section:
 
 @dataclass(frozen=True)
 class Page:
-    """A report. `name` is its file name without ending; `lead` one paragraph of plain text for the top and the index."""
+    """A report. `name` is its file name without ending; `lead` a paragraph for its top and the index."""
 
     name: str
     title: str
@@ -105,7 +105,8 @@ def machine_facts() -> dict[str, str]:
     packages = ("bem", "numpy", "scipy", "pyfftw", "numba")
     return {
         "date": date.today().isoformat(),
-        "system": f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}",
+        "system": f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores",
+        "python": platform.python_version(),
         "versions": ", ".join(f"{p} {version(p)}" for p in packages),
     }
 
