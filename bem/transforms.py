@@ -279,7 +279,7 @@ class PaddedTransform:
         self._column_blocks = -(-self.spectrum_shape[0] // self._column_block)
         self._workers: list[_Worker] = []
         self._lock = threading.RLock()
-        self._scale = self.dtype.type(1.0 / (padded[0] * padded[1]))
+        self._scale = np.full((), 1.0 / (padded[0] * padded[1]), self.dtype)[()]
 
     @property
     def nbytes(self) -> int:

@@ -1,0 +1,375 @@
+"""Normal surface displacement from pressure: one operator for free and periodic axes, coated bodies and friction.
+
+Every kernel is even or odd along each axis, so its spectrum is stored as a quarter array of reals; the kernel of the
+traction `friction x pressure` is added to the one of the pressure, and a convolution costs one transform each way.
+Spectra are shared between operators and bounded in memory.
+
+Inside, an operator works in units of its own: the kernel divided by `unit`, a power of two [m/Pa], is of order one, so
+that single precision cannot overflow and no digit changes with the system of units.
+"""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections import OrderedDict
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from bem.errors import InputError
+from bem.grid import Grid
+from bem.kernels.coefficients import Load, surface_coefficients
+from bem.kernels.spectral import surface_response
+from bem.materials import Body, Material
+from bem.transforms import Multiplier, PaddedTransform, kernel_spectrum, multiplier, padded_length, transform_of
+
+FloatArray = NDArray[np.float64]
+
+_SAME = 1e-14
+"""Relative difference of moduli below which two bodies count as elastically equal (round-off of input)."""
+
+
+@dataclass
+class ConvolutionCount:
+    """Applications of an operator, and the same weighed by cells with its coarser versions included."""
+
+    applications: int = 0
+    weighted: float = 0.0
+
+
+@dataclass
+class KernelCount:
+    """How many kernels were evaluated in this process, by load; for tests and reports."""
+
+    normal: int = 0
+    tangential: int = 0
+
+    def reset(self) -> None:
+        """Back to zero."""
+        self.normal = self.tangential = 0
+
+
+COUNT = KernelCount()
+"""Kernels evaluated by this process (spectra taken from the cache are not counted)."""
+
+EVEN, ODD_IN_X = (1, 1), (-1, 1)
+
+
+@dataclass(frozen=True)
+class _Spectra:
+    """Kernel spectra of a pair of bodies on a grid, divided by `unit`."""
+
+    even: FloatArray
+    odd: FloatArray | None
+    unit: float
+
+    @property
+    def nbytes(self) -> int:
+        return self.even.nbytes + (0 if self.odd is None else self.odd.nbytes)
+
+
+class _SpectraCache:
+    """Least recently used spectra are dropped when a limit in bytes is exceeded."""
+
+    def __init__(self, limit: int) -> None:
+        self.limit = limit
+        self.kept: OrderedDict[Any, _Spectra] = OrderedDict()
+        self.lock = threading.Lock()
+
+    def get(self, key: Any) -> _Spectra | None:
+        with self.lock:
+            found = self.kept.get(key)
+            if found is not None:
+                self.kept.move_to_end(key)
+            return found
+
+    def put(self, key: Any, spectra: _Spectra) -> None:
+        with self.lock:
+            self.kept[key] = spectra
+            self.kept.move_to_end(key)
+            self.trim()
+
+    def trim(self) -> None:
+        while self.kept and sum(s.nbytes for s in self.kept.values()) > self.limit:
+            self.kept.popitem(last=False)
+
+
+_CACHE = _SpectraCache(1 << 29)
+
+
+def set_spectra_memory(limit: int) -> None:
+    """Bound the memory that cached kernel spectra may hold [bytes]; default 512 MiB, 0 keeps none.
+
+    Raises
+    ------
+    InputError : not a number of bytes.
+    """
+    if not (isinstance(limit, int | float) and math.isfinite(limit) and limit >= 0):
+        raise InputError(f"set_spectra_memory: limit {limit!r} must be a number of bytes >= 0")
+    with _CACHE.lock:
+        _CACHE.limit = int(limit)
+        _CACHE.trim()
+
+
+def spectra_memory() -> int:
+    """Memory held by cached kernel spectra [bytes]."""
+    return sum(s.nbytes for s in _CACHE.kept.values())
+
+
+def _elastic(body: Body) -> tuple[float, ...]:
+    """What of a body decides its elastic response."""
+    layer = () if body.layer is None else (*_moduli(body.layer.material), body.layer.thickness)
+    return (*_moduli(body.material), *layer)
+
+
+def _moduli(material: Material) -> tuple[float, float]:
+    return (material.youngs_modulus, material.poissons_ratio)
+
+
+def _coupling(body: Body) -> float:
+    """(1 - 2 nu)/2G [1/Pa]: normal displacement of a homogeneous body under traction is proportional to it."""
+    return (1 - 2 * body.material.poissons_ratio) / (2 * body.material.shear_modulus)
+
+
+def couples(bodies: tuple[Body, ...]) -> bool:
+    """Whether traction changes the normal gap: Dundurs' beta is not zero, or layered bodies differ."""
+    if any(body.layer is not None for body in bodies):
+        return len(bodies) == 1 or _elastic(bodies[0]) != _elastic(bodies[1])
+    total = sum((-1) ** i * _coupling(body) for i, body in enumerate(bodies))
+    return abs(total) > _SAME * sum(abs(_coupling(body)) + 1 / body.material.shear_modulus for body in bodies)
+
+
+def _kernel(grid: Grid, bodies: tuple[Body, ...], load: Load) -> FloatArray:
+    """Spectrum of the kernel of both bodies: the sum for pressure, lower minus upper for traction."""
+    signs = (1.0, 1.0) if load is Load.NORMAL else (1.0, -1.0)
+    if all(body.layer is None for body in bodies):
+        # every homogeneous half-space has the same kernel up to a factor: one is enough
+        factors = [1 / b.material.plane_strain_modulus if load is Load.NORMAL else _coupling(b) for b in bodies]
+        first = max(range(len(bodies)), key=lambda i: abs(factors[i]))
+        scale = sum(s * f for s, f in zip(signs, factors, strict=False)) / factors[first]
+        terms = [(bodies[first], scale)]
+    else:
+        terms = list(zip(bodies, signs, strict=False))
+    padded = _padded(grid)
+    parity = EVEN if load is Load.NORMAL else ODD_IN_X
+    total: FloatArray | None = None
+    for body, factor in terms:
+        if load is Load.NORMAL:
+            COUNT.normal += 1
+        else:
+            COUNT.tangential += 1
+        if all(grid.periodic):
+            response = surface_response(grid, body, load)
+            spectrum = np.ascontiguousarray(response[: padded[0] // 2 + 1].T)
+            if load is Load.TANGENTIAL and padded[0] % 2 == 0:
+                spectrum[:, -1] = 0  # an odd function has no component at the highest wavenumber
+        else:
+            spectrum = kernel_spectrum(surface_coefficients(grid, body, load), padded, parity)
+        spectrum *= factor
+        total = spectrum if total is None else total + spectrum
+    assert total is not None
+    return total
+
+
+def _padded(grid: Grid) -> tuple[int, int]:
+    nx, ny = grid.shape
+    return padded_length(nx, grid.periodic[0]), padded_length(ny, grid.periodic[1])
+
+
+def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float) -> _Spectra:
+    coupled = friction != 0 and couples(bodies)
+    key = (grid, tuple(_elastic(body) for body in bodies), friction if coupled else 0.0)
+    found = _CACHE.get(key)
+    if found is None:
+        even = _kernel(grid, bodies, Load.NORMAL)
+        largest = float(np.abs(even).max())
+        unit = 2.0 ** round(math.log2(largest)) if largest > 0 else 1.0
+        even /= unit
+        odd = _kernel(grid, bodies, Load.TANGENTIAL) * (friction / unit) if coupled else None
+        found = _Spectra(even, odd, unit)
+        _CACHE.put(key, found)
+    return found
+
+
+@dataclass(frozen=True)
+class ScaledConvolution:
+    """The operator without its unit, in one precision; `apply` writes into preallocated arrays."""
+
+    transform: PaddedTransform
+    multiplier: Multiplier
+    count: ConvolutionCount
+    weight: float
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Precision."""
+        return self.transform.dtype
+
+    def apply(self, values: NDArray[Any], out: NDArray[Any]) -> NDArray[Any]:
+        """Convolve `values` (nx, ny) into `out`, which may be the same array."""
+        self.count.applications += 1
+        self.count.weighted += self.weight
+        return self.transform.convolve(values, self.multiplier, out)
+
+
+@dataclass(frozen=True)
+class DisplacementOperator:
+    """Callable: pressure (nx, ny) [Pa] -> normal surface displacement (nx, ny) [m], the sum over both bodies.
+
+    On a doubly periodic grid the mean displacement is zero by definition: the mean pressure moves the datum only.
+    `unit` is the power of two [m/Pa] that scales the kernel inside; `count` the applications so far.
+    """
+
+    grid: Grid
+    bodies: tuple[Body, ...]
+    friction: float = 0.0
+    count: ConvolutionCount = field(default_factory=ConvolutionCount, compare=False, repr=False)
+    weight: float = field(default=1.0, compare=False, repr=False)
+
+    @cached_property
+    def _spectra(self) -> _Spectra:
+        return _spectra(self.grid, self.bodies, self.friction)
+
+    @property
+    def unit(self) -> float:
+        """Power of two [m/Pa] near the largest value of the kernel's spectrum."""
+        return self._spectra.unit
+
+    @property
+    def contact_modulus(self) -> float:
+        """E* [Pa] of the surface materials."""
+        return 1 / sum(1 / body.surface_material.plane_strain_modulus for body in self.bodies)
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether friction does not couple into normal displacement."""
+        return self._spectra.odd is None
+
+    @property
+    def mean_free(self) -> bool:
+        """Whether a uniform pressure gives no displacement (doubly periodic grids)."""
+        return all(self.grid.periodic)
+
+    @property
+    def padded(self) -> tuple[int, int]:
+        """Lengths of the transforms."""
+        return _padded(self.grid)
+
+    def scaled(self, dtype: DTypeLike = np.float64, *, symmetric_part: bool = False) -> ScaledConvolution:
+        """The operator divided by `unit`, in float64 or float32, without the coupling of friction if so asked."""
+        key = (np.dtype(dtype).char, symmetric_part or self.symmetric)
+        if key not in self._multipliers:
+            parts = [(self._spectra.even, EVEN, 1.0)]
+            if self._spectra.odd is not None and not symmetric_part:
+                parts.append((self._spectra.odd, ODD_IN_X, 1.0))
+            self._multipliers[key] = multiplier(parts).astype(dtype)
+        transform = transform_of(self.grid.shape, self.padded, dtype)
+        return ScaledConvolution(transform, self._multipliers[key], self.count, self.weight)
+
+    def scaled_inverse(self, dtype: DTypeLike = np.float64) -> ScaledConvolution:
+        """The inverse of the symmetric part with the grid taken as periodic in its padded lengths.
+
+        Exact on doubly periodic grids (but for the mean, which is dropped), a preconditioner on others.
+        """
+        key = (np.dtype(dtype).char, "inverse")
+        if key not in self._multipliers:
+            even = self._spectra.even
+            inverse = np.zeros_like(even)
+            # the spectrum of truncated coefficients may touch zero: bounded so that the inverse stays definite
+            floor = 1e-3 * float(even.min(initial=math.inf, where=even > 0))
+            np.divide(1.0, np.maximum(np.abs(even), floor), out=inverse, where=even != 0)
+            self._multipliers[key] = Multiplier(inverse).astype(dtype)
+        transform = transform_of(self.grid.shape, self.padded, dtype)
+        return ScaledConvolution(transform, self._multipliers[key], self.count, self.weight)
+
+    @cached_property
+    def _multipliers(self) -> dict[Any, Multiplier]:
+        return {}
+
+    def near_field(self, radius: int) -> FloatArray:
+        """Coefficients of the symmetric part over `unit`, (2 radius + 1, 2 radius + 1), offset zero in the middle."""
+        px, py = self.padded
+        offsets = np.arange(-radius, radius + 1)
+        along_x = _cosines(px, offsets)
+        along_y = _cosines(py, offsets)
+        return np.asarray(along_x @ self._spectra.even.T @ along_y.T)
+
+    def coarsened(self) -> DisplacementOperator | None:
+        """The same bodies on a grid of half as many cells along each axis; None where that grid is too small."""
+        if self._coarser:
+            return self._coarser[0]
+        shape, spacing = [], []
+        for n, d, periodic in zip(self.grid.shape, self.grid.spacing, self.grid.periodic, strict=True):
+            coarse = (n + 1) // 2
+            shape.append(coarse)
+            spacing.append(n * d / coarse if periodic else (2 * d if n > 1 else d))
+        grid = Grid((shape[0], shape[1]), (spacing[0], spacing[1]), periodic=self.grid.periodic)
+        coarser = (
+            None
+            if max(shape) < _SMALLEST
+            else DisplacementOperator(
+                grid, self.bodies, self.friction, self.count, self.weight * grid.cells / self.grid.cells
+            )
+        )
+        self._coarser.append(coarser)
+        return coarser
+
+    @cached_property
+    def _coarser(self) -> list[DisplacementOperator | None]:
+        return []
+
+    def __call__(self, pressure: FloatArray) -> FloatArray:
+        """Displacement [m] under `pressure` [Pa], both (nx, ny).
+
+        Raises
+        ------
+        InputError : another shape, or values that are not finite.
+        """
+        pressure = self.grid.check_field(pressure, "pressure")
+        displacement = np.empty(self.grid.shape)
+        self.scaled().apply(pressure, displacement)
+        displacement *= self.unit
+        return displacement
+
+
+_SMALLEST = 16
+
+
+def _cosines(length: int, offsets: NDArray[np.int64]) -> FloatArray:
+    """Inverse transform of an even spectrum at a few offsets, from non-negative wavenumbers."""
+    wavenumbers = np.arange(length // 2 + 1)
+    weights = np.where((wavenumbers == 0) | (2 * wavenumbers == length), 1.0, 2.0) / length
+    return np.asarray(weights * np.cos(2 * np.pi / length * (np.outer(offsets, wavenumbers) % length)))
+
+
+def displacement_operator(
+    grid: Grid, bodies: Body | tuple[Body, Body], *, friction: float = 0.0
+) -> DisplacementOperator:
+    """The operator from pressure to normal displacement of one body (the other rigid) or a pair.
+
+    Parameters
+    ----------
+    grid : where; free or periodic along each axis.
+    bodies : one Body, or (lower, upper).
+    friction : f, the traction on the lower body is f x pressure along +x, on the upper one along -x. It is
+        computed only where it changes the normal gap (Dundurs' beta not zero).
+
+    Raises
+    ------
+    InputError : not a Grid, not one or two bodies, a friction that is not finite.
+    """
+    messages = []
+    if not isinstance(grid, Grid):
+        messages.append(f"displacement_operator: grid {grid!r} must be a Grid")
+    pair = (bodies,) if isinstance(bodies, Body) else bodies
+    if not isinstance(pair, tuple | list) or len(pair) not in (1, 2) or not all(isinstance(b, Body) for b in pair):
+        messages.append(f"displacement_operator: bodies {bodies!r} must be one Body or a pair of them")
+    if not (isinstance(friction, int | float | np.floating | np.integer) and math.isfinite(friction)):
+        messages.append(f"displacement_operator: friction {friction!r} must be a finite number")
+    if messages:
+        raise InputError(messages)
+    return DisplacementOperator(grid, tuple(pair), float(friction))
