@@ -7,13 +7,17 @@ seen from distance d errs by about (2 d / a)^(-2 n), so few points do far away.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numba as nb
 import numpy as np
+
+from bem.grid import FloatArray
 
 NEAR = 12.0
 """Closed forms are used up to this distance in half sides, Gauss points beyond."""
 
-MAX_POINTS = 6
+MAX_POINTS = 12
 # rows: number of points; abscissae on (-1, 1), weights that sum to 1 (a mean over the cell)
 NODES = np.zeros((MAX_POINTS + 1, MAX_POINTS))
 WEIGHTS = np.zeros((MAX_POINTS + 1, MAX_POINTS))
@@ -21,7 +25,7 @@ for _n in range(1, MAX_POINTS + 1):
     NODES[_n, :_n], WEIGHTS[_n, :_n] = np.polynomial.legendre.leggauss(_n)
     WEIGHTS[_n, :_n] *= 0.5
 
-COMPILE = {"cache": True, "error_model": "numpy", "nogil": True}
+COMPILE: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True}
 
 
 @nb.njit(**COMPILE)
@@ -65,3 +69,55 @@ def angle(u: float, v: float, z: float, r: float) -> float:
 def slant(u: float, v: float, z: float, r: float) -> float:
     """arctan(v/u) - arctan(z v / (u r)) as one angle: the corner form of d2/du2 of the integral of ln(R + z)."""
     return np.arctan2(u * v * (u * u + v * v) / (r + z), u * u * r + z * v * v) if r > 0.0 else 0.0
+
+
+@nb.njit(**COMPILE)
+def rule(x: float, y: float, z: float, a: float, b: float) -> int:
+    """How to integrate over |x'| < a, |y'| < b seen from (x, y, z): n > 0 Gauss points a side, 0 corners, -1 cut it."""
+    long = max(a, b)
+    short = min(a, b)
+    ratio = np.sqrt(x * x + y * y + z * z) / long
+    if ratio >= NEAR:
+        return points_needed(ratio)
+    if long <= 2.0 * short:
+        return 0
+    gap = np.sqrt(max(abs(x) - a, 0.0) ** 2 + max(abs(y) - b, 0.0) ** 2 + z * z)
+    return 0 if gap <= short else -1
+
+
+@nb.njit(**COMPILE)
+def cut(x: float, y: float, z: float, a: float, b: float) -> FloatArray:
+    """Pieces (k, 4) of a long rectangle, each (centre x, centre y, half side, half side) with a rule of its own.
+
+    Halving the long side ends after about log2(a / b) levels; pieces far from the point stay long.
+    """
+    pieces = np.zeros((64, 4))
+    waiting = np.zeros((64, 4))
+    waiting[0, 2] = a
+    waiting[0, 3] = b
+    count = 0
+    top = 1
+    while top > 0:
+        top -= 1
+        cx, cy, ha, hb = waiting[top, 0], waiting[top, 1], waiting[top, 2], waiting[top, 3]
+        if rule(x - cx, y - cy, z, ha, hb) >= 0:
+            if count == pieces.shape[0]:
+                grown = np.zeros((2 * count, 4))
+                grown[:count] = pieces
+                pieces = grown
+            pieces[count] = waiting[top]
+            count += 1
+            continue
+        if ha > hb:
+            ha *= 0.5
+            sx, sy = ha, 0.0
+        else:
+            hb *= 0.5
+            sx, sy = 0.0, hb
+        for side in (-1.0, 1.0):
+            waiting[top, 0] = cx + side * sx
+            waiting[top, 1] = cy + side * sy
+            waiting[top, 2] = ha
+            waiting[top, 3] = hb
+            top += 1
+    return pieces[:count]

@@ -13,7 +13,7 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
-from bem.kernels import half_space
+from bem.kernels import half_space, semi_periodic, subsurface
 from bem.kernels.half_space import Load
 from bem.materials import Body
 
@@ -26,7 +26,7 @@ STRESS_PARITY: dict[Load, tuple[tuple[int, int], ...]] = {
     Load.NORMAL: ((1, 1), (1, 1), (1, 1), (1, -1), (-1, 1), (-1, -1)),
     Load.TANGENTIAL: ((-1, 1), (-1, 1), (-1, 1), (-1, -1), (1, 1), (1, -1)),
 }
-"""Parity (in x, in y) of each stress (xx yy zz yz xz xy). A spectrum is real where the product is +1, else imaginary."""
+"""Parity (in x, in y) of each stress (xx yy zz yz xz xy). The spectrum is real where their product is +1."""
 
 
 def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
@@ -46,7 +46,7 @@ def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
         return table
     if grid.periodic == (False, False):
         return half_space.surface_table(grid.shape, grid.spacing, body.material, load)
-    raise NotImplementedError
+    return semi_periodic.surface_table(grid, body.material, load)
 
 
 def stress_coefficients(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
@@ -65,7 +65,10 @@ def stress_coefficients(grid: Grid, body: Body, depth: float, load: Load) -> Flo
         layered = importlib.import_module("bem.kernels.layered")
         table: FloatArray = layered.stress_coefficients(grid, body, depth, load)
         return table
-    raise NotImplementedError
+    nu = body.material.poissons_ratio
+    if grid.periodic == (False, False):
+        return subsurface.stress_table(grid.shape, grid.spacing, float(depth), nu, load)
+    return semi_periodic.stress_table(grid, float(depth), nu, load)
 
 
 def _refuse_doubly_periodic(grid: Grid) -> None:

@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.kernels.cell_rules import COMPILE, NEAR, NODES, WEIGHTS, angle, log_ratio, points_needed, slant
+from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, cut, log_ratio, rule, slant
 from bem.materials import Material
 
 
@@ -134,10 +134,12 @@ def _corners(x: float, y: float, z: float, a: float, b: float, nu: float, tangen
 
 
 @nb.njit(**COMPILE)
-def _gauss(
-    x: float, y: float, z: float, a: float, b: float, nu: float, tangential: bool, ratio: float, out: FloatArray
+def _piece(
+    n: int, x: float, y: float, z: float, a: float, b: float, nu: float, tangential: bool, out: FloatArray
 ) -> None:
-    n = points_needed(ratio)
+    if n == 0:
+        _corners(x, y, z, a, b, nu, tangential, out)
+        return
     area = 4.0 * a * b
     for i in range(n):
         for j in range(n):
@@ -146,56 +148,18 @@ def _gauss(
 
 
 @nb.njit(**COMPILE)
-def _rectangle(x: float, y: float, z: float, a: float, b: float, nu: float, tangential: bool, out: FloatArray) -> None:
+def add_rectangle(
+    x: float, y: float, z: float, a: float, b: float, nu: float, tangential: bool, out: FloatArray
+) -> None:
     """Add 4 pi G u of unit load on |x| < a, |y| < b: closed form near, Gauss points far, cut where neither serves."""
-    ratio = np.sqrt(x * x + y * y + z * z) / max(a, b)
-    if ratio >= NEAR:
-        _gauss(x, y, z, a, b, nu, tangential, ratio, out)
+    n = rule(x, y, z, a, b)
+    if n >= 0:
+        _piece(n, x, y, z, a, b, nu, tangential, out)
         return
-    short = min(a, b)
-    gap = np.sqrt(max(abs(x) - a, 0.0) ** 2 + max(abs(y) - b, 0.0) ** 2 + z * z)
-    if max(a, b) <= 2.0 * short or gap <= short:
-        _corners(x, y, z, a, b, nu, tangential, out)
-        return
-    cx = np.zeros(64)
-    cy = np.zeros(64)
-    ha = np.zeros(64)
-    hb = np.zeros(64)
-    ha[0] = a
-    hb[0] = b
-    top = 1
-    while top > 0:
-        top -= 1
-        px = x - cx[top]
-        py = y - cy[top]
-        pa = ha[top]
-        pb = hb[top]
-        ratio = np.sqrt(px * px + py * py + z * z) / max(pa, pb)
-        if ratio >= NEAR:
-            _gauss(px, py, z, pa, pb, nu, tangential, ratio, out)
-            continue
-        short = min(pa, pb)
-        gap = np.sqrt(max(abs(px) - pa, 0.0) ** 2 + max(abs(py) - pb, 0.0) ** 2 + z * z)
-        if max(pa, pb) <= 2.0 * short or gap <= short:
-            _corners(px, py, z, pa, pb, nu, tangential, out)
-            continue
-        centre_x = cx[top]
-        centre_y = cy[top]
-        if pa > pb:
-            cx[top] = centre_x - 0.5 * pa
-            cx[top + 1] = centre_x + 0.5 * pa
-            cy[top + 1] = centre_y
-            pa *= 0.5
-        else:
-            cy[top] = centre_y - 0.5 * pb
-            cy[top + 1] = centre_y + 0.5 * pb
-            cx[top + 1] = centre_x
-            pb *= 0.5
-        ha[top] = pa
-        hb[top] = pb
-        ha[top + 1] = pa
-        hb[top + 1] = pb
-        top += 2
+    for cx, cy, ha, hb in cut(x, y, z, a, b):
+        px = x - cx
+        py = y - cy
+        _piece(rule(px, py, z, ha, hb), px, py, z, ha, hb, nu, tangential, out)
 
 
 @nb.njit(**COMPILE)
@@ -206,7 +170,7 @@ def _many(
     local = np.zeros(3)
     for i in range(x.size):
         local[:] = 0.0
-        _rectangle(x[i] / scale, y[i] / scale, z[i] / scale, a / scale, b / scale, nu, tangential, local)
+        add_rectangle(x[i] / scale, y[i] / scale, z[i] / scale, a / scale, b / scale, nu, tangential, local)
         for c in range(3):
             out[c, i] = scale * local[c]
 
@@ -223,14 +187,14 @@ def _surface_table(
             local[:] = 0.0
             x = i * (dx / scale)
             y = (j + first) * (dy / scale)
-            _rectangle(x, y, 0.0, 0.5 * dx / scale, 0.5 * dy / scale, nu, tangential, local)
+            add_rectangle(x, y, 0.0, 0.5 * dx / scale, 0.5 * dy / scale, nu, tangential, local)
             out[i, j] = scale * local[2]
 
 
 def check_points(
-    x: ArrayLike, y: ArrayLike, depth: ArrayLike, sides: tuple[float, float]
+    x: ArrayLike, y: ArrayLike, depth: ArrayLike, sides: tuple[float, ...], poissons_ratio: float = 0.0
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Broadcast the coordinates of evaluation points; refuse what is not finite, above the surface or without area."""
+    """Broadcast coordinates; refuse what is not finite or above the surface, empty sides and impossible nu."""
     messages = []
     arrays = []
     for name, values in (("x", x), ("y", y), ("depth", depth)):
@@ -240,8 +204,10 @@ def check_points(
         elif name == "depth" and (array < 0).any():
             messages.append(f"depth: {float(array.min())!r} lies above the surface; depths start at 0 [m]")
         arrays.append(array)
-    if not (len(sides) == 2 and all(np.isfinite(s) and s > 0 for s in sides)):
-        messages.append(f"sides: {sides!r} must be two positive, finite lengths [m]")
+    if not all(np.isfinite(s) and s > 0 for s in sides):
+        messages.append(f"sides: {sides!r} must be positive, finite lengths [m]")
+    if not -1 < poissons_ratio <= 0.5:
+        messages.append(f"poissons_ratio: {poissons_ratio!r} must lie above -1 and not above 0.5")
     if messages:
         raise InputError(messages)
     px, py, pz = np.broadcast_arrays(*arrays)

@@ -30,6 +30,7 @@ def _check(grid: Grid) -> None:
     if grid.periodic != (True, True):
         raise InputError(f"grid: periodic {grid.periodic!r}; spectral responses need both axes periodic")
 
+
 def _wavevectors(grid: Grid) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
     """kx, ky, q (with 1 in place of the mean), and kx, ky with the ambiguous highest wavenumber zeroed."""
     kx, ky = grid.wavevectors()

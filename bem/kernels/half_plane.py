@@ -1,0 +1,169 @@
+"""Plane strain: a strip |x| < a of uniform load, endless along y, on an elastic half-space.
+
+The limits of the rectangle's formulas for b -> infinity; Johnson (1985), sections 2.2-2.5. Unit pressure gives
+
+    pi xx = X z / s^2 - atan(X/z)     pi zz = -X z / s^2 - atan(X/z)     pi xz = z^2 / s^2      s^2 = X^2 + z^2
+    pi E* uz = -2 X (ln|X / reference| - 1)                                                     on the surface
+
+and unit traction along +x
+
+    pi xx = -2 ln s - z^2 / s^2       pi zz = z^2 / s^2                  pi xz = X z / s^2 - atan(X/z)
+    4 G uz = (1 - 2nu) |X|                                                                      on the surface
+
+each as the difference between X = x + a and X = x - a; yy = nu (xx + zz), yz = xy = 0. Traction across the strip, along
+its length, is anti-plane shear: pi xz -> -atan(X/z), pi xy -> -ln s with the axes exchanged.
+
+Datum. A line load displaces a half-plane without bound: the displacement under pressure is measured from that of the
+line load itself at the distance `reference_length` (2 P / (pi E*) ln(reference / |x|) for P per unit length). Under
+traction the displacement far away is a constant, of opposite sign on either side; its datum is the symmetric one.
+"""
+
+from __future__ import annotations
+
+import numba as nb
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bem.errors import InputError
+from bem.grid import FloatArray
+from bem.kernels.cell_rules import COMPILE, NEAR, NODES, WEIGHTS, points_needed
+from bem.kernels.half_space import Load, check_points
+from bem.materials import Material
+
+
+@nb.njit(**COMPILE)
+def _wedge(x0: float, x1: float, z: float) -> float:
+    """atan(x1/z) - atan(x0/z): the angle under which the strip is seen; on z = 0 the limit from inside."""
+    if z == 0.0:
+        return 0.5 * np.pi * (np.sign(x1) - np.sign(x0))
+    return np.arctan2((x1 - x0) * z, z * z + x0 * x1)
+
+
+@nb.njit(**COMPILE)
+def log_strip(x: float, a: float) -> float:
+    """Integral of ln|x - x'| over |x'| < a, accurate at any distance (x and a in units of the reference length)."""
+    ratio = abs(x) / a
+    if ratio >= NEAR:
+        n = points_needed(ratio)
+        total = 0.0
+        for i in range(n):
+            total += WEIGHTS[n, i] * np.log1p(-NODES[n, i] / ratio)
+        return 2.0 * a * (np.log(abs(x)) + total)
+    total = -2.0 * a
+    for u in (x + a, a - x):
+        if u != 0.0:
+            total += u * np.log(abs(u))
+    return total
+
+
+@nb.njit(**COMPILE)
+def add_strip(
+    x: float, z: float, a: float, nu: float, pressure: float, traction: float, along: float, out: FloatArray
+) -> None:
+    """Add pi times the six stresses at (x, z) of a strip |x'| < a endless along y.
+
+    `pressure`, `traction` (across the strip, along +x) and `along` (traction along +y, the strip's length).
+    """
+    zz = z * z
+    ratio = np.sqrt(x * x + zz) / a
+    wedge = 0.0  # atan(X / z)
+    arc = 0.0  # X z / s^2
+    dip = 0.0  # z^2 / s^2
+    log = 0.0  # ln s
+    if ratio >= NEAR:
+        n = points_needed(ratio)
+        for i in range(n):
+            u = x - a * NODES[n, i]
+            s2 = u * u + zz
+            w = 2.0 * a * WEIGHTS[n, i] / s2
+            wedge += w * z
+            arc += w * z * (zz - u * u) / s2
+            dip -= w * 2.0 * zz * u / s2
+            log += w * u
+    else:
+        x1 = x + a
+        x0 = x - a
+        wedge = _wedge(x0, x1, z)
+        s1 = x1 * x1 + zz
+        s0 = x0 * x0 + zz
+        if z > 0.0:
+            arc = z * (x1 / s1 - x0 / s0)
+            dip = zz * (1.0 / s1 - 1.0 / s0)
+        log = 0.5 * np.log(s1 / s0)
+    xx = pressure * (arc - wedge)
+    zz_stress = -pressure * (arc + wedge)
+    if traction != 0.0:
+        xx -= traction * (2.0 * log + dip)
+        zz_stress += traction * dip
+        out[4] += traction * (arc - wedge)
+    out[0] += xx
+    out[1] += nu * (xx + zz_stress)
+    out[2] += zz_stress
+    out[4] += pressure * dip
+    if along != 0.0:
+        out[3] -= along * wedge
+        out[5] -= along * log
+
+
+@nb.njit(**COMPILE)
+def _many(
+    x: FloatArray, z: FloatArray, a: float, nu: float, pressure: float, traction: float, along: float, out: FloatArray
+) -> None:
+    local = np.zeros(6)
+    for i in range(x.size):
+        local[:] = 0.0
+        add_strip(x[i] / a, z[i] / a, 1.0, nu, pressure, traction, along, local)
+        for c in range(6):
+            out[c, i] = local[c] / np.pi
+
+
+@nb.njit(**COMPILE)
+def _logs(x: FloatArray, a: float, out: FloatArray) -> None:
+    for i in range(x.size):
+        out[i] = log_strip(x[i], a)
+
+
+def strip_displacement(
+    x: ArrayLike, width: float, material: Material, load: Load = Load.NORMAL, *, reference_length: float
+) -> FloatArray:
+    """Normal surface displacement [m/Pa] per unit load on a strip of full `width` [m] centred at x = 0.
+
+    Parameters
+    ----------
+    x : positions on the surface [m].
+    load : unit pressure, or unit traction along +x.
+    reference_length : distance [m] at which a line load of pressure would displace nothing (no effect on traction).
+
+    Raises
+    ------
+    InputError : positions that are not finite, a width or reference length that is not positive.
+    """
+    px, _, _ = check_points(x, 0.0, 0.0, (width,))
+    if not (np.isfinite(reference_length) and reference_length > 0):
+        raise InputError(f"reference_length: {reference_length!r} must be positive and finite [m]")
+    a = 0.5 * width
+    if load is Load.TANGENTIAL:
+        step = np.clip(px, -a, a) * 2
+        return np.asarray((1 - 2 * material.poissons_ratio) / (4 * material.shear_modulus) * step)
+    out = np.empty(px.size)
+    _logs(px.ravel() / reference_length, a / reference_length, out)
+    return out.reshape(px.shape) * (-2 * reference_length / (np.pi * material.plane_strain_modulus))
+
+
+def strip_stress(
+    x: ArrayLike, depth: ArrayLike, width: float, poissons_ratio: float, load: Load = Load.NORMAL
+) -> FloatArray:
+    """Stresses (xx yy zz yz xz xy), array (6, ...) [Pa/Pa], per unit load on a strip of full `width` [m] at x = 0.
+
+    On the surface: the limit from inside the body, on an edge the mean of both sides; xx, yy under traction are
+    infinite on the edges.
+
+    Raises
+    ------
+    InputError : coordinates that are not finite, negative depths, a width that is not positive, nu outside (-1, 0.5].
+    """
+    px, _, pz = check_points(x, 0.0, depth, (width,), poissons_ratio)
+    out = np.empty((6, px.size))
+    normal = load is Load.NORMAL
+    _many(px.ravel(), pz.ravel(), 0.5 * width, float(poissons_ratio), float(normal), float(not normal), 0.0, out)
+    return out.reshape(6, *px.shape)

@@ -1,0 +1,368 @@
+"""Free along one axis, periodic along the other: a loaded cell and all its images, summed to round-off.
+
+The image at the origin and its two neighbours are summed as they are. The other images form a function of the position
+that is smooth across the whole period: it is sampled at Chebyshev nodes along the periodic axis and at Gauss nodes over
+the cell. Each sample is a sum over k = 2, 3, ... of point forces at +-k periods: the first few explicitly, the rest as
+an integral from half a period before (Gauss, in a variable in which it is analytic up to infinity) plus the
+Euler-Maclaurin terms of the midpoint rule, taken from samples around the lower end instead of derivatives.
+
+Where a part of the cell is more than `_LINE` periods away (along the free axis or in depth), its images look like a
+line load: what is left out is exp(-2 pi _LINE) of it. There the plane-strain forms of `half_plane` serve.
+
+Datum of the displacement. Under pressure the mean along the periodic axis is that of a line load, -2 P / (pi E*) ln|x /
+reference|, P per unit length: it grows without bound and has no natural zero. The reference length taken here is the
+length of the grid along its free axis, so that scaling a problem scales its answer, and the operator stays positive
+definite. A different reference length adds a constant to the displacement, proportional to the load. Under traction the
+free axis' mean is symmetric (a step from -c to c for a cell of traction across a free x axis, 0 along a free y axis).
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numba as nb
+import numpy as np
+
+from bem.grid import FloatArray, Grid
+from bem.kernels import half_space, subsurface
+from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS
+from bem.kernels.half_plane import add_strip, log_strip
+from bem.kernels.half_space import Load
+from bem.materials import Material
+
+_LINE = 6.5  # exp(-2 pi 6.5) = 2e-18
+_FIRST = 2  # first image in the tail
+_EXPLICIT = 10  # first image that is not summed explicitly
+_SPAN = 2.0  # half width, in periods, of the samples for Euler-Maclaurin
+_EULER_POINTS = 16
+_GAUSS_POINTS = 24
+_CHEBYSHEV = 24  # nodes across the period, used in pairs; the nearest image of the tail is 2 half intervals off
+
+
+def _bernoulli_half(order: int) -> list[Fraction]:
+    """Bernoulli polynomials at 1/2: B_n(1/2) = (2^(1-n) - 1) B_n."""
+    numbers = [Fraction(1)]
+    for n in range(1, order + 1):
+        row = Fraction(1)
+        total = Fraction(0)
+        for k in range(n):
+            total += row * numbers[k]
+            row = row * (n + 1 - k) / (k + 1)
+        numbers.append(-total / (n + 1))
+    return [(Fraction(2) / 2**n - 1) * b for n, b in enumerate(numbers)]
+
+
+def _euler_maclaurin(points: int, span: int) -> tuple[FloatArray, FloatArray]:
+    """Positive nodes t and weights w: sum of g(k + 1/2), k >= 0, = integral of g from 0 + sum w (g(t) - g(-t)).
+
+    Exact where g is a polynomial of degree below `points`: on t^p the correction is -B_{p+1}(1/2) / (p + 1).
+    """
+    halves = _bernoulli_half(points + 1)
+    angles = (np.arange(points) + 0.5) * np.pi / points
+    weights = np.zeros(points)
+    previous, current = [Fraction(1)], [Fraction(0), Fraction(1)]
+    for n in range(1, points):
+        value = sum(c * (-halves[p + 1] / (p + 1)) * Fraction(1, span**p) for p, c in enumerate(current))
+        weights += 2.0 / points * float(value) * np.cos(n * angles)
+        following = [Fraction(0)] + [2 * c for c in current]
+        for p, c in enumerate(previous):
+            following[p] -= c
+        previous, current = current, following
+    half = points // 2
+    return (span * np.cos(angles[:half])).copy(), weights[:half].copy()
+
+
+_EULER_NODES, _EULER_WEIGHTS = _euler_maclaurin(_EULER_POINTS, int(_SPAN))
+_LEGENDRE = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+_TAIL_NODES = 0.5 * (_LEGENDRE[0] + 1)
+_TAIL_WEIGHTS = 0.5 * _LEGENDRE[1]
+
+# what is summed: six stresses, or one displacement
+_STRESS, _PRESSURE_LIFT, _TRACTION_LIFT = 0, 1, 2
+
+
+@nb.njit(**COMPILE)
+def _add_pair(
+    kind: int,
+    swap: bool,
+    free: float,
+    along: float,
+    z: float,
+    shift: float,
+    nu: float,
+    pressure: float,
+    traction: float,
+    weight: float,
+    out: FloatArray,
+) -> None:
+    """Add `weight` times the point forces at +-`shift` along the periodic axis (x if `swap`)."""
+    if kind == _STRESS:
+        for side in (-1.0, 1.0):
+            t = along + side * shift
+            if swap:
+                subsurface.add_point(t, free, z, nu, weight * pressure, weight * traction, out)
+            else:
+                subsurface.add_point(free, t, z, nu, weight * pressure, weight * traction, out)
+        return
+    plus = (along + shift) ** 2 + free * free
+    minus = (along - shift) ** 2 + free * free
+    if kind == _PRESSURE_LIFT:
+        out[0] += weight * (1.0 / np.sqrt(plus) + 1.0 / np.sqrt(minus))
+    elif swap:
+        out[0] += weight * 2.0 * along * (along * along + free * free - shift * shift) / (plus * minus)
+    else:
+        out[0] += weight * free * (1.0 / plus + 1.0 / minus)
+
+
+@nb.njit(**COMPILE)
+def _add_tail(
+    kind: int,
+    swap: bool,
+    free: float,
+    along: float,
+    z: float,
+    nu: float,
+    pressure: float,
+    traction: float,
+    reference: float,
+    weight: float,
+    out: FloatArray,
+) -> None:
+    """Add all point forces at +-k periods, k >= _FIRST; lengths in periods."""
+    for k in range(_FIRST, _EXPLICIT):
+        _add_pair(kind, swap, free, along, z, float(k), nu, pressure, traction, weight, out)
+    start = _EXPLICIT - 0.5
+    for i in range(_EULER_NODES.size):
+        t = _EULER_NODES[i]
+        w = weight * _EULER_WEIGHTS[i]
+        _add_pair(kind, swap, free, along, z, start + t, nu, pressure, traction, w, out)
+        _add_pair(kind, swap, free, along, z, start - t, nu, pressure, traction, -w, out)
+    if kind == _PRESSURE_LIFT:
+        for t in (start + along, start - along):
+            out[0] -= weight * np.log((t + np.sqrt(t * t + free * free)) / reference)
+        return
+    stretch = np.sqrt(start * start + free * free + z * z)
+    for i in range(_TAIL_NODES.size):
+        left = 1.0 - _TAIL_NODES[i]
+        w = weight * _TAIL_WEIGHTS[i] * stretch / (left * left)
+        t = start + stretch * _TAIL_NODES[i] / left
+        _add_pair(kind, swap, free, along, z, t, nu, pressure, traction, w, out)
+
+
+@nb.njit(**COMPILE)
+def _add_line(
+    kind: int,
+    swap: bool,
+    free: float,
+    z: float,
+    half: float,
+    share: float,
+    nu: float,
+    pressure: float,
+    traction: float,
+    reference: float,
+    out: FloatArray,
+    strip: FloatArray,
+) -> None:
+    """Add 2 pi times the stress (or V, or chi_x) of a strip |free'| < half; `share`: loaded fraction of a period."""
+    if kind == _STRESS:
+        strip[:] = 0.0
+        if swap:
+            add_strip(free, z, half, nu, pressure, 0.0, traction, strip)
+            out[0] += 2.0 * share * strip[1]
+            out[1] += 2.0 * share * strip[0]
+            out[3] += 2.0 * share * strip[4]
+            out[4] += 2.0 * share * strip[3]
+        else:
+            add_strip(free, z, half, nu, pressure, traction, 0.0, strip)
+            out[0] += 2.0 * share * strip[0]
+            out[1] += 2.0 * share * strip[1]
+            out[3] += 2.0 * share * strip[3]
+            out[4] += 2.0 * share * strip[4]
+        out[2] += 2.0 * share * strip[2]
+        out[5] += 2.0 * share * strip[5]
+    elif kind == _PRESSURE_LIFT:
+        out[0] -= 2.0 * share * reference * log_strip(free / reference, half / reference)
+    elif not swap:
+        out[0] += share * np.pi * 2.0 * min(max(free, -half), half)
+
+
+@nb.njit(**COMPILE)
+def _add_cell(
+    kind: int,
+    swap: bool,
+    free: float,
+    along: float,
+    z: float,
+    half: float,
+    half_along: float,
+    nu: float,
+    pressure: float,
+    traction: float,
+    out: FloatArray,
+    lift: FloatArray,
+) -> None:
+    """Add one uniformly loaded cell."""
+    x, y, a, b = free, along, half, half_along
+    if swap:
+        x, y, a, b = along, free, half_along, half
+    if kind == _STRESS:
+        subsurface.add_rectangle(x, y, z, a, b, nu, pressure, traction, out)
+    else:
+        # at nu = 0: 4 pi G uz = 2 V under pressure, chi_x under traction
+        lift[:] = 0.0
+        half_space.add_rectangle(x, y, z, a, b, 0.0, kind == _TRACTION_LIFT, lift)
+        out[0] += 0.5 * lift[2] if kind == _PRESSURE_LIFT else lift[2]
+
+
+@nb.njit(**COMPILE)
+def _fill(
+    kind: int,
+    swap: bool,
+    step: float,
+    half: float,
+    step_along: float,
+    z: float,
+    nu: float,
+    pressure: float,
+    traction: float,
+    reference: float,
+    nodes: FloatArray,
+    even: FloatArray,
+    odd: FloatArray,
+    parity: FloatArray,
+    points: int,
+    out: FloatArray,
+) -> None:
+    """Fill out[component, free offset, offset along] for offsets along up to half a period. Lengths in periods."""
+    parts = out.shape[0]
+    half_along = 0.5 * step_along
+    samples = np.zeros((parts, nodes.size))
+    local = np.zeros(parts)
+    strip = np.zeros(6)
+    lift = np.zeros(3)
+    reach = np.sqrt(max(_LINE * _LINE - z * z, 0.0))
+    for i in range(out.shape[1]):
+        free = i * step
+        # the part of the cell within reach, and the strips on either side of it
+        low = min(max(free - reach, -half), half)
+        high = min(max(free + reach, -half), half)
+        local[:] = 0.0
+        for start, stop in ((-half, low), (high, half)):
+            if stop > start:
+                middle = 0.5 * (start + stop)
+                _add_line(
+                    kind, swap, free - middle, z, 0.5 * (stop - start), step_along, nu, pressure, traction, reference,
+                    local, strip,
+                )  # fmt: skip
+        for c in range(parts):
+            out[c, i, :] = local[c]
+        if not high > low:
+            continue
+        samples[:] = 0.0
+        pieces = int(np.ceil((high - low) / 0.5))
+        width = (high - low) / pieces
+        for n in range(nodes.size):
+            local[:] = 0.0
+            for piece in range(pieces):
+                centre = low + (piece + 0.5) * width
+                for g in range(points):
+                    source = centre + 0.5 * width * NODES[points, g]
+                    _add_tail(
+                        kind, swap, free - source, nodes[n], z, nu, pressure, traction, reference,
+                        width * WEIGHTS[points, g], local,
+                    )  # fmt: skip
+            samples[:, n] = local
+        middle = 0.5 * (low + high)
+        for j in range(out.shape[2]):
+            local[:] = 0.0
+            for k in range(1 - _FIRST, _FIRST):
+                _add_cell(
+                    kind, swap, free - middle, j * step_along + k, z, 0.5 * (high - low), half_along, nu, pressure,
+                    traction, local, lift,
+                )  # fmt: skip
+            for c in range(parts):
+                total = local[c]
+                for n in range(nodes.size):
+                    total += samples[c, n] * (even[j, n] if parity[c] > 0 else odd[j, n])
+                out[c, i, j] += total
+
+
+def _points(ratio: float) -> int:
+    """Gauss points for round-off on an interval whose integrand is singular `ratio` half lengths from its middle."""
+    return min(NODES.shape[1], max(2, int(np.ceil(16 / (2 * np.log10(2 * ratio))))))
+
+
+def _interpolation(cells: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Chebyshev nodes (positive ones) and the weights of an even or odd function's mean over each cell times its side.
+
+    Offsets j = 0..cells // 2, in periods; the interval reaches half a cell beyond half a period.
+    """
+    half = 0.5 / cells
+    length = 0.5 + half
+    angles = (np.arange(_CHEBYSHEV) + 0.5) * np.pi / _CHEBYSHEV
+    points = _points((2 - 0.5) / half)
+    at = (np.arange(cells // 2 + 1)[:, None] / cells + half * NODES[points, :points]) / length
+    orders = np.arange(_CHEBYSHEV)
+    basis = np.cos(orders * np.arccos(np.clip(at, -1, 1))[..., None])
+    integrals = np.einsum("g,jgn->jn", WEIGHTS[points, :points], basis) * 2 * half
+    positive = angles[: _CHEBYSHEV // 2]
+    # values at -node follow by parity, so each kept node counts twice for its own parity
+    scale = np.full(_CHEBYSHEV, 4.0 / _CHEBYSHEV)
+    scale[0] *= 0.5
+    cardinal = np.cos(orders[:, None] * positive) * scale[:, None]
+    even = integrals[:, 0::2] @ cardinal[0::2]
+    odd = integrals[:, 1::2] @ cardinal[1::2]
+    return length * np.cos(positive), np.ascontiguousarray(even), np.ascontiguousarray(odd)
+
+
+def _table(
+    grid: Grid, kind: int, depth: float, nu: float, pressure: float, traction: float, parities: list[int]
+) -> FloatArray:
+    """All offsets of the grid, (parts, nx, ny); lengths in periods."""
+    swap = grid.periodic[0]
+    free, along = (1, 0) if swap else (0, 1)
+    cells, period = grid.shape[along], grid.lengths[along]
+    step = grid.spacing[free] / period
+    nodes, even, odd = _interpolation(cells)
+    quarter = np.zeros((len(parities), grid.shape[free], cells // 2 + 1))
+    parity = np.array(parities, dtype=np.float64)
+    half = 0.5 * step
+    points = _points(1.0 / min(half, 0.25))
+    reference = grid.lengths[free] / period
+    _fill(
+        kind, swap, step, half, 1.0 / cells, depth / period, nu, pressure, traction, reference,
+        nodes, even, odd, parity, points, quarter,
+    )  # fmt: skip
+    odd_parts = parity < 0
+    quarter[odd_parts, :, 0] = 0.0
+    if cells % 2 == 0:
+        quarter[odd_parts, :, -1] = 0.0
+    table = np.empty((len(parities), grid.shape[free], cells))
+    table[:, :, : cells // 2 + 1] = quarter
+    for c, sign in enumerate(parities):
+        table[c, :, cells // 2 + 1 :] = sign * quarter[c, :, 1 : (cells + 1) // 2][:, ::-1]
+    return np.ascontiguousarray(table.transpose(0, 2, 1)) if swap else table
+
+
+def surface_table(grid: Grid, material: Material, load: Load) -> FloatArray:
+    """Normal surface displacement [m/Pa] of a loaded cell and its images, shape (nx, ny); datum: see the module."""
+    along = 0 if grid.periodic[0] else 1
+    traction = load is Load.TANGENTIAL
+    kind = _TRACTION_LIFT if traction else _PRESSURE_LIFT
+    parity = -1 if traction and along == 0 else 1
+    table: FloatArray = _table(grid, kind, 0.0, 0.0, 1.0, 1.0, [parity])[0]
+    nu = material.poissons_ratio
+    factor = (1 - 2 * nu) if traction else 2 * (1 - nu)
+    table *= factor * grid.lengths[along] / (4 * np.pi * material.shear_modulus)
+    return table
+
+
+def stress_table(grid: Grid, depth: float, poissons_ratio: float, load: Load) -> FloatArray:
+    """Six stresses at `depth` [m] of a loaded cell and its images, shape (6, nx, ny), [Pa/Pa]."""
+    along = 0 if grid.periodic[0] else 1
+    normal = load is Load.NORMAL
+    odd = {(True, 0): (4, 5), (True, 1): (3, 5), (False, 0): (0, 1, 2, 3), (False, 1): (3, 5)}[normal, along]
+    parities = [-1 if c in odd else 1 for c in range(6)]
+    table: FloatArray = _table(grid, _STRESS, depth, poissons_ratio, float(normal), float(not normal), parities)
+    return table / (2 * np.pi)

@@ -1,0 +1,257 @@
+"""Six stresses in an elastic half-space below a uniformly loaded rectangle, at any depth from the surface down.
+
+With the potentials V, chi and F of `half_space` (Love, *Phil. Trans.* A 228 (1929) 377; Johnson (1985), eq. 3.2-3.9):
+2 pi times the stress under unit pressure is
+
+    xx = 2nu V_z - z V_xx - (1-2nu) chi_xx        yz = -z V_yz
+    yy = 2nu V_z - z V_yy - (1-2nu) chi_yy        xz = -z V_xz
+    zz = V_z - z V_zz                             xy = -z V_xy - (1-2nu) chi_xy
+
+and under unit traction along +x
+
+    xx = (2+2nu) V_x + 2nu F_xxx - z chi_xxx      yz = -z V_xy
+    yy = 2nu V_x + 2nu F_xyy - z chi_xyy          xz = V_z - z V_xx
+    zz = -z V_xz                                  xy = V_y + 2nu F_xxy - z chi_xxy
+
+Near the rectangle they are sums over its corners, far from it Gauss rules of the point-force solution.
+
+On the surface itself the limits from inside the body are given: inside, outside, and on an edge the mean of both.
+Some stresses are singular there, like ln(distance): xx, yy under traction on the edges x = +-a, xy under traction on
+the edges y = +-b, xy under pressure at the corners. These come out as infinities.
+"""
+
+from __future__ import annotations
+
+import numba as nb
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bem.grid import FloatArray
+from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, cut, log_ratio, rule, slant
+from bem.kernels.half_space import Load, check_points
+
+_TWO_PI = 2.0 * np.pi
+
+
+@nb.njit(**COMPILE)
+def add_point(x: float, y: float, z: float, nu: float, pressure: float, traction: float, out: FloatArray) -> None:
+    """Add 2 pi times the six stresses of point forces: `pressure` into the body, `traction` along +x."""
+    r = np.sqrt(x * x + y * y + z * z)
+    inv = 1.0 / r
+    inv2 = inv * inv
+    inv3 = inv * inv2
+    s = 1.0 / (r + z)
+    xx, yy = x * x, y * y
+    plane = inv * s  # chi_xx = plane - x^2 curl, chi_xy = -x y curl
+    curl = (2.0 * r + z) * inv3 * s * s
+    shear = 3.0 * z * inv3 * inv2  # z V_xy = x y shear
+    if pressure != 0.0:
+        k = 1.0 - 2.0 * nu
+        direct = z * inv3 * k - k * plane  # 2nu V_z + z/R^3 - k plane
+        common = k * curl - shear
+        out[0] += pressure * (direct + xx * common)
+        out[1] += pressure * (direct + yy * common)
+        out[2] -= pressure * z * z * shear
+        out[3] -= pressure * y * z * shear
+        out[4] -= pressure * x * z * shear
+        out[5] += pressure * x * y * common
+    if traction != 0.0:
+        # third derivatives; s_x = -x plane s, plane_x = -x curl, curl_x = -x twist
+        twist = inv3 * s * s * (-2.0 * inv + (2.0 * r + z) * inv * (3.0 * inv + 2.0 * s))
+        # F_x = -x s, F_xy = x y plane s
+        inner = plane * s * (inv + 2.0 * s) * inv  # (plane s)_t = -t inner
+        f_xyy = x * (plane * s - yy * inner)
+        f_xxy = y * (plane * s - xx * inner)
+        f_xxx = x * (3.0 * plane * s - xx * inner)
+        c_xyy = x * (-curl + yy * twist)
+        c_xxy = y * (-curl + xx * twist)
+        c_xxx = x * (-3.0 * curl + xx * twist)
+        out[0] += traction * (-(2.0 + 2.0 * nu) * x * inv3 + 2.0 * nu * f_xxx - z * c_xxx)
+        out[1] += traction * (-2.0 * nu * x * inv3 + 2.0 * nu * f_xyy - z * c_xyy)
+        out[2] -= traction * x * z * shear
+        out[3] -= traction * x * y * shear
+        out[4] -= traction * xx * shear
+        out[5] += traction * (-y * inv3 + 2.0 * nu * f_xxy - z * c_xxy)
+
+
+@nb.njit(**COMPILE)
+def _corners(
+    x: float, y: float, z: float, a: float, b: float, nu: float, pressure: float, traction: float, out: FloatArray
+) -> None:
+    """Add 2 pi times the six stresses of uniform loads on |x| < a, |y| < b."""
+    k = 1.0 - 2.0 * nu
+    zz = z * z
+    solid = 0.0  # -V_z
+    arc_x = 0.0  # -z V_xx
+    arc_y = 0.0  # -z V_yy
+    slant_x = 0.0  # chi_xx
+    slant_y = 0.0  # chi_yy
+    z_xz = 0.0  # -z V_xz
+    z_yz = 0.0  # -z V_yz
+    z_xy = 0.0  # z V_xy
+    chi_xy = 0.0
+    mixed_x = 0.0  # (2nu + z/R) Y / (R + z)
+    mixed_y = 0.0
+    for i in range(2):
+        u = x + a if i else x - a
+        for j in range(2):
+            v = y + b if j else y - b
+            sign = 1.0 if i == j else -1.0
+            r = np.sqrt(u * u + v * v + zz)
+            solid += sign * angle(u, v, z, r)
+            if z > 0.0:
+                au = 1.0 / (r * (u * u + zz))
+                av = 1.0 / (r * (v * v + zz))
+                uv = sign * z * u * v
+                arc_x += uv * au
+                arc_y += uv * av
+                z_xz += sign * zz * v * au
+                z_yz += sign * zz * u * av
+                z_xy += sign * z / r
+            if pressure != 0.0:
+                slant_x += sign * slant(u, v, z, r)
+                slant_y += sign * slant(v, u, z, r)
+                chi_xy += sign * np.log(r + z)
+            if traction != 0.0 and r > 0.0:
+                slope = sign * (2.0 * nu + z / r) / (r + z)
+                mixed_x += slope * v
+                mixed_y += slope * u
+    if pressure != 0.0:
+        out[0] += pressure * (arc_x - 2.0 * nu * solid - k * slant_x)
+        out[1] += pressure * (arc_y - 2.0 * nu * solid - k * slant_y)
+        out[2] -= pressure * (solid + arc_x + arc_y)
+        out[3] += pressure * z_yz
+        out[4] += pressure * z_xz
+        out[5] -= pressure * (k * chi_xy + z_xy)
+    if traction != 0.0:
+        y0, y1, x0, x1 = y - b, y + b, x - a, x + a
+        v_x = log_ratio(y1, y0, np.sqrt(x1 * x1 + zz)) - log_ratio(y1, y0, np.sqrt(x0 * x0 + zz))
+        v_y = log_ratio(x1, x0, np.sqrt(y1 * y1 + zz)) - log_ratio(x1, x0, np.sqrt(y0 * y0 + zz))
+        out[0] += traction * (2.0 * v_x + mixed_x - z_xz)
+        out[1] += traction * (2.0 * nu * v_x - mixed_x)
+        out[2] += traction * z_xz
+        out[3] -= traction * z_xy
+        out[4] += traction * (arc_x - solid)
+        out[5] += traction * (v_y - mixed_y)
+
+
+@nb.njit(**COMPILE)
+def _piece(
+    n: int,
+    x: float,
+    y: float,
+    z: float,
+    a: float,
+    b: float,
+    nu: float,
+    pressure: float,
+    traction: float,
+    out: FloatArray,
+) -> None:
+    if n == 0:
+        _corners(x, y, z, a, b, nu, pressure, traction, out)
+        return
+    area = 4.0 * a * b
+    for i in range(n):
+        for j in range(n):
+            w = area * WEIGHTS[n, i] * WEIGHTS[n, j]
+            add_point(x - a * NODES[n, i], y - b * NODES[n, j], z, nu, w * pressure, w * traction, out)
+
+
+@nb.njit(**COMPILE)
+def add_rectangle(
+    x: float, y: float, z: float, a: float, b: float, nu: float, pressure: float, traction: float, out: FloatArray
+) -> None:
+    """Add 2 pi times the six stresses at (x, y, z) of uniform loads on |x| < a, |y| < b."""
+    n = rule(x, y, z, a, b)
+    if n >= 0:
+        _piece(n, x, y, z, a, b, nu, pressure, traction, out)
+        return
+    for cx, cy, ha, hb in cut(x, y, z, a, b):
+        px = x - cx
+        py = y - cy
+        _piece(rule(px, py, z, ha, hb), px, py, z, ha, hb, nu, pressure, traction, out)
+
+
+@nb.njit(**COMPILE)
+def _many(
+    x: FloatArray,
+    y: FloatArray,
+    z: FloatArray,
+    a: float,
+    b: float,
+    nu: float,
+    pressure: float,
+    traction: float,
+    out: FloatArray,
+) -> None:
+    scale = max(a, b)
+    local = np.zeros(6)
+    for i in range(x.size):
+        local[:] = 0.0
+        add_rectangle(x[i] / scale, y[i] / scale, z[i] / scale, a / scale, b / scale, nu, pressure, traction, local)
+        for c in range(6):
+            out[c, i] = local[c] / _TWO_PI
+
+
+@nb.njit(**COMPILE)
+def _table(
+    dx: float, dy: float, z: float, nu: float, pressure: float, traction: float, first: int, out: FloatArray
+) -> None:
+    scale = max(dx, dy)
+    local = np.zeros(6)
+    for i in range(out.shape[1]):
+        for j in range(out.shape[2]):
+            local[:] = 0.0
+            x = i * (dx / scale)
+            y = (j + first) * (dy / scale)
+            add_rectangle(x, y, z / scale, 0.5 * dx / scale, 0.5 * dy / scale, nu, pressure, traction, local)
+            for c in range(6):
+                out[c, i, j] = local[c] / _TWO_PI
+
+
+def rectangle_stress(
+    x: ArrayLike,
+    y: ArrayLike,
+    depth: ArrayLike,
+    sides: tuple[float, float],
+    poissons_ratio: float,
+    load: Load = Load.NORMAL,
+) -> FloatArray:
+    """Stresses (xx yy zz yz xz xy) per unit load on a rectangle centred at the origin.
+
+    Parameters
+    ----------
+    x, y, depth : coordinates of the points [m], broadcast together; depth >= 0.
+    sides : (along x, along y), full sides of the rectangle [m].
+    load : unit pressure, or unit traction along +x.
+
+    Returns
+    -------
+    array (6, ...), dimensionless [Pa/Pa], tension positive.
+
+    Raises
+    ------
+    InputError : coordinates that are not finite, negative depths, sides that are not positive, nu outside (-1, 0.5].
+    """
+    px, py, pz = check_points(x, y, depth, sides, poissons_ratio)
+    out = np.empty((6, px.size))
+    normal = load is Load.NORMAL
+    a, b = 0.5 * float(sides[0]), 0.5 * float(sides[1])
+    _many(px.ravel(), py.ravel(), pz.ravel(), a, b, float(poissons_ratio), float(normal), float(not normal), out)
+    return out.reshape(6, *px.shape)
+
+
+def stress_table(
+    shape: tuple[int, int],
+    spacing: tuple[float, float],
+    depth: float,
+    poissons_ratio: float,
+    load: Load,
+    first: int = 0,
+) -> FloatArray:
+    """Six stresses at offsets (i dx, (j + first) dy) and `depth` from the centre of a loaded cell, (6, nx, ny)."""
+    out = np.empty((6, *shape))
+    normal = load is Load.NORMAL
+    _table(spacing[0], spacing[1], depth, poissons_ratio, float(normal), float(not normal), first, out)
+    return out
