@@ -1,0 +1,297 @@
+"""Read measured surfaces of any common instrument, in metres; read and write plain height maps.
+
+Instrument formats are read by SurfaceTopography; what is added here are one kind of error, one unit, levelling and
+the filling of missing points.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import warnings
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem.errors import InputError, ResultsError, SurfaceFileError
+from bem.grid import FloatArray
+from bem.surfaces.filter import DETRENDINGS, detrend, fill_missing
+from bem.surfaces.surface import Surface
+
+METRES = {
+    "km": 1e3, "m": 1.0, "dm": 1e-1, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "μm": 1e-6, "um": 1e-6, "nm": 1e-9, "Å": 1e-10,
+    "pm": 1e-12, "fm": 1e-15, "in": 0.0254, "mil": 25.4e-6,
+}  # fmt: skip
+MOST_POINTS = 2**28
+"""Largest map that is read; a damaged header may claim anything."""
+
+_TEXT = (".txt", ".csv", ".dat")
+
+
+def read_surface(
+    path: str | os.PathLike[str],
+    *,
+    detrend: str = "plane",
+    fill: bool = True,
+    channel: str | int | None = None,
+    spacing: tuple[float, float] | None = None,
+    height_unit: str | None = None,
+) -> Surface:
+    """Read a measured surface.
+
+    Parameters
+    ----------
+    path : a file of any instrument format that SurfaceTopography reads (.al3d, .di, .opd, .x3p, .tmd, .sur, .gwy, ...);
+        or a plain map: .npz with `heights` (nx, ny) [m] and `spacing` [m], as `write_surface` makes it; .npy; or a table of
+        numbers in .txt, .csv or .dat, one line for each ix, with `spacing` given.
+    detrend : "plane" (least squares over the points measured), "curvature" (second-order polynomial) or "none".
+    fill : True: missing points are filled by the harmonic surface through their neighbours (at most half of the
+        map); False: a map with missing points is refused.
+    channel : name or number of the channel where a file has several; the reader's default is its topography.
+    spacing : (dx, dy) [m], instead of what the file says; needed where it says nothing.
+    height_unit : unit of the heights where the file does not say ("nm", "um", ...); plain maps are in metres.
+
+    Returns
+    -------
+    Surface : heights (nx, ny) [m], spacing [m], metadata: file, format, channel, unit, missing_points, detrend, ...
+
+    Raises
+    ------
+    SurfaceFileError : a file that is missing, empty, unreadable, truncated, not a height map, without units, or with
+        missing points that may not or cannot be filled.
+    InputError : arguments out of range.
+    """
+    messages = []
+    if detrend not in DETRENDINGS:
+        messages.append(f"read_surface: detrend {detrend!r} is not one of {', '.join(DETRENDINGS)}")
+    if height_unit is not None and height_unit not in METRES:
+        messages.append(f"read_surface: height_unit {height_unit!r} is not one of {', '.join(METRES)}")
+    if spacing is not None and not _are_lengths(spacing):
+        messages.append(f"read_surface: spacing {spacing!r} must be two positive, finite lengths [m]")
+    if messages:
+        raise InputError(messages)
+    file = Path(path)
+    _check_file(file)
+    if file.suffix.lower() == ".npz":
+        heights, cell, notes = _read_npz(file)
+    elif file.suffix.lower() == ".npy" and spacing is not None:
+        heights, cell, notes = _read_npy(file), None, {"format": "npy"}
+    elif file.suffix.lower() in _TEXT and spacing is not None:
+        heights, cell, notes = _read_table(file), None, {"format": "table of numbers"}
+    else:
+        heights, cell, notes = _read_instrument(file, channel, spacing is not None, height_unit)
+        height_unit = None
+    if height_unit is not None:
+        heights = heights * METRES[height_unit]
+    if spacing is not None:
+        cell = (float(spacing[0]), float(spacing[1]))
+    if cell is None:
+        raise SurfaceFileError(
+            f"{file}: the file does not say how far its points are apart; give spacing=(dx, dy) in metres"
+        )
+    return _finish(file, heights, cell, notes, detrend, fill)
+
+
+def write_surface(path: str | os.PathLike[str], surface: Surface) -> Path:
+    """Write a surface as .npz (`heights` [m], `spacing` [m], `metadata` as JSON), whole or not at all; return the path.
+
+    Raises
+    ------
+    ResultsError : a folder that is missing or read-only, a full disk.
+    """
+    file = Path(path)
+    if file.suffix.lower() != ".npz":
+        file = file.with_name(file.name + ".npz")
+    part = file.with_name(f".{file.name}.{os.getpid()}.part")
+    try:
+        with part.open("wb") as stream:
+            np.savez_compressed(
+                stream,
+                heights=surface.heights,
+                spacing=np.asarray(surface.spacing),
+                metadata=np.asarray(json.dumps(dict(surface.metadata), default=str, ensure_ascii=False)),
+            )
+        part.replace(file)
+    except OSError as problem:
+        part.unlink(missing_ok=True) if part.parent.is_dir() else None
+        raise ResultsError(f"{file}: cannot write the surface: {problem.strerror or problem}") from problem
+    return file
+
+
+def _are_lengths(pair: object) -> bool:
+    try:
+        first, second = (float(value) for value in pair)  # type: ignore[attr-defined]
+    except (TypeError, ValueError):
+        return False
+    return math.isfinite(first) and math.isfinite(second) and first > 0 and second > 0
+
+
+def _check_file(file: Path) -> None:
+    try:
+        if file.is_dir():
+            raise SurfaceFileError(f"{file}: is a folder, not a surface file")
+        if not file.exists():
+            raise SurfaceFileError(f"{file}: there is no such file")
+        if file.stat().st_size == 0:
+            raise SurfaceFileError(f"{file}: the file is empty")
+        with file.open("rb"):
+            pass
+    except SurfaceFileError:
+        raise
+    except (OSError, ValueError) as problem:  # ValueError: a null character in the name
+        raise SurfaceFileError(f"{str(file)!r}: cannot be opened: {problem}") from problem
+
+
+def _finish(
+    file: Path, heights: FloatArray, cell: tuple[float, float], notes: dict[str, Any], method: str, fill: bool
+) -> Surface:
+    if heights.ndim != 2 or min(heights.shape) < 2:
+        raise SurfaceFileError(f"{file}: holds a profile or a point of shape {heights.shape}, not a height map")
+    if not _are_lengths(cell):
+        raise SurfaceFileError(f"{file}: its point spacing {cell!r} m is not positive and finite; the file is damaged")
+    heights = np.where(np.isfinite(heights), heights, np.nan)
+    known = ~np.isnan(heights)
+    missing = int(heights.size - known.sum())
+    if missing == heights.size:
+        raise SurfaceFileError(f"{file}: all of its {heights.size} points are missing")
+    largest = float(np.abs(heights[known]).max())
+    longest = max(n * d for n, d in zip(heights.shape, cell, strict=True))
+    # squares of these must neither overflow nor vanish; no instrument comes near
+    if largest > 1e6 or longest > 1e6 or min(cell) < 1e-15:
+        raise SurfaceFileError(
+            f"{file}: heights up to {largest:.3g} m on {longest:.3g} m with points {min(cell):.3g} m apart cannot be a "
+            "measured surface; the file is damaged or its unit wrong"
+        )
+    if missing and not fill:
+        raise SurfaceFileError(
+            f"{file}: {missing} of {heights.size} points are missing; read it with fill=True or crop it with the "
+            "instrument's software"
+        )
+    try:
+        heights = fill_missing(detrend(heights, cell, method), cell)
+    except InputError as problem:
+        raise SurfaceFileError([f"{file}: {message}" for message in problem.messages]) from problem
+    notes = {"file": file.name, **notes, "missing_points": missing, "detrend": method}
+    return Surface(np.ascontiguousarray(heights), cell, notes)
+
+
+def _read_npz(file: Path) -> tuple[FloatArray, tuple[float, float] | None, dict[str, Any]]:
+    try:
+        with np.load(file, allow_pickle=False) as archive:
+            if "heights" not in archive:
+                raise SurfaceFileError(f"{file}: has no array 'heights' but {', '.join(archive.files) or 'nothing'}")
+            heights = _as_floats(file, archive["heights"])
+            cell = np.asarray(archive["spacing"], dtype=np.float64).ravel() if "spacing" in archive else None
+            notes = json.loads(str(archive["metadata"])) if "metadata" in archive else {}
+    except SurfaceFileError:
+        raise
+    # a damaged archive may fail anywhere in zipfile, zlib or numpy's header parser, with any exception
+    except Exception as problem:
+        raise _unreadable(file, problem) from problem
+    if cell is not None and cell.shape != (2,):
+        raise SurfaceFileError(f"{file}: 'spacing' has shape {cell.shape}, not two lengths [m]")
+    if not isinstance(notes, dict):
+        notes = {}
+    return heights, None if cell is None else (float(cell[0]), float(cell[1])), {"format": "npz", **notes}
+
+
+def _read_npy(file: Path) -> FloatArray:
+    try:
+        return _as_floats(file, np.load(file, allow_pickle=False))
+    except SurfaceFileError:
+        raise
+    except Exception as problem:
+        raise _unreadable(file, problem) from problem
+
+
+def _read_table(file: Path) -> FloatArray:
+    try:
+        text = file.read_text(encoding="utf-8-sig")
+        lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith(("#", "%"))]
+        separator = next((s for s in (";", "\t", ",") if lines and s in lines[0]), None)
+        rows = [[float(word) if word.strip() else math.nan for word in line.split(separator)] for line in lines]
+    except (OSError, ValueError) as problem:
+        raise _unreadable(file, problem) from problem
+    if len({len(row) for row in rows}) != 1:
+        raise SurfaceFileError(f"{file}: its lines do not all hold the same number of values; the file is damaged")
+    return np.array(rows, dtype=np.float64)
+
+
+def _as_floats(file: Path, array: np.ndarray) -> FloatArray:
+    if array.dtype.kind not in "fiu" or array.size > MOST_POINTS:
+        raise SurfaceFileError(f"{file}: holds {array.dtype} of shape {array.shape}, not a map of heights")
+    return array.astype(np.float64)
+
+
+def _unreadable(file: Path, problem: BaseException) -> SurfaceFileError:
+    reason = str(problem).strip().splitlines()
+    detail = f": {reason[0][:200]}" if reason and reason[0] else ""
+    kind = "not an archive" if isinstance(problem, zipfile.BadZipFile) else type(problem).__name__
+    return SurfaceFileError(f"{file}: unreadable, truncated or of an unknown format ({kind}{detail})")
+
+
+def _read_instrument(
+    file: Path, channel: str | int | None, spacing_given: bool, height_unit: str | None
+) -> tuple[FloatArray, tuple[float, float] | None, dict[str, Any]]:
+    from SurfaceTopography import open_topography
+
+    # Readers of damaged files raise anything at all (struct.error, KeyError, AssertionError, MemoryError, ...) and warn
+    # about what they skip; whatever it is, the file cannot be used.
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            with open_topography(str(file)) as reader:
+                chosen = _choose(file, reader, channel)
+                shape = tuple(int(n) for n in chosen.nb_grid_pts)
+                if len(shape) != 2 or not chosen.is_uniform:
+                    raise SurfaceFileError(
+                        f"{file}: channel {chosen.name!r} is a profile or scattered points, not a map"
+                    )
+                if math.prod(shape) > MOST_POINTS or min(shape) < 1:
+                    raise SurfaceFileError(f"{file}: claims {shape[0]} x {shape[1]} points; the file is damaged")
+                sizes = chosen.physical_sizes
+                arguments = {}
+                if sizes is None and spacing_given:
+                    arguments["physical_sizes"] = tuple(float(n) for n in shape)
+                topography = reader.topography(channel_index=chosen.index, **arguments)
+                heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(np.float64), np.nan)
+                unit = topography.unit
+                sizes = None if sizes is None else tuple(float(s) for s in topography.physical_sizes)
+                notes = {
+                    "format": str(reader.format()),
+                    "channel": chosen.name,
+                    "unit": unit if isinstance(unit, str) else None,
+                    "instrument": dict(topography.info.get("instrument", {})),
+                }
+                if "acquisition_time" in topography.info:
+                    notes["acquisition_time"] = str(topography.info["acquisition_time"])
+    except SurfaceFileError:
+        raise
+    except Exception as problem:
+        raise _unreadable(file, problem) from problem
+    if unit is None and height_unit is not None and (spacing_given or sizes is None):
+        metres = METRES[height_unit]
+    elif isinstance(unit, str) and unit in METRES:
+        metres = METRES[unit]
+    else:
+        raise SurfaceFileError(
+            f"{file}: channel {notes['channel']!r} "
+            + ("does not say its unit" if unit is None else f"is in {unit!r}, not in a unit of length")
+            + "; give height_unit and spacing"
+        )
+    cell = None if sizes is None else (sizes[0] * metres / shape[0], sizes[1] * metres / shape[1])
+    return heights * metres, cell, notes
+
+
+def _choose(file: Path, reader: Any, channel: str | int | None) -> Any:
+    channels = list(reader.channels)
+    if channel is None:
+        return reader.default_channel
+    for index, candidate in enumerate(channels):
+        if channel in (index, candidate.name):
+            return candidate
+    names = ", ".join(str(c.name) for c in channels)
+    raise SurfaceFileError(f"{file}: has no channel {channel!r}, but {names}")

@@ -1,0 +1,88 @@
+"""A surface: heights on a grid of equal cells, and where they come from."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from bem.errors import InputError
+from bem.grid import FloatArray, Grid
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Heights (nx, ny) [m], positive out of the body, on cells of `spacing` (dx, dy) [m].
+
+    `metadata` says where the heights come from and what was done to them. The heights are a read-only copy.
+
+    Raises
+    ------
+    InputError : heights that are not a finite, real map, or spacings that are not positive and finite.
+    """
+
+    heights: FloatArray
+    spacing: tuple[float, float]
+    metadata: Mapping[str, Any] = field(default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        heights, spacing = check_map(self.heights, self.spacing)
+        heights = heights.copy()
+        heights.flags.writeable = False
+        object.__setattr__(self, "heights", heights)
+        object.__setattr__(self, "spacing", spacing)
+        object.__setattr__(self, "metadata", MappingProxyType(dict(self.metadata)))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(nx, ny)."""
+        return self.heights.shape[0], self.heights.shape[1]
+
+    @property
+    def lengths(self) -> tuple[float, float]:
+        """Sides of the map [m], cells x spacing."""
+        return self.shape[0] * self.spacing[0], self.shape[1] * self.spacing[1]
+
+    def grid(self, *, periodic: tuple[bool, bool] = (False, False)) -> Grid:
+        """The grid that the heights live on."""
+        return Grid(self.shape, self.spacing, periodic=periodic)
+
+    def replace(self, heights: FloatArray, *, spacing: tuple[float, float] | None = None, **notes: Any) -> Surface:
+        """Other heights of the same origin; `notes` are added to the metadata."""
+        return Surface(heights, self.spacing if spacing is None else spacing, {**self.metadata, **notes})
+
+
+def check_map(heights: object, spacing: object, *, missing: bool = False) -> tuple[FloatArray, tuple[float, float]]:
+    """Heights as a contiguous float64 map and spacing as two floats; `missing` allows not-a-number heights.
+
+    Raises
+    ------
+    InputError : one message per mistake.
+    """
+    messages = []
+    array = np.asarray(heights)
+    if array.dtype.kind not in "fiu":
+        raise InputError(f"heights: expected real numbers, got dtype {array.dtype}")
+    if array.ndim != 2 or 0 in array.shape:
+        messages.append(f"heights: shape {array.shape} must be (nx, ny) with at least one cell each way")
+    array = np.ascontiguousarray(array, dtype=np.float64)
+    finite = np.isfinite(array)
+    if missing:
+        finite |= np.isnan(array)
+    if not finite.all():
+        messages.append(
+            f"heights: {array.size - int(finite.sum())} of {array.size} are not finite; fill or crop them first"
+        )
+    try:
+        dx, dy = (float(d) for d in spacing)  # type: ignore[attr-defined]
+    except (TypeError, ValueError):
+        dx = dy = math.nan
+    if not (math.isfinite(dx) and math.isfinite(dy) and dx > 0 and dy > 0):
+        messages.append(f"spacing: {spacing!r} must be two positive, finite lengths [m]")
+    if messages:
+        raise InputError(messages)
+    return array, (dx, dy)
