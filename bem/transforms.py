@@ -293,10 +293,8 @@ class PaddedTransform:
         return cast(ComplexArray, full[:, : self.padded[0]])
 
     def zeros_field(self) -> FloatArray:
-        """A field of zeros, aligned and strided so that no copy is needed where the rows are not padded."""
-        stride = self._real_stride if self.padded[1] == self.shape[1] else self.shape[1]
-        full = pyfftw.zeros_aligned((self.shape[0], stride), self.dtype, n=_ALIGNMENT)
-        return cast(FloatArray, full[:, : self.shape[1]])
+        """A contiguous field of zeros, aligned so that rows of whole cache lines need no copy."""
+        return cast(FloatArray, pyfftw.zeros_aligned(self.shape, self.dtype, n=_ALIGNMENT))
 
     def forward(self, values: FloatArray, out: ComplexArray | None = None) -> ComplexArray:
         """Spectrum (py // 2 + 1, px) of a field (nx, ny) padded with zeros."""

@@ -1,0 +1,491 @@
+"""Contact on one grid: conjugate gradients on the cells in contact, between updates of which cells those are.
+
+The pressure minimises p.Kp/2 + p.(gap - approach) over 0 <= p <= cap, with its sum given under load control. A round
+
+1. applies the operator in double precision, which gives the true gap, its violations and the energy;
+2. takes in the free cells that overlap and the capped cells that open;
+3. runs preconditioned conjugate gradients on the cells in contact (single precision transforms, the symmetric part of
+   the operator), and
+4. sets free what came out below zero, caps what came out above, and restores the load.
+
+A round whose energy rose is taken back, first by halves and then for a projected gradient step, which always lowers it:
+the energy falls from round to round, so no two rounds can repeat one another.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.contact import passes
+from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl
+from bem.contact.passes import CAPPED, CONTACT, FREE
+from bem.contact.preconditioner import SparseInverse, sparse_inverse
+from bem.convolution import DisplacementOperator, ScaledConvolution
+
+FloatArray = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_ROUND_OFF = 1e-12
+"""Energies closer than this, relative to the sum of their terms, are taken as equal."""
+
+
+@dataclass
+class Effort:
+    """Iterations of conjugate gradients so far, over all levels, and their limit."""
+
+    limit: int
+    iterations: int = 0
+
+    @property
+    def left(self) -> int:
+        """Iterations that may still be made."""
+        return self.limit - self.iterations
+
+
+@dataclass(frozen=True)
+class LevelResult:
+    """Where a level ended: scaled pressure and displacement (flat), approach, largest violation, and how."""
+
+    pressure: FloatArray
+    displacement: FloatArray
+    approach: float
+    violation: float
+    converged: bool
+    rounds: int
+
+
+@dataclass(frozen=True)
+class Tuning:
+    """Numbers that trade work between rounds and iterations; measured, see `NUMERICS.md`."""
+
+    reduction: float = 0.1
+    iterations_per_round: int = 80
+    final: float = 0.5
+    squared_radius: int = 2
+    heavy: float = 0.5
+    rounds: int = 200
+
+
+@dataclass
+class _Iterate:
+    """A feasible pressure: the cells between the bounds, their values, and the cells at the cap."""
+
+    cells: Indices
+    values: FloatArray
+    capped: Indices
+
+
+class _Level:
+    """Operator, buffers and gap of one grid."""
+
+    def __init__(self, operator: DisplacementOperator, gap: FloatArray, cap: float, tuning: Tuning) -> None:
+        self.operator = operator
+        self.exact = operator.scaled()
+        self.quick = operator.scaled(np.float32, symmetric_part=True)
+        self.gap = gap
+        self.cap = cap
+        self.tuning = tuning
+        self.state = np.zeros(gap.size, np.uint8)
+        self.pressure = self.exact.transform.zeros_field()
+        self.displacement = self.exact.transform.zeros_field()
+        self.quick_in = self.quick.transform.zeros_field()
+        self.quick_out = self.quick.transform.zeros_field()
+        names = ("pressure", "displacement", "quick_in", "quick_out")
+        self.flat: dict[str, NDArray[Any]] = {name: getattr(self, name).reshape(-1) for name in names}
+        self.sparse: SparseInverse | None = None
+        self.sparse_cells: Indices | None = None
+        self.inverse: ScaledConvolution | None = None
+
+    def displace(self, iterate: _Iterate) -> None:
+        """Write the displacement of a pressure into the buffer."""
+        pressure = self.flat["pressure"]
+        passes.scatter(pressure, iterate.cells, iterate.values)
+        passes.scatter_value(pressure, iterate.capped, self.cap)
+        self.exact.apply(self.pressure, self.displacement)
+        passes.scatter_value(pressure, iterate.cells, 0.0)
+        passes.scatter_value(pressure, iterate.capped, 0.0)
+
+    def mark(self, iterate: _Iterate) -> None:
+        self.state[:] = FREE
+        passes.scatter_value(self.state, iterate.cells, CONTACT)
+        passes.scatter_value(self.state, iterate.capped, CAPPED)
+
+    def preconditioner(self, cells: Indices) -> Callable[[FloatArray, FloatArray], float]:
+        """Approximate inverse of the kernel on the cells: (residual, out) -> sum of out."""
+        if cells.size > self.tuning.heavy * self.gap.size:
+            if self.inverse is None:
+                self.inverse = self.operator.scaled_inverse(np.float32)
+            inverse = self.inverse
+
+            def spectral(residual: FloatArray, out: FloatArray) -> float:
+                passes.scatter(self.flat["quick_in"], cells, residual)
+                inverse.apply(self.quick_in, self.quick_out)
+                return float(passes.gather_dot(self.flat["quick_out"], cells, out, residual)[0])
+
+            return spectral
+        if self.sparse is None:
+            reach = 2 * math.isqrt(self.tuning.squared_radius)
+            self.sparse = sparse_inverse(
+                self.operator.grid.shape,
+                self.operator.grid.periodic,
+                self.operator.near_field(reach),
+                self.tuning.squared_radius,
+            )
+        on_cells = self.sparse.on(cells, self.sparse_cells)
+        self.sparse_cells = cells
+        return on_cells.apply
+
+
+def solve_level(
+    operator: DisplacementOperator,
+    gap: FloatArray,
+    control: Control,
+    cap: float,
+    start: FloatArray | None,
+    tolerance: float,
+    effort: Effort,
+    tuning: Tuning,
+    report: Callable[[int, float, int], None] | None = None,
+) -> LevelResult:
+    """Solve on one grid until no contact condition is violated by more than `tolerance`.
+
+    `gap` flat, in units of its own; `cap` may be infinite; `start` a pressure within the bounds or None; `report` is
+    called with iterations, violation and cells in contact after each round.
+    """
+    level = _Level(operator, gap, cap, tuning)
+    iterate = _first(level, control, start)
+    best = math.inf
+    waited = 0
+    slope = _Slope()
+    accepted: _Accepted | None = None
+    halvings = 0
+    step = 0.0
+    rounds = 0
+    while True:
+        level.displace(iterate)
+        level.mark(iterate)
+        rounds += 1
+        residual = np.empty(iterate.cells.size)
+        total = passes.gather_sum(level.flat["displacement"], gap, iterate.cells, residual)
+        approach = _approach(level, control, iterate, total, slope)
+        residual -= approach
+        found = np.empty(gap.size, np.int32)
+        count, largest, _ = passes.find_violations(level.flat["displacement"], gap, level.state, approach, found)
+        violation = max(largest, float(np.abs(residual).max(initial=0.0)))
+        if report is not None:
+            report(effort.iterations, violation, iterate.cells.size + iterate.capped.size)
+        settled = isinstance(control, LoadControl | ApproachControl) or slope.settled(tolerance)
+        if violation <= tolerance and settled:
+            return _result(level, iterate, approach, violation, True, rounds)
+        if effort.left <= 0 or rounds >= tuning.rounds:
+            return _result(level, iterate, approach, violation, False, rounds)
+        if violation < 0.7 * best:
+            best, waited = violation, 0
+        else:
+            waited += 1
+        if waited > 30:
+            return _result(level, iterate, approach, violation, False, rounds)
+        current = _Accepted(iterate, *_energy(level, iterate))
+        if accepted is not None and operator.symmetric and current.above(accepted, approach):
+            halvings += 1
+            if halvings <= 2:
+                iterate = _between(level, control, accepted.iterate, iterate)
+                continue
+            iterate = accepted.iterate
+            level.displace(iterate)
+            iterate, step = _gradient_step(level, control, iterate, approach, step)
+            accepted = None
+            halvings = 0
+            continue
+        accepted = current
+        halvings = 0
+        if count:
+            iterate, residual = _take_in(level, iterate, found[:count], approach)
+        if iterate.cells.size == 0:
+            return _result(level, iterate, approach, violation, violation <= tolerance, rounds)
+        reduction = tuning.reduction
+        raw = _conjugate_gradients(
+            level, iterate.cells, iterate.values.copy(), residual, control, reduction, tolerance, effort
+        )
+        iterate = _clip(level, control, iterate, raw)
+
+
+@dataclass(frozen=True)
+class _Accepted:
+    """A pressure with its energy at approach zero, the size of the terms in it, and its sum."""
+
+    iterate: _Iterate
+    energy: float
+    size: float
+    force: float
+
+    def above(self, other: _Accepted, approach: float) -> bool:
+        """Whether the energy is higher than the other's by more than round-off."""
+        rise = self.energy - other.energy - approach * (self.force - other.force)
+        return rise > _ROUND_OFF * max(self.size, other.size)
+
+
+def _energy(level: _Level, iterate: _Iterate) -> tuple[float, float, float]:
+    displacement = level.flat["displacement"]
+    energy, size, force = passes.energy(displacement, level.gap, iterate.cells, iterate.values)
+    if iterate.capped.size:
+        values = np.full(iterate.capped.size, level.cap)
+        more = passes.energy(displacement, level.gap, iterate.capped, values)
+        energy, size, force = energy + more[0], size + more[1], force + more[2]
+    return energy, size, force
+
+
+def _first(level: _Level, control: Control, start: FloatArray | None) -> _Iterate:
+    """A feasible pressure to begin with."""
+    cells = level.gap.size
+    nothing = np.empty(0, np.int64)
+    if start is None:
+        if isinstance(control, LoadControl):
+            return _Iterate(np.arange(cells), np.full(cells, control.force / cells), nothing)
+        approach = (
+            control.approach if isinstance(control, ApproachControl) else float(level.gap.mean()) - control.mean_gap
+        )
+        overlapping = np.flatnonzero(level.gap < approach)
+        return _Iterate(overlapping, np.zeros(overlapping.size), nothing)
+    capped = np.flatnonzero(start >= level.cap)
+    inside = np.flatnonzero((start > 0) & (start < level.cap))
+    iterate = _Iterate(inside, start[inside].copy(), capped)
+    if isinstance(control, LoadControl):
+        if inside.size == 0 and capped.size == 0:
+            return _first(level, control, None)
+        return _restore_load(level, control, iterate, iterate.values)
+    return iterate
+
+
+class _Slope:
+    """How the mean displacement follows the approach, by secants between rounds."""
+
+    def __init__(self) -> None:
+        self.approach = math.nan
+        self.mean = math.nan
+        self.slope = 0.0
+        self.change = math.inf
+
+    def settled(self, tolerance: float) -> bool:
+        return abs(self.change) <= tolerance
+
+    def next(self, approach_of_mean: float, mean: float) -> float:
+        """The next approach, where `approach_of_mean` would be right if the mean displacement stayed."""
+        if math.isnan(self.approach):
+            self.approach, self.mean = approach_of_mean, mean
+            return approach_of_mean
+        wanted = approach_of_mean - self.approach
+        self.change = wanted
+        step = wanted
+        self.approach += step
+        self.mean = mean
+        return self.approach
+
+
+def _approach(level: _Level, control: Control, iterate: _Iterate, total: float, slope: _Slope) -> float:
+    """The approach that goes with the displacement in the buffer."""
+    if isinstance(control, ApproachControl):
+        return control.approach
+    displacement = level.flat["displacement"]
+    if isinstance(control, MeanGapControl):
+        separation, count = passes.separation_sums(displacement, level.gap, level.state)
+        if count == 0:
+            return slope.approach
+        mean = float(displacement.mean())
+        return slope.next((separation - control.mean_gap * level.gap.size) / count, mean)
+    if iterate.cells.size:
+        return total / iterate.cells.size
+    deepest = float((level.gap + displacement)[iterate.capped].max())
+    free = level.state == FREE
+    if not free.any():
+        return deepest
+    nearest = float((level.gap + displacement)[free].min())
+    return deepest if deepest <= nearest else 0.5 * (deepest + nearest)
+
+
+def _take_in(
+    level: _Level, iterate: _Iterate, found: NDArray[np.int32], approach: float
+) -> tuple[_Iterate, FloatArray]:
+    """Add violating cells to those in contact, with the pressure they have."""
+    state = level.state
+    released = found[state[found] == CAPPED]
+    pressure = level.flat["pressure"]
+    passes.scatter(pressure, iterate.cells, iterate.values)
+    passes.scatter_value(pressure, released, level.cap)
+    state[found] = CONTACT
+    cells = np.flatnonzero(state == CONTACT)
+    values = pressure[cells]
+    passes.scatter_value(pressure, cells, 0.0)
+    capped = iterate.capped if released.size == 0 else np.flatnonzero(state == CAPPED)
+    residual = np.empty(cells.size)
+    passes.gather_sum(level.flat["displacement"], level.gap, cells, residual)
+    residual -= approach
+    return _Iterate(cells, values, capped), residual
+
+
+def _conjugate_gradients(
+    level: _Level,
+    cells: Indices,
+    pressure: FloatArray,
+    residual: FloatArray,
+    control: Control,
+    reduction: float,
+    tolerance: float,
+    effort: Effort,
+) -> FloatArray:
+    """Unbounded pressures on the cells that bring the gap there nearer to zero."""
+    tuning = level.tuning
+    balanced = isinstance(control, LoadControl)
+    if balanced:
+        residual -= residual.mean()
+        if cells.size == 1:
+            return pressure
+    precondition = level.preconditioner(cells)
+    quick_in, quick_out = level.flat["quick_in"], level.flat["quick_out"]
+    n = cells.size
+    direction, preconditioned, response, previous = np.zeros(n), np.empty(n), np.empty(n), np.zeros(n)
+    squares = float(residual @ residual)
+    goal = squares * reduction**2
+    beta = 0.0
+    last = 1.0
+    for iteration in range(min(tuning.iterations_per_round, effort.left)):
+        total = precondition(residual, preconditioned)
+        full, change = passes.turn(preconditioned, total / n if balanced else 0.0, residual, previous)
+        if not full > 0:
+            break
+        beta = max(0.0, change / last) if iteration else 0.0
+        last = full
+        slope = passes.new_direction(direction, preconditioned, beta, cells, quick_in, residual)
+        level.quick.apply(level.quick_in, level.quick_out)
+        effort.iterations += 1
+        mean, curvature = passes.gather_dot(quick_out, cells, response, direction)
+        if not curvature > 0:
+            break
+        squares, largest, _ = passes.advance(
+            pressure,
+            residual,
+            previous,
+            direction,
+            response,
+            mean / n if balanced else 0.0,
+            slope / curvature,
+            level.cap,
+        )
+        if squares <= goal or largest <= tuning.final * tolerance:
+            break
+    passes.scatter_value(quick_in, cells, 0.0)
+    return pressure
+
+
+def _clip(level: _Level, control: Control, iterate: _Iterate, raw: FloatArray) -> _Iterate:
+    """Back into the bounds, with the load restored."""
+    below = raw <= 0
+    above = raw >= level.cap
+    if isinstance(control, LoadControl):
+        return _restore_load(level, control, iterate, raw)
+    if not (below.any() or above.any()):
+        return _Iterate(iterate.cells, raw, iterate.capped)
+    inside = ~(below | above)
+    capped = np.sort(np.concatenate([iterate.capped, iterate.cells[above]])) if above.any() else iterate.capped
+    return _Iterate(iterate.cells[inside], raw[inside], capped)
+
+
+def _restore_load(level: _Level, control: LoadControl, iterate: _Iterate, raw: FloatArray) -> _Iterate:
+    """Clip, and bring the sum to the given force."""
+    cap = level.cap
+    cells, capped = iterate.cells, iterate.capped
+    if math.isinf(cap):
+        inside = raw > 0
+        if not inside.all():
+            cells, raw = cells[inside], raw[inside]
+        return _Iterate(cells, raw * (control.force / raw.sum()), capped)
+    wanted = control.force - cap * capped.size
+    if not 0 <= wanted <= cap * cells.size:
+        # the cells at the cap alone are too many, or not enough with all others: let them take part in the shift
+        raw = np.concatenate([raw, np.full(capped.size, cap)])
+        cells = np.concatenate([cells, capped])
+        order = np.argsort(cells, kind="stable")
+        cells, raw = cells[order], raw[order]
+        capped = np.empty(0, np.int64)
+        wanted = control.force
+        if wanted > cap * cells.size:
+            everything = np.zeros(level.gap.size)
+            everything[cells] = raw
+            cells, raw = np.arange(level.gap.size), everything
+    values = np.clip(raw + _shift(raw, wanted, cap), 0.0, cap)
+    above = values >= cap
+    inside = (values > 0) & ~above
+    if above.any():
+        capped = np.sort(np.concatenate([capped, cells[above]]))
+    cells, values = cells[inside], values[inside]
+    return _Iterate(cells, values, capped)
+
+
+def _shift(raw: FloatArray, wanted: float, cap: float) -> float:
+    """s with sum(clip(raw + s, 0, cap)) = wanted: a safeguarded Newton iteration on a piecewise linear function."""
+    low = -float(raw.max(initial=0.0))
+    high = cap - float(raw.min(initial=0.0))
+    shift = 0.0
+    for _ in range(100):
+        total, inside = passes.shifted_sum(raw, shift, cap)
+        error = total - wanted
+        if abs(error) <= 4e-16 * wanted:
+            break
+        if error > 0:
+            high = shift
+        else:
+            low = shift
+        trial = shift - error / inside if inside else math.nan
+        if not low < trial < high:
+            trial = 0.5 * (low + high)
+        if trial == shift:
+            break
+        shift = trial
+    return shift
+
+
+def _everywhere(level: _Level, iterate: _Iterate) -> FloatArray:
+    full = np.zeros(level.gap.size)
+    full[iterate.cells] = iterate.values
+    full[iterate.capped] = level.cap
+    return full
+
+
+def _project(level: _Level, control: Control, raw: FloatArray) -> _Iterate:
+    """The nearest pressure within the bounds that carries the load."""
+    shift = 0.0
+    if isinstance(control, LoadControl):
+        shift = _shift(raw, control.force, level.cap if math.isfinite(level.cap) else control.force)
+    values = np.clip(raw + shift, 0.0, level.cap)
+    capped = np.flatnonzero(values >= level.cap)
+    inside = np.flatnonzero((values > 0) & (values < level.cap))
+    return _Iterate(inside, values[inside], capped)
+
+
+def _between(level: _Level, control: Control, old: _Iterate, new: _Iterate) -> _Iterate:
+    """Half way from one pressure to another; feasible because the bounds and the load are convex."""
+    return _project(level, control, 0.5 * (_everywhere(level, old) + _everywhere(level, new)))
+
+
+def _gradient_step(
+    level: _Level, control: Control, iterate: _Iterate, approach: float, step: float
+) -> tuple[_Iterate, float]:
+    """A projected gradient step of a length that cannot raise the energy: one over the largest eigenvalue."""
+    gradient = level.gap + level.flat["displacement"] - approach
+    if step == 0.0:
+        step = 1 / float(level.exact.multiplier.real.max())  # type: ignore[union-attr]
+    return _project(level, control, _everywhere(level, iterate) - step * gradient), step
+
+
+def _result(
+    level: _Level, iterate: _Iterate, approach: float, violation: float, converged: bool, rounds: int
+) -> LevelResult:
+    return LevelResult(
+        _everywhere(level, iterate), level.flat["displacement"].copy(), approach, violation, converged, rounds
+    )

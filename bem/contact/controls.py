@@ -1,0 +1,67 @@
+"""What is prescribed: the load, the approach, or the volume of the gap. Small constraints on one algorithm.
+
+All in the solver's own units: `force` is a sum of scaled pressures over cells, lengths are scaled gaps.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class LoadControl:
+    """Sum of pressures given; the approach is the constraint's multiplier."""
+
+    force: float
+
+
+@dataclass(frozen=True)
+class ApproachControl:
+    """Approach given; nothing is constrained."""
+
+    approach: float
+
+
+@dataclass(frozen=True)
+class MeanGapControl:
+    """Mean of the positive part of the deformed gap given; the approach follows from it."""
+
+    mean_gap: float
+
+
+Control = LoadControl | ApproachControl | MeanGapControl
+
+
+def scaled_control(
+    load: float | None,
+    approach: float | None,
+    mean_gap: float | None,
+    *,
+    cell_force: float,
+    length: float,
+    datum: float,
+) -> Control:
+    """The one control that is given, in the solver's units: forces over `cell_force`, lengths over `length`.
+
+    `datum` [m] is what was taken from the gap beforehand.
+    """
+    if load is not None:
+        return LoadControl(load / cell_force)
+    if approach is not None:
+        return ApproachControl((approach - datum) / length)
+    assert mean_gap is not None
+    return MeanGapControl(mean_gap / length)
+
+
+def coarse_control(control: Control, cells: int, coarse_cells: int) -> Control:
+    """The same control on a coarser grid: a force is a sum over cells, lengths are the same."""
+    if isinstance(control, LoadControl):
+        return LoadControl(control.force * (coarse_cells / cells))
+    return control
+
+
+def is_finite(*values: float) -> bool:
+    """Whether all of them are."""
+    return bool(np.isfinite(values).all())

@@ -1,0 +1,200 @@
+"""Factorised sparse approximate inverse of the kernel on the cells in contact: G^T G, no transform needed.
+
+Row k of the sparse triangular G solves the small system of the kernel on cell k and its earlier neighbours that are in
+contact too, scaled to give (G K G^T)_kk = 1 (Kolotilina & Yeremin, SIAM J. Matrix Anal. Appl. 14, 1993). Which
+neighbours are in contact is a bit pattern, and every pattern is solved once per operator.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
+
+
+def stencil(squared_radius: int) -> NDArray[np.int64]:
+    """Offsets (i, j) before the cell itself in memory order and within the radius; shape (m, 2)."""
+    reach = int(np.sqrt(squared_radius))
+    return np.array(
+        [
+            (i, j)
+            for i in range(-reach, 1)
+            for j in range(-reach, reach + 1)
+            if i * i + j * j <= squared_radius and (i, j) < (0, 0)
+        ],
+        dtype=np.int64,
+    ).reshape(-1, 2)
+
+
+@dataclass(frozen=True)
+class SparseInverse:
+    """Rows of G by pattern; `solved` says which patterns have been filled in so far."""
+
+    shape: tuple[int, int]
+    periodic: tuple[bool, bool]
+    offsets: NDArray[np.int64]
+    near_field: FloatArray
+    table: FloatArray
+    solved: NDArray[np.uint8]
+    position: NDArray[np.int32]
+
+    def on(self, cells: NDArray[Any], previous: NDArray[Any] | None) -> SparseInverseOnCells:
+        """The inverse on some cells (ascending flat indices); `previous` are those of the call before."""
+        if previous is not None:
+            _mark(self.position, previous, False)
+        _mark(self.position, cells, True)
+        columns = np.empty((cells.size, self.offsets.shape[0]), np.int32)
+        pattern = np.empty(cells.size, np.int32)
+        _connect(
+            cells,
+            self.position,
+            self.shape[0],
+            self.shape[1],
+            self.periodic[0],
+            self.periodic[1],
+            self.offsets,
+            columns,
+            pattern,
+        )
+        _solve_patterns(pattern, self.offsets, self.near_field, self.table, self.solved)
+        return SparseInverseOnCells(columns, pattern, self.table)
+
+
+@dataclass(frozen=True)
+class SparseInverseOnCells:
+    """G on a given set of cells."""
+
+    columns: NDArray[np.int32]
+    pattern: NDArray[np.int32]
+    table: FloatArray
+
+    def apply(self, residual: FloatArray, out: FloatArray) -> float:
+        """out = G^T G residual; returns its sum."""
+        return float(_apply(self.columns, self.pattern, self.table, residual, out))
+
+
+def sparse_inverse(
+    shape: tuple[int, int], periodic: tuple[bool, bool], near_field: FloatArray, squared_radius: int = 2
+) -> SparseInverse:
+    """Prepare for an operator whose kernel near the origin is `near_field` (offset zero in the middle)."""
+    offsets = stencil(squared_radius)
+    # neighbours that would wrap on to one another on a very short axis are left out
+    short = [n <= 2 * int(np.abs(offsets).max()) for n in shape]
+    keep = [not ((short[0] and i != 0) or (short[1] and j != 0)) for i, j in offsets]
+    offsets = np.ascontiguousarray(offsets[np.array(keep, dtype=bool)])
+    patterns = 1 << offsets.shape[0]
+    return SparseInverse(
+        shape,
+        periodic,
+        offsets,
+        near_field,
+        np.zeros((patterns, offsets.shape[0] + 1)),
+        np.zeros(patterns, np.uint8),
+        np.full(shape[0] * shape[1], -1, np.int32),
+    )
+
+
+@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def _mark(position, cells, numbered):  # type: ignore[no-untyped-def]
+    for k in range(cells.size):
+        position[cells[k]] = k if numbered else -1
+
+
+@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def _connect(cells, position, nx, ny, wrap_x, wrap_y, offsets, columns, pattern):  # type: ignore[no-untyped-def]
+    for k in range(cells.size):
+        i = cells[k] // ny
+        j = cells[k] - i * ny
+        bits = 0
+        for a in range(offsets.shape[0]):
+            ii = i + offsets[a, 0]
+            jj = j + offsets[a, 1]
+            if ii < 0:
+                ii = ii + nx if wrap_x else -1
+            if jj < 0:
+                jj = jj + ny if wrap_y else -1
+            elif jj >= ny:
+                jj = jj - ny if wrap_y else -1
+            neighbour = position[ii * ny + jj] if ii >= 0 and jj >= 0 else -1
+            columns[k, a] = neighbour
+            if neighbour >= 0:
+                bits |= 1 << a
+        pattern[k] = bits
+
+
+@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def _solve_patterns(pattern, offsets, near_field, table, solved):  # type: ignore[no-untyped-def]
+    m = offsets.shape[0]
+    middle = near_field.shape[0] // 2
+    factor = np.empty((m + 1, m + 1))
+    active = np.empty(m + 1, np.int64)
+    row = np.empty(m + 1)
+    for k in range(pattern.size):
+        bits = pattern[k]
+        if solved[bits]:
+            continue
+        solved[bits] = 1
+        n = 0
+        for a in range(m):
+            if bits >> a & 1:
+                active[n] = a
+                n += 1
+        active[n] = m
+        n += 1
+        regular = True
+        for a in range(n):
+            for b in range(a + 1):
+                di = (offsets[active[a], 0] if active[a] < m else 0) - (offsets[active[b], 0] if active[b] < m else 0)
+                dj = (offsets[active[a], 1] if active[a] < m else 0) - (offsets[active[b], 1] if active[b] < m else 0)
+                s = near_field[middle + di, middle + dj]
+                for c in range(b):
+                    s -= factor[a, c] * factor[b, c]
+                if a == b:
+                    if s <= 1e-12 * near_field[middle, middle]:
+                        regular = False
+                        s = near_field[middle, middle]
+                    factor[a, a] = np.sqrt(s)
+                else:
+                    factor[a, b] = s / factor[b, b]
+        if not regular:
+            table[bits, m] = 1 / np.sqrt(abs(near_field[middle, middle]))
+            continue
+        row[n - 1] = 1 / factor[n - 1, n - 1] ** 2
+        for a in range(n - 2, -1, -1):
+            s = 0.0
+            for c in range(a + 1, n):
+                s -= factor[c, a] * row[c]
+            row[a] = s / factor[a, a]
+        scale = 1 / np.sqrt(row[n - 1])
+        for a in range(n):
+            table[bits, active[a]] = row[a] * scale
+
+
+@_fast
+def _apply(columns, pattern, table, residual, out):  # type: ignore[no-untyped-def]
+    n, m = columns.shape
+    for k in range(n):
+        out[k] = 0
+    for k in range(n):
+        bits = pattern[k]
+        s = table[bits, m] * residual[k]
+        for a in range(m):
+            c = columns[k, a]
+            if c >= 0:
+                s += table[bits, a] * residual[c]
+        out[k] += table[bits, m] * s
+        for a in range(m):
+            c = columns[k, a]
+            if c >= 0:
+                out[c] += table[bits, a] * s
+    total = 0.0
+    for k in range(n):
+        total += out[k]
+    return total

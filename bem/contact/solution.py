@@ -1,0 +1,47 @@
+"""The result of a contact problem."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.errors import Status
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ContactSolution:
+    """Pressures and gaps of two bodies in contact; arrays (nx, ny), SI units.
+
+    Attributes
+    ----------
+    pressure : [Pa], between 0 and the hardness.
+    displacement : [m], normal displacement of both surfaces together, the operator applied to `pressure`.
+    gap : [m], undeformed gap + displacement - approach: zero (to the residual) in elastic contact, >= 0 outside,
+        minus `plastic_depth` where the pressure is at the hardness.
+    approach : [m], of the datum of the undeformed gap.
+    load : [N].
+    contact_area, plastic_area : [m^2], of the cells with pressure, and of those at the hardness.
+    plastic_depth : [m], overlap of the bodies where the pressure is at the hardness, zero elsewhere.
+    iterations : iterations of conjugate gradients on all grids.
+    convolutions : applications of the operator on all grids, each weighed by its share of the cells.
+    residual : largest violation of the contact conditions, recomputed from `pressure` alone, over the rms roughness of
+        the undeformed gap (over the largest displacement where the gap is flat in comparison).
+    status : outcome; `residual` is at most the tolerance if it is converged.
+    """
+
+    pressure: FloatArray
+    displacement: FloatArray
+    gap: FloatArray
+    approach: float
+    load: float
+    contact_area: float
+    plastic_area: float
+    plastic_depth: FloatArray
+    iterations: int
+    convolutions: float
+    residual: float
+    status: Status
