@@ -11,7 +11,7 @@ from typing import Any
 
 _HOMES = {
     "grid": ["Grid"],
-    "materials": ["Body", "Layer", "Material", "contact_modulus", "dundurs_beta"],
+    "materials": ["CATALOGUE", "Body", "Layer", "Material", "contact_modulus", "dundurs_beta"],
     "errors": [
         "BemError",
         "ConvergenceError",

@@ -128,3 +128,73 @@ def dundurs_beta(a: Material, b: Material | None = None) -> float:
         numerator -= (1 - 2 * b.poissons_ratio) / b.shear_modulus
         denominator += 2 * (1 - b.poissons_ratio) / b.shear_modulus
     return numerator / denominator
+
+
+@dataclass(frozen=True)
+class CatalogueEntry:
+    """A material and where its constants come from."""
+
+    material: Material
+    source: str
+
+
+def _entry(
+    name: str,
+    source: str,
+    modulus: float,
+    ratio: float,
+    hardness: float | None = None,
+    yield_stress: float | None = None,
+) -> CatalogueEntry:
+    material = Material(
+        name, youngs_modulus=modulus, poissons_ratio=ratio, hardness=hardness, yield_stress=yield_stress
+    )
+    return CatalogueEntry(material, source)
+
+
+_THESIS = (
+    "A. Akchurin, Generation of Wear Particles in Lubricated Contacts during Running-In, PhD thesis, Twente (2017)"
+)
+
+CATALOGUE: dict[str, CatalogueEntry] = {
+    entry.material.name: entry
+    for entry in (
+        _entry(
+            "steel-52100",
+            "AISI 52100 bearing steel, through-hardened: T. A. Harris, Rolling Bearing Analysis (E, nu); about 700 HV",
+            207e9,
+            0.3,
+            7.0e9,
+        ),
+        _entry("steel-cylinder", f"{_THESIS}: cylinder of papers A, C, E (6 GPa)", 210e9, 0.3, 6.0e9),
+        _entry("steel-disk", f"{_THESIS}: steel disk of paper C (1.8 GPa, H = 2.8 sigma_y)", 210e9, 0.3, 1.8e9, 0.64e9),
+        _entry("steel-disk-110HV", f"{_THESIS}: soft disk of papers B and D (110 HV)", 210e9, 0.3, 1.08e9, 0.386e9),
+        _entry("brass-disk", f"{_THESIS}: brass disk of paper C", 88e9, 0.3, 2.64e9, 0.94e9),
+        _entry("brass-transfer-film", f"{_THESIS}: brass film on the cylinder, paper C (2.96 GPa)", 88e9, 0.3, 2.96e9),
+        _entry("tribofilm", f"{_THESIS}: ZDDP film of paper E (15 GPa, 2 GPa); nu is assumed", 15e9, 0.3, 2.0e9),
+        _entry(
+            "silicon-nitride",
+            "hot isostatically pressed Si3N4 bearing grade, ASTM F2094 class I: typical 310 GPa, 0.27, 1500 HV",
+            310e9,
+            0.27,
+            14.7e9,
+        ),
+        _entry(
+            "dlc",
+            "hydrogenated amorphous carbon a-C:H, mid-range of J. Robertson, Mater. Sci. Eng. R 37 (2002) 129",
+            200e9,
+            0.25,
+            20e9,
+        ),
+        _entry(
+            "alumina", "dense 99.5 % Al2O3: M. F. Ashby, Materials Selection in Mechanical Design", 380e9, 0.24, 15e9
+        ),
+        _entry("tungsten-carbide", "WC-6Co: M. F. Ashby, Materials Selection in Mechanical Design", 620e9, 0.22, 15e9),
+        _entry(
+            "aluminium", "pure, annealed: E and nu of G. W. C. Kaye and T. H. Laby; about 25 HV", 70e9, 0.345, 0.25e9
+        ),
+        _entry("glass", "soda-lime glass: M. F. Ashby, Materials Selection in Mechanical Design", 70e9, 0.22, 5.5e9),
+        _entry("ptfe", "filled-free PTFE at room temperature: manufacturers' data, elastic only", 0.5e9, 0.46),
+    )
+}
+"""Materials by name, each with the source of its constants. Hardness varies with treatment: check it."""

@@ -1,0 +1,82 @@
+"""The command line. Every module here adds one command; heavy imports wait until a command runs.
+
+A new command is a new file with `def register(app: typer.Typer) -> None`. `ORDER` only sorts the help text.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+import signal
+import sys
+
+import typer
+
+from bem.errors import BemError
+
+ORDER = (
+    "run",
+    "plan",
+    "scenes",
+    "sweep",
+    "report",
+    "plot",
+    "compare",
+    "new",
+    "schema",
+    "surface",
+    "particles",
+    "calibrate",
+    "verify",
+    "bench",
+)
+
+
+def build() -> typer.Typer:
+    """The application with all commands."""
+    app = typer.Typer(
+        name="bem",
+        help="Friction, wear particles, running-in and tribofilms of rough lubricated contacts.",
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+
+    @app.callback(invoke_without_command=True)
+    def version(
+        show: bool = typer.Option(False, "--version", help="Show the version and leave.", is_eager=True),
+    ) -> None:
+        if show:
+            from bem import __version__
+
+            typer.echo(f"bem {__version__}")
+            raise typer.Exit()
+
+    names = [module.name for module in pkgutil.iter_modules(__path__) if not module.name.startswith("_")]
+    for name in sorted(names, key=lambda item: (ORDER.index(item) if item in ORDER else len(ORDER), item)):
+        importlib.import_module(f"bem.cli.{name}").register(app)
+    return app
+
+
+def main() -> None:
+    """Entry point: runs the command; errors made on purpose become one message per line and their exit code."""
+    try:
+        signal.signal(signal.SIGTERM, _interrupt)
+        build()(standalone_mode=True)
+    except BemError as error:
+        for line in getattr(error, "messages", None) or str(error).splitlines():
+            print(f"bem: {line}", file=sys.stderr)
+        sys.exit(error.exit_code)
+    except KeyboardInterrupt:
+        print("bem: interrupted", file=sys.stderr)
+        sys.exit(130)
+    except MemoryError:
+        print("bem: out of memory; `bem plan SCENE` shows what takes how much", file=sys.stderr)
+        sys.exit(1)
+    except BrokenPipeError:
+        sys.stderr.close()
+        sys.exit(1)
+
+
+def _interrupt(*_: object) -> None:
+    raise KeyboardInterrupt

@@ -1,0 +1,115 @@
+"""Tables and progress for people; plain lines, and no progress, when piped."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+_FIRST_SHOWN_AFTER = 1.0  # seconds; shorter work needs no bar
+
+
+class Terminal:
+    """Shows progress on the terminal while in its `with` block; silent when the error stream is not one."""
+
+    def __init__(self) -> None:
+        self._live = sys.stderr.isatty()
+        self._bars: Any = None
+        self._tasks: dict[str, Any] = {}
+        self._started: dict[str, float] = {}
+
+    def __enter__(self) -> Terminal:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._bars is not None:
+            self._bars.stop()
+            self._bars = None
+
+    def progress(self, done: int, total: int, what: str, figures: Mapping[str, float]) -> None:
+        """See `bem.runs.Watcher`."""
+        if not self._live:
+            return
+        now = time.monotonic()
+        started = self._started.setdefault(what, now)
+        if self._bars is None:
+            if now - started < _FIRST_SHOWN_AFTER:
+                return
+            self._bars = _bars()
+            self._bars.start()
+        beside = "  ".join(f"{name.replace('_', ' ')} {value:.4g}" for name, value in figures.items())
+        if what not in self._tasks:
+            self._tasks[what] = self._bars.add_task(what or "working", total=total, beside=beside)
+        self._bars.update(self._tasks[what], completed=done, total=total, beside=beside)
+
+    def note(self, text: str) -> None:
+        """See `bem.runs.Watcher`."""
+        self.say(f"note: {text}")
+
+    def say(self, text: str) -> None:
+        """A line on the error stream, above the bars."""
+        if self._bars is not None:
+            self._bars.console.print(f"bem: {text}", markup=False, highlight=False)
+        else:
+            print(f"bem: {text}", file=sys.stderr)
+
+
+def _bars() -> Any:
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    return Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("[dim]{task.fields[beside]}"),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+        console=Console(stderr=True),
+    )
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[str]], *, title: str = "", right: Sequence[int] = ()) -> None:
+    """A table: ruled on a terminal, aligned columns when piped."""
+    if sys.stdout.isatty():
+        from rich import box
+        from rich.console import Console
+        from rich.table import Table
+        from rich.text import Text
+
+        shown = Table(title=title or None, box=box.SIMPLE_HEAD, title_justify="left")
+        for i, name in enumerate(head):
+            shown.add_column(name, justify="right" if i in right else "left", no_wrap=i == 0)
+        for row in rows:
+            shown.add_row(*(Text(str(cell)) for cell in row))
+        Console().print(shown)
+        return
+    if title:
+        print(title)
+    widths = [max(len(str(row[i])) for row in [head, *rows]) for i in range(len(head))]
+    for row in [head, *rows]:
+        cells = [
+            str(c).rjust(w) if i in right else str(c).ljust(w) for i, (c, w) in enumerate(zip(row, widths, strict=True))
+        ]
+        print("  ".join(cells).rstrip())
+
+
+def print_summary(run: Any, headline: Sequence[str]) -> None:
+    """The figures of a finished run and where its files are."""
+    from bem.plots.report import spelled
+
+    rows = [spelled(name, run.summary[name]) for name in headline if run.summary.get(name) is not None]
+    rows.append(("status", run.summary["status"]))
+    rows.append(("time", f"{run.summary['wall_time_s']:.1f} s"))
+    table(("figure", "value"), rows, title=f"{run.summary['scene']} ({run.summary['kind']})")
+    print(f"figures: {run.path / 'figures'}")
+    print(f"report:  {run.path / 'report.html'}")

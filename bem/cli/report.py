@@ -1,0 +1,29 @@
+"""`bem report`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+
+    @app.command()
+    def report(run: Annotated[Path, typer.Argument(metavar="DIR", help="A finished run's folder.")]) -> None:
+        """Draw a finished run's figures again and write its HTML report."""
+        from bem.plots.draw import draw_all
+        from bem.plots.report import write_report
+        from bem.results import open_run
+        from bem.results.directory import RunDirectory
+        from bem.scenes import get_kind
+
+        done = open_run(run)
+        with RunDirectory(run) as directory:
+            kind = get_kind(done.summary["kind"])
+            drawn = draw_all(done, kind.figures, directory.figures)
+            path = write_report(done, drawn, kind.headline)
+            directory.finish(done.summary)
+        typer.echo(path)

@@ -1,0 +1,62 @@
+"""`bem run`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+SceneArgument = Annotated[
+    str, typer.Argument(metavar="SCENE", help="A scene file, a run folder, or the name of a built-in scene.")
+]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set", metavar="KEY=VALUE", help='Change a key of the scene, such as contact.load="10 N". May be repeated.'
+    ),
+]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+
+    @app.command()
+    def run(
+        scene: SceneArgument,
+        out: Annotated[
+            Path | None, typer.Option(help="The run's folder; without it the next free runs/NAME-001.")
+        ] = None,
+        set_: SetOption = None,
+        resume: Annotated[
+            bool, typer.Option("--resume", help="Go on from the checkpoint of an interrupted run.")
+        ] = False,
+        overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace an older run in the folder.")] = False,
+        threads: Annotated[
+            int | None, typer.Option(min=1, max=1024, help="Threads; without it BEM_THREADS, or 1.")
+        ] = None,
+    ) -> None:
+        """Run a scene: results, figures and a report in one folder.
+
+        Exit codes: 0 done, 2 bad scene (nothing is written), 3 not converged (what exists is kept),
+        4 results cannot be written, 130 interrupted (resumable).
+        """
+        from bem.cli._terminal import Terminal, print_summary
+        from bem.runs import run_scene
+        from bem.scenes import get_kind
+        from bem.threads import set_threads
+
+        if threads is not None:
+            set_threads(threads)
+        if resume and out is None and (Path(scene) / "scene.toml").is_file():
+            out = Path(scene)
+        with Terminal() as terminal:
+            try:
+                done = run_scene(scene, out, settings=set_ or (), resume=resume, overwrite=overwrite, watcher=terminal)
+            except KeyboardInterrupt:
+                terminal.say("interrupted; the same command with --resume goes on")
+                raise typer.Exit(130) from None
+        print_summary(done, get_kind(done.summary["kind"]).headline)
+        if done.summary["status"] != "converged":
+            typer.echo(f"bem: not converged: {done.summary['where']}", err=True)
+            raise typer.Exit(3)

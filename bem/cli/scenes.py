@@ -1,0 +1,37 @@
+"""`bem scenes`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+
+    @app.command()
+    def scenes(
+        show: Annotated[
+            str | None,
+            typer.Option("--show", metavar="NAME", help="Print the file of a built-in scene, to start from."),
+        ] = None,
+    ) -> None:
+        """List the built-in scenes, a line each."""
+        from bem.cli._terminal import table
+        from bem.errors import InputError
+        from bem.scenes.load import library, library_text
+        from bem.scenes.validate import nearest
+
+        known = library()
+        if show is not None:
+            if show not in known:
+                raise InputError(
+                    f'--show "{show}": no built-in scene{nearest(show, known)}; allowed: {", ".join(known)}'
+                )
+            typer.echo(library_text(show), nl=False)
+            return
+        rows = [
+            (name, item["kind"], item.get("description", ""), item.get("redoes", "")) for name, item in known.items()
+        ]
+        table(("scene", "kind", "what it is", "redoes"), rows)

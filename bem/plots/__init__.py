@@ -1,0 +1,1 @@
+"""Figures and reports from results. Nothing here solves anything."""

@@ -1,0 +1,70 @@
+"""Figures of a run as files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from bem.errors import InputError
+from bem.plots.figures import FigureKind, all_figures
+from bem.results.atomic import replacing
+
+FORMATS = ("png", "pdf", "svg")
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A figure that is on disk."""
+
+    kind: FigureKind
+    paths: tuple[Path, ...]
+
+
+def draw_all(run: Any, names: Sequence[str], folder: Path, formats: Sequence[str] = ("png", "pdf")) -> list[Drawn]:
+    """Draw those of the named figures that fit the run, in that order; ResultsError if a file cannot be written."""
+    known = all_figures()
+    return [draw(run, known[name], folder, formats) for name in names if known[name].fits(run)]
+
+
+def draw(
+    run: Any,
+    kind: FigureKind,
+    folder: Path,
+    formats: Sequence[str] = ("png", "pdf"),
+    size: tuple[float, float] | None = None,
+) -> Drawn:
+    """Draw one figure in the given formats and size [inch]."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    from bem.plots.style import style
+
+    paths = []
+    with style():
+        figure = Figure(figsize=size or kind.size, layout="constrained")
+        FigureCanvasAgg(figure)
+        kind.draw(run, figure)
+        for ending in formats:
+            path = folder / f"{kind.name}.{ending}"
+            with replacing(path) as temporary:
+                figure.savefig(temporary, format=ending)
+            paths.append(path)
+    return Drawn(kind, tuple(paths))
+
+
+def figure_kind(run: Any, name: str) -> FigureKind:
+    """The figure of that name, if the run has what it needs.
+
+    Raises
+    ------
+    InputError : no such figure, or not from this run.
+    """
+    known = all_figures()
+    fitting = [kind.name for kind in known.values() if kind.fits(run)]
+    if name not in known:
+        raise InputError(f'--figure "{name}": no such figure; allowed for this run: {", ".join(fitting)}')
+    if name not in fitting:
+        raise InputError(f'--figure "{name}": cannot be drawn from this run; allowed: {", ".join(fitting)}')
+    return known[name]

@@ -1,0 +1,105 @@
+"""Figures of the stresses below the surface."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from bem.plots.figures import FigureKind
+from bem.plots.style import VERMILION, label, prefix
+
+
+def _von_mises_section(run: Any, figure: Figure) -> None:
+    """The plane along x and depth that holds the largest von Mises stress."""
+    stress, depth, x = (run.dataset[name].values for name in ("von_mises", "depth", "x"))
+    across = "y"
+    if len(x) < 2:
+        stress, x, across = stress.transpose(0, 2, 1), run.dataset["y"].values, "x"
+    iz, ix, iy = np.unravel_index(int(np.argmax(stress)), stress.shape)
+    section = stress[:, :, iy]
+    factor_x, unit_x = prefix(x, "m")
+    factor_z, unit_z = prefix(depth, "m")
+    factor, unit = prefix(section, "Pa")
+    axes = figure.add_subplot()
+    shown = axes.pcolormesh(
+        x * factor_x, depth * factor_z, section * factor, shading="gouraud", vmin=0, cmap="inferno", rasterized=True
+    )
+    bar = figure.colorbar(shown, ax=axes, pad=0.02)
+    bar.set_label(label("von Mises stress", unit))
+    yield_stress = _yield_stress(run)
+    if yield_stress is not None and section.max() > yield_stress > section.min():
+        axes.contour(x * factor_x, depth * factor_z, section, levels=[yield_stress], colors="white", linewidths=1.0)
+        axes.plot([], [], color="0.6", linewidth=1.0, label=f"yield, {yield_stress * factor:.3g} {unit}")
+    axes.plot(
+        x[ix] * factor_x,
+        depth[iz] * factor_z,
+        marker="+",
+        color=VERMILION,
+        markersize=9,
+        linestyle="none",
+        label=f"maximum, {section.max() * factor:.3g} {unit}",
+    )
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
+    axes.set_ylim(depth[-1] * factor_z, depth[0] * factor_z)
+    axes.set_xlabel(label("x, sliding" if across == "y" else "y", unit_x))
+    axes.set_ylabel(label("depth", unit_z))
+    position = run.dataset[across].values[iy]
+    factor_y, unit_y = prefix([position], "m")
+    axes.set_title(f"{across} = {position * factor_y:.3g} {unit_y}", loc="right")
+
+
+def _depth_profile(run: Any, figure: Figure) -> None:
+    """Largest and mean von Mises stress at each depth."""
+    stress, depth = run.dataset["von_mises"].values, run.dataset["depth"].values
+    factor_z, unit_z = prefix(depth, "m")
+    factor, unit = prefix(stress, "Pa")
+    axes = figure.add_subplot()
+    axes.plot(depth * factor_z, stress.max(axis=(1, 2)) * factor, marker="o", markersize=3, label="largest")
+    axes.plot(depth * factor_z, stress.mean(axis=(1, 2)) * factor, marker="s", markersize=3, label="mean")
+    yield_stress = _yield_stress(run)
+    if yield_stress is not None:
+        axes.axhline(yield_stress * factor, color="0.4", linestyle="--", linewidth=1.0, label="yield stress")
+    axes.set_xlabel(label("depth", unit_z))
+    axes.set_ylabel(label("von Mises stress", unit))
+    axes.set_xlim(0)
+    axes.set_ylim(0)
+    axes.legend()
+
+
+def _yield_stress(run: Any) -> float | None:
+    """Of the material whose stress is shown."""
+    body = run.scene.get(run.scene.get("outputs", {}).get("body", "lower")) or {}
+    material = body.get("material") or {}
+    if material.get("yield_stress"):
+        return float(material["yield_stress"])
+    return float(material["hardness"]) / 2.8 if material.get("hardness") else None
+
+
+def _several_depths(run: Any) -> bool:
+    return bool(run.dataset.sizes["depth"] > 1)
+
+
+def _has_section(run: Any) -> bool:
+    return _several_depths(run) and max(run.dataset.sizes["x"], run.dataset.sizes["y"]) > 1
+
+
+FIGURES = (
+    FigureKind(
+        "von-mises-section",
+        "Von Mises stress in the plane of its maximum; the line is the yield stress where it is exceeded.",
+        ("x", "y", "depth", "von_mises"),
+        _von_mises_section,
+        (6.5, 3.4),
+        _has_section,
+    ),
+    FigureKind(
+        "von-mises-depth",
+        "Largest and mean von Mises stress against depth.",
+        ("depth", "von_mises"),
+        _depth_profile,
+        (5.0, 3.2),
+        _several_depths,
+    ),
+)

@@ -1,0 +1,186 @@
+"""Figures of wear runs: sizes, volume, pressure and roughness over cycles, distributions, the worn surface."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from bem.plots.figures import FigureKind
+from bem.plots.style import BLUE, ORANGE, SKY, VERMILION, label, map_of, prefix
+
+_DLS_STEEL = (110e-9, 175e-9)  # dynamic light scattering, both materials; thesis, papers B and C
+
+
+def _over_cycles(axes: Axes, run: Any, values: NDArray[np.float64], text: str, unit: str) -> float:
+    """Mean over repetitions of each load as a line, their range as a band; returns the factor to the shown unit."""
+    cycle, load = run.dataset["cycle"].values, run.dataset["load"].values
+    factor, shown = prefix(values, unit)
+    for colour, each in zip((BLUE, VERMILION, ORANGE, SKY), np.unique(load), strict=False):
+        own = values[load == each] * factor
+        with np.errstate(all="ignore"):
+            import warnings
+
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", RuntimeWarning)  # cycles in which nothing came off in any repetition
+                mean, low, high = np.nanmean(own, axis=0), np.nanmin(own, axis=0), np.nanmax(own, axis=0)
+        axes.plot(cycle, mean, color=colour, label=f"{each:g} N")
+        if len(own) > 1:
+            axes.fill_between(cycle, low, high, color=colour, alpha=0.2, linewidth=0)
+    axes.set_xlabel("cycle")
+    axes.set_ylabel(label(text, shown))
+    axes.set_xlim(1, max(2, cycle[-1]))
+    axes.set_ylim(0)
+    if len(np.unique(load)) > 1:
+        axes.legend(title="load", ncols=len(np.unique(load)))
+    return factor
+
+
+def _radius(run: Any, figure: Figure) -> None:
+    axes = figure.add_subplot()
+    _over_cycles(axes, run, run.dataset["radius"].values, "equivalent radius, volume mean", "m")
+
+
+def _volume(run: Any, figure: Figure) -> None:
+    axes = figure.add_subplot()
+    values = run.dataset["volume"].values * 1e18
+    _over_cycles(axes, run, values, "volume per cycle (µm³)", "1")
+
+
+def _pressure(run: Any, figure: Figure) -> None:
+    axes = figure.add_subplot()
+    area = run.dataset["contact_area"].values
+    with np.errstate(divide="ignore", invalid="ignore"):
+        pressure = run.dataset["contact_load"].values / area
+    factor = _over_cycles(axes, run, pressure, "mean contact pressure", "Pa")
+    hardness = run.scene.get("cylinder", {}).get("hardness")
+    if isinstance(hardness, int | float):
+        axes.axhline(hardness * factor, color="0.3", linestyle="--", linewidth=1.0)
+        axes.annotate("hardness", (1, hardness * factor), (3, -11), textcoords="offset points", fontsize=8, color="0.3")
+
+
+def _roughness(run: Any, figure: Figure) -> None:
+    axes = figure.add_subplot()
+    _over_cycles(axes, run, run.dataset["rms_height"].values, "Sq in the contact strip", "m")
+
+
+def _distribution(run: Any, figure: Figure) -> None:
+    """Radii of the settled cycles, by number and by volume."""
+    volume, cycle = run.dataset["particle_volume"].values, run.dataset["particle_cycle"].values
+    settled = run.scene.get("cycles", {}).get("settled", 50)
+    late = cycle > cycle.max() - settled
+    volume = volume[late]
+    radius = np.cbrt(3 * volume / (4 * np.pi))
+    factor, unit = prefix(np.percentile(radius, 99) if radius.size else [0.0], "m")
+    edges = np.linspace(0, float(np.percentile(radius, 99.8)) * factor if radius.size else 1.0, 50)
+    axes = figure.add_subplot()
+    for weight, colour, name in ((np.ones_like(radius), BLUE, "by number"), (volume, VERMILION, "by volume")):
+        share, _ = np.histogram(radius * factor, edges, weights=weight)
+        total = share.sum()
+        mean = float((weight * radius).sum() / weight.sum()) * factor if weight.sum() > 0 else 0.0
+        axes.stairs(
+            100 * share / (total or 1), edges, color=colour, linewidth=1.4, label=f"{name}, mean {mean:.0f} {unit}"
+        )
+    axes.set_xlabel(label("equivalent radius", unit))
+    axes.set_ylabel("share (%)")
+    axes.set_xlim(0)
+    axes.set_ylim(0)
+    axes.legend()
+
+
+def _over_load(run: Any, figure: Figure) -> None:
+    """Settled volume-mean radius of every run over its load, beside what dynamic light scattering saw."""
+    load = run.dataset["load"].values
+    settled = run.scene.get("cycles", {}).get("settled", 50)
+    with np.errstate(invalid="ignore"):
+        radius = np.nanmean(run.dataset["radius"].values[:, -settled:], axis=1)
+    factor, unit = prefix(radius, "m")
+    axes = figure.add_subplot()
+    axes.axhspan(
+        _DLS_STEEL[0] * factor, _DLS_STEEL[1] * factor, color=SKY, alpha=0.3, linewidth=0, label="light scattering"
+    )
+    axes.plot(load, radius * factor, "o", color=BLUE, markersize=4, label="each repetition")
+    means = [radius[load == each].mean() * factor for each in np.unique(load)]
+    axes.plot(np.unique(load), means, color=BLUE, linewidth=1.0)
+    axes.set_xlabel("load (N)")
+    axes.set_ylabel(label("equivalent radius, volume mean", unit))
+    axes.set_xlim(0)
+    axes.set_ylim(0)
+    axes.legend()
+
+
+def _worn_surface(run: Any, figure: Figure) -> None:
+    x, y = run.dataset["x"].values, run.dataset["y"].values
+    before, after = run.dataset["height_before"].values, run.dataset["height_after"].values
+    low, high = np.percentile(before, [0.5, 99.5])
+    factor, _ = prefix(before, "m")
+    for axes, values, title in zip(
+        figure.subplots(1, 2), (before, after), ("before", "after the last cycle"), strict=True
+    ):
+        clipped = np.clip(values, low, high)
+        map_of(
+            figure, axes, x, y, clipped, "height", "m", cmap="cividis", vmin=low * factor, vmax=high * factor
+        )  # one scale for both: the difference is what matters
+        axes.set_title(title)
+
+
+def _many_runs(run: Any) -> bool:
+    return np.unique(run.dataset["load"].values).size > 1
+
+
+FIGURES = (
+    FigureKind(
+        "particle-radius-over-cycles",
+        "Equivalent radius of the particles over the cycles; bands span the repetitions.",
+        ("radius", "cycle", "load"),
+        _radius,
+        (5.0, 3.4),
+    ),
+    FigureKind(
+        "wear-volume-over-cycles",
+        "Volume that leaves in each cycle; the criterion overestimates it, Archard's law sets the real amount.",
+        ("volume", "cycle", "load"),
+        _volume,
+        (5.0, 3.4),
+    ),
+    FigureKind(
+        "contact-pressure-over-cycles",
+        "Mean pressure over the real contact area.",
+        ("contact_load", "contact_area", "cycle", "load"),
+        _pressure,
+        (5.0, 3.4),
+    ),
+    FigureKind(
+        "roughness-over-cycles",
+        "Root-mean-square height of the worn surface inside the contact strip.",
+        ("rms_height", "cycle", "load"),
+        _roughness,
+        (5.0, 3.4),
+    ),
+    FigureKind(
+        "particle-distribution",
+        "Distribution of the particles of the settled cycles.",
+        ("particle_volume", "particle_cycle"),
+        _distribution,
+        (5.0, 3.4),
+        lambda run: run.dataset["particle_volume"].size > 0,
+    ),
+    FigureKind(
+        "radius-over-load",
+        "Settled radius over load; the band is what dynamic light scattering found (thesis, paper C).",
+        ("radius", "load"),
+        _over_load,
+        (5.0, 3.4),
+        _many_runs,
+    ),
+    FigureKind(
+        "worn-surface",
+        "The worn surface before and after, in one colour scale (last run).",
+        ("x", "y", "height_before", "height_after"),
+        _worn_surface,
+        (9.0, 3.8),
+    ),
+)

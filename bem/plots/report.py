@@ -1,0 +1,91 @@
+"""One self-contained HTML page about a run: figures embedded, nothing from a network."""
+
+from __future__ import annotations
+
+import base64
+import json
+import math
+import platform
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from bem.plots.draw import Drawn
+from bem.results.atomic import write_text
+from bem.results.directory import REPORT
+
+_UNITS = {
+    "m": "m", "m2": "m²", "nm": "nm", "um": "µm", "Pa": "Pa", "N": "N", "s": "s", "C": "°C", "K": "K",
+    "nm_s": "nm/s", "m_s": "m/s", "N_m": "N/m", "J": "J", "um3": "µm³", "m3": "m³", "per_m": "1/m",
+}  # fmt: skip
+_HIDDEN = ("notes", "seconds_by_stage", "scene", "kind", "version", "seed", "status", "where", "wall_time_s")
+
+
+def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> Path:
+    """Write `report.html` into the run's folder; ResultsError if it cannot be."""
+    import jinja2
+
+    environment = jinja2.Environment(
+        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+    )
+    template = environment.from_string((resources.files("bem.plots") / "templates" / "report.html").read_text("utf-8"))
+    summary = run.summary
+    first = [name for name in headline if summary.get(name) is not None]
+    rest = [name for name in summary if name not in first and name not in _HIDDEN]
+    scene_text = (run.path / "scene.toml").read_text("utf-8")
+    page = template.render(
+        summary=summary,
+        scene=run.scene,
+        converged=summary["status"] == "converged",
+        headline=[spelled(name, summary[name]) for name in first],
+        figures=summary_rows(summary, rest),
+        pictures=[(item.kind.name, item.kind.caption, _embedded(item.paths)) for item in drawn],
+        stages=sorted(summary.get("seconds_by_stage", {}).items(), key=lambda item: -item[1]),
+        scene_text=scene_text,
+        date=datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        machine=f"{platform.system()} {platform.machine()}, Python {platform.python_version()}",
+    )
+    path = Path(run.path) / REPORT
+    write_text(path, page)
+    return path
+
+
+def summary_rows(summary: dict[str, Any], names: Sequence[str]) -> list[tuple[str, str]]:
+    """Name and value of figures, spelt for people."""
+    return [spelled(name, summary[name]) for name in names]
+
+
+def spelled(name: str, value: Any) -> tuple[str, str]:
+    """`mean_contact_pressure_Pa`, 1.2e9 -> `mean contact pressure`, `1.2 GPa`."""
+    words, unit = name, ""
+    for ending in sorted(_UNITS, key=len, reverse=True):
+        if name.endswith("_" + ending):
+            words, unit = name[: -len(ending) - 1], _UNITS[ending]
+            break
+    text = " ".join(words.split("_"))
+    if words.endswith("_fraction") and isinstance(value, float):
+        return text, f"{value:.4%}"
+    return text, _with_unit(value, unit)
+
+
+def _with_unit(value: Any, unit: str) -> str:
+    if isinstance(value, bool) or value is None or isinstance(value, str):
+        return "-" if value is None else str(value)
+    if isinstance(value, list):
+        shown = [_with_unit(item, "") for item in value[:12]]
+        return ", ".join(shown) + (", ..." if len(value) > 12 else "") + (f" {unit}" if unit else "")
+    if isinstance(value, dict):
+        return json.dumps(value)
+    if isinstance(value, float) and unit in ("m", "Pa", "N", "s") and value != 0:
+        power = min(max(math.floor(math.log10(abs(value) * 1.0000001) / 3), -4), 4)
+        prefix = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}[power]
+        return f"{value * 10.0 ** (-3 * power):.4g} {prefix}{unit}"
+    number = f"{value:.4g}" if isinstance(value, float) else str(value)
+    return f"{number} {unit}".rstrip()
+
+
+def _embedded(paths: Sequence[Path]) -> str:
+    png = next(path for path in paths if path.suffix == ".png")
+    return base64.b64encode(png.read_bytes()).decode()

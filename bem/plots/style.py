@@ -1,0 +1,117 @@
+"""One look for all figures: fonts and colours that survive print and colour-blindness, axes with units."""
+
+from __future__ import annotations
+
+import math
+from contextlib import AbstractContextManager
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+BLUE, ORANGE, GREEN, PINK, SKY, VERMILION, YELLOW, BLACK = [
+    "#0072B2",
+    "#E69F00",
+    "#009E73",
+    "#CC79A7",
+    "#56B4E9",
+    "#D55E00",
+    "#F0E442",
+    "#000000",
+]
+"""Okabe and Ito's colours, told apart by people with any of the common colour-blindnesses."""
+
+SEQUENTIAL = "viridis"
+OPEN = "#f1f1ee"
+_RC: dict[str, Any] = {
+    "font.family": "DejaVu Sans",
+    "font.size": 9.0,
+    "axes.labelsize": 9.0,
+    "axes.titlesize": 9.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": False,
+    "axes.prop_cycle": matplotlib.cycler(color=[BLUE, VERMILION, GREEN, PINK, ORANGE, SKY, BLACK]),
+    "lines.linewidth": 1.4,
+    "legend.frameon": False,
+    "legend.fontsize": 8.0,
+    "figure.facecolor": "white",
+    "image.cmap": SEQUENTIAL,
+    "image.origin": "lower",
+    "image.interpolation": "nearest",
+    "pdf.fonttype": 42,
+    "svg.fonttype": "none",
+    "savefig.dpi": 200,
+    "axes.formatter.useoffset": False,
+}
+_PREFIXES = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}
+_PREFIXED = ("m", "Pa", "N", "s", "m/s", "N/m", "J", "W")
+
+
+def style() -> AbstractContextManager[None]:
+    """The look, for a `with` block."""
+    return matplotlib.rc_context(_RC)
+
+
+def prefix(values: Any, unit: str) -> tuple[float, str]:
+    """Factor and unit label that bring the largest of `values` between 1 and 1000: (1e6, "µm") for micrometres."""
+    if unit in ("", "1"):
+        return 1.0, ""
+    finite = np.abs(np.asarray(values, dtype=np.float64))
+    finite = finite[np.isfinite(finite)]
+    largest = float(finite.max()) if finite.size else 0.0
+    if largest == 0 or unit not in _PREFIXED:
+        return 1.0, unit
+    power = min(max(math.floor(math.log10(largest * 1.0000001) / 3), -4), 4)
+    return 10.0 ** (-3 * power), _PREFIXES[power] + unit
+
+
+def label(text: str, unit: str) -> str:
+    """Text for an axis: `x (µm)`."""
+    return f"{text} ({unit})" if unit else text
+
+
+def field_axes(axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[float, float, float, float]:
+    """Label an axes as a map over x and y in one unit; returns the extent for `imshow`."""
+    dx = float(x[1] - x[0]) if len(x) > 1 else 1.0
+    dy = float(y[1] - y[0]) if len(y) > 1 else dx
+    if len(x) < 2:
+        dx = dy
+    factor, unit = prefix([x[-1] - x[0] + dx, y[-1] - y[0] + dy], "m")
+    extent = (
+        float(x[0] - dx / 2) * factor,
+        float(x[-1] + dx / 2) * factor,
+        float(y[0] - dy / 2) * factor,
+        float(y[-1] + dy / 2) * factor,
+    )
+    axes.set_xlabel(label("x, sliding", unit))
+    axes.set_ylabel(label("y", unit))
+    ratio = (extent[1] - extent[0]) / (extent[3] - extent[2])
+    axes.set_aspect("equal" if 0.2 < ratio < 5 else "auto")
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(True)
+    return extent
+
+
+def map_of(
+    figure: Figure,
+    axes: Axes,
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    values: NDArray[np.float64],
+    text: str,
+    unit: str,
+    **more: Any,
+) -> Any:
+    """A colour map of values[ix, iy] with its bar; not-a-number is drawn as open."""
+    factor, shown = prefix(values, unit)
+    extent = field_axes(axes, x, y)
+    axes.set_facecolor(OPEN)
+    image = axes.imshow(values.T * factor, extent=extent, aspect=axes.get_aspect(), **more)
+    bar = figure.colorbar(image, ax=axes, shrink=0.9, pad=0.03)
+    bar.set_label(label(text, shown))
+    bar.outline.set_linewidth(0.6)  # type: ignore[operator]
+    return image

@@ -1,0 +1,67 @@
+"""Files that are written whole or not at all: into a neighbour first, forced to disk, then renamed."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from bem.errors import ResultsError
+
+
+@contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """Yield a temporary path beside `path`; what is written there takes the place of `path` when the block ends well.
+
+    The temporary name ends like `path` does, since some writers choose their format by it.
+
+    Raises
+    ------
+    ResultsError : the system refused (disk full, folder read-only, ...); the old file, if any, is untouched.
+    """
+    temporary = path.with_name(f".writing-{os.getpid()}-{path.name}")
+    try:
+        yield temporary
+        descriptor = os.open(temporary, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+        os.replace(temporary, path)
+        _sync_folder(path.parent)
+    except OSError as error:
+        if isinstance(error, ResultsError):
+            raise
+        raise ResultsError(
+            f"{path}: cannot be written ({reason(error)}); what was there before is unchanged"
+        ) from error
+    finally:
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
+
+
+def write_bytes(path: Path, data: bytes) -> None:
+    """Replace the file's content by `data`; raises ResultsError as `replacing` does."""
+    with replacing(path) as temporary:
+        temporary.write_bytes(data)
+
+
+def write_text(path: Path, text: str) -> None:
+    """Replace the file's content by `text` in UTF-8; raises ResultsError as `replacing` does."""
+    write_bytes(path, text.encode("utf-8"))
+
+
+def reason(error: OSError) -> str:
+    """What the system said, without the path."""
+    return error.strerror or str(error) or type(error).__name__
+
+
+def _sync_folder(folder: Path) -> None:
+    """Force the rename itself to disk; not every file system can."""
+    with suppress(OSError):
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)

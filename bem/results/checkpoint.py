@@ -1,0 +1,116 @@
+"""Checkpoints: a tree of arrays and plain values in one file, with a checksum, and no way to execute anything.
+
+Layout: the line `bem checkpoint 1`, eight bytes little-endian length of the header, the header as JSON, the arrays'
+bytes one after the other, 32 bytes of SHA-256 over all before. In the header an array stands as `{"array": i}` and a
+dictionary as `{"table": {...}}`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import struct
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.errors import ResultsError
+from bem.results.atomic import reason, replacing
+
+_MAGIC = b"bem checkpoint 1\n"
+_DIGEST = hashlib.sha256().digest_size
+
+
+def save_checkpoint(path: Path, state: Mapping[str, Any]) -> None:
+    """Replace the checkpoint by `state`, whole or not at all.
+
+    Parameters
+    ----------
+    state : arrays of numbers, numbers, strings, booleans, None, and lists and dictionaries (with text keys) of them.
+
+    Raises
+    ------
+    ResultsError : it cannot be written.
+    TypeError : something else is in the state.
+    """
+    arrays: list[NDArray[Any]] = []
+    tree = _flatten(state, arrays)
+    layout = [[array.dtype.str, list(array.shape)] for array in arrays]
+    header = json.dumps({"state": tree, "arrays": layout}).encode()
+    with replacing(path) as temporary, open(temporary, "wb") as file:
+        digest = hashlib.sha256()
+        parts: list[Any] = [
+            _MAGIC,
+            struct.pack("<Q", len(header)),
+            header,
+            *(a.reshape(-1).view(np.uint8).data for a in arrays),
+        ]
+        for part in parts:
+            digest.update(part)
+            file.write(part)
+        file.write(digest.digest())
+
+
+def load_checkpoint(path: Path) -> dict[str, Any] | None:
+    """The state in the file, or None where there is no file.
+
+    Raises
+    ------
+    ResultsError : the file is damaged or cannot be read.
+    """
+    try:
+        raw = path.read_bytes()
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        raise ResultsError(f"{path}: the checkpoint cannot be read ({reason(error)})") from error
+    if not raw.startswith(_MAGIC) or hashlib.sha256(raw[:-_DIGEST]).digest() != raw[-_DIGEST:]:
+        raise ResultsError(f"{path}: the checkpoint is damaged (its checksum does not match); delete it to start again")
+    start = len(_MAGIC)
+    (length,) = struct.unpack_from("<Q", raw, start)
+    start += 8
+    header = json.loads(raw[start : start + length])
+    start += length
+    arrays = []
+    for kind, shape in header["arrays"]:
+        dtype = np.dtype(kind)
+        count = int(np.prod(shape, dtype=np.int64))
+        arrays.append(np.frombuffer(raw, dtype, count, start).reshape(shape).copy())
+        start += count * dtype.itemsize
+    state = _restore(header["state"], arrays)
+    assert isinstance(state, dict)
+    return state
+
+
+def _flatten(value: Any, arrays: list[NDArray[Any]]) -> Any:
+    if isinstance(value, np.ndarray):
+        if value.dtype.kind not in "fiubc":
+            raise TypeError(f"a checkpoint holds arrays of numbers, not of {value.dtype}")
+        arrays.append(np.ascontiguousarray(value).reshape(value.shape))
+        return {"array": len(arrays) - 1}
+    if isinstance(value, np.generic):
+        value = value.item()
+    if value is None or isinstance(value, bool | int | float):
+        return value
+    if isinstance(value, str):
+        return str(value)
+    if isinstance(value, Mapping):
+        if not all(isinstance(key, str) for key in value):
+            raise TypeError("keys of a checkpoint's dictionaries must be text")
+        return {"table": {key: _flatten(item, arrays) for key, item in value.items()}}
+    if isinstance(value, list | tuple):
+        return [_flatten(item, arrays) for item in value]
+    raise TypeError(f"a checkpoint cannot hold {type(value).__name__}")
+
+
+def _restore(value: Any, arrays: list[NDArray[Any]]) -> Any:
+    if isinstance(value, dict):
+        if "array" in value:
+            return arrays[value["array"]]
+        return {key: _restore(item, arrays) for key, item in value["table"].items()}
+    if isinstance(value, list):
+        return [_restore(item, arrays) for item in value]
+    return value

@@ -1,0 +1,276 @@
+"""The folder of one run: locked while in use, and never left with half a file in it."""
+
+from __future__ import annotations
+
+import fcntl
+import hashlib
+import json
+import math
+import os
+import shutil
+import tomllib
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from bem.errors import InputError, ResultsError
+from bem.results.atomic import reason, write_text
+from bem.results.checkpoint import load_checkpoint, save_checkpoint
+
+SCENE, SUMMARY, RESULTS, REPORT = "scene.toml", "summary.json", "results.nc", "report.html"
+FIGURES, CHECKPOINT, CHECKSUMS, LOCK = "figures", "checkpoint.bin", "checksums.json", ".lock"
+_OURS = (SCENE, SUMMARY, RESULTS, REPORT, CHECKPOINT, CHECKSUMS)
+
+
+class RunDirectory:
+    """A run's folder, held by this process until `close`.
+
+    Use `RunDirectory.start`; the constructor only takes the lock.
+    """
+
+    def __init__(self, path: Path, made: Sequence[Path] = ()) -> None:
+        self.path = path
+        self.resumed = False
+        self._made = list(made)
+        self._filled = False
+        try:
+            for folder in (*reversed(path.parents), path):
+                if not folder.is_dir():
+                    folder.mkdir(exist_ok=True)
+                    self._made.append(folder)
+            self._lock = os.open(path / LOCK, os.O_RDWR | os.O_CREAT, 0o644)
+        except (OSError, ValueError) as error:
+            self._unmake()
+            text = reason(error) if isinstance(error, OSError) else str(error)
+            raise ResultsError(f"{path}: cannot be used as the run's folder ({text})") from error
+        try:
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            holder = os.pread(self._lock, 20, 0).decode(errors="replace").strip() or "unknown"
+            os.close(self._lock)
+            raise ResultsError(_in_use(path, holder)) from error
+        if not _same_file(self._lock, path / LOCK):  # its last holder removed it between our opening and locking it
+            os.close(self._lock)
+            raise ResultsError(_in_use(path, "just ending"))
+        with suppress(OSError):  # who holds it is only for the message
+            os.ftruncate(self._lock, 0)
+            os.pwrite(self._lock, f"{os.getpid()}\n".encode(), 0)
+
+    @classmethod
+    def start(
+        cls, out: Path | None, name: str, scene: str, *, resume: bool = False, overwrite: bool = False
+    ) -> RunDirectory:
+        """Take the folder for a run of the resolved scene text `scene`.
+
+        Parameters
+        ----------
+        out : the folder; None takes the next free `runs/NAME-001`, or with `resume` this scene's latest unfinished one.
+        resume : go on from the checkpoint in it.
+        overwrite : replace an older run in it.
+
+        Raises
+        ------
+        ResultsError : the folder cannot be written, is in use, or holds a run, without resume or overwrite.
+        InputError : resume, but the run in the folder is of another scene.
+        """
+        made: list[Path] = []
+        if out is None:
+            out = _latest_unfinished(name, scene) if resume else None
+        if out is None:
+            out, made = _next_free(name)
+        directory = cls(out, made)
+        try:
+            directory._take(scene, resume, overwrite)
+        except BaseException:
+            directory.discard()
+            raise
+        return directory
+
+    def _take(self, scene: str, resume: bool, overwrite: bool) -> None:
+        there = self.path / SCENE
+        old = there.read_text("utf-8", errors="replace") if there.is_file() else None
+        if old is not None and resume:
+            if old != scene:
+                raise InputError(
+                    f"--resume: the run in {self.path} is of another scene ({_difference(old, scene)} differ); "
+                    "allowed: the same scene, or another --out"
+                )
+            self.resumed = True
+        elif old is not None and not overwrite:
+            raise ResultsError(f"{self.path}: holds a run already; --resume continues it, --overwrite replaces it")
+        elif old is not None:
+            self._clear()
+        self.remove_leftovers()
+        self._filled = True
+        write_text(there, scene)
+
+    @property
+    def finished(self) -> bool:
+        """Whether a summary is there, which is written last."""
+        return (self.path / SUMMARY).is_file()
+
+    @property
+    def figures(self) -> Path:
+        """Folder of the figures, made when first asked for."""
+        folder = self.path / FIGURES
+        try:
+            folder.mkdir(exist_ok=True)
+        except OSError as error:
+            raise ResultsError(f"{folder}: cannot be made ({reason(error)})") from error
+        return folder
+
+    def save_checkpoint(self, state: Mapping[str, Any]) -> None:
+        """Replace the checkpoint, whole or not at all."""
+        save_checkpoint(self.path / CHECKPOINT, state)
+
+    def load_checkpoint(self) -> dict[str, Any] | None:
+        """The last checkpoint, or None."""
+        return load_checkpoint(self.path / CHECKPOINT)
+
+    def finish(self, summary: Mapping[str, Any]) -> None:
+        """Write checksums and, last of all, the summary; the checkpoint goes."""
+        self.remove_leftovers()
+        text = summary_text(summary)
+        known = checksums(self.path) | {SUMMARY: hashlib.sha256(text.encode()).hexdigest()}
+        write_text(self.path / CHECKSUMS, json.dumps(known, indent=1) + "\n")
+        write_text(self.path / SUMMARY, text)
+        with suppress(OSError):
+            (self.path / CHECKPOINT).unlink(missing_ok=True)
+
+    def remove_leftovers(self) -> None:
+        """Delete temporary files that a killed process left."""
+        for folder in (self.path, self.path / FIGURES):
+            for leftover in folder.glob(".writing-*"):
+                with suppress(OSError):
+                    leftover.unlink()
+
+    def close(self) -> None:
+        """Give the folder back."""
+        if self._lock >= 0:
+            with suppress(OSError):
+                (self.path / LOCK).unlink(missing_ok=True)
+            os.close(self._lock)
+            self._lock = -1
+
+    def discard(self) -> None:
+        """Give the folder back and remove what this run made, as for a bad scene; an older run's files stay."""
+        if self._filled and not self.resumed:
+            self._clear()
+        self.close()
+        self._unmake()
+
+    def _clear(self) -> None:
+        """Remove a run's files, and nothing else."""
+        self.remove_leftovers()
+        for name in _OURS:
+            with suppress(OSError):
+                (self.path / name).unlink(missing_ok=True)
+        for volume in self.path.glob("volume*.vtu"):
+            with suppress(OSError):
+                volume.unlink()
+        shutil.rmtree(self.path / FIGURES, ignore_errors=True)
+
+    def _unmake(self) -> None:
+        for folder in reversed(self._made):
+            with suppress(OSError):
+                folder.rmdir()
+        self._made = []
+
+    def __enter__(self) -> RunDirectory:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def checksums(folder: Path) -> dict[str, str]:
+    """SHA-256 of every finished file of a run but the summary, by its path in the folder."""
+    names = [SCENE, RESULTS, REPORT, *(f"{FIGURES}/{item.name}" for item in (folder / FIGURES).glob("*.*"))]
+    names += [item.name for item in folder.glob("volume*.vtu")]
+    found = {}
+    for name in sorted(names):
+        if (folder / name).is_file() and not Path(name).name.startswith("."):
+            found[name] = checksum(folder / name)
+    return found
+
+
+def checksum(path: Path) -> str:
+    """SHA-256 of a file."""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def summary_text(summary: Mapping[str, Any]) -> str:
+    """The summary as JSON; numbers that are not finite become null."""
+    return json.dumps(plain(summary), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def plain(value: Any) -> Any:
+    """JSON values from numbers and arrays of any kind."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if isinstance(value, str):
+        return str(value)
+    return value
+
+
+def _next_free(name: str) -> tuple[Path, list[Path]]:
+    """The first free `runs/NAME-001`, `-002`, ..., made here so that no two runs take the same; and what was made."""
+    base = Path("runs")
+    made = [] if base.is_dir() else [base]
+    try:
+        base.mkdir(exist_ok=True)
+        for number in range(1, 1_000_000):
+            path = base / f"{name}-{number:03d}"
+            with suppress(FileExistsError):
+                path.mkdir()
+                return path, [*made, path]
+    except OSError as error:
+        raise ResultsError(f"{base.absolute()}: cannot be written ({reason(error)}); give --out") from error
+    raise ResultsError(f"{base.absolute()}: holds a million runs; give --out")
+
+
+def _latest_unfinished(name: str, scene: str) -> Path | None:
+    for path in sorted(Path("runs").glob(f"{name}-[0-9]*"), reverse=True):
+        with suppress(OSError):
+            if (path / SCENE).read_text("utf-8") == scene and not (path / SUMMARY).is_file():
+                return path
+    return None
+
+
+def _in_use(path: Path, holder: str) -> str:
+    return f"{path}: another run is using this folder (process {holder}); wait for it or give another --out"
+
+
+def _same_file(descriptor: int, path: Path) -> bool:
+    try:
+        return os.path.samestat(os.fstat(descriptor), os.stat(path))
+    except OSError:
+        return False
+
+
+def _difference(old: str, new: str) -> str:
+    """Names of the keys in which two scene texts differ."""
+    try:
+        first, second = _leaves(tomllib.loads(old)), _leaves(tomllib.loads(new))
+    except ValueError:
+        return "scene files"
+    names = sorted(key for key in first.keys() | second.keys() if first.get(key) != second.get(key))
+    return ", ".join(names[:6]) + (", ..." if len(names) > 6 else "") if names else "comments"
+
+
+def _leaves(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            found |= _leaves(value, f"{prefix}{key}.")
+        else:
+            found[prefix + key] = value
+    return found

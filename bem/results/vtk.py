@@ -1,0 +1,59 @@
+"""Stress fields for ParaView: a .vtu file of hexahedra between the points where stresses are known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.results.atomic import replacing
+from bem.scenes.context import Variable
+
+LARGEST = 200_000
+"""Points in a file; larger fields are thinned along x and y by a whole number, which the file's name says."""
+
+
+def write_volumes(folder: Path, variables: Mapping[str, Variable], names: Sequence[str]) -> list[Path]:
+    """Write variables of dimensions (depth, x, y), or with one more axis in front, as point data of `volume.vtu`.
+
+    Points lie at (x, y, -depth). An axis in front becomes separate fields named after its coordinate: `stress_xx`.
+    Nothing is written for fields of one depth or of a single row. Raises ResultsError if the file cannot be written.
+    """
+    x, y, depth = (variables[name].values for name in ("x", "y", "depth"))
+    stride = 1
+    while len(x[::stride]) * len(y[::stride]) * len(depth) > LARGEST and stride < min(len(x), len(y)) // 2:
+        stride += 1
+    x, y = x[::stride], y[::stride]
+    if min(len(x), len(y), len(depth)) < 2:
+        return []
+    import meshio
+
+    points = np.stack([axis.ravel() for axis in np.meshgrid(x, y, -depth, indexing="ij")], axis=1)
+    mesh = meshio.Mesh(points, [("hexahedron", _hexahedra(len(x), len(y), len(depth)))])
+    for name in names:
+        for label, values in _scalars(name, variables):
+            mesh.point_data[label] = np.ascontiguousarray(np.moveaxis(values[:, ::stride, ::stride], 0, 2)).ravel()
+    path = folder / ("volume.vtu" if stride == 1 else f"volume-every-{stride}.vtu")
+    with replacing(path) as temporary:
+        mesh.write(temporary)
+    return [path]
+
+
+def _scalars(name: str, variables: Mapping[str, Variable]) -> list[tuple[str, NDArray[np.float64]]]:
+    variable = variables[name]
+    if len(variable.dimensions) == 3:
+        return [(name, variable.values)]
+    labels = variables[variable.dimensions[0]].values
+    return [(f"{name}_{label}", variable.values[i]) for i, label in enumerate(labels)]
+
+
+def _hexahedra(nx: int, ny: int, nz: int) -> NDArray[np.int64]:
+    """Corners of all cells, in VTK's order, of points numbered with z fastest; z falls with its index."""
+    index = np.arange(nx * ny * nz).reshape(nx, ny, nz)
+    low, high = index[:, :, 1:], index[:, :, :-1]
+    corners = [
+        part[i : i + nx - 1, j : j + ny - 1] for part in (low, high) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))
+    ]
+    return np.stack([corner.ravel() for corner in corners], axis=1)

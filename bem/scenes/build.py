@@ -1,0 +1,196 @@
+"""From the tables of a scene to grids, bodies and heights."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.errors import InputError
+from bem.grid import Grid
+from bem.materials import Body, dundurs_beta
+from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, ShapeScene, SmoothSurface
+
+if TYPE_CHECKING:
+    from bem.surfaces import Surface
+
+FloatArray = NDArray[np.float64]
+_NO_SIZE = "grid: no size is given; allowed: shape with spacing or lengths, or a measured surface to take them from"
+AnySurface = SmoothSurface | GeneratedSurface | MeasuredSurface
+
+
+def grid_of(scene: GridScene) -> Grid:
+    """The grid of a resolved table."""
+    if scene.shape is None or (scene.spacing is None and scene.lengths is None):
+        raise InputError(_NO_SIZE)
+    if scene.spacing is not None:
+        return Grid(scene.shape, scene.spacing, periodic=scene.periodic)
+    assert scene.lengths is not None
+    (nx, ny), (length_x, length_y) = scene.shape, scene.lengths
+    return Grid(scene.shape, (length_x / nx, length_y / ny), periodic=scene.periodic)
+
+
+def resolved_grid(scene: GridScene, *surfaces: AnySurface) -> GridScene:
+    """The table with shape and spacing filled in, from the measured surfaces where they are left out.
+
+    The spacing is then the coarser of theirs, the area the one they have in common.
+
+    Raises
+    ------
+    InputError : nothing to take them from.
+    SurfaceFileError : a measured file that cannot be read.
+    """
+    if scene.shape is not None and (scene.spacing is not None or scene.lengths is not None):
+        grid = grid_of(scene)
+        return scene.model_copy(update={"spacing": grid.spacing, "lengths": None})
+    sizes = [_map_size(surface) for surface in surfaces if isinstance(surface, MeasuredSurface)]
+    if not sizes:
+        raise InputError(_NO_SIZE)
+    spacing = scene.spacing or (max(d[0] for _, d in sizes), max(d[1] for _, d in sizes))
+    common = [min(shape[axis] * d[axis] for shape, d in sizes) for axis in (0, 1)]
+    shape = scene.shape or (max(1, round(common[0] / spacing[0])), max(1, round(common[1] / spacing[1])))
+    return scene.model_copy(update={"shape": shape, "spacing": spacing, "lengths": None})
+
+
+def heights_of(
+    surface: AnySurface, grid: Grid, seed: int, note: Callable[[str], None] = lambda text: None
+) -> FloatArray:
+    """Heights on the grid [m], positive out of the body, zero mean; `note` is told what was done to measured data."""
+    if isinstance(surface, SmoothSurface):
+        return np.zeros(grid.shape)
+    if isinstance(surface, GeneratedSurface):
+        return _generated(surface, grid, seed)
+    return _measured(surface, grid, note)
+
+
+def shape_of(scene: ShapeScene, grid: Grid) -> FloatArray:
+    """Gap of the upper body's smooth shape over the plane [m], (nx, ny); spheres and cylinders as parabolas."""
+    x, y = grid.x[:, None], grid.y[None, :]
+    if scene.kind == "flat":
+        gap = np.zeros(grid.shape)
+    elif scene.kind == "sinusoid":
+        assert scene.amplitude is not None
+        assert scene.wavelength is not None
+        gap = scene.amplitude * (1 - np.cos(2 * np.pi * x / scene.wavelength)) + 0 * y
+    else:
+        assert scene.radius is not None
+        curvature = {"sphere": 1 / scene.radius, "cylinder": 0.0, "ellipsoid": 1 / (scene.radius_y or math.inf)}[
+            scene.kind
+        ]
+        gap = x**2 / (2 * scene.radius) + curvature * y**2 / 2
+    return np.ascontiguousarray(np.broadcast_to(gap, grid.shape))
+
+
+def softer_hardness(lower: Body, upper: Body | None) -> float:
+    """The smaller hardness of the two touching materials [Pa].
+
+    Raises
+    ------
+    InputError : neither has one.
+    """
+    found = [body.surface_material.hardness for body in (lower, upper) if body is not None]
+    known = [value for value in found if value is not None]
+    if not known:
+        raise InputError(
+            'contact.hardness: missing while behaviour is "capped" and neither material has a hardness; '
+            "allowed: contact.hardness, or hardness in a material"
+        )
+    return min(known)
+
+
+def traction_couples(lower: Body, upper: Body | None, friction: float) -> bool:
+    """Whether traction moves the normal gap: friction between bodies that are coated or elastically dissimilar."""
+    if friction == 0:
+        return False
+    if lower.layer is not None or (upper is not None and upper.layer is not None):
+        return upper is None or lower != upper
+    return dundurs_beta(lower.material, None if upper is None else upper.material) != 0
+
+
+def _generated(surface: GeneratedSurface, grid: Grid, seed: int) -> FloatArray:
+    from bem.surfaces import generate_surface
+
+    return generate_surface(
+        grid,
+        rms_height=surface.rms_height,
+        seed=seed if surface.seed is None else surface.seed,
+        correlation_length=surface.correlation_length,
+        hurst=surface.hurst,
+        rolloff_wavelength=surface.rolloff_wavelength,
+        cutoff_wavelength=surface.cutoff_wavelength,
+        skewness=surface.skewness,
+        kurtosis=surface.kurtosis,
+    )
+
+
+def _read(surface: MeasuredSurface) -> Surface:
+    """The measured map: read, levelled, filled and cropped."""
+    from bem.surfaces import crop, read_surface
+
+    found = read_surface(
+        surface.path,
+        detrend=surface.detrend,
+        fill=surface.fill,
+        channel=surface.channel,
+        spacing=surface.spacing,
+        height_unit=surface.height_unit,
+    )
+    return found if surface.crop is None else crop(found, surface.crop, centre=surface.centre)
+
+
+def _map_size(surface: MeasuredSurface) -> tuple[tuple[int, int], tuple[float, float]]:
+    """Cells that the surface can cover, mirrored where asked for, and their spacing [m]."""
+    found = _read(surface)
+    nx, ny = found.shape
+    return (nx * (1 + (surface.mirror in ("x", "both"))), ny * (1 + (surface.mirror in ("y", "both")))), found.spacing
+
+
+def _measured(surface: MeasuredSurface, grid: Grid, note: Callable[[str], None]) -> FloatArray:
+    """A measured surface on the grid; what had to be done to it is noted."""
+    from bem.surfaces import MirrorWarning, detrend, high_pass, low_pass, mirror_to_periodic, resample, scale_to_rms
+
+    name = Path(surface.path).name
+    found = _read(surface)
+    missing = int(found.metadata.get("missing_points", 0) or 0)
+    if missing:
+        note(f"{name}: {missing} points were missing and are filled from their neighbours")
+    if surface.low_pass is not None:
+        found = low_pass(found, surface.low_pass)
+    if surface.high_pass is not None:
+        found = high_pass(found, surface.high_pass)
+    axes = (surface.mirror in ("x", "both"), surface.mirror in ("y", "both"))
+    odd = [n for n, mirrored in zip(grid.shape, axes, strict=True) if mirrored and n % 2]
+    if odd:
+        raise InputError(f"grid.shape: {odd[0]} cells cannot be mirrored ({name}); allowed: even numbers of cells")
+    part = Grid((grid.shape[0] // (1 + axes[0]), grid.shape[1] // (1 + axes[1])), grid.spacing, periodic=grid.periodic)
+    same = found.shape == part.shape and np.allclose(found.spacing, part.spacing, rtol=1e-9, atol=0)
+    if not same:
+        centre = (0.0, 0.0) if surface.crop is not None else surface.centre
+        resampled = resample(found, part, centre=centre)
+        note(
+            f"{name}: {found.shape[0]} x {found.shape[1]} points at {_nm(found.spacing)} taken as "
+            f"{part.shape[0]} x {part.shape[1]} cells at {_nm(part.spacing)}"
+        )
+        found = resampled.replace(detrend(resampled.heights, part.spacing, surface.detrend))
+    if any(axes):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", MirrorWarning)
+            found = mirror_to_periodic(found, axes=axes)
+        note(f"{name}: made periodic by mirroring; the surface is symmetric about its seams")
+    open_seams = [
+        axis for axis, wraps, mirrored in zip("xy", grid.periodic, axes, strict=True) if wraps and not mirrored
+    ]
+    if open_seams:
+        note(f"{name}: continued periodically along {' and '.join(open_seams)} as it is, with a step at the seam")
+    if surface.rms_height is not None:
+        found = scale_to_rms(found, surface.rms_height)
+    return np.ascontiguousarray(found.heights - found.heights.mean())
+
+
+def _nm(spacing: tuple[float, float]) -> str:
+    return f"{spacing[0] * 1e9:.4g} nm x {spacing[1] * 1e9:.4g} nm"

@@ -1,0 +1,333 @@
+"""The tables that scenes of several kinds share, as validated models. They hold numbers in SI units and do no work."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic_core import PydanticCustomError
+
+from bem.materials import CATALOGUE, Body, Layer, Material
+from bem.scenes.units import Force, Length, Pressure, Ratio
+
+PositiveLength = Annotated[Length, Field(gt=0)]
+PositivePressure = Annotated[Pressure, Field(gt=0)]
+Cells = Annotated[int, Field(strict=True, ge=1, le=65536)]
+Axis = Literal["none", "x", "y", "both"]
+
+
+class Table(BaseModel):
+    """A table of a scene: unknown keys are refused, values never change."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, protected_namespaces=(), validate_default=True)
+
+
+def problem(text: str, allowed: str) -> PydanticCustomError:
+    """A mistake, said as the messages of scenes say it: what is wrong, what is allowed."""
+    return PydanticCustomError("scene", "{problem}; allowed: {allowed}", {"problem": text, "allowed": allowed})
+
+
+def exactly_one(table: BaseModel, *names: str) -> None:
+    """Refuse a table that gives none or several of `names`."""
+    given = [name for name in names if getattr(table, name) is not None]
+    if len(given) != 1:
+        found = "none is given" if not given else f"{' and '.join(given)} are given"
+        raise problem(found, f"exactly one of {', '.join(names)}")
+
+
+class MaterialScene(Table):
+    """`material = "steel-52100"` from the catalogue, or constants of one's own; with both, the constants win."""
+
+    name: str = "unnamed"
+    youngs_modulus: PositivePressure
+    poissons_ratio: Annotated[Ratio, Field(gt=-1, lt=0.5)]
+    hardness: PositivePressure | None = None
+    yield_stress: PositivePressure | None = None
+    source: str = ""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_catalogue(cls, data: Any) -> Any:
+        if isinstance(data, str):
+            data = {"catalogue": data}
+        if not isinstance(data, dict) or "catalogue" not in data:
+            return data
+        own = {key: value for key, value in data.items() if key != "catalogue"}
+        entry = CATALOGUE.get(data["catalogue"]) if isinstance(data["catalogue"], str) else None
+        if entry is None:
+            raise PydanticCustomError(
+                "unknown_name",
+                "is not in the catalogue of materials",
+                {"found": str(data["catalogue"])[:60], "names": sorted(CATALOGUE), "what": "material"},
+            )
+        material = entry.material
+        constants = {
+            "name": material.name,
+            "youngs_modulus": material.youngs_modulus,
+            "poissons_ratio": material.poissons_ratio,
+            "hardness": material.hardness,
+            "yield_stress": material.yield_stress,
+            "source": entry.source,
+        }
+        if own:
+            constants["source"] = f"{entry.source}; changed in the scene: {', '.join(sorted(own))}"
+        if "hardness" in own and "yield_stress" not in own:
+            constants["yield_stress"] = None  # follows the new hardness
+        return constants | own
+
+    def build(self) -> Material:
+        """As `bem.Material`."""
+        return Material(
+            self.name,
+            youngs_modulus=self.youngs_modulus,
+            poissons_ratio=self.poissons_ratio,
+            hardness=self.hardness,
+            yield_stress=self.yield_stress,
+        )
+
+
+class LayerScene(Table):
+    """A bonded layer."""
+
+    material: MaterialScene
+    thickness: PositiveLength
+
+    def build(self) -> Layer:
+        """As `bem.Layer`."""
+        return Layer(self.material.build(), self.thickness)
+
+
+class SmoothSurface(Table):
+    """No roughness."""
+
+    kind: Literal["smooth"] = "smooth"
+
+
+class GeneratedSurface(Table):
+    """A random surface of prescribed statistics; see `bem.generate_surface`."""
+
+    kind: Literal["generated"] = "generated"
+    rms_height: PositiveLength
+    correlation_length: PositiveLength | None = None
+    hurst: Annotated[Ratio, Field(gt=0, le=1)] | None = None
+    rolloff_wavelength: PositiveLength | None = None
+    cutoff_wavelength: PositiveLength | None = None
+    skewness: Ratio = 0.0
+    kurtosis: Annotated[Ratio, Field(gt=1)] = 3.0
+    seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] | None = None
+
+    @model_validator(mode="after")
+    def _one_spectrum(self) -> GeneratedSurface:
+        exactly_one(self, "correlation_length", "hurst")
+        if self.kurtosis < 1 + self.skewness**2:
+            raise problem(
+                f"kurtosis {self.kurtosis:g} with skewness {self.skewness:g} is a pair that no distribution has",
+                "kurtosis >= 1 + skewness^2",
+            )
+        return self
+
+
+class MeasuredSurface(Table):
+    """A surface from an instrument's file; see `bem.read_surface`. Paths are relative to the scene file.
+
+    In this order: read, levelled, missing points filled, cropped to lengths around `centre`, filtered, resampled to the
+    grid, levelled again, mirrored to be periodic, scaled to `rms_height`.
+    """
+
+    kind: Literal["measured"] = "measured"
+    path: str
+    detrend: Literal["plane", "curvature", "none"] = "plane"
+    fill: bool = Field(default=True, strict=True)
+    channel: str | Annotated[int, Field(strict=True, ge=0)] | None = None
+    spacing: tuple[PositiveLength, PositiveLength] | None = None
+    height_unit: str | None = None
+    crop: tuple[PositiveLength, PositiveLength] | None = None
+    centre: tuple[Length, Length] = (0.0, 0.0)
+    low_pass: PositiveLength | None = None
+    high_pass: PositiveLength | None = None
+    mirror: Axis = "none"
+    rms_height: PositiveLength | None = None
+
+    @field_validator("spacing", "crop", mode="before")
+    @classmethod
+    def _one_for_both(cls, value: Any) -> Any:
+        return (value, value) if isinstance(value, int | float | str) else value
+
+    @field_validator("path")
+    @classmethod
+    def _readable(cls, path: str) -> str:
+        try:
+            if not path or not Path(path).is_file():
+                raise problem("no such file", "the path of a surface file, relative to the scene file")
+            with open(path, "rb") as file:
+                if not file.read(1):
+                    raise problem("the file is empty", "the path of a surface file")
+        except PydanticCustomError:
+            raise
+        except (OSError, ValueError) as error:
+            raise problem(f"cannot be read ({error})", "the path of a readable surface file") from None
+        return path
+
+
+SurfaceScene = Annotated[SmoothSurface | GeneratedSurface | MeasuredSurface, Field(discriminator="kind")]
+
+
+class BodyScene(Table):
+    """One of the two bodies: what it is made of and what its surface looks like."""
+
+    material: MaterialScene
+    layer: LayerScene | None = None
+    surface: SurfaceScene = SmoothSurface()
+
+    @field_validator("surface", mode="before")
+    @classmethod
+    def _kind_by_default(cls, data: Any) -> Any:
+        return {"kind": "smooth"} if data == "smooth" else data
+
+    def build(self) -> Body:
+        """As `bem.Body`."""
+        return Body(self.material.build(), layer=None if self.layer is None else self.layer.build())
+
+
+class UpperBodyScene(Table):
+    """The upper body; without a material it is rigid."""
+
+    material: MaterialScene | None = None
+    layer: LayerScene | None = None
+    surface: SurfaceScene = SmoothSurface()
+
+    @field_validator("surface", mode="before")
+    @classmethod
+    def _kind_by_default(cls, data: Any) -> Any:
+        return {"kind": "smooth"} if data == "smooth" else data
+
+    @model_validator(mode="after")
+    def _layer_needs_material(self) -> UpperBodyScene:
+        if self.layer is not None and self.material is None:
+            raise problem(
+                "a layer without a material below it", "material with layer, material alone, or neither (rigid)"
+            )
+        return self
+
+    def build(self) -> Body | None:
+        """As `bem.Body`; None is rigid."""
+        if self.material is None:
+            return None
+        return Body(self.material.build(), layer=None if self.layer is None else self.layer.build())
+
+
+class GridScene(Table):
+    """Cells along x (sliding) and y; one value stands for both axes.
+
+    Without `shape` and `spacing` (or `lengths`) those of the measured surfaces are taken: the coarser spacing, the
+    common area.
+    """
+
+    shape: tuple[Cells, Cells] | None = None
+    spacing: tuple[PositiveLength, PositiveLength] | None = None
+    lengths: tuple[PositiveLength, PositiveLength] | None = None
+    periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = (False, False)
+
+    @field_validator("shape", "spacing", "lengths", "periodic", mode="before")
+    @classmethod
+    def _one_for_both(cls, value: Any) -> Any:
+        return (value, value) if isinstance(value, bool | int | float | str) else value
+
+    @model_validator(mode="after")
+    def _one_size(self) -> GridScene:
+        if self.spacing is not None and self.lengths is not None:
+            raise problem("spacing and lengths are both given", "one of them")
+        if self.lengths is not None and self.shape is None:
+            raise problem("lengths are given without shape", "shape with spacing, shape with lengths, or none of them")
+        return self
+
+
+class ShapeScene(Table):
+    """The smooth shape of the upper body; it touches at the middle of the grid."""
+
+    kind: Literal["flat", "sphere", "cylinder", "ellipsoid", "sinusoid"] = "flat"
+    radius: PositiveLength | None = None
+    radius_y: PositiveLength | None = None
+    amplitude: PositiveLength | None = None
+    wavelength: PositiveLength | None = None
+
+    @model_validator(mode="after")
+    def _parameters(self) -> ShapeScene:
+        wanted = {
+            "flat": (),
+            "sphere": ("radius",),
+            "cylinder": ("radius",),
+            "ellipsoid": ("radius", "radius_y"),
+            "sinusoid": ("amplitude", "wavelength"),
+        }[self.kind]
+        every = ("radius", "radius_y", "amplitude", "wavelength")
+        given = tuple(name for name in every if getattr(self, name) is not None)
+        if set(given) != set(wanted):
+            raise problem(
+                f"a {self.kind} has {', '.join(given) or 'no parameters'}",
+                f"{' and '.join(wanted) or 'none'} for this kind",
+            )
+        return self
+
+
+class DepthsScene(Table):
+    """Depths where stresses are wanted: a list, or `deepest` with `count` depths that are finer near the surface."""
+
+    values: Annotated[list[Annotated[Length, Field(ge=0)]], Field(min_length=1, max_length=1024)] | None = None
+    deepest: PositiveLength | None = None
+    count: Annotated[int, Field(strict=True, ge=2, le=1024)] = 32
+    grading: Annotated[Ratio, Field(ge=1, le=5)] = 2.0
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_list(cls, data: Any) -> Any:
+        return {"values": data} if isinstance(data, list | tuple) else data
+
+    @model_validator(mode="after")
+    def _one_way(self) -> DepthsScene:
+        exactly_one(self, "values", "deepest")
+        if self.values is not None and any(b <= a for a, b in zip(self.values, self.values[1:], strict=False)):
+            raise problem("the depths do not rise", "depths in rising order, none twice")
+        return self
+
+    def build(self) -> tuple[float, ...]:
+        """Depths [m]; from `deepest` they are deepest * (i / (count - 1))^grading."""
+        if self.values is not None:
+            return tuple(self.values)
+        assert self.deepest is not None
+        return tuple(self.deepest * (i / (self.count - 1)) ** self.grading for i in range(self.count))
+
+
+class SceneModel(Table):
+    """What every scene has. `redoes` says which figure or table of the thesis, where it is one."""
+
+    kind: str
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,63}$")] = "scene"
+    description: str = ""
+    redoes: str = ""
+    seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] = 1
+
+
+__all__ = [
+    "Axis",
+    "BodyScene",
+    "Cells",
+    "DepthsScene",
+    "Force",
+    "GeneratedSurface",
+    "GridScene",
+    "LayerScene",
+    "MaterialScene",
+    "MeasuredSurface",
+    "PositiveLength",
+    "PositivePressure",
+    "SceneModel",
+    "ShapeScene",
+    "SmoothSurface",
+    "SurfaceScene",
+    "Table",
+    "UpperBodyScene",
+    "exactly_one",
+    "problem",
+]

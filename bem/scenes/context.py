@@ -1,0 +1,131 @@
+"""What a kind of scene is given while it runs, and what it hands back. It knows no file format."""
+
+from __future__ import annotations
+
+import hashlib
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.errors import Status
+
+
+class Context(Protocol):
+    """What `Kind.run` may use besides its scene."""
+
+    @property
+    def resumed(self) -> bool:
+        """Whether this run continues an interrupted one."""
+
+    def seed(self, purpose: str, *indices: int) -> int:
+        """A seed of its own for every named purpose (and repetition); the same in every run of the scene."""
+
+    def progress(self, done: int, total: int, what: str = "", **figures: float) -> None:
+        """`done` of `total` steps of `what` are finished; figures such as radius_nm=140 are shown beside."""
+
+    def note(self, text: str) -> None:
+        """Something the reader of the results must know; shown, and kept in summary and report."""
+
+    def timer(self, stage: str) -> AbstractContextManager[None]:
+        """Add the time spent in the `with` block to the stage's sum, which the summary holds."""
+
+    def save(self, state: Mapping[str, Any]) -> None:
+        """Replace the checkpoint, whole or not at all: arrays, plain values, lists and dictionaries of them."""
+
+    def saved(self) -> dict[str, Any] | None:
+        """The state last saved for this very scene if the run is resumed and one exists, else None."""
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A named array of the results.
+
+    Parameters
+    ----------
+    dimensions : one name per axis. A variable with the name of its only dimension is that dimension's coordinate.
+    values : numbers.
+    units : SI, such as "Pa"; "1" for none.
+    description : long name for axes and for readers of the file.
+    """
+
+    dimensions: tuple[str, ...]
+    values: NDArray[Any]
+    units: str
+    description: str
+
+    def __post_init__(self) -> None:
+        values = np.asarray(self.values)
+        if values.ndim != len(self.dimensions):
+            raise ValueError(f"{self.description}: {values.ndim} axes but dimensions {self.dimensions}")
+        object.__setattr__(self, "values", values)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a run gives.
+
+    Parameters
+    ----------
+    summary : figures for `summary.json`; names carry their unit. Lists run over speeds, loads, temperatures or seeds.
+    variables : arrays for `results.nc`, by name.
+    status : worst status of the solvers.
+    where : if not converged, where that happened, in words.
+    volumes : names of variables with dimensions (..., "depth", "x", "y") that go into the VTK file.
+    """
+
+    summary: Mapping[str, Any]
+    variables: Mapping[str, Variable]
+    status: Status = Status.CONVERGED
+    where: str = ""
+    volumes: tuple[str, ...] = ()
+
+
+def derive_seed(seed: int, purpose: str, *indices: int) -> int:
+    """63 bits that depend on the scene's seed and the purpose only."""
+    text = "/".join([str(seed), purpose, *map(str, indices)])
+    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "big") >> 1
+
+
+@dataclass
+class PlainContext:
+    """A context without a disk or a terminal, for scripts and tests; the checkpoint is kept in memory."""
+
+    scene_seed: int = 0
+    resumed: bool = False
+    notes: list[str] = field(default_factory=list)
+    seconds: dict[str, float] = field(default_factory=dict)
+    state: dict[str, Any] | None = None
+
+    def seed(self, purpose: str, *indices: int) -> int:
+        """See `Context`."""
+        return derive_seed(self.scene_seed, purpose, *indices)
+
+    def progress(self, done: int, total: int, what: str = "", **figures: float) -> None:
+        """Nothing to show."""
+
+    def note(self, text: str) -> None:
+        """See `Context`."""
+        if text not in self.notes:
+            self.notes.append(text)
+
+    @contextmanager
+    def timer(self, stage: str) -> Iterator[None]:
+        """See `Context`."""
+        start = time.perf_counter()
+        try:
+            yield
+        finally:
+            self.seconds[stage] = self.seconds.get(stage, 0.0) + time.perf_counter() - start
+
+    def save(self, state: Mapping[str, Any]) -> None:
+        """See `Context`."""
+        self.state = {key: np.array(value) if isinstance(value, np.ndarray) else value for key, value in state.items()}
+
+    def saved(self) -> dict[str, Any] | None:
+        """See `Context`."""
+        return dict(self.state) if self.resumed and self.state is not None else None

@@ -1,0 +1,107 @@
+"""Kinds of scene. One file here is one kind: nothing else has to know of it.
+
+To add the kind `wear`, write `bem/scenes/kinds/wear.py` (a kind `running-in` lives in `running_in.py`) with
+
+    KIND = Kind(
+        name="wear",              # the file's name with "-" for "_"; what `kind = "..."` in a scene says
+        title="wear particles ...",         # one line
+        model=WearScene,          # pydantic model, a subclass of bem.scenes.common.SceneModel
+        plan=plan,                # plan(scene) -> Plan: cheap, no work; says what is skipped and why
+        run=run,                  # run(scene, context) -> Outcome
+        figures=("pressure-map", ...),      # names from bem/plots/figures/, drawn when the run is over
+        headline=("particle_equivalent_radius_nm", ...),    # keys of the summary to show first
+        resolve=resolve,          # optional: resolve(scene) -> scene, first of all: fills in what files decide
+    )
+
+*Model.* Fields have the types of `bem.scenes.units` (`Length`, `Force`, `Temperature`, ...: strings with units or
+SI numbers come in, SI floats come out) and the tables of `bem.scenes.common` (`BodyScene` = material + layer +
+surface, `UpperBodyScene` likewise but rigid without material, `GridScene`, `ShapeScene`, `DepthsScene`,
+`MaterialScene`). Bounds: `Annotated[Length, Field(gt=0)]`; integers and booleans: `Field(strict=True)`; choices:
+`Literal[...]`; variants: a union of tables with `kind: Literal[...]` and `Field(discriminator="kind")`; rules
+between keys: a `model_validator(mode="after")` that raises `problem("what is wrong", "what is allowed")`. Files are
+given in keys called `path` (made absolute on loading). Messages, nearest spellings, units in the resolved scene
+file and the JSON schema all follow from the model.
+
+*Building.* `bem.scenes.build` turns tables into `Grid`, `Body` and heights: `resolved_grid(scene.grid, *surfaces)`
+for `resolve`, `grid_of(scene.grid)`, `scene.lower.build()`, `heights_of(scene.lower.surface, grid, seed,
+context.note)`, `shape_of(scene.shape, grid)`, `softer_hardness(lower, upper)`, `traction_couples(lower, upper,
+friction)`.
+
+*Plan.* `Plan((Step(name, why, skipped=..., transforms=count, points=of each, memory=bytes, seconds=other), ...))`;
+`bem.scenes.planner` has `padded_points` and `convolution_memory`. `bem run` refuses a plan that does not fit into
+memory.
+
+*Run.* Imports of solvers belong inside `run`, so that `bem scenes` stays light. The context
+(`bem.scenes.context.Context`) offers
+
+- `context.seed("lower")`, `context.seed("slide", cycle)`: a seed per purpose, the same whenever the scene is run;
+- `context.progress(done, total, "cycles", radius_nm=140.0)`: shown on a terminal, with the time left;
+- `context.note("...")`: what the reader of the results must know; on screen, in `summary.json`, in the report;
+- `with context.timer("stresses"):` sums of seconds per stage, in `summary.json` as `seconds_by_stage`;
+- `context.save({...})`: replaces the checkpoint, whole or not at all (arrays, plain values, lists, dicts);
+- `context.saved()`: that state when the run is resumed, else None; a resumed run must end in the same bits.
+
+An interrupt is a `KeyboardInterrupt` out of any call; the state saved last is what a resumed run starts from. `run`
+writes no file. It returns
+
+    Outcome(
+        summary={"cycles": 200, ...},       # JSON values; units in the names; lists in the order of the scene
+        variables={
+            "x": Variable(("x",), grid.x, "m", "x, along sliding"),   # named like its dimension: a coordinate
+            "pressure": Variable(("x", "y"), pressure, "Pa", "contact pressure"),
+        },
+        status=Status.CONVERGED,            # the worst status; any other makes the exit code 3
+        where="",                           # and then says where: "cycle 17: ..."
+        volumes=("von_mises",),             # variables (..., "depth", "x", "y") that go into the VTK file
+    )
+
+and raises `InputError` (bad input: the run's folder is removed again) or `ConvergenceError` (it cannot go on: the
+checkpoint stays, exit code 3). For scripts and tests `bem.scenes.PlainContext` needs no disk.
+
+*Built-in scenes* are files `bem/scenes/library/NAME.toml` with `kind`, `description` (one line) and `redoes` (item
+of the thesis). *Figures* are functions in `bem/plots/figures/`; its docstring says how to add one."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from bem.scenes.common import SceneModel
+from bem.scenes.context import Context, Outcome
+from bem.scenes.planner import Plan
+
+
+def _unchanged(scene: Any) -> Any:
+    return scene
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of scene; the module's docstring says what each part must do."""
+
+    name: str
+    title: str
+    model: type[SceneModel]
+    plan: Callable[[Any], Plan]
+    run: Callable[[Any, Context], Outcome]
+    figures: tuple[str, ...] = ()
+    headline: tuple[str, ...] = ()
+    resolve: Callable[[Any], Any] = field(default=_unchanged)
+
+
+def kind_names() -> tuple[str, ...]:
+    """Names of all kinds, without loading them."""
+    return tuple(sorted(module.name.replace("_", "-") for module in pkgutil.iter_modules(__path__)))
+
+
+def get_kind(name: str) -> Kind:
+    """The kind of that name; KeyError if there is none."""
+    if name not in kind_names():
+        raise KeyError(name)
+    kind = importlib.import_module(f"bem.scenes.kinds.{name.replace('-', '_')}").KIND
+    assert isinstance(kind, Kind)
+    assert kind.name == name, f"kind {kind.name!r} must live in {kind.name.replace('-', '_')}.py"
+    return kind

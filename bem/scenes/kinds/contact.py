@@ -1,0 +1,405 @@
+"""Kind `contact`: two rough, possibly coated bodies pressed together; pressure, gap, approach, stresses below."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, model_validator
+
+from bem.errors import InfeasibleError, Status
+from bem.scenes import build
+from bem.scenes.common import (
+    BodyScene,
+    DepthsScene,
+    Force,
+    GridScene,
+    PositivePressure,
+    SceneModel,
+    ShapeScene,
+    Table,
+    UpperBodyScene,
+    exactly_one,
+    problem,
+)
+from bem.scenes.context import Context, Outcome, Variable
+from bem.scenes.kinds import Kind
+from bem.scenes.planner import Plan, Step, convolution_memory, padded_points
+from bem.scenes.units import Length, Ratio
+
+_CONVOLUTIONS = 60  # of one contact solve, cascade included; rough surfaces of 256 to 2048 cells take 30 to 65
+_STRESS_COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
+
+
+class ContactControl(Table):
+    """How the bodies are pressed together: by load, mean pressure, approach from first touch or mean gap."""
+
+    load: Annotated[Force, Field(gt=0)] | None = None
+    mean_pressure: PositivePressure | None = None
+    approach: Length | None = None
+    mean_gap: Annotated[Length, Field(gt=0)] | None = None
+    behaviour: Literal["elastic", "capped"] = "elastic"
+    hardness: PositivePressure | None = None
+    friction: Annotated[Ratio, Field(ge=-10, le=10)] = 0.0
+    tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = 1e-8
+    max_iterations: Annotated[int, Field(strict=True, ge=1, le=1_000_000)] = 2000
+
+    @model_validator(mode="after")
+    def _one_control(self) -> ContactControl:
+        exactly_one(self, "load", "mean_pressure", "approach", "mean_gap")
+        if self.behaviour == "elastic" and self.hardness is not None:
+            raise problem(
+                "hardness is given but behaviour is elastic", 'behaviour = "capped" with hardness, or neither'
+            )
+        return self
+
+
+class ContactOutputs(Table):
+    """What is wanted besides pressure, gap and displacement."""
+
+    von_mises: bool = Field(default=False, strict=True)
+    stresses: bool = Field(default=False, strict=True)
+    depths: DepthsScene | None = None
+    body: Literal["lower", "upper"] = "lower"
+    vtk: bool = Field(default=True, strict=True)
+
+
+class ContactScene(SceneModel):
+    """Two bodies, a grid and a load."""
+
+    kind: Literal["contact"] = "contact"
+    grid: GridScene = GridScene()
+    lower: BodyScene
+    upper: UpperBodyScene = UpperBodyScene()
+    shape: ShapeScene = ShapeScene()
+    contact: ContactControl
+    outputs: ContactOutputs = ContactOutputs()
+
+
+def resolve(scene: ContactScene) -> ContactScene:
+    """Fill in the grid where measured surfaces decide it, and the hardness of the softer surface."""
+    update: dict[str, Any] = {"grid": build.resolved_grid(scene.grid, scene.lower.surface, scene.upper.surface)}
+    if scene.contact.behaviour == "capped" and scene.contact.hardness is None:
+        hardness = build.softer_hardness(scene.lower.build(), scene.upper.build())
+        update["contact"] = scene.contact.model_copy(update={"hardness": hardness})
+    if _wants_stresses(scene) and scene.outputs.depths is None:
+        deepest = min(build.grid_of(update["grid"]).lengths) / 4
+        update["outputs"] = scene.outputs.model_copy(update={"depths": DepthsScene(deepest=deepest, count=24)})
+    return scene.model_copy(update=update)
+
+
+def plan(scene: ContactScene) -> Plan:
+    """What will be computed.
+
+    Raises
+    ------
+    InfeasibleError : a load beyond hardness x area.
+    """
+    grid = build.grid_of(scene.grid)
+    lower, upper = scene.lower.build(), scene.upper.build()
+    load, hardness = _load(scene, grid.area), scene.contact.hardness
+    if load is not None and hardness is not None and load > hardness * grid.area:
+        raise InfeasibleError(
+            f"contact.load = {load:g} N: beyond hardness x area = {hardness:g} Pa x {grid.area:g} m^2 = "
+            f"{hardness * grid.area:g} N; allowed: a smaller load, a larger grid or a higher hardness"
+        )
+    points = padded_points(grid.shape, grid.periodic)
+    rough = [name for name in ("lower", "upper") if getattr(scene, name).surface.kind != "smooth"]
+    steps = [
+        Step(
+            "surfaces",
+            f"heights of {' and '.join(rough)}" if rough else "both bodies are smooth",
+            skipped=not rough,
+            transforms=20.0 * len(rough),
+            points=grid.cells,
+            memory=8.0 * grid.cells * (3 + 4 * bool(rough)),
+            seconds=0.5 * len(rough),
+        )
+    ]
+    layered = [
+        name for name, body in (("lower", lower), ("upper", upper)) if body is not None and body.layer is not None
+    ]
+    steps.append(
+        Step(
+            "layered kernels",
+            f"{' and '.join(layered)} carries a layer" if layered else "no body is coated",
+            skipped=not layered,
+            seconds=2.0 * len(layered) * grid.cells / 2**20 if layered else 0.0,
+            memory=8.0 * points / 4,
+        )
+    )
+    coupled = build.traction_couples(lower, upper, scene.contact.friction)
+    steps.append(
+        Step(
+            "tangential kernels in the normal gap",
+            "friction between elastically dissimilar bodies (Dundurs' beta is not zero)"
+            if coupled
+            else (
+                "no friction"
+                if scene.contact.friction == 0
+                else "Dundurs' beta is zero: traction does not move the gap"
+            ),
+            skipped=not coupled,
+            transforms=4,
+            points=points,
+            memory=8.0 * points / 4,
+        )
+    )
+    steps.append(
+        Step(
+            "contact",
+            f"{scene.contact.behaviour}, {_control(scene)}",
+            transforms=2 * _CONVOLUTIONS,
+            points=points,
+            memory=convolution_memory(grid.shape, grid.periodic),
+            seconds=2.0,
+        )
+    )
+    depths = _depths(scene)
+    components = 6 if scene.outputs.stresses else 1
+    steps.append(
+        Step(
+            "stresses below",
+            f"{len(depths)} depths in the {scene.outputs.body} body"
+            if depths
+            else "neither stresses nor von Mises are asked for",
+            skipped=not depths,
+            transforms=13.0 * len(depths),
+            points=points,
+            memory=8.0 * grid.cells * (components + (components == 6)) * len(depths)
+            + _chunk_bytes(grid.cells, len(depths)),
+            seconds=1.0,
+        )
+    )
+    vtk = scene.outputs.vtk and bool(depths)
+    steps.append(
+        Step(
+            "VTK",
+            "stress field for ParaView" if vtk else "no stress field to write",
+            skipped=not vtk,
+            seconds=1.0,
+            memory=1e8,
+        )
+    )
+    steps.append(Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8))
+    return Plan(tuple(steps))
+
+
+def run(scene: ContactScene, context: Context) -> Outcome:
+    """Solve the contact and, where asked for, the stresses below it."""
+    from bem.contact import ContactSolution, solve_contact
+    from bem.convolution import displacement_operator
+
+    grid = build.grid_of(scene.grid)
+    lower, upper = scene.lower.build(), scene.upper.build()
+    with context.timer("surfaces"):
+        heights = {
+            "lower": build.heights_of(scene.lower.surface, grid, context.seed("lower"), context.note),
+            "upper": build.heights_of(scene.upper.surface, grid, context.seed("upper"), context.note),
+        }
+    undeformed = build.shape_of(scene.shape, grid) - heights["lower"] - heights["upper"]
+    undeformed -= undeformed.min()
+
+    with context.timer("contact"):
+        saved = context.saved()
+        if saved is not None:
+            solution = ContactSolution(**(saved["solution"] | {"status": Status(saved["solution"]["status"])}))
+            history = saved["history"]
+        else:
+            operator = displacement_operator(
+                grid, lower if upper is None else (lower, upper), friction=scene.contact.friction
+            )
+            history = []
+
+            def watch(iterations: int, residual: float, fraction: float) -> None:
+                history.append((iterations, residual))
+                context.progress(
+                    iterations, scene.contact.max_iterations, "contact", residual=residual, area_fraction=fraction
+                )
+
+            solution = solve_contact(
+                undeformed,
+                operator,
+                load=_load(scene, grid.area),
+                approach=scene.contact.approach,
+                mean_gap=scene.contact.mean_gap,
+                hardness=scene.contact.hardness,
+                tolerance=scene.contact.tolerance,
+                max_iterations=scene.contact.max_iterations,
+                callback=watch,
+            )
+            context.save({"solution": _fields(solution), "history": np.array(history).reshape(-1, 2)})
+
+    variables = {
+        "x": Variable(("x",), grid.x, "m", "x, along sliding"),
+        "y": Variable(("y",), grid.y, "m", "y"),
+        "pressure": Variable(("x", "y"), solution.pressure, "Pa", "contact pressure"),
+        "displacement": Variable(("x", "y"), solution.displacement, "m", "normal displacement of both bodies together"),
+        "gap": Variable(("x", "y"), solution.gap, "m", "gap between the deformed surfaces"),
+        "contact_state": Variable(
+            ("x", "y"), _contact_state(solution.pressure, scene.contact.hardness), "1", "0 open, 1 elastic, 2 capped"
+        ),
+        "undeformed_gap": Variable(("x", "y"), undeformed, "m", "gap before deformation, zero at first touch"),
+    }
+    if np.any(solution.plastic_depth):
+        variables["plastic_depth"] = Variable(
+            ("x", "y"), solution.plastic_depth, "m", "overlap of the surfaces where capped"
+        )
+    for name, values in heights.items():
+        if values.any():
+            variables[f"{name}_height"] = Variable(("x", "y"), values, "m", f"height of the {name} surface")
+    if len(history):
+        iterations, residuals = np.array(history).T
+        variables["iteration"] = Variable(("iteration",), iterations.astype(np.int64), "1", "iteration")
+        variables["residual_history"] = Variable(
+            ("iteration",), residuals, "1", "relative residual of the contact solver"
+        )
+
+    summary = _summary(solution, grid.area, heights)
+    volumes: tuple[str, ...] = ()
+    if _depths(scene):
+        with context.timer("stresses"):
+            stresses = _stresses(scene, solution.pressure, context)
+        variables |= stresses
+        mises = stresses["von_mises"].values
+        deepest, _, _ = np.unravel_index(int(np.argmax(mises)), mises.shape)
+        summary["max_von_mises_Pa"] = float(mises.max())
+        summary["max_von_mises_depth_m"] = float(stresses["depth"].values[deepest])
+        material = (lower if scene.outputs.body == "lower" else upper or lower).material
+        if material.yield_stress is not None:
+            summary["yielded_volume_fraction"] = float((mises > material.yield_stress).mean())
+        volumes = ("von_mises", "stress") if scene.outputs.stresses else ("von_mises",)
+    where = (
+        ""
+        if solution.status == Status.CONVERGED
+        else f"contact solve: {solution.status.message}, residual {solution.residual:.2g}"
+    )
+    return Outcome(summary, variables, solution.status, where, volumes if scene.outputs.vtk else ())
+
+
+def _summary(solution: Any, area: float, heights: dict[str, NDArray[np.float64]]) -> dict[str, Any]:
+    contact_area = float(solution.contact_area)
+    summary: dict[str, Any] = {
+        "contact_area_fraction": contact_area / area,
+        "plastic_area_fraction": float(solution.plastic_area) / area,
+        "contact_area_m2": contact_area,
+        "mean_contact_pressure_Pa": float(solution.load) / contact_area if contact_area > 0 else 0.0,
+        "max_pressure_Pa": float(solution.pressure.max()),
+        "load_N": float(solution.load),
+        "approach_m": float(solution.approach),
+        "mean_gap_m": float(np.maximum(solution.gap, 0).mean()),
+        "residual": float(solution.residual),
+        "iterations": int(solution.iterations),
+        "convolutions": float(solution.convolutions),
+    }
+    for name, values in heights.items():
+        if values.any():
+            summary[f"{name}_Sq_m"] = float(np.sqrt(np.mean((values - values.mean()) ** 2)))
+    return summary
+
+
+def _stresses(scene: ContactScene, pressure: NDArray[np.float64], context: Context) -> dict[str, Variable]:
+    """Von Mises at every depth, and the six components where asked for; a few depths at once."""
+    from bem.stress import subsurface_stress, von_mises
+
+    grid, depths = build.grid_of(scene.grid), np.array(_depths(scene))
+    below = scene.lower.build() if scene.outputs.body == "lower" else scene.upper.build()
+    assert below is not None
+    # Traction on the lower body acts along +x, on the upper one along -x; z points into the body itself.
+    friction = scene.contact.friction if scene.outputs.body == "lower" else -scene.contact.friction
+    mises = np.empty((len(depths), *grid.shape))
+    stress = np.empty((6, len(depths), *grid.shape)) if scene.outputs.stresses else None
+    step = _chunk(grid.cells, len(depths))
+    for start in range(0, len(depths), step):
+        part = slice(start, start + step)
+        components = subsurface_stress(pressure, grid, below, depths[part], friction=friction)
+        mises[part] = von_mises(components)
+        if stress is not None:
+            stress[:, part] = components
+        context.progress(min(start + step, len(depths)), len(depths), "stresses")
+    variables = {
+        "depth": Variable(("depth",), depths, "m", f"depth below the surface of the {scene.outputs.body} body"),
+        "von_mises": Variable(("depth", "x", "y"), mises, "Pa", "von Mises stress"),
+    }
+    if stress is not None:
+        variables["component"] = Variable(("component",), np.array(_STRESS_COMPONENTS), "1", "component of the stress")
+        variables["stress"] = Variable(("component", "depth", "x", "y"), stress, "Pa", "stress, positive in tension")
+    return variables
+
+
+def _contact_state(pressure: NDArray[np.float64], hardness: float | None) -> NDArray[np.int8]:
+    state = (pressure > 0).astype(np.int8)
+    if hardness is not None:
+        state[pressure >= hardness] = 2
+    return state
+
+
+def _fields(solution: Any) -> dict[str, Any]:
+    """The parts of a solution for the checkpoint, not copied."""
+    return {field.name: getattr(solution, field.name) for field in dataclasses.fields(solution)}
+
+
+def _wants_stresses(scene: ContactScene) -> bool:
+    return scene.outputs.von_mises or scene.outputs.stresses
+
+
+def _depths(scene: ContactScene) -> tuple[float, ...]:
+    if not _wants_stresses(scene) or scene.outputs.depths is None:
+        return ()
+    return scene.outputs.depths.build()
+
+
+def _chunk(cells: int, depths: int) -> int:
+    """Depths at once: six components of them in at most a quarter of a gigabyte."""
+    return max(1, min(depths, 2**28 // (48 * cells)))
+
+
+def _chunk_bytes(cells: int, depths: int) -> float:
+    return 3 * 48.0 * cells * _chunk(cells, depths)
+
+
+def _load(scene: ContactScene, area: float) -> float | None:
+    pressure = scene.contact.mean_pressure
+    return scene.contact.load if pressure is None else pressure * area
+
+
+def _control(scene: ContactScene) -> str:
+    control = scene.contact
+    if control.load is not None:
+        return f"load {control.load:g} N"
+    if control.mean_pressure is not None:
+        return f"mean pressure {control.mean_pressure:g} Pa"
+    if control.approach is not None:
+        return f"approach {control.approach:g} m"
+    return f"mean gap {control.mean_gap:g} m"
+
+
+KIND = Kind(
+    name="contact",
+    title="two rough, possibly coated bodies pressed together: pressure, contact area, approach, stresses below",
+    model=ContactScene,
+    plan=plan,
+    run=run,
+    resolve=resolve,
+    figures=(
+        "pressure-map",
+        "contact-map",
+        "contact-section",
+        "pressure-histogram",
+        "von-mises-section",
+        "convergence",
+    ),
+    headline=(
+        "load_N",
+        "contact_area_fraction",
+        "plastic_area_fraction",
+        "mean_contact_pressure_Pa",
+        "max_pressure_Pa",
+        "approach_m",
+        "max_von_mises_Pa",
+        "residual",
+        "convolutions",
+    ),
+)

@@ -1,0 +1,209 @@
+"""Scenes from files, from the built-in library and from plain tables; and back to TOML."""
+
+from __future__ import annotations
+
+import json
+import os
+import tomllib
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel
+
+from bem.errors import InputError
+from bem.scenes.common import SceneModel
+from bem.scenes.kinds import get_kind, kind_names
+from bem.scenes.units import Dimension
+from bem.scenes.validate import nearest, show, validate
+
+_LARGEST_FILE = 1_000_000
+
+
+def load_scene(source: str | os.PathLike[str] | Mapping[str, Any], settings: Sequence[str] = ()) -> SceneModel:
+    """A validated scene.
+
+    Parameters
+    ----------
+    source : path of a TOML file, a run directory, the name of a built-in scene, or a table of plain values.
+    settings : `key=value` with dotted keys, values as in TOML; quotes may be left out. They replace what the file says.
+
+    Raises
+    ------
+    InputError : one message per mistake.
+    """
+    return scene_from_table(*_read(source, settings))
+
+
+def scene_from_table(data: Any, folder: Path | None = None) -> SceneModel:
+    """A validated scene from a table; relative paths in it are taken from `folder`."""
+    if not isinstance(data, Mapping):
+        raise InputError(f"scene = {show(data)}: not a table; allowed: a table with kind and the kind's keys")
+    if not all(isinstance(key, str) for key in data):
+        raise InputError("scene: keys that are not text; allowed: text")
+    names = kind_names()
+    kind = data.get("kind")
+    listed = ", ".join(f'"{name}"' for name in names)
+    if kind is None:
+        raise InputError(f"kind: missing; allowed: {listed}")
+    if kind not in names:
+        raise InputError(f"kind = {show(kind)}: not allowed{nearest(str(kind), names)}; allowed: {listed}")
+    return validate(_absolute(data, (folder or Path.cwd()).resolve()), get_kind(kind).model)
+
+
+def library() -> dict[str, dict[str, Any]]:
+    """The tables of the built-in scenes by name, in alphabetical order."""
+    folder = resources.files("bem.scenes") / "library"
+    files = sorted(item.name for item in folder.iterdir() if item.name.endswith(".toml"))
+    return {name.removesuffix(".toml"): tomllib.loads((folder / name).read_text("utf-8")) for name in files}
+
+
+def library_text(name: str) -> str:
+    """The commented TOML text of a built-in scene."""
+    return (resources.files("bem.scenes") / "library" / f"{name}.toml").read_text("utf-8")
+
+
+def _read(source: str | os.PathLike[str] | Mapping[str, Any], settings: Sequence[str]) -> tuple[dict[str, Any], Path]:
+    folder = Path.cwd()
+    if isinstance(source, Mapping):
+        data = dict(source)
+        data.setdefault("name", "scene")
+    else:
+        data, folder = _read_named(os.fspath(source))
+    for setting in settings:
+        _set(data, setting)
+    return data, folder
+
+
+def _read_named(source: str) -> tuple[dict[str, Any], Path]:
+    path = Path(source)
+    try:
+        if path.is_dir() and (path / "scene.toml").is_file():
+            path = path / "scene.toml"
+        if path.is_file():
+            return _read_file(path), path.parent
+    except (OSError, ValueError) as error:
+        raise InputError(f"scene {show(source)}: cannot be read ({error}); allowed: a readable TOML file") from None
+    scenes = library()
+    if source in scenes:
+        scenes[source].setdefault("name", source)
+        return scenes[source], Path.cwd()
+    raise InputError(
+        f"scene {show(source)}: no such file and no built-in scene{nearest(source, scenes)}; "
+        f"allowed: a TOML file, a run directory, or one of {', '.join(scenes)}"
+    )
+
+
+def _read_file(path: Path) -> dict[str, Any]:
+    with open(path, "rb") as file:
+        raw = file.read(_LARGEST_FILE + 1)
+    if len(raw) > _LARGEST_FILE:
+        raise InputError(f"scene {show(str(path))}: larger than {_LARGEST_FILE} bytes; allowed: a TOML scene file")
+    try:
+        data = tomllib.loads(raw.decode("utf-8"))
+    except (ValueError, RecursionError) as error:  # both TOML and UTF-8 errors are ValueErrors
+        reason = "nested too deeply" if isinstance(error, RecursionError) else str(error)
+        raise InputError(f"scene {show(str(path))}: not valid TOML ({reason}); allowed: a TOML scene file") from None
+    data.setdefault(
+        "name", "".join(c if c.isalnum() or c in "_.-" else "-" for c in path.stem).lstrip("_.-")[:64] or "scene"
+    )
+    return data
+
+
+def _set(data: dict[str, Any], setting: str) -> None:
+    """Put one `key=value` into the table."""
+    key, equals, text = setting.partition("=")
+    parts = [part.strip() for part in key.split(".")]
+    if not equals or not all(parts):
+        raise InputError(f'--set {show(setting)}: not of the form key=value; allowed: for example contact.load="10 N"')
+    value: Any = text.strip()
+    with suppress(ValueError, RecursionError):  # otherwise a plain word or a quantity without quotes
+        value = tomllib.loads(f"value = {value}")["value"] if "\n" not in value else value
+    if parts[-1] == "path" and isinstance(value, str):
+        value = str(Path(value).absolute())  # what is typed in a shell is relative to the shell's folder
+    table = data
+    for part in parts[:-1]:
+        inner = table.get(part)
+        if isinstance(inner, str) and part in ("material", "surface"):
+            inner = {"catalogue": inner} if part == "material" else {"kind": inner}
+        inner = dict(inner) if isinstance(inner, Mapping) else {}
+        table[part] = inner
+        table = inner
+    table[parts[-1]] = value
+
+
+def _absolute(value: Any, folder: Path, depth: int = 0) -> Any:
+    """A copy of a table with every `path` made absolute."""
+    if depth > 20:
+        raise InputError("scene: tables are nested too deeply; allowed: the few levels that scenes have")
+    if isinstance(value, Mapping):
+        copy = {}
+        for key, item in value.items():
+            if key == "path" and isinstance(item, str) and item and "\0" not in item:
+                copy[key] = str(folder / item)
+            else:
+                copy[key] = _absolute(item, folder, depth + 1)
+        return copy
+    if isinstance(value, list):
+        return [_absolute(item, folder, depth + 1) for item in value]
+    return value
+
+
+def dump_scene(scene: SceneModel) -> str:
+    """The scene as TOML text in SI units, each number with its unit behind it; loading it gives an equal scene."""
+    return "\n".join(_dump_table(scene, ())) + "\n"
+
+
+def scene_table(scene: SceneModel) -> dict[str, Any]:
+    """The scene as a table of plain values in SI units, without the keys that are not set."""
+    return scene.model_dump(mode="json", exclude_none=True)
+
+
+def _dump_table(table: BaseModel, path: tuple[str, ...]) -> Iterable[str]:
+    tables: list[tuple[str, BaseModel]] = []
+    if path:
+        yield ""
+        yield f"[{'.'.join(path)}]"
+    for name, field in type(table).model_fields.items():
+        value = getattr(table, name)
+        if value is None:
+            continue
+        if isinstance(value, BaseModel):
+            tables.append((name, value))
+            continue
+        unit = _unit_of(field)
+        yield f"{name} = {_dump_value(value)}" + (f"  # {unit}" if unit else "")
+    for name, inner in tables:
+        yield from _dump_table(inner, (*path, name))
+
+
+def _dump_value(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        return repr(value)
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_dump_value(item) for item in value) + "]"
+    if isinstance(value, BaseModel):
+        value = value.model_dump(mode="python", exclude_none=True)
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{json.dumps(str(key))} = {_dump_value(item)}" for key, item in value.items()) + "}"
+    raise TypeError(f"no TOML for {type(value).__name__}")
+
+
+def _unit_of(field: Any) -> str:
+    """The SI unit of a field, looking into optional and tuple annotations."""
+    pending = [field.annotation, *field.metadata]
+    while pending:
+        item = pending.pop()
+        if isinstance(item, Dimension):
+            return item.unit
+        pending.extend(getattr(item, "__metadata__", ()))
+        pending.extend(getattr(item, "__args__", ()))
+    return ""

@@ -1,0 +1,172 @@
+"""What a scene will compute, what it skips and why, and what that costs in memory and time."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from bem.errors import InputError
+
+_CALIBRATION_SIDE = 512
+
+
+@dataclass(frozen=True)
+class Step:
+    """One computation of a plan.
+
+    Parameters
+    ----------
+    name : what is computed.
+    why : why it is needed, or why it is skipped.
+    skipped : whether the scene can do without.
+    transforms : how many real transforms (one direction) of `points` points it takes.
+    points : points of one of these transforms, padding included.
+    memory : bytes held at its peak beyond what the other steps hold.
+    seconds : further time that is not spent in transforms, on any machine [s].
+    """
+
+    name: str
+    why: str
+    skipped: bool = False
+    transforms: float = 0.0
+    points: float = 0.0
+    memory: float = 0.0
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The steps of a run in order."""
+
+    steps: tuple[Step, ...]
+
+    @property
+    def memory(self) -> float:
+        """Upper estimate of the bytes of arrays at the peak."""
+        return math.fsum(step.memory for step in self.steps if not step.skipped)
+
+    def seconds(self, rate: float) -> float:
+        """Estimated time [s] on a machine with that transform rate [flop/s]."""
+        return math.fsum(step_seconds(step, rate) for step in self.steps)
+
+
+def step_seconds(step: Step, rate: float) -> float:
+    """Estimated time of one step [s]; a real transform of N points counts 2.5 N log2 N operations."""
+    if step.skipped:
+        return 0.0
+    operations = 2.5 * step.points * math.log2(max(step.points, 2.0))
+    return step.seconds + step.transforms * operations / rate
+
+
+def padded_points(shape: tuple[int, int], periodic: tuple[bool, bool]) -> float:
+    """Points of a transform on this grid: free axes are doubled."""
+    return math.prod(n if wraps else 2 * n for n, wraps in zip(shape, periodic, strict=True))
+
+
+def convolution_memory(shape: tuple[int, int], periodic: tuple[bool, bool]) -> float:
+    """Bytes of a contact solve: work arrays of both precisions, a quarter-array spectrum, a dozen fields."""
+    cells, points = math.prod(shape), padded_points(shape, periodic)
+    return 12 * 8.0 * cells + (16 + 8 + 4) * points
+
+
+def available_memory() -> float:
+    """Bytes this process may still take: the smaller of the machine's free memory and the control group's limit."""
+    found = [math.inf]
+    try:
+        with open("/proc/meminfo") as file:
+            for line in file:
+                if line.startswith("MemAvailable:"):
+                    found.append(float(line.split()[1]) * 1024)
+    except (OSError, ValueError):
+        pass
+    for limit, used in (
+        ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"),
+        ("/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes"),
+    ):
+        try:
+            found.append(float(Path(limit).read_text()) - float(Path(used).read_text()))
+        except (OSError, ValueError):
+            continue
+    return max(min(found), 0.0)
+
+
+def check_memory(plan: Plan) -> None:
+    """Refuse a plan that cannot fit, before any work.
+
+    Raises
+    ------
+    InputError : the estimate exceeds the memory that is available.
+    """
+    free = available_memory()
+    if plan.memory > free:
+        raise InputError(
+            f"memory: this scene needs about {show_bytes(plan.memory)} and {show_bytes(free)} are available; "
+            "allowed: a smaller grid.shape, fewer depths or fewer outputs (`bem plan` shows what takes how much)"
+        )
+
+
+def machine_rate(threads: int = 1) -> float:
+    """Transform rate of this machine [flop/s], measured once (about 0.1 s) and kept in the user's cache folder."""
+    key = f"transform_rate_{threads}_threads"
+    path = cache_folder() / "machine.json"
+    try:
+        rate = float(json.loads(path.read_text())[key])
+        if math.isfinite(rate) and rate > 0:
+            return rate
+    except (OSError, ValueError, KeyError, TypeError):
+        pass
+    rate = _measure(threads)
+    try:
+        known = json.loads(path.read_text()) if path.is_file() else {}
+        known[key] = rate
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False) as file:
+            json.dump(known, file)
+        os.replace(file.name, path)
+    except (OSError, ValueError, TypeError):
+        pass  # a cache that cannot be written costs a tenth of a second next time, no more
+    return rate
+
+
+def cache_folder() -> Path:
+    """Where measurements of this machine are kept."""
+    base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    return Path(base) / "bem"
+
+
+def _measure(threads: int) -> float:
+    import numpy as np
+    import scipy.fft
+
+    field = np.ones((_CALIBRATION_SIDE, _CALIBRATION_SIDE))
+    scipy.fft.rfft2(field, workers=threads)
+    fastest = math.inf
+    for _ in range(8):
+        start = time.perf_counter()
+        scipy.fft.rfft2(field, workers=threads)
+        fastest = min(fastest, time.perf_counter() - start)
+    return 2.5 * field.size * math.log2(field.size) / fastest
+
+
+def show_bytes(size: float) -> str:
+    """Bytes for people."""
+    for factor, unit in ((2**40, "TiB"), (2**30, "GiB"), (2**20, "MiB"), (2**10, "KiB")):
+        if size >= factor:
+            return f"{size / factor:.1f} {unit}"
+    return f"{size:.0f} B"
+
+
+def show_seconds(seconds: float) -> str:
+    """A duration for people."""
+    if seconds < 0.1:
+        return "< 0.1 s"
+    if seconds < 120:
+        return f"{seconds:.1f} s"
+    if seconds < 7200:
+        return f"{seconds / 60:.0f} min"
+    return f"{seconds / 3600:.1f} h"

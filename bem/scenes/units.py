@@ -1,0 +1,171 @@
+"""Quantities in scenes: `"10 N"`, `"45 nm"`, `"25 1/GPa"`, or a number in SI units."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+from dataclasses import dataclass
+from decimal import Decimal, InvalidOperation, localcontext
+from functools import cache, lru_cache
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import PydanticCustomError, core_schema
+
+_NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*", re.DOTALL)
+# No names with long exponents and nothing but unit algebra reaches pint's parser.
+_UNIT_TEXT = re.compile(r"[A-Za-zµμÅ°Ω%][A-Za-z0-9µμÅ°Ω%*/^ ().-]{0,39}|1\s*/[A-Za-z0-9µμÅ°Ω%*/^ ().-]{1,39}")
+_BLANK_PRODUCT = re.compile(r"(?<=[\w)])\s+(?=[A-Za-zµμÅ(])")
+_LONG_EXPONENT = re.compile(r"\d{2,}|\*\*\s*\S*\*\*|\^\s*\S*\^")
+_COMMON_UNITS = (
+    *("m", "mm", "um", "nm", "angstrom", "m^2", "um^2", "mm^2", "m^3", "nm^3", "angstrom^3", "1/m"),
+    *("N", "mN", "uN", "nN", "kN", "N/m", "Pa", "kPa", "MPa", "GPa", "1/Pa", "1/MPa", "1/GPa", "Pa*s", "mPa*s", "cP"),
+    *("s", "ms", "min", "hour", "1/s", "m/s", "mm/s", "um/s", "nm/s", "K", "degC", "J", "eV", "J/K", "kg/m^3"),
+    *("%", "deg", "rad"),
+)
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """What a key of a scene measures; as annotation of a float it parses, converts and refuses.
+
+    Parameters
+    ----------
+    unit : the SI unit the value is kept in; "" for a plain ratio.
+    noun : what to call it in messages, such as "a length".
+    example : a value as a user would write it.
+    """
+
+    unit: str
+    noun: str
+    example: str
+
+    @property
+    def allowed(self) -> str:
+        """What may be written, as a phrase for messages."""
+        if not self.unit:
+            return f'{self.noun} such as {self.example} or "10 %"'
+        return f'{self.noun} such as "{self.example}", or a number in {self.unit}'
+
+    def parse(self, value: Any) -> float:
+        """The value in SI units.
+
+        Raises
+        ------
+        PydanticCustomError : not a number, an unknown unit, a unit of another dimension, not finite.
+        """
+        if isinstance(value, bool) or not isinstance(value, int | float | str):
+            raise self._error("is not a number or a number with a unit")
+        if not isinstance(value, str):
+            try:
+                number = float(value)
+            except OverflowError:
+                number = math.inf
+        else:
+            number = self._parse_text(value)
+        if not math.isfinite(number):
+            raise self._error("is not finite")
+        return number
+
+    def _parse_text(self, text: str) -> float:
+        match = _NUMBER_AND_UNIT.fullmatch(text[:100])
+        if match is None or len(text) > 100:
+            raise self._error("is not a number followed by a unit")
+        digits, unit = match.groups()
+        if not unit:
+            if self.unit:
+                raise self._error("has no unit; without quotes it would be a number in SI units")
+            return float(digits)
+        return convert(digits, unit, self)
+
+    def _error(self, problem: str) -> PydanticCustomError:
+        return PydanticCustomError(
+            "quantity", "{problem}; allowed: {allowed}", {"problem": problem, "allowed": self.allowed}
+        )
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
+        """Parse before pydantic's own checks of the float."""
+        return core_schema.no_info_before_validator_function(self.parse, handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """A number or a string."""
+        number = dict(handler(schema))
+        return {"anyOf": [number, {"type": "string"}], "description": self.allowed, "examples": [self.example]}
+
+
+def convert(digits: str, unit: str, dimension: Dimension) -> float:
+    """`digits` of `unit` in the SI unit of `dimension`, rounded once: "45 nm" is exactly 45e-9."""
+    try:
+        found, factor = _unit(unit)
+    except LookupError:
+        close = difflib.get_close_matches(unit, _COMMON_UNITS, n=1, cutoff=0.5)
+        hint = f' (did you mean "{close[0]}"?)' if close else ""
+        raise dimension._error(f'has the unknown unit "{unit[:40]}"{hint}') from None
+    wanted, _ = _unit(dimension.unit) if dimension.unit else ((), Decimal(1))
+    if found != wanted:
+        raise dimension._error(f"is not {dimension.noun}")
+    with localcontext() as context:
+        context.prec = 40
+        try:
+            number = Decimal(digits) * factor
+        except InvalidOperation:
+            return math.inf
+        if _is_celsius(unit):
+            number += Decimal("273.15")
+        return float(number)
+
+
+def _is_celsius(unit: str) -> bool:
+    return unit.replace(" ", "").lower() in ("degc", "°c", "celsius", "degreec", "degree_celsius")
+
+
+@lru_cache(maxsize=512)
+def _unit(text: str) -> tuple[tuple[tuple[str, float], ...], Decimal]:
+    """Dimensionality and factor to SI of a unit expression; LookupError if it is none."""
+    if _is_celsius(text):
+        text = "kelvin"
+    if _UNIT_TEXT.fullmatch(text) is None or _LONG_EXPONENT.search(text):
+        raise LookupError(text)
+    registry = _registry()
+    product = _BLANK_PRODUCT.sub("*", text.replace("%", "percent"))
+    try:
+        quantity = registry.parse_expression(product)
+        if quantity.magnitude != 1 or (0 * quantity).to_base_units().magnitude != 0:  # factors, offset scales
+            raise LookupError(text)
+        quantity = quantity.to_base_units()
+        dimensionality = tuple(sorted((str(k), float(v)) for k, v in quantity.dimensionality.items()))
+        # Fifteen digits hold every exact factor and drop the last-bit noise of products of floats.
+        return dimensionality, Decimal(f"{quantity.magnitude:.15g}")
+    except Exception:  # pint's parser raises a dozen unrelated types on nonsense
+        raise LookupError(text) from None
+
+
+@cache
+def _registry() -> Any:
+    import pint
+
+    return pint.UnitRegistry()
+
+
+LENGTH = Dimension("m", "a length", "45 nm")
+Length = Annotated[float, LENGTH]
+Area = Annotated[float, Dimension("m^2", "an area", "25 um^2")]
+Volume = Annotated[float, Dimension("m^3", "a volume", "85 angstrom^3")]
+Force = Annotated[float, Dimension("N", "a force", "10 N")]
+LineForce = Annotated[float, Dimension("N/m", "a force per length", "900 N/m")]
+Pressure = Annotated[float, Dimension("Pa", "a pressure", "1.8 GPa")]
+Speed = Annotated[float, Dimension("m/s", "a speed", "0.1 m/s")]
+Time = Annotated[float, Dimension("s", "a time", "45 min")]
+Rate = Annotated[float, Dimension("1/s", "a rate", "6.9e-4 1/s")]
+InverseLength = Annotated[float, Dimension("1/m", "an inverse length", "1.24e7 1/m")]
+Viscosity = Annotated[float, Dimension("Pa*s", "a dynamic viscosity", "0.36 Pa*s")]
+PressureViscosity = Annotated[float, Dimension("1/Pa", "a pressure-viscosity coefficient", "25 1/GPa")]
+Temperature = Annotated[float, Dimension("K", "a temperature", "60 degC")]
+Energy = Annotated[float, Dimension("J", "an energy", "0.8 eV")]
+Density = Annotated[float, Dimension("kg/m^3", "a density", "870 kg/m^3")]
+Angle = Annotated[float, Dimension("rad", "an angle", "30 deg")]
+WearCoefficient = Annotated[float, Dimension("m^2/N", "a specific wear rate", "350e-7 mm^3/(N*m)")]
+Ratio = Annotated[float, Dimension("", "a number", "0.3")]

@@ -1,0 +1,193 @@
+"""From a table of plain values to a validated scene, or every mistake in it at once, each in one line."""
+
+from __future__ import annotations
+
+import difflib
+import types
+import typing
+from collections.abc import Iterable, Sequence
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from bem.errors import InputError
+from bem.scenes.units import Dimension
+
+Model = TypeVar("Model", bound=BaseModel)
+
+
+def validate(data: Any, model: type[Model]) -> Model:
+    """`data` as `model`.
+
+    Raises
+    ------
+    InputError : one message per mistake, naming key, value, what is allowed and the nearest right spelling.
+    """
+    try:
+        return model.model_validate(data)
+    except ValidationError as error:
+        found = [_message(mistake, data, model) for mistake in error.errors(include_url=False)]
+    except RecursionError:
+        found = ["scene: tables are nested too deeply; allowed: the few levels that scenes have"]
+    raise InputError(list(dict.fromkeys(found)))
+
+
+def nearest(word: str, names: Iterable[str]) -> str:
+    """` - did you mean "..."?` for the nearest of `names`, or nothing."""
+    spelling = {name.lower().replace("-", "_"): name for name in names}
+    close = difflib.get_close_matches(str(word).lower().replace("-", "_"), spelling, n=1, cutoff=0.6)
+    return f' - did you mean "{spelling[close[0]]}"?' if close else ""
+
+
+def show(value: Any) -> str:
+    """A value as a user would have written it, shortened."""
+    if isinstance(value, bool):
+        text = str(value).lower()
+    elif isinstance(value, str):
+        text = '"' + value.encode("unicode_escape").decode() + '"'
+    elif isinstance(value, int) and abs(value) > 10**20:
+        text = "an integer of more than 20 digits"
+    else:
+        try:
+            text = repr(value)
+        except (RecursionError, ValueError):
+            text = type(value).__name__
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
+    """One line for one of pydantic's errors."""
+    kind, context = mistake["type"], mistake.get("ctx", {})
+    key, annotation, metadata = _locate(mistake["loc"], data, model)
+    value = mistake.get("input")
+    where = f"{key} = {show(value)}" if key else "scene"
+    dimension = next((item for item in metadata if isinstance(item, Dimension)), None)
+    allowed = f"; allowed: {dimension.allowed}" if dimension else ""
+    if kind == "extra_forbidden":
+        parent, _, last = key.rpartition(".")
+        names = sorted(_fields(_locate(mistake["loc"][:-1], data, model)[1]))
+        place = f"in {parent}" if parent else "at the top of the scene"
+        return f"{key}: unknown key{nearest(last, names)}; allowed {place}: {', '.join(names)}"
+    if kind == "missing":
+        return f"{key}: missing{allowed or _choices(annotation)}"
+    if kind == "literal_error":
+        return f"{where}: not allowed{nearest(value, _literals(annotation))}{_choices(annotation)}"
+    if kind in ("union_tag_invalid", "union_tag_not_found"):
+        names = [name.strip().strip("'") for name in str(context.get("expected_tags", "")).split(",") if name.strip()]
+        names = names or sorted(_tags(annotation))
+        found = value.get("kind") if isinstance(value, dict) else None
+        listed = ", ".join(f'"{name}"' for name in names)
+        if found is None:
+            return f"{key}.kind: missing; allowed: {listed}"
+        return f"{key}.kind = {show(found)}: not allowed{nearest(str(found), names)}; allowed: {listed}"
+    if kind == "unknown_name":
+        found, names = context["found"], context["names"]
+        return f'{key} = "{found}": {mistake["msg"]}{nearest(found, names)}; allowed: {", ".join(names)}'
+    if kind in ("model_type", "model_attributes_type", "dict_type"):
+        return f"{where}: not a table; allowed: a table with {', '.join(sorted(_fields(annotation)))}"
+    if kind == "quantity":
+        return f"{where}: {mistake['msg']}"
+    if kind == "scene":
+        return f"{key or 'scene'}{_scalar(value)}: {mistake['msg']}"
+    text = str(mistake["msg"]).replace("Input should be", "must be").replace("Input should have", "must have")
+    if kind.startswith(("greater_than", "less_than")) and dimension and dimension.unit:
+        text += f" {dimension.unit}"
+    return f"{where}: {text}{allowed}"
+
+
+def _scalar(value: Any) -> str:
+    return f" = {show(value)}" if isinstance(value, bool | int | float | str) else ""
+
+
+def _locate(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> tuple[str, Any, Sequence[Any]]:
+    """The key as the user wrote it, without tags of unions, and the annotation and metadata of the field there."""
+    key, annotation, metadata, raw = "", model, (), data
+    for part in loc:
+        annotation = _without_none(annotation)
+        if isinstance(part, int):
+            arguments = typing.get_args(annotation)
+            if arguments:
+                annotation, inner = _unwrap(arguments[min(part, len(arguments) - 1)])
+                metadata = inner or metadata
+            if isinstance(raw, list | tuple):
+                key += f"[{part}]"
+                raw = raw[part] if part < len(raw) else None
+            continue
+        member = _member(annotation, part)
+        if member is not None:
+            annotation = member
+            continue
+        key = f"{key}.{part}" if key else str(part)
+        field = _fields(annotation).get(part)
+        if field is not None:
+            annotation, metadata = field.annotation, tuple(field.metadata)
+            bare, inner = _unwrap(_without_none(annotation))
+            annotation, metadata = bare, (*metadata, *inner)
+        else:
+            annotation, metadata = None, ()
+        raw = raw.get(part) if isinstance(raw, dict) else None
+    return key, annotation, metadata
+
+
+def _unwrap(annotation: Any) -> tuple[Any, tuple[Any, ...]]:
+    """An annotation without `Annotated`, and what was in it."""
+    metadata: tuple[Any, ...] = ()
+    while typing.get_origin(annotation) is typing.Annotated:
+        metadata = (*metadata, *annotation.__metadata__)
+        annotation = annotation.__origin__
+    return annotation, metadata
+
+
+def _without_none(annotation: Any) -> Any:
+    annotation, _ = _unwrap(annotation)
+    if typing.get_origin(annotation) in (typing.Union, types.UnionType):
+        members = [item for item in typing.get_args(annotation) if item is not type(None)]
+        if len(members) == 1:
+            return members[0]
+    return annotation
+
+
+def _members(annotation: Any) -> list[Any]:
+    if typing.get_origin(annotation) in (typing.Union, types.UnionType):
+        return [_unwrap(item)[0] for item in typing.get_args(annotation)]
+    return []
+
+
+def _member(annotation: Any, tag: Any) -> Any:
+    """The member of a union of tables whose `kind` is `tag`."""
+    for item in _members(annotation):
+        kind = _fields(item).get("kind")
+        if kind is not None and tag in typing.get_args(kind.annotation):
+            return item
+    return None
+
+
+def _tags(annotation: Any) -> list[str]:
+    return [
+        tag
+        for item in _members(annotation)
+        if "kind" in _fields(item)
+        for tag in typing.get_args(_fields(item)["kind"].annotation)
+    ]
+
+
+def _fields(annotation: Any) -> dict[str, Any]:
+    annotation = _without_none(annotation)
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return dict(annotation.model_fields)
+    return {}
+
+
+def _literals(annotation: Any) -> list[str]:
+    annotation = _without_none(annotation)
+    return (
+        [str(item) for item in typing.get_args(annotation)] if typing.get_origin(annotation) is typing.Literal else []
+    )
+
+
+def _choices(annotation: Any) -> str:
+    names = _literals(annotation)
+    if names:
+        return "; allowed: " + ", ".join(f'"{name}"' for name in names)
+    names = sorted(_fields(annotation))
+    return f"; allowed: a table with {', '.join(names)}" if names else ""
