@@ -45,7 +45,7 @@ def solve_contact(
     gap : (nx, ny), undeformed gap of the two surfaces [m]; its constant matters only when `approach` is given.
     operator : from `displacement_operator`.
     load, approach, mean_gap : exactly one of total load [N], approach [m] and the mean over the grid of the positive
-        part of the deformed gap [m]. On a doubly periodic grid displacements are mean-free, so `approach` is the distance by
+        part of the deformed gap [m]. On a doubly periodic grid displacements are mean-free: `approach` is the distance by
         which the means of the undeformed surfaces come closer than `gap` says.
     hardness : cap on the pressure [Pa]; None for purely elastic.
     tolerance : bound on the residual, see `ContactSolution`.
