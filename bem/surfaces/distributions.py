@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 from scipy.optimize import brentq
-from scipy.special import ndtri
-from scipy.stats import beta, gamma
+from scipy.special import betaincinv, gammaincinv, ndtri
 
 from bem.grid import FloatArray
 
@@ -16,13 +15,14 @@ def standard_quantiles(count: int, skewness: float, kurtosis: float) -> FloatArr
     """`count` increasing values of zero mean and unit rms from a distribution with these moments.
 
     Below the gamma line, kurtosis < 3 + 1.5 skewness^2: Pearson's type I (beta), whose parameters are closed forms of
-    the moments. Above the lognormal line: Johnson's unbounded system, x = sinh((N - g)/d). Between: mixtures of the gamma
-    and the lognormal of that skewness, quantile by quantile. kurtosis = skewness^2 + 1 is the two-point
+    the moments. Above the lognormal line: Johnson's unbounded system, x = sinh((N - g)/d). Between: mixtures of the
+    gamma and the lognormal of that skewness, quantile by quantile. kurtosis = skewness^2 + 1 is the two-point
     distribution, which the beta tends to. A finite sample has a little less in its tails than the distribution.
     """
     probability = (np.arange(count) + 0.5) / count
     sign = -1.0 if skewness < 0 else 1.0
-    s, k = abs(skewness), kurtosis
+    # below a thousandth the skewness is lost in the differences of nearly equal parameters: taken as none
+    s, k = abs(skewness) if abs(skewness) > 1e-3 else 0.0, kurtosis
     if k < 3 + 1.5 * s * s - 1e-9:
         values = _beta(probability, s, k)
     else:
@@ -47,14 +47,14 @@ def _beta(probability: FloatArray, s: float, k: float) -> FloatArray:
     r = max(r, 1e-6)
     root = (r + 2) * s / math.sqrt((r + 2) ** 2 * s * s + 16 * (r + 1))
     p, q = r / 2 * (1 - root), r / 2 * (1 + root)  # skewed to the right for p < q
-    return np.asarray(beta.ppf(probability, max(p, 1e-9), max(q, 1e-9)))
+    return np.asarray(betaincinv(max(p, 1e-9), max(q, 1e-9), probability))
 
 
 def _gamma(probability: FloatArray, s: float) -> FloatArray:
     if s < 1e-6:
         return np.asarray(ndtri(probability))
     shape = 4 / (s * s)
-    return np.asarray((gamma.ppf(probability, shape) - shape) / math.sqrt(shape))
+    return np.asarray((gammaincinv(shape, probability) - shape) / math.sqrt(shape))
 
 
 def _lognormal_omega(s: float) -> float:

@@ -2,9 +2,10 @@
 
 A surface is a sum of waves with prescribed amplitudes and random phases. Where a skewness or kurtosis is asked for,
 heights and spectrum are reconciled by iteration: the heights are replaced, rank by rank, by those of a distribution
-with these moments, then the amplitudes are put back (Schreiber & Schmitz, *Phys. Rev. Lett.* 77 (1996) 635; Hu & Tonder,
-*Int. J. Mach. Tools Manuf.* 32 (1992) 83, filter a translated sequence once, which makes it more Gaussian again). What is left, in the Gaussian case too, is closed by Newton on a quadratic and a cubic correction
-that has no waves outside the spectrum, so skewness, kurtosis and rms height of the sample are met to round-off.
+with these moments, then the amplitudes are put back (Schreiber & Schmitz, *Phys. Rev. Lett.* 77 (1996) 635; Hu &
+Tonder, *Int. J. Mach. Tools Manuf.* 32 (1992) 83, filter a translated sequence once, which makes it more Gaussian
+again). What is left, in the Gaussian case too, is closed by Newton on a quadratic and a cubic correction that has no
+waves outside the spectrum, so skewness, kurtosis and rms height of the sample are met.
 
 Each phase is a function of seed and wavevector alone: the same seed on a finer grid of the same size
 gives the same waves and adds finer ones.
@@ -54,7 +55,7 @@ def generate_surface(
     rms_height : Sq [m], met to round-off. Instead of it `rms_slope` (Sdq of the continuous surface) may be given.
     seed : integer >= 0; the same seed gives the same bits.
     correlation_length : lag at which the autocorrelation falls to 1/e [m]; a pair for different lengths along x and y.
-        Met to 0.1 % by the prescribed spectrum; at most about a sixth of the grid's side can be had.
+        Met to 0.1 % by the prescribed spectrum; at most about a quarter of the grid's side can be had.
     autocorrelation : "gaussian", exp(-(r/l)^2), or "exponential", exp(-r/l), whose slope grows with every refinement of
         the grid.
     hurst : instead of a correlation length: exponent H in (0, 1] of a self-affine spectrum, density ~ q^(-2-2H)

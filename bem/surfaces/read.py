@@ -6,11 +6,14 @@ the filling of missing points.
 
 from __future__ import annotations
 
+import contextlib
+import io
 import json
 import math
 import os
 import warnings
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -45,8 +48,8 @@ def read_surface(
     Parameters
     ----------
     path : a file of any instrument format that SurfaceTopography reads (.al3d, .di, .opd, .x3p, .tmd, .sur, .gwy, ...);
-        or a plain map: .npz with `heights` (nx, ny) [m] and `spacing` [m], as `write_surface` makes it; .npy; or a table of
-        numbers in .txt, .csv or .dat, one line for each ix, with `spacing` given.
+        or a plain map: .npz with `heights` (nx, ny) [m] and `spacing` [m], as `write_surface` writes; .npy; or a table
+        of numbers in .txt, .csv or .dat, one line for each ix, with `spacing` given.
     detrend : "plane" (least squares over the points measured), "curvature" (second-order polynomial) or "none".
     fill : True: missing points are filled by the harmonic surface through their neighbours (at most half of the
         map); False: a map with missing points is refused.
@@ -180,7 +183,7 @@ def _finish(
 
 def _read_npz(file: Path) -> tuple[FloatArray, tuple[float, float] | None, dict[str, Any]]:
     try:
-        with np.load(file, allow_pickle=False) as archive:
+        with file.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
             if "heights" not in archive:
                 raise SurfaceFileError(f"{file}: has no array 'heights' but {', '.join(archive.files) or 'nothing'}")
             heights = _as_floats(file, archive["heights"])
@@ -200,7 +203,8 @@ def _read_npz(file: Path) -> tuple[FloatArray, tuple[float, float] | None, dict[
 
 def _read_npy(file: Path) -> FloatArray:
     try:
-        return _as_floats(file, np.load(file, allow_pickle=False))
+        with file.open("rb") as stream:
+            return _as_floats(file, np.load(stream, allow_pickle=False))
     except SurfaceFileError:
         raise
     except Exception as problem:
@@ -236,14 +240,14 @@ def _unreadable(file: Path, problem: BaseException) -> SurfaceFileError:
 def _read_instrument(
     file: Path, channel: str | int | None, spacing_given: bool, height_unit: str | None
 ) -> tuple[FloatArray, tuple[float, float] | None, dict[str, Any]]:
-    from SurfaceTopography import open_topography
-
     # Readers of damaged files raise anything at all (struct.error, KeyError, AssertionError, MemoryError, ...) and warn
-    # about what they skip; whatever it is, the file cannot be used.
+    # about what they skip, or print what they found; whatever it is, the file cannot be used.
     try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
+        with warnings.catch_warnings(), np.errstate(all="ignore"), _quiet(), file.open("rb") as stream:
             warnings.simplefilter("ignore")
-            with open_topography(str(file)) as reader:
+            from SurfaceTopography import open_topography
+
+            with open_topography(stream) as reader:
                 chosen = _choose(file, reader, channel)
                 shape = tuple(int(n) for n in chosen.nb_grid_pts)
                 if len(shape) != 2 or not chosen.is_uniform:
@@ -284,6 +288,12 @@ def _read_instrument(
         )
     cell = None if sizes is None else (sizes[0] * metres / shape[0], sizes[1] * metres / shape[1])
     return heights * metres, cell, notes
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+        yield
 
 
 def _choose(file: Path, reader: Any, channel: str | int | None) -> Any:

@@ -1,0 +1,228 @@
+"""Measured files: real ones, damaged ones, plain maps; one kind of error."""
+
+import os
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from bem import Grid, InputError, ResultsError, Surface, SurfaceFileError, describe_surface, read_surface
+from bem.surfaces import resample, write_surface
+
+# as in the data's own table: cells, spacing [m], Sq [m], Ssk, Sku, rms slope; to the digits given there
+TABLE = {
+    "al3d-1.al3d": ((200, 296), (438e-9, 438e-9), 290e-9, 0.0, 3.1, 0.09),
+    "tmd-1.tmd": ((300, 300), (63e-9, 63e-9), 74e-9, -0.3, 1.9, 0.16),
+    "di-3.di": ((256, 256), (39e-9, 39e-9), 35e-9, -0.4, 5.7, 0.19),
+    "x3p-2.x3p": ((650, 650), (128e-9, 315e-9), 77e-9, -0.4, 3.0, 0.06),
+    "opd-1.opd": ((640, 480), (197e-9, 197e-9), 6.7e-9, -0.4, 4.5, 0.02),
+}
+
+
+@pytest.mark.parametrize("name", TABLE)
+def test_real_files(measured, name):
+    shape, spacing, rms, skewness, kurtosis, slope = TABLE[name]
+    surface = read_surface(measured / name)
+    got = describe_surface(surface.heights, surface.spacing)
+    assert surface.shape == shape
+    assert surface.spacing == pytest.approx(spacing, rel=0.005)
+    assert got.Sq == pytest.approx(rms, rel=0.01)
+    assert got.Ssk == pytest.approx(skewness, abs=0.05)
+    assert got.Sku == pytest.approx(kurtosis, abs=0.06)  # filled points of opd-1 add nothing to its tails
+    assert got.Sdq == pytest.approx(slope, abs=0.005)
+    assert abs(surface.heights.mean()) < 1e-2 * rms
+    assert surface.metadata["file"] == name
+    assert surface.metadata["detrend"] == "plane"
+
+
+def test_missing_points(measured):
+    surface = read_surface(measured / "opd-1.opd")
+    assert surface.metadata["missing_points"] == 116
+    assert np.isfinite(surface.heights).all()
+    with pytest.raises(SurfaceFileError, match="116 of 307200 points are missing"):
+        read_surface(measured / "opd-1.opd", fill=False)
+
+
+def test_detrending(measured):
+    raw, plane, curved = (
+        read_surface(measured / "tmd-1.tmd", detrend=d).heights for d in ("none", "plane", "curvature")
+    )
+    assert raw.std() > plane.std() > curved.std()
+    x = np.arange(300) - 149.5
+    assert abs((plane * x[:, None]).mean()) < 1e-6 * plane.std() * x.std()
+    assert abs((plane * x[None, :]).mean()) < 1e-6 * plane.std() * x.std()
+    assert abs((curved * (x**2 - np.mean(x**2))[:, None]).mean()) < 1e-6 * curved.std() * x.std() ** 2
+
+
+def test_channels(measured):
+    default = read_surface(measured / "di-3.di")
+    assert default.metadata["channel"] == "ZSensor"
+    other = read_surface(measured / "di-3.di", channel="Height")
+    assert other.metadata["channel"] == "Height"
+    # two sensors saw the same surface
+    assert np.corrcoef(default.heights.ravel(), other.heights.ravel())[0, 1] > 0.9
+    with pytest.raises(SurfaceFileError, match=r"unit of length|does not say its unit"):
+        read_surface(measured / "di-3.di", channel="Phase")
+    with pytest.raises(SurfaceFileError, match="ZSensor"):
+        read_surface(measured / "di-3.di", channel="Depth")
+
+
+def test_orientation_of_unequal_spacing(measured):
+    """x3p-2 is finer along x; its slopes and lengths must come out with the spacing of their own axis."""
+    surface = read_surface(measured / "x3p-2.x3p")
+    assert surface.lengths == pytest.approx((82.98e-6, 204.5e-6), rel=1e-3)
+
+
+def test_onto_a_scene_grid(measured):
+    surface = read_surface(measured / "al3d-1.al3d", detrend="curvature")
+    grid = Grid((240, 240), (102e-9, 102e-9))
+    patch = resample(surface, grid)
+    assert patch.shape == grid.shape
+    window = surface.heights[72:128, 120:176]
+    assert patch.heights.std() == pytest.approx(window.std(), rel=0.05)  # the same 24 um, up to a cell's rim
+
+
+# --- damaged files -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", TABLE)
+def test_truncated_files(measured, tmp_path, name):
+    data = (measured / name).read_bytes()
+    for share in (0.0, 0.001, 0.05, 0.5, 0.9):
+        path = tmp_path / name
+        path.write_bytes(data[: int(share * len(data))])
+        with pytest.raises(SurfaceFileError) as caught:
+            read_surface(path)
+        assert str(path) in str(caught.value)
+        assert caught.value.exit_code == 2
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    st.sampled_from(sorted(TABLE)),
+    st.lists(st.tuples(st.floats(0, 1), st.integers(0, 255)), max_size=20),
+    st.booleans(),
+    st.floats(0, 1),
+    st.sampled_from([None, *sorted(TABLE)]),
+)
+def test_corrupted_files_give_one_kind_of_error(measured, tmp_path, name, changes, header_only, keep, disguise):
+    data = bytearray((measured / name).read_bytes())
+    span = min(len(data), 4096) if header_only else len(data)
+    for where, value in changes:
+        data[int(where * (span - 1))] = value
+    path = tmp_path / (disguise or name)
+    path.write_bytes(data[: max(1, int(keep * len(data)))] if keep < 0.9 else data)
+    surface, problem = None, None
+    try:
+        surface = read_surface(path)
+    except SurfaceFileError as caught:
+        problem = caught
+    if surface is None:
+        assert len(problem.messages) == 1
+        assert "\n" not in problem.messages[0]
+    else:
+        assert np.isfinite(surface.heights).all()
+        assert min(surface.spacing) > 0
+
+
+def test_readers_neither_warn_nor_print(measured, tmp_path, capfd):
+    path = tmp_path / "cut.opd"
+    path.write_bytes((measured / "opd-1.opd").read_bytes()[:3000])
+    with pytest.raises(SurfaceFileError):
+        read_surface(path)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_what_is_no_surface(tmp_path):
+    with pytest.raises(SurfaceFileError, match="no such file"):
+        read_surface(tmp_path / "nothing.di")
+    with pytest.raises(SurfaceFileError, match="folder"):
+        read_surface(tmp_path)
+    with pytest.raises(SurfaceFileError, match=r"cannot be opened|no such file"):
+        read_surface("a\0b")
+    empty = tmp_path / "empty.x3p"
+    empty.touch()
+    with pytest.raises(SurfaceFileError, match="empty"):
+        read_surface(empty)
+    for name, content in (("photo.png", b"\x89PNG\r\n\x1a\n" + bytes(500)), ("note.txt", b"dear reader\n" * 40)):
+        (tmp_path / name).write_bytes(content)
+        with pytest.raises(SurfaceFileError, match="unreadable"):
+            read_surface(tmp_path / name)
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root reads everything")
+def test_unreadable_by_permission(tmp_path):
+    path = tmp_path / "locked.di"
+    path.write_bytes(b"x")
+    path.chmod(0)
+    with pytest.raises(SurfaceFileError, match="cannot be opened"):
+        read_surface(path)
+
+
+def test_arguments(tmp_path):
+    with pytest.raises(InputError) as caught:
+        read_surface(tmp_path / "x.di", detrend="linear", height_unit="furlong", spacing=(0, 1))
+    assert len(caught.value.messages) == 3
+
+
+# --- plain maps --------------------------------------------------------------------------------------------------
+
+
+def test_npz_round_trip(tmp_path):
+    heights = np.random.default_rng(0).normal(size=(12, 9)) * 1e-8
+    path = write_surface(tmp_path / "map", Surface(heights, (1e-7, 2e-7), {"seed": 3}))
+    assert path.name == "map.npz"
+    again = read_surface(path, detrend="none")
+    np.testing.assert_array_equal(again.heights, heights)
+    assert again.spacing == (1e-7, 2e-7)
+    assert again.metadata["seed"] == 3
+    assert list(tmp_path.iterdir()) == [path]
+    for cut in (10, 100, len(path.read_bytes()) - 30):
+        broken = tmp_path / "broken.npz"
+        broken.write_bytes(path.read_bytes()[:cut])
+        with pytest.raises(SurfaceFileError, match="unreadable"):
+            read_surface(broken)
+    np.savez(tmp_path / "other.npz", z=heights)
+    with pytest.raises(SurfaceFileError, match="no array 'heights'"):
+        read_surface(tmp_path / "other.npz")
+    np.savez(tmp_path / "bare.npz", heights=heights)
+    with pytest.raises(SurfaceFileError, match="how far its points are apart"):
+        read_surface(tmp_path / "bare.npz")
+
+
+def test_write_errors(tmp_path):
+    with pytest.raises(ResultsError, match="cannot write"):
+        write_surface(tmp_path / "none" / "map.npz", Surface(np.zeros((2, 2)), (1.0, 1.0)))
+
+
+def test_tables(tmp_path):
+    heights = np.random.default_rng(0).normal(size=(6, 4)) * 1e-8
+    for suffix, separator in ((".csv", ","), (".csv", ";"), (".txt", " "), (".dat", "\t")):
+        path = tmp_path / f"map{suffix}"
+        np.savetxt(path, heights, delimiter=separator, header="heights in m")
+        got = read_surface(path, spacing=(1e-7, 3e-7), detrend="none")
+        np.testing.assert_allclose(got.heights, heights, rtol=1e-15)
+        assert got.spacing == (1e-7, 3e-7)
+    np.savetxt(path, heights * 1e9)
+    nanometres = read_surface(path, spacing=(1e-7, 3e-7), detrend="none", height_unit="nm")
+    np.testing.assert_allclose(nanometres.heights, heights, rtol=1e-12)
+    with pytest.raises(SurfaceFileError):  # a table without spacing says neither lengths nor units
+        read_surface(path)
+    path.write_text("1 2 3\n4 5\n")
+    with pytest.raises(SurfaceFileError, match="same number of values"):
+        read_surface(path, spacing=(1.0, 1.0))
+    path.write_text("1 2 3\n")
+    with pytest.raises(SurfaceFileError, match="not a height map"):
+        read_surface(path, spacing=(1.0, 1.0))
+    path.write_text("1 nan\nnan nan\n")
+    with pytest.raises(SurfaceFileError, match="points are missing"):
+        read_surface(path, spacing=(1.0, 1.0))
+
+
+def test_npy(tmp_path):
+    np.save(tmp_path / "map.npy", np.eye(4))
+    assert read_surface(tmp_path / "map.npy", spacing=(1e-6, 1e-6), detrend="none").heights[0, 0] == 1
+    np.save(tmp_path / "text.npy", np.array([["a", "b"]]))
+    with pytest.raises(SurfaceFileError, match="not a map"):
+        read_surface(tmp_path / "text.npy", spacing=(1e-6, 1e-6))
