@@ -1,5 +1,27 @@
 """Wear: which pieces come off, how large, what shape, and how the surface settles (thesis, papers B and C)."""
 
+from bem.wear.cycle import ContactOutcome, ContactStep, WearModel, WearSetup, dry_contact, wear_cycle, yielded_pieces
+from bem.wear.running_in import RunningIn, RunningInState, Settled, advance, equivalent_radius, initial_state, run_in
 from bem.wear.segmentation import Segmentation, describe_pieces, find_particles, refine_depths, segment
 
-__all__ = ["Segmentation", "describe_pieces", "find_particles", "refine_depths", "segment"]
+__all__ = [
+    "ContactOutcome",
+    "ContactStep",
+    "RunningIn",
+    "RunningInState",
+    "Segmentation",
+    "Settled",
+    "WearModel",
+    "WearSetup",
+    "advance",
+    "describe_pieces",
+    "dry_contact",
+    "equivalent_radius",
+    "find_particles",
+    "initial_state",
+    "refine_depths",
+    "run_in",
+    "segment",
+    "wear_cycle",
+    "yielded_pieces",
+]

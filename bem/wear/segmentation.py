@@ -161,32 +161,28 @@ def describe_pieces(pieces: Segmentation, grid: Grid, *, cycle: int = 0) -> list
     order = np.argsort(label, kind="stable")
     flat, label = flat[order], label[order]
     starts = np.searchsorted(label, np.arange(1, pieces.count + 2))
-    ix, iy = np.divmod(flat, grid.shape[1])
-    depth = pieces.thickness.ravel()[flat]
+    cells = np.stack(np.divmod(flat, grid.shape[1]), axis=1)
+    thickness = pieces.thickness.ravel()[flat]
+    origin, extent = _extents(cells, starts, np.array(grid.shape), np.array(grid.periodic))
+    sides = extent * np.array(grid.spacing)
+    total = np.add.reduceat(thickness, starts[:-1])
+    deepest = np.maximum.reduceat(thickness, starts[:-1])
+    unwrapped = (cells - origin[label - 1]) % np.array(grid.shape) + origin[label - 1]
+    weighted = np.add.reduceat(thickness[:, None] * unwrapped, starts[:-1])
+    centre = weighted / np.where(total > 0, total, 1.0)[:, None] % np.array(grid.shape)
+    position = (centre - 0.5 * (np.array(grid.shape) - 1)) * np.array(grid.spacing)
     particles = []
     for number in range(pieces.count):
         own = slice(starts[number], starts[number + 1])
-        cells_x, cells_y, thickness = ix[own], iy[own], depth[own]
-        unwrapped_x, side_x = _extent(cells_x, grid.shape[0], grid.periodic[0])
-        unwrapped_y, side_y = _extent(cells_y, grid.shape[1], grid.periodic[1])
-        sides = (side_x * grid.spacing[0], side_y * grid.spacing[1])
-        total = float(thickness.sum())
-        centre = [
-            float(np.dot(thickness, unwrapped) / total) if total > 0 else float(unwrapped.mean())
-            for unwrapped in (unwrapped_x, unwrapped_y)
-        ]
-        position = [
-            (centre[axis] % grid.shape[axis] - 0.5 * (grid.shape[axis] - 1)) * grid.spacing[axis] for axis in (0, 1)
-        ]
         particles.append(
             Particle(
-                volume=total * grid.cell_area,
-                length=max(sides),
-                width=min(sides),
-                thickness=float(thickness.max()),
-                columns=np.column_stack([cells_x, cells_y]),
-                column_thickness=thickness.copy(),
-                position=(position[0], position[1]),
+                volume=float(total[number] * grid.cell_area),
+                length=float(sides[number].max()),
+                width=float(sides[number].min()),
+                thickness=float(deepest[number]),
+                columns=cells[own],
+                column_thickness=thickness[own],
+                position=(float(position[number, 0]), float(position[number, 1])),
                 cycle=cycle,
                 truncated=bool(pieces.reaches_bottom[number + 1]),
             )
@@ -228,16 +224,36 @@ def _check(
         raise InputError(messages)
 
 
-def _extent(cells: NDArray[np.int64], size: int, periodic: bool) -> tuple[NDArray[np.int64], int]:
-    """Cell numbers without a jump across a periodic edge, and the number of cells from first to last."""
-    used = np.unique(cells)
-    if periodic and used.size > 1 and used[0] == 0 and used[-1] == size - 1 and used.size < size:
-        gaps = np.diff(used)
-        widest = int(np.argmax(gaps))
-        if gaps[widest] > 1:
-            cells = np.where(cells >= used[widest + 1], cells - size, cells)
-            return cells, int(cells.max() - cells.min() + 1)
-    return cells, int(used[-1] - used[0] + 1)
+@njit(cache=True)
+def _extents(cells, starts, shape, periodic):  # type: ignore[no-untyped-def]
+    """First cell and number of cells along x and y of each piece, (count, 2) each; on a periodic axis the rectangle is
+    the shortest that holds the piece, so it begins after the widest run of empty rows."""
+    count = starts.size - 1
+    origin = np.zeros((count, 2), np.int64)
+    extent = np.zeros((count, 2), np.int64)
+    for axis in range(2):
+        size = shape[axis]
+        used = np.zeros(size, np.bool_)
+        for piece in range(count):
+            low, high = size, -1
+            for k in range(starts[piece], starts[piece + 1]):
+                cell = cells[k, axis]
+                used[cell] = True
+                low, high = min(low, cell), max(high, cell)
+            origin[piece, axis] = low
+            extent[piece, axis] = high - low + 1
+            if periodic[axis] and low == 0 and high == size - 1:
+                widest, run = 0, 0
+                for cell in range(size):
+                    run = 0 if used[cell] else run + 1
+                    if run > widest:
+                        widest = run
+                        origin[piece, axis] = cell + 1
+                if widest > 0:
+                    extent[piece, axis] = size - widest
+            for k in range(starts[piece], starts[piece + 1]):
+                used[cells[k, axis]] = False
+    return origin, extent
 
 
 @njit(cache=True)

@@ -1,0 +1,210 @@
+"""Growth rate as a function of the mean film thickness, from contacts solved only where they are needed.
+
+The contact depends on the film through its mean thickness alone (a uniform layer of that thickness, capped at the
+hardness it has then), so growth is a smooth function of one number. It is tabulated by bisection as far as the film
+gets, until interpolation is within a stated tolerance; every further evaluation reuses the table.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from bem.contact import solve_contact
+from bem.convolution import displacement_operator
+from bem.errors import ConvergenceError, InputError, Status
+from bem.grid import FloatArray, Grid
+from bem.materials import Body, Layer, Material
+from bem.tribofilm.growth import StressActivatedGrowth
+from bem.tribofilm.properties import FilmProperty
+
+AVERAGES = ("contact", "nominal")
+
+_NEGLIGIBLE_LAYER = 1e-4
+"""Layers thinner than this part of a cell are left out: they change a cell's own compliance by less than that."""
+
+
+@dataclass(frozen=True, eq=False)
+class FilmContact:
+    """What a film grows in: rough bodies, load, and how the film's properties follow its thickness.
+
+    gap : undeformed gap (nx, ny) [m]. substrate : what the film grows on. counterface : the other body, None is rigid.
+    hardness, modulus : of the film, functions of (thickness [m], temperature [K]) [Pa].
+    friction : shear stress over pressure. temperature : [K].
+    average : what "mean" is taken over: "contact", the cells that touch; "nominal", the cells of `nominal_area`
+        (all where None), touching or not: what a point of the track sees on average as contacts sweep over it.
+    """
+
+    gap: FloatArray
+    grid: Grid
+    substrate: Material
+    counterface: Material | None
+    load: float
+    growth: StressActivatedGrowth
+    hardness: FilmProperty
+    modulus: FilmProperty
+    temperature: float
+    poissons_ratio: float = 0.3
+    friction: float = 0.1
+    average: str = "contact"
+    nominal_area: FloatArray | None = None
+    contact_tolerance: float = 1e-6
+
+    def __post_init__(self) -> None:
+        self.grid.check_field(self.gap, "gap")
+        if self.average not in AVERAGES:
+            raise InputError(f"average {self.average!r} must be one of {list(AVERAGES)}")
+        if self.nominal_area is not None and np.shape(self.nominal_area) != self.grid.shape:
+            raise InputError(f"nominal_area: shape {np.shape(self.nominal_area)} does not match {self.grid.shape}")
+
+
+@dataclass(frozen=True, eq=False)
+class ContactSample:
+    """A contact solved at one mean thickness.
+
+    growth : mean growth rate [m/s]; growth_map : local (nx, ny) [m/s]; pressure : (nx, ny) [Pa].
+    """
+
+    thickness: float
+    hardness: float
+    growth: float
+    growth_map: FloatArray
+    pressure: FloatArray
+    mean_pressure: float
+    contact_area: float
+    plastic_area: float
+    convolutions: float
+
+
+def solve_film_contact(
+    contact: FilmContact, thickness: float, initial_pressure: FloatArray | None = None
+) -> ContactSample:
+    """Solve the contact under a uniform film of a given thickness [m] and average the growth.
+
+    Raises
+    ------
+    InfeasibleError : the load exceeds the film's hardness times the grid's area.
+    ConvergenceError : the contact did not converge.
+    """
+    hardness = contact.hardness(thickness, contact.temperature)
+    if contact.counterface is not None and contact.counterface.hardness is not None:
+        hardness = min(hardness, contact.counterface.hardness)
+    layer = None
+    if thickness > _NEGLIGIBLE_LAYER * min(contact.grid.spacing):
+        film = Material(
+            "tribofilm",
+            youngs_modulus=contact.modulus(thickness, contact.temperature),
+            poissons_ratio=contact.poissons_ratio,
+        )
+        layer = Layer(film, thickness)
+    coated = Body(contact.substrate, layer=layer)
+    bodies = coated if contact.counterface is None else (coated, Body(contact.counterface))
+    solution = solve_contact(
+        contact.gap,
+        displacement_operator(contact.grid, bodies),
+        load=contact.load,
+        hardness=hardness,
+        tolerance=contact.contact_tolerance,
+        initial_pressure=initial_pressure,
+    )
+    if solution.status != Status.CONVERGED:
+        raise ConvergenceError(
+            f"tribofilm: the contact under a film of {1e9 * thickness:.4g} nm ended with status "
+            f"{solution.status.value!r} at residual {solution.residual:.1e}; {solution.status.message}"
+        )
+    touching = solution.pressure > 0
+    growth_map = np.where(touching, contact.growth.rate(contact.friction * solution.pressure, contact.temperature), 0.0)
+    if contact.average == "contact":
+        mean = float(growth_map[touching].mean()) if touching.any() else 0.0
+    elif contact.nominal_area is None:
+        mean = float(growth_map.mean())
+    else:
+        mean = float(growth_map[np.asarray(contact.nominal_area, dtype=bool)].mean())
+    return ContactSample(
+        thickness=thickness,
+        hardness=hardness,
+        growth=mean,
+        growth_map=growth_map,
+        pressure=solution.pressure,
+        mean_pressure=float(solution.pressure[touching].mean()) if touching.any() else 0.0,
+        contact_area=solution.contact_area,
+        plastic_area=solution.plastic_area,
+        convolutions=solution.convolutions,
+    )
+
+
+@dataclass
+class GrowthTable:
+    """mean thickness [m] -> growth rate [m/s], from as few contacts as a tolerance allows.
+
+    Logarithmic growth is interpolated linearly between samples. An interval is trusted once the value in its middle
+    lies within `tolerance` (relative) of the interpolation; with the middle as a further sample the error left is about
+    a quarter of that.
+
+    Parameters
+    ----------
+    sample : thickness, last sample or None -> ContactSample. tolerance : relative. first_interval : [m].
+    """
+
+    sample: Callable[[float, ContactSample | None], ContactSample]
+    tolerance: float = 2e-3
+    first_interval: float = 5e-9
+    smallest_interval: float = 1e-12
+    samples: list[ContactSample] = field(default_factory=list)
+    _trusted: set[tuple[float, float]] = field(default_factory=set)
+    _last: ContactSample | None = None
+
+    def __call__(self, thickness: float) -> float:
+        """Growth rate [m/s]."""
+        if not self.samples:
+            self._solve(0.0)
+            self._solve(self.first_interval)
+        while thickness > self.samples[-1].thickness:
+            self._solve(2 * self.samples[-1].thickness)
+        while True:
+            low, high = self._bracket(thickness)
+            if (low.thickness, high.thickness) in self._trusted:
+                return self._interpolate(low, high, thickness)
+            self._split(low, high)
+
+    @property
+    def contacts(self) -> int:
+        """Number of contacts solved."""
+        return len(self.samples)
+
+    def weights(self, thickness: float) -> tuple[tuple[ContactSample, float], tuple[ContactSample, float]]:
+        """The two samples around a thickness, with their weights in linear interpolation (for maps)."""
+        self(thickness)
+        low, high = self._bracket(thickness)
+        share = (thickness - low.thickness) / (high.thickness - low.thickness)
+        return (low, 1 - share), (high, share)
+
+    def _bracket(self, thickness: float) -> tuple[ContactSample, ContactSample]:
+        index = bisect_right(self.samples, thickness, key=lambda s: s.thickness)
+        index = min(max(index, 1), len(self.samples) - 1)
+        return self.samples[index - 1], self.samples[index]
+
+    def _split(self, low: ContactSample, high: ContactSample) -> None:
+        middle = 0.5 * (low.thickness + high.thickness)
+        expected = self._interpolate(low, high, middle)
+        found = self._solve(middle)
+        narrow = high.thickness - low.thickness <= 2 * self.smallest_interval
+        if narrow or abs(found.growth - expected) <= self.tolerance * max(found.growth, expected):
+            self._trusted |= {(low.thickness, middle), (middle, high.thickness)}
+
+    def _solve(self, thickness: float) -> ContactSample:
+        found = self.sample(thickness, self._last)
+        self._last = found
+        index = bisect_right(self.samples, thickness, key=lambda s: s.thickness)
+        self.samples.insert(index, found)
+        return found
+
+    @staticmethod
+    def _interpolate(low: ContactSample, high: ContactSample, thickness: float) -> float:
+        share = (thickness - low.thickness) / (high.thickness - low.thickness)
+        if low.growth <= 0 or high.growth <= 0:
+            return (1 - share) * low.growth + share * high.growth
+        return float(np.exp((1 - share) * np.log(low.growth) + share * np.log(high.growth)))

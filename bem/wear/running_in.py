@@ -1,0 +1,359 @@
+"""The wear loop: cycle after cycle until the surface has settled (thesis, papers C and D).
+
+The loop is a fold over a state: `advance(state) -> state`. A state holds all that the next cycle needs, so a run that
+is stopped after any cycle and goes on from its stored state ends in the same bits as one that was never stopped.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.errors import ConvergenceError, InputError, Status
+from bem.grid import FloatArray, Grid
+from bem.materials import Body
+from bem.wear.cycle import (
+    LOWER,
+    UPPER,
+    ContactOutcome,
+    ContactStep,
+    Removal,
+    WearModel,
+    WearSetup,
+    dry_contact,
+    wear_cycle,
+)
+from bem.wear.segmentation import describe_pieces
+
+PARTICLE_FIELDS = np.dtype(
+    [
+        ("cycle", np.int32),
+        ("body", np.int8),
+        ("volume", np.float64),
+        ("length", np.float64),
+        ("width", np.float64),
+        ("thickness", np.float64),
+        ("x", np.float64),
+        ("y", np.float64),
+        ("columns", np.int32),
+        ("truncated", np.bool_),
+    ]
+)
+"""A particle as a row of a table: SI units, the fields of `Particle` without its columns."""
+
+CYCLE_FIELDS = np.dtype(
+    [
+        ("cycle", np.int32),
+        ("particles", np.int32),
+        ("volume", np.float64),
+        ("contact_area", np.float64),
+        ("plastic_area", np.float64),
+        ("contact_load", np.float64),
+        ("friction", np.float64),
+        ("minimum_film", np.float64),
+        ("rms_height", np.float64),
+        ("residual", np.float64),
+        ("convolutions", np.float64),
+        ("depths_computed", np.int32),
+        ("converged", np.bool_),
+    ]
+)
+"""A cycle as a row of a table: SI units; `rms_height` is Sq of the wearing surface inside the contact strip."""
+
+TIME_FIELDS = np.dtype([("contact", np.float64), ("stress", np.float64), ("particles", np.float64)])
+
+
+@dataclass(frozen=True, eq=False)
+class RunningInState:
+    """All that the next cycle needs, and the record so far.
+
+    heights : of the lower and the upper body; the counterface may be longer along x than the grid, and passes through.
+    offset : cells that the counterface has slid. pressure : of the last cycle, None before the first.
+    """
+
+    cycle: int
+    heights: tuple[FloatArray, FloatArray]
+    offset: int
+    pressure: FloatArray | None
+    cycles: NDArray[np.void]
+    particles: NDArray[np.void]
+    times: NDArray[np.void]
+
+
+@dataclass(frozen=True)
+class Settled:
+    """Stop rule: the means of particle size and roughness over the last `window` cycles differ by less than `tolerance`
+    (relative) from those over the window before. `None` for the rule means: run all cycles."""
+
+    window: int = 25
+    tolerance: float = 0.02
+
+    def __call__(self, state: RunningInState) -> bool:
+        """Whether the run may stop here."""
+        if state.cycle < 2 * self.window:
+            return False
+        rows = state.cycles[-2 * self.window :]
+        with np.errstate(invalid="ignore"):
+            size = rows["volume"] / np.maximum(rows["particles"], 1)
+        for series in (np.cbrt(size), rows["rms_height"]):
+            before, after = series[: self.window].mean(), series[self.window :].mean()
+            if abs(after - before) > self.tolerance * max(abs(before), abs(after)):
+                return False
+        return True
+
+
+@dataclass(frozen=True, eq=False)
+class RunningIn:
+    """A finished (or stopped) wear loop.
+
+    lower_heights, upper_heights : surfaces at the end [m]. pressure : of the last cycle [Pa].
+    cycles : table of `CYCLE_FIELDS`; particles : table of `PARTICLE_FIELDS`; times : of `TIME_FIELDS` [s] per cycle.
+    settled : whether the stop rule ended the run. state : to go on from.
+    """
+
+    lower_heights: FloatArray
+    upper_heights: FloatArray
+    pressure: FloatArray | None
+    cycles: NDArray[np.void]
+    particles: NDArray[np.void]
+    times: NDArray[np.void]
+    settled: bool
+    state: RunningInState
+    status: Status
+
+    def settled_particles(self, last_cycles: int) -> NDArray[np.void]:
+        """Particles of the last so many cycles."""
+        return self.particles[self.particles["cycle"] > self.state.cycle - last_cycles]
+
+    def __repr__(self) -> str:
+        radius = equivalent_radius(self.particles["volume"])
+        mean = f"{1e9 * radius.mean():.0f} nm" if radius.size else "none"
+        return f"RunningIn({self.state.cycle} cycles, {radius.size} particles, mean radius {mean}, {self.status})"
+
+
+def equivalent_radius(volume: FloatArray) -> FloatArray:
+    """(3V / 4 pi)^(1/3) [m]; thesis, paper C."""
+    return np.asarray(np.cbrt(3 * volume / (4 * np.pi)))
+
+
+def initial_state(lower_heights: FloatArray, upper_heights: FloatArray) -> RunningInState:
+    """The state before the first cycle."""
+    return RunningInState(
+        cycle=0,
+        heights=(np.array(lower_heights, dtype=np.float64), np.array(upper_heights, dtype=np.float64)),
+        offset=0,
+        pressure=None,
+        cycles=np.zeros(0, CYCLE_FIELDS),
+        particles=np.zeros(0, PARTICLE_FIELDS),
+        times=np.zeros(0, TIME_FIELDS),
+    )
+
+
+def run_in(
+    lower_heights: FloatArray,
+    upper_heights: FloatArray,
+    *,
+    grid: Grid,
+    bodies: tuple[Body, Body],
+    load: float,
+    depths: FloatArray,
+    gap: FloatArray | None = None,
+    friction: float = 0.0,
+    hardness: float | None = None,
+    cycles: int = 200,
+    model: WearModel | None = None,
+    stop: Settled | None = None,
+    contact_step: ContactStep | None = None,
+    state: RunningInState | None = None,
+    callback: Callable[[RunningInState], None] | None = None,
+) -> RunningIn:
+    """Slide two rough bodies over each other, cycle by cycle, and let the yielded pieces leave.
+
+    Parameters
+    ----------
+    lower_heights, upper_heights : (nx, ny) heights out of each body [m]. The body that does not wear (the upper one
+        where both do) is the counterface: it slides along +x by `model.shift` cells per cycle and may have more rows
+        than the grid, which then pass through the contact; it is taken as periodic along x.
+    grid : of the contact, usually free in x and periodic in y. bodies : (lower, upper).
+    load : on the grid [N]. depths : (nz,) [m], increasing. gap : macroscopic, of the smooth bodies [m]; None is flat.
+    friction : traction over pressure, along +x on the lower body.
+    hardness : cap of the contact pressure [Pa]; None takes the softer surface's.
+    cycles : how many, counted from the start of the run. model : the replaceable parts. stop : rule to end sooner.
+    contact_step : the contact of one cycle; None is the dry contact of these arguments, `friction.mixed_contact` gives
+        that of a lubricated one. state : to go on from; the heights given are then ignored.
+    callback : called with the state after every cycle (checkpoints, progress).
+
+    Raises
+    ------
+    InputError : shapes that do not match, a wearing body without yield stress.
+    ConvergenceError : a contact that did not converge; says in which cycle.
+    """
+    choices = model if model is not None else WearModel()
+    setup = WearSetup(
+        grid=grid,
+        bodies=bodies,
+        gap=np.zeros(grid.shape) if gap is None else gap,
+        load=load,
+        friction=friction,
+        depths=depths,
+        hardness=hardness,
+    )
+    wearing = setup.wearing(choices)
+    counterface = UPPER if LOWER in wearing else LOWER
+    if state is None:
+        state = initial_state(lower_heights, upper_heights)
+    _check_heights(state, grid, counterface)
+    step = contact_step if contact_step is not None else dry_contact(setup)
+    settled = False
+    while state.cycle < cycles and not settled:
+        state = advance(state, setup, choices, step, counterface)
+        if callback is not None:
+            callback(state)
+        settled = stop is not None and stop(state)
+    return RunningIn(
+        lower_heights=state.heights[LOWER],
+        upper_heights=state.heights[UPPER],
+        pressure=state.pressure,
+        cycles=state.cycles,
+        particles=state.particles,
+        times=state.times,
+        settled=settled,
+        state=state,
+        status=Status.CONVERGED,
+    )
+
+
+def advance(
+    state: RunningInState, setup: WearSetup, model: WearModel, contact_step: ContactStep, counterface: int
+) -> RunningInState:
+    """One cycle: the counterface slides, bodies touch, pieces leave."""
+    cycle = state.cycle + 1
+    rows = setup.grid.shape[0]
+    offset = state.offset + (model.shift if state.cycle else 0)
+    facing = list(state.heights)
+    facing[counterface] = _window(state.heights[counterface], offset, rows)
+    start = None if state.pressure is None else _slide(state.pressure, offset - state.offset, setup.grid.periodic[0])
+    began = time.perf_counter()
+    contact, removals = wear_cycle((facing[LOWER], facing[UPPER]), setup, model, contact_step, start)
+    if contact.status != Status.CONVERGED:
+        raise ConvergenceError(
+            f"cycle {cycle}: the contact ended with status {contact.status.value!r} at residual "
+            f"{contact.residual:.1e}; {contact.status.message}"
+        )
+    heights = list(state.heights)
+    table = []
+    for removal in removals:
+        body = removal.body
+        if body == counterface:
+            heights[body] = _remove_from_window(heights[body], removal.pieces.thickness, offset)
+        else:
+            heights[body] = heights[body] - removal.pieces.thickness
+        table.append(_particle_rows(removal, setup.grid, cycle))
+    elapsed = time.perf_counter() - began
+    stress_time = sum(removal.stress_time for removal in removals)
+    pieces_time = sum(removal.segmentation_time for removal in removals)
+    particles = np.concatenate(table)
+    worn = _window(heights[removals[0].body], offset if removals[0].body == counterface else 0, rows)
+    return RunningInState(
+        cycle=cycle,
+        heights=(heights[LOWER], heights[UPPER]),
+        offset=offset,
+        pressure=contact.pressure,
+        cycles=np.append(state.cycles, _cycle_row(cycle, contact, removals, particles, worn)),
+        particles=np.concatenate([state.particles, particles]),
+        times=np.append(
+            state.times,
+            np.array([(elapsed - stress_time - pieces_time, stress_time, pieces_time)], dtype=TIME_FIELDS),
+        ),
+    )
+
+
+def _check_heights(state: RunningInState, grid: Grid, counterface: int) -> None:
+    messages = []
+    for body, name in ((LOWER, "lower_heights"), (UPPER, "upper_heights")):
+        shape = state.heights[body].shape
+        longer = body == counterface and len(shape) == 2 and shape[0] >= grid.shape[0] and shape[1] == grid.shape[1]
+        if shape != grid.shape and not longer:
+            more = " (the counterface may have more rows)" if body == counterface else ""
+            messages.append(f"{name}: shape {shape} does not match the grid's {grid.shape}{more}")
+        elif not np.isfinite(state.heights[body]).all():
+            messages.append(f"{name}: some heights are not finite; fill or crop them first")
+    if messages:
+        raise InputError(messages)
+
+
+def _window(heights: FloatArray, offset: int, rows: int) -> FloatArray:
+    """The rows that face the grid after the body slid `offset` cells along +x."""
+    return np.take(heights, np.arange(rows) - offset, axis=0, mode="wrap")
+
+
+def _remove_from_window(heights: FloatArray, thickness: FloatArray, offset: int) -> FloatArray:
+    worn = heights.copy()
+    worn[(np.arange(thickness.shape[0]) - offset) % heights.shape[0]] -= thickness
+    return worn
+
+
+def _slide(pressure: FloatArray, cells: int, periodic: bool) -> FloatArray:
+    """Last pressure carried along with the counterface, on whose asperities it sits: the better start."""
+    moved = np.roll(pressure, cells, axis=0)
+    if not periodic and cells > 0:
+        moved[:cells] = 0.0
+    elif not periodic and cells < 0:
+        moved[cells:] = 0.0
+    return moved
+
+
+def _particle_rows(removal: Removal, grid: Grid, cycle: int) -> NDArray[np.void]:
+    return np.array(
+        [
+            (
+                cycle,
+                removal.body,
+                particle.volume,
+                particle.length,
+                particle.width,
+                particle.thickness,
+                particle.position[0],
+                particle.position[1],
+                particle.columns_count,
+                particle.truncated,
+            )
+            for particle in describe_pieces(removal.pieces, grid, cycle=cycle)
+        ],
+        dtype=PARTICLE_FIELDS,
+    )
+
+
+def _cycle_row(
+    cycle: int,
+    contact: ContactOutcome,
+    removals: list[Removal],
+    particles: NDArray[np.void],
+    worn: FloatArray,
+) -> NDArray[np.void]:
+    touched = contact.pressure.any(axis=1)
+    strip = worn[touched] if touched.any() else worn
+    return np.array(
+        [
+            (
+                cycle,
+                particles.size,
+                particles["volume"].sum(),
+                contact.contact_area,
+                contact.plastic_area,
+                contact.load,
+                contact.friction,
+                contact.minimum_film,
+                strip.std(),
+                contact.residual,
+                contact.convolutions,
+                sum(removal.depths_computed for removal in removals),
+                contact.status == Status.CONVERGED,
+            )
+        ],
+        dtype=CYCLE_FIELDS,
+    )
