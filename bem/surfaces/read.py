@@ -231,6 +231,8 @@ def _as_floats(file: Path, array: np.ndarray) -> FloatArray:
 
 
 def _unreadable(file: Path, problem: BaseException) -> SurfaceFileError:
+    if type(problem).__name__ == "CannotDetectFileFormat":
+        return SurfaceFileError(f"{file}: unreadable: truncated, damaged or of no format that is known")
     reason = str(problem).strip().splitlines()
     detail = f": {reason[0][:200]}" if reason and reason[0] else ""
     kind = "not an archive" if isinstance(problem, zipfile.BadZipFile) else type(problem).__name__
