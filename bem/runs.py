@@ -161,15 +161,13 @@ def _write(
     """Arrays, volumes, figures, report; the summary last."""
     from bem.plots.draw import draw_all
     from bem.plots.report import write_report
-    from bem.results.dataset import to_dataset, write_dataset
+    from bem.results.dataset import to_dataset, write_variables
     from bem.results.vtk import write_volumes
 
     about = {"scene": scene.name, "kind": scene.kind, "version": bem.__version__, "seed": scene.seed}
-    dataset = to_dataset(
-        outcome.variables, {"title": scene.description or scene.name, "Conventions": "CF-1.11", **about}
-    )
+    attributes = {"title": scene.description or scene.name, "Conventions": "CF-1.11", **about}
     with context.timer("writing results"):
-        write_dataset(directory.path / RESULTS, dataset)
+        write_variables(directory.path / RESULTS, outcome.variables, attributes)
         if outcome.volumes:
             write_volumes(directory.path, outcome.variables, outcome.volumes)
     summary = {
@@ -182,7 +180,7 @@ def _write(
         "seconds_by_stage": context.seconds,
     }
     run = FinishedRun(directory.path, scene_table(scene), summary)
-    run.__dict__["dataset"] = dataset  # already in memory
+    run.__dict__["dataset"] = to_dataset(outcome.variables, attributes)  # no need to read it back
     with context.timer("figures and report"):
         drawn = draw_all(run, kind.figures, directory.figures)
         summary["wall_time_s"] = time.perf_counter() - start

@@ -64,7 +64,7 @@ def spelled(name: str, value: Any) -> tuple[str, str]:
         if name.endswith("_" + ending):
             words, unit = name[: -len(ending) - 1], _UNITS[ending]
             break
-    text = " ".join(words.split("_"))
+    text = " ".join(words.split("_")).replace("von mises", "von Mises")
     if words.endswith("_fraction") and isinstance(value, float):
         return text, f"{value:.4%}"
     return text, _with_unit(value, unit)

@@ -8,6 +8,7 @@ from typing import Any
 
 import matplotlib
 import numpy as np
+from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -24,7 +25,7 @@ BLUE, ORANGE, GREEN, PINK, SKY, VERMILION, YELLOW, BLACK = [
 ]
 """Okabe and Ito's colours, told apart by people with any of the common colour-blindnesses."""
 
-SEQUENTIAL = "viridis"
+SEQUENTIAL = "viridis_r"
 OPEN = "#f1f1ee"
 _RC: dict[str, Any] = {
     "font.family": "DejaVu Sans",
@@ -34,7 +35,7 @@ _RC: dict[str, Any] = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": False,
-    "axes.prop_cycle": matplotlib.cycler(color=[BLUE, VERMILION, GREEN, PINK, ORANGE, SKY, BLACK]),
+    "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, PINK, ORANGE, SKY, BLACK]),
     "lines.linewidth": 1.4,
     "legend.frameon": False,
     "legend.fontsize": 8.0,
@@ -53,7 +54,7 @@ _PREFIXED = ("m", "Pa", "N", "s", "m/s", "N/m", "J", "W")
 
 def style() -> AbstractContextManager[None]:
     """The look, for a `with` block."""
-    return matplotlib.rc_context(_RC)
+    return matplotlib.rc_context(_RC)  # type: ignore[arg-type]
 
 
 def prefix(values: Any, unit: str) -> tuple[float, str]:
@@ -113,5 +114,5 @@ def map_of(
     image = axes.imshow(values.T * factor, extent=extent, aspect=axes.get_aspect(), **more)
     bar = figure.colorbar(image, ax=axes, shrink=0.9, pad=0.03)
     bar.set_label(label(text, shown))
-    bar.outline.set_linewidth(0.6)  # type: ignore[operator]
+    bar.outline.set_linewidth(0.6)
     return image

@@ -168,7 +168,7 @@ def _dump_table(table: BaseModel, path: tuple[str, ...]) -> Iterable[str]:
         yield f"[{'.'.join(path)}]"
     for name, field in type(table).model_fields.items():
         value = getattr(table, name)
-        if value is None:
+        if value is None or value == "":
             continue
         if isinstance(value, BaseModel):
             tables.append((name, value))

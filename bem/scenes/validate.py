@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 import types
 import typing
 from collections.abc import Iterable, Sequence
@@ -13,6 +14,7 @@ from pydantic import BaseModel, ValidationError
 from bem.errors import InputError
 from bem.scenes.units import Dimension
 
+_BARE = re.compile(r"[A-Za-z0-9_-]{1,64}")
 Model = TypeVar("Model", bound=BaseModel)
 
 
@@ -101,7 +103,10 @@ def _scalar(value: Any) -> str:
 
 def _locate(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> tuple[str, Any, Sequence[Any]]:
     """The key as the user wrote it, without tags of unions, and the annotation and metadata of the field there."""
-    key, annotation, metadata, raw = "", model, (), data
+    key = ""
+    annotation: Any = model
+    metadata: Sequence[Any] = ()
+    raw = data
     for part in loc:
         annotation = _without_none(annotation)
         if isinstance(part, int):
@@ -117,7 +122,8 @@ def _locate(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> tuple[str,
         if member is not None:
             annotation = member
             continue
-        key = f"{key}.{part}" if key else str(part)
+        shown = part if _BARE.fullmatch(str(part)) else show(part)
+        key = f"{key}.{shown}" if key else str(shown)
         field = _fields(annotation).get(part)
         if field is not None:
             annotation, metadata = field.annotation, tuple(field.metadata)

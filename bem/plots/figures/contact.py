@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 
 from bem.plots.figures import FigureKind
 from bem.plots.style import BLACK, BLUE, OPEN, ORANGE, VERMILION, field_axes, label, map_of, prefix
@@ -41,19 +42,17 @@ def _contact_map(run: Any, figure: Figure) -> None:
 
 
 def _section(run: Any, figure: Figure) -> None:
-    """Along x through the largest pressure: the deformed surfaces above, the pressure below."""
+    """Along x where the row carries most: the gap above, the pressure below."""
     pressure, gap, x = _array(run, "pressure"), _array(run, "gap"), _array(run, "x")
     along_y = len(x) < 2
     if along_y:
         pressure, gap, x = pressure.T, gap.T, _array(run, "y")
-    row = int(np.unravel_index(int(np.argmax(pressure)), pressure.shape)[1])
+    row = int(np.argmax(pressure.sum(axis=0)))
     undeformed = _array(run, "undeformed_gap")
     undeformed = (undeformed.T if along_y else undeformed)[:, row] - run.summary["approach_m"]
     factor_x, unit_x = prefix(x, "m")
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
-    reach = max(
-        3 * float(np.median(gap[:, row])), 1.2 * float(gap[:, row][pressure[:, row] > 0].max(initial=0.0)), 1e-30
-    )
+    reach = max(1.1 * float(np.percentile(gap[:, row], 95)), 1e-30)
     deepest = float(undeformed.min())
     factor, unit = prefix([reach, deepest], "m")
     upper.plot(x * factor_x, undeformed * factor, color="0.6", linewidth=0.9, label="undeformed, approached")
@@ -80,7 +79,7 @@ def _histogram(run: Any, figure: Figure) -> None:
     axes.set_xlabel(label("contact pressure", unit))
     axes.set_ylabel("share of the contact area")
     axes.set_xlim(0)
-    axes.set_ylim(0)
+    axes.set_yscale("log")
 
 
 def _convergence(run: Any, figure: Figure) -> None:
@@ -102,7 +101,7 @@ def _convergence(run: Any, figure: Figure) -> None:
     axes.set_xlabel("iteration")
     axes.set_ylabel("relative residual")
     axes.grid(True, axis="y", linewidth=0.4, color="0.85")
-    axes.xaxis.get_major_locator().set_params(integer=True)
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
 
 
 def _surfaces(run: Any, figure: Figure) -> None:
@@ -156,8 +155,8 @@ FIGURES = (
     ),
     FigureKind(
         "contact-section",
-        "Section through the largest pressure: the gap of the undeformed surfaces moved together by the approach, "
-        "the gap after deformation, and the pressure.",
+        "Section along the row of cells that carries most: the gap of the undeformed surfaces moved together by "
+        "the approach, the gap after deformation, and the pressure.",
         ("x", "y", "pressure", "gap", "undeformed_gap"),
         _section,
         (6.0, 4.0),

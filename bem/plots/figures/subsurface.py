@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bem.plots.figures import FigureKind
-from bem.plots.style import VERMILION, label, prefix
+from bem.plots.style import SKY, label, prefix
 
 
 def _von_mises_section(run: Any, figure: Figure) -> None:
@@ -36,7 +36,7 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
         x[ix] * factor_x,
         depth[iz] * factor_z,
         marker="+",
-        color=VERMILION,
+        color=SKY,
         markersize=9,
         linestyle="none",
         label=f"maximum, {section.max() * factor:.3g} {unit}",

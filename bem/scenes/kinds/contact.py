@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError, Status
+from bem.materials import Body
 from bem.scenes import build
 from bem.scenes.common import (
     BodyScene,
@@ -28,6 +29,8 @@ from bem.scenes.context import Context, Outcome, Variable
 from bem.scenes.kinds import Kind
 from bem.scenes.planner import Plan, Step, convolution_memory, padded_points
 from bem.scenes.units import Length, Ratio
+
+FloatArray = NDArray[np.float64]
 
 _CONVOLUTIONS = 60  # of one contact solve, cascade included; rough surfaces of 256 to 2048 cells take 30 to 65
 _STRESS_COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
@@ -76,6 +79,14 @@ class ContactScene(SceneModel):
     shape: ShapeScene = ShapeScene()
     contact: ContactControl
     outputs: ContactOutputs = ContactOutputs()
+
+    @model_validator(mode="after")
+    def _stresses_in_an_elastic_body(self) -> ContactScene:
+        if self.outputs.body == "upper" and self.upper.material is None and _wants_stresses(self):
+            raise problem(
+                'outputs.body = "upper": the upper body is rigid', 'outputs.body = "lower", or upper.material'
+            )
+        return self
 
 
 def resolve(scene: ContactScene) -> ContactScene:
@@ -168,8 +179,7 @@ def plan(scene: ContactScene) -> Plan:
             skipped=not depths,
             transforms=13.0 * len(depths),
             points=points,
-            memory=8.0 * grid.cells * (components + (components == 6)) * len(depths)
-            + _chunk_bytes(grid.cells, len(depths)),
+            memory=8.0 * grid.cells * (components + (components == 6)) * len(depths) + 6 * 8.0 * points,
             seconds=1.0,
         )
     )
@@ -267,9 +277,11 @@ def run(scene: ContactScene, context: Context) -> Outcome:
         deepest, _, _ = np.unravel_index(int(np.argmax(mises)), mises.shape)
         summary["max_von_mises_Pa"] = float(mises.max())
         summary["max_von_mises_depth_m"] = float(stresses["depth"].values[deepest])
-        material = (lower if scene.outputs.body == "lower" else upper or lower).material
-        if material.yield_stress is not None:
-            summary["yielded_volume_fraction"] = float((mises > material.yield_stress).mean())
+        below = lower if scene.outputs.body == "lower" else upper
+        assert below is not None
+        yielded = _yielded_volume(mises, stresses["depth"].values, below, grid.cell_area)
+        if yielded is not None:
+            summary["yielded_volume_m3"] = yielded
         volumes = ("von_mises", "stress") if scene.outputs.stresses else ("von_mises",)
     where = (
         ""
@@ -279,7 +291,7 @@ def run(scene: ContactScene, context: Context) -> Outcome:
     return Outcome(summary, variables, solution.status, where, volumes if scene.outputs.vtk else ())
 
 
-def _summary(solution: Any, area: float, heights: dict[str, NDArray[np.float64]]) -> dict[str, Any]:
+def _summary(solution: Any, area: float, heights: dict[str, FloatArray]) -> dict[str, Any]:
     contact_area = float(solution.contact_area)
     summary: dict[str, Any] = {
         "contact_area_fraction": contact_area / area,
@@ -300,36 +312,45 @@ def _summary(solution: Any, area: float, heights: dict[str, NDArray[np.float64]]
     return summary
 
 
-def _stresses(scene: ContactScene, pressure: NDArray[np.float64], context: Context) -> dict[str, Variable]:
-    """Von Mises at every depth, and the six components where asked for; a few depths at once."""
-    from bem.stress import subsurface_stress, von_mises
+def _stresses(scene: ContactScene, pressure: FloatArray, context: Context) -> dict[str, Variable]:
+    """Von Mises at every depth, and the six components where asked for."""
+    from bem.stress import subsurface_stress, von_mises, von_mises_planes
 
     grid, depths = build.grid_of(scene.grid), np.array(_depths(scene))
     below = scene.lower.build() if scene.outputs.body == "lower" else scene.upper.build()
     assert below is not None
     # Traction on the lower body acts along +x, on the upper one along -x; z points into the body itself.
     friction = scene.contact.friction if scene.outputs.body == "lower" else -scene.contact.friction
-    mises = np.empty((len(depths), *grid.shape))
-    stress = np.empty((6, len(depths), *grid.shape)) if scene.outputs.stresses else None
-    step = _chunk(grid.cells, len(depths))
-    for start in range(0, len(depths), step):
-        part = slice(start, start + step)
-        components = subsurface_stress(pressure, grid, below, depths[part], friction=friction)
-        mises[part] = von_mises(components)
-        if stress is not None:
-            stress[:, part] = components
-        context.progress(min(start + step, len(depths)), len(depths), "stresses")
+    if scene.outputs.stresses:
+        stress = subsurface_stress(pressure, grid, below, depths, friction=friction)
+        mises = von_mises(stress)
+    else:
+        mises = np.empty((len(depths), *grid.shape))
+        for i, plane in enumerate(von_mises_planes(pressure, grid, below, depths, friction=friction)):
+            mises[i] = plane
+            context.progress(i + 1, len(depths), "stresses")
     variables = {
         "depth": Variable(("depth",), depths, "m", f"depth below the surface of the {scene.outputs.body} body"),
         "von_mises": Variable(("depth", "x", "y"), mises, "Pa", "von Mises stress"),
     }
-    if stress is not None:
+    if scene.outputs.stresses:
         variables["component"] = Variable(("component",), np.array(_STRESS_COMPONENTS), "1", "component of the stress")
         variables["stress"] = Variable(("component", "depth", "x", "y"), stress, "Pa", "stress, positive in tension")
     return variables
 
 
-def _contact_state(pressure: NDArray[np.float64], hardness: float | None) -> NDArray[np.int8]:
+def _yielded_volume(mises: FloatArray, depths: FloatArray, body: Body, cell_area: float) -> float | None:
+    """Volume with von Mises above yield [m^3], by trapezia over depth; None if no yield stress is known."""
+    in_layer = depths <= (0.0 if body.layer is None else body.layer.thickness)
+    here = (body.surface_material if inside and body.layer else body.material for inside in in_layer)
+    limits = np.array([np.inf if material.yield_stress is None else material.yield_stress for material in here])
+    if not np.isfinite(limits).any():
+        return None
+    areas = (mises > limits[:, None, None]).sum(axis=(1, 2)) * cell_area
+    return float(np.trapezoid(areas, depths))
+
+
+def _contact_state(pressure: FloatArray, hardness: float | None) -> NDArray[np.int8]:
     state = (pressure > 0).astype(np.int8)
     if hardness is not None:
         state[pressure >= hardness] = 2
@@ -349,15 +370,6 @@ def _depths(scene: ContactScene) -> tuple[float, ...]:
     if not _wants_stresses(scene) or scene.outputs.depths is None:
         return ()
     return scene.outputs.depths.build()
-
-
-def _chunk(cells: int, depths: int) -> int:
-    """Depths at once: six components of them in at most a quarter of a gigabyte."""
-    return max(1, min(depths, 2**28 // (48 * cells)))
-
-
-def _chunk_bytes(cells: int, depths: int) -> float:
-    return 3 * 48.0 * cells * _chunk(cells, depths)
 
 
 def _load(scene: ContactScene, area: float) -> float | None:
@@ -400,6 +412,5 @@ KIND = Kind(
         "approach_m",
         "max_von_mises_Pa",
         "residual",
-        "convolutions",
     ),
 )
