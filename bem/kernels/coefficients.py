@@ -8,6 +8,7 @@ operator is diagonal, see `spectral`.
 from __future__ import annotations
 
 import importlib
+from typing import Any
 
 import numpy as np
 
@@ -41,8 +42,8 @@ def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
     """
     _refuse_doubly_periodic(grid)
     if body.layer is not None:
-        layered = importlib.import_module("bem.kernels.layered")
-        table: FloatArray = layered.surface_coefficients(grid, body, load)
+        table = surface_coefficients(grid, Body(body.layer.material), load)
+        table += _layered(grid).surface_remainder(grid, body, load)
         return table
     if grid.periodic == (False, False):
         return half_space.surface_table(grid.shape, grid.spacing, body.material, load)
@@ -62,13 +63,19 @@ def stress_coefficients(grid: Grid, body: Body, depth: float, load: Load) -> Flo
     if not (np.isfinite(depth) and depth >= 0):
         raise InputError(f"depth: {depth!r} must be finite and not negative [m]")
     if body.layer is not None:
-        layered = importlib.import_module("bem.kernels.layered")
-        table: FloatArray = layered.stress_coefficients(grid, body, depth, load)
+        table = _layered(grid).stress_remainder(grid, body, float(depth), load)
+        if depth <= body.layer.thickness:  # below the layer the remainder is the whole
+            table += stress_coefficients(grid, Body(body.layer.material), depth, load)
         return table
     nu = body.material.poissons_ratio
     if grid.periodic == (False, False):
         return subsurface.stress_table(grid.shape, grid.spacing, float(depth), nu, load)
     return semi_periodic.stress_table(grid, float(depth), nu, load)
+
+
+def _layered(grid: Grid) -> Any:
+    """The room that knows what a layer adds; imported only when there is one."""
+    return importlib.import_module("bem.kernels.layered_semi" if any(grid.periodic) else "bem.kernels.layered_cells")
 
 
 def _refuse_doubly_periodic(grid: Grid) -> None:

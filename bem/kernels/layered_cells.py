@@ -1,0 +1,200 @@
+"""Integrals of radial tables over the cells of a grid: what a layer adds to the influence coefficients.
+
+A unit load at the origin of a layered body gives, with S_n the Hankel transforms of `layered_hankel` and phi the angle
+from x to the point,
+
+    pressure:   uz = S0                     traction:   uz = -cos(phi) S1
+                xx = C0 - cos(2 phi) D2                 xx = -cos(phi) X1 + cos(3 phi) W3
+                yy = C0 + cos(2 phi) D2                 yy = -cos(phi) Y1 - cos(3 phi) W3
+                zz = A0                                 zz = -cos(phi) A1
+                yz = -sin(phi) B1                       yz = sin(2 phi) B2
+                xz = -cos(phi) B1                       xz = B0 + cos(2 phi) B2
+                xy = -sin(2 phi) D2                     xy = -sin(phi) (X1 - Y1)/2 + sin(3 phi) W3
+
+They are analytic on the scale D = hypot(r, d) (`Kernels.decay`): a cell takes the Gauss rule that reaches 1e-13 for
+its D over half a side, from 2 x 2 points far away to 16 x 16, and is quartered where that is not enough. Near the
+origin of a layer much thinner than a cell the quarters shrink geometrically, so any ratio of thickness to cell works.
+"""
+
+from __future__ import annotations
+
+import numba as nb
+import numpy as np
+
+from bem.grid import FloatArray, Grid
+from bem.kernels.cell_rules import COMPILE
+from bem.kernels.coefficients import STRESS_PARITY, SURFACE_PARITY
+from bem.kernels.half_space import Load
+from bem.kernels.layered_hankel import RadialTable, evaluate, radial_table, stress_kernels, surface_kernels
+from bem.materials import Body
+
+# points, and the least D over half a side for an error of 1e-13: (R + sqrt(R^2 - 1))^(-2 n)
+_POINTS = np.array([2, 3, 4, 5, 6, 8, 10, 12, 16])
+_REACH = np.array([900.0, 73.0, 21.0, 10.1, 6.1, 3.4, 2.35, 1.9, 1.48])
+# and the most wavenumber times half a side of ripples: (kappa/2)^(2n) / (2n)!
+_RIPPLE = np.array([1e-3, 0.01, 0.04, 0.12, 0.25, 0.8, 1.6, 2.8, 5.5])
+_MOST = int(_POINTS.max())
+_NODES = np.zeros((_POINTS.size, _MOST))
+_WEIGHTS = np.zeros((_POINTS.size, _MOST))
+for _row, _n in enumerate(_POINTS):
+    _NODES[_row, :_n], _WEIGHTS[_row, :_n] = np.polynomial.legendre.leggauss(int(_n))
+
+SURFACE_NORMAL, SURFACE_TANGENTIAL, STRESS_NORMAL, STRESS_TANGENTIAL = range(4)
+SURFACE = {Load.NORMAL: SURFACE_NORMAL, Load.TANGENTIAL: SURFACE_TANGENTIAL}
+STRESS = {Load.NORMAL: STRESS_NORMAL, Load.TANGENTIAL: STRESS_TANGENTIAL}
+
+
+@nb.njit(**COMPILE)
+def _add_point(kind: int, x: float, y: float, r: float, g: FloatArray, weight: float, out: FloatArray) -> None:
+    """Add `weight` times the response at (x, y) to `out` (components,)."""
+    if kind == SURFACE_NORMAL:
+        out[0] += weight * g[0]
+        return
+    c, s = (x / r, y / r) if r > 0.0 else (0.0, 0.0)  # what is multiplied by an angle vanishes at the origin
+    if kind == SURFACE_TANGENTIAL:
+        out[0] -= weight * c * g[0]
+        return
+    c2, s2 = (c - s) * (c + s), 2.0 * s * c
+    if kind == STRESS_NORMAL:
+        out[0] += weight * (g[2] - c2 * g[3])
+        out[1] += weight * (g[2] + c2 * g[3])
+        out[2] += weight * g[0]
+        out[3] -= weight * s * g[1]
+        out[4] -= weight * c * g[1]
+        out[5] -= weight * s2 * g[3]
+    else:
+        c3, s3 = c2 * c - s2 * s, s2 * c + c2 * s
+        out[0] += weight * (c3 * g[5] - c * g[3])
+        out[1] -= weight * (c3 * g[5] + c * g[4])
+        out[2] -= weight * c * g[0]
+        out[3] += weight * s2 * g[2]
+        out[4] += weight * (g[1] + c2 * g[2])
+        out[5] += weight * (s3 * g[5] - 0.5 * s * (g[3] - g[4]))
+
+
+@nb.njit(**COMPILE)
+def _rule_for(reach: float, ripple: float) -> int:
+    """Row of the rule to use, or the number of rules where none will do."""
+    row = 0
+    while row < _POINTS.size and (reach < _REACH[row] or ripple > _RIPPLE[row]):
+        row += 1
+    return row
+
+
+@nb.njit(**COMPILE)
+def _add_cell(
+    kind: int,
+    x: float,
+    y: float,
+    half_x: float,
+    half_y: float,
+    decay: float,
+    wavenumber: float,
+    edges: FloatArray,
+    coefficients: FloatArray,
+    stack: FloatArray,
+    g: FloatArray,
+    out: FloatArray,
+) -> None:
+    """Add the integral over the cell centred at (x, y) to `out`."""
+    end = edges[-1]
+    stack[0, 0], stack[0, 1], stack[0, 2], stack[0, 3] = x, y, half_x, half_y
+    height = 1
+    while height > 0:
+        height -= 1
+        x0, y0, a, b = stack[height, 0], stack[height, 1], stack[height, 2], stack[height, 3]
+        gap_x, gap_y = max(abs(x0) - a, 0.0), max(abs(y0) - b, 0.0)
+        if gap_x * gap_x + gap_y * gap_y >= end * end:
+            continue
+        along_x = _rule_for(np.sqrt(x0 * x0 + gap_y * gap_y + decay * decay) / a, wavenumber * a)
+        along_y = _rule_for(np.sqrt(y0 * y0 + gap_x * gap_x + decay * decay) / b, wavenumber * b)
+        split_x, split_y = along_x == _POINTS.size, along_y == _POINTS.size
+        if split_x or split_y:  # halve the side that is too long; both where both are
+            parts_x, parts_y = (2 if split_x else 1), (2 if split_y else 1)
+            for i in range(parts_x):
+                for j in range(parts_y):
+                    stack[height, 2], stack[height, 3] = a / parts_x, b / parts_y
+                    stack[height, 0] = x0 + (i - 0.5) * a if split_x else x0
+                    stack[height, 1] = y0 + (j - 0.5) * b if split_y else y0
+                    height += 1
+            continue
+        for i in range(_POINTS[along_x]):
+            px = x0 + a * _NODES[along_x, i]
+            for j in range(_POINTS[along_y]):
+                py = y0 + b * _NODES[along_y, j]
+                r = np.sqrt(px * px + py * py)
+                if r < end:
+                    evaluate(r, edges, coefficients, g)
+                    _add_point(kind, px, py, r, g, a * b * _WEIGHTS[along_x, i] * _WEIGHTS[along_y, j], out)
+
+
+@nb.njit(**COMPILE)
+def _add_cells(
+    kind: int,
+    sides: tuple[float, float],
+    period: tuple[int, int],
+    images: tuple[int, int],
+    decay: float,
+    wavenumber: float,
+    edges: FloatArray,
+    coefficients: FloatArray,
+    out: FloatArray,
+) -> None:
+    """Add the integrals over the cells [i, j] of `out` (components, nx, ny) and their images, `period` cells apart."""
+    components, nx, ny = out.shape
+    stack = np.empty((400, 4))
+    g = np.empty(coefficients.shape[2])
+    value = np.empty(components)
+    for i in range(nx):
+        for j in range(ny):
+            value[:] = 0.0
+            for p in range(-images[0], images[0] + 1):
+                for q in range(-images[1], images[1] + 1):
+                    x, y = (i + p * period[0]) * sides[0], (j + q * period[1]) * sides[1]
+                    _add_cell(
+                        kind, x, y, 0.5 * sides[0], 0.5 * sides[1], decay, wavenumber, edges, coefficients,
+                        stack, g, value,
+                    )  # fmt: skip
+            out[:, i, j] += value
+
+
+def add_cells(out: FloatArray, grid: Grid, table: RadialTable, kind: int, images: tuple[int, int] = (0, 0)) -> None:
+    """Add the integrals of the response over the cells, and their images on either side, to `out`.
+
+    out: (components, n, m), offsets from 0 along both axes; it may cover a part of the grid.
+    """
+    _add_cells(
+        kind, grid.spacing, grid.shape, images, table.decay, table.wavenumber, table.edges, table.coefficients, out
+    )
+
+
+def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
+    """What a bonded layer adds to the surface coefficients of a free grid on a half-space of the layer's material.
+
+    (nx, ny) [m/Pa]; see `coefficients.surface_coefficients`.
+    """
+    out = np.zeros((1, *grid.shape))
+    add_cells(out, grid, radial_table(surface_kernels(body, load), _reach(grid)), SURFACE[load])
+    clear_odd(out, (SURFACE_PARITY[load],))
+    return out[0]
+
+
+def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
+    """Same for the six stresses at `depth` in the layer; below the layer the whole coefficients: (6, nx, ny)."""
+    out = np.zeros((6, *grid.shape))
+    add_cells(out, grid, radial_table(stress_kernels(body, depth, load), _reach(grid)), STRESS[load])
+    clear_odd(out, STRESS_PARITY[load])
+    return out
+
+
+def clear_odd(out: FloatArray, parities: tuple[tuple[int, int], ...]) -> None:
+    """Round-off on the lines where an odd component vanishes."""
+    for component, (along_x, along_y) in enumerate(parities):
+        if along_x < 0:
+            out[component, 0] = 0.0
+        if along_y < 0:
+            out[component, :, 0] = 0.0
+
+
+def _reach(grid: Grid) -> float:
+    return float(np.hypot(*grid.lengths))

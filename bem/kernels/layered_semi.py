@@ -1,0 +1,221 @@
+"""What a layer adds to influence coefficients on a grid with one periodic axis: the images of the loaded cell summed.
+
+The spectrum is split smoothly at q0 = 48 / period by chi(q) = erfc((q - q0) / w) / 2, w = 8 / period:
+
+- f (1 - chi) is smooth at q = 0 (where chi = 1 to round-off), so its Hankel transform falls off like exp(-(r w / 2)^2),
+  below round-off beyond 1.5 periods: the cell and its two neighbouring images, integrated as in `layered_cells`;
+- f chi ends at 96 / period: a sum over at most 16 wavenumbers along the periodic axis of an integral along the free
+  one, with the exact averages over the cell.
+
+The cost does not depend on the thickness, and nothing is cut off above round-off.
+
+Datum of the displacement under pressure. The half-space of the layer's material has that of `semi_periodic`. What the
+layer adds has, far away and in the mean along the periodic axis, -(C2 - C1) / pi ln(x / hypot(reference, 2 h)) per unit
+line load, with C = (1 - nu)/G of substrate (2) and layer (1), and the grid's length along the free axis for reference.
+So a vanishing layer leaves the numbers of the substrate, a very thick one those of its own material, and identical
+materials change nothing. Another reference adds a constant to the displacement, proportional to the load.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from bem.grid import FloatArray, Grid
+from bem.kernels import layered
+from bem.kernels.coefficients import STRESS_PARITY, SURFACE_PARITY
+from bem.kernels.half_space import Load
+from bem.kernels.layered_cells import STRESS, SURFACE, add_cells, clear_odd
+from bem.kernels.layered_hankel import (
+    END,
+    NODES,
+    SLOPE,
+    TURN,
+    Kernels,
+    RadialTable,
+    fit,
+    gauss_rule,
+    graded,
+    panel_nodes,
+    stress_kernels,
+    surface_kernels,
+)
+from bem.materials import Body
+
+ComplexArray = NDArray[np.complex128]
+Parities = tuple[tuple[int, int], ...]
+Response = Callable[[FloatArray, FloatArray], FloatArray]
+
+# in units of the period, or 1 over it
+_SPLIT, _WIDTH = 48.0, 8.0
+_LAST = _SPLIT + 6 * _WIDTH  # erfc(6) = 2e-17
+_REACH = 1.5
+_PANEL = 0.125  # width of the outer panels of r
+_DEEP = 1.6  # decay from which the first part is below round-off
+
+
+def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
+    """What a bonded layer adds to the surface coefficients of a half-space of its material: (nx, ny) [m/Pa]."""
+    kernels = surface_kernels(body, load)
+    parities = (SURFACE_PARITY[load],)
+    free, along = _axes(grid)
+
+    def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
+        return layered.surface_response(kx, ky, body, tangential=load is Load.TANGENTIAL, remainder=True)[None]
+
+    assert body.layer is not None
+    step = 0.0
+    if load is Load.NORMAL:
+        one, two = body.layer.material, body.material
+        step = (1 - two.poissons_ratio) / two.shear_modulus - (1 - one.poissons_ratio) / one.shear_modulus
+    half = _half(grid, kernels, SURFACE[load], parities, response, step)
+    if step:
+        x = np.arange(grid.shape[free]) * grid.spacing[free]
+        period = grid.lengths[along]
+        reference = np.hypot(grid.lengths[free], 2 * body.layer.thickness)
+        line = -step / np.pi * np.log(np.hypot(x, 0.5 * period) / reference) * grid.cell_area / period
+        half[0] += line[:, None] if free == 0 else line
+    return _mirrored(half, grid, parities)[0]
+
+
+def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
+    """Same for the six stresses at `depth` in the layer; below the layer the whole coefficients: (6, nx, ny)."""
+    assert body.layer is not None
+    inside = depth <= body.layer.thickness
+
+    def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
+        return layered.stress_response(kx, ky, body, depth, tangential=load is Load.TANGENTIAL, remainder=inside)
+
+    parities = STRESS_PARITY[load]
+    half = _half(grid, stress_kernels(body, depth, load), STRESS[load], parities, response, 0.0)
+    return _mirrored(half, grid, parities)
+
+
+def _axes(grid: Grid) -> tuple[int, int]:
+    """(free axis, periodic axis)."""
+    return (1, 0) if grid.periodic[0] else (0, 1)
+
+
+def _half(grid: Grid, kernels: Kernels, kind: int, parities: Parities, response: Response, step: float) -> FloatArray:
+    """Offsets up to half a period along the periodic axis: (components, ...)."""
+    _, along = _axes(grid)
+    shape = list(grid.shape)
+    shape[along] = shape[along] // 2 + 1
+    out = _long_waves(grid, shape, kernels, parities, response, step)
+    period = grid.lengths[along]
+    if kernels.decay < _DEEP * period:
+        table = _windowed_table(kernels, period)
+        add_cells(out, grid, table, kind, (1, 0) if along == 0 else (0, 1))
+    return out
+
+
+def _mirrored(half: FloatArray, grid: Grid, parities: Parities) -> FloatArray:
+    """The second half of the period by parity."""
+    _, along = _axes(grid)
+    cells = grid.shape[along]
+    out = np.empty((len(parities), *grid.shape))
+    for component, parity in enumerate(parities):
+        source, target = np.moveaxis(half[component], along, 0), np.moveaxis(out[component], along, 0)
+        target[: cells // 2 + 1] = source
+        target[cells // 2 + 1 :] = parity[along] * source[1 : (cells + 1) // 2][::-1]
+        if parity[along] < 0 and cells % 2 == 0:
+            target[cells // 2] = 0.0
+    clear_odd(out, parities)
+    return out
+
+
+def _long_waves(
+    grid: Grid, shape: list[int], kernels: Kernels, parities: Parities, response: Response, step: float
+) -> FloatArray:
+    """The part below the split, averaged over cells: (components, *shape).
+
+    `step`: size of a 1/q singularity at q = 0, of which exp(-q s)/q, s half a period, is left to the caller.
+    """
+    free, along = _axes(grid)
+    period, length = grid.lengths[along], grid.lengths[free]
+    width = min(4.0 / period, 6.0 / length)
+    inner = graded(min(kernels.smallest, width), width)
+    last = _LAST / period
+    k, weights = gauss_rule(np.concatenate([inner, np.linspace(width, last, int(np.ceil(last / width)) + 1)[1:]]))
+    modes = 2 * np.pi / period * np.arange(int(_LAST / (2 * np.pi)) + 1, dtype=np.float64)
+    along_free: FloatArray = k[:, None]
+    along_period: FloatArray = modes[None, :]
+    kx, ky = (along_free, along_period) if free == 0 else (along_period, along_free)
+    spectrum = response(kx, ky)
+    spectrum *= 0.5 * special.erfc((np.hypot(kx, ky) * period - _SPLIT) / _WIDTH)
+    spectrum *= np.sinc(kx * grid.spacing[0] / (2 * np.pi)) * np.sinc(ky * grid.spacing[1] / (2 * np.pi))
+    if step:
+        spectrum[0, :, 0] -= step * np.exp(-0.5 * period * k) / k
+    spectrum *= weights[:, None] * np.where(modes > 0, 2.0, 1.0) * (grid.cell_area / (np.pi * period))
+    phase_free = np.arange(shape[free])[:, None] * grid.spacing[free] * k
+    phase_along = np.arange(shape[along])[:, None] * grid.spacing[along] * modes
+    waves_free = {1: np.cos(phase_free), -1: np.sin(phase_free)}
+    waves_along = {1: np.cos(phase_along), -1: np.sin(phase_along)}
+    out = np.empty((len(parities), *shape))
+    for component, parity in enumerate(parities):
+        sign = 1.0 if parity == (1, 1) else -1.0  # i from an odd spectrum, i from each sine
+        values = sign * (waves_free[parity[free]] @ spectrum[component]) @ waves_along[parity[along]].T
+        out[component] = values if free == 0 else values.T
+    return out
+
+
+@dataclass(frozen=True)
+class _Panel:
+    """Nodes in r and q and the products of Bessel functions and weights on them, in units of the period.
+
+    real [order][node, q]: the same q for all nodes; ray [order][node, point] at q = ray_q[node, point].
+    """
+
+    real_q: FloatArray
+    real: tuple[FloatArray, ...]
+    ray_q: ComplexArray
+    ray: tuple[ComplexArray, ...]
+
+
+_RAY_T, _RAY_WEIGHTS = gauss_rule(np.array([0.0, 2.0, 4.0, 8.0, 14.0, 22.0, 34.0, 50.0, 2 * END]))
+
+
+@lru_cache(maxsize=96)
+def _panel(a: float, b: float) -> _Panel:
+    r = panel_nodes(a, b)[:, None]
+    # real axis to where the window ends and q r has reached TURN; near the origin until exp(-q d) ends, d >= 8 b
+    last = END / (8 * b) if a == 0 else TURN / b
+    edges = np.linspace(0.0, _LAST, 25)
+    if last > _LAST:
+        doublings = int(np.ceil(np.log2(last / _LAST)))
+        edges = np.concatenate([edges, np.geomspace(_LAST, last, doublings + 1)[1:]])
+    q, weights = gauss_rule(edges)
+    window = 0.5 * special.erfc((_SPLIT - q) / _WIDTH)
+    real = tuple(special.jv(order, r * q) * (q * weights * window / (2 * np.pi)) for order in range(4))
+    if a == 0:
+        return _Panel(q, real, np.zeros((NODES, 0), dtype=np.complex128), ())
+    ray_q = max(last, _LAST) + SLOPE * _RAY_T / r
+    s = ray_q * r
+    hankel = [special.hankel1(0, s), special.hankel1(1, s)]
+    for order in (1, 2):
+        hankel.append(2 * order / s * hankel[order] - hankel[order - 1])
+    factor = ray_q * SLOPE * _RAY_WEIGHTS / r / (2 * np.pi)
+    return _Panel(q, real, ray_q, tuple(h * factor for h in hankel))
+
+
+def _windowed_table(kernels: Kernels, period: float) -> RadialTable:
+    """Hankel transforms of the part above the split, up to 1.5 periods."""
+    decay = kernels.decay / period
+    halvings = max(0, int(np.ceil(np.log2(8 * _PANEL / decay))))
+    inner = _PANEL * 2.0 ** -np.arange(halvings, 0, -1.0)
+    edges = np.concatenate([[0.0], inner, _PANEL * np.arange(1, int(_REACH / _PANEL) + 1)])
+    values = np.empty((edges.size - 1, NODES, len(kernels.orders)))
+    for number in range(edges.size - 1):
+        panel = _panel(float(edges[number]), float(edges[number + 1]))
+        f = kernels.spectra(panel.real_q / period)
+        f_ray = kernels.spectra(panel.ray_q.ravel() / period).reshape(-1, *panel.ray_q.shape) if panel.ray else None
+        for table, order in enumerate(kernels.orders):
+            values[number, :, table] = panel.real[order] @ f[table]
+            if f_ray is not None:
+                values[number, :, table] += np.einsum("np,np->n", f_ray[table], panel.ray[order]).real
+    return RadialTable(edges * period, fit(values) / period**2, kernels.decay, _SPLIT / period)
