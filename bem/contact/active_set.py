@@ -23,16 +23,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import passes
-from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl
+from bem.contact.controls import ApproachControl, LoadControl
 from bem.contact.passes import CAPPED, CONTACT, FREE
 from bem.contact.preconditioner import SparseInverse, sparse_inverse
 from bem.convolution import DisplacementOperator, ScaledConvolution
 
 FloatArray = NDArray[np.float64]
+Control = LoadControl | ApproachControl
 Indices = NDArray[np.int64]
 
 _ROUND_OFF = 1e-12
 """Energies closer than this, relative to the sum of their terms, are taken as equal."""
+
+_RESOLUTION = 4e-16
+"""Violations below this share of the lengths they are differences of are round-off."""
 
 
 @dataclass
@@ -46,6 +50,20 @@ class Effort:
     def left(self) -> int:
         """Iterations that may still be made."""
         return self.limit - self.iterations
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """Largest violation allowed: a length, and a share of the displacement where that is less."""
+
+    length: float
+    relative: float
+
+    def of(self, approach: float, displacement: FloatArray, iterate: _Iterate) -> float:
+        """The length that holds for a displacement; never below what double precision can resolve."""
+        cells = iterate.cells if iterate.cells.size else iterate.capped
+        size = float(np.abs(displacement[cells]).max(initial=0.0))
+        return max(min(self.length, self.relative * size), _RESOLUTION * (abs(approach) + size))
 
 
 @dataclass(frozen=True)
@@ -65,6 +83,8 @@ class Tuning:
     """Numbers that trade work between rounds and iterations; measured, see `NUMERICS.md`."""
 
     reduction: float = 0.1
+    deep_reduction: float = 1e-3
+    few: float = 2e-3
     iterations_per_round: int = 80
     final: float = 0.5
     squared_radius: int = 2
@@ -122,11 +142,21 @@ class _Level:
             if self.inverse is None:
                 self.inverse = self.operator.scaled_inverse(np.float32)
             inverse = self.inverse
+            # with nearly all cells in contact a uniform pressure costs only what the few others give way
+            free = self.gap.size - cells.size
+            mean_mode = 0.0
+            if self.operator.mean_free and free:
+                mean_mode = 1 / (float(self.operator.near_field(0)[0, 0]) * free)
 
             def spectral(residual: FloatArray, out: FloatArray) -> float:
                 passes.scatter(self.flat["quick_in"], cells, residual)
                 inverse.apply(self.quick_in, self.quick_out)
-                return float(passes.gather_dot(self.flat["quick_out"], cells, out, residual)[0])
+                total = float(passes.gather_dot(self.flat["quick_out"], cells, out, residual)[0])
+                if mean_mode:
+                    uniform = mean_mode * float(residual.sum())
+                    out += uniform
+                    total += uniform * cells.size
+                return total
 
             return spectral
         if self.sparse is None:
@@ -148,12 +178,12 @@ def solve_level(
     control: Control,
     cap: float,
     start: FloatArray | None,
-    tolerance: float,
+    tolerance: Tolerance,
     effort: Effort,
     tuning: Tuning,
     report: Callable[[int, float, int], None] | None = None,
 ) -> LevelResult:
-    """Solve on one grid until no contact condition is violated by more than `tolerance`.
+    """Solve on one grid until no contact condition is violated by more than the tolerance.
 
     `gap` flat, in units of its own; `cap` may be infinite; `start` a pressure within the bounds or None; `report` is
     called with iterations, violation and cells in contact after each round.
@@ -162,26 +192,26 @@ def solve_level(
     iterate = _first(level, control, start)
     best = math.inf
     waited = 0
-    slope = _Slope()
     accepted: _Accepted | None = None
     halvings = 0
     step = 0.0
     rounds = 0
+    dropped = gap.size
     while True:
         level.displace(iterate)
         level.mark(iterate)
         rounds += 1
         residual = np.empty(iterate.cells.size)
         total = passes.gather_sum(level.flat["displacement"], gap, iterate.cells, residual)
-        approach = _approach(level, control, iterate, total, slope)
+        approach = _approach(level, control, iterate, total)
         residual -= approach
         found = np.empty(gap.size, np.int32)
         count, largest, _ = passes.find_violations(level.flat["displacement"], gap, level.state, approach, found)
         violation = max(largest, float(np.abs(residual).max(initial=0.0)))
         if report is not None:
             report(effort.iterations, violation, iterate.cells.size + iterate.capped.size)
-        settled = isinstance(control, LoadControl | ApproachControl) or slope.settled(tolerance)
-        if violation <= tolerance and settled:
+        goal = tolerance.of(approach, level.flat["displacement"], iterate)
+        if violation <= goal:
             return _result(level, iterate, approach, violation, True, rounds)
         if effort.left <= 0 or rounds >= tuning.rounds:
             return _result(level, iterate, approach, violation, False, rounds)
@@ -208,12 +238,37 @@ def solve_level(
         if count:
             iterate, residual = _take_in(level, iterate, found[:count], approach)
         if iterate.cells.size == 0:
-            return _result(level, iterate, approach, violation, violation <= tolerance, rounds)
-        reduction = tuning.reduction
+            return _result(level, iterate, approach, violation, False, rounds)
+        if (
+            isinstance(control, ApproachControl)
+            and operator.mean_free
+            and iterate.cells.size == gap.size
+            and not (math.isinf(cap) and residual.mean() <= goal)
+        ):
+            iterate = _lift(level, iterate, float(residual.mean()))
+            residual -= residual.mean()
+            if iterate.cells.size < gap.size:
+                continue
+        changes = count + dropped
+        reduction = tuning.reduction if changes > tuning.few * iterate.cells.size else tuning.deep_reduction
         raw = _conjugate_gradients(
-            level, iterate.cells, iterate.values.copy(), residual, control, reduction, tolerance, effort
+            level, iterate.cells, iterate.values.copy(), residual, control, reduction, goal, effort
         )
+        size = iterate.cells.size
         iterate = _clip(level, control, iterate, raw)
+        dropped = size - iterate.cells.size
+
+
+def _lift(level: _Level, iterate: _Iterate, mean: float) -> _Iterate:
+    """Change the pressure of doubly periodic full contact uniformly until a cell reaches a bound.
+
+    This leaves the displacement as it is, so it is the only way out of a mean gap that is not the wanted one.
+    """
+    values = iterate.values
+    values = values - values.min() if mean > 0 else values + (level.cap - values.max())
+    inside = (values > 0) & (values < level.cap)
+    capped = iterate.cells[values >= level.cap]
+    return _Iterate(iterate.cells[inside], values[inside], capped)
 
 
 @dataclass(frozen=True)
@@ -248,10 +303,7 @@ def _first(level: _Level, control: Control, start: FloatArray | None) -> _Iterat
     if start is None:
         if isinstance(control, LoadControl):
             return _Iterate(np.arange(cells), np.full(cells, control.force / cells), nothing)
-        approach = (
-            control.approach if isinstance(control, ApproachControl) else float(level.gap.mean()) - control.mean_gap
-        )
-        overlapping = np.flatnonzero(level.gap < approach)
+        overlapping = np.flatnonzero(level.gap < control.approach)
         return _Iterate(overlapping, np.zeros(overlapping.size), nothing)
     capped = np.flatnonzero(start >= level.cap)
     inside = np.flatnonzero((start > 0) & (start < level.cap))
@@ -263,49 +315,18 @@ def _first(level: _Level, control: Control, start: FloatArray | None) -> _Iterat
     return iterate
 
 
-class _Slope:
-    """How the mean displacement follows the approach, by secants between rounds."""
-
-    def __init__(self) -> None:
-        self.approach = math.nan
-        self.mean = math.nan
-        self.slope = 0.0
-        self.change = math.inf
-
-    def settled(self, tolerance: float) -> bool:
-        return abs(self.change) <= tolerance
-
-    def next(self, approach_of_mean: float, mean: float) -> float:
-        """The next approach, where `approach_of_mean` would be right if the mean displacement stayed."""
-        if math.isnan(self.approach):
-            self.approach, self.mean = approach_of_mean, mean
-            return approach_of_mean
-        wanted = approach_of_mean - self.approach
-        self.change = wanted
-        step = wanted
-        self.approach += step
-        self.mean = mean
-        return self.approach
-
-
-def _approach(level: _Level, control: Control, iterate: _Iterate, total: float, slope: _Slope) -> float:
+def _approach(level: _Level, control: Control, iterate: _Iterate, total: float) -> float:
     """The approach that goes with the displacement in the buffer."""
     if isinstance(control, ApproachControl):
         return control.approach
-    displacement = level.flat["displacement"]
-    if isinstance(control, MeanGapControl):
-        separation, count = passes.separation_sums(displacement, level.gap, level.state)
-        if count == 0:
-            return slope.approach
-        mean = float(displacement.mean())
-        return slope.next((separation - control.mean_gap * level.gap.size) / count, mean)
     if iterate.cells.size:
         return total / iterate.cells.size
-    deepest = float((level.gap + displacement)[iterate.capped].max())
+    separation = level.gap + level.flat["displacement"]
+    deepest = float(separation[iterate.capped].max())
     free = level.state == FREE
     if not free.any():
         return deepest
-    nearest = float((level.gap + displacement)[free].min())
+    nearest = float(separation[free].min())
     return deepest if deepest <= nearest else 0.5 * (deepest + nearest)
 
 

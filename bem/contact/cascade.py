@@ -6,8 +6,6 @@ to the power 3/2: phi = p^2 inside and -c gap^(2/3) outside is smooth across the
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -146,8 +144,3 @@ def _prolong_phi(phi, rows, row_weights, columns, column_weights, cap, fine):  #
             )
             if value > 0:
                 fine[i, j] = min(np.sqrt(value), cap)
-
-
-def is_worth(shape: tuple[int, int], coarse: Any) -> bool:
-    """Whether a coarser operator exists and really has fewer cells."""
-    return coarse is not None and coarse.grid.cells < shape[0] * shape[1]

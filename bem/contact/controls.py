@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 
 @dataclass(frozen=True)
 class LoadControl:
@@ -53,15 +51,3 @@ def scaled_control(
         return ApproachControl((approach - datum) / length)
     assert mean_gap is not None
     return MeanGapControl(mean_gap / length)
-
-
-def coarse_control(control: Control, cells: int, coarse_cells: int) -> Control:
-    """The same control on a coarser grid: a force is a sum over cells, lengths are the same."""
-    if isinstance(control, LoadControl):
-        return LoadControl(control.force * (coarse_cells / cells))
-    return control
-
-
-def is_finite(*values: float) -> bool:
-    """Whether all of them are."""
-    return bool(np.isfinite(values).all())

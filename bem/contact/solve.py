@@ -4,22 +4,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import cascade, passes
-from bem.contact.active_set import Effort, LevelResult, Tuning, solve_level
-from bem.contact.controls import Control, LoadControl, scaled_control
+from bem.contact.active_set import Effort, LevelResult, Tolerance, Tuning, solve_level
+from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl, scaled_control
+from bem.contact.search import by_load
 from bem.contact.solution import ContactSolution
 from bem.convolution import DisplacementOperator
 from bem.errors import InfeasibleError, InputError, Status
 
 FloatArray = NDArray[np.float64]
 Callback = Callable[[int, float, float], object]
+Report = Callable[[int, float, int], None]
 
 _FLAT = 1e-6
 """A gap whose roughness is below this times the displacement is called flat; the residual is then of the latter."""
+
+_TIGHTER = 0.9
+"""Share of the tolerance that the solver aims at, so that rounding in SI units cannot spoil the certificate."""
 
 _COARSE_TOLERANCE = 3e-2
 """Violation over roughness that coarse grids are solved to: more is lost in the interpolation anyway."""
@@ -45,8 +51,8 @@ def solve_contact(
     gap : (nx, ny), undeformed gap of the two surfaces [m]; its constant matters only when `approach` is given.
     operator : from `displacement_operator`.
     load, approach, mean_gap : exactly one of total load [N], approach [m] and the mean over the grid of the positive
-        part of the deformed gap [m]. On a doubly periodic grid displacements are mean-free: `approach` is the distance by
-        which the means of the undeformed surfaces come closer than `gap` says.
+        part of the deformed gap [m]. On a doubly periodic grid displacements are mean-free: `approach` is by how
+        much the means of the undeformed surfaces come closer than `gap` says.
     hardness : cap on the pressure [Pa]; None for purely elastic.
     tolerance : bound on the residual, see `ContactSolution`.
     initial_pressure : (nx, ny), a start near the solution; the coarser grids are then skipped.
@@ -79,58 +85,107 @@ def solve_contact(
     scaled_cap = cap / to_pressure
     scaled_gap = (relative / length).reshape(-1)
     effort = Effort(max_iterations)
-    tuning = Tuning()
     scale = roughness / length
 
-    if control == LoadControl(0.0):
-        result = LevelResult(np.zeros(grid.cells), np.zeros(grid.cells), 0.0, 0.0, True, 0)
-    else:
-        start = None
+    problem = _Problem(tolerance=_TIGHTER * tolerance * scale if scale > 0 else tolerance, scale=scale, effort=effort)
+    result = _without_contact(control, scaled_gap)
+    if result is None:
         if initial_pressure is not None:
-            start = np.clip(initial_pressure.reshape(-1) / to_pressure, 0.0, scaled_cap)
+            start: FloatArray | None = np.clip(initial_pressure.reshape(-1) / to_pressure, 0.0, scaled_cap)
         else:
-            start = _from_coarser(operator, scaled_gap.reshape(grid.shape), control, scaled_cap, scale, effort, tuning)
+            start = _from_coarser(problem, operator, scaled_gap.reshape(grid.shape), control, scaled_cap)
         report = None
         if callback is not None:
             used = callback
 
             def report(iterations: int, violation: float, cells: int) -> None:
-                used(iterations, violation / scale if scale > 0 else violation, cells / grid.cells)
+                used(iterations, violation / (scale or 1.0), cells / grid.cells)
 
-        goal = _goal(tolerance, scale, start, operator)
-        result = solve_level(operator, scaled_gap, control, scaled_cap, start, goal, effort, tuning, report)
+        result = _solve(problem, operator, scaled_gap, control, scaled_cap, start, problem.tolerance, report)
     return _certify(operator, gap, result, length, to_pressure, datum, cap, roughness, tolerance, effort, before)
 
 
-def _goal(tolerance: float, scale: float, start: FloatArray | None, operator: DisplacementOperator) -> float:
-    return 0.9 * tolerance * (scale if scale > 0 else 1.0)
+@dataclass(frozen=True)
+class _Problem:
+    """What all grids of one problem share: tolerance and roughness in the solver's length, effort, tuning."""
+
+    tolerance: float
+    scale: float
+    effort: Effort
+    tuning: Tuning = field(default_factory=Tuning)
 
 
-def _from_coarser(
+def _without_contact(control: Control, gap: FloatArray) -> LevelResult | None:
+    """The result where the bodies do not press on each other at all. The lowest gap is zero."""
+    nothing = np.zeros(gap.size)
+    if isinstance(control, LoadControl):
+        return LevelResult(nothing, nothing, 0.0, 0.0, True, 0) if control.force == 0 else None
+    approach = control.approach if isinstance(control, ApproachControl) else float(gap.mean()) - control.mean_gap
+    return LevelResult(nothing, nothing, approach, 0.0, True, 0) if approach <= 0 else None
+
+
+def _solve(
+    problem: _Problem,
     operator: DisplacementOperator,
     gap: FloatArray,
     control: Control,
     cap: float,
-    scale: float,
-    effort: Effort,
-    tuning: Tuning,
+    start: FloatArray | None,
+    tolerance: float,
+    report: Report | None = None,
+) -> LevelResult:
+    """One grid, any control. Controls without a direct way are reached by way of the load."""
+
+    def directly(control: ApproachControl | LoadControl, start: FloatArray | None, tolerance: float) -> LevelResult:
+        allowed = Tolerance(
+            tolerance if problem.scale > 0 else math.inf, tolerance / problem.scale if problem.scale > 0 else tolerance
+        )
+        return solve_level(operator, gap, control, cap, start, allowed, problem.effort, problem.tuning, report)
+
+    if isinstance(control, MeanGapControl) and operator.mean_free and math.isinf(cap):
+        # displacements have no mean: the mean gap fixes the approach
+        if control.mean_gap <= tolerance:
+            return _full_contact(operator, gap)
+        control = ApproachControl(float(gap.mean()) - control.mean_gap)
+    if isinstance(control, LoadControl):
+        return directly(control, start, tolerance)
+    if isinstance(control, ApproachControl):
+        result = directly(control, start, tolerance)
+        if result.converged or problem.effort.left <= 0:
+            return result
+        start = None
+    return by_load(control, gap, cap, start, problem.scale or 1.0, tolerance, directly)
+
+
+def _full_contact(operator: DisplacementOperator, gap: FloatArray) -> LevelResult:
+    """The least pressure that closes a doubly periodic gap everywhere."""
+    shape = operator.grid.shape
+    pressure = operator.scaled_inverse().apply(-gap.reshape(shape), np.empty(shape)).reshape(-1)
+    pressure -= pressure.min()
+    displacement = operator.scaled().apply(pressure.reshape(shape), np.empty(shape)).reshape(-1)
+    return LevelResult(pressure, displacement, float((gap + displacement).mean()), 0.0, True, 1)
+
+
+def _from_coarser(
+    problem: _Problem, operator: DisplacementOperator, gap: FloatArray, control: Control, cap: float
 ) -> FloatArray | None:
     """Pressure (flat) interpolated from the solution on the next coarser grid, itself begun in the same way."""
     coarse = operator.coarsened()
-    if not cascade.is_worth(gap.shape, coarse):
+    if coarse is None or coarse.grid.cells == operator.grid.cells:
         return None
-    assert coarse is not None
     periodic = operator.grid.periodic
-    # the kernel's unit may differ by a power of two between grids
+    # the kernel's unit may differ by a power of two between grids, and a force is a sum over cells
     factor = coarse.unit / operator.unit
     coarse_gap = cascade.sample(gap, coarse.grid.shape, periodic)
-    area_ratio = coarse.grid.cell_area / operator.grid.cell_area
     there = control
     if isinstance(control, LoadControl):
-        there = LoadControl(control.force * factor / area_ratio)
-    start = _from_coarser(coarse, coarse_gap, there, cap * factor, scale, effort, tuning)
+        there = LoadControl(control.force * factor * operator.grid.cell_area / coarse.grid.cell_area)
     flat = coarse_gap.reshape(-1)
-    result = solve_level(coarse, flat, there, cap * factor, start, _COARSE_TOLERANCE * (scale or 1.0), effort, tuning)
+    if _without_contact(there, flat) is not None:
+        return None
+    start = _from_coarser(problem, coarse, coarse_gap, there, cap * factor)
+    tolerance = max(problem.tolerance, _COARSE_TOLERANCE * (problem.scale or 1.0))
+    result = _solve(problem, coarse, flat, there, cap * factor, start, tolerance)
     shape = coarse.grid.shape
     fine = cascade.prolong(
         result.pressure.reshape(shape),
@@ -231,10 +286,10 @@ def _check(
         raise InputError(f"solve_contact: operator {operator!r} must come from displacement_operator")
     messages = []
     checked = gap
-    for name, field in (("gap", gap), ("initial_pressure", initial_pressure)):
-        if name == "gap" or field is not None:
+    for name, values in (("gap", gap), ("initial_pressure", initial_pressure)):
+        if name == "gap" or values is not None:
             try:
-                array = operator.grid.check_field(field, f"solve_contact: {name}")
+                array = operator.grid.check_field(values, f"solve_contact: {name}")
                 if name == "gap":
                     checked = array
                 elif array.min() < 0:
