@@ -1,7 +1,17 @@
 """Wear: which pieces come off, how large, what shape, and how the surface settles (thesis, papers B and C)."""
 
 from bem.wear.cycle import ContactOutcome, ContactStep, WearModel, WearSetup, dry_contact, wear_cycle, yielded_pieces
-from bem.wear.running_in import RunningIn, RunningInState, Settled, advance, equivalent_radius, initial_state, run_in
+from bem.wear.running_in import (
+    RunningIn,
+    RunningInState,
+    Settled,
+    advance,
+    equivalent_radius,
+    initial_state,
+    pack_state,
+    run_in,
+    unpack_state,
+)
 from bem.wear.segmentation import Segmentation, describe_pieces, find_particles, refine_depths, segment
 
 __all__ = [
@@ -19,9 +29,11 @@ __all__ = [
     "equivalent_radius",
     "find_particles",
     "initial_state",
+    "pack_state",
     "refine_depths",
     "run_in",
     "segment",
+    "unpack_state",
     "wear_cycle",
     "yielded_pieces",
 ]

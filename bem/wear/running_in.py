@@ -9,6 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,6 +83,44 @@ class RunningInState:
     cycles: NDArray[np.void]
     particles: NDArray[np.void]
     times: NDArray[np.void]
+
+
+def pack_state(state: RunningInState) -> dict[str, Any]:
+    """A state as plain arrays and numbers, for a checkpoint."""
+    return {
+        "cycle": state.cycle,
+        "lower_heights": state.heights[LOWER],
+        "upper_heights": state.heights[UPPER],
+        "offset": state.offset,
+        "pressure": state.pressure,
+        **{name: pack_table(getattr(state, name)) for name in ("cycles", "particles", "times")},
+    }
+
+
+def unpack_state(packed: dict[str, Any]) -> RunningInState:
+    """The state that was packed."""
+    return RunningInState(
+        cycle=int(packed["cycle"]),
+        heights=(packed["lower_heights"], packed["upper_heights"]),
+        offset=int(packed["offset"]),
+        pressure=packed["pressure"],
+        cycles=unpack_table(packed["cycles"], CYCLE_FIELDS),
+        particles=unpack_table(packed["particles"], PARTICLE_FIELDS),
+        times=unpack_table(packed["times"], TIME_FIELDS),
+    )
+
+
+def pack_table(table: NDArray[np.void]) -> dict[str, NDArray[Any]]:
+    """A table as one plain array per column."""
+    return {name: np.ascontiguousarray(table[name]) for name in table.dtype.names or ()}
+
+
+def unpack_table(columns: dict[str, NDArray[Any]], fields: np.dtype[np.void]) -> NDArray[np.void]:
+    """The table of those columns."""
+    table = np.zeros(len(next(iter(columns.values()))), fields)
+    for name in fields.names or ():
+        table[name] = columns[name]
+    return table
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,6 @@ One scene runs over its loads and over repetitions with surfaces of their own; s
 
 from __future__ import annotations
 
-import dataclasses
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -255,13 +254,13 @@ def plan(scene: WearScene) -> Plan:
 
 def run(scene: WearScene, context: Context) -> Outcome:
     """All loads and repetitions, one wear loop each."""
-    from bem.wear import RunningInState, Settled, WearModel, run_in
+    from bem.wear import RunningInState, Settled, WearModel, pack_state, run_in, unpack_state
 
     model = WearModel(**scene.wear.model_dump())
     stop = Settled(tolerance=scene.cycles.tolerance) if scene.cycles.stop_when_settled else None
     runs = [(load, repetition) for load in scene.cylinder.loads for repetition in range(scene.repetitions)]
     saved = context.saved() or {"finished": [], "current": None}
-    finished: list[dict[str, Any]] = list(saved["finished"])
+    finished: list[dict[str, Any]] = [_unpack_record(record) for record in saved["finished"]]
     current = saved["current"]
     for index, (load, repetition) in enumerate(runs):
         if index < len(finished):
@@ -272,12 +271,12 @@ def run(scene: WearScene, context: Context) -> Outcome:
                 build.heights_of(body.surface, grid, context.seed(name, repetition), context.note)
                 for name, body in (("lower", scene.lower), ("upper", scene.upper))
             ]
-        state = None if current is None else RunningInState(**current)
+        state = None if current is None else unpack_state(current)
         current = None
 
         def watch(now: RunningInState, index: int = index, area: float = grid.area) -> None:
             if now.cycle % _CHECKPOINT_EVERY == 0 or now.cycle == scene.cycles.count:
-                context.save({"finished": finished, "current": _fields(now)})
+                context.save({"finished": [_pack_record(r) for r in finished], "current": pack_state(now)})
             row = now.cycles[-1]
             last = now.particles[now.particles["cycle"] == now.cycle]
             context.progress(
@@ -306,7 +305,7 @@ def run(scene: WearScene, context: Context) -> Outcome:
                 callback=watch,
             )
         finished.append(_record(scene, load, repetition, grid, initial, result))
-        context.save({"finished": finished, "current": None})
+        context.save({"finished": [_pack_record(r) for r in finished], "current": None})
     return _outcome(scene, finished)
 
 
@@ -316,8 +315,20 @@ def _cylinder(scene: WearScene, grid: Grid) -> NDArray[np.float64]:
     return np.ascontiguousarray(np.broadcast_to(grid.x[:, None] ** 2 / (2 * scene.cylinder.radius), grid.shape))
 
 
-def _fields(state: Any) -> dict[str, Any]:
-    return {field.name: getattr(state, field.name) for field in dataclasses.fields(state)}
+_TABLES = ("cycles", "particles", "times")
+
+
+def _pack_record(record: dict[str, Any]) -> dict[str, Any]:
+    from bem.wear.running_in import pack_table
+
+    return record | {name: pack_table(record[name]) for name in _TABLES}
+
+
+def _unpack_record(packed: dict[str, Any]) -> dict[str, Any]:
+    from bem.wear.running_in import CYCLE_FIELDS, PARTICLE_FIELDS, TIME_FIELDS, unpack_table
+
+    fields = dict(zip(_TABLES, (CYCLE_FIELDS, PARTICLE_FIELDS, TIME_FIELDS), strict=True))
+    return packed | {name: unpack_table(packed[name], fields[name]) for name in _TABLES}
 
 
 def _record(
