@@ -1,0 +1,221 @@
+"""The wear cycle: what leaves is what the surface loses, nothing that matters is skipped, a stopped run goes on."""
+
+import numpy as np
+import pytest
+
+from bem import (
+    Body,
+    ConvergenceError,
+    Grid,
+    InputError,
+    Layer,
+    Material,
+    Status,
+    find_particles,
+    generate_surface,
+    run_in,
+)
+from bem.stress import von_mises_field
+from bem.transforms import COUNT
+from bem.wear import Settled, WearModel, WearSetup, dry_contact, pack_state, unpack_state, yielded_pieces
+from bem.wear.cycle import ContactOutcome
+from bem.wear.segmentation import segment
+
+HARD = Body(Material("cylinder", youngs_modulus=210e9, poissons_ratio=0.3, hardness=6e9))
+SOFT = Body(Material("disk", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9, yield_stress=0.64e9))
+GRID = Grid((48, 40), (100e-9, 100e-9), periodic=(False, True))
+DEPTHS = np.arange(24) * 95e-9
+LOAD = 2.2e-3  # about 7 % of the grid at the hardness
+
+
+def surfaces(seed=3, rms=(150e-9, 30e-9)):
+    whole = Grid(GRID.shape, GRID.spacing)
+    return tuple(
+        generate_surface(whole, rms_height=r, correlation_length=0.4e-6, seed=seed + k) for k, r in enumerate(rms)
+    )
+
+
+ARGUMENTS = dict(grid=GRID, bodies=(SOFT, HARD), load=LOAD, depths=DEPTHS, friction=0.16)  # noqa: C408
+
+
+def setup(**change):
+    arguments = ARGUMENTS | {"gap": np.zeros(GRID.shape)} | change
+    return WearSetup(**arguments)
+
+
+def test_worn_volume_is_the_surfaces_loss_to_round_off():
+    lower, upper = surfaces()
+    result = run_in(lower, upper, cycles=6, **ARGUMENTS)
+    assert result.particles.size > 10
+    lost = (lower - result.lower_heights).sum() * GRID.cell_area
+    # sums of some thousand heights of 1e-7 m: their round-off over the volume
+    assert result.particles["volume"].sum() == pytest.approx(lost, rel=1e-11)
+    assert result.cycles["volume"].sum() == pytest.approx(lost, rel=1e-11)
+    assert np.array_equal(result.upper_heights, upper)
+    assert (result.lower_heights <= lower).all()
+
+
+def test_stopping_at_a_quiet_depth_gives_the_pieces_of_the_whole_stack():
+    lower, upper = surfaces()
+    fixed = setup()
+    contact = dry_contact(fixed)(lower + upper, None)
+    assert contact.status == Status.CONVERGED
+    found = yielded_pieces(contact.pressure, fixed, WearModel(), 0)
+    stack = von_mises_field(contact.pressure, GRID, SOFT, DEPTHS, friction=0.16)
+    whole = segment(stack, DEPTHS, yield_stress=0.64e9, periodic=GRID.periodic)
+    assert whole.count > 3
+    assert np.array_equal(found.pieces.labels, whole.labels)
+    assert np.array_equal(found.pieces.thickness, whole.thickness)
+    assert found.depths_computed < DEPTHS.size / 2
+
+
+def test_a_bound_spares_every_transform_where_nothing_can_yield():
+    gentle = np.zeros(GRID.shape)
+    gentle[20:24, 20:24] = 1e8
+    COUNT.reset()
+    found = yielded_pieces(gentle, setup(), WearModel(), 0)
+    assert found.pieces.count == 0
+    assert found.depths_computed == 0
+    assert COUNT.forward == COUNT.inverse == 0
+    stack = von_mises_field(gentle, GRID, SOFT, DEPTHS, friction=0.16)
+    assert stack.max() < 0.64e9  # and indeed nothing does
+
+
+def test_a_stopped_run_goes_on_to_the_same_bits():
+    lower, upper = surfaces()
+    whole = run_in(lower, upper, cycles=6, **ARGUMENTS)
+    states = []
+    run_in(lower, upper, cycles=3, callback=states.append, **ARGUMENTS)
+    packed = pack_state(states[-1])
+    rest = run_in(lower, upper, cycles=6, state=unpack_state(packed), **ARGUMENTS)
+    assert np.array_equal(whole.lower_heights, rest.lower_heights)
+    assert np.array_equal(whole.pressure, rest.pressure)
+    assert np.array_equal(whole.particles, rest.particles)
+    assert np.array_equal(whole.cycles, rest.cycles)
+
+
+def test_interpolated_refinement_is_near_the_exact_one():
+    lower, upper = surfaces()
+    fixed = setup()
+    pressure = dry_contact(fixed)(lower + upper, None).pressure
+    cubic = yielded_pieces(pressure, fixed, WearModel(refine=4), 0).pieces
+    linear = yielded_pieces(pressure, fixed, WearModel(refine=4, refinement="linear"), 0).pieces
+    exact = yielded_pieces(pressure, fixed, WearModel(refine=4, refinement="exact"), 0).pieces
+    volumes = [p.thickness.sum() for p in (cubic, linear, exact)]
+    # 95 nm between depths under 100 nm cells is coarse: a few per cent is what interpolation costs here
+    assert volumes[0] == pytest.approx(volumes[2], rel=0.1)
+    assert abs(volumes[0] - volumes[2]) < abs(volumes[1] - volumes[2])
+
+
+def test_the_counterface_slides_and_may_be_longer_than_the_grid():
+    lower, upper = surfaces()
+    longer = np.concatenate([upper, upper[::-1]])
+    seen = []
+
+    def contact(heights, last):
+        seen.append(heights.copy())
+        return ContactOutcome(np.zeros(GRID.shape), 0.0, 0.0, LOAD, 0.16, 0.0, 0, Status.CONVERGED)
+
+    run_in(np.zeros_like(lower), longer, cycles=3, model=WearModel(shift=5), contact_step=contact, **ARGUMENTS)
+    for step, heights in enumerate(seen):
+        assert np.array_equal(heights, longer[(np.arange(48) - 5 * step) % 96])
+
+
+@pytest.mark.parametrize("wears", ["lower", "upper", "both", "softer"])
+def test_the_bodies_that_should_wear_do(wears):
+    lower, upper = surfaces()
+    result = run_in(lower, upper, cycles=2, model=WearModel(wears=wears), **(ARGUMENTS | {"bodies": (SOFT, SOFT)}))
+    changed = (not np.array_equal(lower, result.lower_heights), not np.array_equal(upper, result.upper_heights))
+    assert (
+        changed
+        == {"lower": (True, False), "upper": (False, True), "both": (True, True), "softer": (True, False)}[wears]
+    )
+    lost = (lower - result.lower_heights).sum() + (upper - result.upper_heights).sum()
+    assert result.particles["volume"].sum() == pytest.approx(lost * GRID.cell_area, rel=1e-11)
+
+
+def test_pieces_of_a_film_end_at_its_interface():
+    film = Material("film", youngs_modulus=88e9, poissons_ratio=0.3, hardness=1.8e9, yield_stress=0.5e9)
+    coated = Body(HARD.material, layer=Layer(film, 100e-9))
+    lower, upper = surfaces()
+    bodies = (coated, HARD)
+    result = run_in(lower, upper, cycles=1, **(ARGUMENTS | {"bodies": bodies}))
+    assert result.particles.size > 0
+    assert result.particles["thickness"].max() <= 100e-9 * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("criterion", ["tresca", "maximum_tension"])
+def test_other_criteria_run(criterion):
+    lower, upper = surfaces()
+    result = run_in(lower, upper, cycles=2, model=WearModel(criterion=criterion), **ARGUMENTS)
+    base = run_in(lower, upper, cycles=1, **ARGUMENTS)
+    if criterion == "tresca":  # Tresca yields no later than von Mises
+        assert result.cycles["volume"][0] >= base.cycles["volume"][0] > 0
+    assert result.cycles["cycle"][-1] == 2
+
+
+def test_stress_range_of_a_contact_that_does_not_move_is_zero():
+    lower, upper = surfaces()
+    strong = Body(Material("disk", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9, yield_stress=0.95e9))
+    arguments = ARGUMENTS | {"bodies": (strong, HARD)}
+    result = run_in(lower, upper, cycles=3, model=WearModel(stress_range=True, shift=0), **arguments)
+    # loading from nothing to p is half a range of p / 2: below yield; then nothing changes any more
+    assert result.particles.size == 0
+
+
+def test_settled_rule_stops_a_steady_run():
+    def contact(heights, last):
+        return ContactOutcome(np.zeros(GRID.shape), 0.0, 0.0, LOAD, 0.16, 0.0, 0, Status.CONVERGED)
+
+    lower, upper = surfaces()
+    result = run_in(lower, upper, cycles=50, stop=Settled(window=4), contact_step=contact, **ARGUMENTS)
+    assert result.settled
+    assert result.state.cycle == 8
+
+
+def test_a_contact_that_does_not_converge_is_said_with_its_cycle():
+    def contact(heights, last):
+        return ContactOutcome(np.zeros(GRID.shape), 0.0, 0.0, LOAD, 0.16, 1e-2, 0, Status.MAX_ITERATIONS)
+
+    lower, upper = surfaces()
+    with pytest.raises(ConvergenceError, match="cycle 1"):
+        run_in(lower, upper, cycles=5, contact_step=contact, **ARGUMENTS)
+
+
+def test_periodic_in_both_axes_runs_and_particles_do_not_depend_on_the_origin():
+    grid = Grid(GRID.shape, GRID.spacing, periodic=(True, True))
+    lower, upper = surfaces()
+    arguments = ARGUMENTS | {"grid": grid}
+    here = run_in(lower, upper, cycles=1, **arguments)
+    there = run_in(np.roll(lower, 7, 0), np.roll(upper, 7, 0), cycles=1, **arguments)
+    # contact is solved to 1e-6 of the roughness: volumes follow to about that
+    assert sorted(there.particles["volume"]) == pytest.approx(sorted(here.particles["volume"]), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("change", "word"),
+    [
+        ({"lower_heights": np.zeros((3, 3))}, "lower_heights"),
+        ({"upper_heights": np.full(GRID.shape, np.nan)}, "finite"),
+        ({"depths": np.array([1e-7])}, "depths"),
+        ({"bodies": (Body(Material("e", youngs_modulus=1e9, poissons_ratio=0.3)),) * 2}, "yield_stress"),
+        ({"load": 1.0}, "hardness"),
+    ],
+)
+def test_bad_input_is_named(change, word):
+    lower, upper = surfaces()
+    arguments = ARGUMENTS | {"lower_heights": lower, "upper_heights": upper} | change
+    with pytest.raises(InputError, match=word):
+        run_in(arguments.pop("lower_heights"), arguments.pop("upper_heights"), cycles=1, **arguments)
+    with pytest.raises(InputError, match="criterion"):
+        WearModel(criterion="magic")
+
+
+def test_particles_of_the_cycle_are_those_of_the_public_function():
+    lower, upper = surfaces()
+    fixed = setup()
+    pressure = dry_contact(fixed)(lower + upper, None).pressure
+    stack = von_mises_field(pressure, GRID, SOFT, DEPTHS, friction=0.16)
+    particles = find_particles(stack, DEPTHS, GRID, yield_stress=0.64e9)
+    result = run_in(lower, upper, cycles=1, **ARGUMENTS)
+    assert sorted(p.volume for p in particles) == pytest.approx(sorted(result.particles["volume"]), rel=1e-12)
