@@ -15,19 +15,10 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.kernels import half_space, semi_periodic, subsurface
-from bem.kernels.half_space import Load
+from bem.kernels.loads import STRESS_PARITY, SURFACE_PARITY, Load
 from bem.materials import Body
 
 __all__ = ["STRESS_PARITY", "SURFACE_PARITY", "Load", "stress_coefficients", "surface_coefficients"]
-
-SURFACE_PARITY: dict[Load, tuple[int, int]] = {Load.NORMAL: (1, 1), Load.TANGENTIAL: (-1, 1)}
-"""Parity (in x, in y) of the normal surface displacement: +1 even, -1 odd."""
-
-STRESS_PARITY: dict[Load, tuple[tuple[int, int], ...]] = {
-    Load.NORMAL: ((1, 1), (1, 1), (1, 1), (1, -1), (-1, 1), (-1, -1)),
-    Load.TANGENTIAL: ((-1, 1), (-1, 1), (-1, 1), (-1, -1), (1, 1), (1, -1)),
-}
-"""Parity (in x, in y) of each stress (xx yy zz yz xz xy). The spectrum is real where their product is +1."""
 
 
 def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:

@@ -27,7 +27,8 @@ from numpy.typing import ArrayLike
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.kernels.cell_rules import COMPILE, NEAR, NODES, WEIGHTS, points_needed
-from bem.kernels.half_space import Load, check_points
+from bem.kernels.half_space import check_points
+from bem.kernels.loads import Load
 from bem.materials import Material
 
 
@@ -66,9 +67,10 @@ def add_strip(
     """
     zz = z * z
     ratio = np.sqrt(x * x + zz) / a
-    wedge = 0.0  # atan(X / z)
-    arc = 0.0  # X z / s^2
+    across = 0.0  # X z / s^2 - atan(X / z)
+    down = 0.0  # -X z / s^2 - atan(X / z)
     dip = 0.0  # z^2 / s^2
+    wedge = 0.0  # atan(X / z)
     log = 0.0  # ln s
     if ratio >= NEAR:
         n = points_needed(ratio)
@@ -76,30 +78,34 @@ def add_strip(
             u = x - a * NODES[n, i]
             s2 = u * u + zz
             w = 2.0 * a * WEIGHTS[n, i] / s2
-            wedge += w * z
-            arc += w * z * (zz - u * u) / s2
+            across -= w * 2.0 * z * u * u / s2
+            down -= w * 2.0 * z * zz / s2
             dip -= w * 2.0 * zz * u / s2
+            wedge += w * z
             log += w * u
     else:
         x1 = x + a
         x0 = x - a
-        wedge = _wedge(x0, x1, z)
         s1 = x1 * x1 + zz
         s0 = x0 * x0 + zz
+        arc = 0.0
         if z > 0.0:
             arc = z * (x1 / s1 - x0 / s0)
             dip = zz * (1.0 / s1 - 1.0 / s0)
+        wedge = _wedge(x0, x1, z)
+        across = arc - wedge
+        down = -arc - wedge
         log = 0.5 * np.log(s1 / s0)
-    xx = pressure * (arc - wedge)
-    zz_stress = -pressure * (arc + wedge)
+    # a traction of zero keeps the infinities of its edges out
+    xx = pressure * across
+    zz_stress = pressure * down
     if traction != 0.0:
         xx -= traction * (2.0 * log + dip)
         zz_stress += traction * dip
-        out[4] += traction * (arc - wedge)
     out[0] += xx
     out[1] += nu * (xx + zz_stress)
     out[2] += zz_stress
-    out[4] += pressure * dip
+    out[4] += pressure * dip + traction * across
     if along != 0.0:
         out[3] -= along * wedge
         out[5] -= along * log

@@ -18,8 +18,6 @@ rectangle that is too long for either is cut across its long side until one of t
 
 from __future__ import annotations
 
-from enum import Enum
-
 import numba as nb
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,14 +25,8 @@ from numpy.typing import ArrayLike
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, cut, log_ratio, rule, slant
+from bem.kernels.loads import DISPLACEMENT_PARITY, Load, clear_odd
 from bem.materials import Material
-
-
-class Load(Enum):
-    """What acts on a cell: unit pressure, or unit traction along +x."""
-
-    NORMAL = 0
-    TANGENTIAL = 1
 
 
 @nb.njit(**COMPILE)
@@ -251,7 +243,7 @@ def rectangle_displacement(
         out,
     )
     out /= 4 * np.pi * material.shear_modulus
-    return out.reshape(3, *px.shape)
+    return clear_odd(out.reshape(3, *px.shape), px, py, DISPLACEMENT_PARITY[load])
 
 
 def surface_table(
@@ -262,4 +254,6 @@ def surface_table(
     tangential = load is Load.TANGENTIAL
     _surface_table(shape[0], shape[1], spacing[0], spacing[1], material.poissons_ratio, tangential, first, out)
     out /= 4 * np.pi * material.shear_modulus
+    if tangential:
+        out[0] = 0.0
     return out

@@ -27,7 +27,7 @@ from bem.grid import FloatArray, Grid
 from bem.kernels import half_space, subsurface
 from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS
 from bem.kernels.half_plane import add_strip, log_strip
-from bem.kernels.half_space import Load
+from bem.kernels.loads import STRESS_PARITY, SURFACE_PARITY, Load, clear_odd
 from bem.materials import Material
 
 _LINE = 6.5  # exp(-2 pi 6.5) = 2e-18
@@ -350,11 +350,12 @@ def surface_table(grid: Grid, material: Material, load: Load) -> FloatArray:
     along = 0 if grid.periodic[0] else 1
     traction = load is Load.TANGENTIAL
     kind = _TRACTION_LIFT if traction else _PRESSURE_LIFT
-    parity = -1 if traction and along == 0 else 1
-    table: FloatArray = _table(grid, kind, 0.0, 0.0, 1.0, 1.0, [parity])[0]
+    table: FloatArray = _table(grid, kind, 0.0, 0.0, 1.0, 1.0, [SURFACE_PARITY[load][along]])[0]
     nu = material.poissons_ratio
     factor = (1 - 2 * nu) if traction else 2 * (1 - nu)
     table *= factor * grid.lengths[along] / (4 * np.pi * material.shear_modulus)
+    if traction:
+        table[0] = 0.0
     return table
 
 
@@ -362,7 +363,7 @@ def stress_table(grid: Grid, depth: float, poissons_ratio: float, load: Load) ->
     """Six stresses at `depth` [m] of a loaded cell and its images, shape (6, nx, ny), [Pa/Pa]."""
     along = 0 if grid.periodic[0] else 1
     normal = load is Load.NORMAL
-    odd = {(True, 0): (4, 5), (True, 1): (3, 5), (False, 0): (0, 1, 2, 3), (False, 1): (3, 5)}[normal, along]
-    parities = [-1 if c in odd else 1 for c in range(6)]
+    parities = [parity[along] for parity in STRESS_PARITY[load]]
     table: FloatArray = _table(grid, _STRESS, depth, poissons_ratio, float(normal), float(not normal), parities)
-    return table / (2 * np.pi)
+    table /= 2 * np.pi
+    return clear_odd(table, np.arange(grid.shape[0])[:, None], np.arange(grid.shape[1])[None, :], STRESS_PARITY[load])

@@ -21,8 +21,7 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.kernels import layered
-from bem.kernels.coefficients import STRESS_PARITY
-from bem.kernels.half_space import Load
+from bem.kernels.loads import STRESS_PARITY, Load
 from bem.materials import Body
 
 

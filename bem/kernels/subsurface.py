@@ -28,7 +28,8 @@ from numpy.typing import ArrayLike
 
 from bem.grid import FloatArray
 from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, cut, log_ratio, rule, slant
-from bem.kernels.half_space import Load, check_points
+from bem.kernels.half_space import check_points
+from bem.kernels.loads import STRESS_PARITY, Load, clear_odd
 
 _TWO_PI = 2.0 * np.pi
 
@@ -239,7 +240,7 @@ def rectangle_stress(
     normal = load is Load.NORMAL
     a, b = 0.5 * float(sides[0]), 0.5 * float(sides[1])
     _many(px.ravel(), py.ravel(), pz.ravel(), a, b, float(poissons_ratio), float(normal), float(not normal), out)
-    return out.reshape(6, *px.shape)
+    return clear_odd(out.reshape(6, *px.shape), px, py, STRESS_PARITY[load])
 
 
 def stress_table(
@@ -254,4 +255,5 @@ def stress_table(
     out = np.empty((6, *shape))
     normal = load is Load.NORMAL
     _table(spacing[0], spacing[1], depth, poissons_ratio, float(normal), float(not normal), first, out)
-    return out
+    offsets = np.arange(shape[0])[:, None], np.arange(first, first + shape[1])[None, :]
+    return clear_odd(out, *offsets, STRESS_PARITY[load])

@@ -5,6 +5,8 @@ is xx - yy turned by 45 degrees, which has a factor 2 that copies of eq. 3.19 lo
 kernels: no potential, no corner.
 """
 
+import itertools
+
 import mpmath as mp
 import numpy as np
 
@@ -74,8 +76,8 @@ def integrate(kernel, x, y, z, a, b, parts, order=12):
     total = [mp.mpf(0)] * parts
     xs = panels(-a, a, x, distance)
     ys = panels(-b, b, y, distance)
-    for x0, x1 in zip(xs, xs[1:], strict=False):
-        for y0, y1 in zip(ys, ys[1:], strict=False):
+    for x0, x1 in itertools.pairwise(xs):
+        for y0, y1 in itertools.pairwise(ys):
             for s, ws in zip(nodes, weights, strict=True):
                 px = x - ((x0 + x1) + s * (x1 - x0)) / 2
                 for t, wt in zip(nodes, weights, strict=True):

@@ -1,0 +1,45 @@
+"""What acts on a cell, and the symmetry of what it causes."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+import numpy as np
+
+from bem.grid import FloatArray
+
+
+class Load(Enum):
+    """What acts on a cell: unit pressure, or unit traction along +x."""
+
+    NORMAL = 0
+    TANGENTIAL = 1
+
+
+Parities = tuple[tuple[int, int], ...]
+
+DISPLACEMENT_PARITY: dict[Load, Parities] = {
+    Load.NORMAL: ((-1, 1), (1, -1), (1, 1)),
+    Load.TANGENTIAL: ((1, 1), (-1, -1), (-1, 1)),
+}
+"""Parity (in x, in y) of ux, uy, uz: +1 even, -1 odd."""
+
+SURFACE_PARITY: dict[Load, tuple[int, int]] = {load: table[2] for load, table in DISPLACEMENT_PARITY.items()}
+"""Parity (in x, in y) of the normal displacement."""
+
+STRESS_PARITY: dict[Load, Parities] = {
+    Load.NORMAL: ((1, 1), (1, 1), (1, 1), (1, -1), (-1, 1), (-1, -1)),
+    Load.TANGENTIAL: ((-1, 1), (-1, 1), (-1, 1), (-1, -1), (1, 1), (1, -1)),
+}
+"""Parity (in x, in y) of each stress (xx yy zz yz xz xy). The spectrum is real where their product is +1."""
+
+
+def clear_odd(values: FloatArray, x: FloatArray, y: FloatArray, parities: Parities) -> FloatArray:
+    """Set what is odd in x (y) to exactly zero where x (y) is; in place. `values` (parts, ...), x and y broadcast."""
+    for index, (along_x, along_y) in enumerate(parities):
+        part = values[index, ...]
+        if along_x < 0:
+            part[np.broadcast_to(x == 0, part.shape)] = 0.0
+        if along_y < 0:
+            part[np.broadcast_to(y == 0, part.shape)] = 0.0
+    return values

@@ -1,0 +1,138 @@
+"""Six stresses below loaded rectangles. Errors are relative to the largest component at the point: components that
+vanish by symmetry or decay faster have no scale of their own."""
+
+import mpmath as mp
+import numpy as np
+import point_forces
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bem import InputError
+from bem.kernels.loads import STRESS_PARITY, Load
+from bem.kernels.subsurface import rectangle_stress, stress_table
+
+NU = 0.3
+
+
+def oracle(x, y, z, a, b, load, nu=NU, order=14):
+    mp.mp.dps = 25
+    x, y, z, a, b, nu = (mp.mpf(float(v)) for v in (x, y, z, a, b, nu))
+    tangential = load is Load.TANGENTIAL
+    values = point_forces.integrate(
+        lambda p, q, r: point_forces.stress(p, q, r, nu, tangential), x, y, z, a, b, 6, order
+    )
+    return np.array([float(v / (2 * mp.pi)) for v in values])
+
+
+def relative(got, want):
+    return np.abs(got - want).max() / np.abs(want).max()
+
+
+NEAR = [(1.7, -0.6, 0.3, 1, 0.5), (0.4, 0.3, 0.9, 1, 1), (2.5, 3.0, 0.0, 1, 1), (8, 7, 2, 1, 1), (3, 2, 6, 0.1, 1)]
+FAR = [(14, -3, 2, 1, 1), (60, 1, 0, 1, 1), (400, 300, 1, 1, 0.1), (20000, 7, 30, 1, 1), (14000, 14000, 0, 1, 1)]
+DEEP = [(0.4, 0.1, 2000, 1, 1), (30, 5, 3, 1, 10), (5, 200, 3, 1, 10), (900, 0.0, 2000, 1, 1)]
+
+
+@pytest.mark.parametrize("load", Load)
+@pytest.mark.parametrize("point", NEAR + FAR + DEEP)
+def test_rectangle_against_quadrature_of_point_forces(point, load):
+    x, y, z, a, b = point
+    got = rectangle_stress(x, y, z, (2 * a, 2 * b), NU, load)
+    # 1e-12 near and 1e-10 far and deep are asked for; second differences of the corners cost 2e-14 where they end
+    assert relative(got, oracle(x, y, z, a, b, load)) < 1e-13
+
+
+@pytest.mark.parametrize("nu", [-0.9, 0.0, 0.4999999, 0.5])
+def test_poissons_ratio_to_its_limits(nu):
+    for load in Load:
+        got = rectangle_stress(1.4, 0.3, 0.5, (2, 1), nu, load)
+        assert relative(got, oracle(1.4, 0.3, 0.5, 1, 0.5, load, nu)) < 1e-13
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("place", [(0.999, 0.2), (0.98, 0.99)])
+def test_a_thousandth_of_a_cell_below_the_surface(place):
+    for load in Load:
+        got = rectangle_stress(*place, 2e-3, (2, 2), NU, load)
+        assert relative(got, oracle(*place, 2e-3, 1, 1, load, order=16)) < 1e-12  # quadrature: 1e-13
+
+
+def test_surface_limits_inside_edge_and_outside():
+    normal = rectangle_stress([0, 0.5, 1, 3, 1], [0, -0.7, 0, 0.5, 1], 0.0, (2, 2), NU)
+    np.testing.assert_allclose(normal[2], [-1, -1, -0.5, 0, -0.25], atol=1e-15)  # -p; edge and corner: the mean
+    np.testing.assert_array_equal(normal[3:5], 0)
+    # under the middle of a square xx = yy, and their sum is -(1 + 2 nu) all over the loaded part
+    np.testing.assert_allclose(normal[:2, 0], -(1 + 2 * NU) / 2, rtol=1e-15)
+    np.testing.assert_allclose(normal[0] + normal[1], (1 + 2 * NU) * normal[2], atol=1e-15)
+    assert np.isinf(normal[5, 4])
+    traction = rectangle_stress([0, 0.5, 1, 3, 1], [0, -0.7, 0, 0.5, 1], 0.0, (2, 2), NU, Load.TANGENTIAL)
+    np.testing.assert_allclose(traction[4], [-1, -1, -0.5, 0, -0.25], atol=1e-15)
+    np.testing.assert_array_equal(traction[2:4], 0)
+    assert traction[0, 2] == -np.inf  # the body is pushed together ahead of the load, pulled apart behind it
+    assert rectangle_stress(-1, 0, 0, (2, 2), NU, Load.TANGENTIAL)[0] == np.inf
+
+
+@pytest.mark.parametrize("load", Load)
+def test_the_surface_is_the_limit_of_small_depths(load):
+    x, y = [0.2, 1.3, 0.9, -2.0], [0.1, 0.2, 1.1, 0.0]
+    at = rectangle_stress(x, y, 0.0, (2, 2), NU, load)
+    for depth in (1e-4, 1e-7, 1e-10):
+        below = rectangle_stress(x, y, depth, (2, 2), NU, load)
+        assert np.abs(below - at).max() < 20 * depth + 1e-14  # slope of order 1 / distance to the edge
+
+
+@pytest.mark.parametrize("load", Load)
+@pytest.mark.parametrize("depth", [0.0, 1e-9, 3e-6])
+def test_table_is_the_rectangle_at_offsets(load, depth):
+    table = stress_table((5, 4), (1e-6, 3e-6), depth, NU, load)
+    i, j = np.meshgrid(np.arange(5), np.arange(4), indexing="ij")
+    direct = rectangle_stress(i * 1e-6, j * 3e-6, depth, (1e-6, 3e-6), NU, load)
+    np.testing.assert_allclose(table, direct, rtol=0, atol=1e-14)  # of order one; coordinates rounded differently
+
+
+coordinate = st.floats(-30, 30)
+side = st.floats(-3, 3).map(lambda e: 10.0**e)
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    coordinate, coordinate, st.floats(-3, 1.5).map(lambda e: 10.0**e), side, side, st.sampled_from(Load), st.booleans()
+)
+def test_a_rectangle_is_the_sum_of_its_halves(x, y, z, dx, dy, load, across):
+    whole = rectangle_stress(x, y, z, (dx, dy), NU, load)
+    if across:
+        parts = [rectangle_stress(x + s * dx / 4, y, z, (dx / 2, dy), NU, load) for s in (1, -1)]
+    else:
+        parts = [rectangle_stress(x, y + s * dy / 4, z, (dx, dy / 2), NU, load) for s in (1, -1)]
+    # halves may be large and opposite: the scale is the largest of all
+    scale = max(np.abs(v).max() for v in (whole, *parts))
+    assert np.abs(whole - sum(parts)).max() <= 1e-12 * scale
+
+
+@settings(max_examples=80, deadline=None)
+@given(coordinate, coordinate, st.floats(1e-3, 30), side, side, st.floats(-0.9, 0.5), st.integers(-30, 30))
+def test_parity_exchange_of_axes_trace_and_scaling(x, y, z, dx, dy, nu, power):
+    for load in Load:
+        s = rectangle_stress(x, y, z, (dx, dy), nu, load)
+        # round-off of the point force's scale where symmetry leaves little of the stress itself
+        scale = 1e-12 * np.abs(s).max() + 1e-15 * min(1.0, dx * dy / (x * x + y * y + z * z))
+        signs = np.array(STRESS_PARITY[load])
+        assert np.abs(rectangle_stress(-x, y, z, (dx, dy), nu, load) - signs[:, 0] * s).max() <= scale
+        assert np.abs(rectangle_stress(x, -y, z, (dx, dy), nu, load) - signs[:, 1] * s).max() <= scale
+        factor = 2.0**power
+        far = rectangle_stress(x * factor, y * factor, z * factor, (dx * factor, dy * factor), nu, load)
+        np.testing.assert_array_equal(far, s)  # stress knows no length; powers of two change no digit
+        # the trace is (1 + nu) times a harmonic function that does not know nu; zz, yz and xz do not know nu either
+        other = rectangle_stress(x, y, z, (dx, dy), 0.25, load)
+        assert abs(s[:3].sum() / (1 + nu) - other[:3].sum() / 1.25) <= 1e-12 * max(np.abs(s).max(), np.abs(other).max())
+        assert np.abs(s[2:5] - other[2:5]).max() <= scale
+    normal = rectangle_stress(x, y, z, (dx, dy), nu)
+    turned = rectangle_stress(y, x, z, (dy, dx), nu)[[1, 0, 2, 4, 3, 5]]
+    assert np.abs(normal - turned).max() <= 1e-12 * np.abs(normal).max()
+
+
+def test_bad_input_is_refused_with_every_mistake_named():
+    with pytest.raises(InputError) as caught:
+        rectangle_stress(0, np.inf, -1, (1.0, -1.0), 0.6)
+    assert [m.split(":")[0] for m in caught.value.messages] == ["y", "depth", "sides", "poissons_ratio"]
