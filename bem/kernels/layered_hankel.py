@@ -120,13 +120,16 @@ def _smallest(body: Body) -> float:
     return min(1.0, body.material.shear_modulus / layer.material.shear_modulus) / (8 * layer.thickness)
 
 
-def radial_table(kernels: Kernels, r_max: float) -> RadialTable:
-    """Table of the Hankel transforms for 0 <= r <= r_max."""
+def radial_table(kernels: Kernels, r_max: float, *, line: bool = False) -> RadialTable:
+    """Table of the Hankel transforms for 0 <= r <= r_max.
+
+    `line`: of 1/pi integral of f cos(q r) dq (order 0) or of sin (order 1) instead.
+    """
     first = kernels.decay / 8
     doublings = max(0, int(np.ceil(np.log2(r_max / first))))
     edges = np.concatenate([[0.0], first * 2.0 ** np.arange(doublings + 1)])
     nodes = [panel_nodes(a, b) for a, b in itertools.pairwise(edges)]
-    values = np.stack([_near(kernels, nodes[0]), *(_far(kernels, r) for r in nodes[1:])])
+    values = np.stack([_near(kernels, nodes[0], line), *(_far(kernels, r, line) for r in nodes[1:])])
     return RadialTable(edges, fit(values), kernels.decay)
 
 
@@ -165,28 +168,40 @@ def graded(smallest: float, end: float) -> FloatArray:
     return np.concatenate([[0.0], end * 2.0 ** -np.arange(halvings, -1, -1.0)])
 
 
-def _near(kernels: Kernels, r: FloatArray) -> FloatArray:
+def _wave(order: int, s: FloatArray, line: bool) -> FloatArray:
+    """What is integrated against the spectrum on the real axis, over q (and over r^2, or r for a line)."""
+    if line:
+        return (np.sin(s) if order else np.cos(s)) / np.pi
+    values: FloatArray = special.jv(order, s) * s / (2 * np.pi)
+    return values
+
+
+def _near(kernels: Kernels, r: FloatArray, line: bool) -> FloatArray:
     """Transforms at r <= d/8, all on the real axis: (nodes, tables)."""
     q, weights = gauss_rule(graded(min(kernels.smallest, 1 / kernels.decay), END / kernels.decay))
-    f = kernels.spectra(q) * (q * weights / (2 * np.pi))
-    bessel = {order: special.jv(order, np.outer(r, q)) for order in set(kernels.orders)}
-    return np.stack([bessel[order] @ f[table] for table, order in enumerate(kernels.orders)], axis=1)
+    f = kernels.spectra(q) * weights
+    scale = (1 / r if not line else np.ones_like(r))[:, None]
+    waves = {order: _wave(order, np.outer(r, q), line) * scale for order in set(kernels.orders)}
+    return np.stack([waves[order] @ f[table] for table, order in enumerate(kernels.orders)], axis=1)
 
 
 _RAY_T, _RAY_WEIGHTS = gauss_rule(np.array([0.0, 2.0, 4.0, 8.0, 14.0, 22.0, 34.0, 50.0, 2 * END]))
 _RAY_S = TURN + SLOPE * _RAY_T
-_RAY = {n: special.hankel1(n, _RAY_S) * _RAY_S * (SLOPE * _RAY_WEIGHTS) / (2 * np.pi) for n in range(4)}
+_RAY = {
+    False: [special.hankel1(n, _RAY_S) * _RAY_S * (SLOPE * _RAY_WEIGHTS) / (2 * np.pi) for n in range(4)],
+    True: [(-1j) ** n * np.exp(1j * _RAY_S) * (SLOPE * _RAY_WEIGHTS) / np.pi for n in range(2)],
+}
 
 
-def _far(kernels: Kernels, r: FloatArray) -> FloatArray:
+def _far(kernels: Kernels, r: FloatArray, line: bool) -> FloatArray:
     """Transforms at r >= d/8: the real axis to q r = TURN, then the ray."""
     s, weights = gauss_rule(graded(min(kernels.smallest * r.min(), 1.0), TURN))
     f = kernels.spectra((s / r[:, None]).ravel()).reshape(-1, r.size, s.size)
     f_ray = kernels.spectra((_RAY_S / r[:, None]).ravel()).reshape(-1, r.size, _RAY_S.size)
     out = np.empty((r.size, len(kernels.orders)))
     for table, order in enumerate(kernels.orders):
-        real = f[table] @ (special.jv(order, s) * s * weights / (2 * np.pi))
-        out[:, table] = (real + (f_ray[table] @ _RAY[order]).real) / r**2
+        real = f[table] @ (_wave(order, s, line) * weights)
+        out[:, table] = (real + (f_ray[table] @ _RAY[line][order]).real) / (r if line else r**2)
     return out
 
 
@@ -208,3 +223,16 @@ def evaluate(r: float, edges: FloatArray, coefficients: FloatArray, out: FloatAr
     for power in range(powers - 2, -1, -1):
         for table in range(coefficients.shape[2]):
             out[table] = out[table] * t + coefficients[low, power, table]
+
+
+@nb.njit(**COMPILE)
+def _evaluate_all(r: FloatArray, edges: FloatArray, coefficients: FloatArray, out: FloatArray) -> None:
+    for i in range(r.size):
+        evaluate(r[i], edges, coefficients, out[i])
+
+
+def table_values(table: RadialTable, r: FloatArray) -> FloatArray:
+    """Values at every r: (*r.shape, tables)."""
+    out = np.empty((r.size, table.coefficients.shape[2]))
+    _evaluate_all(np.ascontiguousarray(r).ravel(), table.edges, table.coefficients, out)
+    return out.reshape(*r.shape, -1)

@@ -7,6 +7,9 @@ The spectrum is split smoothly at q0 = 48 / period by chi(q) = erfc((q - q0) / w
 - f chi ends at 96 / period: a sum over at most 16 wavenumbers along the periodic axis of an integral along the free
   one, with the exact averages over the cell.
 
+Cells more than 8 periods away along the free axis see a line load: the mean along the periodic axis only, from a table
+like the radial ones.
+
 The cost does not depend on the thickness, and nothing is cut off above round-off.
 
 Datum of the displacement under pressure. The half-space of the layer's material has that of `semi_periodic`. What the
@@ -38,12 +41,15 @@ from bem.kernels.layered_hankel import (
     TURN,
     Kernels,
     RadialTable,
+    Spectra,
     fit,
     gauss_rule,
     graded,
     panel_nodes,
+    radial_table,
     stress_kernels,
     surface_kernels,
+    table_values,
 )
 from bem.materials import Body
 
@@ -57,28 +63,39 @@ _LAST = _SPLIT + 6 * _WIDTH  # erfc(6) = 2e-17
 _REACH = 1.5
 _PANEL = 0.125  # width of the outer panels of r
 _DEEP = 1.6  # decay from which the first part is below round-off
+_LINE = 8.0  # free distance from which only the mean is left: exp(-2 pi 8) = 1e-22
+
+
+_CELL_NODES, _CELL_WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 
 def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     """What a bonded layer adds to the surface coefficients of a half-space of its material: (nx, ny) [m/Pa]."""
-    kernels = surface_kernels(body, load)
+    assert body.layer is not None
+    tangential = load is Load.TANGENTIAL
     parities = (SURFACE_PARITY[load],)
     free, along = _axes(grid)
-
-    def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
-        return layered.surface_response(kx, ky, body, tangential=load is Load.TANGENTIAL, remainder=True)[None]
-
-    assert body.layer is not None
+    period = grid.lengths[along]
+    kernels = surface_kernels(body, load)
     step = 0.0
-    if load is Load.NORMAL:
+    if not tangential:
         one, two = body.layer.material, body.material
         step = (1 - two.poissons_ratio) / two.shear_modulus - (1 - one.poissons_ratio) / one.shear_modulus
-    half = _half(grid, kernels, SURFACE[load], parities, response, step)
+
+    def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
+        return layered.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
+
+    def mean(k: NDArray) -> NDArray:
+        if tangential and free == 1:
+            return np.zeros((1, k.size), dtype=k.dtype)
+        return kernels.spectra(k) - step * np.exp(-0.5 * period * k) / k
+
+    parts = _Parts(kernels, SURFACE[load], parities, response, mean, step)
+    half = _half(grid, parts)
     if step:
-        x = np.arange(grid.shape[free]) * grid.spacing[free]
-        period = grid.lengths[along]
-        reference = np.hypot(grid.lengths[free], 2 * body.layer.thickness)
-        line = -step / np.pi * np.log(np.hypot(x, 0.5 * period) / reference) * grid.cell_area / period
+        reference = float(np.hypot(grid.lengths[free], 2 * body.layer.thickness))
+        line = _mean_log(grid.shape[free], grid.spacing[free], 0.5 * period, reference)
+        line *= -step / np.pi * grid.cell_area / period
         half[0] += line[:, None] if free == 0 else line
     return _mirrored(half, grid, parities)[0]
 
@@ -86,14 +103,54 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
 def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
     """Same for the six stresses at `depth` in the layer; below the layer the whole coefficients: (6, nx, ny)."""
     assert body.layer is not None
+    tangential = load is Load.TANGENTIAL
+    parities = STRESS_PARITY[load]
+    free, _ = _axes(grid)
     inside = depth <= body.layer.thickness
 
     def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
-        return layered.stress_response(kx, ky, body, depth, tangential=load is Load.TANGENTIAL, remainder=inside)
+        return layered.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
 
-    parities = STRESS_PARITY[load]
-    half = _half(grid, stress_kernels(body, depth, load), STRESS[load], parities, response, 0.0)
-    return _mirrored(half, grid, parities)
+    def mean(k: NDArray) -> NDArray:
+        f = layered.wave_functions(k, body, depth, remainder=inside)
+        out = np.zeros((6, k.size), dtype=k.dtype)
+        if tangential and free == 1:
+            out[4], out[5] = f[layered.ACROSS_TZ], f[layered.ACROSS_ET]
+            return out
+        first = layered.TANGENTIAL_U if tangential else layered.NORMAL_U
+        tau, sigma, ee, tt = f[first + 2 : first + 6]
+        out[free], out[1 - free], out[2], out[4 - free] = ee, tt, sigma, -tau if tangential else tau
+        return out
+
+    parts = _Parts(stress_kernels(body, depth, load), STRESS[load], parities, response, mean, 0.0)
+    return _mirrored(_half(grid, parts), grid, parities)
+
+
+def _mean_log(cells: int, side: float, height: float, reference: float) -> FloatArray:
+    """Mean of ln(hypot(x, height)/reference) over cells 0, 1, ...: (cells,)."""
+    offsets = np.arange(cells)
+    ends = (offsets[:, None] + np.array([-0.5, 0.5])) * (side / height)
+    primitive = ends * (np.log(np.hypot(ends, 1.0) * (height / reference)) - 1) + np.arctan(ends)
+    closed = np.diff(primitive, axis=1)[:, 0] * (height / side)
+    at = np.hypot((offsets[:, None] + 0.5 * _CELL_NODES) * side, height) / reference
+    # the closed form cancels far away, where the rule errs by (2 * 8)^-32
+    return np.where(offsets < 8, closed, np.log(at) @ (0.5 * _CELL_WEIGHTS))
+
+
+@dataclass(frozen=True)
+class _Parts:
+    """One response as every part of the sum needs it.
+
+    response: (kx, ky) -> (components, ...) as in `layered`; mean: the same along the free axis, complex k, less
+    step exp(-k s)/k, s half a period, whose transform is added in closed form.
+    """
+
+    kernels: Kernels
+    kind: int
+    parities: Parities
+    response: Response
+    mean: Spectra
+    step: float
 
 
 def _axes(grid: Grid) -> tuple[int, int]:
@@ -101,17 +158,37 @@ def _axes(grid: Grid) -> tuple[int, int]:
     return (1, 0) if grid.periodic[0] else (0, 1)
 
 
-def _half(grid: Grid, kernels: Kernels, kind: int, parities: Parities, response: Response, step: float) -> FloatArray:
+def _half(grid: Grid, parts: _Parts) -> FloatArray:
     """Offsets up to half a period along the periodic axis: (components, ...)."""
-    _, along = _axes(grid)
-    shape = list(grid.shape)
-    shape[along] = shape[along] // 2 + 1
-    out = _long_waves(grid, shape, kernels, parities, response, step)
-    period = grid.lengths[along]
-    if kernels.decay < _DEEP * period:
-        table = _windowed_table(kernels, period)
-        add_cells(out, grid, table, kind, (1, 0) if along == 0 else (0, 1))
+    free, along = _axes(grid)
+    period, side = grid.lengths[along], grid.spacing[free]
+    cells = grid.shape[along] // 2 + 1
+    near = min(grid.shape[free], int(np.ceil(_LINE * period / side + 0.5)))
+    out = _long_waves(grid, near, cells, parts)
+    if parts.kernels.decay < _DEEP * period:
+        table = _windowed_table(parts.kernels, period)
+        add_cells(out, grid, table, parts.kind, (1, 0) if along == 0 else (0, 1))
+    if near < grid.shape[free]:
+        line = np.broadcast_to(_far_cells(grid, near, parts)[..., None], (len(out), grid.shape[free] - near, cells))
+        out = np.concatenate([out, line if free == 0 else line.swapaxes(1, 2)], axis=1 + free)
     return out
+
+
+def _far_cells(grid: Grid, near: int, parts: _Parts) -> FloatArray:
+    """The mean along the period of cells from number `near` on along the free axis: (components, cells)."""
+    free, along = _axes(grid)
+    side = grid.spacing[free]
+    orders = tuple(0 if parity[free] > 0 else 1 for parity in parts.parities)
+    signs = [1.0 if parity == (1, 1) else -1.0 for parity in parts.parities]
+    kernels = Kernels(parts.mean, orders, min(parts.kernels.decay, 0.5 * grid.lengths[along]), parts.kernels.smallest)
+    table = radial_table(kernels, (grid.shape[free] + 1) * side, line=True)
+    # the origin is two half sides away or more: the rule errs by (2 + sqrt 3)^-32
+    x = np.arange(near, grid.shape[free])[:, None] * side + 0.5 * side * _CELL_NODES
+    means = np.einsum("xgt,g->tx", table_values(table, x), 0.5 * _CELL_WEIGHTS)
+    for component, parity in enumerate(parts.parities):
+        if parity[along] < 0:
+            means[component] = 0.0
+    return means * (np.array(signs)[:, None] * (grid.cell_area / grid.lengths[along]))
 
 
 def _mirrored(half: FloatArray, grid: Grid, parities: Parities) -> FloatArray:
@@ -129,39 +206,34 @@ def _mirrored(half: FloatArray, grid: Grid, parities: Parities) -> FloatArray:
     return out
 
 
-def _long_waves(
-    grid: Grid, shape: list[int], kernels: Kernels, parities: Parities, response: Response, step: float
-) -> FloatArray:
-    """The part below the split, averaged over cells: (components, *shape).
-
-    `step`: size of a 1/q singularity at q = 0, of which exp(-q s)/q, s half a period, is left to the caller.
-    """
+def _long_waves(grid: Grid, near: int, cells: int, parts: _Parts) -> FloatArray:
+    """The part below the split, averaged over the first cells: (components, ...)."""
     free, along = _axes(grid)
-    period, length = grid.lengths[along], grid.lengths[free]
-    width = min(4.0 / period, 6.0 / length)
-    inner = graded(min(kernels.smallest, width), width)
+    period = grid.lengths[along]
+    width = min(4.0 / period, 6.0 / (near * grid.spacing[free]))
+    inner = graded(min(parts.kernels.smallest, width), width)
     last = _LAST / period
     k, weights = gauss_rule(np.concatenate([inner, np.linspace(width, last, int(np.ceil(last / width)) + 1)[1:]]))
     modes = 2 * np.pi / period * np.arange(int(_LAST / (2 * np.pi)) + 1, dtype=np.float64)
     along_free: FloatArray = k[:, None]
     along_period: FloatArray = modes[None, :]
     kx, ky = (along_free, along_period) if free == 0 else (along_period, along_free)
-    spectrum = response(kx, ky)
+    spectrum = parts.response(kx, ky)
     spectrum *= 0.5 * special.erfc((np.hypot(kx, ky) * period - _SPLIT) / _WIDTH)
     spectrum *= np.sinc(kx * grid.spacing[0] / (2 * np.pi)) * np.sinc(ky * grid.spacing[1] / (2 * np.pi))
-    if step:
-        spectrum[0, :, 0] -= step * np.exp(-0.5 * period * k) / k
+    if parts.step:
+        average = np.sinc(k * grid.spacing[free] / (2 * np.pi))
+        spectrum[0, :, 0] -= parts.step * np.exp(-0.5 * period * k) / k * average
     spectrum *= weights[:, None] * np.where(modes > 0, 2.0, 1.0) * (grid.cell_area / (np.pi * period))
-    phase_free = np.arange(shape[free])[:, None] * grid.spacing[free] * k
-    phase_along = np.arange(shape[along])[:, None] * grid.spacing[along] * modes
+    phase_free = np.arange(near)[:, None] * grid.spacing[free] * k
+    phase_along = np.arange(cells)[:, None] * grid.spacing[along] * modes
     waves_free = {1: np.cos(phase_free), -1: np.sin(phase_free)}
     waves_along = {1: np.cos(phase_along), -1: np.sin(phase_along)}
-    out = np.empty((len(parities), *shape))
-    for component, parity in enumerate(parities):
+    out = np.empty((len(parts.parities), near, cells))
+    for component, parity in enumerate(parts.parities):
         sign = 1.0 if parity == (1, 1) else -1.0  # i from an odd spectrum, i from each sine
-        values = sign * (waves_free[parity[free]] @ spectrum[component]) @ waves_along[parity[along]].T
-        out[component] = values if free == 0 else values.T
-    return out
+        out[component] = sign * (waves_free[parity[free]] @ spectrum[component]) @ waves_along[parity[along]].T
+    return out if free == 0 else np.ascontiguousarray(out.swapaxes(1, 2))
 
 
 @dataclass(frozen=True)
