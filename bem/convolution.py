@@ -292,11 +292,19 @@ class DisplacementOperator:
 
     def near_field(self, radius: int) -> FloatArray:
         """Coefficients of the symmetric part over `unit`, (2 radius + 1, 2 radius + 1), offset zero in the middle."""
-        px, py = self.padded
-        offsets = np.arange(-radius, radius + 1)
-        along_x = _cosines(px, offsets)
-        along_y = _cosines(py, offsets)
-        return np.asarray(along_x @ self._spectra.even.T @ along_y.T)
+        if radius not in self._near_fields:
+            px, py = self.padded
+            offsets = np.arange(-radius, radius + 1)
+            along_x = _cosines(px, offsets)
+            along_y = _cosines(py, offsets)
+            # einsum: no threads of a BLAS library, the same bits everywhere
+            rows = np.einsum("jk,kl->jl", along_y, self._spectra.even)
+            self._near_fields[radius] = np.einsum("il,jl->ij", along_x, rows)
+        return self._near_fields[radius]
+
+    @cached_property
+    def _near_fields(self) -> dict[int, FloatArray]:
+        return {}
 
     def coarsened(self) -> DisplacementOperator | None:
         """The same bodies on a grid of half as many cells along each axis; None where that grid is too small."""

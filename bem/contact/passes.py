@@ -172,19 +172,67 @@ def shifted_sum(values, shift, cap):  # type: ignore[no-untyped-def]
     return total, inside
 
 
+@_fast
+def moments(values):  # type: ignore[no-untyped-def]
+    """Minimum, mean and root mean square about the mean; sums are of differences from the first value."""
+    first = values[0]
+    lowest = first
+    total = 0.0
+    for k in range(values.size):
+        total += values[k] - first
+        lowest = min(lowest, values[k])
+    mean = total / values.size
+    squares = 0.0
+    for k in range(values.size):
+        d = values[k] - first - mean
+        squares += d * d
+    return lowest, first + mean, np.sqrt(squares / values.size)
+
+
+@_fast
+def rescale(values, datum, factor, out):  # type: ignore[no-untyped-def]
+    """out = (values - datum) factor."""
+    for k in range(values.size):
+        out[k] = (values[k] - datum) * factor
+
+
 @njit(cache=True, nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
-def complementarity(pressure, displacement, gap, approach, cap):  # type: ignore[no-untyped-def]
-    """Largest violation of the contact conditions, judged from the pressure's own values; bounds included."""
+def assemble(  # type: ignore[no-untyped-def]
+    pressure, displacement, gap, to_pressure, length, approach, cap, deformed, depth
+):
+    """Turn scaled results into SI units in place, and judge them from the pressure's own values.
+
+    Writes the deformed gap and the plastic depth; returns the largest violation of the contact conditions, the largest
+    displacement, the sum of pressures, the numbers of cells in contact and at the cap, and the sum of positive gaps.
+    """
     largest = 0.0
+    reach = 0.0
+    force = 0.0
+    contact = 0
+    capped = 0
+    volume = 0.0
     for c in range(gap.size):
-        opening = gap[c] + displacement[c] - approach
-        p = pressure[c]
+        p = min(pressure[c] * to_pressure, cap)
+        u = displacement[c] * length
+        pressure[c] = p
+        displacement[c] = u
+        reach = max(reach, abs(u))
+        opening = gap[c] + u - approach
+        depth[c] = 0.0
         if p <= 0:
             violation = -opening
-        elif p >= cap:
-            violation = opening
+            opening = max(opening, 0.0)
+            volume += opening
         else:
-            violation = abs(opening)
+            contact += 1
+            force += p
+            if p >= cap:
+                violation = opening
+                capped += 1
+                depth[c] = max(-opening, 0.0)
+            else:
+                violation = abs(opening)
+        deformed[c] = opening
         if not violation <= largest:
             largest = violation
-    return largest
+    return largest, reach, force, contact, capped, volume

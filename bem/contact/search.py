@@ -1,4 +1,8 @@
-"""Approach or mean gap reached by way of the load, on which both depend monotonically."""
+"""Prescribed quantities reached by way of another: the mean gap by the approach, a hard approach by the load.
+
+Both pairs depend on one another monotonically. A safeguarded secant iteration starts each solution from the pressure of
+the one before and asks of it no more precision than the next step can use.
+"""
 
 from __future__ import annotations
 
@@ -9,88 +13,113 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact.active_set import LevelResult
-from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl
+from bem.contact.controls import ApproachControl, LoadControl
 
 FloatArray = NDArray[np.float64]
-Solve = Callable[[LoadControl, FloatArray | None, float], LevelResult]
+Solve = Callable[[ApproachControl | LoadControl, FloatArray | None, float], LevelResult]
 
 _CLOSE = 0.05
-"""A load's solution need be no better than this share of what is still missing."""
+"""Share of what is still missing that a solution need be precise to."""
+
+_STEPS = 100
 
 
-def by_load(
-    control: Control,
+def mean_gap_by_approach(
+    mean_gap: float,
     gap: FloatArray,
-    cap: float,
     start: FloatArray | None,
+    guess: float,
     scale: float,
     tolerance: float,
     solve: Solve,
 ) -> LevelResult:
-    """Solution whose approach or mean gap is as prescribed, to `tolerance`.
+    """Solution whose mean positive gap is `mean_gap`, to `tolerance`; `guess` an approach to begin with."""
 
-    A safeguarded secant iteration in the logarithm of the load; each load starts from the pressure of the one before.
-    `solve(control, start, tolerance)` is load control on this grid; `scale` a length to begin with.
-    """
-    highest = cap * gap.size
+    def excess(result: LevelResult) -> float:
+        opening = gap + result.displacement
+        opening -= result.approach
+        # round-off and residual of cells in contact must not count as volume
+        opening[result.pressure > 0] = 0.0
+        return mean_gap - float(np.maximum(opening, 0.0).mean())
+
+    # displacements are not negative on average, so this approach is not enough
+    least = float(gap.mean()) - mean_gap
+    return _search(max(guess, least), least, math.inf, scale, tolerance, start, ApproachControl, excess, solve)
+
+
+def approach_by_load(
+    approach: float, cap: float, start: FloatArray | None, cells: int, scale: float, tolerance: float, solve: Solve
+) -> LevelResult:
+    """Solution whose approach is `approach`, to `tolerance`."""
+
+    def control(logarithm: float) -> LoadControl:
+        return LoadControl(min(math.exp(logarithm), cap * cells))
+
     force = float(start.sum()) if start is not None else 0.0
-    if not force > 0:
-        force = 1e-3 * gap.size * scale
-    force = min(force, highest)
-    low, high = (0.0, math.inf)
+    guess = math.log(force if force > 0 else 1e-3 * cells * scale)
+
+    def excess(result: LevelResult) -> float:
+        return result.approach - approach
+
+    highest = math.log(cap * cells) if math.isfinite(cap) else math.inf
+    return _search(min(guess, highest), -math.inf, highest, 1.0, tolerance, start, control, excess, solve, scale)
+
+
+def _search(
+    x: float,
+    low: float,
+    high: float,
+    step: float,
+    tolerance: float,
+    start: FloatArray | None,
+    control: Callable[[float], ApproachControl | LoadControl],
+    excess: Callable[[LevelResult], float],
+    solve: Solve,
+    scale: float | None = None,
+) -> LevelResult:
+    """Zero of an excess that rises with x; `step` is a first step, `scale` a length (that step unless given)."""
+    length = step if scale is None else scale
+    precision = max(tolerance, 0.03 * length)
     points: list[tuple[float, float]] = []
-    precision = max(tolerance, 0.03 * scale)
-    result: LevelResult | None = None
-    for _ in range(200):
-        if start is not None and start.sum() > 0:
-            start = np.minimum(start * (force / start.sum()), cap)
-        result = solve(LoadControl(force), start, precision)
+    while True:
+        result = solve(control(x), start, precision)
         start = result.pressure
-        error = _excess(control, result, gap)
+        error = excess(result)
         if abs(error) <= tolerance and precision <= tolerance:
             return result
-        if abs(error) <= max(2 * precision, tolerance) and precision > tolerance:
+        if len(points) >= _STEPS:
+            return result
+        if abs(error) <= 2 * precision and precision > tolerance:
             precision = max(tolerance, min(_CLOSE * abs(error), 0.1 * precision))
             points = points[-1:]
             continue
         if error < 0:
-            low = max(low, force)
+            low = max(low, x)
         else:
-            high = min(high, force)
-        points.append((math.log(force), error))
-        previous = force
-        force = _next(points, low, high, highest)
+            high = min(high, x)
+        points.append((x, error))
+        previous = x
+        x = _next(points, low, high, step)
+        if x == previous or not math.isfinite(x):
+            return result
         precision = max(tolerance, min(precision, _CLOSE * abs(error)))
-        if force == previous:
-            break
-    assert result is not None
-    return result
 
 
-def _excess(control: Control, result: LevelResult, gap: FloatArray) -> float:
-    """How much too far together the bodies are, as a length; rises with the load."""
-    if isinstance(control, ApproachControl):
-        return result.approach - control.approach
-    assert isinstance(control, MeanGapControl)
-    opening = gap + result.displacement
-    opening -= result.approach
-    # round-off and residual of cells in contact must not count as volume
-    opening[result.pressure > 0] = 0.0
-    return control.mean_gap - float(np.maximum(opening, 0.0).mean())
-
-
-def _next(points: list[tuple[float, float]], low: float, high: float, highest: float) -> float:
-    """The next load: secant in its logarithm within the bracket, else bisection or a factor."""
+def _next(points: list[tuple[float, float]], low: float, high: float, step: float) -> float:
+    """Secant step within the bracket, else bisection, else a step outwards that grows."""
+    x1, e1 = points[-1]
     trial = math.nan
     if len(points) > 1:
-        (x0, e0), (x1, e1) = points[-2:]
+        x0, e0 = points[-2]
         if e1 != e0:
             trial = x1 - e1 * (x1 - x0) / (e1 - e0)
-    lower = math.log(low) if low > 0 else -math.inf
-    upper = math.log(high) if high < math.inf else math.inf
-    if not lower < trial < upper or abs(trial - points[-1][0]) > 3:
-        if math.isfinite(lower) and math.isfinite(upper):
-            trial = 0.5 * (lower + upper)
-        else:
-            trial = points[-1][0] + (1.4 if points[-1][1] < 0 else -1.4)
-    return min(math.exp(trial), highest)
+    elif step == step and e1:
+        trial = x1 - math.copysign(min(step, abs(e1) * 1.5) if abs(e1) < step else step, e1)
+    stuck = len(points) > 6 and abs(points[-1][1]) > 0.5 * abs(points[-4][1])
+    if not low < trial < high or stuck:
+        if math.isfinite(low) and math.isfinite(high):
+            return 0.5 * (low + high)
+        reach = 2.0 * max(abs(x1 - points[-2][0]), 1e-3 * step) if len(points) > 1 else step
+        trial = x1 + reach if e1 < 0 else x1 - reach
+        trial = min(max(trial, low), high)
+    return trial

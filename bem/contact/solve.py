@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from bem.contact import cascade, passes
 from bem.contact.active_set import Effort, LevelResult, Tolerance, Tuning, solve_level
 from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl, scaled_control
-from bem.contact.search import by_load
+from bem.contact.search import approach_by_load, mean_gap_by_approach
 from bem.contact.solution import ContactSolution
 from bem.convolution import DisplacementOperator
 from bem.errors import InfeasibleError, InputError, Status
@@ -70,11 +70,8 @@ def solve_contact(
     )
     grid = operator.grid
     cap = math.inf if hardness_or_none is None else hardness_or_none
-    datum = float(gap.min())
-    relative = gap - datum
-    mean = float(relative.mean())
-    roughness = float(np.sqrt(np.mean((relative - mean) ** 2)))
-    _refuse_infeasible(operator, load, approach, hardness_or_none, datum + mean)
+    datum, mean, roughness = (float(value) for value in passes.moments(gap.reshape(-1)))
+    _refuse_infeasible(operator, load, approach, hardness_or_none, mean, _TIGHTER * tolerance * roughness)
     before = operator.count.weighted
 
     length = _length_unit(operator, roughness, load, approach, mean_gap, datum, cap)
@@ -83,7 +80,8 @@ def solve_contact(
         load, approach, mean_gap, cell_force=to_pressure * grid.cell_area, length=length, datum=datum
     )
     scaled_cap = cap / to_pressure
-    scaled_gap = (relative / length).reshape(-1)
+    scaled_gap = np.empty(grid.cells)
+    passes.rescale(gap.reshape(-1), datum, 1 / length, scaled_gap)
     effort = Effort(max_iterations)
     scale = roughness / length
 
@@ -91,7 +89,7 @@ def solve_contact(
     result = _without_contact(control, scaled_gap)
     if result is None:
         if initial_pressure is not None:
-            start: FloatArray | None = np.clip(initial_pressure.reshape(-1) / to_pressure, 0.0, scaled_cap)
+            start = _Start(np.clip(initial_pressure.reshape(-1) / to_pressure, 0.0, scaled_cap), -math.inf)
         else:
             start = _from_coarser(problem, operator, scaled_gap.reshape(grid.shape), control, scaled_cap)
         report = None
@@ -102,7 +100,9 @@ def solve_contact(
                 used(iterations, violation / (scale or 1.0), cells / grid.cells)
 
         result = _solve(problem, operator, scaled_gap, control, scaled_cap, start, problem.tolerance, report)
-    return _certify(operator, gap, result, length, to_pressure, datum, cap, roughness, tolerance, effort, before)
+    return _certify(
+        operator, gap, result, length, to_pressure, datum, cap, roughness, mean_gap, tolerance, effort, before
+    )
 
 
 @dataclass(frozen=True)
@@ -115,13 +115,25 @@ class _Problem:
     tuning: Tuning = field(default_factory=Tuning)
 
 
+@dataclass(frozen=True)
+class _Start:
+    """Pressure (flat) and approach to begin with."""
+
+    pressure: FloatArray | None
+    approach: float
+
+
 def _without_contact(control: Control, gap: FloatArray) -> LevelResult | None:
     """The result where the bodies do not press on each other at all. The lowest gap is zero."""
-    nothing = np.zeros(gap.size)
     if isinstance(control, LoadControl):
-        return LevelResult(nothing, nothing, 0.0, 0.0, True, 0) if control.force == 0 else None
-    approach = control.approach if isinstance(control, ApproachControl) else float(gap.mean()) - control.mean_gap
-    return LevelResult(nothing, nothing, approach, 0.0, True, 0) if approach <= 0 else None
+        approach = 0.0 if control.force == 0 else math.inf
+    elif isinstance(control, ApproachControl):
+        approach = control.approach
+    else:
+        approach = float(gap.mean()) - control.mean_gap
+    if approach > 0:
+        return None
+    return LevelResult(np.zeros(gap.size), np.zeros(gap.size), approach, 0.0, True, 0)
 
 
 def _solve(
@@ -130,7 +142,7 @@ def _solve(
     gap: FloatArray,
     control: Control,
     cap: float,
-    start: FloatArray | None,
+    start: _Start,
     tolerance: float,
     report: Report | None = None,
 ) -> LevelResult:
@@ -147,14 +159,13 @@ def _solve(
         if control.mean_gap <= tolerance:
             return _full_contact(operator, gap)
         control = ApproachControl(float(gap.mean()) - control.mean_gap)
-    if isinstance(control, LoadControl):
-        return directly(control, start, tolerance)
-    if isinstance(control, ApproachControl):
-        result = directly(control, start, tolerance)
-        if result.converged or problem.effort.left <= 0:
-            return result
-        start = None
-    return by_load(control, gap, cap, start, problem.scale or 1.0, tolerance, directly)
+    scale = problem.scale or 1.0
+    if isinstance(control, MeanGapControl):
+        return mean_gap_by_approach(control.mean_gap, gap, start.pressure, start.approach, scale, tolerance, directly)
+    result = directly(control, start.pressure, tolerance)
+    if isinstance(control, LoadControl) or result.converged or problem.effort.left <= 0:
+        return result
+    return approach_by_load(control.approach, cap, None, gap.size, scale, tolerance, directly)
 
 
 def _full_contact(operator: DisplacementOperator, gap: FloatArray) -> LevelResult:
@@ -168,11 +179,12 @@ def _full_contact(operator: DisplacementOperator, gap: FloatArray) -> LevelResul
 
 def _from_coarser(
     problem: _Problem, operator: DisplacementOperator, gap: FloatArray, control: Control, cap: float
-) -> FloatArray | None:
-    """Pressure (flat) interpolated from the solution on the next coarser grid, itself begun in the same way."""
+) -> _Start:
+    """Pressure interpolated from the solution on the next coarser grid, itself begun in the same way."""
+    nothing = _Start(None, -math.inf)
     coarse = operator.coarsened()
     if coarse is None or coarse.grid.cells == operator.grid.cells:
-        return None
+        return nothing
     periodic = operator.grid.periodic
     # the kernel's unit may differ by a power of two between grids, and a force is a sum over cells
     factor = coarse.unit / operator.unit
@@ -182,7 +194,7 @@ def _from_coarser(
         there = LoadControl(control.force * factor * operator.grid.cell_area / coarse.grid.cell_area)
     flat = coarse_gap.reshape(-1)
     if _without_contact(there, flat) is not None:
-        return None
+        return nothing
     start = _from_coarser(problem, coarse, coarse_gap, there, cap * factor)
     tolerance = max(problem.tolerance, _COARSE_TOLERANCE * (problem.scale or 1.0))
     result = _solve(problem, coarse, flat, there, cap * factor, start, tolerance)
@@ -197,7 +209,7 @@ def _from_coarser(
         periodic,
     )
     fine /= factor
-    return fine.reshape(-1)
+    return _Start(fine.reshape(-1), result.approach)
 
 
 def _length_unit(
@@ -232,25 +244,33 @@ def _certify(
     datum: float,
     cap: float,
     roughness: float,
+    mean_gap: float | None,
     tolerance: float,
     effort: Effort,
     before: float,
 ) -> ContactSolution:
     """Judge the pressure by itself, and put everything in SI units."""
     grid = operator.grid
-    pressure = (result.pressure * to_pressure).reshape(grid.shape)
-    np.minimum(pressure, cap, out=pressure)
-    displacement = (result.displacement * length).reshape(grid.shape)
+    pressure = result.pressure.reshape(grid.shape)
+    displacement = result.displacement.reshape(grid.shape)
     approach = result.approach * length + datum
-    deformed = gap + displacement
-    deformed -= approach
-    largest = passes.complementarity(pressure.reshape(-1), displacement.reshape(-1), gap.reshape(-1), approach, cap)
-    size = float(np.abs(displacement).max())
-    reference = roughness if roughness > _FLAT * size else size
+    deformed = np.empty(grid.shape)
+    depth = np.empty(grid.shape)
+    largest, reach, force, contact, capped, volume = passes.assemble(
+        result.pressure,
+        result.displacement,
+        gap.reshape(-1),
+        to_pressure,
+        length,
+        approach,
+        cap,
+        deformed.reshape(-1),
+        depth.reshape(-1),
+    )
+    if mean_gap is not None:
+        largest = max(largest, abs(volume / grid.cells - mean_gap))
+    reference = roughness if roughness > _FLAT * reach else reach
     residual = float(largest / reference) if reference > 0 else (0.0 if largest == 0 else math.inf)
-    capped = pressure >= cap
-    contact = pressure > 0
-    np.maximum(deformed, 0.0, out=deformed, where=~contact)
     if residual <= tolerance:
         status = Status.CONVERGED
     else:
@@ -260,10 +280,10 @@ def _certify(
         displacement=displacement,
         gap=deformed,
         approach=approach,
-        load=float(pressure.sum()) * grid.cell_area,
-        contact_area=int(np.count_nonzero(contact)) * grid.cell_area,
-        plastic_area=int(np.count_nonzero(capped)) * grid.cell_area,
-        plastic_depth=np.where(capped, np.maximum(-deformed, 0.0), 0.0),
+        load=force * grid.cell_area,
+        contact_area=contact * grid.cell_area,
+        plastic_area=capped * grid.cell_area,
+        plastic_depth=depth,
         iterations=effort.iterations,
         convolutions=operator.count.weighted - before,
         residual=residual,
@@ -324,7 +344,12 @@ def _is_number(value: object) -> bool:
 
 
 def _refuse_infeasible(
-    operator: DisplacementOperator, load: float | None, approach: float | None, hardness: float | None, mean: float
+    operator: DisplacementOperator,
+    load: float | None,
+    approach: float | None,
+    hardness: float | None,
+    mean: float,
+    slack: float,
 ) -> None:
     if load is not None and hardness is not None:
         most = hardness * operator.grid.area
@@ -333,7 +358,7 @@ def _refuse_infeasible(
                 f"solve_contact: load {load!r} N is more than hardness x area = {most!r} N can carry; "
                 "lower the load or raise the hardness"
             )
-    if approach is not None and hardness is None and operator.mean_free and approach > mean:
+    if approach is not None and hardness is None and operator.mean_free and approach > mean + slack:
         raise InfeasibleError(
             f"solve_contact: approach {approach!r} m is beyond the mean gap {mean!r} m; on a doubly periodic grid "
             "elastic bodies in full contact cannot come closer"
