@@ -61,7 +61,7 @@ class RunContext:
         """See `bem.scenes.Context`."""
         return derive_seed(self._scene.seed, purpose, *indices)
 
-    def progress(self, done: int, total: int, what: str = "", **figures: float) -> None:
+    def progress(self, done: int, total: int, what: str = "", /, **figures: float) -> None:
         """See `bem.scenes.Context`."""
         self._watcher.progress(done, total, what, figures)
 

@@ -34,7 +34,7 @@ def replacing(path: Path) -> Iterator[Path]:
         if isinstance(error, ResultsError):
             raise
         raise ResultsError(
-            f"{path}: cannot be written ({reason(error)}); what was there before is unchanged"
+            f"{path}: cannot be written ({reason(error)}); nothing is left half-written"
         ) from error
     finally:
         with suppress(OSError):

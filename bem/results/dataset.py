@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -36,22 +37,77 @@ def write_variables(path: Path, variables: Mapping[str, Variable], attributes: M
     import h5netcdf
     import h5py
 
-    with replacing(path) as temporary:
+    with replacing(path) as temporary, open(temporary, "w+b", buffering=0) as raw:
+        sink = _Sink(raw)
+        with h5netcdf.File(sink, "w") as file:
+            file.attrs.update(attributes)
+            for item in variables.values():
+                for name, size in zip(item.dimensions, item.values.shape, strict=True):
+                    if name not in file.dimensions:
+                        file.dimensions[name] = size
+            for name, item in variables.items():
+                text = item.values.dtype.kind in "US"
+                kind = h5py.string_dtype() if text else item.values.dtype
+                values = item.values.astype(object) if text else np.ascontiguousarray(item.values)
+                stored = file.create_variable(name, item.dimensions, kind, data=values)
+                stored.attrs["units"] = item.units
+                stored.attrs["long_name"] = item.description
+        if sink.error is not None:
+            raise sink.error
+
+
+class _Sink(io.RawIOBase):
+    """A file that never fails but keeps its first error: HDF5 crashes the process when a disk fills."""
+
+    def __init__(self, raw: io.FileIO) -> None:
+        self._raw = raw
+        self.error: OSError | None = None
+
+    def write(self, data: Any) -> int:
+        """All of `data`, or, once something has failed, nothing."""
+        view = memoryview(data).cast("B")
+        done = 0
         try:
-            with h5netcdf.File(temporary, "w") as file:
-                file.attrs.update(attributes)
-                for item in variables.values():
-                    for name, size in zip(item.dimensions, item.values.shape, strict=True):
-                        if name not in file.dimensions:
-                            file.dimensions[name] = size
-                for name, item in variables.items():
-                    text = item.values.dtype.kind in "US"
-                    values = item.values.astype(object) if text else np.ascontiguousarray(item.values)
-                    stored = file.create_variable(name, item.dimensions, h5py.string_dtype() if text else values.dtype, data=values)
-                    stored.attrs["units"] = item.units
-                    stored.attrs["long_name"] = item.description
-        except RuntimeError as error:  # HDF5 reports a full disk this way when it closes the file
-            raise OSError(None, str(error).splitlines()[0]) from error
+            while done < len(view) and self.error is None:
+                done += self._raw.write(view[done:]) or 0
+        except OSError as error:
+            self.error = error
+        return len(view)
+
+    def readinto(self, buffer: Any) -> int:
+        """What was written; zeros where nothing was."""
+        view = memoryview(buffer).cast("B")
+        done = self._raw.readinto(view) or 0
+        view[done:] = bytes(len(view) - done)
+        return len(view)
+
+    def truncate(self, size: int | None = None) -> int:
+        """Set the length."""
+        try:
+            return self._raw.truncate(size)
+        except OSError as error:
+            self.error = self.error or error
+            return size or 0
+
+    def seek(self, offset: int, whence: int = 0) -> int:
+        """Move."""
+        return self._raw.seek(offset, whence)
+
+    def tell(self) -> int:
+        """Where we are."""
+        return self._raw.tell()
+
+    def readable(self) -> bool:
+        """Yes."""
+        return True
+
+    def writable(self) -> bool:
+        """Yes."""
+        return True
+
+    def seekable(self) -> bool:
+        """Yes."""
+        return True
 
 
 def read_dataset(path: Path) -> xarray.Dataset:

@@ -25,7 +25,7 @@ class Context(Protocol):
     def seed(self, purpose: str, *indices: int) -> int:
         """A seed of its own for every named purpose (and repetition); the same in every run of the scene."""
 
-    def progress(self, done: int, total: int, what: str = "", **figures: float) -> None:
+    def progress(self, done: int, total: int, what: str = "", /, **figures: float) -> None:
         """`done` of `total` steps of `what` are finished; figures such as radius_nm=140 are shown beside."""
 
     def note(self, text: str) -> None:
@@ -105,7 +105,7 @@ class PlainContext:
         """See `Context`."""
         return derive_seed(self.scene_seed, purpose, *indices)
 
-    def progress(self, done: int, total: int, what: str = "", **figures: float) -> None:
+    def progress(self, done: int, total: int, what: str = "", /, **figures: float) -> None:
         """Nothing to show."""
 
     def note(self, text: str) -> None:

@@ -62,16 +62,16 @@ def test_the_plain_scene_is_good():
         (changed(sead=1), ["sead", "unknown key", 'did you mean "seed"?']),
         (changed(grid__shpae=1), ["grid.shpae", 'did you mean "shape"?', "spacing"]),
         (changed(contact__load="10 nm"), ["contact.load", '"10 nm"', "is not a force"]),
-        (changed(contact__behaviour="elstic"), ["contact.behaviour", '"elstic"', 'did you mean "elastic"?', '"capped"']),
+        (changed(contact__behaviour="elstic"), ["contact.behaviour", '"elstic"', 'did you mean "elastic"?', '"capped"']),  # noqa: E501
         (changed(lower__material="steel-disc"), ["lower.material", "steel-disc", 'did you mean "steel-disk"?']),
-        (changed(lower__material={"youngs_modulus": "210 GPa", "poissons_ratio": 0.5}), ["lower.material.poissons_ratio", "0.5", "less than 0.5"]),
-        (changed(lower__material={"youngs_modulus": "210 GPa", "poissons_ratio": -1}), ["poissons_ratio", "-1", "greater than -1"]),
+        (changed(lower__material={"youngs_modulus": "210 GPa", "poissons_ratio": 0.5}), ["lower.material.poissons_ratio", "0.5", "less than 0.5"]),  # noqa: E501
+        (changed(lower__material={"youngs_modulus": "210 GPa", "poissons_ratio": -1}), ["poissons_ratio", "-1", "greater than -1"]),  # noqa: E501
         (changed(lower__material={"poissons_ratio": 0.3}), ["lower.material.youngs_modulus", "missing", "a pressure"]),
         (changed(lower__surface={"kind": "genrated"}), ["lower.surface.kind", "genrated", 'did you mean "generated"?']),
         (changed(lower__surface={"rms_height": "1 nm"}), ["lower.surface.kind", "missing", '"measured"']),
-        (changed(lower__surface={"kind": "generated", "rms_height": "1 nm"}), ["lower.surface", "correlation_length", "hurst"]),
-        (changed(lower__surface={"kind": "generated", "rms_height": 1e-9, "hurst": 0.8, "skewness": 3, "kurtosis": 4}), ["kurtosis 4", "skewness 3"]),
-        (changed(lower__surface={"kind": "measured", "path": "nowhere.di"}), ["lower.surface.path", "nowhere.di", "no such file"]),
+        (changed(lower__surface={"kind": "generated", "rms_height": "1 nm"}), ["lower.surface", "correlation_length", "hurst"]),  # noqa: E501
+        (changed(lower__surface={"kind": "generated", "rms_height": 1e-9, "hurst": 0.8, "skewness": 3, "kurtosis": 4}), ["kurtosis 4", "skewness 3"]),  # noqa: E501
+        (changed(lower__surface={"kind": "measured", "path": "nowhere.di"}), ["lower.surface.path", "nowhere.di", "no such file"]),  # noqa: E501
         (changed(grid__shape=0), ["grid.shape = 0", "greater than or equal to 1"]),
         (changed(grid__shape=[32, -1]), ["grid.shape[1] = -1"]),
         (changed(grid__shape=[32, 32, 32]), ["grid.shape", "at most 2"]),
@@ -81,7 +81,7 @@ def test_the_plain_scene_is_good():
         (changed(grid__periodic="yes"), ["grid.periodic"]),
         (changed(contact__approach="1 nm"), ["contact", "mean_pressure and approach", "exactly one of"]),
         (changed(contact=5), ["contact = 5", "not a table"]),
-        (changed(contact__behaviour="capped", contact__mean_pressure="3 GPa"), ["contact.load", "beyond hardness x area"]),
+        (changed(contact__behaviour="capped", contact__mean_pressure="3 GPa"), ["contact.load", "beyond hardness x area"]),  # noqa: E501
         (changed(contact__hardness="1 GPa"), ["contact", "hardness is given but behaviour is elastic"]),
         (changed(shape={"kind": "sphere"}), ["shape", "radius"]),
         (changed(outputs__depths=["2 um", "1 um"]), ["outputs.depths", "rising"]),

@@ -210,7 +210,8 @@ def run(scene: ContactScene, context: Context) -> Outcome:
             "upper": build.heights_of(scene.upper.surface, grid, context.seed("upper"), context.note),
         }
     undeformed = build.shape_of(scene.shape, grid) - heights["lower"] - heights["upper"]
-    undeformed -= undeformed.min()
+    if any(values.any() for values in heights.values()):
+        undeformed -= undeformed.min()  # approach counts from first touch; smooth shapes touch at zero already
 
     with context.timer("contact"):
         saved = context.saved()

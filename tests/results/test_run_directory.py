@@ -1,0 +1,330 @@
+"""Run directories: whole or not at all, locked, checked, resumable."""
+
+import json
+import os
+import resource
+import subprocess
+import sys
+from contextlib import contextmanager
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from bem.errors import InputError, ResultsError
+from bem.results.atomic import write_text
+from bem.results.checkpoint import load_checkpoint, save_checkpoint
+from bem.results.dataset import read_dataset, write_variables
+from bem.results.directory import CHECKPOINT, RunDirectory, summary_text
+from bem.results.read import damaged_files, open_run
+from bem.results.vtk import write_volumes
+from bem.scenes.context import Variable
+
+
+@contextmanager
+def files_no_larger_than(size):
+    """A disk that is full after `size` bytes of any one file (EFBIG where a full disk gives ENOSPC)."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+
+def fields(n=24, depths=5):
+    rng = np.random.default_rng(7)
+    axis = np.arange(n) * 1e-6
+    return {
+        "x": Variable(("x",), axis, "m", "x"),
+        "y": Variable(("y",), axis, "m", "y"),
+        "depth": Variable(("depth",), np.linspace(0, 1e-6, depths), "m", "depth"),
+        "component": Variable(("component",), np.array(["xx", "yy"]), "1", "component"),
+        "pressure": Variable(("x", "y"), rng.random((n, n)), "Pa", "contact pressure"),
+        "state": Variable(("x", "y"), rng.integers(0, 3, (n, n)).astype(np.int8), "1", "state"),
+        "von_mises": Variable(("depth", "x", "y"), rng.random((depths, n, n)), "Pa", "von Mises stress"),
+        "stress": Variable(("component", "depth", "x", "y"), rng.random((2, depths, n, n)), "Pa", "stress"),
+    }
+
+
+# --- datasets
+
+
+def test_dataset_comes_back_with_units_and_coordinates(tmp_path):
+    import h5py
+
+    variables = fields()
+    write_variables(tmp_path / "results.nc", variables, {"title": "a test", "seed": 3})
+    dataset = read_dataset(tmp_path / "results.nc")
+    assert set(dataset.coords) == {"x", "y", "depth", "component"}
+    for name, item in variables.items():
+        np.testing.assert_array_equal(dataset[name].values, item.values)
+        assert dataset[name].attrs["units"] == item.units
+    assert dataset.attrs["title"] == "a test"
+    with h5py.File(tmp_path / "results.nc") as file:
+        assert file["pressure"].attrs["units"] == "Pa"
+        np.testing.assert_array_equal(file["pressure"][:], variables["pressure"].values)
+
+
+def test_same_values_same_bytes(tmp_path):
+    for name in ("a.nc", "b.nc"):
+        write_variables(tmp_path / name, fields(), {"title": "x"})
+    assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
+
+
+@pytest.mark.parametrize("size", [0, 1_000, 10_000, 60_000])
+def test_full_disk_leaves_the_old_dataset(tmp_path, size):
+    path = tmp_path / "results.nc"
+    write_variables(path, fields(4, 2), {"title": "old"})
+    with files_no_larger_than(size), pytest.raises(ResultsError, match=r"results\.nc: cannot be written"):
+        write_variables(path, fields(), {"title": "new"})
+    assert read_dataset(path).attrs["title"] == "old"
+    assert os.listdir(tmp_path) == ["results.nc"]
+
+
+@pytest.mark.parametrize("keep", [0, 10, 3000])
+def test_truncated_dataset_is_a_results_error(tmp_path, keep):
+    path = tmp_path / "results.nc"
+    write_variables(path, fields(), {})
+    path.write_bytes(path.read_bytes()[:keep])
+    with pytest.raises(ResultsError):
+        read_dataset(path)
+
+
+# --- volumes for ParaView
+
+
+def test_volume_holds_every_value_where_it_belongs(tmp_path):
+    import meshio
+
+    variables = fields(6, 4)
+    (path,) = write_volumes(tmp_path, variables, ("von_mises", "stress"))
+    mesh = meshio.read(path)
+    assert set(mesh.point_data) == {"von_mises", "stress_xx", "stress_yy"}
+    x, y, depth = (variables[name].values for name in ("x", "y", "depth"))
+    spot = {tuple(np.round(point * 1e9, 3)): i for i, point in enumerate(mesh.points)}
+    for ix, iy, iz in ((0, 0, 0), (5, 2, 3), (3, 4, 1)):
+        i = spot[tuple(np.round(np.array([x[ix], y[iy], -depth[iz]]) * 1e9, 3))]
+        assert mesh.point_data["von_mises"][i] == variables["von_mises"].values[iz, ix, iy]
+        assert mesh.point_data["stress_yy"][i] == variables["stress"].values[1, iz, ix, iy]
+
+
+def test_volume_cells_have_positive_volume(tmp_path):
+    """VTK's order of corners: bottom face counter-clockwise seen from above, then the top face."""
+    import meshio
+
+    mesh = meshio.read(write_volumes(tmp_path, fields(4, 3), ("von_mises",))[0])
+    corners = mesh.points[mesh.cells_dict["hexahedron"]]
+    a, b, c = (corners[:, i] - corners[:, 0] for i in (1, 3, 4))
+    volumes = np.einsum("ij,ij->i", np.cross(a, b), c)
+    assert len(volumes) == 3 * 3 * 2
+    # all cells are alike: dx dy dz; tolerance is the round-off of coordinate differences
+    np.testing.assert_allclose(volumes, 1e-6 * 1e-6 * 0.5e-6, rtol=1e-9)
+
+
+def test_large_volumes_are_thinned(tmp_path):
+    (path,) = write_volumes(tmp_path, fields(256, 5), ("von_mises",))
+    assert path.name == "volume-every-2.vtu"
+
+
+def test_full_disk_leaves_no_half_volume(tmp_path):
+    with files_no_larger_than(2000), pytest.raises(ResultsError, match=r"volume\.vtu"):
+        write_volumes(tmp_path, fields(), ("von_mises",))
+    assert os.listdir(tmp_path) == []
+
+
+# --- checkpoints
+
+plain = st.recursive(
+    st.none() | st.booleans() | st.integers(-(2**70), 2**70) | st.floats(allow_nan=False) | st.text(max_size=8),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner, max_size=3),
+    max_leaves=8,
+)
+arrays = hnp.arrays(
+    st.sampled_from([np.float64, np.float32, np.int64, np.bool_, np.uint8, np.complex128]),
+    hnp.array_shapes(min_dims=0, max_dims=3, min_side=0, max_side=4),
+)
+
+
+def same(a, b):
+    if isinstance(a, np.ndarray):
+        return isinstance(b, np.ndarray) and a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
+    if isinstance(a, dict):
+        return a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)
+    if isinstance(a, list | tuple):
+        return len(a) == len(b) and all(same(i, j) for i, j in zip(a, b, strict=True))
+    return a == b and type(a) is type(b)
+
+
+@given(st.dictionaries(st.text(max_size=5), plain | arrays, max_size=5))
+@settings(deadline=None, max_examples=60)
+def test_checkpoint_gives_back_the_same_bits(tmp_path_factory, state):
+    path = tmp_path_factory.getbasetemp() / "checkpoint.bin"
+    save_checkpoint(path, state)
+    assert same(state, load_checkpoint(path))
+
+
+@pytest.mark.parametrize("place", [0, 20, 30, 200, -1, -40])
+def test_a_flipped_bit_is_found(tmp_path, place):
+    path = tmp_path / "checkpoint.bin"
+    save_checkpoint(path, {"a": np.arange(50.0), "b": 3})
+    raw = bytearray(path.read_bytes())
+    raw[place] ^= 4
+    path.write_bytes(raw)
+    with pytest.raises(ResultsError, match="damaged"):
+        load_checkpoint(path)
+
+
+def test_a_truncated_checkpoint_is_found(tmp_path):
+    path = tmp_path / "checkpoint.bin"
+    save_checkpoint(path, {"a": np.arange(50.0)})
+    raw = path.read_bytes()
+    for keep in (0, 5, 17, 25, 100, len(raw) - 1):
+        path.write_bytes(raw[:keep])
+        with pytest.raises(ResultsError, match="damaged"):
+            load_checkpoint(path)
+
+
+def test_full_disk_leaves_the_old_checkpoint(tmp_path):
+    path = tmp_path / "checkpoint.bin"
+    save_checkpoint(path, {"cycle": 10})
+    with files_no_larger_than(1000), pytest.raises(ResultsError, match="cannot be written"):
+        save_checkpoint(path, {"cycle": 20, "field": np.zeros(1000)})
+    assert load_checkpoint(path) == {"cycle": 10}
+
+
+@pytest.mark.parametrize("state", [{"a": object()}, {"a": np.array(["text"])}, {"a": np.array([None])}, {"a": {1: 2}}])
+def test_checkpoints_hold_plain_values_only(tmp_path, state):
+    with pytest.raises(TypeError):
+        save_checkpoint(tmp_path / "checkpoint.bin", state)
+    assert os.listdir(tmp_path) == []
+
+
+# --- the folder
+
+
+def test_two_runs_refuse_each_other(tmp_path):
+    with RunDirectory.start(tmp_path / "run", "a", "kind = 'contact'\n") as first:
+        other = f"""
+import sys; from pathlib import Path; from bem.results import RunDirectory; from bem.errors import ResultsError
+try: RunDirectory.start(Path({str(first.path)!r}), "a", "x", overwrite=True)
+except ResultsError as error: print(error); sys.exit(error.exit_code)
+"""
+        done = subprocess.run([sys.executable, "-c", other], capture_output=True, text=True, timeout=60, check=False)
+        assert done.returncode == 4
+        assert f"another run is using this folder (process {os.getpid()})" in done.stdout
+        assert (first.path / "scene.toml").read_text() == "kind = 'contact'\n"
+    with RunDirectory.start(tmp_path / "run", "a", "kind = 'contact'\n", resume=True) as again:
+        assert again.resumed
+
+
+def test_an_older_run_is_not_overwritten_unasked(tmp_path):
+    RunDirectory.start(tmp_path, "a", "a = 1\n").close()
+    with pytest.raises(ResultsError, match="--resume continues it, --overwrite replaces it"):
+        RunDirectory.start(tmp_path, "a", "a = 1\n")
+    assert (tmp_path / "scene.toml").read_text() == "a = 1\n"
+    RunDirectory.start(tmp_path, "a", "a = 2\n", overwrite=True).close()
+    assert (tmp_path / "scene.toml").read_text() == "a = 2\n"
+
+
+def test_overwriting_removes_the_old_run_and_nothing_else(tmp_path):
+    with RunDirectory.start(tmp_path, "a", "a = 1\n") as run:
+        write_text(run.figures / "old.png", "x")
+        write_text(tmp_path / "mine.txt", "mine")
+        run.save_checkpoint({"a": 1})
+        run.finish({"scene": "a"})
+    RunDirectory.start(tmp_path, "a", "a = 2\n", overwrite=True).close()
+    assert sorted(os.listdir(tmp_path)) == ["mine.txt", "scene.toml"]
+
+
+def test_resuming_another_scene_is_refused(tmp_path):
+    RunDirectory.start(tmp_path, "a", "a = 1\n[b]\nc = 2\n").close()
+    with pytest.raises(InputError, match=r"another scene \(b.c differ\)"):
+        RunDirectory.start(tmp_path, "a", "a = 1\n[b]\nc = 3\n", resume=True)
+    assert (tmp_path / "scene.toml").read_text() == "a = 1\n[b]\nc = 2\n"
+
+
+def test_numbered_folders(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    paths = []
+    for _ in range(3):
+        with RunDirectory.start(None, "name", "a = 1\n") as run:
+            paths.append(str(run.path))
+            if len(paths) == 2:
+                run.finish({"scene": "name"})
+    assert paths == ["runs/name-001", "runs/name-002", "runs/name-003"]
+    with RunDirectory.start(None, "name", "a = 1\n", resume=True) as run:
+        assert str(run.path) == "runs/name-003"
+    with RunDirectory.start(None, "name", "a = 2\n", resume=True) as run:
+        assert str(run.path) == "runs/name-004"
+        assert not run.resumed
+
+
+def test_discarding_removes_what_was_made(tmp_path):
+    run = RunDirectory.start(tmp_path / "a" / "b", "x", "a = 1\n")
+    run.save_checkpoint({"a": 1})
+    write_text(run.figures / "a.png", "")
+    run.discard()
+    assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize("out", ["file", "file/below", "/proc/nothing-here", "bad\0name"])
+def test_folders_that_cannot_be(tmp_path, monkeypatch, out):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").write_text("a file in place of the folder")
+    from pathlib import Path
+
+    with pytest.raises(ResultsError, match="cannot be used as the run's folder"):
+        RunDirectory.start(Path(out), "x", "a = 1\n")
+    assert os.listdir(tmp_path) == ["file"]
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+def test_read_only_folder(tmp_path):
+    tmp_path.chmod(0o500)
+    with pytest.raises(ResultsError, match="cannot be used"):
+        RunDirectory.start(tmp_path / "run", "x", "a = 1\n")
+
+
+def test_leftovers_of_a_killed_process_go(tmp_path):
+    RunDirectory.start(tmp_path, "a", "a = 1\n").close()
+    (tmp_path / ".writing-123-results.nc").write_bytes(b"half")
+    RunDirectory.start(tmp_path, "a", "a = 1\n", resume=True).close()
+    assert os.listdir(tmp_path) == ["scene.toml"]
+
+
+def test_damage_to_a_finished_run_is_found(tmp_path):
+    with RunDirectory.start(tmp_path, "a", 'kind = "contact"\n') as run:
+        write_variables(tmp_path / "results.nc", fields(4, 2), {})
+        run.save_checkpoint({"a": 1})
+        run.finish({"scene": "a", "status": "converged"})
+    assert not (tmp_path / CHECKPOINT).exists()
+    assert damaged_files(tmp_path) == []
+    assert open_run(tmp_path).dataset["pressure"].shape == (4, 4)
+    raw = bytearray((tmp_path / "results.nc").read_bytes())
+    raw[len(raw) // 2] ^= 1
+    (tmp_path / "results.nc").write_bytes(raw)
+    assert damaged_files(tmp_path) == ["results.nc"]
+    assert open_run(tmp_path).summary["scene"] == "a"  # what is sound stays readable
+    with pytest.raises(ResultsError, match=r"results\.nc: is damaged"):
+        _ = open_run(tmp_path).dataset
+    (tmp_path / "summary.json").write_text('{"scene": "b"}')
+    with pytest.raises(ResultsError, match=r"summary\.json: is damaged"):
+        open_run(tmp_path)
+
+
+def test_what_is_not_a_finished_run(tmp_path):
+    with pytest.raises(ResultsError, match="no such folder"):
+        open_run(tmp_path / "nowhere")
+    with pytest.raises(ResultsError, match="no run is in it"):
+        open_run(tmp_path)
+    (tmp_path / "scene.toml").write_text("")
+    with pytest.raises(ResultsError, match="unfinished"):
+        open_run(tmp_path)
+
+
+def test_summary_is_json_whatever_is_in_it():
+    text = summary_text({"a": np.float64(1.5), "b": np.arange(3), "c": float("nan"), "d": {"e": np.int64(2)}, "f": "µ"})
+    assert json.loads(text) == {"a": 1.5, "b": [0, 1, 2], "c": None, "d": {"e": 2}, "f": "µ"}

@@ -1,0 +1,209 @@
+"""From a scene to a finished folder, and every way in which that can end early."""
+
+import json
+import os
+from types import SimpleNamespace
+from typing import Literal
+
+import numpy as np
+import pytest
+
+import bem.runs
+from bem.errors import ConvergenceError, InputError, ResultsError, Status
+from bem.results import open_run
+from bem.results.read import damaged_files
+from bem.runs import run_scene
+from bem.scenes import Kind, Outcome, Plan, Step, Variable, get_kind
+from bem.scenes.common import SceneModel
+
+SCENE = {
+    "kind": "contact",
+    "name": "small",
+    "description": "for <tests> & such",
+    "grid": {"shape": 32, "spacing": "0.5 um", "periodic": True},
+    "lower": {
+        "material": "steel-disk",
+        "surface": {"kind": "generated", "rms_height": "100 nm", "correlation_length": "3 um"},
+    },
+    "contact": {"mean_pressure": "80 MPa", "behaviour": "capped"},
+    "outputs": {"von_mises": True, "depths": ["0 um", "0.5 um", "2 um"]},
+}
+
+
+class CountingScene(SceneModel):
+    """A kind that needs no solver: sums random numbers, `cycles` times."""
+
+    kind: Literal["contact"] = "contact"
+    cycles: int = 6
+
+
+@pytest.fixture
+def counting(monkeypatch):
+    """The kind `contact` replaced by one that counts; `stop` is called with the cycle, and may raise."""
+    control = SimpleNamespace(stop=lambda cycle: None, status=Status.CONVERGED, started=[])
+
+    def run(scene, context):
+        state = context.saved() or {"cycle": 0, "total": np.zeros(3)}
+        control.started.append(state["cycle"])
+        total = state["total"]
+        for cycle in range(state["cycle"], scene.cycles):
+            control.stop(cycle)
+            with context.timer("adding"):
+                total = total + np.random.default_rng(context.seed("cycle", cycle)).random(3)
+            if cycle == 1:
+                context.note("cycle one is over")
+            context.save({"cycle": cycle + 1, "total": total})
+            context.progress(cycle + 1, scene.cycles, "cycles", total=float(total[0]))
+        return Outcome(
+            {"total_m": list(total)}, {"total": Variable(("n",), total, "m", "sum")}, control.status, "cycle 3"
+        )
+
+    kind = Kind("contact", "counting", CountingScene, lambda scene: Plan((Step("adding", "it is all there is"),)), run)
+    monkeypatch.setattr(bem.runs, "get_kind", lambda name: kind)
+    monkeypatch.setattr("bem.scenes.load.get_kind", lambda name: kind)
+    return control
+
+
+def everything(folder):
+    """The scientific content of a run: arrays as bytes, summary without times."""
+    run = open_run(folder)
+    summary = {key: value for key, value in run.summary.items() if key not in ("wall_time_s", "seconds_by_stage")}
+    return {name: item.values.tobytes() for name, item in run.dataset.variables.items()}, summary
+
+
+def test_a_run_folder_holds_what_it_promises(tmp_path):
+    run = run_scene(SCENE, tmp_path / "run")
+    names = sorted(os.listdir(tmp_path / "run"))
+    assert names == [
+        "checksums.json",
+        "figures",
+        "report.html",
+        "results.nc",
+        "scene.toml",
+        "summary.json",
+        "volume.vtu",
+    ]
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    for key in ("scene", "kind", "version", "seed", "wall_time_s", "status"):
+        assert key in summary
+    assert summary["status"] == "converged"
+    kinds = {name.rsplit(".", 1)[1] for name in os.listdir(tmp_path / "run" / "figures")}
+    assert kinds == {"png", "pdf"}
+    for name in ("pressure-map", "contact-map", "von-mises-section", "convergence"):
+        assert (tmp_path / "run" / "figures" / f"{name}.png").stat().st_size > 5000
+    assert damaged_files(tmp_path / "run") == []
+    assert run.dataset["pressure"].attrs["units"] == "Pa"
+    assert "max_von_mises_Pa" in repr(run)
+    assert "<table>" in run._repr_html_()
+
+    page = (tmp_path / "run" / "report.html").read_text()
+    assert "for &lt;tests&gt; &amp; such" in page
+    assert page.count("data:image/png;base64,") >= 6
+    assert "http" not in page, "the report must need no network"
+
+    again = run_scene(tmp_path / "run" / "scene.toml", tmp_path / "again")
+    assert everything(run.path) == everything(again.path)
+    assert (run.path / "scene.toml").read_bytes() == (again.path / "scene.toml").read_bytes()
+    assert (run.path / "results.nc").read_bytes() == (again.path / "results.nc").read_bytes()
+
+
+def test_every_figure_of_the_kind_exists():
+    from bem.plots.figures import all_figures
+
+    known = all_figures()
+    from bem.scenes import kind_names
+
+    for name in kind_names():
+        assert set(get_kind(name).figures) <= known.keys(), name
+
+
+@pytest.mark.parametrize("stop", [0, 1, 3, 5])
+def test_interrupted_and_resumed_ends_in_the_same_bits(tmp_path, counting, stop):
+    run_scene({"kind": "contact"}, tmp_path / "whole")
+
+    def interrupt(cycle):
+        if cycle == stop:
+            raise KeyboardInterrupt
+
+    counting.stop = interrupt
+    with pytest.raises(KeyboardInterrupt):
+        run_scene({"kind": "contact"}, tmp_path / "cut")
+    assert not (tmp_path / "cut" / "summary.json").exists()
+    counting.stop = lambda cycle: None
+    run_scene({"kind": "contact"}, tmp_path / "cut", resume=True)
+    assert counting.started == [0, 0, stop]
+    assert everything(tmp_path / "whole") == everything(tmp_path / "cut")
+    assert open_run(tmp_path / "cut").summary["notes"] == ["cycle one is over"]
+    assert not (tmp_path / "cut" / "checkpoint.bin").exists()
+
+
+def test_a_finished_run_is_not_run_again(tmp_path, counting):
+    first = run_scene({"kind": "contact"}, tmp_path)
+    again = run_scene({"kind": "contact"}, tmp_path, resume=True)
+    assert counting.started == [0]
+    assert again.summary == first.summary
+
+
+def test_a_damaged_checkpoint_is_refused_not_used(tmp_path, counting):
+    def interrupt(cycle):
+        if cycle == 3:
+            raise KeyboardInterrupt
+
+    counting.stop = interrupt
+    with pytest.raises(KeyboardInterrupt):
+        run_scene({"kind": "contact"}, tmp_path)
+    raw = bytearray((tmp_path / "checkpoint.bin").read_bytes())
+    raw[-50] ^= 1
+    (tmp_path / "checkpoint.bin").write_bytes(raw)
+    with pytest.raises(ResultsError, match="checkpoint is damaged"):
+        run_scene({"kind": "contact"}, tmp_path, resume=True)
+
+
+def test_bad_input_found_while_running_leaves_nothing(tmp_path, counting):
+    def refuse(cycle):
+        if cycle == 2:
+            raise InputError("lower.surface: no good")
+
+    counting.stop = refuse
+    with pytest.raises(InputError, match="no good"):
+        run_scene({"kind": "contact"}, tmp_path / "a" / "b")
+    assert os.listdir(tmp_path) == []
+
+
+def test_a_run_that_cannot_go_on_keeps_its_checkpoint(tmp_path, counting):
+    def give_up(cycle):
+        if cycle == 2:
+            raise ConvergenceError("cycle 2: stalled")
+
+    counting.stop = give_up
+    with pytest.raises(ConvergenceError, match="cycle 2"):
+        run_scene({"kind": "contact"}, tmp_path)
+    assert (tmp_path / "checkpoint.bin").exists()
+
+
+def test_a_run_that_did_not_converge_is_kept_and_says_where(tmp_path, counting):
+    counting.status = Status.STALLED
+    run = run_scene({"kind": "contact"}, tmp_path)
+    assert run.summary["status"] == "stalled"
+    assert run.summary["where"] == "cycle 3"
+    assert "cycle 3" in (tmp_path / "report.html").read_text()
+
+
+def test_seeds_are_their_own_for_every_purpose():
+    from bem.scenes.context import derive_seed
+
+    seeds = {derive_seed(1, "lower"), derive_seed(1, "upper"), derive_seed(2, "lower"), derive_seed(1, "lower", 0)}
+    assert len(seeds) == 4
+    assert all(0 <= seed < 2**63 for seed in seeds)
+    # a promise to those who compare runs of different versions
+    assert derive_seed(1, "lower") == 8713349300685171801
+
+
+def test_watcher_is_told(tmp_path, counting):
+    told = []
+    watcher = SimpleNamespace(
+        progress=lambda done, total, what, figures: told.append((done, total, what)), note=told.append
+    )
+    run_scene({"kind": "contact"}, tmp_path, watcher=watcher)
+    assert (6, 6, "cycles") in told
+    assert "cycle one is over" in told

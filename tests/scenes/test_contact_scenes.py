@@ -1,0 +1,198 @@
+"""Kind `contact` run without a disk: closed forms, skips that change nothing, the same bits, resuming."""
+
+import copy
+
+import numpy as np
+import pytest
+
+from bem.errors import Status
+from bem.materials import contact_modulus
+from bem.reference_solutions.hertz import cylinder_contact, sphere_contact
+from bem.reference_solutions.westergaard import crossed_full_contact_pressure
+from bem.runs import plan_scene
+from bem.scenes import PlainContext, get_kind
+from bem.transforms import COUNT
+
+KIND = get_kind("contact")
+
+
+def run(source, settings=(), context=None):
+    scene, _ = plan_scene(source, settings)
+    context = context or PlainContext(scene.seed)
+    return scene, KIND.run(scene, context), context
+
+
+ROUGH = {
+    "kind": "contact",
+    "grid": {"shape": 64, "spacing": "0.5 um", "periodic": True},
+    "lower": {
+        "material": "steel-disk",
+        "surface": {"kind": "generated", "rms_height": "100 nm", "correlation_length": "3 um"},
+    },
+    "upper": {"material": "steel-cylinder"},
+    "contact": {"mean_pressure": "80 MPa", "behaviour": "capped"},
+    "outputs": {"von_mises": True, "depths": ["0 um", "0.5 um", "2 um"]},
+}
+
+
+def rough(**tables):
+    data = copy.deepcopy(ROUGH)
+    for name, keys in tables.items():
+        data[name] |= keys
+    return data
+
+
+def steel():
+    scene, _ = plan_scene("hertz-sphere")
+    material = scene.lower.material.build()
+    return contact_modulus(material, material)
+
+
+def test_hertz_sphere():
+    scene, outcome, _ = run("hertz-sphere", ["grid.shape=96", "outputs.stresses=false"])
+    hertz = sphere_contact(radius=scene.shape.radius, contact_modulus=steel(), load=scene.contact.load)
+    assert outcome.status == Status.CONVERGED
+    # 38 cells across the contact: second order in the cell, (1/19)^2 = 0.3 %; the edge in the area, 1/19
+    assert outcome.summary["approach_m"] == pytest.approx(hertz.approach, rel=3e-3)
+    assert outcome.summary["max_pressure_Pa"] == pytest.approx(hertz.maximum_pressure, rel=5e-3)
+    assert outcome.summary["contact_area_m2"] == pytest.approx(np.pi * hertz.semi_axes[0] ** 2, rel=5e-2)
+    assert outcome.summary["load_N"] == pytest.approx(scene.contact.load, rel=1e-9)
+    assert "von_mises" not in outcome.variables
+
+
+def test_hertz_cylinder():
+    scene, outcome, _ = run("hertz-cylinder", ["outputs.von_mises=false", "grid.shape=[512,4]"])
+    length = scene.grid.spacing[1] * 4
+    material = scene.lower.material.build()
+    hertz = cylinder_contact(
+        radius=scene.shape.radius, contact_modulus=contact_modulus(material, material), load=scene.contact.load / length
+    )
+    # 100 cells across the contact
+    assert outcome.summary["max_pressure_Pa"] == pytest.approx(hertz.maximum_pressure, rel=2e-3)
+
+
+def test_sinusoid_is_at_the_tenth_of_full_contact_it_says():
+    scene, _ = plan_scene("sinusoid")
+    full = crossed_full_contact_pressure(scene.shape.amplitude, (scene.shape.wavelength, np.inf), steel())
+    assert scene.contact.mean_pressure == pytest.approx(0.1 * full, rel=1e-3)  # written with four digits
+    _, outcome, _ = run("sinusoid", ["outputs.von_mises=false"])
+    # Westergaard: contact fraction = 2/pi asin(sqrt(p/p*)); one cell of 512 on either edge
+    assert outcome.summary["contact_area_fraction"] == pytest.approx(2 / np.pi * np.arcsin(np.sqrt(0.1)), abs=2 / 512)
+
+
+def test_rough_capped_contact():
+    scene, outcome, _ = run(ROUGH)
+    pressure = outcome.variables["pressure"].values
+    state = outcome.variables["contact_state"].values
+    assert scene.contact.hardness == 1.8e9  # of the softer body
+    assert pressure.max() == 1.8e9
+    assert (state == 2).any()
+    assert (state == 1).any()
+    assert outcome.summary["contact_area_fraction"] == np.mean(pressure > 0)
+    assert outcome.summary["plastic_area_fraction"] == pytest.approx(np.mean(state == 2), abs=1e-15)
+    assert outcome.summary["load_N"] == pytest.approx(80e6 * (32e-6) ** 2, rel=1e-9)
+    mises = outcome.variables["von_mises"].values
+    assert outcome.summary["max_von_mises_Pa"] == mises.max()
+    assert mises.shape == (3, 64, 64)
+    assert outcome.summary["yielded_volume_m3"] > 0
+
+
+def test_a_key_of_the_api_for_every_scene():
+    _, outcome, _ = run(ROUGH)
+    for key in (
+        *("contact_area_fraction", "plastic_area_fraction", "mean_contact_pressure_Pa", "approach_m", "residual"),
+        *("convolutions", "max_von_mises_Pa"),
+    ):
+        assert isinstance(outcome.summary[key], float), key
+
+
+def test_approach_and_mean_gap_reach_the_same_contact_as_the_load():
+    _, by_load, _ = run(rough(outputs={"von_mises": False}))
+    approach, gap = by_load.summary["approach_m"], by_load.summary["mean_gap_m"]
+    elsewhere = rough(outputs={"von_mises": False})
+    for control in ({"approach": approach}, {"mean_gap": gap}):
+        _, other, _ = run(elsewhere | {"contact": {"behaviour": "capped"} | control})
+        # both solutions are right to the solver's 1e-8 of the roughness; pressures follow within a stiff factor
+        difference = np.abs(other.variables["pressure"].values - by_load.variables["pressure"].values).max()
+        assert difference < 1e-4 * 1.8e9
+
+
+def test_von_mises_alone_is_the_same_as_from_all_stresses():
+    _, alone, _ = run(ROUGH)
+    _, everything, _ = run(rough(outputs={"stresses": True}))
+    # the same sums in another order
+    np.testing.assert_allclose(
+        alone.variables["von_mises"].values, everything.variables["von_mises"].values, rtol=1e-10, atol=1.0
+    )
+    assert everything.variables["stress"].values.shape == (6, 3, 64, 64)
+
+
+def test_no_stress_is_computed_when_none_is_wanted():
+    run(rough(outputs={"von_mises": False}))  # plans and spectra are made once
+    COUNT.reset()
+    _, without, _ = run(rough(outputs={"von_mises": False}))
+    few = COUNT.inverse
+    COUNT.reset()
+    _, with_stress, _ = run(ROUGH)
+    assert COUNT.inverse > few
+    np.testing.assert_array_equal(without.variables["pressure"].values, with_stress.variables["pressure"].values)
+
+
+def test_friction_between_equal_bodies_changes_no_pressure_and_builds_no_kernel():
+    _, without, _ = run(rough(outputs={"von_mises": False}))
+    COUNT.reset()
+    _, with_friction, _ = run(rough(outputs={"von_mises": False}, contact={"friction": 0.3}))
+    assert COUNT.kernels == 0
+    np.testing.assert_array_equal(without.variables["pressure"].values, with_friction.variables["pressure"].values)
+
+
+def test_friction_raises_the_stress_at_the_surface_of_either_body():
+    values = {}
+    for body in ("lower", "upper"):
+        for friction in (0.0, 0.5):
+            data = rough(contact={"friction": friction}, outputs={"body": body})
+            values[body, friction] = run(data)[1].variables["von_mises"].values[0].mean()
+    assert values["lower", 0.5] > 1.1 * values["lower", 0.0]
+    # the two bodies have the same elastic constants: traction reversed, the stress is the mirror image's, not the same
+    assert values["upper", 0.0] == pytest.approx(values["lower", 0.0], rel=1e-12)
+
+
+def test_same_seed_same_bits_other_seed_other_surface():
+    _, first, _ = run(ROUGH)
+    _, again, _ = run(ROUGH)
+    for name, item in first.variables.items():
+        assert item.values.tobytes() == again.variables[name].values.tobytes(), name
+    assert first.summary == again.summary
+    _, other, _ = run(ROUGH | {"seed": 2})
+    assert not np.array_equal(other.variables["lower_height"].values, first.variables["lower_height"].values)
+
+
+def test_resumed_after_the_contact_solve_the_bits_are_the_same():
+    _, whole, context = run(ROUGH)
+    resumed = PlainContext(1, resumed=True, state=context.state)
+    COUNT.reset()
+    _, rest, _ = run(ROUGH, context=resumed)
+    assert whole.variables.keys() == rest.variables.keys()
+    for name, item in whole.variables.items():
+        assert item.values.tobytes() == rest.variables[name].values.tobytes(), name
+    assert whole.summary == rest.summary
+
+
+def test_iteration_limit_is_said_and_the_result_kept():
+    _, outcome, _ = run(rough(contact={"max_iterations": 2}, outputs={"von_mises": False}))
+    assert outcome.status == Status.MAX_ITERATIONS
+    assert "contact solve" in outcome.where
+    assert outcome.variables["pressure"].values.shape == (64, 64)
+
+
+def test_plan_says_what_is_skipped_and_why():
+    _, plan = plan_scene(rough(outputs={"von_mises": False}))
+    skipped = {step.name: step.why for step in plan.steps if step.skipped}
+    assert skipped["layered kernels"] == "no body is coated"
+    assert skipped["tangential kernels in the normal gap"] == "no friction"
+    assert skipped["stresses below"] == "neither stresses nor von Mises are asked for"
+    _, plan = plan_scene(rough(contact={"friction": 0.1}))
+    skipped = {step.name: step.why for step in plan.steps if step.skipped}
+    assert "Dundurs' beta is zero" in skipped["tangential kernels in the normal gap"]
+    _, plan = plan_scene(rough(contact={"friction": 0.1}, lower={"material": "brass-disk"}))
+    assert "tangential kernels in the normal gap" not in {step.name for step in plan.steps if step.skipped}
