@@ -39,21 +39,26 @@ def detrend(heights: FloatArray, spacing: tuple[float, float], method: str = "pl
     if method == "none":
         return np.array(heights, dtype=np.float64)
     heights, spacing = check_map(heights, spacing, missing=True)
+    return heights - trend(heights, curved=method == "curvature")
+
+
+def trend(heights: FloatArray, *, curved: bool) -> FloatArray:
+    """The least-squares plane (or second-order polynomial) through the points that are there, at every point [m]."""
     nx, ny = heights.shape
+    known = ~np.isnan(heights)
+    if not known.any():
+        return np.zeros_like(heights)
     # coordinates scaled to [-1, 1]: the fit is then well conditioned whatever the units
     x = np.linspace(-1, 1, nx)[:, None] if nx > 1 else np.zeros((1, 1))
     y = np.linspace(-1, 1, ny)[None, :] if ny > 1 else np.zeros((1, 1))
-    terms = [x + 0 * y, y + 0 * x]
-    if method == "curvature":
+    terms = [np.ones((nx, ny)), x + 0 * y, y + 0 * x]
+    if curved:
         terms += [x * x + 0 * y, y * y + 0 * x, x * y]
-    known = ~np.isnan(heights)
-    if not known.any():
-        return heights.copy()
-    basis = np.stack([np.ones((nx, ny)), *terms], axis=-1)
+    basis = np.stack(terms, axis=-1)
     values = basis[known]
     scale = float(np.abs(heights[known]).max()) or 1.0
     coefficients = np.linalg.lstsq(values.T @ values, values.T @ (heights[known] / scale), rcond=1e-13)[0]
-    return heights - scale * (basis @ coefficients)
+    return np.asarray(scale * (basis @ coefficients))
 
 
 def fill_missing(heights: FloatArray, spacing: tuple[float, float]) -> FloatArray:
