@@ -5,6 +5,7 @@ from __future__ import annotations
 from enum import Enum
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from bem.grid import FloatArray
 
@@ -34,12 +35,12 @@ STRESS_PARITY: dict[Load, Parities] = {
 """Parity (in x, in y) of each stress (xx yy zz yz xz xy). The spectrum is real where their product is +1."""
 
 
-def clear_odd(values: FloatArray, x: FloatArray, y: FloatArray, parities: Parities) -> FloatArray:
+def clear_odd(values: FloatArray, x: ArrayLike, y: ArrayLike, parities: Parities) -> FloatArray:
     """Set what is odd in x (y) to exactly zero where x (y) is; in place. `values` (parts, ...), x and y broadcast."""
     for index, (along_x, along_y) in enumerate(parities):
         part = values[index, ...]
         if along_x < 0:
-            part[np.broadcast_to(x == 0, part.shape)] = 0.0
+            part[np.broadcast_to(np.equal(x, 0), part.shape)] = 0.0
         if along_y < 0:
-            part[np.broadcast_to(y == 0, part.shape)] = 0.0
+            part[np.broadcast_to(np.equal(y, 0), part.shape)] = 0.0
     return values
