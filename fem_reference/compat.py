@@ -57,6 +57,11 @@ def function_space(mesh: dmesh.Mesh, degree: int, shape: tuple[int, ...] = (), *
     return fem.functionspace(mesh, element)
 
 
+def function(space: Any) -> Any:
+    """A new function, zero."""
+    return fem.Function(space)
+
+
 def constant(mesh: dmesh.Mesh, value: ArrayLike) -> Any:
     """A constant of the mesh, always float64 (0.5 refuses integers)."""
     values = np.asarray(value, dtype=np.float64)

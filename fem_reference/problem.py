@@ -24,7 +24,7 @@ class Parameter:
     default : value when not given; its type is the option's type unless `kind` says otherwise.
     help : one line, with the unit.
     kind : a callable from text to value.
-    count : how many values the option takes (None: one value, not a list).
+    count : how many values the option takes (None: one value, not a list; -1: one or more).
     choices : the allowed values, where they are few.
     """
 

@@ -11,8 +11,9 @@ A result is one JSON object (UTF-8, one file per case, ``<case>.json``):
 ``far_field``       how the unbounded body is represented and what that leaves, in a sentence
 ``mesh``            ``builder``; ``levels``: list of ``{"parameters", "cells", "dofs", "size"}`` from coarse to fine,
                     ``size`` being the relative mesh size used in the convergence study;
-                    ``picture``: ``{"points": [[x, z], ...], "cells": [[i, j, k, ...], ...], "note"}`` the coarsest mesh
-                    near the load, for drawing
+                    ``picture``: the coarsest mesh near the load, for drawing: ``{"points": [[x, z], ...],
+                    "cells": [[i, j, k, ...], ...], "note"}`` (corners in order around the cell), or, for grids that are
+                    products, ``{"x": [...], "z": [...], "note"}``; `picture_segments` reads both
 ``versions``        ``python``, ``numpy``, ``dolfinx``, ``petsc``, ``gmsh``: texts
 ``date``            day of the computation, ISO 8601
 ``time_s``          processor time of the whole case, seconds
@@ -37,7 +38,7 @@ Each entry of ``quantities``:
 
 Signs and order of axes are those of a body that fills z > 0: displacement positive along +x, +y, +z (so into the body),
 stress positive in tension, pressure positive in compression, traction on the body positive along +x. A file is written
-whole or not at all. Numbers are rounded to 12 significant digits.
+whole or not at all. Numbers are rounded to 10 significant digits.
 """
 
 from __future__ import annotations
@@ -122,13 +123,15 @@ def _rounded(item: Any) -> Any:
     if isinstance(item, float | np.floating):
         if not math.isfinite(item):
             raise ValueError("a result holds a value that is not finite")
-        return float(f"{float(item):.12g}")
+        return float(f"{float(item):.10g}")
     return item
 
 
 def to_text(result: Result) -> str:
     """The file's text; one line per list of numbers, so that differences can be read."""
     document = {"format": result.format, **_rounded(asdict(result))}
+    for quantity in document["quantities"]:
+        quantity["error_bar"] = [float(f"{bar:.3g}") for bar in quantity["error_bar"]]
     quantities = document.pop("quantities")
     mesh = document.pop("mesh")
     head = json.dumps(document, indent=1, allow_nan=False)
@@ -169,6 +172,22 @@ def read(path: str | os.PathLike[str]) -> Result:
         raise ValueError(f"{path} is not a result of format {FORMAT!r}")
     quantities = [Quantity(**entry) for entry in document.pop("quantities")]
     return Result(quantities=quantities, **document)
+
+
+def picture_segments(result: Result) -> list[tuple[tuple[float, float], tuple[float, float]]]:
+    """Line segments ((x, z), (x, z)) that draw the stored mesh picture; empty where there is none."""
+    picture = result.mesh.get("picture", {})
+    if "cells" in picture:
+        points = [(float(x), float(z)) for x, z in picture["points"]]
+        edges = {
+            (min(a, b), max(a, b)) for cell in picture["cells"] for a, b in zip(cell, cell[1:] + cell[:1], strict=True)
+        }
+        return [(points[a], points[b]) for a, b in sorted(edges)]
+    if "x" in picture:
+        x, z = picture["x"], picture["z"]
+        upright = [((v, z[0]), (v, z[-1])) for v in x]
+        return upright + [((x[0], v), (x[-1], v)) for v in z]
+    return []
 
 
 def reproduces(stored: Result, computed: Result, *, factor: float = 1.0, round_off: float = 1e-9) -> list[str]:

@@ -1,0 +1,150 @@
+"""Command line: ``python -m fem_reference CASE [options]``, ``--list``, ``all``."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import os
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+from subprocess import run
+
+from fem_reference import results
+from fem_reference.problem import Parameter, Problem, all_problems, stored_cases
+
+STORED = Path(__file__).resolve().parents[1] / "bem" / "verification" / "fem_results"
+
+
+def _add_options(parser: argparse.ArgumentParser, parameters: tuple[Parameter, ...]) -> None:
+    for parameter in parameters:
+        kind = parameter.kind or (str if parameter.default is None else type(parameter.default))
+        option = "--" + parameter.name.replace("_", "-")
+        text = f"{parameter.help} (default {parameter.default})"
+        options = {"dest": parameter.name, "type": kind, "default": argparse.SUPPRESS, "help": text}
+        if parameter.count is not None:
+            options["nargs"] = "+" if parameter.count < 0 else parameter.count
+        if parameter.choices is not None:
+            options["choices"] = parameter.choices
+        parser.add_argument(option, **options)
+
+
+def _list() -> None:
+    for problem in all_problems().values():
+        print(f"{problem.name}: {problem.sentence}")
+        for parameter in problem.parameters:
+            print(f"    --{parameter.name.replace('_', '-'):12s} {parameter.help} (default {parameter.default})")
+        print(f"    stored: {', '.join(problem.stored) or 'none'}\n")
+
+
+def _table(result: results.Result) -> str:
+    """One line per curve: largest value, largest bar over it, order."""
+    lines = [f"{result.case}: {result.sentence}  [{result.time_s:.1f} s, {result.mesh['levels'][-1]['dofs']} dofs]"]
+    for curve in result.quantities:
+        size = max((abs(v) for v in curve.values), default=0.0)
+        bar = max(curve.error_bar, default=0.0)
+        share = f"{bar / size:.1e}" if size else "-"
+        order = "-" if curve.order is None else f"{curve.order:.1f}"
+        lines.append(f"  {curve.name:24s} {curve.along:42s} max {size:10.4g}  bar/max {share:>8s}  order {order}")
+    for name, check in result.checks.items():
+        lines.append(f"  {name}: {check['value']:.9g}, expected {check['expected']:.9g}")
+    return "\n".join(lines)
+
+
+def _all(folder: Path, check: bool, jobs: int, only: list[str]) -> int:
+    """Recompute the stored set, each case in its own process;
+
+    with `check` compare to what is there and write nothing.
+    """
+    cases = [case for case in stored_cases() if not only or case in only]
+    folder.mkdir(parents=True, exist_ok=True)
+
+    def one(case: str) -> tuple[str, int, str]:
+        command = [sys.executable, "-m", "fem_reference", case]
+        command += ["--check", str(folder / f"{case}.json")] if check else ["--out", str(folder / f"{case}.json")]
+        one_thread = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+        done = run(command, capture_output=True, text=True, check=False, env={**os.environ, **one_thread})
+        return case, done.returncode, (done.stdout + done.stderr).strip()
+
+    failed = 0
+    with ThreadPoolExecutor(jobs) as pool:
+        for case, code, text in pool.map(one, cases):
+            failed += code != 0
+            print(f"{'ok    ' if code == 0 else 'FAILED'} {case}", flush=True)
+            if code:
+                print(text, flush=True)
+    print(f"{len(cases) - failed} of {len(cases)} cases {'reproduced' if check else 'written'}")
+    return 1 if failed else 0
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line; returns the exit code."""
+    logging.disable(logging.WARNING)  # dolfinx' compiler calls, and its advice on quadrature
+    parser = argparse.ArgumentParser(prog="python -m fem_reference", add_help=False)
+    parser.add_argument("case", nargs="?")
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("-h", "--help", action="store_true")
+    known, rest = parser.parse_known_args(arguments)
+    if known.list:
+        _list()
+        return 0
+    if known.case is None:
+        print(__doc__)
+        print("CASE is a problem, a stored case (see --list) or all; CASE --help shows its options.")
+        return 0 if known.help else 2
+
+    if known.case == "all":
+        options = argparse.ArgumentParser(prog="python -m fem_reference all")
+        options.add_argument("--out", type=Path, default=STORED, help="folder of the stored set")
+        options.add_argument("--check", action="store_true", help="compare to the stored set; write nothing")
+        options.add_argument("--jobs", type=int, default=1, help="processes at a time")
+        options.add_argument("--only", nargs="*", default=[], help="these cases only")
+        chosen = options.parse_args(rest + (["--help"] if known.help else []))
+        return _all(chosen.out, chosen.check, chosen.jobs, chosen.only)
+
+    problems, stored = all_problems(), stored_cases()
+    if known.case in stored:
+        problem, parameters = stored[known.case]
+    elif known.case in problems:
+        problem = problems[known.case]
+        parameters = problem.defaults()
+    else:
+        import difflib
+
+        near = difflib.get_close_matches(known.case, [*problems, *stored], n=3)
+        hint = f"; did you mean {' or '.join(near)}?" if near else ""
+        print(f"there is no case {known.case!r}{hint} (--list shows all)", file=sys.stderr)
+        return 2
+    return _one(known.case, problem, parameters, rest + (["--help"] if known.help else []))
+
+
+def _one(case: str, problem: Problem, parameters: dict, rest: list[str]) -> int:
+    """Solve one case with options; print its table, write or check a file."""
+    options = argparse.ArgumentParser(prog=f"python -m fem_reference {case}", description=problem.sentence)
+    _add_options(options, problem.parameters)
+    options.add_argument("--out", type=Path, help="write the result to this file")
+    options.add_argument("--check", type=Path, help="compare to this stored result; exit 1 if it does not reproduce")
+    chosen = vars(options.parse_args(rest))
+    out, check = chosen.pop("out"), chosen.pop("check")
+    if check is not None and not check.is_file():
+        print(f"there is no stored result {check}", file=sys.stderr)
+        return 1
+    try:
+        result = problem.solve(**{**parameters, **chosen})
+    except ValueError as error:
+        print(f"{case}: {error}", file=sys.stderr)
+        return 2
+    result = replace(result, case=out.stem if out is not None else case)
+    print(_table(result))
+    if out is not None:
+        results.write(result, out)
+    if check is not None:
+        complaints = results.reproduces(results.read(check), result)
+        print("\n".join(complaints) or f"{check.name} reproduces")
+        return 1 if complaints else 0
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

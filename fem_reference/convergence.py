@@ -1,0 +1,176 @@
+"""The study behind every linear case: three meshes, three boxes, error bars."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_reference.elasticity import Solution
+from fem_reference.provenance import processor_time, today, versions
+from fem_reference.results import Quantity, Result, as_coordinates
+from fem_reference.richardson import estimate
+from meshes import Builder
+from meshes.grids import WIDER, BlockGrid, PlaneGrid
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Figures on one mesh.
+
+    Parameters
+    ----------
+    name, unit, along, note : as in a Quantity.
+    points : (n, 3).
+    values : (n,).
+    derivative : whether it contains derivatives of the displacement (a stress): one order less.
+    """
+
+    name: str
+    unit: str
+    along: str
+    points: Array
+    values: Array
+    derivative: bool = False
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class FarField:
+    """What widening the box does, measured on the coarsest mesh.
+
+    Parameters
+    ----------
+    correction : to add to the values in the first box, by curve.
+    error : what may be wrong with it, by curve.
+    """
+
+    correction: list[Array]
+    error: list[Array]
+
+
+def extrapolate_boxes(boxes: Sequence[Sequence[Curve]], orders: Sequence[float]) -> FarField:
+    """Extrapolate curves on three boxes, each WIDER times the one before, to an unbounded body.
+
+    orders : by curve, k of the leading error 1/R^k. The third box tests the law: where it fails the bar grows.
+    """
+    correction, error = [], []
+    for first, second, third, order in zip(*boxes, orders, strict=True):
+        shrink = WIDER**-order
+        d1, d2 = second.values - first.values, third.values - second.values
+        correction.append(d1 + d2 / (1 - shrink))
+        error.append(np.abs(d2 - shrink * d1) / (1 - shrink))
+    return FarField(correction, error)
+
+
+def study(
+    *,
+    problem: str,
+    sentence: str,
+    parameters: Mapping[str, Any],
+    normalisation: str,
+    far_field: str,
+    grid: Callable[..., Builder],
+    solve: Callable[[Builder], Solution],
+    curves: Callable[[Solution], list[Curve]],
+    degree: int,
+    levels: Sequence[int] = (1, 2, 3),
+    boxes: bool = True,
+    box_order: Callable[[Curve], float] = lambda curve: 1.0,
+    checks: Callable[[Solution], dict[str, dict[str, float]]] = lambda solution: {},
+    round_off: float = 1e-7,
+) -> Result:
+    """Solve on meshes of rising level and in boxes of rising width, and put the result together.
+
+    grid : called with level= and, for the wider boxes, boxes=.
+    checks : equilibrium of the finest solution.
+    """
+    began = processor_time()
+    rows, found = [], []
+    solution = None
+    coarsest = None
+    for level in levels:
+        builder = grid(level=level)
+        coarsest = coarsest or builder
+        solution = solve(builder)
+        found.append(curves(solution))
+        rows.append({"parameters": {"level": level}, "cells": solution.cells, "dofs": solution.dofs, "size": 1 / level})
+    assert solution is not None
+    assert coarsest is not None
+    finest = found[-1]
+    if boxes:
+        wider = [curves(solve(grid(level=levels[0], boxes=n))) for n in (1, 2)]
+        far = extrapolate_boxes([found[0], *wider], [box_order(curve) for curve in finest])
+    else:
+        far = FarField([np.zeros(1)] * len(finest), [np.zeros(1)] * len(finest))
+    quantities = []
+    for index, curve in enumerate(finest):
+        bar = estimate(
+            [1 / level for level in levels],
+            np.array([row[index].values for row in found]),
+            expected_order=degree if curve.derivative else degree + 1,
+            round_off=round_off,
+            other_error=far.error[index],
+        )
+        quantities.append(
+            Quantity(
+                curve.name,
+                curve.unit,
+                curve.along,
+                as_coordinates(curve.points),
+                list(bar.values + far.correction[index]),
+                list(bar.error_bar),
+                None if bar.order is None else round(bar.order, 2),
+                curve.note,
+            )
+        )
+    return Result(
+        case="",
+        problem=problem,
+        sentence=sentence,
+        parameters=dict(parameters),
+        normalisation=normalisation,
+        far_field=far_field,
+        mesh={
+            "builder": f"{type(coarsest).__module__}.{type(coarsest).__qualname__}",
+            "element": f"Lagrange of degree {degree}",
+            "levels": rows,
+            "picture": picture(coarsest),
+        },
+        quantities=quantities,
+        checks=checks(solution),
+        versions=versions(),
+        date=today(),
+        time_s=round(processor_time() - began, 2),
+    )
+
+
+def picture(builder: Any, span: float = 3.0) -> dict[str, Any]:
+    """Grid lines of the coarsest mesh up to `span` load widths (a section y = 0 of a block)."""
+    if not isinstance(builder, PlaneGrid | BlockGrid):
+        return {}
+    lines = {}
+    for name in ("x", "z"):
+        nodes = sorted({node for interval in getattr(builder, name) for node in interval.nodes()})
+        inside = [node for node in nodes if node <= span]
+        lines[name] = [float(f"{node:.6g}") for node in inside]
+    depth = [sum(interval.end - interval.start for interval in builder.z[: builder.layers])]
+    return {**lines, "interface": depth[0] if builder.layers else None, "note": "coarsest mesh, near the load"}
+
+
+def equilibrium(solution: Solution, load: Sequence[float], tolerance: float = 1e-6) -> dict[str, dict[str, float]]:
+    """Reactions of the held boundary against the exact resultant of the load, for each rigid motion."""
+    entries = {}
+    for index, (reaction, exact) in enumerate(zip(solution.reaction, load, strict=True)):
+        name = "reaction" if len(load) == 1 else f"reaction {index + 1}"
+        entries[name] = {
+            "value": -float(reaction),
+            "expected": float(exact),
+            "tolerance": tolerance * abs(float(exact)),
+        }
+    return entries

@@ -1,0 +1,202 @@
+"""Linear elasticity on graded grids: strains, materials, assembly, direct solution and evaluation, for every linear
+problem of the reference.
+
+A *kinematics* says how a few fields of the mesh's two (or three) coordinates make a three-dimensional strain. It is
+written twice, once in UFL for the assembly and once in
+numpy for the evaluation; the equilibrium and convergence tests see both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import ufl
+from numpy.typing import ArrayLike, NDArray
+from petsc4py import PETSc
+
+from fem_reference import compat
+from fem_reference.tensor_solver import FastDiagonalisation, held_nodes, solve_block
+from meshes import Builder
+from meshes.grids import CELL_TAGS, FACET_TAGS
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Material:
+    """Young's modulus and Poisson's ratio of an isotropic solid."""
+
+    youngs_modulus: float
+    poissons_ratio: float
+
+    @property
+    def lame(self) -> tuple[float, float]:
+        """Lame's constants (lambda, mu)."""
+        e, nu = self.youngs_modulus, self.poissons_ratio
+        return e * nu / ((1 + nu) * (1 - 2 * nu)), e / (2 * (1 + nu))
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A solved problem: the fields, their gradient in a discontinuous space, and what is needed to evaluate them."""
+
+    mesh: Any
+    cell_tags: Any
+    materials: Mapping[str, Material]
+    field: Any
+    gradient: Any
+    dofs: int
+    cells: int
+    reaction: Array
+
+    def sample(self, points: ArrayLike, side: str | None = None) -> tuple[Array, Array, Array, Array]:
+        """Fields (n, f), gradients (n, f, d) and Lame's constants (n,), (n,) at mesh points (n, d).
+
+        side : "layer" or "substrate" picks the cell for points on the interface.
+        """
+        points = np.atleast_2d(np.asarray(points, dtype=np.float64))
+        padded = np.zeros((len(points), 3))
+        padded[:, : points.shape[1]] = points
+        tags = np.empty(compat.cell_count(self.mesh), dtype=np.int32)
+        tags[self.cell_tags.indices] = self.cell_tags.values
+        wanted = None if side is None else (lambda cell: bool(tags[cell] == CELL_TAGS[side]))
+        cells = compat.locate(self.mesh, padded, wanted=wanted)
+        values = compat.evaluate(self.field, padded, cells)
+        gradients = compat.evaluate(self.gradient, padded, cells).reshape(len(points), values.shape[1], -1)
+        lame = {CELL_TAGS[name]: material.lame for name, material in self.materials.items()}
+        constants = np.array([lame[int(tags[cell])] for cell in cells])
+        return values, gradients, constants[:, 0], constants[:, 1]
+
+
+def isotropic_stress(strain: Array, lame: Array, shear: Array) -> Array:
+    """Stress (n, 3, 3) of a tensor strain (n, 3, 3)."""
+    trace = np.trace(strain, axis1=1, axis2=2)
+    return lame[:, None, None] * trace[:, None, None] * np.eye(3) + 2 * shear[:, None, None] * strain
+
+
+def cartesian_components(stress: Array) -> Array:
+    """The six components (6, n) in the order xx, yy, zz, yz, xz, xy of tensors (n, 3, 3) over (x, y, z)."""
+    return np.array([stress[:, i, j] for i, j in ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))])
+
+
+def solve(
+    builder: Builder,
+    materials: Mapping[str, Material],
+    *,
+    fields: int,
+    degree: int,
+    strain: Callable[[Any, Any], Any],
+    weight: Callable[[Any], Any],
+    load: Callable[[Any, Any], Any],
+    held: Mapping[str, Sequence[int] | None],
+    rigid: Sequence[Sequence[float]] = (),
+    load_degree: int | None = None,
+    loaded: Sequence[str] = ("loaded",),
+    product_grid: bool = False,
+) -> Solution:
+    """Solve one linear problem, by a sparse Cholesky factorisation or, on blocks, by conjugate gradients.
+
+    Parameters
+    ----------
+    builder : the mesh.
+    materials : by cell tag name.
+    fields : number of unknown fields.
+    degree : of the Lagrange elements.
+    strain : (field, coordinates) -> UFL strain tensor, 3 x 3.
+    weight : coordinates -> UFL factor of the volume and surface elements (1 or the radius).
+    load : (test field, coordinates) -> UFL work of the tractions on the loaded facets, without the weight.
+    held : fields (None: all) kept at zero, by facet tag name.
+    rigid : rigid motions, as values of the fields, with which the reaction of the far boundary is measured.
+    load_degree : quadrature degree on the loaded facets (polynomial loads need none).
+    loaded : names of the loaded facet tags.
+    product_grid : the mesh is a homogeneous block of hexahedra that is a product of three axes: `tensor_solver`.
+
+    The reaction is the work of the residual of all held fields on each rigid motion; by equilibrium it is minus the
+    load's.
+    """
+    mesh, cell_tags, facet_tags = compat.load_mesh(builder)
+    space = compat.function_space(mesh, degree, (fields,) if fields > 1 else ())
+    constants = compat.function_space(mesh, 0, (), continuous=False)
+    lame, shear = compat.function(constants), compat.function(constants)
+    for name, material in materials.items():
+        cells = cell_tags.find(CELL_TAGS[name])
+        lame.x.array[cells], shear.x.array[cells] = material.lame
+    x = ufl.SpatialCoordinate(mesh)
+    # a rectangle's Jacobian is constant: 2 degree integrates the plain products exactly; the radius needs more
+    precision = 2 * degree if weight(x) == 1.0 else 2 * degree + 2
+    dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": precision})
+    ds = ufl.Measure(
+        "ds", mesh, subdomain_data=facet_tags, metadata={"quadrature_degree": load_degree or 2 * degree + 2}
+    )
+    trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
+
+    def listed(u: Any) -> Any:
+        return u if fields > 1 else ufl.as_vector([u])
+
+    def energy(u: Any, v: Any) -> Any:
+        e, f = strain(listed(u), x), strain(listed(v), x)
+        return (lame * ufl.tr(e) * ufl.tr(f) + 2 * shear * ufl.inner(e, f)) * weight(x) * dx
+
+    conditions = []
+    for name, components in held.items():
+        conditions += compat.fixed(space, facet_tags, FACET_TAGS[name], components)
+    work = sum((load(listed(test), x) * weight(x) * ds(FACET_TAGS[name]) for name in loaded), start=0)
+    right = compat.assemble_vector(compat.form(work))
+    compat.zero_fixed(right, conditions)
+    matrix = compat.assemble_matrix(compat.form(energy(trial, test)), conditions)
+    field = compat.function(space)
+    if product_grid:
+        coordinates = np.asarray(space.tabulate_dof_coordinates())
+        fixed = held_nodes(len(coordinates), compat.fixed_dofs(conditions))
+        inverse = FastDiagonalisation(coordinates, degree, fixed, *materials["substrate"].lame)
+        solve_block(matrix, right, compat.petsc_vector(field), inverse, 1e-9)
+    else:
+        factor_and_solve(matrix, right, compat.petsc_vector(field))
+    matrix.destroy()
+
+    reaction = []
+    if rigid:
+        residual = compat.assemble_vector(compat.form(energy(field, test))).array.reshape(-1, fields)
+        held_dofs = np.zeros(residual.size, dtype=bool)
+        held_dofs[compat.fixed_dofs(conditions)] = True
+        for motion in rigid:
+            reaction.append(float(np.sum(residual * held_dofs.reshape(residual.shape) * np.asarray(motion))))
+    dimension = mesh.geometry.dim
+    gradient = compat.interpolate_expression(
+        ufl.grad(field),
+        compat.function_space(mesh, degree, (fields, dimension) if fields > 1 else (dimension,), continuous=False),
+    )
+    return Solution(
+        mesh,
+        cell_tags,
+        materials,
+        field,
+        gradient,
+        compat.dof_count(space),
+        compat.cell_count(mesh),
+        np.array(reaction),
+    )
+
+
+def factor_and_solve(matrix: Any, right: Any, solution: Any) -> None:
+    """Solve with MUMPS' Cholesky factorisation and one step of iterative refinement; RuntimeError when it fails."""
+    solver = PETSc.KSP().create(PETSc.COMM_SELF)
+    solver.setOperators(matrix)
+    solver.setType("preonly")
+    preconditioner = solver.getPC()
+    preconditioner.setType("cholesky")
+    preconditioner.setFactorSolverType("mumps")
+    solver.setUp()
+    solver.solve(right, solution)
+    if solver.getConvergedReason() < 0:
+        raise RuntimeError(f"the factorisation failed: PETSc's reason {solver.getConvergedReason()}")
+    residual = right.duplicate()
+    matrix.mult(solution, residual)
+    residual.aypx(-1.0, right)
+    correction = right.duplicate()
+    solver.solve(residual, correction)
+    solution.axpy(1.0, correction)
+    solver.destroy()
