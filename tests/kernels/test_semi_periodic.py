@@ -62,8 +62,8 @@ def test_stresses_are_the_sum_of_images(case, load):
 
         got = stress_coefficients(grid, BODY, depth, load)
         want = limit(partial, grid, depth)
-        # 1e-10 is asked for, the brute force is good to 1e-12. The scale is the largest stress of the grid: where images
-        # cancel to exp(-2 pi x / period), the sum of images knows no smaller one
+        # 1e-10 is asked for, the brute force is good to 1e-12. The scale is the largest stress on the grid: where
+        # images cancel to exp(-2 pi x / period), their sum knows no smaller one
         assert np.abs(got - want).max() < 1e-11 * np.abs(want).max()
 
 
