@@ -142,7 +142,9 @@ class GrowthTable:
 
     Logarithmic growth is interpolated linearly between samples. An interval is trusted once the value in its middle
     lies within `tolerance` (relative) of the interpolation; with the middle as a further sample the error left is about
-    a quarter of that.
+    a quarter of that. Intervals narrower than `narrowest` (relative to their thickness, and to `first_interval`) are
+    trusted in any case: as single cells come into contact the mean over the contact takes steps, and these are resolved
+    to that width.
 
     Parameters
     ----------
@@ -152,7 +154,7 @@ class GrowthTable:
     sample: Callable[[float, ContactSample | None], ContactSample]
     tolerance: float = 2e-3
     first_interval: float = 5e-9
-    smallest_interval: float = 1e-12
+    narrowest: float = 0.02
     samples: list[ContactSample] = field(default_factory=list)
     _trusted: set[tuple[float, float]] = field(default_factory=set)
     _last: ContactSample | None = None
@@ -191,7 +193,7 @@ class GrowthTable:
         middle = 0.5 * (low.thickness + high.thickness)
         expected = self._interpolate(low, high, middle)
         found = self._solve(middle)
-        narrow = high.thickness - low.thickness <= 2 * self.smallest_interval
+        narrow = high.thickness - low.thickness <= 2 * self.narrowest * max(middle, self.first_interval)
         if narrow or abs(found.growth - expected) <= self.tolerance * max(found.growth, expected):
             self._trusted |= {(low.thickness, middle), (middle, high.thickness)}
 

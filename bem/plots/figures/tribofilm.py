@@ -1,0 +1,147 @@
+"""Figures of tribofilms: thickness, wear and concentration over time, pressure over thickness, maps."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from bem.plots.figures import FigureKind
+from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, map_of, prefix
+
+_COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PINK, SKY, BLACK)
+
+
+def _films(run: Any) -> list[tuple[str, list[int]]]:
+    """Label and indices of the repetitions of each film; the label says only what differs between films."""
+    data = run.dataset
+    columns = [
+        [f"{value:g} N" if value > 1e-3 else f"{1e9 * value:g} nN" for value in data["load"].values],
+        [f"{value - 273.15:.0f} °C" for value in data["temperature"].values],
+        [value.decode() if isinstance(value, bytes) else str(value) for value in data["variant"].values],
+    ]
+    differ = [column for column in columns if len(set(column)) > 1]
+    names = [", ".join(parts) for parts in zip(*differ, strict=True)] if differ else [""] * len(columns[0])
+    return [(name, [i for i, other in enumerate(names) if other == name]) for name in dict.fromkeys(names)]
+
+
+def _time(run: Any) -> tuple[Any, str]:
+    seconds = run.dataset["time"].values
+    if run.summary.get("cycle_s"):
+        return seconds / run.summary["cycle_s"], "cycle"
+    return (seconds / 60, "time (min)") if seconds[-1] > 300 else (seconds, "time (s)")
+
+
+def _over_time(run: Any, figure: Figure, name: str, text: str, unit: str) -> None:
+    axes = figure.add_subplot()
+    time, axis = _time(run)
+    values = run.dataset[name].values
+    factor, shown = prefix(values, unit)
+    for colour, (film, rows) in zip(_COLOURS * 9, _films(run), strict=False):
+        own = values[rows] * factor
+        axes.plot(time, own.mean(axis=0), color=colour, label=film)
+        if len(rows) > 1:
+            axes.fill_between(time, own.min(axis=0), own.max(axis=0), color=colour, alpha=0.2, linewidth=0)
+    axes.set_xlabel(axis)
+    axes.set_ylabel(label(text, shown))
+    axes.set_xlim(0, time[-1])
+    axes.set_ylim(0)
+    if len(_films(run)) > 1:
+        axes.legend()
+
+
+def _thickness(run: Any, figure: Figure) -> None:
+    _over_time(run, figure, "thickness", "mean film thickness", "m")
+
+
+def _wear_rate(run: Any, figure: Figure) -> None:
+    _over_time(run, figure, "wear_rate", "wear rate of the film", "m/s")
+
+
+def _substrate(run: Any, figure: Figure) -> None:
+    _over_time(run, figure, "substrate_wear", "wear depth of the substrate", "m")
+
+
+def _concentration(run: Any, figure: Figure) -> None:
+    _over_time(run, figure, "concentration", "concentration of substrate", "1")
+
+
+def _pressure(run: Any, figure: Figure) -> None:
+    """Mean contact pressure and hardness of every contact that was solved."""
+    data = run.dataset
+    factor_h, unit_h = prefix(data["sample_thickness"].values, "m")
+    factor_p, unit_p = prefix(data["sample_hardness"].values, "Pa")
+    axes = figure.add_subplot()
+    for colour, (film, rows) in zip(_COLOURS * 9, _films(run), strict=False):
+        own = np.isin(data["sample_film"].values, rows)
+        order = np.argsort(data["sample_thickness"].values[own])
+        thickness = data["sample_thickness"].values[own][order] * factor_h
+        pressure = data["sample_mean_pressure"].values[own][order] * factor_p
+        axes.plot(thickness, pressure, "o-", markersize=2.5, linewidth=1.0, color=colour, label=film)
+        hardness = data["sample_hardness"].values[own][order] * factor_p
+        axes.plot(thickness, hardness, linestyle="--", linewidth=0.9, color=colour)
+    axes.plot([], [], linestyle="--", linewidth=0.9, color="0.4", label="hardness")
+    axes.set_xlabel(label("mean film thickness", unit_h))
+    axes.set_ylabel(label("mean contact pressure", unit_p))
+    axes.set_xlim(0)
+    axes.set_ylim(0)
+    axes.legend()
+
+
+def _maps(run: Any, figure: Figure, name: str, text: str, unit: str) -> None:
+    chosen = [(film, rows[0]) for film, rows in _films(run)][:4]
+    values = run.dataset[name].values
+    shown = np.where(values > 0, values, np.nan)
+    limit = float(np.nanmax(shown[[row for _, row in chosen]])) if np.isfinite(shown).any() else 1.0
+    x, y = run.dataset["x"].values, run.dataset["y"].values
+    for axes, (film, row) in zip(np.atleast_1d(figure.subplots(1, len(chosen))), chosen, strict=True):
+        picture = shown[row] if np.isfinite(shown[row]).any() else np.zeros_like(shown[row])
+        own_factor, _ = prefix(picture, unit)
+        map_of(figure, axes, x, y, picture, text, unit, vmin=0, vmax=limit * own_factor)
+        axes.set_title(film)
+
+
+def _film_map(run: Any, figure: Figure) -> None:
+    _maps(run, figure, "film_map", "local film thickness", "m")
+
+
+def _pressure_map(run: Any, figure: Figure) -> None:
+    _maps(run, figure, "film_pressure", "contact pressure", "Pa")
+
+
+def _wears_substrate(run: Any) -> bool:
+    return bool((run.dataset["substrate_wear"].values > 0).any())
+
+
+FIGURES = (
+    FigureKind("film-thickness", "Mean film thickness.", ("time", "thickness"), _thickness, (5.0, 3.4)),
+    FigureKind("film-wear-rate", "Rate at which the film itself wears.", ("time", "wear_rate"), _wear_rate, (5.0, 3.4)),
+    FigureKind(
+        "substrate-wear",
+        "Depth of substrate that has left with the film.",
+        ("time", "substrate_wear"),
+        _substrate,
+        (5.0, 3.4),
+        _wears_substrate,
+    ),
+    FigureKind(
+        "substrate-concentration",
+        "Concentration of substrate at the surface of the film.",
+        ("time", "concentration"),
+        _concentration,
+        (5.0, 3.4),
+        _wears_substrate,
+    ),
+    FigureKind(
+        "film-pressure-over-thickness",
+        "Mean contact pressure (dots: contacts that were solved) and hardness (dashed) over film thickness.",
+        ("sample_thickness", "sample_mean_pressure"),
+        _pressure,
+        (5.0, 3.4),
+    ),
+    FigureKind("film-map", "Local film thickness at the end.", ("x", "y", "film_map"), _film_map, (10.0, 3.4)),
+    FigureKind(
+        "film-pressure-map", "Contact pressure at the end.", ("x", "y", "film_pressure"), _pressure_map, (10.0, 3.4)
+    ),
+)
