@@ -1,10 +1,11 @@
 """Free along one axis, periodic along the other: a loaded cell and all its images, summed to round-off.
 
 The image at the origin and its two neighbours are summed as they are. The other images form a function of the position
-that is smooth across the whole period: it is sampled at Chebyshev nodes along the periodic axis and at Gauss nodes over
-the cell. Each sample is a sum over k = 2, 3, ... of point forces at +-k periods: the first few explicitly, the rest as
-an integral from half a period before (Gauss, in a variable in which it is analytic up to infinity) plus the
-Euler-Maclaurin terms of the midpoint rule, taken from samples around the lower end instead of derivatives.
+that is smooth on the scale of the period: it is sampled at Chebyshev nodes along the periodic axis, and along the free
+axis at Chebyshev nodes of panels a period wide or, where cells are that large, at Gauss nodes over each cell. Each
+sample is a sum over k = 2, 3, ... of point forces at +-k periods: the first few explicitly, the rest as an integral from
+half a period before (Gauss, in a variable in which it is analytic up to infinity) plus the Euler-Maclaurin terms of the
+midpoint rule, taken from samples around the lower end instead of derivatives.
 
 Where a part of the cell is more than `_LINE` periods away (along the free axis or in depth), its images look like a
 line load: what is left out is exp(-2 pi _LINE) of it. There the plane-strain forms of `half_plane` serve.
@@ -232,9 +233,13 @@ def _fill(
     odd: FloatArray,
     parity: FloatArray,
     points: int,
+    tail: FloatArray,
     out: FloatArray,
 ) -> None:
-    """Fill out[component, free offset, offset along] for offsets along up to half a period. Lengths in periods."""
+    """Fill out[component, free offset, offset along] for offsets along up to half a period. Lengths in periods.
+
+    `tail` : the tail at [component, free offset, node along], or nothing (sampled here, then, over each cell).
+    """
     parts = out.shape[0]
     half_along = 0.5 * step_along
     samples = np.zeros((parts, nodes.size))
@@ -259,10 +264,11 @@ def _fill(
             out[c, i, :] = local[c]
         if not high > low:
             continue
-        samples[:] = 0.0
-        pieces = int(np.ceil((high - low) / 0.5))
-        width = (high - low) / pieces
-        for n in range(nodes.size):
+        if tail.shape[1] > 0:
+            samples[:] = tail[:, i, :]
+        pieces = 0 if tail.shape[1] > 0 else int(np.ceil((high - low) / 0.5))
+        width = (high - low) / max(pieces, 1)
+        for n in range(nodes.size if pieces > 0 else 0):
             local[:] = 0.0
             for piece in range(pieces):
                 centre = low + (piece + 0.5) * width
@@ -286,6 +292,61 @@ def _fill(
                 for n in range(nodes.size):
                     total += samples[c, n] * (even[j, n] if parity[c] > 0 else odd[j, n])
                 out[c, i, j] += total
+
+
+@nb.njit(**COMPILE)
+def _sample(
+    kind: int,
+    swap: bool,
+    z: float,
+    nu: float,
+    pressure: float,
+    traction: float,
+    reference: float,
+    free_nodes: FloatArray,
+    means: FloatArray,
+    nodes: FloatArray,
+    out: FloatArray,
+) -> None:
+    """The tail over each cell along the free axis, (parts, free offsets, nodes), from samples at `free_nodes`."""
+    parts = out.shape[0]
+    samples = np.zeros((parts, nodes.size))
+    local = np.zeros(parts)
+    for s in range(free_nodes.size):
+        for n in range(nodes.size):
+            local[:] = 0.0
+            _add_tail(kind, swap, free_nodes[s], nodes[n], z, nu, pressure, traction, reference, 1.0, local)
+            samples[:, n] = local
+        for i in range(out.shape[1]):
+            w = means[i, s]
+            if w != 0.0:
+                for c in range(parts):
+                    for n in range(nodes.size):
+                        out[c, i, n] += w * samples[c, n]
+
+
+def _panels(cells: int, step: float, points: int) -> tuple[FloatArray, FloatArray]:
+    """Chebyshev nodes of panels along the free axis, and weights (cells, nodes) of the mean over each cell times step.
+
+    The tail's nearest image is at least a period from any point of a panel a period wide: 24 nodes reach round-off.
+    """
+    length = cells * step
+    count = int(np.ceil(length))
+    width = length / count
+    angles = (np.arange(_CHEBYSHEV) + 0.5) * np.pi / _CHEBYSHEV
+    nodes = (-0.5 * step + (np.arange(count)[:, None] + 0.5 + 0.5 * np.cos(angles)) * width).ravel()
+    at = (np.arange(cells)[:, None] + 0.5 * (1 + NODES[points, :points])) * step
+    panel = np.minimum((at / width).astype(np.int64), count - 1)
+    inside = np.clip(2 * (at / width - panel) - 1, -1, 1)
+    orders = np.arange(_CHEBYSHEV)
+    scale = np.full(_CHEBYSHEV, 2.0 / _CHEBYSHEV)
+    scale[0] *= 0.5
+    basis = np.cos(orders * np.arccos(inside)[..., None])
+    cardinal = np.einsum("igk,kn->ign", basis, np.cos(orders[:, None] * angles) * scale[:, None])
+    means = np.zeros((cells, count, _CHEBYSHEV))
+    for g in range(points):
+        means[np.arange(cells), panel[:, g]] += WEIGHTS[points, g] * step * cardinal[:, g]
+    return nodes, means.reshape(cells, -1)
 
 
 def _points(ratio: float) -> int:
@@ -330,9 +391,16 @@ def _table(
     half = 0.5 * step
     points = _points(1.0 / min(half, 0.25))
     reference = grid.lengths[free] / period
+    loads = (nu, pressure, traction, reference)
+    z = depth / period
+    # whole cells within reach, and none so wide that a panel is no gain
+    smooth = half <= 0.25 and (grid.shape[free] * step) ** 2 + z * z <= _LINE**2
+    tail = np.zeros((len(parities), grid.shape[free] if smooth else 0, nodes.size))
+    if smooth:
+        _sample(kind, swap, z, *loads, *_panels(grid.shape[free], step, points), nodes, tail)
     _fill(
-        kind, swap, step, half, 1.0 / cells, depth / period, nu, pressure, traction, reference,
-        nodes, even, odd, parity, points, quarter,
+        kind, swap, step, half, 1.0 / cells, z, *loads,
+        nodes, even, odd, parity, points, tail, quarter,
     )  # fmt: skip
     odd_parts = parity < 0
     quarter[odd_parts, :, 0] = 0.0
