@@ -1,0 +1,53 @@
+"""Quantities on the command line: written as in a scene, refused with the option's name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from bem.errors import InputError
+
+
+def length(text: str | None, option: str) -> float | None:
+    """`"45 nm"` or a number in metres; None stays None."""
+    if text is None:
+        return None
+    from pydantic_core import PydanticCustomError
+
+    from bem.scenes.units import LENGTH
+
+    try:
+        return float(text)
+    except ValueError:
+        pass
+    try:
+        return LENGTH.parse(text)
+    except PydanticCustomError as error:
+        raise InputError(f'{option} "{text}": {error.message()}') from None
+
+
+def pair_of_lengths(text: str | None, option: str) -> tuple[float, float] | None:
+    """One length for both axes, or two separated by a comma."""
+    if text is None:
+        return None
+    parts = [length(part.strip(), option) for part in text.split(",")]
+    if len(parts) not in (1, 2) or parts[0] is None or parts[-1] is None:
+        raise InputError(f'{option} "{text}": allowed: one length for both axes, or two separated by a comma')
+    return parts[0], parts[-1]
+
+
+def pair_of_cells(text: str, option: str) -> tuple[int, int]:
+    """One number of cells for both axes, or two separated by a comma or an x."""
+    try:
+        parts = [int(part) for part in text.replace("x", ",").split(",")]
+    except ValueError:
+        parts = []
+    if len(parts) not in (1, 2) or min(parts) < 1:
+        raise InputError(f'{option} "{text}": allowed: numbers of cells such as 512 or 512,256')
+    return parts[0], parts[-1]
+
+
+def new_file(path: Path, option: str, endings: tuple[str, ...]) -> Path:
+    """The path, if its ending is one of those allowed."""
+    if path.suffix.lower() not in endings:
+        raise InputError(f'{option} "{path}": the ending is not one of {", ".join(endings)}')
+    return path

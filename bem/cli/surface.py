@@ -1,0 +1,204 @@
+"""`bem surface`: generate, read, describe, plot."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from bem.surfaces import Surface
+
+FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="An instrument's file, or a map as .npz or table.")]
+DetrendOption = Annotated[
+    str | None, typer.Option(help="plane, curvature or none; plane, and none for an .npz, if not given.")
+]
+FillOption = Annotated[bool, typer.Option("--fill/--no-fill", help="Fill missing points, or refuse a file with some.")]
+ChannelOption = Annotated[str | None, typer.Option(help="Name or number of the channel; the file's own default.")]
+SpacingOption = Annotated[
+    str | None, typer.Option(help='Distance of points where the file does not say, "100 nm" or "100 nm,200 nm".')
+]
+UnitOption = Annotated[str | None, typer.Option(help="Unit of the heights where the file does not say, such as nm.")]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands."""
+    group = typer.Typer(name="surface", help="Generate, read, describe and plot surfaces.", no_args_is_help=True)
+    group.command()(generate)
+    group.command()(read)
+    group.command()(describe)
+    group.command()(plot)
+    app.add_typer(group)
+
+
+def generate(
+    out: Annotated[Path, typer.Argument(metavar="OUT", help="File to write, .npz.")],
+    cells: Annotated[str, typer.Option(help="Cells along x and y, such as 512 or 512,256.")],
+    spacing: Annotated[str, typer.Option(help='Cell side, such as "100 nm", or two.')],
+    rms_height: Annotated[str, typer.Option(help='Sq, such as "50 nm".')],
+    seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same bits.")] = 0,
+    correlation_length: Annotated[
+        str | None, typer.Option(help="Where the autocorrelation falls to 1/e; two for unequal axes.")
+    ] = None,
+    autocorrelation: Annotated[str, typer.Option(help="gaussian or exponential.")] = "gaussian",
+    hurst: Annotated[float | None, typer.Option(help="Hurst exponent of a self-affine surface instead.")] = None,
+    rolloff_wavelength: Annotated[str | None, typer.Option(help="Flat spectrum above this wavelength.")] = None,
+    cutoff_wavelength: Annotated[str | None, typer.Option(help="No waves below this wavelength.")] = None,
+    skewness: Annotated[float, typer.Option(help="Ssk.")] = 0.0,
+    kurtosis: Annotated[float, typer.Option(help="Sku; 3 is Gaussian.")] = 3.0,
+) -> None:
+    """Generate a periodic random surface."""
+    from bem.cli._quantity import length, new_file, pair_of_cells, pair_of_lengths
+    from bem.errors import InputError
+    from bem.grid import Grid
+    from bem.surfaces import Surface, generate_surface, write_surface
+
+    new_file(out, "OUT", (".npz",))
+    sides = pair_of_lengths(spacing, "--spacing")
+    correlation = pair_of_lengths(correlation_length, "--correlation-length")
+    assert sides is not None
+    grid = Grid(pair_of_cells(cells, "--cells"), sides, periodic=(True, True))
+    asked = {
+        "rms_height": length(rms_height, "--rms-height"),
+        "seed": seed,
+        "correlation_length": correlation,
+        "autocorrelation": autocorrelation,
+        "hurst": hurst,
+        "rolloff_wavelength": length(rolloff_wavelength, "--rolloff-wavelength"),
+        "cutoff_wavelength": length(cutoff_wavelength, "--cutoff-wavelength"),
+        "skewness": skewness,
+        "kurtosis": kurtosis,
+    }
+    try:
+        heights = generate_surface(grid, **asked)  # type: ignore[arg-type]
+    except InputError as error:
+        raise InputError([message.removeprefix("generate_surface: ") for message in error.messages]) from None
+    metadata = {
+        "generated": {key: value for key, value in asked.items() if value is not None},
+        "periodic": (True, True),
+    }
+    surface = Surface(heights, grid.spacing, metadata)
+    path = write_surface(out, surface)
+    _show(surface, path.name)
+    print(f"written: {path}")
+
+
+def read(
+    file: FileArgument,
+    out: Annotated[Path, typer.Argument(metavar="OUT", help="File to write, .npz.")],
+    detrend: DetrendOption = None,
+    fill: FillOption = True,
+    channel: ChannelOption = None,
+    spacing: SpacingOption = None,
+    height_unit: UnitOption = None,
+) -> None:
+    """Read a measured surface, level it, fill what is missing and write it as a plain map in metres."""
+    from bem.cli._quantity import new_file
+    from bem.surfaces import write_surface
+
+    new_file(out, "OUT", (".npz",))
+    surface = _read(file, detrend, fill, channel, spacing, height_unit)
+    path = write_surface(out, surface)
+    _show(surface, file.name)
+    print(f"written: {path}")
+
+
+def describe(
+    file: FileArgument,
+    detrend: DetrendOption = None,
+    fill: FillOption = True,
+    channel: ChannelOption = None,
+    spacing: SpacingOption = None,
+    height_unit: UnitOption = None,
+    json: Annotated[bool, typer.Option("--json", help="As JSON, in SI units.")] = False,
+) -> None:
+    """Print height, slope and correlation of a surface."""
+    surface = _read(file, detrend, fill, channel, spacing, height_unit)
+    if json:
+        import dataclasses
+        import json as writer
+        import math
+
+        from bem.surfaces import describe_surface
+
+        described = describe_surface(surface.heights, surface.spacing, periodic=_periodic(surface))
+        figures = {k: None if math.isnan(v) else v for k, v in dataclasses.asdict(described).items()}
+        shape = {"file": str(file), "shape": surface.shape, "spacing": surface.spacing}
+        print(writer.dumps({**shape, **figures, "metadata": dict(surface.metadata)}, default=str, ensure_ascii=False))
+        return
+    _show(surface, file.name)
+
+
+def plot(
+    file: FileArgument,
+    out: Annotated[Path, typer.Argument(metavar="OUT", help="Figure to write: .png, .pdf or .svg.")],
+    detrend: DetrendOption = None,
+    fill: FillOption = True,
+    channel: ChannelOption = None,
+    spacing: SpacingOption = None,
+    height_unit: UnitOption = None,
+) -> None:
+    """Draw a surface: heights, their distribution, autocorrelation and spectrum."""
+    from bem.cli._quantity import new_file
+
+    new_file(out, "OUT", (".png", ".pdf", ".svg"))
+    surface = _read(file, detrend, fill, channel, spacing, height_unit)
+    from bem.plots.surface import draw_surface
+
+    draw_surface(surface, out, periodic=_periodic(surface))
+    print(f"written: {out}")
+
+
+def _read(
+    file: Path, detrend: str | None, fill: bool, channel: str | None, spacing: str | None, height_unit: str | None
+) -> Surface:
+    from bem.cli._quantity import pair_of_lengths
+    from bem.surfaces import read_surface
+
+    return read_surface(
+        file,
+        # a plain map is a surface already: levelling it again would change its statistics and open its seams
+        detrend=detrend or ("none" if file.suffix.lower() == ".npz" else "plane"),
+        fill=fill,
+        channel=int(channel) if channel is not None and channel.isdigit() else channel,
+        spacing=pair_of_lengths(spacing, "--spacing"),
+        height_unit=height_unit,
+    )
+
+
+def _periodic(surface: Surface) -> tuple[bool, bool]:
+    known = surface.metadata.get("periodic")
+    return (bool(known[0]), bool(known[1])) if isinstance(known, list | tuple) and len(known) == 2 else (False, False)
+
+
+def _show(surface: Surface, name: str) -> None:
+    import math
+
+    from bem.cli._terminal import table
+    from bem.surfaces import describe_surface
+
+    d = describe_surface(surface.heights, surface.spacing, periodic=_periodic(surface))
+
+    def metres(value: float) -> str:
+        if math.isnan(value):
+            return "beyond half the map"
+        return f"{1e6 * value:.4g} um" if value >= 1e-6 else f"{1e9 * value:.4g} nm"
+
+    rows = [
+        ("cells", f"{surface.shape[0]} x {surface.shape[1]}"),
+        ("spacing", " x ".join(metres(s) for s in surface.spacing)),
+        ("size", " x ".join(metres(s) for s in surface.lengths)),
+        ("Sq, rms height", metres(d.Sq)),
+        ("Sa, mean height", metres(d.Sa)),
+        ("Sz, peak to valley", metres(d.Sz)),
+        ("Ssk, skewness", f"{d.Ssk:.4g}"),
+        ("Sku, kurtosis", f"{d.Sku:.4g}"),
+        ("Sdq, rms slope", f"{d.Sdq:.4g}"),
+        ("autocorrelation length, x", metres(d.autocorrelation_length_x)),
+        ("autocorrelation length, y", metres(d.autocorrelation_length_y)),
+    ]
+    missing = surface.metadata.get("missing_points")
+    if missing:
+        rows.append(("points filled", str(missing)))
+    table(("figure", "value"), rows, title=name)

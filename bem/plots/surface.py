@@ -1,0 +1,71 @@
+"""A surface on one sheet: heights, their distribution, autocorrelation, spectrum."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from bem.plots.style import BLACK, BLUE, VERMILION, label, map_of, prefix, style
+from bem.results.atomic import replacing
+from bem.surfaces import Surface, autocorrelation, describe_surface, radial_spectrum
+
+
+def draw_surface(surface: Surface, path: Path, *, periodic: tuple[bool, bool] = (False, False)) -> Path:
+    """Write the figure; its format is the path's ending (.png, .pdf, .svg).
+
+    Raises
+    ------
+    ResultsError : the file cannot be written.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    heights = surface.heights - surface.heights.mean()
+    grid = surface.grid()
+    described = describe_surface(heights, surface.spacing, periodic=periodic)
+    with style():
+        figure = Figure(figsize=(8.0, 6.0), layout="constrained")
+        FigureCanvasAgg(figure)
+        map_axes, height_axes, correlation_axes, spectrum_axes = figure.subplots(2, 2).ravel()
+        map_of(figure, map_axes, grid.x, grid.y, heights, "height", "m", cmap="cividis")
+        map_axes.set_title(str(surface.metadata.get("file", "")))
+
+        factor, unit = prefix(heights, "m")
+        density, edges = np.histogram(heights * factor, bins=80, density=True)
+        height_axes.stairs(density, edges, fill=True, color=BLUE, alpha=0.85)
+        if described.Sq > 0:
+            z = np.linspace(edges[0], edges[-1], 200)
+            rms = described.Sq * factor
+            gauss = np.exp(-0.5 * (z / rms) ** 2) / (rms * np.sqrt(2 * np.pi))
+            height_axes.plot(z, gauss, color=BLACK, linewidth=0.9, label="Gaussian of the same Sq")
+            height_axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0))
+        height_axes.set_xlabel(label("height", unit))
+        height_axes.set_ylabel(f"probability density (1/{unit or 'm'})")
+        shown = f"Sq {described.Sq * factor:.3g} {unit}\nSsk {described.Ssk:.2f}\nSku {described.Sku:.2f}"
+        height_axes.text(
+            0.98, 0.97, f"{shown}\nSdq {described.Sdq:.3g}", transform=height_axes.transAxes, ha="right", va="top"
+        )
+
+        factor, unit = prefix([0.5 * side for side in surface.lengths], "m")
+        for axis, colour in ((0, BLUE), (1, VERMILION)):
+            if surface.shape[axis] > 1:
+                curve = autocorrelation(heights, axis, periodic=periodic[axis])
+                lag = np.arange(len(curve)) * surface.spacing[axis] * factor
+                correlation_axes.plot(lag, curve, color=colour, label=f"along {'xy'[axis]}")
+        correlation_axes.axhline(np.exp(-1), color="0.5", linewidth=0.7, linestyle="--")
+        correlation_axes.set_xlabel(label("lag", unit))
+        correlation_axes.set_ylabel("autocorrelation")
+        correlation_axes.legend()
+
+        if min(surface.shape) >= 4 and described.Sq > 0:
+            spectrum = radial_spectrum(heights, surface.spacing, periodic=periodic)
+            seen = spectrum.density > 1e-20 * spectrum.density.max()
+            spectrum_axes.loglog(spectrum.wavenumber[seen] * 1e-6, spectrum.density[seen] * 1e24, color=BLUE)
+            spectrum_axes.set_xlabel("wavenumber (rad/µm)")
+            spectrum_axes.set_ylabel("power spectral density (µm⁴)")
+        else:
+            spectrum_axes.set_axis_off()
+        with replacing(path) as temporary:
+            figure.savefig(temporary, format=path.suffix[1:].lower())
+    return path
