@@ -1,0 +1,93 @@
+"""The result of a line-contact film solve, and what follows from it: shear stress and friction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from bem.errors import InputError, Status
+from bem.grid import FloatArray
+from bem.lubrication.lubricant import Lubricant
+
+
+@dataclass(frozen=True)
+class FilmSolution:
+    """Film of a line contact: a cylinder (surface 2, above) on a flat (surface 1, below), per unit length.
+
+    Attributes
+    ----------
+    position : (n,) abscissae, ascending [m]; x = 0 is below the cylinder's axis.
+    pressure : (n,) [Pa]; zero in the cavitated exit.
+    thickness : (n,) [m].
+    minimum_thickness : [m].
+    central_thickness : thickness at x = 0 [m].
+    load : per unit length [N/m], what the pressure carries (the flooded inlet upstream of the mesh included).
+    shear_force : friction force per unit length [N/m], integral of mu (u1 - u2)/h + (h/2) dp/dx over the full film:
+        what the cylinder feels along +x and, by equilibrium, the flat along -x. Positive where the flat moves faster.
+        The full film ends where the pressure does (Swift-Stieber exit); `striated_shear_force` adds the streamers
+        behind it.
+    striated_shear_force : the same with the oil behind the exit, which covers the fraction h_exit/h of the surface.
+    exit_position : where the film ruptures [m].
+    inlet_load_fraction : share of the load that lies upstream of the first position.
+    iterations : Newton steps in all, continuation included.
+    residual : largest residual of the equations, relative to the local film.
+    status : outcome.
+    speeds, lubricant : as given.
+    rate : dh/dt [m/s] at the positions; None for a steady film.
+    time : [s]; None for a steady film.
+    volume_imbalance : relative error of the volume balance of a time step; None for a steady film.
+    """
+
+    position: FloatArray
+    pressure: FloatArray
+    thickness: FloatArray
+    minimum_thickness: float
+    central_thickness: float
+    load: float
+    shear_force: float
+    striated_shear_force: float
+    exit_position: float
+    inlet_load_fraction: float
+    iterations: int
+    residual: float
+    status: Status
+    speeds: tuple[float, float]
+    lubricant: Lubricant
+    time: float | None = None
+    volume_imbalance: float | None = None
+    state: Any = field(default=None, repr=False, compare=False)
+
+    def shear_stress(self, position: FloatArray | None = None) -> FloatArray:
+        """Shear stress mu (u1 - u2)/h + (h/2) dp/dx in the full film [Pa], zero in the cavitated exit.
+
+        It acts along -x on the flat. At the solution's own positions, or interpolated linearly at others [m].
+        """
+        difference = self.speeds[0] - self.speeds[1]
+        full = self.pressure > 0
+        gradient = np.gradient(self.pressure, self.position)
+        viscosity = self.lubricant.viscosity_at(np.maximum(self.pressure, 0.0))
+        sliding = self.lubricant.shear_stress(viscosity * difference / self.thickness)
+        stress = np.where(full, sliding + 0.5 * self.thickness * gradient, 0.0)
+        return stress if position is None else np.interp(position, self.position, stress, left=0.0, right=0.0)
+
+    def at(self, position: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Pressure [Pa] and thickness [m] at other positions [m] within the solution's.
+
+        Raises
+        ------
+        InputError : positions outside.
+        """
+        position = np.asarray(position, dtype=np.float64)
+        low, high = self.position[0], self.position[-1]
+        if position.size and (position.min() < low or position.max() > high):
+            raise InputError(
+                f"position: {position.min():g} to {position.max():g} m reaches beyond the film's {low:g} to {high:g} m"
+            )
+        from scipy.interpolate import PchipInterpolator
+
+        return (
+            np.interp(position, self.position, self.pressure),
+            np.asarray(PchipInterpolator(self.position, self.thickness)(position)),
+        )

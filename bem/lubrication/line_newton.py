@@ -1,0 +1,326 @@
+"""Newton's method for the steady line contact, in similarity variables and on a mesh tied to the free exit.
+
+With U = mu (u1 + u2) / (E' R) and E' = 2 E* (Moes), lengths along the film are in R U^(1/4), films in R U^(1/2)
+and pressures in E' U^(1/4). The problem is then
+
+    rho H^3/m P' = 6 (rho H - H_e),    H = H0 + X^2/2 - 4/pi integral P ln|X - X'| dX',    integral P dX = M
+
+with P = P' = 0 at the exit X_e, where H = H_e, and P -> 8/|X|^3 far upstream. The unknowns are the pressures at
+the nodes X_e + s_i (s fixed, s = 0 at the exit), H0 and X_e: the free boundary is a number, so the discrete problem
+is smooth and of second order. Couette flow is extrapolated from the two nodes upstream, which keeps the pressure
+from oscillating where the oil is too viscous to flow under it.
+
+The elastic equation is linear. A start whose film and pressure do not belong together (interpolated, scaled) is
+therefore taken as it is, the mismatch carried along and reduced with each step: mobilities are evaluated on
+reasonable films from the first step on. That, more than anything, makes the iteration robust.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+from scipy.linalg import lu_factor, lu_solve
+
+from bem.grid import FloatArray
+from bem.lubrication.line_kernel import logarithmic_weights
+from bem.lubrication.line_mesh import FAR_INLET, cell_densities, cell_sizes, redistribute
+
+DEFLECTION = 4 / np.pi
+SINGLE_PRECISION_FROM = 700  # cells from which the factorisation is done in float32 and refined
+
+
+@dataclass(frozen=True)
+class Problem:
+    """The similarity problem: load M, laws of the scaled pressure, the inlet's abscissa (None: flooded from afar)."""
+
+    load: float
+    log_viscosity: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+    density: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+
+
+@dataclass(frozen=True)
+class State:
+    """Node offsets from the exit (n+1,), kernel weights (n+1, n+1), pressure, film, datum H0 and exit X_e."""
+
+    offset: FloatArray
+    weights: FloatArray
+    pressure: FloatArray
+    film: FloatArray
+    datum: float
+    exit: float
+
+    @property
+    def position(self) -> FloatArray:
+        """Abscissae of the nodes."""
+        return self.exit + self.offset
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """State, Newton steps taken, residual, and whether the tolerance was met."""
+
+    state: State
+    iterations: int
+    residual: float
+    converged: bool
+
+
+def inlet_pressure(position: float) -> tuple[float, float]:
+    """Pressure far upstream, 8/|X|^3, and its derivative with X."""
+    return 8 / abs(position) ** 3, 24 / position**4
+
+
+def inlet_load(position: float) -> tuple[float, float]:
+    """Load upstream of X, 4/X^2, and its derivative with X."""
+    return 4 / position**2, 8 / abs(position) ** 3
+
+
+def newton(problem: Problem, start: State, tolerance: float, max_iterations: int = 40) -> Outcome:
+    """Solve from `start`, whose film (positive) and pressure need not belong together."""
+    offset, weights = start.offset, start.weights
+    cells = len(offset) - 1
+    width = np.diff(offset)
+    quadrature = np.zeros(cells + 1)
+    quadrature[1:] += 0.5 * width
+    quadrature[:-1] += 0.5 * width
+    extrapolation = np.zeros(cells)
+    extrapolation[1:] = 0.5 * width[1:] / width[:-1]
+
+    pressure, film, datum, exit_ = start.pressure.copy(), start.film, start.datum, start.exit
+    pressure[-1] = 0.0
+    pressure[0] = inlet_pressure(exit_ + offset[0])[0]
+    scale = film.copy()
+    mismatch = film - (datum + 0.5 * (exit_ + offset) ** 2 - DEFLECTION * (weights @ pressure))
+
+    def residual(pressure: FloatArray, film: FloatArray, inlet: float) -> tuple[FloatArray, tuple[FloatArray, ...]]:
+        positive = np.maximum(pressure, 0.0)
+        log_viscosity, slope = problem.log_viscosity(positive)
+        density, density_slope = problem.density(positive)
+        slope = np.where(pressure > 0, slope, 0.0)
+        density_slope = np.where(pressure > 0, density_slope, 0.0)
+        thickness = 0.5 * (film[1:] + film[:-1])
+        mean_density = 0.5 * (density[1:] + density[:-1])
+        mean_fluidity, left, right = _mean_fluidity(log_viscosity)
+        fluidity = mean_density * mean_fluidity / 6
+        gradient = np.diff(pressure) / width
+        mass = density * film
+        carried = mass[:-1].copy()
+        carried[1:] += extrapolation[1:] * (mass[1:-1] - mass[:-2])
+        carried[0] = 0.5 * (mass[0] + mass[1])
+        out = np.empty(cells + 1)
+        out[:-1] = (thickness**3 * fluidity * gradient - (carried - film[-1])) / scale[:-1]
+        out[-1] = 1 - (quadrature @ pressure + inlet_load(inlet)[0]) / problem.load
+        left, right = left * slope[:-1] * mean_density / 6, right * slope[1:] * mean_density / 6
+        return out, (thickness, fluidity, mean_density, gradient, density, left, right, density_slope)
+
+    def step(
+        error: FloatArray, parts: tuple[FloatArray, ...], film: FloatArray, pressure: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Newton step in (P_1 .. P_{n-1}, H0, X_e), and the change of film it brings."""
+        thickness, fluidity, mean_density, gradient, density, left, right, density_slope = parts
+        inlet = exit_ + offset[0]
+        unit_p, unit_h, unit_x = pressure.max(), film[-1], 0.01 * abs(offset[0])
+        inlet_slope, load_slope = inlet_pressure(inlet)[1], inlet_load(inlet)[1]
+        response = np.empty((cells + 1, cells + 1))
+        np.multiply(weights[:, 1:-1], -DEFLECTION * unit_p, out=response[:, :-2])
+        response[:, -2] = unit_h
+        response[:, -1] = (exit_ + offset - DEFLECTION * inlet_slope * weights[:, 0]) * unit_x
+
+        row = 1 / scale[:-1]
+        through_film = 1.5 * thickness**2 * fluidity * gradient
+        before = np.zeros(cells)
+        before[1:] = extrapolation[1:] * density[:-2]
+        here = through_film - (1 + extrapolation) * density[:-1]
+        after = through_film.copy()
+        here[0] = through_film[0] - 0.5 * density[0]
+        after[0] = through_film[0] - 0.5 * density[1]
+        before, here, after = before * row, here * row, after * row
+
+        jacobian = np.empty((cells + 1, cells + 1))
+        np.multiply(response[:-1], here[:, None], out=jacobian[:-1])
+        jacobian[:-1] += response[1:] * after[:, None]
+        jacobian[1:-1] += response[:-2] * before[1:, None]
+        jacobian[:-1] += response[-1] * row[:, None]
+
+        mobility = thickness**3 * fluidity
+        flow = mobility * gradient
+        steep = thickness**3 * gradient
+        from_left = -mobility / width + flow * 0.5 * density_slope[:-1] / mean_density + steep * left
+        from_right = mobility / width + flow * 0.5 * density_slope[1:] / mean_density + steep * right
+        carried = film * density_slope
+        from_left -= (1 + extrapolation) * carried[:-1]
+        from_left[0] += 0.5 * carried[0]
+        from_right[0] -= 0.5 * carried[1]
+        from_before = extrapolation[2:] * carried[1:-2]
+        index = np.arange(cells)
+        jacobian[index[:-1], index[:-1]] += (from_right * row)[:-1] * unit_p
+        jacobian[index[1:], index[:-1]] += (from_left * row)[1:] * unit_p
+        jacobian[index[2:], index[:-2]] += from_before * row[2:] * unit_p
+        jacobian[0, -1] += from_left[0] * row[0] * inlet_slope * unit_x
+        jacobian[1, -1] += extrapolation[1] * carried[0] * row[1] * inlet_slope * unit_x
+        jacobian[-1, :-2] = -quadrature[1:-1] * unit_p / problem.load
+        jacobian[-1, -2] = 0.0
+        jacobian[-1, -1] = -(quadrature[0] * inlet_slope + load_slope) * unit_x / problem.load
+
+        right = -error
+        right[:-1] += here * mismatch[:-1] + after * mismatch[1:] + row * mismatch[-1]
+        right[1:-1] += before[1:] * mismatch[:-2]
+        change = _solve(jacobian, right)
+        return change * np.concatenate([np.full(cells - 1, unit_p), [unit_h, unit_x]]), response @ change - mismatch
+
+    error, parts = residual(pressure, film, exit_ + offset[0])
+    iterations, converged = 0, False
+    while True:
+        largest = max(float(np.abs(error).max()), float(np.abs(mismatch / scale).max()))
+        if iterations and largest <= tolerance:
+            converged = True
+        if converged or iterations == max_iterations or not np.isfinite(largest):
+            break
+        change, film_change = step(error, parts, film, pressure)
+        if not np.isfinite(change).all():
+            break
+        size = error @ error + (mismatch / scale) @ (mismatch / scale)
+        shrinking = film_change < 0
+        length = 1.0
+        if shrinking.any():
+            length = min(1.0, 0.9 * float(np.min(-film[shrinking] / film_change[shrinking])))
+        while length > 1e-3:
+            new_pressure = pressure.copy()
+            new_pressure[1:-1] += length * change[:-2]
+            new_exit = exit_ + length * change[-1]
+            new_datum = datum + length * change[-2]
+            new_inlet = new_exit + offset[0]
+            if new_inlet < 0:
+                new_pressure[0] = inlet_pressure(new_inlet)[0]
+                new_mismatch = (1 - length) * mismatch
+                new_film = (
+                    new_datum + 0.5 * (new_exit + offset) ** 2 - DEFLECTION * (weights @ new_pressure) + new_mismatch
+                )
+                if new_film.min() > 0:
+                    new_error, new_parts = residual(new_pressure, new_film, new_inlet)
+                    new_size = new_error @ new_error + (new_mismatch / scale) @ (new_mismatch / scale)
+                    if new_size < (1 - 0.05 * length) ** 2 * size:
+                        break
+            length *= 0.5
+        else:
+            break
+        pressure, film, datum, exit_, mismatch = new_pressure, new_film, new_datum, new_exit, new_mismatch
+        error, parts = new_error, new_parts
+        iterations += 1
+    state = State(offset, weights, pressure, film, datum, exit_)
+    return Outcome(state, iterations, largest, converged)
+
+
+def _mean_fluidity(log_viscosity: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Mean of exp(-ln m) over the pressures of each cell, ln m linear in between, and its derivatives with ln m at
+    both ends. A mean at the cell's middle would let a spike of one cell block the flow at any pressure behind it."""
+    first, second = log_viscosity[:-1], log_viscosity[1:]
+    half = 0.5 * (second - first)
+    small = np.abs(half) < 0.05
+    safe = np.where(small, 1.0, 2 * half)
+    low, high = np.exp(-first), np.exp(-second)
+    middle = np.exp(-0.5 * (first + second))
+    series = 1 + half**2 / 6 + half**4 / 120
+    mean = np.where(small, middle * series, (low - high) / safe)
+    odd = 0.5 * middle * (half / 3 + half**3 / 30)
+    left = np.where(small, -0.5 * mean - odd, (mean - low) / safe)
+    right = np.where(small, -0.5 * mean + odd, (high - mean) / safe)
+    return mean, left, right
+
+
+def _solve(matrix: FloatArray, right: FloatArray) -> FloatArray:
+    if len(right) <= SINGLE_PRECISION_FROM:
+        return np.asarray(lu_solve(lu_factor(matrix, overwrite_a=False, check_finite=False), right, check_finite=False))
+    factors = lu_factor(matrix.astype(np.float32), overwrite_a=True, check_finite=False)
+    solution = lu_solve(factors, right.astype(np.float32), check_finite=False).astype(np.float64)
+    for _ in range(3):
+        solution += lu_solve(factors, (right - matrix @ solution).astype(np.float32), check_finite=False)
+    return np.asarray(solution)
+
+
+def remesh(problem: Problem, state: State, cells: int, smallest: float | None) -> State:
+    """The state on a mesh made for it; film and pressure are interpolated and need not belong together.
+
+    The spike draws nodes down to cells of `smallest`, a share of the exit's abscissa; None leaves it alone.
+    """
+    state = _with_inlet(state)
+    smooth, spike = densities(problem, state)
+    if smallest is None:
+        size = cell_sizes(state.offset, smooth, 0 * spike, cells, np.inf)
+    else:
+        size = cell_sizes(state.offset, smooth, spike, cells, smallest * state.exit)
+    # the peak keeps its node: interpolating across a spike would move it
+    nodes = redistribute(state.offset, size, cells, int(np.argmax(state.pressure[1:-1])) + 1)
+    pressure = np.maximum(PchipInterpolator(state.offset, state.pressure)(nodes), 0.0)
+    film = np.exp(PchipInterpolator(state.offset, np.log(state.film))(nodes))
+    return State(nodes, logarithmic_weights(nodes, nodes), pressure, film, state.datum, state.exit)
+
+
+def _with_inlet(state: State) -> State:
+    """The state cut, or continued by the far field, to where the mesh should start; without its weights."""
+    reach = -FAR_INLET * max(state.exit, np.sqrt(2 * state.film.min()))
+    position, pressure, film = state.position, state.pressure, state.film
+    if position[0] > 0.8 * reach:
+        steps = np.geomspace(reach, position[0], 8)[:-1]
+        pressure = np.concatenate([8 / np.abs(steps) ** 3, pressure])
+        film = np.concatenate([film[0] + 0.5 * (steps**2 - position[0] ** 2), film])
+        position = np.concatenate([steps, position])
+    elif position[0] < 1.25 * reach:
+        first = max(int(np.searchsorted(position, reach)) - 1, 0)
+        position, pressure, film = position[first:], pressure[first:], film[first:]
+    offset = position - state.exit
+    offset[-1] = 0.0
+    return replace(state, offset=offset, pressure=pressure, film=film)
+
+
+def densities(problem: Problem, state: State) -> tuple[FloatArray, FloatArray]:
+    """Wanted densities of nodes on the cells of a state: smooth part, and the spike's."""
+    positive = np.maximum(state.pressure, 0.0)
+    fluidity = np.exp(-problem.log_viscosity(positive)[0])
+    return cell_densities(state.offset, positive, state.film, fluidity, state.exit)
+
+
+def mesh_imbalance(problem: Problem, state: State) -> float:
+    """Largest cell over the one wanted there for all that is smooth (about 1: ideal)."""
+    smooth, _ = densities(problem, state)
+    width = np.diff(state.offset)
+    return float(np.max(smooth * width) / np.mean(smooth * width))
+
+
+def spike_cell(problem: Problem, state: State, cells: int) -> float:
+    """The cell width, as a share of the exit's abscissa, that the spike would ask for at most."""
+    smooth, spike = densities(problem, state)
+    total = np.sum((smooth + spike) * np.diff(state.offset)) / cells
+    return float(np.min(total / spike.max()) / state.exit)
+
+
+def stretched(state: State, factor: float, pressure_factor: float, film_factor: float) -> State:
+    """The state with lengths, pressures and films multiplied; the weights scale with the lengths up to a datum."""
+    return State(
+        state.offset * factor,
+        state.weights * factor,
+        state.pressure * pressure_factor,
+        state.film * film_factor,
+        state.datum,
+        state.exit * factor,
+    )
+
+
+def martin_start(load: float, cells: int) -> State:
+    """Martin's rigid, isoviscous film for a small load M, on a mesh made for it."""
+    lowest = 2.4475 / load
+    scale = np.sqrt(2 * lowest)
+    near = np.linspace(0.0, 3.0, cells // 2 + 1)
+    far = 3.0 * (FAR_INLET / 3.0) ** np.linspace(0.0, 1.0, cells - cells // 2 + 1)[1:]
+    offset = -scale * np.concatenate([near, far])[::-1]
+    offset[-1] = 0.0
+    exit_ = 0.4751 * scale
+    film = lowest + 0.5 * (exit_ + offset) ** 2
+    gradient = 6 * (film - film[-1]) / film**3
+    pressure = np.concatenate([[0.0], np.cumsum(0.5 * (gradient[1:] + gradient[:-1]) * np.diff(offset))])
+    pressure = np.maximum(pressure + inlet_pressure(exit_ + offset[0])[0], 0.0)
+    pressure[-1] = 0.0
+    return State(offset, logarithmic_weights(offset, offset), pressure, film, lowest, exit_)

@@ -1,0 +1,427 @@
+"""Steady elastohydrodynamic film of a line contact, from rigid and isoviscous to heavily loaded."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from bem.errors import InputError, Status
+from bem.grid import FloatArray
+from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_kernel import logarithmic_weights
+from bem.lubrication.line_newton import (
+    DEFLECTION,
+    Outcome,
+    Problem,
+    State,
+    martin_start,
+    mesh_imbalance,
+    newton,
+    remesh,
+    spike_cell,
+    stretched,
+)
+from bem.lubrication.lubricant import Lubricant
+
+ATTEMPTS = ((160, 4.0), (240, 2.0), (200, 1.5))
+"""Coarse cells and first factor of the load, tried in turn until the continuation arrives."""
+SPIKE_CELLS = (2e-3, 7e-4, 2.5e-4)
+"""Smallest cells at a spike, as shares of the exit's abscissa, on the way to the last mesh. The film is off by about
+five times the last one where the spike has no limit."""
+MAX_IMBALANCE = 5.0
+MIDDLE = 400
+START_LOAD = 0.3
+MOES_LOADS = (1e-5, 1e4)
+"""Loads M for which a film is looked for; beyond them the equations are not a model of anything."""
+RIGID_LOAD = 1e-4
+MAX_INLET_SHARE = 0.01
+
+
+@dataclass(frozen=True)
+class Scales:
+    """Moes' units: length along the film, film, pressure, and the load M."""
+
+    length: float
+    film: float
+    pressure: float
+    load: float
+
+
+def solve_line_film(
+    *,
+    load: float,
+    radius: float,
+    contact_modulus: float,
+    speeds: Sequence[float],
+    lubricant: Lubricant,
+    points: int = 2000,
+    tolerance: float = 1e-8,
+    position: FloatArray | None = None,
+    initial: FilmSolution | None = None,
+    max_iterations: int = 40,
+) -> FilmSolution:
+    """Steady film between a cylinder and a flat: Reynolds' equation with cavitation and elastic deflection.
+
+    Solves d/dx[rho h^3/(12 mu) dp/dx] = (u1 + u2)/2 d(rho h)/dx with p = dp/dx = 0 at the free exit (Swift-Stieber),
+    h = h0 + x^2/2R - 2/(pi E*) integral p ln|x - x'| dx' and integral p dx = load, flooded from far upstream.
+
+    Parameters
+    ----------
+    load : per unit length [N/m].
+    radius : of the cylinder (or reduced radius) [m].
+    contact_modulus : E* of the pair [Pa]; math.inf for rigid bodies.
+    speeds : (u1, u2) of the flat (below) and the cylinder (above) [m/s]; their sum, positive or negative, must not
+        be zero.
+    lubricant : the oil.
+    points : nodes of the graded mesh that the equations are solved on.
+    tolerance : largest residual, relative to the local film (and to the load).
+    position : ascending abscissae [m] at which to return pressure and thickness; the mesh itself by default.
+    initial : an earlier solution of a similar case: its film and mesh are the start.
+    max_iterations : Newton steps of one solve.
+
+    Returns
+    -------
+    FilmSolution. `status` is `converged`, or `stalled` or `max_iterations` with the last iterate.
+
+    Raises
+    ------
+    InputError : a value out of range, no entrainment, a load far outside what a film can carry, or positions that
+        do not reach the inlet (the message says how far they should).
+
+    Notes
+    -----
+    Dowson and Higginson (1966); Moes, *Lubrication and beyond* (2000) for the similarity variables; Okamura (1982)
+    and Houpert and Hamrock (1986) for Newton's method on the whole system. For incompressible oil above about
+    L = 6 to 10 the pressure spike has no limit: it grows with the mesh as the inverse root of a cell, while the film
+    thickness converges.
+    """
+    scales, reversed_ = _check(load, radius, contact_modulus, speeds, lubricant, points, tolerance, position)
+    problem = _problem(scales, scales.load, lubricant)
+    outcome = None
+    spent = 0
+    if initial is not None:
+        if not isinstance(initial, FilmSolution):
+            raise InputError(f"initial: {type(initial).__name__} is not a FilmSolution")
+        if isinstance(initial.state, _Kept):
+            outcome = _from_neighbour(problem, scales, initial.state, points - 1, tolerance, max_iterations)
+            spent += outcome.iterations
+    if outcome is None or not outcome.converged:
+        outcome = _from_scratch(problem, scales, lubricant, points - 1, tolerance, max_iterations)
+    return _result(
+        replace(outcome, iterations=outcome.iterations + spent), problem, scales, speeds, reversed_, lubricant, position
+    )
+
+
+@dataclass(frozen=True)
+class _Kept:
+    """What a warm start needs of an earlier solve."""
+
+    state: State
+    load: float
+    film_measure: float
+
+
+def _from_neighbour(problem: Problem, scales: Scales, kept: _Kept, cells: int, tolerance: float, limit: int) -> Outcome:
+    factor, film_factor = _scaling(kept.load, problem.load)
+    state = stretched(kept.state, factor, problem.load / kept.load / factor, film_factor)
+    if len(state.offset) != cells + 1:
+        state = remesh(problem, state, cells, SPIKE_CELLS[-1])
+    outcome = newton(problem, state, tolerance, limit)
+    if outcome.converged and mesh_imbalance(problem, outcome.state) > MAX_IMBALANCE:
+        again = newton(problem, remesh(problem, outcome.state, cells, SPIKE_CELLS[-1]), tolerance, limit)
+        outcome = replace(again, iterations=again.iterations + outcome.iterations)
+    return outcome
+
+
+def _scaling(old: float, new: float) -> tuple[float, float]:
+    """Factors of length and film from one load M to another: half-width like M^(1/2) once it is Hertz', and
+    films like M^(-1) where rigid, M^(-1/5) where elastic."""
+
+    def length(load: float) -> float:
+        return math.sqrt(8 * load / math.pi + 2 * 2.4475 / load)
+
+    def film(load: float) -> float:
+        return (load**-1.5 + 1.0 / load**0.3) ** (2 / 3)
+
+    return length(new) / length(old), film(new) / film(old)
+
+
+def _from_scratch(
+    problem: Problem, scales: Scales, lubricant: Lubricant, cells: int, tolerance: float, limit: int
+) -> Outcome:
+    """Continuation in the load from Martin's film on a coarse mesh, then finer ones."""
+    last: Outcome | None = None
+    spent = 0
+    for coarse, first_step in ATTEMPTS:
+        coarse = min(cells, coarse)
+        load = min(problem.load, START_LOAD)
+        step = first_step
+        last = newton(replace(problem, load=load), martin_start(load, coarse), 1e-6, limit)
+        spent += last.iterations
+        while last.converged and load < problem.load and step > 1.002:
+            target = min(problem.load, load * step)
+            factor, film_factor = _scaling(load, target)
+            at = replace(problem, load=load)
+            start = last.state
+            if mesh_imbalance(at, start) > MAX_IMBALANCE:
+                start = remesh(at, start, coarse, None)
+            start = stretched(start, factor, target / load / factor, film_factor)
+            trial = newton(replace(problem, load=target), start, 1e-6, limit)
+            spent += trial.iterations
+            if trial.converged:
+                step = min(step * 1.5, 10.0) if trial.iterations < 10 else step
+                last, load = trial, target
+            else:
+                step = math.sqrt(step)
+        if last.converged and load == problem.load:
+            final = _ladder(problem, last.state, coarse, cells, tolerance, limit)
+            spent += final.iterations
+            if final.converged:
+                return replace(final, iterations=spent)
+            last = final
+    assert last is not None
+    return replace(last, iterations=spent, converged=False)
+
+
+def _ladder(problem: Problem, state: State, coarse: int, cells: int, tolerance: float, limit: int) -> Outcome:
+    """From a coarse solution to the wanted number of cells, a spike refined little by little."""
+    middle = min(cells, MIDDLE)
+    stages: list[tuple[int, float | None]] = [(coarse, None)] if coarse < middle else []
+    wanted = spike_cell(problem, state, middle)
+    stages += [(middle, smallest) for smallest in SPIKE_CELLS if smallest > wanted or smallest == SPIKE_CELLS[-1]]
+    if cells > middle:
+        stages.append((cells, SPIKE_CELLS[-1]))
+    spent = 0
+    for level, (size, smallest) in enumerate(stages):
+        goal = tolerance if level == len(stages) - 1 else 1e-6
+        outcome = newton(problem, remesh(problem, state, size, smallest), goal, limit)
+        spent += outcome.iterations
+        state = outcome.state
+    return replace(outcome, iterations=spent)
+
+
+def _problem(scales: Scales, load: float, lubricant: Lubricant) -> Problem:
+    unit = scales.pressure
+
+    def log_viscosity(pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        value, slope = lubricant.log_viscosity_ratio(pressure * unit)
+        return value, slope * unit
+
+    def density(pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        value, slope = lubricant.density_ratio(pressure * unit)
+        return value, slope * unit
+
+    return Problem(load, log_viscosity, density)
+
+
+def line_scales(load: float, radius: float, contact_modulus: float, entrainment: float, viscosity: float) -> Scales:
+    """Moes' units for a case; `entrainment` is |u1 + u2|. A rigid pair gets an E* so high that it does not count."""
+    rigid = viscosity * entrainment * radius
+    if math.isinf(contact_modulus):
+        reduced = (load / RIGID_LOAD) ** 2 / rigid
+    else:
+        reduced = 2 * contact_modulus
+    moes = load / math.sqrt(reduced * rigid)
+    speed = viscosity * entrainment / (reduced * radius)
+    return Scales(radius * speed**0.25, radius * math.sqrt(speed), reduced * speed**0.25, moes)
+
+
+def _check(
+    load: float,
+    radius: float,
+    contact_modulus: float,
+    speeds: Sequence[float],
+    lubricant: Lubricant,
+    points: int,
+    tolerance: float,
+    position: FloatArray | None,
+) -> tuple[Scales, bool]:
+    messages = []
+    for name, value, unit in (("load", load, "N/m"), ("radius", radius, "m")):
+        if not (_real(value) and math.isfinite(value) and value > 0):
+            messages.append(f"{name}: {value!r} must be positive and finite [{unit}]")
+    if not (_real(contact_modulus) and contact_modulus > 0):
+        messages.append(f"contact_modulus: {contact_modulus!r} must be positive [Pa]; math.inf is rigid")
+    messages += check_speeds(speeds)
+    if not isinstance(lubricant, Lubricant):
+        messages.append(f"lubricant: {type(lubricant).__name__} is not a Lubricant")
+    if not (isinstance(points, (int, np.integer)) and 50 <= points <= 20000):
+        messages.append(f"points: {points!r} must be an integer from 50 to 20000")
+    if not (_real(tolerance) and 1e-11 <= tolerance <= 1e-2):
+        messages.append(f"tolerance: {tolerance!r} must lie between 1e-11 and 1e-2")
+    if position is not None:
+        array = np.asarray(position, dtype=np.float64)
+        if array.ndim != 1 or len(array) < 2 or not np.isfinite(array).all() or not (np.diff(array) > 0).all():
+            messages.append("position: must be a one-dimensional, ascending array of finite abscissae [m]")
+    if messages:
+        raise InputError(messages)
+    entrainment = float(speeds[0]) + float(speeds[1])
+    if abs(entrainment) <= 1e-12 * (abs(speeds[0]) + abs(speeds[1])):
+        raise InputError(
+            f"speeds: {tuple(speeds)!r} entrain no oil (their sum is zero), so no steady film exists; give a sum other "
+            "than zero, or use march_line_film for a squeeze film"
+        )
+    scales = line_scales(float(load), float(radius), float(contact_modulus), abs(entrainment), lubricant.viscosity)
+    low, high = MOES_LOADS
+    if not low <= scales.load <= high:
+        advice = "Raise the load, or give contact_modulus=math.inf."
+        if scales.load > high:
+            advice = "The film cannot carry that: lower the load, or raise speed or viscosity."
+        raise InputError(
+            f"load: {load!r} N/m is {scales.load:.3g} in Moes' units w / sqrt(2 E* R mu (u1+u2)); a film is looked for "
+            f"between {low:g} and {high:g}. {advice}"
+        )
+    return scales, entrainment < 0
+
+
+def check_speeds(speeds: Sequence[float]) -> list[str]:
+    """Messages about a pair of speeds."""
+    try:
+        first, second = speeds
+        if math.isfinite(first) and math.isfinite(second):
+            return []
+    except (TypeError, ValueError):
+        pass
+    return [f"speeds: {speeds!r} must be a pair (u1, u2) of finite speeds [m/s]"]
+
+
+def _real(value: object) -> bool:
+    return isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool) and value == value
+
+
+def _result(
+    outcome: Outcome,
+    problem: Problem,
+    scales: Scales,
+    speeds: Sequence[float],
+    reversed_: bool,
+    lubricant: Lubricant,
+    position: FloatArray | None,
+) -> FilmSolution:
+    state = outcome.state
+    x, film = state.position, state.film
+    pressure = np.maximum(state.pressure, 0.0)
+    central = float(PchipInterpolator(x, film)(0.0))
+    status = Status.CONVERGED if outcome.converged else Status.STALLED
+    shear, striated = _shear_force(state, problem, scales, speeds, reversed_, lubricant)
+    sign = -1.0 if reversed_ else 1.0
+
+    own_x = x * scales.length
+    own_p = pressure * scales.pressure
+    own_h = film * scales.film
+    upstream = 4 / x[0] ** 2 / problem.load
+    if position is None:
+        at, p, h = own_x, own_p, own_h
+    else:
+        at = np.asarray(position, dtype=np.float64)
+        at = sign * at if sign > 0 else -at[::-1]
+        p, h, upstream = _sampled(at, state, scales, problem.load)
+    if reversed_:
+        at, p, h = -at[::-1], p[::-1], h[::-1]
+    return FilmSolution(
+        position=at,
+        pressure=p,
+        thickness=h,
+        minimum_thickness=_lowest(x, film) * scales.film,
+        central_thickness=central * scales.film,
+        load=float(
+            np.sum(0.5 * np.diff(own_x) * (own_p[1:] + own_p[:-1])) + 4 / x[0] ** 2 * scales.pressure * scales.length
+        ),
+        shear_force=sign * shear,
+        striated_shear_force=sign * striated,
+        exit_position=sign * state.exit * scales.length,
+        inlet_load_fraction=upstream,
+        iterations=outcome.iterations,
+        residual=outcome.residual,
+        status=status,
+        speeds=(float(speeds[0]), float(speeds[1])),
+        lubricant=lubricant,
+        state=_Kept(state, problem.load, central),
+    )
+
+
+def _sampled(at: FloatArray, state: State, scales: Scales, load: float) -> tuple[FloatArray, FloatArray, float]:
+    """Pressure and thickness at ascending positions [m] for positive entrainment, and the share of load missed."""
+    x = state.position
+    target = at / scales.length
+    inside = (target >= x[0]) & (target <= x[-1])
+    pressure = np.interp(target, x, np.maximum(state.pressure, 0.0), right=0.0)
+    upstream = target < x[0]
+    pressure[upstream] = 8 / np.abs(target[upstream]) ** 3
+    film = np.empty_like(target)
+    film[inside] = PchipInterpolator(x, state.film)(target[inside])
+    far = inside & (np.abs(target) > 1.5 * state.exit)
+    film[far] = 0.5 * target[far] ** 2 + PchipInterpolator(x, state.film - 0.5 * x**2)(target[far])
+    if not inside.all():
+        out = target[~inside]
+        weights = logarithmic_weights(out - state.exit, state.offset)
+        film[~inside] = state.datum + 0.5 * out**2 - DEFLECTION * (weights @ state.pressure)
+    total = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(x) * (state.pressure[1:] + state.pressure[:-1]))])
+    total += 4 / x[0] ** 2
+    missed = 4 / target[0] ** 2 if target[0] < x[0] else float(np.interp(target[0], x, total))
+    if missed > MAX_INLET_SHARE * load:
+        needed = float(np.interp(0.5 * MAX_INLET_SHARE * load, total, x)) * scales.length
+        raise InputError(
+            f"position: starts at {at[0]:g} m (along the entrainment), where the film already carries "
+            f"{100 * missed / load:.2g} % of the load; start at {needed:.3g} m or further upstream"
+        )
+    if target[-1] < x[-1]:
+        raise InputError(
+            f"position: ends at {at[-1]:g} m (along the entrainment), before the film's exit at "
+            f"{x[-1] * scales.length:.3g} m; end beyond it"
+        )
+    return pressure * scales.pressure, film * scales.film, missed / load
+
+
+def _lowest(x: FloatArray, film: FloatArray) -> float:
+    """Minimum of the parabola through the lowest node and its neighbours."""
+    i = int(np.clip(film.argmin(), 1, len(film) - 2))
+    left, right = (film[i] - film[i - 1]) / (x[i] - x[i - 1]), (film[i + 1] - film[i]) / (x[i + 1] - x[i])
+    curvature = (right - left) / (x[i + 1] - x[i - 1])
+    if curvature <= 0:
+        return float(film.min())
+    slope = left + curvature * (x[i] - x[i - 1])
+    at = np.clip(-0.5 * slope / curvature, x[i - 1] - x[i], x[i + 1] - x[i])
+    return float(film[i] + slope * at + curvature * at * at)
+
+
+def _shear_force(
+    state: State,
+    problem: Problem,
+    scales: Scales,
+    speeds: Sequence[float],
+    reversed_: bool,
+    lubricant: Lubricant,
+) -> tuple[float, float]:
+    """Friction force per length without and with the striated exit, for positive entrainment [N/m]."""
+    x, film = state.position, state.film
+    pressure = np.maximum(state.pressure, 0.0)
+    difference = (speeds[0] - speeds[1]) * (-1.0 if reversed_ else 1.0)
+    thickness = film * scales.film
+    position = x * scales.length
+
+    # upstream of the mesh H = X^2/2 + c with c small against X^2/2
+    start = abs(x[0])
+    offset = film[0] - 0.5 * start**2
+    tail_1 = 2 / start * (1 - 2 * offset / start**2 / 3)
+    tail_2 = 4 / (3 * start**3)
+
+    viscosity = lubricant.viscosity_at(pressure * scales.pressure)
+    sliding = lubricant.shear_stress(viscosity * difference / thickness)
+    couette = float(np.sum(0.5 * np.diff(position) * (sliding[1:] + sliding[:-1])))
+    couette += lubricant.viscosity * difference * tail_1 * scales.length / scales.film
+    poiseuille = 0.25 * float(np.sum((film[1:] + film[:-1]) * np.diff(pressure)))
+    poiseuille += 3 * (tail_1 - film[-1] * tail_2)
+    full = couette + poiseuille * scales.film * scales.pressure
+
+    # streamers behind the exit cover the fraction h_e/h: integral of (h_e/h) tau(h), out to where it no longer counts
+    reach = np.concatenate([[0.0], np.geomspace(1e-3, 1e3, 400)]) * max(state.exit, math.sqrt(2 * film[-1]))
+    weights = logarithmic_weights(reach, state.offset)
+    behind = state.datum + 0.5 * (state.exit + reach) ** 2 - DEFLECTION * (weights @ state.pressure)
+    ambient = lubricant.shear_stress(lubricant.viscosity * difference / (behind * scales.film)) * film[-1] / behind
+    streamers = float(np.sum(0.5 * np.diff(reach) * (ambient[1:] + ambient[:-1]))) * scales.length
+    return full, full + streamers
