@@ -28,9 +28,10 @@ from bem.kernels.half_space import Load
 from bem.kernels.layered_hankel import RadialTable, evaluate, radial_table, stress_kernels, surface_kernels
 from bem.materials import Body
 
-# points, and the least D over half a side for an error of 1e-13: (R + sqrt(R^2 - 1))^(-2 n)
+# points, and the least D over half a side: (R + sqrt(R^2 - 1))^(-2 n) is 1e-15 for the large ones (the order of the
+# singularity costs a factor), 1e-13 for the small ones, which serve where the response is small
 _POINTS = np.array([2, 3, 4, 5, 6, 8, 10, 12, 16])
-_REACH = np.array([900.0, 73.0, 21.0, 10.1, 6.1, 3.4, 2.35, 1.9, 1.48])
+_REACH = np.array([900.0, 100.0, 30.0, 15.0, 8.9, 4.4, 2.9, 2.2, 1.64])
 # and the most wavenumber times half a side of ripples: (kappa/2)^(2n) / (2n)!
 _RIPPLE = np.array([1e-3, 0.01, 0.04, 0.12, 0.25, 0.8, 1.6, 2.8, 5.5])
 _MOST = int(_POINTS.max())

@@ -33,7 +33,7 @@ from bem.materials import Body
 ComplexArray = NDArray[np.complex128]
 Spectra = Callable[[NDArray], NDArray]
 
-NODES = 18  # per panel of r; an interpolant on [b/2, b] with singularities at 0 converges like 5.8^-NODES
+NODES = 20  # per panel of r; an interpolant on [b/2, b] with singularities at 0 converges like 5.8^-NODES
 END = 40.0  # exponentials are cut at exp(-END)
 TURN = 4.0  # q r where the path leaves the real axis
 SLOPE = np.exp(1j * np.pi / 6)

@@ -12,11 +12,10 @@ like the radial ones.
 
 The cost does not depend on the thickness, and nothing is cut off above round-off.
 
-Datum of the displacement under pressure. The half-space of the layer's material has that of `semi_periodic`. What the
-layer adds has, far away and in the mean along the periodic axis, -(C2 - C1) / pi ln(x / hypot(reference, 2 h)) per unit
-line load, with C = (1 - nu)/G of substrate (2) and layer (1), and the grid's length along the free axis for reference.
+Datum of the displacement under pressure, as in `semi_periodic`: its mean along the period is zero at one length of the
+grid's free axis from a line load. That holds for the half-space of the layer's material and for what the layer adds.
 So a vanishing layer leaves the numbers of the substrate, a very thick one those of its own material, and identical
-materials change nothing. Another reference adds a constant to the displacement, proportional to the load.
+materials change nothing. Another length adds a constant to the displacement, proportional to the load.
 """
 
 from __future__ import annotations
@@ -93,9 +92,11 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     parts = _Parts(kernels, SURFACE[load], parities, response, mean, step)
     half = _half(grid, parts)
     if step:
-        reference = float(np.hypot(grid.lengths[free], 2 * body.layer.thickness))
-        line = _mean_log(grid.shape[free], grid.spacing[free], 0.5 * period, reference)
-        line *= -step / np.pi * grid.cell_area / period
+        height, reference = 0.5 * period, grid.lengths[free]
+        line = -step / np.pi * _mean_log(grid.shape[free], grid.spacing[free], height, reference)
+        line -= table_values(_line_table(grid, parts, reference), np.array([reference]))[0, 0]
+        line += step / np.pi * np.log(np.hypot(reference, height) / reference)
+        line *= grid.cell_area / period
         half[0] += line[:, None] if free == 0 else line
     return _mirrored(half, grid, parities)[0]
 
@@ -178,10 +179,8 @@ def _far_cells(grid: Grid, near: int, parts: _Parts) -> FloatArray:
     """The mean along the period of cells from number `near` on along the free axis: (components, cells)."""
     free, along = _axes(grid)
     side = grid.spacing[free]
-    orders = tuple(0 if parity[free] > 0 else 1 for parity in parts.parities)
     signs = [1.0 if parity == (1, 1) else -1.0 for parity in parts.parities]
-    kernels = Kernels(parts.mean, orders, min(parts.kernels.decay, 0.5 * grid.lengths[along]), parts.kernels.smallest)
-    table = radial_table(kernels, (grid.shape[free] + 1) * side, line=True)
+    table = _line_table(grid, parts, (grid.shape[free] + 1) * side)
     # the origin is two half sides away or more: the rule errs by (2 + sqrt 3)^-32
     x = np.arange(near, grid.shape[free])[:, None] * side + 0.5 * side * _CELL_NODES
     means = np.einsum("xgt,g->tx", table_values(table, x), 0.5 * _CELL_WEIGHTS)
@@ -204,6 +203,14 @@ def _mirrored(half: FloatArray, grid: Grid, parities: Parities) -> FloatArray:
             target[cells // 2] = 0.0
     clear_odd(out, parities)
     return out
+
+
+def _line_table(grid: Grid, parts: _Parts, reach: float) -> RadialTable:
+    """The mean along the period, less the part in closed form, as a function of the free distance."""
+    free, along = _axes(grid)
+    orders = tuple(0 if parity[free] > 0 else 1 for parity in parts.parities)
+    decay = min(parts.kernels.decay, 0.5 * grid.lengths[along]) if parts.step else parts.kernels.decay
+    return radial_table(Kernels(parts.mean, orders, decay, parts.kernels.smallest), reach, line=True)
 
 
 def _long_waves(grid: Grid, near: int, cells: int, parts: _Parts) -> FloatArray:
