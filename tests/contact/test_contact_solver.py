@@ -1,0 +1,232 @@
+"""What the contact solver promises besides the numbers: errors, statuses, warm starts, counts, bits, friction."""
+
+import dataclasses
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from contact_oracles import FREE, HALF_Y, PERIODIC, body, notes_surface, operator, rough
+
+from bem import threads
+from bem.contact import solve_contact
+from bem.convolution import displacement_operator
+from bem.errors import InfeasibleError, InputError
+from bem.grid import Grid
+from bem.kernels.coefficients import Load, surface_coefficients
+
+N = 64
+
+
+@pytest.fixture(scope="module")
+def problem():
+    return -0.01 * rough(N, N), operator((N, N), (1 / N, 1 / N), PERIODIC)
+
+
+@pytest.mark.parametrize(("cells", "most"), [(512, 40)])
+def test_convolutions_to_the_tolerance(cells, most):
+    op = operator((cells, cells), (1 / cells, 1 / cells), PERIODIC)
+    before = op.count.weighted
+    solution = solve_contact(-notes_surface(cells), op, load=0.0035)
+    assert solution.status == "converged"
+    assert solution.convolutions == op.count.weighted - before
+    assert solution.convolutions <= most
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("cells", "most"), [(1024, 50), (2048, 65)])
+def test_convolutions_to_the_tolerance_on_large_grids(cells, most):
+    test_convolutions_to_the_tolerance(cells, most)
+
+
+def test_free_grid_takes_no_more_convolutions():
+    op = operator((256, 256), (1 / 256, 1 / 256), FREE)
+    assert solve_contact(-notes_surface(256), op, load=0.0035).convolutions <= 40
+
+
+def test_warm_start_skips_the_coarser_grids(problem):
+    gap, op = problem
+    first = solve_contact(gap, op, load=1e-3)
+    again = solve_contact(gap, op, load=1e-3, initial_pressure=first.pressure)
+    assert again.iterations == 0
+    assert again.convolutions == 1  # the one that certifies it
+    near = solve_contact(gap, op, load=1.02e-3, initial_pressure=first.pressure)
+    assert near.status == "converged"
+    assert near.convolutions < solve_contact(gap, op, load=1.02e-3).convolutions
+
+
+@pytest.mark.parametrize("control", ["approach", "mean_gap"])
+def test_other_controls_start_warm_too(problem, control):
+    gap, op = problem
+    first = solve_contact(gap, op, load=1e-3, tolerance=1e-10)
+    value = first.approach if control == "approach" else float(np.maximum(first.gap, 0).mean())
+    again = solve_contact(gap, op, initial_pressure=first.pressure, **{control: value})
+    assert again.status == "converged"
+    assert again.load == pytest.approx(1e-3, rel=1e-6)  # both certified to 1e-8 of the roughness
+    assert again.convolutions <= 12
+
+
+def test_too_few_iterations_are_not_called_converged(problem):
+    gap, op = problem
+    solution = solve_contact(gap, op, load=1e-3, max_iterations=10)
+    assert solution.status == "max_iterations"
+    assert solution.residual > 1e-8
+    assert solution.load == pytest.approx(1e-3, rel=1e-12)  # feasible even so
+
+
+def test_a_tolerance_beyond_double_precision_is_stalled_not_converged(problem):
+    gap, op = problem
+    solution = solve_contact(gap, op, load=1e-3, tolerance=1e-18)
+    assert solution.status == "stalled"
+    assert solution.residual < 1e-12
+
+
+def test_callback_sees_the_residual_fall(problem):
+    gap, op = problem
+    seen = []
+    solution = solve_contact(gap, op, load=1e-3, callback=lambda *state: seen.append(state))
+    assert seen[-1][0] == solution.iterations
+    assert seen[-1][1] == pytest.approx(solution.residual, rel=0.5)  # another sum of the same gap
+    assert seen[-1][2] == pytest.approx(solution.contact_area)
+
+
+def test_zero_load_and_separated_bodies(problem):
+    gap, op = problem
+    nothing = solve_contact(gap, op, load=0)
+    assert (nothing.load, nothing.contact_area, nothing.convolutions) == (0, 0, 0)
+    assert nothing.approach == gap.min()
+    apart = solve_contact(gap, op, approach=gap.min() - 0.1)
+    assert apart.contact_area == 0
+    assert apart.gap.min() == pytest.approx(0.1)
+    lubricated = solve_contact(gap, op, mean_gap=1.0)
+    assert lubricated.contact_area == 0
+    assert lubricated.gap.mean() == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("change", "word"),
+    [
+        ({"load": None}, "exactly one"),
+        ({"approach": 0.1}, "exactly one"),
+        ({"load": -1.0}, "not negative"),
+        ({"load": np.nan}, "finite"),
+        ({"load": None, "mean_gap": -1.0}, "not negative"),
+        ({"hardness": 0.0}, "hardness"),
+        ({"hardness": "hard"}, "hardness"),
+        ({"tolerance": 0.0}, "tolerance"),
+        ({"max_iterations": 0}, "max_iterations"),
+        ({"initial_pressure": np.zeros((3, 3))}, "initial_pressure"),
+        ({"initial_pressure": -np.ones((N, N))}, "initial_pressure"),
+        ({"gap": np.full((N, N), np.nan)}, "not finite"),
+        ({"gap": np.zeros((N, N + 1))}, "shape"),
+        ({"operator": None}, "operator"),
+    ],
+)
+def test_bad_input_is_refused(problem, change, word):
+    arguments = {"gap": problem[0], "operator": problem[1], "load": 1e-3} | change
+    with pytest.raises(InputError, match=word):
+        solve_contact(arguments.pop("gap"), arguments.pop("operator"), **arguments)
+
+
+def test_every_mistake_has_its_message(problem):
+    with pytest.raises(InputError) as caught:
+        solve_contact(problem[0], problem[1], load=-1.0, hardness=-1.0, tolerance=2.0)
+    assert len(caught.value.messages) == 3
+
+
+def test_infeasible_problems_are_refused_before_any_work(problem):
+    gap, op = problem
+    before = op.count.applications
+    with pytest.raises(InfeasibleError, match="hardness x area"):
+        solve_contact(gap, op, load=1.0, hardness=0.5)
+    with pytest.raises(InfeasibleError, match="mean gap"):
+        solve_contact(gap, op, approach=0.1)
+    assert op.count.applications == before
+
+
+def test_fields_fit_together(problem):
+    gap, op = problem
+    s = solve_contact(gap, op, load=1e-3, hardness=0.03)
+    assert np.array_equal(op(s.pressure), s.displacement) or np.allclose(op(s.pressure), s.displacement, rtol=1e-13)
+    raw = gap + s.displacement - s.approach
+    touching = s.pressure > 0
+    assert np.abs((raw - s.gap)[touching]).max() <= 1e-15
+    assert (s.gap[~touching] >= 0).all()
+    capped = s.pressure == 0.03
+    assert s.plastic_area == pytest.approx(capped.sum() * op.grid.cell_area)
+    assert np.array_equal(s.plastic_depth > 0, capped & (s.gap < 0))
+    assert s.contact_area == pytest.approx(touching.sum() * op.grid.cell_area)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        s.load = 1.0
+
+
+def test_threads_leave_the_bits_alone():
+    gap = -notes_surface(256)
+    op = operator((256, 256), (1 / 256, 1 / 256), FREE)
+    before = threads.get_threads()
+    results = []
+    try:
+        for count in (1, 2):
+            threads.set_threads(count)
+            results.append(solve_contact(gap, op, load=1e-3).pressure)
+    finally:
+        threads.set_threads(before)
+    assert np.array_equal(*results)
+
+
+def _bits():
+    op = operator((96, 60), (1 / 96, 1 / 60), HALF_Y)
+    return solve_contact(-0.01 * rough(96, 60), op, load=1e-3, hardness=0.05).pressure.tobytes()
+
+
+def test_another_process_gives_the_same_bits():
+    import hashlib
+
+    code = (
+        f"import sys, hashlib; sys.path.insert(0, {str(Path(__file__).parent)!r}); import test_contact_solver as t; "
+        "print(hashlib.sha256(t._bits()).hexdigest())"
+    )
+    other = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.strip()
+    assert other == hashlib.sha256(_bits()).hexdigest()
+
+
+@pytest.mark.parametrize("friction", [0.3, -0.8])
+@pytest.mark.parametrize("load", [1e-4, 1e-2, 1.0])
+@pytest.mark.parametrize("hardness", [None, 0.1])
+def test_friction_coupling(friction, load, hardness):
+    grid = Grid((N, 40), (1 / N, 1 / N))
+    soft = body(1.0, 0.1)
+    op = displacement_operator(grid, soft, friction=friction)
+    assert not op.symmetric
+    gap = -0.01 * rough(N, 40)
+    carried = load if hardness is None else min(load, 0.5 * hardness * grid.area)
+    s = solve_contact(gap, op, load=carried, hardness=hardness)
+    assert s.status == "converged"
+    # the product by a direct sum of normal and tangential coefficients
+    normal = surface_coefficients(grid, soft, Load.NORMAL)
+    tangential = surface_coefficients(grid, soft, Load.TANGENTIAL)
+    i, j = np.indices(grid.shape).reshape(2, -1)
+    di, dj = i[:, None] - i[None, :], np.abs(j[:, None] - j[None, :])
+    matrix = normal[np.abs(di), dj] + friction * np.sign(di) * tangential[np.abs(di), dj]
+    opening = gap.ravel() + matrix @ s.pressure.ravel() - s.approach
+    p = s.pressure.ravel()
+    cap = np.inf if hardness is None else hardness
+    inside = (p > 0) & (p < cap)
+    allowed = 1e-8 * gap.std() + 1e-12 * np.abs(s.displacement).max()
+    assert np.abs(opening[inside]).max(initial=0) <= allowed
+    assert opening[p == 0].min(initial=0) >= -allowed
+    assert opening[p >= cap].max(initial=-1) <= allowed
+
+
+def test_semi_periodic_contact_of_a_wide_slice_is_the_free_one_far_from_the_ends():
+    # a sphere in a strip that repeats every 12 contact radii: the neighbours change the peak pressure by little
+    cells, spacing = 96, 0.125
+    free = operator((cells, cells), (spacing, spacing), FREE)
+    half = operator((cells, cells), (spacing, spacing), HALF_Y)
+    x, y = free.grid.x[:, None], free.grid.y[None, :]
+    gap = (x**2 + y**2) / 200
+    a = solve_contact(gap, free, load=1.333e-2)
+    b = solve_contact(gap, half, load=1.333e-2)
+    # displacement of the images varies over the contact by about (a / period)^2 of Hertz's own
+    assert np.abs(a.pressure - b.pressure).max() <= 0.02 * a.pressure.max()

@@ -1,0 +1,215 @@
+"""The displacement operator: against direct sums, what it shares, what it skips."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bem import convolution, transforms
+from bem.convolution import displacement_operator
+from bem.errors import InputError
+from bem.grid import Grid
+from bem.kernels.coefficients import Load, surface_coefficients
+from bem.kernels.spectral import surface_response
+from bem.materials import Body, Layer, Material
+
+STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
+BRASS = Material("brass", youngs_modulus=88e9, poissons_ratio=0.35)
+PERIODICITY = [(False, False), (True, False), (False, True)]
+
+
+@pytest.fixture(autouse=True)
+def _fresh_cache():
+    convolution.set_spectra_memory(0)
+    convolution.set_spectra_memory(1 << 29)
+    convolution.COUNT.reset()
+
+
+def direct(grid, bodies, friction, pressure):
+    """Sum over all pairs of cells, straight from the coefficients of either body."""
+    i, j = np.indices(grid.shape).reshape(2, -1)
+    di, dj = i[:, None] - i[None, :], j[:, None] - j[None, :]
+    sign = np.sign(di)
+    if grid.periodic[0]:
+        di = di % grid.shape[0]
+        sign = np.ones_like(di)
+    if grid.periodic[1]:
+        dj = dj % grid.shape[1]
+    index = np.abs(di), np.abs(dj)
+    matrix = sum(surface_coefficients(grid, body, Load.NORMAL) for body in bodies)[index]
+    if friction:
+        shear = surface_coefficients(grid, bodies[0], Load.TANGENTIAL)
+        if len(bodies) == 2:
+            shear = shear - surface_coefficients(grid, bodies[1], Load.TANGENTIAL)
+        matrix = matrix + friction * sign * shear[index]
+    return (matrix @ pressure.ravel()).reshape(grid.shape)
+
+
+@pytest.mark.parametrize("periodic", PERIODICITY)
+@pytest.mark.parametrize("bodies", [(Body(STEEL),), (Body(STEEL), Body(BRASS)), (Body(BRASS), Body(STEEL))])
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_direct_sums(periodic, bodies, friction):
+    grid = Grid((9, 14), (1e-6, 3e-6), periodic=periodic)
+    pressure = np.random.default_rng(0).uniform(0, 1e9, grid.shape)
+    expected = direct(grid, bodies, friction, pressure)
+    found = displacement_operator(grid, bodies if len(bodies) > 1 else bodies[0], friction=friction)(pressure)
+    assert np.abs(found - expected).max() <= 1e-13 * np.abs(expected).max()  # round-off of a sum over 126 cells
+
+
+@pytest.mark.parametrize("shape", [(8, 10), (9, 7), (1, 12), (12, 1)])
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_doubly_periodic_waves_come_out_as_waves(shape, friction):
+    grid = Grid(shape, (1e-6, 2e-6), periodic=(True, True))
+    bodies = (Body(STEEL), Body(BRASS))
+    op = displacement_operator(grid, bodies, friction=friction)
+    kx, ky = grid.wavevectors()
+    normal = sum(surface_response(grid, body, Load.NORMAL) for body in bodies)
+    shear = surface_response(grid, bodies[0], Load.TANGENTIAL) - surface_response(grid, bodies[1], Load.TANGENTIAL)
+    x, y = np.arange(shape[0])[:, None] * 1e-6, np.arange(shape[1])[None, :] * 2e-6
+    for i, j in ((1 % shape[0], 0), (0, 1 % (shape[1] // 2 + 1)), (2 % shape[0], 1 % (shape[1] // 2 + 1))):
+        phase = kx[i, 0] * x + ky[0, j] * y
+        expected = normal[i, j] * np.cos(phase) - friction * shear[i, j] * np.sin(phase)
+        assert np.abs(op(np.cos(phase)) - expected).max() <= 1e-13 * np.abs(normal).max()
+    assert abs(op(np.ones(shape))).max() <= 1e-15 * np.abs(normal).max()  # a mean pressure moves the datum only
+
+
+def test_steel_on_steel_never_builds_a_coupling_kernel():
+    grid = Grid((8, 8), (1e-6, 1e-6))
+    op = displacement_operator(grid, (Body(STEEL), Body(STEEL)), friction=0.4)
+    assert op.symmetric
+    assert convolution.COUNT.tangential == 0
+    pressure = np.random.default_rng(1).uniform(0, 1, grid.shape)
+    expected = direct(grid, (Body(STEEL), Body(STEEL)), 0.4, pressure)  # the same answer with it
+    assert np.abs(op(pressure) - expected).max() <= 1e-13 * np.abs(expected).max()
+    displacement_operator(grid, (Body(STEEL), Body(BRASS)), friction=0.4)(pressure)
+    assert convolution.COUNT.tangential == 1
+
+
+def test_no_friction_builds_no_coupling_kernel():
+    displacement_operator(Grid((8, 8), (1e-6, 1e-6)), (Body(STEEL), Body(BRASS)))(np.ones((8, 8)))
+    assert convolution.COUNT.tangential == 0
+
+
+def test_two_homogeneous_bodies_cost_one_kernel():
+    displacement_operator(Grid((8, 8), (1e-6, 1e-6)), (Body(STEEL), Body(BRASS)))(np.ones((8, 8)))
+    assert convolution.COUNT.normal == 1
+
+
+def test_equal_layered_bodies_do_not_couple_and_different_ones_do():
+    coated = Body(STEEL, layer=Layer(BRASS, 1e-6))
+    assert not convolution.couples((coated, Body(STEEL, layer=Layer(BRASS, 1e-6))))
+    assert convolution.couples((coated, Body(STEEL)))
+    assert convolution.couples((coated,))
+
+
+def test_operators_share_spectra_and_forget_within_bounds():
+    grid = Grid((32, 32), (1e-6, 1e-6))
+    first = displacement_operator(grid, Body(STEEL))
+    first(np.ones((32, 32)))
+    hard = Material("the same, hard", youngs_modulus=210e9, poissons_ratio=0.3, hardness=6e9)
+    displacement_operator(grid, Body(hard))(np.ones((32, 32)))
+    assert convolution.COUNT.normal == 1
+    size = convolution.spectra_memory()
+    assert size == 33 * 33 * 8  # a quarter of the padded spectrum, in reals
+    convolution.set_spectra_memory(3 * size)
+    for k in range(2, 9):
+        displacement_operator(Grid((32, 32), (k * 1e-6, 1e-6)), Body(STEEL))(np.ones((32, 32)))
+        assert convolution.spectra_memory() <= 3 * size
+
+
+def test_one_transform_each_way_with_and_without_friction():
+    grid = Grid((20, 12), (1e-6, 1e-6))
+    for friction in (0.0, 0.3):
+        op = displacement_operator(grid, (Body(STEEL), Body(BRASS)), friction=friction)
+        op(np.ones(grid.shape))
+        transforms.COUNT.reset()
+        op(np.ones(grid.shape))
+        assert (transforms.COUNT.forward, transforms.COUNT.inverse, transforms.COUNT.kernels) == (1, 1, 0)
+        assert transforms.COUNT.rows == 2 * 20  # only the rows that are not padding
+        assert op.count.applications == 2
+
+
+def test_near_field_is_the_kernel():
+    grid = Grid((16, 16), (1e-6, 2e-6))
+    op = displacement_operator(grid, Body(STEEL), friction=0.2)
+    near = op.near_field(3) * op.unit
+    expected = surface_coefficients(grid, Body(STEEL), Load.NORMAL)[:4, :4]
+    assert np.abs(near[3:, 3:] - expected).max() <= 1e-14 * expected.max()
+    assert np.abs(near[3::-1, 3::-1] - expected).max() <= 1e-14 * expected.max()
+
+
+def test_single_precision_twin_and_symmetric_part():
+    grid = Grid((24, 18), (1e-6, 1e-6))
+    op = displacement_operator(grid, Body(STEEL), friction=0.5)
+    pressure = np.random.default_rng(2).uniform(0, 1, grid.shape)
+    single = op.scaled(np.float32).apply(pressure.astype(np.float32), np.empty(grid.shape, np.float32))
+    exact = op.scaled().apply(pressure, np.empty(grid.shape))
+    assert np.abs(single - exact).max() <= 2e-6 * np.abs(exact).max()  # single precision, 432 terms
+    symmetric = op.scaled(symmetric_part=True).apply(pressure, np.empty(grid.shape)) * op.unit
+    expected = displacement_operator(grid, Body(STEEL))(pressure)
+    assert np.abs(symmetric - expected).max() <= 1e-14 * np.abs(expected).max()
+
+
+def test_inverse_on_a_doubly_periodic_grid():
+    grid = Grid((12, 15), (1e-6, 1e-6), periodic=(True, True))
+    op = displacement_operator(grid, Body(STEEL))
+    pressure = np.random.default_rng(3).standard_normal(grid.shape)
+    pressure -= pressure.mean()
+    there = op.scaled().apply(pressure, np.empty(grid.shape))
+    back = op.scaled_inverse().apply(there, np.empty(grid.shape))
+    assert np.abs(back - pressure).max() <= 1e-13
+
+
+def test_coarser_operators_cover_the_same_rectangle():
+    op = displacement_operator(Grid((64, 45), (1e-6, 1e-6), periodic=(False, True)), Body(STEEL))
+    coarse = op.coarsened()
+    assert coarse.grid.shape == (32, 23)
+    assert coarse.grid.lengths == pytest.approx((64e-6, 45e-6))
+    assert coarse is op.coarsened()
+    coarse(np.ones(coarse.grid.shape))
+    assert op.count.weighted == pytest.approx(32 * 23 / (64 * 45))
+    assert displacement_operator(Grid((8, 8), (1, 1)), Body(STEEL)).coarsened() is None
+
+
+@pytest.mark.parametrize(
+    ("grid", "bodies", "friction", "word"),
+    [
+        (None, Body(STEEL), 0.0, "Grid"),
+        (Grid((4, 4), (1, 1)), STEEL, 0.0, "bodies"),
+        (Grid((4, 4), (1, 1)), (Body(STEEL),) * 3, 0.0, "bodies"),
+        (Grid((4, 4), (1, 1)), Body(STEEL), np.nan, "friction"),
+        (Grid((4, 4), (1, 1)), Body(STEEL), "much", "friction"),
+    ],
+)
+def test_bad_input_is_refused(grid, bodies, friction, word):
+    with pytest.raises(InputError, match=word):
+        displacement_operator(grid, bodies, friction=friction)
+
+
+@pytest.mark.parametrize("pressure", [np.ones((4, 5)), np.full((4, 4), np.nan), np.ones((4, 4), complex)])
+def test_bad_pressures_are_refused(pressure):
+    with pytest.raises(InputError, match="pressure"):
+        displacement_operator(Grid((4, 4), (1, 1)), Body(STEEL))(pressure)
+
+
+@settings(deadline=None, max_examples=25)
+@given(
+    nx=st.integers(1, 9),
+    ny=st.integers(1, 9),
+    modulus=st.floats(1e3, 1e12),
+    size=st.floats(1e-9, 1.0),
+    periodic=st.tuples(st.booleans(), st.booleans()),
+)
+def test_linear_symmetric_and_free_of_units(nx, ny, modulus, size, periodic):
+    material = Material("any", youngs_modulus=modulus, poissons_ratio=0.3)
+    op = displacement_operator(Grid((nx, ny), (size, 2 * size), periodic=periodic), Body(material))
+    unit = displacement_operator(
+        Grid((nx, ny), (1, 2), periodic=periodic), Body(Material("unit", youngs_modulus=1, poissons_ratio=0.3))
+    )
+    a, b = np.random.default_rng(nx * 10 + ny).standard_normal((2, nx, ny))
+    ua, ub = op(a), op(b)
+    scale = np.abs(ua).max() + np.abs(ub).max()
+    assert np.vdot(b, ua) == pytest.approx(np.vdot(a, ub), abs=1e-12 * scale * nx * ny)
+    assert np.abs(op(a + b) - ua - ub).max() <= 1e-13 * scale
+    if not any(periodic):  # the datum of a half-periodic kernel is a length of its own
+        assert np.abs(ua * modulus / size - unit(a)).max() <= 1e-11 * np.abs(unit(a)).max() + 1e-300
