@@ -48,7 +48,7 @@ def draw_particles(level: FloatArray, spacing: tuple[float, float], particles: S
         axes.set_xlabel("equivalent radius (nm)")
         axes.set_ylabel("share")
         axes.set_ylim(0)
-        axes.legend()
+        axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, columnspacing=1.0, handlelength=1.2)
         with replacing(path) as temporary:
             figure.savefig(temporary, format=path.suffix[1:].lower())
     return path

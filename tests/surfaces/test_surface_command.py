@@ -1,0 +1,111 @@
+"""`bem surface` and `bem particles` as a user calls them."""
+
+import json
+import sys
+
+import numpy as np
+import pytest
+
+from bem import Surface, read_surface
+from bem.cli import main
+from bem.particles import synthetic_afm_map
+from bem.surfaces import write_surface
+
+
+@pytest.fixture
+def call(monkeypatch, capsys):
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["bem", *(str(a) for a in arguments)])
+        with pytest.raises(SystemExit) as end:
+            main()
+        out = capsys.readouterr()
+        return end.value.code or 0, out.out, out.err
+
+    return run
+
+
+GENERATE = ("--cells", "64", "--spacing", "100 nm", "--rms-height", "50 nm", "--seed", "3")
+
+
+def test_generate_describe_plot(call, tmp_path):
+    file = tmp_path / "a.npz"
+    code, out, err = call("surface", "generate", file, *GENERATE, "--correlation-length", "0.5 um", "--kurtosis", "4")
+    assert (code, err) == (0, "")
+    assert "Sku, kurtosis" in out
+    surface = read_surface(file, detrend="none")
+    assert surface.shape == (64, 64)
+    assert np.sqrt(np.mean(surface.heights**2)) == pytest.approx(50e-9, rel=1e-12)
+    code, out, _ = call("surface", "describe", file, "--json")
+    assert code == 0
+    described = json.loads(out)
+    assert described["Sku"] == pytest.approx(4, abs=1e-5)  # not levelled again, and known to be periodic
+    assert described["autocorrelation_length_x"] == pytest.approx(0.5e-6, rel=0.05)
+    for ending in ("png", "pdf", "svg"):
+        figure = tmp_path / f"a.{ending}"
+        assert call("surface", "plot", file, figure)[0] == 0
+        assert figure.stat().st_size > 10_000
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["a.npz", "a.pdf", "a.png", "a.svg"]
+
+
+def test_measured(call, measured, tmp_path):
+    code, out, _ = call("surface", "describe", measured / "opd-1.opd")
+    assert code == 0
+    assert "640 x 480" in out
+    assert "points filled" in out
+    code, out, _ = call("surface", "read", measured / "di-3.di", tmp_path / "di.npz", "--detrend", "curvature")
+    assert code == 0
+    assert read_surface(tmp_path / "di.npz").metadata["channel"] == "ZSensor"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("surface", "describe", "nothing.di"), "no such file"),
+        (("surface", "generate", "a.npz", *GENERATE), "exactly one of correlation_length"),
+        (("surface", "generate", "a.txt", *GENERATE, "--hurst", "0.8"), "ending"),
+        (("surface", "generate", "a.npz", *GENERATE, "--hurst", "0.8", "--cutoff-wavelength", "1 N"), "not a length"),
+        (("surface", "generate", "a.npz", *GENERATE, "--correlation-length", "1 um,2 um,3 um"), "two separated"),
+        (("surface", "generate", "a.npz", "--cells", "a", *GENERATE[2:], "--hurst", "0.8"), "--cells"),
+        (("surface", "plot", "nothing.di", "a.gif"), "ending"),
+        (("particles", "nothing.di"), "no such file"),
+        (("particles", "nothing.di", "--threshold", "50"), "no such file"),
+        (("particles", "nothing.di", "--threshold", "50 s"), "not a length"),
+        (("particles", "nothing.di", "--figure", "a.bmp"), "ending"),
+    ],
+)
+def test_bad_input_is_one_message_and_code_2(call, monkeypatch, tmp_path, arguments, message):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = call(*arguments)
+    assert code == 2
+    assert out == ""
+    assert message in err
+    assert err.startswith("bem: ")
+    assert len(err.splitlines()) == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_output_that_cannot_be_written(call, tmp_path):
+    code, _, err = call("surface", "generate", tmp_path / "none" / "a.npz", *GENERATE, "--hurst", "0.8")
+    assert code == 4
+    assert "cannot write" in err
+
+
+def test_particles(call, tmp_path):
+    sample = synthetic_afm_map(seed=2, shape=(256, 256), lengths=(10e-6, 10e-6), count=30)
+    file = write_surface(tmp_path / "afm.npz", Surface(sample.heights, sample.spacing))
+    code, out, err = call(
+        "particles", file, "--table", tmp_path / "p.csv", "--json", tmp_path / "p.json", "--figure", tmp_path / "p.png"
+    )
+    assert (code, err) == (0, "")
+    figures = json.loads((tmp_path / "p.json").read_text())
+    assert f"{figures['count']} particles" in out
+    assert 24 <= figures["count"] <= 30
+    assert figures["number_mean_radius_nm"] < figures["area_mean_radius_nm"] < figures["volume_mean_radius_nm"]
+    table = np.genfromtxt(tmp_path / "p.csv", delimiter=",", names=True)
+    assert len(table) == figures["count"]
+    assert 1e9 * table["length_m"].mean() == pytest.approx(figures["length_nm"])
+    assert (tmp_path / "p.png").stat().st_size > 10_000
+    code, out, _ = call("particles", file, "--threshold", "5 um", "--json", tmp_path / "none.json")
+    assert code == 0
+    assert "no particles" in out
+    assert json.loads((tmp_path / "none.json").read_text())["length_nm"] is None
