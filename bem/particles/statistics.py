@@ -26,8 +26,8 @@ class ParticleStatistics:
     mean_*, std_* : weighted mean and standard deviation (of the set itself, not an estimate of a population).
     smallest_equivalent_radius, largest_equivalent_radius : of those that went in.
     total_volume : [m^3].
-    edges : (bins + 1,) of the distribution over equivalent radius; counts : (bins,) weight in each bin as a share
-        of all weight (they sum to 1 where the edges hold all), density : counts over width of bin [1/m].
+    edges : (bins + 1,) of the distribution over equivalent radius; counts : (bins,) particles in each bin, each
+        counted with its weight over the mean weight, so that all of them together are `count` whatever the weight.
     """
 
     weight: str
@@ -50,7 +50,7 @@ class ParticleStatistics:
     @property
     def density(self) -> FloatArray:
         """Probability density over equivalent radius [1/m]."""
-        return self.counts / np.diff(self.edges)
+        return self.counts / (max(self.count, 1) * np.diff(self.edges))
 
     @property
     def mean_volume(self) -> float:
@@ -105,14 +105,17 @@ def particle_statistics(
     weights = radius ** WEIGHTS[weight] if radius.size else radius
     share = weights / weights.sum() if radius.size else weights
     if radius.size:
-        means = sizes @ share
-        deviations = np.sqrt(np.maximum(((sizes - means[:, None]) ** 2) @ share, 0.0))
+        means = (sizes * share).sum(axis=1)
+        deviations = np.sqrt(((sizes - means[:, None]) ** 2 * share).sum(axis=1))
     else:
         means = deviations = np.full(4, math.nan)
     if bins.ndim == 0:
         largest = float(radius.max()) if radius.size else max(smallest_radius, 1e-9)
         bins = np.linspace(0.0, largest, int(bins) + 1)
-    counts = np.histogram(radius, bins=bins, weights=share)[0]
+    if weight == "number":
+        counts = np.histogram(radius, bins=bins)[0].astype(np.float64)
+    else:
+        counts = np.histogram(radius, bins=bins, weights=share * radius.size)[0]
     return ParticleStatistics(
         weight=weight,
         count=int(radius.size),

@@ -44,7 +44,13 @@ def draw_particles(level: FloatArray, spacing: tuple[float, float], particles: S
             statistics = particle_statistics(particles, weight=weight, edges=20)
             mean = 1e9 * statistics.mean_equivalent_radius
             text = f"by {weight}" + (f", mean {mean:.0f} nm" if particles else "")
-            axes.stairs(statistics.counts, statistics.edges * 1e9, color=colour, label=text, linewidth=1.3)
+            axes.stairs(
+                statistics.counts / max(statistics.count, 1),
+                statistics.edges * 1e9,
+                color=colour,
+                label=text,
+                linewidth=1.3,
+            )
         axes.set_xlabel("equivalent radius (nm)")
         axes.set_ylabel("share")
         axes.set_ylim(0)

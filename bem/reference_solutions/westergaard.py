@@ -112,8 +112,7 @@ def crossed_full_contact(
 def crossed_contact_fraction_light(pressure_ratio: float) -> float:
     """Contact fraction of equal crossed sinusoids for p_mean/p* << 1: pi (3/8pi p_mean/p*)^(2/3).
 
-    Hertz on the two crests per wavelength squared; as printed by Johnson, Greenwood & Higginson (their eq. 11), whose
-    "wavelength" in the accompanying a/lambda is the distance of crests, wavelength / sqrt(2).
+    Hertz on the two crests per wavelength squared, in the form of Johnson, Greenwood & Higginson.
     """
     return math.pi * (3 * pressure_ratio / (8 * math.pi)) ** (2 / 3)
 

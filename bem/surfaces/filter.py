@@ -54,11 +54,17 @@ def trend(heights: FloatArray, *, curved: bool) -> FloatArray:
     terms = [np.ones((nx, ny)), x + 0 * y, y + 0 * x]
     if curved:
         terms += [x * x + 0 * y, y * y + 0 * x, x * y]
-    basis = np.stack(terms, axis=-1)
-    values = basis[known]
     scale = float(np.abs(heights[known]).max()) or 1.0
-    coefficients = np.linalg.lstsq(values.T @ values, values.T @ (heights[known] / scale), rcond=1e-13)[0]
-    return np.asarray(scale * (basis @ coefficients))
+    target = np.where(known, heights / scale, 0.0)
+    # numpy's own sums: a threaded matrix product would give other bits on other numbers of threads
+    inside = [np.where(known, term, 0.0) for term in terms]
+    normal = np.array([[float(np.sum(a * b)) for b in terms] for a in inside])
+    right = np.array([float(np.sum(a * target)) for a in inside])
+    coefficients = np.linalg.lstsq(normal, right, rcond=1e-13)[0]
+    fitted = np.zeros((nx, ny))
+    for coefficient, term in zip(coefficients, terms, strict=True):
+        fitted += scale * coefficient * term
+    return fitted
 
 
 def fill_missing(heights: FloatArray, spacing: tuple[float, float]) -> FloatArray:

@@ -37,6 +37,9 @@ class Surface:
         object.__setattr__(self, "spacing", spacing)
         object.__setattr__(self, "metadata", MappingProxyType(dict(self.metadata)))
 
+    def __reduce__(self) -> tuple[type[Surface], tuple[FloatArray, tuple[float, float], dict[str, Any]]]:
+        return Surface, (np.array(self.heights), self.spacing, dict(self.metadata))
+
     @property
     def shape(self) -> tuple[int, int]:
         """(nx, ny)."""

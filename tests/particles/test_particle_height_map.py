@@ -227,7 +227,7 @@ def test_measuring_it_gives_the_thesis_numbers(sample):
     counts = particle_statistics(particles, edges=8).counts
     peak = int(counts.argmax())
     assert (np.diff(counts[: peak + 1]) >= 0).all()
-    assert (np.diff(counts[peak:]) <= 0.02).all()  # one mode; two particles more in a tail bin are no second
+    assert (np.diff(counts[peak:]) <= 2).all()  # one mode; two particles more in a tail bin are no second
 
 
 def test_each_particle_is_found_where_it_was_put(sample):

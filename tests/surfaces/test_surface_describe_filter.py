@@ -1,6 +1,7 @@
 """Description and filters against surfaces whose answers are known."""
 
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -114,6 +115,15 @@ def test_describe_refuses(bad):
 
 
 # --- Surface -----------------------------------------------------------------------------------------------------
+
+
+def test_surface_can_be_pickled():
+    surface = Surface(np.arange(6.0).reshape(2, 3), (1e-6, 2e-6), {"a": 1})
+    again = pickle.loads(pickle.dumps(surface))
+    np.testing.assert_array_equal(again.heights, surface.heights)
+    assert again.spacing == surface.spacing
+    assert again.metadata == surface.metadata
+    assert not again.heights.flags.writeable
 
 
 def test_surface_is_frozen():
