@@ -32,8 +32,9 @@ from bem.materials import Body
 # singularity costs a factor), 1e-13 for the small ones, which serve where the response is small
 _POINTS = np.array([2, 3, 4, 5, 6, 8, 10, 12, 16])
 _REACH = np.array([900.0, 100.0, 30.0, 15.0, 8.9, 4.4, 2.9, 2.2, 1.64])
-# and the most wavenumber times half a side of ripples: (kappa/2)^(2n) / (2n)!
-_RIPPLE = np.array([1e-3, 0.01, 0.04, 0.12, 0.25, 0.8, 1.6, 2.8, 5.5])
+# and the most wavenumber times half a side of ripples, for an error of 1e-12 of them:
+# 4^n n!^4 / ((2n+1) (2n)!^3) kappa^(2n)
+_RIPPLE = np.array([4e-3, 0.055, 0.22, 0.54, 1.02, 2.3, 4.1, 6.1, 10.7])
 _MOST = int(_POINTS.max())
 _NODES = np.zeros((_POINTS.size, _MOST))
 _WEIGHTS = np.zeros((_POINTS.size, _MOST))
@@ -74,11 +75,14 @@ def _add_point(kind: int, x: float, y: float, r: float, g: FloatArray, weight: f
 
 
 @nb.njit(**COMPILE)
-def _rule_for(reach: float, ripple: float) -> int:
-    """Row of the rule to use, or the number of rules where none will do."""
+def _rule_for(reach: float, ripple: float, fall: float) -> int:
+    """Row of the rule to use, or the number of rules where none will do; the ripples are exp(-fall) of their height."""
     row = 0
-    while row < _POINTS.size and (reach < _REACH[row] or ripple > _RIPPLE[row]):
+    while row < _POINTS.size and reach < _REACH[row]:
         row += 1
+    if ripple > 0.0:
+        while row < _POINTS.size and ripple * np.exp(-0.5 * fall / _POINTS[row]) > _RIPPLE[row]:
+            row += 1
     return row
 
 
@@ -91,6 +95,7 @@ def _add_cell(
     half_y: float,
     decay: float,
     wavenumber: float,
+    width: float,
     edges: FloatArray,
     coefficients: FloatArray,
     stack: FloatArray,
@@ -107,8 +112,9 @@ def _add_cell(
         gap_x, gap_y = max(abs(x0) - a, 0.0), max(abs(y0) - b, 0.0)
         if gap_x * gap_x + gap_y * gap_y >= end * end:
             continue
-        along_x = _rule_for(np.sqrt(x0 * x0 + gap_y * gap_y + decay * decay) / a, wavenumber * a)
-        along_y = _rule_for(np.sqrt(y0 * y0 + gap_x * gap_x + decay * decay) / b, wavenumber * b)
+        fall = width * width * (gap_x * gap_x + gap_y * gap_y)
+        along_x = _rule_for(np.sqrt(x0 * x0 + gap_y * gap_y + decay * decay) / a, wavenumber * a, fall)
+        along_y = _rule_for(np.sqrt(y0 * y0 + gap_x * gap_x + decay * decay) / b, wavenumber * b, fall)
         split_x, split_y = along_x == _POINTS.size, along_y == _POINTS.size
         if split_x or split_y:  # halve the side that is too long; both where both are
             parts_x, parts_y = (2 if split_x else 1), (2 if split_y else 1)
@@ -137,6 +143,7 @@ def _add_cells(
     images: tuple[int, int],
     decay: float,
     wavenumber: float,
+    width: float,
     edges: FloatArray,
     coefficients: FloatArray,
     out: FloatArray,
@@ -153,7 +160,7 @@ def _add_cells(
                 for q in range(-images[1], images[1] + 1):
                     x, y = (i + p * period[0]) * sides[0], (j + q * period[1]) * sides[1]
                     _add_cell(
-                        kind, x, y, 0.5 * sides[0], 0.5 * sides[1], decay, wavenumber, edges, coefficients,
+                        kind, x, y, 0.5 * sides[0], 0.5 * sides[1], decay, wavenumber, width, edges, coefficients,
                         stack, g, value,
                     )  # fmt: skip
             out[:, i, j] += value
@@ -165,7 +172,16 @@ def add_cells(out: FloatArray, grid: Grid, table: RadialTable, kind: int, images
     out: (components, n, m), offsets from 0 along both axes; it may cover a part of the grid.
     """
     _add_cells(
-        kind, grid.spacing, grid.shape, images, table.decay, table.wavenumber, table.edges, table.coefficients, out
+        kind,
+        grid.spacing,
+        grid.shape,
+        images,
+        table.decay,
+        table.wavenumber,
+        table.width,
+        table.edges,
+        table.coefficients,
+        out,
     )
 
 

@@ -66,7 +66,8 @@ class RadialTable:
     edges: FloatArray
     coefficients: FloatArray
     decay: float
-    wavenumber: float = 0.0  # of ripples, where a window left some
+    wavenumber: float = 0.0  # where a window left ripples: theirs,
+    width: float = 0.0  # and they fall off like exp(-(width r)^2)
 
 
 def surface_kernels(body: Body, load: Load) -> Kernels:

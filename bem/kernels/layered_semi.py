@@ -297,4 +297,4 @@ def _windowed_table(kernels: Kernels, period: float) -> RadialTable:
             values[number, :, table] = panel.real[order] @ f[table]
             if f_ray is not None:
                 values[number, :, table] += np.einsum("np,np->n", f_ray[table], panel.ray[order]).real
-    return RadialTable(edges * period, fit(values) / period**2, kernels.decay, _SPLIT / period)
+    return RadialTable(edges * period, fit(values) / period**2, kernels.decay, _SPLIT / period, _WIDTH / (2 * period))
