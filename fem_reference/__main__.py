@@ -10,6 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from subprocess import run
+from typing import Any
 
 from fem_reference import results
 from fem_reference.problem import Parameter, Problem, all_problems, stored_cases
@@ -22,7 +23,7 @@ def _add_options(parser: argparse.ArgumentParser, parameters: tuple[Parameter, .
         kind = parameter.kind or (str if parameter.default is None else type(parameter.default))
         option = "--" + parameter.name.replace("_", "-")
         text = f"{parameter.help} (default {parameter.default})"
-        options = {"dest": parameter.name, "type": kind, "default": argparse.SUPPRESS, "help": text}
+        options: dict[str, Any] = {"dest": parameter.name, "type": kind, "default": argparse.SUPPRESS, "help": text}
         if parameter.count is not None:
             options["nargs"] = "+" if parameter.count < 0 else parameter.count
         if parameter.choices is not None:
@@ -57,7 +58,7 @@ def _all(folder: Path, check: bool, jobs: int, only: list[str]) -> int:
 
     with `check` compare to what is there and write nothing.
     """
-    cases = [case for case in stored_cases() if not only or case in only]
+    cases = [case for case, (problem, _) in stored_cases().items() if not only or {case, problem.name} & set(only)]
     folder.mkdir(parents=True, exist_ok=True)
 
     def one(case: str) -> tuple[str, int, str]:
@@ -99,7 +100,7 @@ def main(arguments: list[str] | None = None) -> int:
         options.add_argument("--out", type=Path, default=STORED, help="folder of the stored set")
         options.add_argument("--check", action="store_true", help="compare to the stored set; write nothing")
         options.add_argument("--jobs", type=int, default=1, help="processes at a time")
-        options.add_argument("--only", nargs="*", default=[], help="these cases only")
+        options.add_argument("--only", nargs="*", default=[], help="these cases or problems only")
         chosen = options.parse_args(rest + (["--help"] if known.help else []))
         return _all(chosen.out, chosen.check, chosen.jobs, chosen.only)
 

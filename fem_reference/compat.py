@@ -188,3 +188,30 @@ def cell_nodes(mesh: dmesh.Mesh) -> NDArray[np.int64]:
     if hasattr(dofmap, "array"):
         return np.asarray(dofmap.array, dtype=np.int64).reshape(cell_count(mesh), -1)
     return np.asarray(dofmap, dtype=np.int64)
+
+
+def quadrature_function(mesh: dmesh.Mesh, size: int, degree: int) -> Any:
+    """A vector of `size` numbers at each point of the cells' Gauss rule of a degree, in the order of `quadrature_values`."""
+    if OLD:
+        element = ufl.VectorElement("Quadrature", mesh.ufl_cell(), degree=degree, dim=size, quad_scheme="default")
+        return fem.Function(fem.FunctionSpace(mesh, element))
+    import basix.ufl
+
+    element = basix.ufl.quadrature_element(mesh.basix_cell(), value_shape=(size,), scheme="default", degree=degree)
+    return fem.Function(fem.functionspace(mesh, element))
+
+
+def quadrature_values(expression: Any, mesh: dmesh.Mesh, degree: int) -> Callable[[], NDArray[np.float64]]:
+    """A callable that evaluates a vector expression, as it is by then, at all Gauss points: (cells x points, components)."""
+    import basix
+
+    points, _ = basix.make_quadrature(getattr(basix.CellType, mesh.ufl_cell().cellname()), degree)
+    compiled = fem.Expression(expression, points)
+    cells = np.arange(cell_count(mesh), dtype=np.int32)
+    size = expression.ufl_shape[0]
+
+    def values() -> NDArray[np.float64]:
+        found = compiled.eval(cells) if OLD else compiled.eval(mesh, cells)
+        return np.asarray(found, dtype=np.float64).reshape(-1, size)
+
+    return values

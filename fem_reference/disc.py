@@ -1,7 +1,7 @@
 """Problems 2 and 3: a disc of pressure or of traction on a homogeneous or layered half-space, in the meridian plane.
 
-Pressure: fields (u_r, u_z). Traction along x: the first Fourier harmonic, u_r = U cos t, u_theta = V sin t,
-u_z = W cos t; the fields are S = U + V, D = U - V and W, so that what must vanish on the axis (S and W) is one condition each. The
+Pressure: fields (u_r, u_z). Traction along x: the first Fourier harmonic, u_r = U cos t, u_theta = V sin t, u_z = W cos
+t; the fields are S = U + V, D = U - V and W, so that what must vanish on the axis (S and W) is one condition each. The
 Jacobian of the meridian is r; the integrals over the angle give the same factor, pi, everywhere and drop out.
 """
 
@@ -223,6 +223,8 @@ def _solve(
     # per meridian: 2 pi (harmonic 0) or pi (harmonic 1) times the integral is the force
     factor = 2 * np.pi if harmonic == 0 else np.pi
 
+    along = "normal_displacement" if harmonic == 0 else "tangential_displacement"
+
     def checks(solution: Solution) -> dict[str, dict[str, float]]:
         return equilibrium(solution, [resultant(pressure) / factor])
 
@@ -239,7 +241,8 @@ def _solve(
         curves=lambda solution: _curves(solution, harmonic, thickness),
         degree=DEGREE,
         levels=levels,
-        box_order=lambda curve: 2.0 if curve.derivative else 1.0,
+        # the walls shift the middle by something like 1/R along the load and strain it by 1/R^2
+        box_order=lambda curve: 1.0 if curve.name == along and not curve.derivative else 2.0,
         checks=checks,
     )
 
@@ -281,7 +284,7 @@ PROBLEMS = (
             ["", "soft", "stiff", "stiff-thin", "soft-thick"],
             ["", *LAYERS],
         ),
-        quick=("disc-uniform", "disc-hertz-stiff"),
+        quick=("disc-uniform",),
     ),
     Problem(
         "disc-tangential",
@@ -293,6 +296,5 @@ PROBLEMS = (
             ["", "soft", "stiff", "stiff-thin", "soft-thick"],
             ["", "soft", "stiff-thin", "film-15GPa-200nm"],
         ),
-        quick=("disc-tangential-uniform-soft",),
     ),
 )

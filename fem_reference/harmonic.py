@@ -116,6 +116,7 @@ def solve_harmonic(*, nu: float, layer: Sequence[float], load: str, wavenumbers:
                 surface.setdefault(curve.name, []).append((w, curve.values[0], curve.error_bar[0], curve.order))
         if w in DEPTHS_AT:
             quantities += part.quantities
+    picture = {**parts[-1].mesh["picture"], "note": "coarsest mesh at the largest q h, lengths in wavelengths"}
     response = []
     for name, rows in surface.items():
         orders = [row[3] for row in rows if row[3] is not None]
@@ -142,6 +143,7 @@ def solve_harmonic(*, nu: float, layer: Sequence[float], load: str, wavenumbers:
         sentence=f"A {kind} on {body}, for q h from {min(wavenumbers):g} to {max(wavenumbers):g}.",
         parameters={"nu": nu, "layer": list(layer), "load": load, "wavenumbers": list(wavenumbers)},
         normalisation="Wavenumber q = 1, amplitude of the traction p = 1, modulus of the substrate 1; depths are q z.",
+        mesh={**parts[-1].mesh, "picture": picture},
         quantities=response + quantities,
         time_s=round(sum(part.time_s for part in parts), 2),
     )
@@ -174,6 +176,5 @@ PROBLEMS = (
         ),
         solve_harmonic,
         _stored(),
-        quick=("harmonic-normal-stiff",),
     ),
 )

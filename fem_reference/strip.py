@@ -111,6 +111,19 @@ def _curves(solution: Solution, load: str, thickness: float | None) -> list[Curv
     return found
 
 
+def _box_order(load: str, name: str) -> float:
+    """Power k of the leading error 1/R^k of a box held at distance R.
+
+    Under pressure the walls keep u_x from its constant far away: a uniform strain, 1/R, which does not bend the
+    surface. Under traction along x they do that to u_z: a rotation, 1/R, free of stress. All else is of the next order.
+    """
+    if load == "normal":
+        return 2.0 if name == "normal_displacement" else 1.0
+    if load == "tangential":
+        return 1.0 if name == "normal_displacement" else 2.0
+    return 2.0
+
+
 def solve_strip(*, nu: float, layer: Sequence[float] | None, load: str) -> Result:
     """A loaded strip: see the module."""
     materials, thickness = bodies(nu, layer)
@@ -142,7 +155,7 @@ def solve_strip(*, nu: float, layer: Sequence[float] | None, load: str) -> Resul
         solve=solve_on,
         curves=lambda solution: _curves(solution, load, thickness),
         degree=DEGREE,
-        box_order=lambda curve: 1.0 if load == "tangential" else 2.0,
+        box_order=lambda curve: _box_order(load, curve.name),
         # half of the strip is meshed: the resultant is 1
         checks=lambda solution: equilibrium(solution, [1.0]),
     )
@@ -167,6 +180,6 @@ PROBLEMS = (
         (POISSONS_RATIO, LAYER, Parameter("load", "normal", "direction of the traction", choices=LOADS)),
         solve_strip,
         _stored(),
-        quick=("strip-normal-stiff", "strip-tangential"),
+        quick=("strip-tangential",),
     ),
 )

@@ -83,7 +83,7 @@ class FastDiagonalisation:
             modes = []
             for d in range(3):
                 others = tuple(k for k in range(3) if k != d)
-                modes.append(_modes(*matrices[d], ~lattice.all(axis=others)))
+                modes.append(_modes(*matrices[d], np.asarray(~lattice.all(axis=others))))
             stiff = [lame + 2 * shear if d == component else shear for d in range(3)]
             x, y, z = (stiff[d] * modes[d][0] for d in range(3))
             self.diagonal.append(x[:, None, None] + y[:, None] + z)

@@ -1,0 +1,194 @@
+"""The result format, the error bars, and the stored set: all without dolfinx."""
+
+import dataclasses
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fem_reference import results
+from fem_reference.results import Quantity, Result
+from fem_reference.richardson import estimate, observed_order
+
+STORED = Path(__file__).resolve().parents[2] / "bem" / "verification" / "fem_results"
+LINEAR = ("disc", "disc-tangential", "harmonic", "rectangle", "strip")
+FILES = sorted(path for path in STORED.glob("*.json") if json.loads(path.read_text())["problem"] in LINEAR)
+
+
+def a_result(values=(1 / 3, 2.0), bars=(1e-5, 0.0)):
+    curve = Quantity("stress_xx", "p", "axis", [[0.0, 0.0, 0.5], [0.0, 0.0, 1.0]], list(values), list(bars), 3.9)
+    mesh = {"builder": "b", "levels": [{"cells": 3}], "picture": {"x": [0.0, 1.0], "z": [0.0, 2.0, 3.0]}}
+    return Result("c", "disc", "s", {"layer": [0.1, 0.3, 1.0]}, "n", "f", mesh, [curve])
+
+
+def test_a_file_comes_back_as_it_was(tmp_path):
+    results.write(a_result(), tmp_path / "deep" / "c.json")
+    back = results.read(tmp_path / "deep" / "c.json")
+    # ten digits are kept
+    assert back.quantities[0].values == pytest.approx([1 / 3, 2.0], rel=2e-10)
+    assert dataclasses.replace(back, quantities=[]) == dataclasses.replace(a_result(), quantities=[])
+
+
+def test_a_result_that_is_not_finite_leaves_the_old_file_alone(tmp_path):
+    path = tmp_path / "c.json"
+    results.write(a_result(), path)
+    before = path.read_text()
+    with pytest.raises(ValueError, match="not finite"):
+        results.write(a_result(values=(math.nan, 1.0)), path)
+    assert path.read_text() == before
+    assert [p.name for p in tmp_path.iterdir()] == ["c.json"]
+
+
+def test_another_json_file_is_refused(tmp_path):
+    (tmp_path / "x.json").write_text('{"format": "else"}')
+    with pytest.raises(ValueError, match=r"x\.json is not a result"):
+        results.read(tmp_path / "x.json")
+
+
+def test_lengths_must_agree():
+    with pytest.raises(ValueError, match="2 coordinates, 1 values"):
+        Quantity("stress_xx", "p", "axis", [[0, 0, 0], [0, 0, 1]], [1.0], [0.0])
+
+
+def test_a_curve_is_found_by_name_and_place():
+    assert a_result().quantity("stress_xx").order == 3.9
+    with pytest.raises(KeyError, match="there are: stress_xx along axis"):
+        a_result().quantity("stress_yy")
+
+
+def test_segments_of_both_kinds_of_picture():
+    assert len(results.picture_segments(a_result())) == 5
+    triangles = {"points": [[0, 0], [1, 0], [0, 1], [1, 1]], "cells": [[0, 1, 2], [1, 3, 2]]}
+    with_cells = dataclasses.replace(a_result(), mesh={"picture": triangles})
+    assert len(results.picture_segments(with_cells)) == 5
+
+
+def test_reproduction_allows_the_bar_and_no_more():
+    stored = a_result(bars=(1e-5, 1e-5))
+    assert results.reproduces(stored, a_result(values=(1 / 3 + 0.9e-5, 2.0))) == []
+    (complaint,) = results.reproduces(stored, a_result(values=(1 / 3 + 1.2e-5, 2.0)))
+    assert "stress_xx along axis at [0.0, 0.0, 0.5]" in complaint
+    other = dataclasses.replace(stored.quantities[0], name="stress_zz")
+    assert len(results.reproduces(stored, dataclasses.replace(stored, quantities=[other]))) == 2
+    moved = dataclasses.replace(stored.quantities[0], coordinates=[[0, 0, 0.5], [0, 0, 1.1]])
+    assert "other points" in results.reproduces(stored, dataclasses.replace(stored, quantities=[moved]))[0]
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    order=st.floats(0.8, 8.0),
+    ratio=st.floats(1.2, 2.5),
+    errors=st.lists(st.floats(0.1, 1.0), min_size=1, max_size=6),
+    sign=st.sampled_from((-1.0, 1.0)),
+)
+def test_a_clean_sequence_gives_its_order_and_a_bar_that_covers(order, ratio, errors, sign):
+    sizes = ratio ** -np.arange(3.0)
+    exact = np.linspace(1, 2, len(errors))
+    values = exact + sign * np.outer(sizes**order, errors)
+    found = estimate(sizes, values, expected_order=9.0)
+    assert found.order == pytest.approx(order, abs=1e-3)  # differences of doubles, well above round-off
+    assert np.all(np.abs(found.values - exact) <= found.error_bar)
+    # and it is no wider than its safety factor and the tenth of the typical difference make it
+    assert np.all(found.error_bar <= 1.3 * np.max(errors) * sizes[-1] ** order + 1e-9)
+
+
+def test_an_irregular_sequence_gets_its_scatter_as_the_bar():
+    found = estimate([1.0, 0.5, 0.25], [[1.0], [1.01], [0.97]], expected_order=4.0)
+    assert found.order is None
+    assert found.error_bar[0] >= 0.04
+
+
+def test_an_order_above_the_elements_is_not_trusted():
+    sizes = np.array([1.0, 0.5, 0.25])
+    values = 1 + sizes[:, None] ** 9
+    bar = estimate(sizes, values, expected_order=2.0).error_bar[0]
+    # with order two the bar is 1.25 / 3 of the last difference
+    assert bar == pytest.approx(1.25 / 3 * (0.5**9 - 0.25**9), rel=1e-3)
+
+
+def test_order_is_none_where_differences_grow_or_vanish():
+    assert observed_order([1, 0.5, 0.25], [1e-3, 2e-3]) is None
+    assert observed_order([1, 0.5, 0.25], [0.0, 1e-3]) is None
+    with pytest.raises(ValueError, match="must fall"):
+        observed_order([0.25, 0.5, 1.0], [2e-3, 1e-3])
+
+
+def test_there_is_a_stored_set():
+    assert {json.loads(path.read_text())["problem"] for path in FILES} == set(LINEAR)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_stored_cases_are_what_they_claim(path):
+    result = results.read(path)
+    assert result.case == path.stem
+    assert len(result.mesh["levels"]) >= 3
+    assert all(value != "absent" for value in result.versions.values())
+    assert results.picture_segments(result)
+    for check in result.checks.values():
+        assert abs(check["value"] - check["expected"]) <= check["tolerance"]
+    for curve in result.quantities:
+        size = max(abs(value) for value in curve.values)
+        assert size > 0
+        if "displacement" in curve.name:
+            # 0.1 % of the largest; a tangential displacement under a pressure has a kink at the load's edge
+            assert max(curve.error_bar) <= (1e-3 if "harmonic" not in path.stem else 1e-6) * max(size, 0.1), curve
+        elif curve.name.startswith("stress"):
+            # 0.5 % of the load, the scale on which a stress field is read
+            assert max(curve.error_bar) <= 5e-3 * max(size, 1.0), curve
+
+
+LAYERED = [path for path in FILES if any("interface" in q.along for q in results.read(path).quantities)]
+
+
+@pytest.mark.parametrize("path", LAYERED, ids=lambda path: path.stem)
+def test_tractions_are_continuous_through_the_interface(path):
+    """Finite elements do not enforce it: the two sides agree as far as their bars say."""
+    result = results.read(path)
+    compared = 0
+    for upper in result.quantities:
+        if not (upper.along.startswith("interface") and upper.along.endswith("(layer)")):
+            continue
+        if upper.name not in ("stress_zz", "stress_xz", "stress_yz"):
+            continue
+        lower = result.quantity(upper.name, upper.along.replace("layer", "substrate"))
+        bars = np.array(upper.error_bar) + np.array(lower.error_bar)
+        jump = np.abs(np.array(upper.values) - np.array(lower.values))
+        # twice the bars: each is an estimate; 1e-6 of the load for those that are luckily small
+        assert np.all(jump <= 2 * bars + 1e-6), upper.name
+        compared += 1
+    assert compared >= 1
+
+
+def only(case, name, along=None):
+    return results.read(STORED / f"{case}.json").quantity(name, along)
+
+
+def test_textbook_values():
+    """Figures any textbook has (Johnson 1985, chapter 3): a disc's centre, its axis, a strip's axis."""
+    nu = 0.3
+    centre = only("disc-uniform", "normal_displacement")
+    assert centre.values[0] == pytest.approx(2 * (1 - nu**2), rel=3e-6)  # bar of the far field
+    hertz = only("disc-hertz", "normal_displacement")
+    assert hertz.values[0] == pytest.approx((1 - nu**2) * math.pi / 2, rel=3e-6)
+    axis = only("disc-uniform", "stress_zz", "depth at x = y = 0")
+    z = np.array(axis.coordinates)[:, 2]
+    assert axis.values == pytest.approx(-(1 - z**3 / (1 + z**2) ** 1.5), abs=2e-5)  # the bars
+    strip = only("strip-normal", "stress_zz", "depth at x = 0")
+    z = np.array(strip.coordinates)[:, 2]
+    angle = 2 * np.arctan(1 / z)
+    assert strip.values == pytest.approx(-(angle + np.sin(angle)) / np.pi, abs=2e-5)
+
+
+def test_a_short_wave_sees_the_layer_only():
+    """At q h = 10 the substrate enters with exp(-20)."""
+    for name in ("soft", "stiff"):
+        result = results.read(STORED / f"harmonic-normal-{name}.json")
+        modulus, nu, _ = result.parameters["layer"]
+        response = result.quantity("normal_displacement", "q h")
+        assert response.coordinates[-1][0] == 10.0
+        # 1e-6: exp(-20) times (q h)^2
+        assert response.values[-1] == pytest.approx(2 * (1 - nu**2) / modulus, rel=1e-6)

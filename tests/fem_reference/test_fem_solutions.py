@@ -1,0 +1,125 @@
+"""Problems solved afresh in the finite-element interpreter."""
+
+import ast
+import json
+import os
+import subprocess
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PYTHON = ROOT / ".venv-fem" / "bin" / "python"
+STORED = ROOT / "bem" / "verification" / "fem_results"
+
+
+def fem(*arguments, code=0):
+    """Run the finite-element interpreter on the package; its output."""
+    if not PYTHON.exists():
+        pytest.skip("no .venv-fem: run `make setup-fem` to have the finite-element tests")
+    threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    done = subprocess.run(
+        [PYTHON, *arguments], cwd=ROOT, capture_output=True, text=True, env={**os.environ, **threads}, timeout=600
+    )
+    assert done.returncode == code, done.stdout + done.stderr
+    return done.stdout + done.stderr
+
+
+@cache
+def computed(case, *options):
+    """A case as a dictionary, by way of a file; each only once."""
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"{case}.json"
+        fem("-m", "fem_reference", case, *options, "--out", str(path))
+        return json.loads(path.read_text())
+
+
+@pytest.mark.parametrize("package", ["fem_reference", "meshes"])
+def test_the_reference_imports_nothing_of_bem(package):
+    """By its sources; the same holds of what is loaded, below."""
+    for path in sorted((ROOT / package).rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text())):
+            names = []
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                assert node.level == 0, f"{path}: relative import"
+                names = [node.module or ""]
+            tops = {name.split(".")[0] for name in names}
+            assert not tops & {"bem", "reports", "tests"}, f"{path} imports {tops}"
+
+
+@pytest.mark.fem
+def test_loading_every_problem_loads_nothing_of_bem():
+    code = (
+        "import sys; from fem_reference.problem import stored_cases; cases = stored_cases(); "
+        "print(sorted(n for n in sys.modules if n.split('.')[0] == 'bem')); print(*cases)"
+    )
+    *_, loaded, names = fem("-c", code).strip().splitlines()
+    assert loaded == "[]"
+    # every case kept in the code is kept on file and the other way round
+    assert set(names.split()) == {path.stem for path in STORED.glob("*.json")}
+
+
+@pytest.mark.fem
+@pytest.mark.parametrize("case", ["strip-antiplane-stiff", "disc-uniform"])
+def test_a_stored_case_reproduces(case):
+    assert "reproduces" in fem("-m", "fem_reference", case, "--check", str(STORED / f"{case}.json"))
+
+
+@pytest.mark.fem
+@pytest.mark.slow
+@pytest.mark.parametrize("case", ["disc-hertz-stiff", "disc-tangential-uniform-soft", "harmonic-normal-stiff"])
+def test_more_stored_cases_reproduce(case):
+    assert "reproduces" in fem("-m", "fem_reference", case, "--check", str(STORED / f"{case}.json"))
+
+
+@pytest.mark.fem
+def test_a_stored_case_that_is_wrong_is_refused(tmp_path):
+    document = json.loads((STORED / "strip-antiplane.json").read_text())
+    curve = next(q for q in document["quantities"] if q["name"] == "stress_yz")
+    curve["values"][2] *= 1.001  # the bars are hundreds of times smaller
+    path = tmp_path / "strip-antiplane.json"
+    path.write_text(json.dumps(document))
+    text = fem("-m", "fem_reference", "strip-antiplane", "--check", str(path), code=1)
+    assert "stress_yz along" in text
+
+
+@pytest.mark.fem
+def test_orders_and_equilibrium_of_a_fresh_case():
+    """A layer nobody stored, degree four: stresses of order four."""
+    result = computed("strip", "--load", "normal", "--layer", "3", "0.2", "0.8", "--nu", "0.25")
+    assert result["parameters"] == {"nu": 0.25, "layer": [3.0, 0.2, 0.8], "load": "normal"}
+    assert result["checks"]["reaction"]["value"] == pytest.approx(1.0, abs=1e-6)
+    orders = [q["order"] for q in result["quantities"] if q["name"] == "stress_zz"]
+    # three meshes with 1, 2 and 3 subdivisions are not yet asymptotic for every curve: the middle one counts
+    assert sorted(orders)[len(orders) // 2] > 2.7
+    for curve in result["quantities"]:
+        if curve["name"].startswith("stress"):
+            assert max(curve["error_bar"]) < 1e-3
+    dofs = [level["dofs"] for level in result["mesh"]["levels"]]
+    assert dofs == sorted(dofs)
+    assert len(dofs) == 3
+
+
+@pytest.mark.fem
+@pytest.mark.slow
+def test_a_layer_of_the_substrates_material_is_no_layer():
+    plain = computed("strip", "--load", "tangential")
+    layered = computed("strip", "--load", "tangential", "--layer", "1", "0.3", "0.7")
+    a, b = (next(q for q in r["quantities"] if q["name"] == "normal_displacement") for r in (plain, layered))
+    for value, other, bar, other_bar in zip(a["values"], b["values"], a["error_bar"], b["error_bar"], strict=True):
+        assert abs(value - other) <= 2 * (bar + other_bar)
+
+
+@pytest.mark.fem
+def test_bad_input_is_one_message_and_no_file(tmp_path):
+    path = tmp_path / "x.json"
+    text = fem("-m", "fem_reference", "disc", "--layer", "-1", "0.6", "1", "--out", str(path), code=2)
+    assert "modulus ratio -1.0 must be positive" in text
+    assert "Poisson's ratio 0.6" in text
+    assert not path.exists()
+    assert "did you mean disc" in fem("-m", "fem_reference", "disk", code=2)
