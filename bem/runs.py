@@ -111,6 +111,7 @@ def run_scene(
     settings: Sequence[str] = (),
     resume: bool = False,
     overwrite: bool = False,
+    figures: bool = True,
     watcher: Watcher | None = None,
 ) -> FinishedRun:
     """Run a scene and write its run directory.
@@ -122,6 +123,7 @@ def run_scene(
     settings : `key=value` changes to the scene.
     resume : go on from the checkpoint of an interrupted run; a finished run is returned as it is.
     overwrite : replace an older run in the folder.
+    figures : draw figures and write the report; `bem report` can do it later.
     watcher : told of progress and notes.
 
     Returns
@@ -151,16 +153,20 @@ def run_scene(
         except InputError:
             directory.discard()
             raise
-        _write(directory, kind, scene, outcome, context, start)
+        _write(directory, kind, scene, outcome, context, figures, start)
     return open_run(directory.path)
 
 
 def _write(
-    directory: RunDirectory, kind: Kind, scene: SceneModel, outcome: Outcome, context: RunContext, start: float
+    directory: RunDirectory,
+    kind: Kind,
+    scene: SceneModel,
+    outcome: Outcome,
+    context: RunContext,
+    figures: bool,
+    start: float,
 ) -> None:
     """Arrays, volumes, figures, report; the summary last."""
-    from bem.plots.draw import draw_all
-    from bem.plots.report import write_report
     from bem.results.dataset import to_dataset, write_variables
     from bem.results.vtk import write_volumes
 
@@ -179,11 +185,15 @@ def _write(
         "notes": context.notes,
         "seconds_by_stage": context.seconds,
     }
-    run = FinishedRun(directory.path, scene_table(scene), summary)
-    run.__dict__["dataset"] = to_dataset(outcome.variables, attributes)  # no need to read it back
-    with context.timer("figures and report"):
-        drawn = draw_all(run, kind.figures, directory.figures)
-        summary["wall_time_s"] = time.perf_counter() - start
-        write_report(run, drawn, kind.headline)
+    if figures:
+        from bem.plots.draw import draw_all
+        from bem.plots.report import write_report
+
+        run = FinishedRun(directory.path, scene_table(scene), summary)
+        run.__dict__["dataset"] = to_dataset(outcome.variables, attributes)  # no need to read it back
+        with context.timer("figures and report"):
+            drawn = draw_all(run, kind.figures, directory.figures)
+            summary["wall_time_s"] = time.perf_counter() - start
+            write_report(run, drawn, kind.headline)
     summary["wall_time_s"] = time.perf_counter() - start
     directory.finish(summary)

@@ -111,5 +111,7 @@ def print_summary(run: Any, headline: Sequence[str]) -> None:
     rows.append(("status", run.summary["status"]))
     rows.append(("time", f"{run.summary['wall_time_s']:.1f} s"))
     table(("figure", "value"), rows, title=f"{run.summary['scene']} ({run.summary['kind']})")
-    print(f"figures: {run.path / 'figures'}")
-    print(f"report:  {run.path / 'report.html'}")
+    print(f"results: {run.path}")
+    for name, what in (("figures", "figures"), ("report.html", "report ")):
+        if (run.path / name).exists():
+            print(f"{what}: {run.path / name}")

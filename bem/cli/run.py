@@ -32,6 +32,9 @@ def register(app: typer.Typer) -> None:
             bool, typer.Option("--resume", help="Go on from the checkpoint of an interrupted run.")
         ] = False,
         overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace an older run in the folder.")] = False,
+        figures: Annotated[
+            bool, typer.Option("--figures/--no-figures", help="Draw figures and write the report.")
+        ] = True,
         threads: Annotated[
             int | None, typer.Option(min=1, max=1024, help="Threads; without it BEM_THREADS, or 1.")
         ] = None,
@@ -52,7 +55,15 @@ def register(app: typer.Typer) -> None:
             out = Path(scene)
         with Terminal() as terminal:
             try:
-                done = run_scene(scene, out, settings=set_ or (), resume=resume, overwrite=overwrite, watcher=terminal)
+                done = run_scene(
+                    scene,
+                    out,
+                    settings=set_ or (),
+                    resume=resume,
+                    overwrite=overwrite,
+                    figures=figures,
+                    watcher=terminal,
+                )
             except KeyboardInterrupt:
                 terminal.say("interrupted; the same command with --resume goes on")
                 raise typer.Exit(130) from None

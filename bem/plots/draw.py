@@ -46,6 +46,8 @@ def draw(
         figure = Figure(figsize=size or kind.size, layout="constrained")
         FigureCanvasAgg(figure)
         kind.draw(run, figure)
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")  # the layout is found once for all formats
         for ending in formats:
             path = folder / f"{kind.name}.{ending}"
             with replacing(path) as temporary:

@@ -38,7 +38,7 @@ def grid_of(scene: GridScene) -> Grid:
 def resolved_grid(scene: GridScene, *surfaces: AnySurface) -> GridScene:
     """The table with shape and spacing filled in, from the measured surfaces where they are left out.
 
-    The spacing is then the coarser of theirs, the area the one they have in common.
+    The spacing is then the finer of theirs, the area the one they have in common: never more cells than the finer map.
 
     Raises
     ------
@@ -51,10 +51,15 @@ def resolved_grid(scene: GridScene, *surfaces: AnySurface) -> GridScene:
     sizes = [_map_size(surface) for surface in surfaces if isinstance(surface, MeasuredSurface)]
     if not sizes:
         raise InputError(_NO_SIZE)
-    spacing = scene.spacing or (max(d[0] for _, d in sizes), max(d[1] for _, d in sizes))
+    spacing = scene.spacing or (min(d[0] for _, d in sizes), min(d[1] for _, d in sizes))
     common = [min(shape[axis] * d[axis] for shape, d in sizes) for axis in (0, 1)]
-    shape = scene.shape or (max(1, round(common[0] / spacing[0])), max(1, round(common[1] / spacing[1])))
+    shape = scene.shape or (_whole(common[0] / spacing[0]), _whole(common[1] / spacing[1]))
     return scene.model_copy(update={"shape": shape, "spacing": spacing, "lengths": None})
+
+
+def _whole(cells: float) -> int:
+    """Whole cells in a length that may miss one by round-off."""
+    return max(1, math.floor(cells * (1 + 1e-9)))
 
 
 def heights_of(

@@ -220,7 +220,7 @@ class UpperBodyScene(Table):
 class GridScene(Table):
     """Cells along x (sliding) and y; one value stands for both axes.
 
-    Without `shape` and `spacing` (or `lengths`) those of the measured surfaces are taken: the coarser spacing, the
+    Without `shape` and `spacing` (or `lengths`) those of the measured surfaces are taken: the finer spacing, the
     common area.
     """
 
