@@ -29,8 +29,13 @@ STATISTICS_TOLERANCE = 1e-6
 LENGTH_TOLERANCE = 1e-3
 """Relative tolerance of the correlation lengths of the prescribed spectrum."""
 
+SAMPLE_LENGTH_TOLERANCE = 0.15
+"""Relative tolerance of the correlation lengths of a surface with prescribed skewness and kurtosis."""
+
 _MODELS = ("gaussian", "exponential")
 _ITERATIONS = 12
+_SLACKS = (1.0, 3.0, 10.0, 100.0)
+"""How far the spectrum may give way, tried in turn; more than 1 is needed where there are few waves only."""
 
 
 def generate_surface(
@@ -62,9 +67,10 @@ def generate_surface(
         (q^(-1-2H) on a grid of one row).
     rolloff_wavelength : above it the self-affine spectrum is flat [m]; the longest wave of the grid if not given.
     cutoff_wavelength : no waves shorter than this [m]; two cells if not given.
-    skewness, kurtosis : of the heights. Met to 1e-6, within the spectrum's band; its shape gives way by a few per
-        cent when they are far from 0 and 3. A surface of so few waves that it cannot be Gaussian (fewer than about a
-        hundred) is returned as near to the default 0 and 3 as its waves are.
+    skewness, kurtosis : of the heights. Met to 1e-6, within the spectrum's band. Its shape gives way by a few per cent
+        when they are far from 0 and 3, and by up to 15 % of the correlation length where there are few waves. A surface
+        of so few waves that it cannot be Gaussian (fewer than about a hundred) is returned as near to the default
+        0 and 3 as its waves are.
 
     Raises
     ------
@@ -92,6 +98,8 @@ def generate_surface(
         _restrict(amplitude, grid, cutoff_wavelength)
     heights = _standardise(fft.irfft2(amplitude * _phases(grid.shape, int(seed)), grid.shape))
     heights = _impose_moments(heights, amplitude, float(skewness), float(kurtosis))
+    if lengths is not None and (skewness, kurtosis) != (0.0, 3.0):
+        _check_lengths(heights, grid, lengths)
     if rms_slope is None:
         assert rms_height is not None
         return heights * rms_height
@@ -249,6 +257,21 @@ def _correlated_amplitude(
     )
 
 
+def _check_lengths(heights: FloatArray, grid: Grid, lengths: tuple[float, float]) -> None:
+    correlation = fft.irfft2(np.abs(fft.rfft2(heights)) ** 2, grid.shape)
+    for axis in (0, 1):
+        if grid.shape[axis] == 1:
+            continue
+        along = (correlation[:, 0] if axis == 0 else correlation[0]) / correlation[0, 0]
+        given = _first_crossing(along) * grid.spacing[axis]
+        if abs(given / lengths[axis] - 1) > SAMPLE_LENGTH_TOLERANCE:
+            raise InputError(
+                f"generate_surface: with this skewness and kurtosis the correlation length along {'xy'[axis]} is "
+                f"{given:.4g} m instead of {lengths[axis]:.4g} m on {grid.lengths[axis]:.4g} m; take a shorter one, a "
+                "larger grid, or milder statistics"
+            )
+
+
 def _first_crossing(correlation: FloatArray) -> float:
     """Lag in cells at which a correlation falls to 1/e, linear between cells as in `describe_surface`."""
     level = math.exp(-1)
@@ -347,9 +370,10 @@ def _impose_moments(heights: FloatArray, amplitude: FloatArray, skewness: float,
     gaussian = skewness == 0.0 and kurtosis == 3.0
     if not gaussian:
         heights = _rank_and_spectrum(heights, amplitude, skewness, kurtosis)
-    polished = _polish(heights, amplitude, skewness, kurtosis)
-    if polished is not None:
-        return polished
+    for slack in (1.0,) if gaussian else _SLACKS:
+        polished = _polish(heights, amplitude, skewness, kurtosis, slack)
+        if polished is not None:
+            return polished
     if gaussian:
         return heights
     given = _moments(heights)
@@ -372,14 +396,16 @@ def _rank_and_spectrum(heights: FloatArray, amplitude: FloatArray, skewness: flo
     return heights
 
 
-def _polish(heights: FloatArray, amplitude: FloatArray, skewness: float, kurtosis: float) -> FloatArray | None:
+def _polish(
+    heights: FloatArray, amplitude: FloatArray, skewness: float, kurtosis: float, slack: float
+) -> FloatArray | None:
     """z + a P(z^2) + b P(z^3) with a and b by Newton until both moments are met; None if it fails.
 
-    P cuts every wave of the correction down to the prescribed amplitude, so nothing leaves the band and no wave changes
-    by more than its share.
+    P cuts every wave of the correction down to `slack` times the prescribed amplitude, so nothing leaves the band and
+    no wave changes by more than its share.
     """
     power = float((amplitude**2 * _multiplicity((heights.shape[0], heights.shape[1]))).sum())
-    envelope = amplitude * (heights.size / math.sqrt(power))
+    envelope = amplitude * (slack * heights.size / math.sqrt(power))
 
     def in_band(field: FloatArray) -> FloatArray:
         spectrum = fft.rfft2(field)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from bem import Grid, InputError, describe_surface, generate_surface
 from bem.surfaces import radial_spectrum
 from bem.surfaces.distributions import standard_quantiles
-from bem.surfaces.generate import STATISTICS_TOLERANCE
+from bem.surfaces.generate import SAMPLE_LENGTH_TOLERANCE, STATISTICS_TOLERANCE
 
 CELL = 1e-7
 PERIODIC = (True, True)
@@ -59,6 +59,21 @@ def test_unequal_correlation_lengths_on_unequal_cells():
     got = describe(heights, grid)
     assert got.autocorrelation_length_x == pytest.approx(1e-6, rel=0.05)
     assert got.autocorrelation_length_y == pytest.approx(4e-6, rel=0.05)
+
+
+@pytest.mark.parametrize(("skewness", "kurtosis"), [(-0.84, 4.46), (-1.0, 4.94)])
+def test_few_waves_still_have_the_thesis_statistics(skewness, kurtosis):
+    """Paper C's patch at 2.5 N is four correlation lengths of its disk wide."""
+    grid = square(120)
+    length = 30 * CELL
+    heights = generate_surface(
+        grid, rms_height=1e-7, seed=2, correlation_length=length, skewness=skewness, kurtosis=kurtosis
+    )
+    got = describe(heights, grid)
+    assert got.Ssk == pytest.approx(skewness, abs=STATISTICS_TOLERANCE)
+    assert got.Sku == pytest.approx(kurtosis, abs=STATISTICS_TOLERANCE)
+    assert got.autocorrelation_length_x == pytest.approx(length, rel=SAMPLE_LENGTH_TOLERANCE)
+    assert got.autocorrelation_length_y == pytest.approx(length, rel=SAMPLE_LENGTH_TOLERANCE)
 
 
 def test_gaussian_slope():
