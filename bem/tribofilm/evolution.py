@@ -94,7 +94,7 @@ def evolve_film(
     evaluations = 0
 
     def rates(t: float, y: FloatArray) -> FloatArray:
-        thickness = max(initial_thickness + y[0] - y[1], 0.0)
+        thickness = max(initial_thickness + float(y[0]) - float(y[1]), 0.0)
         growth = growth_rate(thickness)
         if lag > 0:
             wear = wear_coefficient * history(t - lag)

@@ -1,0 +1,333 @@
+"""Fit the film's constants to measured thickness and wear over time, and say how well the data determine them.
+
+The reduced model leaves the contact out: where a film grows the contact is at the film's hardness, so the shear stress
+is `friction x pressure_share x H(h, T)`, with a share that one contact of the full model gives (its mean pressure over
+hardness). Everything else - growth, wear, delay, substrate wear - is the full model's.
+
+All parameters are positive and fitted as logarithms. Uncertainties are those of the linearised problem: the covariance
+(J^T J)^-1 of the weighted residuals, times the reduced chi-square where no errors of measurement are given. Directions
+in parameter space that the data do not feel (singular values below 1e-6 of the largest, or fewer data than parameters)
+are found by a singular value decomposition and named instead of being given a meaningless error bar.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from dataclasses import dataclass, field, fields, replace
+from pathlib import Path
+
+import numpy as np
+from scipy.constants import Boltzmann, electron_volt
+from scipy.optimize import least_squares
+
+from bem.errors import InputError
+from bem.grid import FloatArray
+from bem.tribofilm.evolution import GrowthRate, evolve_film
+from bem.tribofilm.properties import FadingSubstrate
+
+_UNFELT = 1e-6
+_COLUMNS = {
+    "temperature": ("K", {"K": (1.0, 0.0), "degC": (1.0, 273.15), "C": (1.0, 273.15)}),
+    "time": ("s", {"s": (1.0, 0.0), "min": (60.0, 0.0), "h": (3600.0, 0.0), "hour": (3600.0, 0.0)}),
+    "since": ("s", {"s": (1.0, 0.0), "min": (60.0, 0.0), "h": (3600.0, 0.0), "hour": (3600.0, 0.0)}),
+    "thickness": ("m", {"m": (1.0, 0.0), "um": (1e-6, 0.0), "nm": (1e-9, 0.0)}),
+    "wear_depth": ("m", {"m": (1.0, 0.0), "um": (1e-6, 0.0), "nm": (1e-9, 0.0)}),
+    "error": ("m", {"m": (1.0, 0.0), "um": (1e-6, 0.0), "nm": (1e-9, 0.0)}),
+}
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """One measured number: film thickness at a time, or depth of substrate worn since an earlier time. SI units."""
+
+    temperature: float
+    time: float
+    value: float
+    quantity: str = "thickness"
+    since: float = 0.0
+    error: float | None = None
+
+
+@dataclass(frozen=True)
+class ReducedModel:
+    """The constants of the film, in the units of the literature, and what is known of the contact.
+
+    Those in `FITTED` can be fitted; `lag` [s], `friction`, `prefactor` [m/s], `substrate_hardness_GPa`,
+    `pressure_share` and `temperature_slope` [1/K] are given.
+    """
+
+    activation_energy_eV: float = 0.665
+    activation_volume_A3: float = 53.0
+    wear_coefficient_1_s: float = 6.9e-4
+    concentration_constant_1_m: float = 1.24e7
+    film_hardness_GPa: float = 3.5
+    hardness_length_nm: float = 60.0
+    lag: float = 0.0
+    friction: float = 0.1
+    prefactor: float = 1e-2
+    substrate_hardness_GPa: float = 6.0
+    pressure_share: float = 0.8
+    temperature_slope: float = 0.0
+
+    def __post_init__(self) -> None:
+        bad = [
+            f"ReducedModel: {f.name} {getattr(self, f.name)!r} must be positive and finite"
+            for f in fields(self)
+            if f.name not in ("lag", "temperature_slope")
+            and not (math.isfinite(getattr(self, f.name)) and getattr(self, f.name) > 0)
+        ]
+        if bad:
+            raise InputError(bad)
+
+    def growth_rate(self, temperature: float) -> GrowthRate:
+        """Growth rate [m/s] as a function of thickness [m], at a temperature [K]."""
+        hardness = FadingSubstrate(
+            1e9 * self.substrate_hardness_GPa,
+            1e9 * self.film_hardness_GPa,
+            1e-9 * self.hardness_length_nm,
+            self.temperature_slope,
+        )
+        barrier = self.activation_energy_eV * electron_volt
+        volume = 1e-30 * self.activation_volume_A3 * self.friction * self.pressure_share
+        thermal = Boltzmann * temperature
+
+        def rate(thickness: float) -> float:
+            return self.prefactor * math.exp(-max(barrier - volume * hardness(thickness, temperature), 0.0) / thermal)
+
+        return rate
+
+    def predict(self, data: list[Measurement]) -> FloatArray:
+        """What the model gives for each measurement [m]."""
+        values = np.empty(len(data))
+        for temperature in sorted({m.temperature for m in data}):
+            own = [i for i, m in enumerate(data) if m.temperature == temperature]
+            wanted = {0.0} | {data[i].time for i in own} | {data[i].since for i in own}
+            times = np.array(sorted(wanted))
+            film = evolve_film(
+                times,
+                self.growth_rate(temperature),
+                wear_coefficient=self.wear_coefficient_1_s,
+                lag=self.lag,
+                concentration_constant=self.concentration_constant_1_m,
+                tolerance=1e-6,
+            )
+            for i in own:
+                at = int(np.searchsorted(times, data[i].time))
+                if data[i].quantity == "thickness":
+                    values[i] = film.thickness[at]
+                else:
+                    start = int(np.searchsorted(times, data[i].since))
+                    values[i] = film.substrate_wear[at] - film.substrate_wear[start]
+        return values
+
+
+FITTED = tuple(f.name for f in fields(ReducedModel))[:6]
+
+
+@dataclass(frozen=True, eq=False)
+class Calibration:
+    """A fit.
+
+    model : with the fitted constants. names : those that were fitted. uncertainty : one standard deviation each, in the
+    parameter's unit; infinite for those the data do not determine. correlation : (n, n).
+    undetermined : names of parameters that take part in a direction the data do not feel.
+    chi_square : weighted sum of squares; degrees : data less parameters. residuals : data - model [m].
+    errors_given : whether the data came with errors (else the errors of the fit are scaled to its scatter).
+    """
+
+    model: ReducedModel
+    names: tuple[str, ...]
+    uncertainty: FloatArray
+    correlation: FloatArray
+    undetermined: tuple[str, ...]
+    chi_square: float
+    degrees: int
+    data: tuple[Measurement, ...] = field(repr=False)
+    predicted: FloatArray = field(repr=False)
+    errors_given: bool = True
+
+    @property
+    def residuals(self) -> FloatArray:
+        """Data less model [m]."""
+        return np.array([m.value for m in self.data]) - self.predicted
+
+    @property
+    def determined(self) -> bool:
+        """Whether every fitted parameter is determined by the data."""
+        return not self.undetermined
+
+    def verdict(self) -> str:
+        """In a sentence, what the data say about the parameters."""
+        if self.determined:
+            return f"{len(self.data)} data determine {len(self.names)} parameters."
+        return (
+            f"Underdetermined: {len(self.data)} data do not determine {len(self.names)} parameters. Combinations of "
+            f"{', '.join(self.undetermined)} can change without any effect on the fit; fix some of them or add data."
+        )
+
+
+def calibrate(data: list[Measurement], start: ReducedModel, names: tuple[str, ...] = FITTED) -> Calibration:
+    """Fit the named parameters by weighted least squares from the start values.
+
+    Measurements without an error count with 5 % of their value (at least a tenth of a nanometre).
+
+    Raises
+    ------
+    InputError : no data, unknown parameters, a quantity that is neither thickness nor wear depth.
+    """
+    _check(data, names)
+    given = all(m.error is not None for m in data)
+    values = np.array([m.value for m in data])
+    errors = np.array([m.error if m.error is not None else max(0.05 * abs(m.value), 1e-10) for m in data])
+
+    def residuals(logs: FloatArray) -> FloatArray:
+        model = replace(start, **{name: math.exp(v) for name, v in zip(names, logs.tolist(), strict=True)})
+        return (model.predict(data) - values) / errors
+
+    begin = np.log([getattr(start, name) for name in names])
+    found = least_squares(
+        residuals,
+        begin,
+        bounds=(begin - math.log(30.0), begin + math.log(30.0)),
+        x_scale=0.1,
+        diff_step=1e-4,
+        xtol=1e-8,
+        ftol=1e-8,
+        gtol=1e-8,
+        max_nfev=60,
+    )
+    fitted = np.exp(found.x)
+    model = replace(start, **dict(zip(names, fitted.tolist(), strict=True)))
+    degrees = len(data) - len(names)
+    chi_square = float((found.fun**2).sum())
+    covariance, unfelt = _covariance(found.jac)
+    if not given and degrees > 0:
+        covariance = covariance * chi_square / degrees
+    deviation = np.sqrt(np.diag(covariance))
+    undetermined = tuple(name for name, lost in zip(names, unfelt, strict=True) if lost)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        correlation = np.nan_to_num(covariance / np.outer(deviation, deviation))
+    return Calibration(
+        model=model,
+        names=tuple(names),
+        uncertainty=np.where(unfelt, np.inf, deviation * fitted),
+        correlation=correlation,
+        undetermined=undetermined,
+        chi_square=chi_square,
+        degrees=degrees,
+        data=tuple(data),
+        predicted=model.predict(data),
+        errors_given=given,
+    )
+
+
+def _covariance(jacobian: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Covariance of the logarithms where the data feel them, and which parameters take part where they do not."""
+    _, singular, directions = np.linalg.svd(jacobian, full_matrices=True)
+    size = jacobian.shape[1]
+    strength = np.zeros(size)
+    strength[: singular.size] = singular
+    felt = strength > _UNFELT * max(strength.max(), 1e-300)
+    inverse = np.where(felt, 1 / np.where(felt, strength, 1.0) ** 2, 0.0)
+    covariance = (directions.T * inverse) @ directions
+    share = (directions[~felt] ** 2).sum(axis=0)
+    return covariance, share > 1e-3
+
+
+def _check(data: list[Measurement], names: tuple[str, ...]) -> None:
+    messages = []
+    if not data:
+        messages.append("calibrate: no data")
+    unknown = [name for name in names if name not in FITTED]
+    if unknown or not names:
+        messages.append(f"calibrate: cannot fit {', '.join(unknown) or 'nothing'}; allowed: {', '.join(FITTED)}")
+    for row, m in enumerate(data, 1):
+        if m.quantity not in ("thickness", "wear_depth"):
+            messages.append(f"calibrate: datum {row}: quantity {m.quantity!r}; allowed: thickness, wear_depth")
+        elif not (m.temperature > 0 and m.time > m.since >= 0 and math.isfinite(m.value)):
+            messages.append(
+                f"calibrate: datum {row}: temperature above 0 K, and times with 0 <= since < time are needed"
+            )
+        elif m.error is not None and not m.error > 0:
+            messages.append(f"calibrate: datum {row}: error {m.error!r} must be positive")
+    if messages:
+        raise InputError(messages)
+
+
+def read_measurements(path: str | Path) -> list[Measurement]:
+    """Read a table of measurements, a CSV file with units in its header.
+
+    Columns: `temperature [degC]`, `time [min]`, one or both of `thickness [nm]` and `wear_depth [nm]` (since the time
+    in `since [min]`, or since the start), and `error [nm]`. Lines that begin with # are comments; empty cells are left
+    out.
+
+    Raises
+    ------
+    InputError : a file that cannot be read, unknown columns or units, cells that are not numbers; one message each.
+    """
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: cannot be read ({error})") from None
+    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    if len(lines) < 2:
+        raise InputError(f"{path}: no data; needed: a header such as 'temperature [degC],time [min],thickness [nm]'")
+    rows = list(csv.reader(lines))
+    units, messages = _header(rows[0], str(path))
+    for key in ("temperature", "time"):
+        if key not in [name for name, _, _ in units]:
+            messages.append(f"{path}: no column {key!r}")
+    if not {"thickness", "wear_depth"} & {name for name, _, _ in units}:
+        messages.append(f"{path}: no column 'thickness' or 'wear_depth'")
+    if messages:
+        raise InputError(messages)
+    data: list[Measurement] = []
+    for number, row in enumerate(rows[1:], 2):
+        cells: dict[str, float] = {}
+        for (name, factor, shift), cell in zip(units, row, strict=False):
+            if not cell.strip():
+                continue
+            try:
+                cells[name] = float(cell) * factor + shift
+            except ValueError:
+                messages.append(f"{path}: row {number}, {name}: {cell.strip()!r} is not a number")
+        if "temperature" not in cells or "time" not in cells:
+            messages.append(f"{path}: row {number}: temperature and time are needed")
+            continue
+        for quantity in ("thickness", "wear_depth"):
+            if quantity in cells:
+                data.append(
+                    Measurement(
+                        temperature=cells["temperature"],
+                        time=cells["time"],
+                        value=cells[quantity],
+                        quantity=quantity,
+                        since=cells.get("since", 0.0) if quantity == "wear_depth" else 0.0,
+                        error=cells.get("error"),
+                    )
+                )
+    if messages:
+        raise InputError(messages)
+    _check(data, FITTED)
+    return data
+
+
+def _header(cells: list[str], path: str) -> tuple[list[tuple[str, float, float]], list[str]]:
+    units: list[tuple[str, float, float]] = []
+    messages = []
+    for cell in cells:
+        match = re.fullmatch(r"\s*([A-Za-z_ ]+?)\s*\[\s*([A-Za-z]+)\s*\]\s*", cell)
+        name = match.group(1).strip().replace(" ", "_").lower() if match else cell.strip()
+        if match is None or name not in _COLUMNS:
+            messages.append(
+                f"{path}: column {cell.strip()!r}; allowed: {', '.join(_COLUMNS)}, each with a unit as in 'time [min]'"
+            )
+            continue
+        allowed = _COLUMNS[name][1]
+        if match.group(2) not in allowed:
+            messages.append(f"{path}: column {cell.strip()!r}: unit {match.group(2)!r}; allowed: {', '.join(allowed)}")
+            continue
+        units.append((name, *allowed[match.group(2)]))
+    return units, messages

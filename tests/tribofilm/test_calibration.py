@@ -1,0 +1,99 @@
+"""Calibration: it recovers what made the data within its own error bars, and says when data are too few."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem import InputError
+from bem.tribofilm.calibrate import FITTED, Measurement, ReducedModel, calibrate, read_measurements
+
+TRUTH = ReducedModel()
+
+
+def synthetic(seed, relative=0.02, model=TRUTH):
+    rng = np.random.default_rng(seed)
+    exact = [
+        Measurement(temperature + 273.15, 60.0 * minutes, 0.0, quantity)
+        for temperature in (60, 80, 100)
+        for quantity in ("thickness", "wear_depth")
+        for minutes in (5, 10, 15, 30, 45, 60, 90, 120)
+    ]
+    values = model.predict(exact)
+    return [
+        replace(m, value=float(v * (1 + relative * rng.standard_normal())), error=float(relative * v))
+        for m, v in zip(exact, values, strict=True)
+    ]
+
+
+@pytest.mark.slow
+def test_parameters_come_back_within_their_error_bars():
+    """Three repetitions of six parameters: 3.5 standard deviations are exceeded once in 120 such tests."""
+    start = replace(TRUTH, activation_energy_eV=0.68, activation_volume_A3=50.0, wear_coefficient_1_s=9e-4)
+    start = replace(start, film_hardness_GPa=3.0, hardness_length_nm=45.0, concentration_constant_1_m=1e7)
+    pulls = []
+    for seed in range(3):
+        fit = calibrate(synthetic(seed), start)
+        assert fit.determined, fit.verdict()
+        assert fit.chi_square / fit.degrees == pytest.approx(1.0, abs=0.75)  # 3.5 deviations for 42 degrees
+        found = np.array([getattr(fit.model, name) for name in FITTED])
+        truth = np.array([getattr(TRUTH, name) for name in FITTED])
+        pulls.append((found - truth) / fit.uncertainty)
+        assert np.allclose(np.diag(fit.correlation), 1.0)
+    pulls = np.array(pulls)
+    assert np.abs(pulls).max() < 3.5
+    assert np.abs(pulls).mean() > 0.2  # error bars that are far too wide would be wrong as well
+
+
+def test_two_wear_depths_do_not_determine_the_model():
+    """The two published depths (thesis, paper E, table 3)."""
+    data = [
+        Measurement(333.15, 7200.0, 86.3e-9, "wear_depth", 2700.0, 1e-9),
+        Measurement(373.15, 7200.0, 45.8e-9, "wear_depth", 2700.0, 1e-9),
+    ]
+    fit = calibrate(data, TRUTH)
+    assert not fit.determined
+    assert "Underdetermined" in fit.verdict()
+    assert np.isinf(fit.uncertainty).sum() >= 4
+    # with two parameters left the two numbers can be met, and they are
+    both = calibrate(data, TRUTH, ("film_hardness_GPa", "hardness_length_nm"))
+    assert both.determined
+    assert np.abs(both.residuals).max() < 1e-10
+
+
+def test_a_table_with_units_is_read(tmp_path):
+    path = tmp_path / "film.csv"
+    path.write_text(
+        "# a comment\ntemperature [degC],time [min],thickness [nm],wear_depth [nm],since [min],error [nm]\n"
+        "60,45,50,,,2\n100,120,210,45.8,45,3\n"
+    )
+    data = read_measurements(path)
+    assert [m.quantity for m in data] == ["thickness", "thickness", "wear_depth"]
+    assert data[0] == Measurement(333.15, 2700.0, 50 * 1e-9, "thickness", 0.0, 2 * 1e-9)
+    assert data[2].since == 2700.0
+    assert data[2].value == pytest.approx(45.8e-9)
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("", "no data"),
+        ("temperature [degC],time [min],thickness [furlong]\n60,1,1\n", "furlong"),
+        ("temperature [degC],time [min],colour [nm]\n60,1,1\n", "colour"),
+        ("temperature [degC],time [min],thickness [nm]\n60,soon,1\n", "soon"),
+        ("temperature [degC],thickness [nm]\n60,1\n", "'time'"),
+        ("temperature [degC],time [min],thickness [nm]\n-300,1,1\n", "0 K"),
+    ],
+)
+def test_bad_tables_are_refused_with_the_place(tmp_path, text, word):
+    path = tmp_path / "film.csv"
+    path.write_text(text)
+    with pytest.raises(InputError, match=word):
+        read_measurements(path)
+    with pytest.raises(InputError, match="cannot be read"):
+        read_measurements(tmp_path / "absent.csv")
+
+
+def test_unknown_parameters_are_refused():
+    with pytest.raises(InputError, match="allowed"):
+        calibrate(synthetic(0), TRUTH, ("magic",))
