@@ -191,7 +191,7 @@ def cell_nodes(mesh: dmesh.Mesh) -> NDArray[np.int64]:
 
 
 def quadrature_function(mesh: dmesh.Mesh, size: int, degree: int) -> Any:
-    """A vector of `size` numbers at each point of the cells' Gauss rule of a degree, in the order of `quadrature_values`."""
+    """A vector of `size` numbers at each Gauss point of a rule of that degree, in the order of `quadrature_values`."""
     if OLD:
         element = ufl.VectorElement("Quadrature", mesh.ufl_cell(), degree=degree, dim=size, quad_scheme="default")
         return fem.Function(fem.FunctionSpace(mesh, element))
@@ -202,7 +202,7 @@ def quadrature_function(mesh: dmesh.Mesh, size: int, degree: int) -> Any:
 
 
 def quadrature_values(expression: Any, mesh: dmesh.Mesh, degree: int) -> Callable[[], NDArray[np.float64]]:
-    """A callable that evaluates a vector expression, as it is by then, at all Gauss points: (cells x points, components)."""
+    """A callable that evaluates a vector expression, as it is by then, at all Gauss points: (points, components)."""
     import basix
 
     points, _ = basix.make_quadrature(getattr(basix.CellType, mesh.ufl_cell().cellname()), degree)

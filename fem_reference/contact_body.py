@@ -43,6 +43,7 @@ class ElasticBody:
     rows, loads : (m,) dofs that pressures act on, (m, n) the load vectors of the pressure nodes there.
     factor : factorised stiffness.
     grid : (2 nx + 1, 2 nz + 1) number of the first displacement dof at each node of the tensor grid.
+    lines : where the mesh lines are, across and down.
     cells, dofs : sizes, for the record.
     """
 
@@ -56,6 +57,7 @@ class ElasticBody:
     loads: NDArray[np.float64]
     factor: Any
     grid: NDArray[np.int64]
+    lines: tuple[NDArray[np.float64], NDArray[np.float64]]
     cells: int
     dofs: int
 
@@ -69,10 +71,22 @@ class ElasticBody:
         return Field(self, np.stack([values[self.grid], values[self.grid + 1]]))
 
 
-def elastic_body(
+@dataclass(frozen=True)
+class AssembledBody:
+    """What dolfinx makes of a block: the displacement space, stiffness with its conditions, and pressures to forces."""
+
+    mesh: Any
+    space: Any
+    scalar: Any
+    stiffness: Any
+    conditions: list[Any]
+    coupling: Any
+
+
+def assemble_body(
     block: ContactBlock, moduli: dict[str, tuple[float, float]], *, axisymmetric: bool, periodic: bool = False
-) -> ElasticBody:
-    """Mesh, assemble, factorise and reduce a body.
+) -> AssembledBody:
+    """Mesh and assemble a body.
 
     moduli : (Young's modulus, Poisson's ratio) for "substrate" and, where the block has a layer, "layer".
     periodic : mirror symmetry at the side and a bottom that moves sideways freely, instead of far boundaries held fast.
@@ -108,15 +122,23 @@ def elastic_body(
     )
     p = ufl.TrialFunction(scalar)
     coupling = compat.assemble_matrix(compat.form(p * v[1] * radius * on_facets(block.facet_tags["loaded"])))
+    return AssembledBody(mesh, space, scalar, stiffness, conditions, coupling)
 
+
+def elastic_body(
+    block: ContactBlock, moduli: dict[str, tuple[float, float]], *, axisymmetric: bool, periodic: bool = False
+) -> ElasticBody:
+    """Mesh, assemble (arguments as there), factorise and reduce a body."""
+    parts = assemble_body(block, moduli, axisymmetric=axisymmetric, periodic=periodic)
+    space, coupling = parts.space, parts.coupling
     solver = PETSc.PC().create(PETSc.COMM_SELF)
-    solver.setOperators(stiffness)
+    solver.setOperators(parts.stiffness)
     solver.setType("cholesky")
     solver.setFactorSolverType("mumps")
     solver.setUp()
     factor = solver.getFactorMatrix()
 
-    at = scalar.tabulate_dof_coordinates()
+    at = parts.scalar.tabulate_dof_coordinates()
     # coordinates carry the rounding of the far boundary's: 1e-11 of a patch, against cells of 1e-3
     on_patch = np.flatnonzero((at[:, 1] < 1e-7 * block.patch) & (at[:, 0] < block.patch * (1 + 1e-7)))
     on_patch = on_patch[np.argsort(at[on_patch, 0])]
@@ -124,7 +146,7 @@ def elastic_body(
     row = np.repeat(np.arange(start.size - 1), np.diff(start))
     position = np.full(coupling.getSize()[1], -1)
     position[on_patch] = np.arange(on_patch.size)
-    used = (position[column] >= 0) & (value != 0) & ~np.isin(row, compat.fixed_dofs(conditions))
+    used = (position[column] >= 0) & (value != 0) & ~np.isin(row, compat.fixed_dofs(parts.conditions))
     rows, local = np.unique(row[used], return_inverse=True)
     loads = np.zeros((rows.size, on_patch.size))
     loads[local, position[column[used]]] = value[used]
@@ -140,19 +162,20 @@ def elastic_body(
             matrix.assemble()
         factor.matSolve(given, found)
         compliance[:, part] = loads.T @ found.getDenseArray()[rows]
-    lines = block.lines()
+    grid, xs, zs = _tensor_grid(space, block.lines())
     return ElasticBody(
         block=block,
         axisymmetric=axisymmetric,
         moduli=dict(moduli),
-        nodes=np.asarray(lines[0])[: on_patch.size],
+        nodes=xs[: 2 * on_patch.size : 2],
         weights=loads.sum(axis=0),  # the shape functions of the displacement sum to one
         compliance=0.5 * (compliance + compliance.T),
         rows=rows,
         loads=loads,
         factor=factor,
-        grid=_tensor_grid(space, lines),
-        cells=compat.cell_count(mesh),
+        grid=grid,
+        lines=(xs[::2], zs[::2]),
+        cells=compat.cell_count(parts.mesh),
         dofs=compat.dof_count(space),
     )
 
@@ -165,8 +188,13 @@ def _with_middles(lines: ArrayLike) -> NDArray[np.float64]:
     return both
 
 
-def _tensor_grid(space: Any, lines: tuple[list[float], list[float]]) -> NDArray[np.int64]:
-    """First dof of the node at each crossing of the mesh lines and their middles."""
+def _tensor_grid(
+    space: Any, lines: tuple[list[float], list[float]]
+) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+    """First dof of the node at each crossing of the mesh lines and their middles, and where these really are.
+
+    gmsh integrates a progression numerically, so its lines differ from the builder's by a part in a thousand.
+    """
     at = space.tabulate_dof_coordinates()
     xs, zs = (_with_middles(part) for part in lines)
     index = []
@@ -178,7 +206,10 @@ def _tensor_grid(space: Any, lines: tuple[list[float], list[float]]) -> NDArray[
     grid[index[0], index[1]] = 2 * np.arange(at.shape[0])
     if np.any(grid < 0):
         raise RuntimeError("the mesh is not the tensor grid that its builder describes")
-    return grid
+    return grid, *(
+        np.bincount(i, weights=position) / np.bincount(i)
+        for i, position in zip(index, (at[:, 0], at[:, 1]), strict=True)
+    )
 
 
 @dataclass(frozen=True)
@@ -194,7 +225,7 @@ class Field:
     def surface_displacement(self, x: ArrayLike) -> NDArray[np.float64]:
         """Displacement into the body at surface positions, by the elements' own shape functions."""
         x = np.asarray(x, dtype=float)
-        lines = np.asarray(self.body.block.lines()[0])
+        lines = self.body.lines[0]
         cell = np.clip(np.searchsorted(lines, x, side="right") - 1, 0, lines.size - 2)
         s = 2 * (x - lines[cell]) / (lines[cell + 1] - lines[cell]) - 1
         shape = np.stack([s * (s - 1) / 2, 1 - s * s, s * (s + 1) / 2])
@@ -207,7 +238,7 @@ class Field:
         most accurate.
         """
         body = self.body
-        lines_x, lines_z = (np.asarray(part) for part in body.block.lines())
+        lines_x, lines_z = body.lines
         g = np.array([-1, 1]) / np.sqrt(3)
         shape = np.stack([g * (g - 1) / 2, 1 - g * g, g * (g + 1) / 2])
         slope = np.stack([g - 0.5, -2 * g, g + 0.5])
@@ -236,7 +267,7 @@ class Field:
 
         A biquadratic fitted to the Gauss points of the cells around, on the same side of the interface.
         """
-        lines_x, lines_z = (np.asarray(part) for part in self.body.block.lines())
+        lines_x, lines_z = self.body.lines
         layer = self.body.block.layer
         border = int(np.argmin(np.abs(lines_z - layer))) if layer is not None else 0
         found = np.empty((4, len(np.asarray(points))))
@@ -265,7 +296,7 @@ class Field:
         Only to a thousand patches: the corner of the far boundary, held fast, draws a per cent of the force to itself
         without any effect on the contact.
         """
-        lines_x, lines_z = (np.asarray(part) for part in self.body.block.lines())
+        lines_x, lines_z = self.body.lines
         j = int(np.clip(np.searchsorted(lines_z, depth) - 1, 0, lines_z.size - 2))
         i = np.flatnonzero(lines_x[1:] <= 1e3 * self.body.block.patch)
         x, _, s = self.gauss_stresses(i, np.full(i.size, j))

@@ -169,8 +169,9 @@ def solve_contact(
         for load in detailed:
             state = states[loads.index(load)]
             field = body.field(state.pressure)
-            if level == 0:  # nodes of the coarsest mesh are nodes of all; stay clear of the edge's kink
-                pressure_at[load] = np.flatnonzero(body.nodes <= 0.9 * state.edge)
+            if level == 0:  # nodes of the coarsest mesh are nodes of all; four of its cells stay clear of the edge
+                clear = min(0.9 * state.edge, state.edge - 4 * body.nodes[1])
+                pressure_at[load] = np.flatnonzero(body.nodes <= clear)
             keep("pressure", load, state.pressure[pressure_at[load] * 2**level])
             surface = field.surface_displacement(far_x)
             if shape == "sphere":
@@ -188,11 +189,18 @@ def solve_contact(
                 _record_checks(checks, load, body, field, state)
 
     quantities = []
-    far = 0.5 / REACH["sphere"] if shape == "sphere" else 1e-6
     for (name, along), values in found.items():
-        order = 1.0 if name == "contact_radius" else 2.0
+        # the edge converges with order one; stresses near it irregularly, so their last difference counts in full
+        order = 2.0 if name in ("approach", "central_pressure", "pressure", "mean_gap", "normal_displacement") else 1.0
         figures = estimate(sizes, np.stack(values), expected_order=order)
-        bar = figures.error_bar + (far * np.abs(figures.values) if name in ("approach", "normal_displacement") else 0.0)
+        # where the error of a curve changes sign, the bar of its other points is the better guess
+        bar = np.maximum(figures.error_bar, 0.5 * np.sqrt(np.mean(figures.error_bar**2)))
+        if name == "pressure":  # the error grows towards the edge, with changes of sign
+            bar = np.maximum.accumulate(bar)
+        if shape == "sphere" and name in ("approach", "normal_displacement"):
+            # a point load's displacement at the far boundary, which holds it at zero: (4/3 pi) a^3 / (R distance), and
+            # half as much again for the box's shape
+            bar = bar + 0.64 * np.asarray(loads if along == "load" else along) / (REACH[shape] * patch)
         quantities.append(
             _quantity(
                 shape,
@@ -243,12 +251,13 @@ def _record_checks(
     checks[f"equilibrium at load {load:g}"] = {
         "value": field.force_through(depth) / state.force,
         "expected": 1.0,
-        "tolerance": 2e-3,  # the row of Gauss points stands for an integral over its cells
+        "tolerance": 2e-4,  # the row of Gauss points stands for an integral over its cells
     }
-    checks[f"least pressure over central at load {load:g}"] = {
-        "value": float(np.min(state.pressure) / state.pressure[0]),
+    # neighbouring states are blended, so within three cells of the edge a little tension is left
+    checks[f"tension over load at load {load:g}"] = {
+        "value": float(body.weights @ np.minimum(state.pressure, 0) / state.force),
         "expected": 0.0,
-        "tolerance": 2e-2,  # neighbouring edges are blended within three cells of the edge
+        "tolerance": 2e-3,
     }
     touching, lifted = state.pressure / state.pressure[0], np.abs(state.gap) / np.sum(np.abs(state.gap))
     checks[f"complementarity at load {load:g}"] = {
@@ -290,8 +299,8 @@ def _quantity(
         load = along
         along = f"surface at load {load:g}"
         if name == "pressure":
-            points = [[block.patch / block.cells * i, 0.0, 0.0] for i in pressure_at[load]]
-            unit, note = pressure, "up to nine tenths of the contact radius"
+            points = [[round(block.patch / block.cells * i, 9), 0.0, 0.0] for i in pressure_at[load]]
+            unit, note = pressure, "where the edge is four cells of the coarsest mesh away"
         else:
             points = [[x, 0.0, 0.0] for x in far_x]
             unit = {"sphere": "a_ref^2 / R", "cylinder": "p_ref a_ref / E*", "row": "amplitude"}[shape]
