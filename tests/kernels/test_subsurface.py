@@ -46,8 +46,8 @@ def test_rectangle_against_quadrature_of_point_forces(point, load):
 @pytest.mark.parametrize("nu", [-0.9, 0.0, 0.4999999, 0.5])
 def test_poissons_ratio_to_its_limits(nu):
     for load in Load:
-        got = rectangle_stress(1.4, 0.3, 0.5, (2, 1), nu, load)
-        assert relative(got, oracle(1.4, 0.3, 0.5, 1, 0.5, load, nu)) < 1e-13
+        got = rectangle_stress(1.4, 0.3, 1.5, (2, 1), nu, load)
+        assert relative(got, oracle(1.4, 0.3, 1.5, 1, 0.5, load, nu)) < 1e-13
 
 
 @pytest.mark.slow
@@ -95,7 +95,7 @@ coordinate = st.floats(-30, 30)
 side = st.floats(-3, 3).map(lambda e: 10.0**e)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(
     coordinate, coordinate, st.floats(-3, 1.5).map(lambda e: 10.0**e), side, side, st.sampled_from(Load), st.booleans()
 )
@@ -110,7 +110,7 @@ def test_a_rectangle_is_the_sum_of_its_halves(x, y, z, dx, dy, load, across):
     assert np.abs(whole - sum(parts)).max() <= 1e-12 * scale
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(coordinate, coordinate, st.floats(1e-3, 30), side, side, st.floats(-0.9, 0.5), st.integers(-30, 30))
 def test_parity_exchange_of_axes_trace_and_scaling(x, y, z, dx, dy, nu, power):
     for load in Load:
