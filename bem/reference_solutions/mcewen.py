@@ -1,4 +1,4 @@
-"""Stresses below a cylindrical Hertz contact, at rest and sliding.
+"""Stresses below a cylindrical Hertz contact and below a sinusoidal pressure, at rest and sliding.
 
 McEwen, *Phil. Mag.* 40 (1949) 454; Johnson, *Contact Mechanics* (1985), 4.49 and 7.6. Instead of McEwen's m and n the
 half-plane is solved by one complex function: with w = x + i z and
@@ -39,5 +39,30 @@ def cylinder_stress(
     xx = f.imag + depth_slope.real - friction * (2 * f.real - depth_slope.imag)
     zz = f.imag - depth_slope.real - friction * depth_slope.imag
     xz = -depth_slope.imag + friction * (f.imag + depth_slope.real)
+    zero = np.zeros_like(xx)
+    return np.stack([xx, poissons_ratio * (xx + zz), zz, zero, xz, zero])
+
+
+def sinusoidal_stress(
+    x: ArrayLike,
+    z: ArrayLike,
+    *,
+    wavenumber: float,
+    amplitude: float,
+    poissons_ratio: float,
+    friction: float = 0.0,
+) -> FloatArray:
+    """Stress (6, ...) [Pa], order xx yy zz yz xz xy, of pressure amplitude cos(wavenumber x) and friction times it.
+
+    F = -i amplitude exp(i k w): xx = (kz - 1) p, zz = -(kz + 1) p, decaying like exp(-kz); plane strain in y
+    (Johnson 2.7 for the general method). Wavenumber [rad/m], amplitude [Pa].
+    """
+    x, z = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(z, dtype=np.float64))
+    depth = wavenumber * np.abs(z)
+    decay = amplitude * np.exp(-depth)
+    even, odd = decay * np.cos(wavenumber * x), decay * np.sin(wavenumber * x)
+    xx = (depth - 1) * even + friction * (depth - 2) * odd
+    zz = -(depth + 1) * even - friction * depth * odd
+    xz = -depth * odd + friction * (depth - 1) * even
     zero = np.zeros_like(xx)
     return np.stack([xx, poissons_ratio * (xx + zz), zz, zero, xz, zero])

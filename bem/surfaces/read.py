@@ -49,7 +49,8 @@ def read_surface(
     ----------
     path : a file of any instrument format that SurfaceTopography reads (.al3d, .di, .opd, .x3p, .tmd, .sur, .gwy, ...);
         or a plain map: .npz with `heights` (nx, ny) [m] and `spacing` [m], as `write_surface` writes; .npy; or a table
-        of numbers in .txt, .csv or .dat, one line for each ix, with `spacing` given.
+        of numbers in .txt, .csv or .dat, one line for each ix, with `spacing` given (in .asc, as instruments write
+        it, a line is one iy).
     detrend : "plane" (least squares over the points measured), "curvature" (second-order polynomial) or "none".
     fill : True: missing points are filled by the harmonic surface through their neighbours (at most half of the
         map); False: a map with missing points is refused.
@@ -230,7 +231,16 @@ def _as_floats(file: Path, array: np.ndarray) -> FloatArray:
     return array.astype(np.float64)
 
 
+def _is_text(file: Path) -> bool:
+    with file.open("rb") as stream:
+        return b"\0" not in stream.read(4096)
+
+
 def _unreadable(file: Path, problem: BaseException) -> SurfaceFileError:
+    if "physical_sizes" in str(problem) and _is_text(file):
+        return SurfaceFileError(
+            f"{file}: does not say how far its points are apart; give spacing=(dx, dy) in metres, and height_unit"
+        )
     if type(problem).__name__ == "CannotDetectFileFormat":
         return SurfaceFileError(f"{file}: unreadable: truncated, damaged or of no format that is known")
     reason = str(problem).strip().splitlines()

@@ -5,7 +5,7 @@ import pytest
 from numpy.polynomial.legendre import leggauss
 
 from bem.reference_solutions.hamilton import sphere_stress
-from bem.reference_solutions.mcewen import cylinder_stress
+from bem.reference_solutions.mcewen import cylinder_stress, sinusoidal_stress
 
 NU = 0.3
 
@@ -190,3 +190,26 @@ def test_cylinder_surface_and_depth_of_largest_shear():
     shear = np.abs(s[0] - s[2]) / 2
     assert z[shear.argmax()] == pytest.approx(0.786, abs=1e-3)  # Johnson 4.47
     assert shear.max() == pytest.approx(0.300, abs=5e-4)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.4])
+def test_sinusoidal_pressure(friction):
+    """Surface tractions, equilibrium and harmonic trace; far below nothing."""
+    k, h = 3.0, 1e-3
+    rng = np.random.default_rng(5)
+    x, z = rng.uniform(-2, 2, 40), rng.uniform(0.01, 1.5, 40)
+
+    def stress(dx=0.0, dz=0.0):
+        return sinusoidal_stress(x + dx, z + dz, wavenumber=k, amplitude=2.0, poissons_ratio=NU, friction=friction)
+
+    surface = sinusoidal_stress(x, 0, wavenumber=k, amplitude=2.0, poissons_ratio=NU, friction=friction)
+    np.testing.assert_allclose(surface[2], -2 * np.cos(k * x), atol=1e-14)
+    np.testing.assert_allclose(surface[4], -2 * friction * np.cos(k * x), atol=1e-14)
+    along = (stress(h) - stress(-h)) / (2 * h)
+    down = (stress(0, h) - stress(0, -h)) / (2 * h)
+    # second-order differences: h^2 k^3 / 6
+    np.testing.assert_allclose(along[0] + down[4], 0, atol=5e-5)
+    np.testing.assert_allclose(along[4] + down[2], 0, atol=5e-5)
+    trace = [s[0] + s[2] for s in (stress(h), stress(-h), stress(0, h), stress(0, -h), stress())]
+    np.testing.assert_allclose((sum(trace[:4]) - 4 * trace[4]) / h**2, 0, atol=1e-3)  # round-off over h^2 and h^2 k^4
+    assert np.abs(sinusoidal_stress(0.3, 20.0, wavenumber=k, amplitude=2.0, poissons_ratio=NU)).max() < 1e-20

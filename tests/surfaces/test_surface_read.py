@@ -143,6 +143,43 @@ def test_readers_neither_warn_nor_print(measured, tmp_path, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    st.binary(max_size=300),
+    st.sampled_from(
+        [b"", b"PK\x03\x04", b"\x93NUMPY\x01\x00", b"1 2 3\n4 5 6\n", b"\x89HDF\r\n\x1a\n", b"AliconaImaging"]
+    ),
+    st.sampled_from([".npz", ".npy", ".txt", ".csv", ".asc", ".x3p", ".nc", ".mat", ".xyz", ".sur", ""]),
+    st.booleans(),
+)
+def test_any_bytes_give_one_kind_of_error(tmp_path, content, start, suffix, with_spacing):
+    path = tmp_path / f"any{suffix}"
+    path.write_bytes(start + content)
+    surface = None
+    try:
+        surface = read_surface(path, spacing=(1e-6, 1e-6) if with_spacing else None)
+    except SurfaceFileError:
+        return
+    assert np.isfinite(surface.heights).all()
+
+
+def test_instrument_text(tmp_path):
+    """A line is one iy there; the header's units hold."""
+    heights = np.arange(12.0).reshape(3, 4)
+    path = tmp_path / "g.asc"
+    lines = ["# Channel: Height", "# Width: 2 µm", "# Height: 3 µm", "# Value units: nm"]
+    path.write_text("\n".join([*lines, *("\t".join(f"{v:.3f}" for v in row) for row in heights)]), encoding="utf-8")
+    surface = read_surface(path, detrend="none")
+    assert surface.shape == (4, 3)
+    assert surface.spacing == pytest.approx((0.5e-6, 1e-6))
+    np.testing.assert_allclose(surface.heights, 1e-9 * heights.T, atol=1e-18)
+    np.savetxt(path, heights)
+    with pytest.raises(SurfaceFileError, match="how far its points are apart"):
+        read_surface(path)
+    bare = read_surface(path, detrend="none", spacing=(1e-7, 2e-7), height_unit="nm")
+    np.testing.assert_allclose(bare.heights, 1e-9 * heights.T, atol=1e-18)
+
+
 def test_what_is_no_surface(tmp_path):
     with pytest.raises(SurfaceFileError, match="no such file"):
         read_surface(tmp_path / "nothing.di")
