@@ -1,6 +1,10 @@
 """Shared by all tests."""
 
+import os
 from pathlib import Path
+
+# many small factorisations: more than one BLAS thread only spins, and the bits would depend on their number
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
 

@@ -3,5 +3,6 @@
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.steady import solve_line_film
+from bem.lubrication.transient import march_line_film
 
-__all__ = ["FilmSolution", "Lubricant", "solve_line_film"]
+__all__ = ["FilmSolution", "Lubricant", "march_line_film", "solve_line_film"]

@@ -103,8 +103,8 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
         density_slope = np.where(pressure > 0, density_slope, 0.0)
         thickness = 0.5 * (film[1:] + film[:-1])
         mean_density = 0.5 * (density[1:] + density[:-1])
-        mean_fluidity, left, right = _mean_fluidity(log_viscosity)
-        fluidity = mean_density * mean_fluidity / 6
+        fluid, left, right = mean_fluidity(log_viscosity)
+        fluidity = mean_density * fluid / 6
         gradient = np.diff(pressure) / width
         mass = density * film
         carried = mass[:-1].copy()
@@ -214,7 +214,7 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
     return Outcome(state, iterations, largest, converged)
 
 
-def _mean_fluidity(log_viscosity: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def mean_fluidity(log_viscosity: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Mean of exp(-ln m) over the pressures of each cell, ln m linear in between, and its derivatives with ln m at
     both ends. A mean at the cell's middle would let a spike of one cell block the flow at any pressure behind it."""
     first, second = log_viscosity[:-1], log_viscosity[1:]

@@ -100,7 +100,7 @@ def solve_line_film(
     thickness converges.
     """
     scales, reversed_ = _check(load, radius, contact_modulus, speeds, lubricant, points, tolerance, position)
-    problem = _problem(scales, scales.load, lubricant)
+    problem = scaled_problem(scales, scales.load, lubricant)
     outcome = None
     spent = 0
     if initial is not None:
@@ -141,13 +141,15 @@ def _scaling(old: float, new: float) -> tuple[float, float]:
     """Factors of length and film from one load M to another: half-width like M^(1/2) once it is Hertz', and
     films like M^(-1) where rigid, M^(-1/5) where elastic."""
 
-    def length(load: float) -> float:
-        return math.sqrt(8 * load / math.pi + 2 * 2.4475 / load)
-
     def film(load: float) -> float:
         return (load**-1.5 + 1.0 / load**0.3) ** (2 / 3)
 
-    return length(new) / length(old), film(new) / film(old)
+    return typical_half_width(new) / typical_half_width(old), film(new) / film(old)
+
+
+def typical_half_width(load: float) -> float:
+    """Half-width of the pressure at a load M: Hertz' and the rigid film's, joined."""
+    return math.sqrt(8 * load / math.pi + 2 * 2.4475 / load)
 
 
 def _from_scratch(
@@ -204,7 +206,8 @@ def _ladder(problem: Problem, state: State, coarse: int, cells: int, tolerance: 
     return replace(outcome, iterations=spent)
 
 
-def _problem(scales: Scales, load: float, lubricant: Lubricant) -> Problem:
+def scaled_problem(scales: Scales, load: float, lubricant: Lubricant) -> Problem:
+    """The similarity problem of an oil at a load M."""
     unit = scales.pressure
 
     def log_viscosity(pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -326,7 +329,7 @@ def _result(
         position=at,
         pressure=p,
         thickness=h,
-        minimum_thickness=_lowest(x, film) * scales.film,
+        minimum_thickness=lowest_film(x, film) * scales.film,
         central_thickness=central * scales.film,
         load=float(
             np.sum(0.5 * np.diff(own_x) * (own_p[1:] + own_p[:-1])) + 4 / x[0] ** 2 * scales.pressure * scales.length
@@ -377,7 +380,7 @@ def _sampled(at: FloatArray, state: State, scales: Scales, load: float) -> tuple
     return pressure * scales.pressure, film * scales.film, missed / load
 
 
-def _lowest(x: FloatArray, film: FloatArray) -> float:
+def lowest_film(x: FloatArray, film: FloatArray) -> float:
     """Minimum of the parabola through the lowest node and its neighbours."""
     i = int(np.clip(film.argmin(), 1, len(film) - 2))
     left, right = (film[i] - film[i - 1]) / (x[i] - x[i - 1]), (film[i + 1] - film[i]) / (x[i + 1] - x[i])
