@@ -82,12 +82,12 @@ class LevelResult:
 class Tuning:
     """Numbers that trade work between rounds and iterations; measured, see `NUMERICS.md`."""
 
-    reduction: float = 0.1
-    deep_reduction: float = 1e-3
-    few: float = 2e-3
+    reduction: float = 1e-4
+    least_reduction: float = 0.3
+    clipping: float = 0.5
     iterations_per_round: int = 80
-    final: float = 0.5
-    squared_radius: int = 2
+    final: float = 0.8
+    squared_radius: int = 5
     heavy: float = 0.5
     rounds: int = 200
 
@@ -196,7 +196,6 @@ def solve_level(
     halvings = 0
     step = 0.0
     rounds = 0
-    dropped = gap.size
     while True:
         level.displace(iterate)
         level.mark(iterate)
@@ -249,14 +248,8 @@ def solve_level(
             residual -= residual.mean()
             if iterate.cells.size < gap.size:
                 continue
-        changes = count + dropped
-        reduction = tuning.reduction if changes > tuning.few * iterate.cells.size else tuning.deep_reduction
-        raw = _conjugate_gradients(
-            level, iterate.cells, iterate.values.copy(), residual, control, reduction, goal, effort
-        )
-        size = iterate.cells.size
+        raw = _conjugate_gradients(level, iterate.cells, iterate.values.copy(), residual, control, goal, effort)
         iterate = _clip(level, control, iterate, raw)
-        dropped = size - iterate.cells.size
 
 
 def _lift(level: _Level, iterate: _Iterate, mean: float) -> _Iterate:
@@ -356,7 +349,6 @@ def _conjugate_gradients(
     pressure: FloatArray,
     residual: FloatArray,
     control: Control,
-    reduction: float,
     tolerance: float,
     effort: Effort,
 ) -> FloatArray:
@@ -372,7 +364,8 @@ def _conjugate_gradients(
     n = cells.size
     direction, preconditioned, response, previous = np.zeros(n), np.empty(n), np.empty(n), np.zeros(n)
     squares = float(residual @ residual)
-    goal = squares * reduction**2
+    lowest, enough = squares * tuning.reduction**2, squares * tuning.least_reduction**2
+    self_response = float(level.operator.near_field(0)[0, 0])
     beta = 0.0
     last = 1.0
     for iteration in range(min(tuning.iterations_per_round, effort.left)):
@@ -388,7 +381,7 @@ def _conjugate_gradients(
         mean, curvature = passes.gather_dot(quick_out, cells, response, direction)
         if not curvature > 0:
             break
-        squares, largest, _ = passes.advance(
+        squares, largest, outside = passes.advance(
             pressure,
             residual,
             previous,
@@ -398,7 +391,10 @@ def _conjugate_gradients(
             slope / curvature,
             level.cap,
         )
-        if squares <= goal or largest <= tuning.final * tolerance:
+        if squares <= lowest or largest <= tuning.final * tolerance:
+            break
+        # clipping will bring back a residual of about this size: no use in going far below it
+        if squares <= enough and largest <= tuning.clipping * self_response * outside:
             break
     passes.scatter_value(quick_in, cells, 0.0)
     return pressure

@@ -139,15 +139,14 @@ def gather_dot(field, cells, out, direction):  # type: ignore[no-untyped-def]
 
 @_fast
 def advance(pressure, residual, previous, direction, response, mean, step, cap):  # type: ignore[no-untyped-def]
-    """p -= step t, r -= step (q - mean), keeping the old r; returns |r|^2, max |r| and how many p left the bounds."""
+    """p -= step t, r -= step (q - mean), keeping the old r; returns |r|^2, max |r| and how far p left the bounds."""
     squares = 0.0
     largest = 0.0
-    outside = 0
+    outside = 0.0
     for k in range(pressure.size):
         p = pressure[k] - step * direction[k]
         pressure[k] = p
-        if p <= 0 or p >= cap:
-            outside += 1
+        outside = max(outside, max(-p, p - cap))
         r = residual[k]
         previous[k] = r
         r -= step * (response[k] - mean)

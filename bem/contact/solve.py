@@ -27,7 +27,7 @@ _FLAT = 1e-6
 _TIGHTER = 0.9
 """Share of the tolerance that the solver aims at, so that rounding in SI units cannot spoil the certificate."""
 
-_COARSE_TOLERANCE = 3e-2
+_COARSE_TOLERANCE = 6e-2
 """Violation over roughness that coarse grids are solved to: more is lost in the interpolation anyway."""
 
 
