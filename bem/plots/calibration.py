@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -36,13 +37,15 @@ def draw_calibration(fit: Calibration, path: Path) -> Path:
         axes[1, 0].set_xlabel("datum")
         axes[1, 0].set_ylabel("data less fit (nm)")
         image = axes[1, 1].imshow(fit.correlation, cmap="RdBu_r", vmin=-1, vmax=1, origin="upper")
-        labels = [name.rsplit("_", 1)[0].replace("_", " ") for name in fit.names]
+        labels = [re.sub(r"_(eV|A3|GPa|nm|1_s|1_m)$", "", name).replace("_", " ") for name in fit.names]
         axes[1, 1].set_xticks(range(len(labels)), labels, rotation=40, ha="right")
         axes[1, 1].set_yticks(range(len(labels)), labels)
         for i in range(len(labels)):
             for j in range(len(labels)):
                 value = fit.correlation[i, j]
-                axes[1, 1].text(j, i, f"{value:.2f}", ha="center", va="center", fontsize=7, color="0.1")
+                axes[1, 1].text(
+                    j, i, f"{value:.2f}", ha="center", va="center", fontsize=7, color="w" if abs(value) > 0.6 else "0.1"
+                )
         figure.colorbar(image, ax=axes[1, 1], shrink=0.8, label="correlation")
         with replacing(path) as temporary:
             figure.savefig(temporary, format=path.suffix[1:].lower())

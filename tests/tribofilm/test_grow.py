@@ -1,0 +1,108 @@
+"""Films in a contact: reuse changes nothing that matters, maps add up, limits are where the model says."""
+
+import numpy as np
+import pytest
+
+from bem import Grid, InfeasibleError, InputError, Material, grow_tribofilm
+from bem.tribofilm import Constant, FadingSubstrate, FilmContact, StressActivatedGrowth, solve_film_contact
+
+IRON = Material("iron", youngs_modulus=210e9, poissons_ratio=0.3)
+DLC = Material("dlc", youngs_modulus=200e9, poissons_ratio=0.25)
+LAW = StressActivatedGrowth.from_electron_volts(1e-2, 0.8, 85)
+GRID = Grid((32, 32), (1.2e-9, 1.2e-9))
+TIP = (GRID.x[:, None] ** 2 + GRID.y[None, :] ** 2) / 2 / 53e-9
+
+
+def contact(**change):
+    arguments = {
+        "gap": TIP,
+        "grid": GRID,
+        "substrate": IRON,
+        "counterface": DLC,
+        "load": 600e-9,
+        "growth": LAW,
+        "hardness": FadingSubstrate(6e9, 2e9, 4e-9),
+        "modulus": Constant(15e9),
+        "temperature": 373.15,
+        "average": "nominal",
+    }
+    return FilmContact(**(arguments | change))
+
+
+TIMES = np.linspace(0, 2000, 41)
+
+
+def test_reused_contacts_give_the_film_of_contacts_solved_at_every_step():
+    fresh, reused = [], []
+    grid = Grid((16, 16), (2.4e-9, 2.4e-9))
+    small = contact(grid=grid, gap=(grid.x[:, None] ** 2 + grid.y[None, :] ** 2) / 2 / 53e-9)
+    times = np.linspace(0, 1000, 5)
+    direct = grow_tribofilm(
+        times, small, wear_coefficient=3e-3, reuse_tolerance=0, tolerance=1e-3, callback=fresh.append
+    )
+    table = grow_tribofilm(times, small, wear_coefficient=3e-3, tolerance=1e-3, callback=reused.append)
+    # growth is reproduced to 2e-3; thickness follows, plus the tolerance of the integration
+    assert np.allclose(table.history.thickness[1:], direct.history.thickness[1:], rtol=4e-3)
+    assert len(reused) == len(table.contacts)
+    assert len(reused) < len(fresh) / 2
+
+
+def test_film_map_and_mean_thickness_are_the_same_film():
+    """Where the mean is taken over the grid, the local film has that mean; with a delay too."""
+    for lag in (0.0, 150.0):
+        film = grow_tribofilm(TIMES, contact(), wear_coefficient=3e-3, lag=lag)
+        # both integrate the same growth; the map interpolates maps linearly, the mean its logarithm
+        assert film.film_map.mean() == pytest.approx(film.history.thickness[-1], rel=5e-3)
+        assert (film.film_map >= 0).all()
+        assert film.film_map.max() > 2 * film.film_map.mean()
+
+
+def test_what_grew_and_wore_is_what_is_there():
+    film = grow_tribofilm(TIMES, contact(), wear_coefficient=3e-3, initial_thickness=1e-9)
+    history = film.history
+    assert np.allclose(1e-9 + history.grown - history.worn, history.thickness, rtol=1e-14, atol=1e-24)
+    # independent quadrature of what wore: Simpson over a fine history
+    fine = grow_tribofilm(np.linspace(0, 2000, 2001), contact(), wear_coefficient=3e-3, initial_thickness=1e-9).history
+    from scipy.integrate import simpson
+
+    assert fine.worn[-1] == pytest.approx(3e-3 * simpson(fine.thickness, x=fine.time), rel=1e-5)
+
+
+def test_self_limitation_comes_from_stress_and_wear_and_is_lost_without_either():
+    limited = grow_tribofilm(TIMES, contact(), wear_coefficient=3e-3)
+    history = limited.history
+    assert history.growth_rate[-1] < 0.7 * history.growth_rate[0]  # the softer film lowers the stress, and growth
+    assert history.growth_rate[-1] == pytest.approx(history.wear_rate[-1], rel=0.02)  # and wear balances it
+    assert limited.steady == pytest.approx(history.thickness[-1], rel=0.01)
+    unworn = grow_tribofilm(TIMES, contact(), wear_coefficient=0.0)
+    assert np.isinf(unworn.steady)  # no balance: it grows on
+    middle = len(TIMES) // 2
+    assert unworn.history.thickness[-1] > 1.25 * unworn.history.thickness[middle]
+    assert history.thickness[-1] < 1.01 * history.thickness[middle]
+    thermal = StressActivatedGrowth.from_electron_volts(1e-2, 0.6, 0.0)
+    plain = grow_tribofilm(TIMES, contact(growth=thermal, hardness=Constant(6e9)), wear_coefficient=0.0)
+    rates = plain.history.growth_rate
+    # without stress activation growth only follows the contact area, which a compliant film makes larger
+    assert rates[-1] >= rates[0]
+
+
+def test_a_growing_soft_film_lowers_the_mean_pressure():
+    pressures = [solve_film_contact(contact(), h).mean_pressure for h in (0.0, 2e-9, 10e-9)]
+    assert pressures[0] > pressures[1] > pressures[2]
+    assert max(pressures) <= 6e9
+
+
+def test_hot_films_do_not_blow_up():
+    """300 degrees: growth starts so fast that an explicit step would overshoot by orders of magnitude."""
+    film = grow_tribofilm(TIMES, contact(temperature=573.15), wear_coefficient=3e-3)
+    assert np.isfinite(film.history.thickness).all()
+    assert (np.diff(film.history.thickness) >= -1e-6 * film.history.thickness.max()).all()
+
+
+def test_a_load_beyond_the_hardness_is_refused():
+    with pytest.raises(InfeasibleError):
+        grow_tribofilm(TIMES, contact(load=1e-3), wear_coefficient=3e-3)
+    with pytest.raises(InputError, match="average"):
+        contact(average="guess")
+    with pytest.raises(InputError, match="reuse_tolerance"):
+        grow_tribofilm(TIMES, contact(), wear_coefficient=3e-3, reuse_tolerance=-1)
