@@ -273,9 +273,12 @@ def _check_lengths(heights: FloatArray, grid: Grid, lengths: tuple[float, float]
 
 
 def _first_crossing(correlation: FloatArray) -> float:
-    """Lag in cells at which a correlation falls to 1/e, linear between cells as in `describe_surface`."""
+    """Lag in cells at which a correlation falls to 1/e, linear between cells as in `describe_surface`; inf if never."""
     level = math.exp(-1)
-    i = int(np.flatnonzero(correlation < level)[0])
+    below = np.flatnonzero(correlation < level)
+    if below.size == 0:
+        return math.inf
+    i = int(below[0])
     return i - 1 + float((correlation[i - 1] - level) / (correlation[i - 1] - correlation[i]))
 
 

@@ -287,3 +287,41 @@ def test_any_request_is_met_or_refused(nx, ny, rms, seed, hurst, skewness, kurto
     assert np.mean(z**2) == pytest.approx(1, rel=1e-9)
     assert np.mean(z**3) == pytest.approx(skewness, abs=2 * STATISTICS_TOLERANCE)
     assert np.mean(z**4) == pytest.approx(kurtosis, abs=2 * STATISTICS_TOLERANCE)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.integers(1, 40),
+    st.integers(1, 40),
+    st.floats(0.5, 20),
+    st.floats(0.5, 20),
+    st.sampled_from(["gaussian", "exponential"]),
+    st.one_of(st.none(), st.floats(1, 30)),
+    st.sampled_from([(0.0, 3.0), (-0.84, 4.46), (1.0, 2.5)]),
+)
+def test_any_correlation_is_met_or_refused(nx, ny, length_x, length_y, model, cutoff, moments):
+    grid = Grid((nx, ny), (1e-6, 2e-6), periodic=PERIODIC)
+    lengths = (length_x * 1e-6, length_y * 2e-6)
+    try:
+        heights = generate_surface(
+            grid,
+            rms_height=1e-7,
+            seed=9,
+            correlation_length=lengths,
+            autocorrelation=model,
+            cutoff_wavelength=None if cutoff is None else cutoff * 1e-6,
+            skewness=moments[0],
+            kurtosis=moments[1],
+        )
+    except InputError:
+        return
+    got = describe(heights, grid)
+    assert got.Sq == pytest.approx(1e-7, rel=1e-9)
+    if moments != (0.0, 3.0):
+        assert got.Ssk == pytest.approx(moments[0], abs=2 * STATISTICS_TOLERANCE)
+        assert got.Sku == pytest.approx(moments[1], abs=2 * STATISTICS_TOLERANCE)
+        for n, wanted, given_ in zip(
+            grid.shape, lengths, (got.autocorrelation_length_x, got.autocorrelation_length_y), strict=True
+        ):
+            if n > 1:
+                assert given_ == pytest.approx(wanted, rel=SAMPLE_LENGTH_TOLERANCE + 1e-9)
