@@ -111,7 +111,7 @@ def map_of(
     factor, shown = prefix(values, unit)
     extent = field_axes(axes, x, y)
     axes.set_facecolor(OPEN)
-    image = axes.imshow(values.T * factor, extent=extent, aspect=axes.get_aspect(), **more)
+    image = axes.imshow(values.T * factor, extent=extent, origin="lower", aspect=axes.get_aspect(), **more)
     bar = figure.colorbar(image, ax=axes, shrink=0.9, pad=0.03)
     bar.set_label(label(text, shown))
     bar.outline.set_linewidth(0.6)

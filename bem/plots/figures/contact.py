@@ -30,7 +30,12 @@ def _contact_map(run: Any, figure: Figure) -> None:
     extent = field_axes(axes, _array(run, "x"), _array(run, "y"))
     colours = ListedColormap([OPEN, BLUE, ORANGE])
     axes.imshow(
-        state.T, extent=extent, aspect=axes.get_aspect(), cmap=colours, norm=BoundaryNorm([-0.5, 0.5, 1.5, 2.5], 3)
+        state.T,
+        extent=extent,
+        origin="lower",
+        aspect=axes.get_aspect(),
+        cmap=colours,
+        norm=BoundaryNorm([-0.5, 0.5, 1.5, 2.5], 3),
     )
     names = ("open", "elastic", "at the hardness")
     handles = [

@@ -1,0 +1,214 @@
+"""Figures: drawn from data alone, labelled with units, of the asked size, and never solving."""
+
+import re
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from bem.errors import InputError
+from bem.plots.draw import draw, draw_all, figure_kind
+from bem.plots.figures import all_figures
+from bem.plots.report import spelled, write_report
+from bem.plots.style import BLUE, ORANGE, SKY, VERMILION, prefix
+from bem.results.dataset import to_dataset
+from bem.results.directory import RunDirectory
+from bem.scenes.context import Variable
+
+
+def contact_run(path, nx=40, ny=30, depths=6, roughness=True):
+    """A run with an invented pressure: nothing of it was solved."""
+    x, y = (np.arange(nx) - nx / 2) * 1e-6, (np.arange(ny) - ny / 2) * 1e-6
+    pressure = np.maximum(1e9 * (1 - (x[:, None] / 8e-6) ** 2 - (y[None, :] / 8e-6) ** 2), 0.0)
+    z = np.linspace(0, 5e-6, depths)
+    variables = {
+        "x": Variable(("x",), x, "m", "x"),
+        "y": Variable(("y",), y, "m", "y"),
+        "pressure": Variable(("x", "y"), pressure, "Pa", "pressure"),
+        "gap": Variable(("x", "y"), np.where(pressure > 0, 0.0, 1e-7), "m", "gap"),
+        "undeformed_gap": Variable(("x", "y"), 1e-7 - 1e-16 * pressure, "m", "gap"),
+        "contact_state": Variable(("x", "y"), (pressure > 0).astype(np.int8), "1", "state"),
+        "iteration": Variable(("iteration",), np.arange(5), "1", "iteration"),
+        "residual_history": Variable(("iteration",), 10.0 ** -np.arange(5), "1", "residual"),
+        "depth": Variable(("depth",), z, "m", "depth"),
+        "von_mises": Variable(
+            ("depth", "x", "y"), pressure * np.exp(-((z[:, None, None] / 2e-6) ** 2)), "Pa", "stress"
+        ),
+    }
+    if roughness:
+        heights = 1e-7 * np.sin(x[:, None] * 1e6) + 0 * y
+        variables["lower_height"] = Variable(("x", "y"), heights, "m", "height")
+    scene = {"contact": {"tolerance": 1e-8}, "lower": {"material": {"hardness": 1.4e9}}, "outputs": {"body": "lower"}}
+    summary = {
+        "scene": "invented", "kind": "contact", "version": "1", "seed": 1, "wall_time_s": 1.0, "status": "converged",
+        "where": "", "approach_m": 1e-7, "load_N": 2.0, "notes": ["<b>&"], "seconds_by_stage": {"contact": 1.0},
+    }  # fmt: skip
+    return SimpleNamespace(path=path, scene=scene, summary=summary, dataset=to_dataset(variables, {}))
+
+
+NAMES = (
+    *("pressure-map", "contact-map", "contact-section", "pressure-histogram", "von-mises-section", "von-mises-depth"),
+    *("convergence", "surface-maps"),
+)
+
+
+def axes_of(run, name):
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=all_figures()[name].size)
+    all_figures()[name].draw(run, figure)
+    return figure, figure.axes
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_axis_says_what_it_is_and_in_which_unit(tmp_path, name):
+    run = contact_run(tmp_path)
+    assert all_figures()[name].fits(run)
+    _, axes = axes_of(run, name)
+    without_unit = {"iteration", "relative residual", "share of the contact area"}
+    for ax in axes:
+        for text in (ax.get_xlabel(), ax.get_ylabel()):
+            if text and text not in without_unit:
+                assert re.search(r"\((p|n|µ|m|k|M|G)?(m|Pa)\)$", text), text
+    labels = [ax.get_xlabel() + ax.get_ylabel() for ax in axes]
+    assert sum(bool(text) for text in labels) == len(axes)
+
+
+def test_pressure_map_shows_the_pressure_with_x_to_the_right(tmp_path):
+    run = contact_run(tmp_path)
+    _, (axes, _) = axes_of(run, "pressure-map")
+    (image,) = axes.images
+    shown = np.ma.filled(image.get_array(), np.nan)
+    pressure = run.dataset["pressure"].values
+    np.testing.assert_allclose(np.nan_to_num(shown), pressure.T * 1e-9, rtol=1e-12)
+    assert image.origin == "lower"
+    left, right, bottom, top = image.get_extent()
+    assert (right - left, top - bottom) == pytest.approx((40, 30))
+
+
+def test_depth_runs_downwards(tmp_path):
+    _, axes = axes_of(contact_run(tmp_path), "von-mises-section")
+    bottom, top = axes[0].get_ylim()
+    assert bottom > top == 0
+
+
+def test_files_have_the_asked_format_and_size(tmp_path):
+    from PIL import Image
+
+    run = contact_run(tmp_path)
+    kind = all_figures()["convergence"]
+    draw(run, kind, tmp_path, ("png", "pdf", "svg"), (4.0, 3.0))
+    with Image.open(tmp_path / "convergence.png") as image:
+        assert image.size == (800, 600)  # 200 dots an inch
+    assert (tmp_path / "convergence.pdf").read_bytes().startswith(b"%PDF")
+    assert b"<svg" in (tmp_path / "convergence.svg").read_bytes()[:2000]
+
+
+def test_only_what_fits_is_drawn(tmp_path):
+    run = contact_run(tmp_path, ny=1, roughness=False)
+    drawn = {item.kind.name for item in draw_all(run, NAMES, tmp_path, ("png",))}
+    assert drawn == {"contact-section", "pressure-histogram", "von-mises-section", "von-mises-depth", "convergence"}
+    with pytest.raises(InputError, match="cannot be drawn from this run"):
+        figure_kind(run, "surface-maps")
+    with pytest.raises(InputError, match="no such figure"):
+        figure_kind(run, "surfacemaps")
+
+
+def test_a_contact_that_is_open_everywhere_can_be_drawn(tmp_path):
+    run = contact_run(tmp_path)
+    run.dataset["pressure"][:] = 0.0
+    run.dataset["contact_state"][:] = 0
+    drawn = {item.kind.name for item in draw_all(run, NAMES, tmp_path, ("png",))}
+    assert "pressure-map" not in drawn
+    assert "contact-map" in drawn
+
+
+def test_colours_can_be_told_apart_in_grey():
+    """Luminance differs between the colours that stand side by side (contact map, lines)."""
+
+    def luminance(colour):
+        red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+        return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+    assert abs(luminance(BLUE) - luminance(ORANGE)) > 0.2
+    assert abs(luminance(BLUE) - luminance(VERMILION)) > 0.05
+    assert abs(luminance(SKY) - luminance(BLUE)) > 0.2
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "expected"),
+    [
+        (45e-9, "m", (1e9, "nm")),
+        (1e-6, "m", (1e6, "µm")),
+        (999e-9, "m", (1e9, "nm")),
+        (1.8e9, "Pa", (1e-9, "GPa")),
+        (2.0, "N", (1.0, "N")),
+        (0.0, "m", (1.0, "m")),
+        (3.0, "1", (1.0, "")),
+        (5e3, "rad", (1.0, "rad")),
+        (1e-30, "m", (1e12, "pm")),
+    ],
+)
+def test_prefixes(value, unit, expected):
+    factor, text = prefix([value], unit)
+    assert (factor, text) == (pytest.approx(expected[0], rel=1e-12), expected[1])
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "expected"),
+    [
+        ("mean_contact_pressure_Pa", 1.2341e9, ("mean contact pressure", "1.234 GPa")),
+        ("contact_area_fraction", 0.05, ("contact area fraction", "5.0000%")),
+        ("approach_m", 4.2e-7, ("approach", "420 nm")),
+        ("particle_equivalent_radius_nm", 151.23, ("particle equivalent radius", "151.2 nm")),
+        ("cycles", 200, ("cycles", "200")),
+        ("friction", [0.1, 0.2], ("friction", "0.1, 0.2")),
+        ("speed_m_s", [0.001, 0.3], ("speed", "0.001, 0.3 m/s")),
+        ("status", "converged", ("status", "converged")),
+        ("residual", None, ("residual", "-")),
+        ("max_von_mises_Pa", 0.0, ("max von Mises", "0 Pa")),
+    ],
+)
+def test_figures_spelt_for_people(name, value, expected):
+    assert spelled(name, value) == expected
+
+
+def make_report(tmp_path):
+    run = contact_run(tmp_path / "run")
+    with RunDirectory.start(run.path, "invented", 'kind = "contact"\n') as directory:
+        drawn = draw_all(run, NAMES, directory.figures, ("png",))
+        return write_report(run, drawn, ("load_N",)), len(drawn)
+
+
+def test_report_is_one_file_that_needs_nothing_else(tmp_path):
+    path, count = make_report(tmp_path)
+    page = path.read_text("utf-8")
+    assert count == len(NAMES)
+    assert page.count('src="data:image/png;base64,') == count
+    assert "http" not in page
+    assert "&lt;b&gt;&amp;" in page
+    assert not re.search(r"<(script|link|iframe)", page)
+
+
+@pytest.mark.browser
+@pytest.mark.slow
+def test_report_in_a_browser(tmp_path):
+    """A real browser shows every picture: their widths are not zero."""
+    import shutil
+    import subprocess
+
+    browser = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if browser is None:
+        pytest.skip("no chromium")
+    path, count = make_report(tmp_path)
+    probe = path.with_name("probe.html")
+    script = (
+        "<script>window.onload = () => { const all = [...document.images]; "
+        "document.title = all.filter(i => i.naturalWidth > 100).length + ' of ' + all.length; }</script></body>"
+    )
+    probe.write_text(path.read_text("utf-8").replace("</body>", script))
+    done = subprocess.run(
+        [browser, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", probe.as_uri()],
+        capture_output=True, text=True, timeout=120, check=False,
+    )  # fmt: skip
+    assert f"<title>{count} of {count}</title>" in done.stdout
