@@ -46,6 +46,7 @@ __all__ = [
     "von_mises_bound",
     "von_mises_field",
     "von_mises_planes",
+    "von_mises_where_above",
 ]
 
 
@@ -472,6 +473,52 @@ def von_mises_bound(
         bound[index] *= 1 + 1e-12
         bound[index] += 1e-13 * bound[index].max()  # round-off of the transform over tiles
     return bound
+
+
+def von_mises_where_above(
+    threshold: float,
+    pressure: ArrayLike,
+    grid: Grid,
+    body: Body,
+    depths: ArrayLike,
+    *,
+    friction: float = 0.0,
+    margin: int = 1,
+    tile: int | None = None,
+    out: FloatArray | None = None,
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Von Mises stress at those depths only where it can exceed `threshold` [Pa] anywhere, and their neighbours.
+
+    The planes left out are certain not to reach it (`von_mises_bound`) and hold zeros; the others are bit for bit those
+    of `von_mises_field`. `margin` neighbours in the order of `depths` are computed on either side, for interpolation.
+
+    Returns
+    -------
+    field (nz, nx, ny) [Pa], and computed (nz,), which planes hold numbers.
+
+    Raises
+    ------
+    InputError : as `von_mises_field`; a threshold that is not a number, a negative margin.
+    """
+    if not (isinstance(threshold, int | float | np.floating | np.integer) and not math.isnan(threshold)):
+        raise InputError(f"von_mises_where_above: threshold {threshold!r} must be a number [Pa]")
+    if isinstance(margin, bool) or not isinstance(margin, int | np.integer) or margin < 0:
+        raise InputError(f"von_mises_where_above: margin {margin!r} must be a number of planes, 0 or more")
+    bound = von_mises_bound(pressure, grid, body, depths, friction=friction, tile=tile)
+    reaches = bound.max(axis=(1, 2), initial=0.0) > threshold
+    computed = reaches.copy()
+    for shift in range(1, int(margin) + 1):
+        computed[shift:] |= reaches[:-shift]
+        computed[:-shift] |= reaches[shift:]
+    field = _check_out("von_mises_where_above", out, (reaches.size, *grid.shape))
+    field[~computed] = 0.0
+    wanted = np.flatnonzero(computed)
+    if wanted.size:
+        places = np.asarray(depths, dtype=np.float64)[wanted]
+        sweep = _Sweep.of("von_mises_where_above", pressure, grid, body, places, friction)
+        for _ in _planes(sweep, [field[index] for index in wanted]):
+            pass
+    return field, computed
 
 
 def bound_tile(grid: Grid) -> int:

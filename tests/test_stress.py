@@ -6,13 +6,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import bem.stress as room
-from bem import Body, Grid, InputError, Material, subsurface_stress, von_mises
+from bem import Body, Grid, InputError, Layer, Material, subsurface_stress, von_mises
 from bem.kernels.coefficients import stress_coefficients
 from bem.kernels.loads import STRESS_PARITY, Load
 from bem.kernels.spectral import stress_response
 from bem.reference_solutions.hamilton import sphere_stress
 from bem.reference_solutions.mcewen import cylinder_stress
-from bem.stress import bound_tile, von_mises_bound, von_mises_field, von_mises_planes
+from bem.stress import bound_tile, von_mises_bound, von_mises_field, von_mises_planes, von_mises_where_above
 from bem.threads import set_threads
 from bem.transforms import COUNT as TRANSFORMS
 
@@ -240,6 +240,39 @@ def test_the_bound_is_exact_for_one_loaded_cell_and_useful_for_many():
     assert coarse[2] < 2.5 * peak[2]
 
 
+def test_depths_that_cannot_reach_the_threshold_are_left_out_and_nothing_else_changes():
+    grid = Grid((40, 30), (1.0, 1.0), periodic=(False, True))
+    pressure = rough(np.random.default_rng(7), grid.shape, 0.03)
+    depths = np.arange(16) * 1.5
+    whole = von_mises_field(pressure, grid, BODY, depths, friction=0.2)
+    threshold = 0.1
+    TRANSFORMS.reset()
+    field, computed = von_mises_where_above(threshold, pressure, grid, BODY, depths, friction=0.2)
+    assert TRANSFORMS.inverse == 5 * computed.sum()
+    assert 3 <= computed.sum() <= 12  # it leaves something out, and not everything
+    np.testing.assert_array_equal(field[computed], whole[computed])
+    assert not field[~computed].any()
+    assert (whole[~computed] < threshold).all()
+    np.testing.assert_array_equal(field > threshold, whole > threshold)
+    narrow = von_mises_where_above(threshold, pressure, grid, BODY, depths, friction=0.2, margin=0)[1]
+    np.testing.assert_array_equal(computed, narrow | np.append(narrow[1:], False) | np.insert(narrow[:-1], 0, False))
+    TRANSFORMS.reset()
+    nothing, computed = von_mises_where_above(1e3, pressure, grid, BODY, depths, out=np.ones((16, 40, 30)))
+    assert not nothing.any()
+    assert not computed.any()
+    assert (TRANSFORMS.forward, TRANSFORMS.inverse) == (0, 0)
+
+
+def test_a_layer_of_the_same_material_changes_nothing():
+    same = Body(BODY.material, layer=Layer(Material("skin", youngs_modulus=210e9, poissons_ratio=NU), 1e-6))
+    pressure = np.random.default_rng(8).random((6, 5))
+    for periodic in ALL_PERIODIC:
+        grid = Grid((6, 5), (1e-6, 1e-6), periodic=periodic)
+        plain = subsurface_stress(pressure, grid, BODY, [0.0, 0.5e-6, 2e-6], friction=0.2)
+        coated = subsurface_stress(pressure, grid, same, [0.0, 0.5e-6, 2e-6], friction=0.2)
+        np.testing.assert_allclose(coated, plain, rtol=0, atol=1e-12)  # the layered kernels' own 1e-13, 30 cells
+
+
 def test_the_bound_makes_its_tables_once_and_no_transform():
     grid = Grid((20, 20), (1.4, 1.0))
     pressure = np.ones(grid.shape)
@@ -305,6 +338,9 @@ def test_bad_input_is_refused_with_every_mistake_named():
         subsurface_stress(pressure, grid, BODY, [1.0], out=np.empty((6, 2, 4, 4)))
     with pytest.raises(InputError, match="tile"):
         von_mises_bound(pressure, grid, BODY, [1.0], tile=0)
+    for threshold, margin in ((np.nan, 1), ("high", 1), (1.0, -1)):
+        with pytest.raises(InputError, match="von_mises_where_above"):
+            von_mises_where_above(threshold, pressure, grid, BODY, [1.0], margin=margin)
     with pytest.raises(InputError, match="6 components"):
         von_mises(np.ones((5, 2)))
     with pytest.raises(InputError, match="limit"):
