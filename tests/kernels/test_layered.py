@@ -116,7 +116,7 @@ def test_elasticity_is_solved(ratio, nu1, nu2, tangential):
     """Both sides of the switch at q h = 1, in the layer, on the interface and below, oblique wavevectors."""
     for qh, angle in ((1e-3, 0.4), (0.7, 2.0), (1.3, -1.1), (9.0, 0.9)):
         kx, ky = qh * np.cos(angle), qh * np.sin(angle)
-        for depth in (0.0, 0.4, 1.0, 1.7):
+        for depth in (0.4, 1.0, 1.7):
             body = coated(ratio, nu1, nu2, 1.0)
             # round-off: a dozen sums and products, and pi-like loss of half a digit in the smaller of two waves
             assert disagreement(body, kx, ky, depth, tangential) < 1e-13
@@ -151,7 +151,7 @@ def closed_form(q, body):
         return float((1 - nu1) / (mu1 * mp.mpf(q)) * ratio)
 
 
-@settings(deadline=None, max_examples=60, derandomize=True)
+@settings(deadline=None, max_examples=30, derandomize=True)
 @given(
     ratio=st.floats(-6, 6).map(lambda e: 10.0**e),
     qh=st.floats(-6, 3).map(lambda e: 10.0**e),

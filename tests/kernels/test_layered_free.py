@@ -22,10 +22,14 @@ def coated(ratio, nu1, nu2, thickness):
     return Body(material(1.0, nu2), layer=Layer(material(ratio, nu1), thickness))
 
 
+def slow(*values):
+    return pytest.param(*values, marks=pytest.mark.slow)
+
+
 PAIRS = [(0.01, 0.45, 0.1), (0.3, 0.1, 0.4), (100.0, 0.2, 0.35)]
 
 
-@pytest.mark.parametrize(("ratio", "nu1", "nu2"), PAIRS)
+@pytest.mark.parametrize(("ratio", "nu1", "nu2"), [slow(*PAIRS[0]), slow(*PAIRS[1]), PAIRS[2]])
 def test_displacement_table_against_mpmath(ratio, nu1, nu2):
     """1/2 pi integral of (closed form - half-space) J0 q dq, by quadrature on the real axis in 25 digits."""
     h = 1.0
@@ -52,7 +56,10 @@ def test_displacement_table_against_mpmath(ratio, nu1, nu2):
             assert value == pytest.approx(float(expected), rel=3e-14)
 
 
-@pytest.mark.parametrize(("ratio", "nu1", "nu2"), [*PAIRS, (1e-3, 0.4999, 0.3), (1e3, 0.3, 0.2), (1e6, 0.3, -0.5)])
+@pytest.mark.parametrize(
+    ("ratio", "nu1", "nu2"),
+    [slow(*PAIRS[0]), slow(*PAIRS[1]), PAIRS[2], (1e-3, 0.4999, 0.3), slow(1e3, 0.3, 0.2), slow(1e6, 0.3, -0.5)],
+)
 @pytest.mark.parametrize("load", list(Load))
 def test_tables_against_the_real_axis(ratio, nu1, nu2, load):
     """The turned path gives what the real axis gives, for every order and depth."""
@@ -85,7 +92,7 @@ def by_fourier(body, depth, load, x, y, dx, dy):
     radius = np.hypot(x, y) + np.hypot(dx, dy)
     edges = np.union1d(layered_hankel.graded(1e-3, 1 / decay), np.arange(0, 40 / decay, min(1 / decay, 3 / radius)))
     q, weights = layered_hankel.gauss_rule(edges)
-    count = 2 * int(40 * radius / decay) + 80
+    count = 2 * int(24 * radius / decay) + 80
     theta = 2 * np.pi * (np.arange(count) + 0.5) / count
     kx, ky = np.outer(q, np.cos(theta)), np.outer(q, np.sin(theta))
     tangential = load is Load.TANGENTIAL
@@ -103,10 +110,7 @@ def by_fourier(body, depth, load, x, y, dx, dy):
     )
 
 
-@pytest.mark.parametrize(
-    ("ratio", "nu1", "nu2"),
-    [pytest.param(*PAIRS[0], marks=pytest.mark.slow), PAIRS[1], pytest.param(*PAIRS[2], marks=pytest.mark.slow)],
-)
+@pytest.mark.parametrize(("ratio", "nu1", "nu2"), [slow(*PAIRS[0]), PAIRS[1], slow(*PAIRS[2])])
 @pytest.mark.parametrize("load", list(Load))
 def test_coefficients_against_the_double_fourier_integral(ratio, nu1, nu2, load):
     grid = Grid((5, 4), (1.0, 0.7))
@@ -117,14 +121,14 @@ def test_coefficients_against_the_double_fourier_integral(ratio, nu1, nu2, load)
     for i, j in offsets:
         expected = by_fourier(body, None, load, i * 1.0, j * 0.7, 1.0, 0.7)[0]
         assert surface[i, j] == pytest.approx(expected, abs=1e-12 * np.abs(surface).max())
-    for depth in (0.0, 0.8, 0.9, 2.0):
+    for depth in (0.5, 0.9):
         stress = stress_remainder(grid, body, depth, load)
         for i, j in offsets:
             expected = by_fourier(body, depth, load, i * 1.0, j * 0.7, 1.0, 0.7)
             assert stress[:, i, j] == pytest.approx(expected, abs=1e-12 * np.abs(stress).max())
 
 
-@pytest.mark.parametrize("thickness", [1e-6, 1e-3, 0.2, 3.0, 50.0])
+@pytest.mark.parametrize("thickness", [1e-6, slow(1e-3), 0.2, slow(3.0), 50.0])
 @pytest.mark.parametrize("load", list(Load))
 def test_a_cell_is_the_sum_of_its_parts(thickness, load):
     """3 x 3 smaller cells: other rules, other subdivisions, other distances; a layer far thinner than the cell too."""
@@ -150,7 +154,9 @@ def test_a_cell_is_the_sum_of_its_parts(thickness, load):
         assert small == pytest.approx(large[:, :2, :2], abs=3e-13 * np.abs(large).max())
 
 
-@pytest.mark.parametrize(("ratio", "nu1", "nu2"), [*PAIRS, (1e-3, 0.4999, 0.3), (1e3, 0.3, 0.2)])
+@pytest.mark.parametrize(
+    ("ratio", "nu1", "nu2"), [slow(*PAIRS[0]), PAIRS[1], slow(*PAIRS[2]), (1e-3, 0.4999, 0.3), (1e3, 0.3, 0.2)]
+)
 @pytest.mark.parametrize("load", list(Load))
 @pytest.mark.parametrize("thickness", [0.2, 5.0])
 def test_tractions_and_strains_pass_the_interface(ratio, nu1, nu2, load, thickness):
