@@ -252,13 +252,15 @@ def _unreadable(file: Path, problem: BaseException) -> SurfaceFileError:
 def _read_instrument(
     file: Path, channel: str | int | None, spacing_given: bool, height_unit: str | None
 ) -> tuple[FloatArray, tuple[float, float] | None, dict[str, Any]]:
+    with warnings.catch_warnings(), _quiet():
+        warnings.simplefilter("ignore")
+        from SurfaceTopography import open_topography
+
     # Readers of damaged files raise anything at all (struct.error, KeyError, AssertionError, MemoryError, ...) and warn
     # about what they skip, or print what they found; whatever it is, the file cannot be used.
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"), _quiet(), file.open("rb") as stream:
             warnings.simplefilter("ignore")
-            from SurfaceTopography import open_topography
-
             with open_topography(stream) as reader:
                 chosen = _choose(file, reader, channel)
                 shape = tuple(int(n) for n in chosen.nb_grid_pts)
