@@ -128,6 +128,10 @@ def solve_contact(
     if indenter is not None and not (indenter[0] > 0 and -1 < indenter[1] < 0.5):
         raise ValueError(f"indenter {list(indenter)}: modulus ratio must be positive, Poisson's ratio in (-1, 0.5)")
     row = shape == "row"
+    if row and layer is not None and layer[2] > ROW_DEPTH / 2:
+        raise ValueError(
+            f"layer: thickness {layer[2]:g} must be at most {ROW_DEPTH / 2:g} wavelengths; more is all layer"
+        )
     patch = 0.5 if row else _choose_patch(shape, cells, nu, layer, indenter, loads[-1])
     sizes = [0.5**level for level in range(LEVELS)]
     detailed = [loads[len(loads) // 2], loads[-1]] if len(loads) > 1 else loads
@@ -150,14 +154,8 @@ def solve_contact(
 
     for level in range(LEVELS):
         body, branch = _level(shape, patch, cells, level, nu, layer, indenter)
-        levels.append(
-            {
-                "parameters": {"level": level},
-                "cells": body.cells,
-                "dofs": body.dofs,
-                "size": sizes[level],
-            }
-        )
+        size = {"cells": body.cells, "dofs": body.dofs, "size": sizes[level]}
+        levels.append({"parameters": body.block.__dict__, **size})
         bodies.append(body.block)
         states = [at_force(branch, _force(shape, load)) for load in loads]
         keep("contact_radius", "load", [state.edge for state in states])
@@ -232,7 +230,7 @@ def solve_contact(
         far_field=FAR_FIELD[shape],
         mesh={
             "builder": "meshes.contact_block.ContactBlock",
-            "levels": [{**entry, "parameters": block.__dict__} for entry, block in zip(levels, bodies, strict=True)],
+            "levels": levels,
             "picture": _picture(bodies[0], 1.0 if row else 2 * patch),
         },
         quantities=quantities,
