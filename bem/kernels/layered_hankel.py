@@ -169,6 +169,12 @@ def graded(smallest: float, end: float) -> FloatArray:
     return np.concatenate([[0.0], end * 2.0 ** -np.arange(halvings, -1, -1.0)])
 
 
+def apply(matrix: NDArray, vector: NDArray) -> NDArray:
+    """matrix @ vector without BLAS, whose sums depend on the number of threads."""
+    product: NDArray = np.einsum("ij,j->i", matrix, vector)
+    return product
+
+
 def _wave(order: int, s: FloatArray, line: bool) -> FloatArray:
     """What is integrated against the spectrum on the real axis, over q (and over r^2, or r for a line)."""
     if line:
@@ -183,7 +189,7 @@ def _near(kernels: Kernels, r: FloatArray, line: bool) -> FloatArray:
     f = kernels.spectra(q) * weights
     scale = (1 / r if not line else np.ones_like(r))[:, None]
     waves = {order: _wave(order, np.outer(r, q), line) * scale for order in set(kernels.orders)}
-    return np.stack([waves[order] @ f[table] for table, order in enumerate(kernels.orders)], axis=1)
+    return np.stack([apply(waves[order], f[table]) for table, order in enumerate(kernels.orders)], axis=1)
 
 
 _RAY_T, _RAY_WEIGHTS = gauss_rule(np.array([0.0, 2.0, 4.0, 8.0, 14.0, 22.0, 34.0, 50.0, 2 * END]))
@@ -201,8 +207,8 @@ def _far(kernels: Kernels, r: FloatArray, line: bool) -> FloatArray:
     f_ray = kernels.spectra((_RAY_S / r[:, None]).ravel()).reshape(-1, r.size, _RAY_S.size)
     out = np.empty((r.size, len(kernels.orders)))
     for table, order in enumerate(kernels.orders):
-        real = f[table] @ (_wave(order, s, line) * weights)
-        out[:, table] = (real + (f_ray[table] @ _RAY[line][order]).real) / (r if line else r**2)
+        real = apply(f[table], _wave(order, s, line) * weights)
+        out[:, table] = (real + apply(f_ray[table], _RAY[line][order]).real) / (r if line else r**2)
     return out
 
 

@@ -41,6 +41,7 @@ from bem.kernels.layered_hankel import (
     Kernels,
     RadialTable,
     Spectra,
+    apply,
     fit,
     gauss_rule,
     graded,
@@ -135,7 +136,7 @@ def _mean_log(cells: int, side: float, height: float, reference: float) -> Float
     closed = np.diff(primitive, axis=1)[:, 0] * (height / side)
     at = np.hypot((offsets[:, None] + 0.5 * _CELL_NODES) * side, height) / reference
     # the closed form cancels far away, where the rule errs by (2 * 8)^-32
-    return np.where(offsets < 8, closed, np.log(at) @ (0.5 * _CELL_WEIGHTS))
+    return np.where(offsets < 8, closed, apply(np.log(at), 0.5 * _CELL_WEIGHTS))
 
 
 @dataclass(frozen=True)
@@ -239,7 +240,9 @@ def _long_waves(grid: Grid, near: int, cells: int, parts: _Parts) -> FloatArray:
     out = np.empty((len(parts.parities), near, cells))
     for component, parity in enumerate(parts.parities):
         sign = 1.0 if parity == (1, 1) else -1.0  # i from an odd spectrum, i from each sine
-        out[component] = sign * (waves_free[parity[free]] @ spectrum[component]) @ waves_along[parity[along]].T
+        # without BLAS, see `apply`
+        modes_at = np.einsum("xk,km->xm", waves_free[parity[free]], sign * spectrum[component])
+        out[component] = np.einsum("xm,ym->xy", modes_at, waves_along[parity[along]])
     return out if free == 0 else np.ascontiguousarray(out.swapaxes(1, 2))
 
 
@@ -294,7 +297,7 @@ def _windowed_table(kernels: Kernels, period: float) -> RadialTable:
         f = kernels.spectra(panel.real_q / period)
         f_ray = kernels.spectra(panel.ray_q.ravel() / period).reshape(-1, *panel.ray_q.shape) if panel.ray else None
         for table, order in enumerate(kernels.orders):
-            values[number, :, table] = panel.real[order] @ f[table]
+            values[number, :, table] = apply(panel.real[order], f[table])
             if f_ray is not None:
                 values[number, :, table] += np.einsum("np,np->n", f_ray[table], panel.ray[order]).real
     return RadialTable(edges * period, fit(values) / period**2, kernels.decay, _SPLIT / period, _WIDTH / (2 * period))
