@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
@@ -73,20 +74,21 @@ class FilmSolution:
         return stress if position is None else np.interp(position, self.position, stress, left=0.0, right=0.0)
 
     def at(self, position: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Pressure [Pa] and thickness [m] at other positions [m] within the solution's.
+        """Pressure [Pa] and thickness [m] at positions [m]: anywhere for a steady film, else within its mesh.
 
         Raises
         ------
-        InputError : positions outside.
+        InputError : positions outside the mesh of a transient film.
         """
         position = np.asarray(position, dtype=np.float64)
+        if self.state is not None:
+            pressure, thickness = self.state.sample(position)
+            return pressure, thickness
         low, high = self.position[0], self.position[-1]
         if position.size and (position.min() < low or position.max() > high):
             raise InputError(
                 f"position: {position.min():g} to {position.max():g} m reaches beyond the film's {low:g} to {high:g} m"
             )
-        from scipy.interpolate import PchipInterpolator
-
         return (
             np.interp(position, self.position, self.pressure),
             np.asarray(PchipInterpolator(self.position, self.thickness)(position)),

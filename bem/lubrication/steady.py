@@ -118,11 +118,21 @@ def solve_line_film(
 
 @dataclass(frozen=True)
 class _Kept:
-    """What a warm start needs of an earlier solve."""
+    """What a warm start and a look at other positions need of a solve."""
 
     state: State
     load: float
-    film_measure: float
+    scales: Scales
+    reversed: bool
+
+    def sample(self, position: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Pressure [Pa] and thickness [m] at any positions [m]: interpolated on the mesh, by the kernel off it."""
+        position = np.asarray(position, dtype=np.float64)
+        at = -position if self.reversed else position
+        order = np.argsort(at, kind="stable")
+        pressure, film = np.empty(len(at)), np.empty(len(at))
+        pressure[order], film[order] = _sampled(at[order], self.state, self.scales)
+        return pressure, film
 
 
 def _from_neighbour(problem: Problem, scales: Scales, kept: _Kept, cells: int, tolerance: float, limit: int) -> Outcome:
@@ -322,7 +332,8 @@ def _result(
     else:
         at = np.asarray(position, dtype=np.float64)
         at = sign * at if sign > 0 else -at[::-1]
-        p, h, upstream = _sampled(at, state, scales, problem.load)
+        upstream = _check_reach(at, state, scales, problem.load)
+        p, h = _sampled(at, state, scales)
     if reversed_:
         at, p, h = -at[::-1], p[::-1], h[::-1]
     return FilmSolution(
@@ -343,12 +354,12 @@ def _result(
         status=status,
         speeds=(float(speeds[0]), float(speeds[1])),
         lubricant=lubricant,
-        state=_Kept(state, problem.load, central),
+        state=_Kept(state, problem.load, scales, reversed_),
     )
 
 
-def _sampled(at: FloatArray, state: State, scales: Scales, load: float) -> tuple[FloatArray, FloatArray, float]:
-    """Pressure and thickness at ascending positions [m] for positive entrainment, and the share of load missed."""
+def _sampled(at: FloatArray, state: State, scales: Scales) -> tuple[FloatArray, FloatArray]:
+    """Pressure and thickness at ascending positions [m] for positive entrainment."""
     x = state.position
     target = at / scales.length
     inside = (target >= x[0]) & (target <= x[-1])
@@ -363,21 +374,27 @@ def _sampled(at: FloatArray, state: State, scales: Scales, load: float) -> tuple
         out = target[~inside]
         weights = logarithmic_weights(out - state.exit, state.offset)
         film[~inside] = state.datum + 0.5 * out**2 - DEFLECTION * (weights @ state.pressure)
+    return pressure * scales.pressure, film * scales.film
+
+
+def _check_reach(at: FloatArray, state: State, scales: Scales, load: float) -> float:
+    """Share of the load upstream of ascending positions [m]; refuses positions that leave out much of the film."""
+    x, first = state.position, at[0] / scales.length
     total = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(x) * (state.pressure[1:] + state.pressure[:-1]))])
     total += 4 / x[0] ** 2
-    missed = 4 / target[0] ** 2 if target[0] < x[0] else float(np.interp(target[0], x, total))
+    missed = 4 / first**2 if first < x[0] else float(np.interp(first, x, total))
     if missed > MAX_INLET_SHARE * load:
         needed = float(np.interp(0.5 * MAX_INLET_SHARE * load, total, x)) * scales.length
         raise InputError(
             f"position: starts at {at[0]:g} m (along the entrainment), where the film already carries "
             f"{100 * missed / load:.2g} % of the load; start at {needed:.3g} m or further upstream"
         )
-    if target[-1] < x[-1]:
+    if at[-1] < x[-1] * scales.length:
         raise InputError(
             f"position: ends at {at[-1]:g} m (along the entrainment), before the film's exit at "
             f"{x[-1] * scales.length:.3g} m; end beyond it"
         )
-    return pressure * scales.pressure, film * scales.film, missed / load
+    return missed / load
 
 
 def lowest_film(x: FloatArray, film: FloatArray) -> float:

@@ -1,0 +1,89 @@
+"""The result of load sharing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bem.contact import ContactSolution
+from bem.errors import Status
+from bem.friction.asperities import AsperityContact
+from bem.grid import FloatArray, Grid
+from bem.lubrication import FilmSolution
+
+
+@dataclass(frozen=True)
+class MixedSolution:
+    """Load and friction shared between oil film and rough contact; forces on the whole width.
+
+    Attributes
+    ----------
+    speeds : (u1, u2) of flat and cylinder [m/s].
+    friction : coefficient, (boundary part + film part) / load, positive where it resists the sliding.
+    boundary_force, film_force : the two parts [N].
+    load, contact_load, film_load : [N].
+    film : smooth film under `film_load`.
+    contact : rough contact of one slice as long as the grid is wide; None in full film.
+    separation : (nx,) distance [m] between the mean planes of the undeformed surfaces at the grid's abscissae, as the
+        rough contact sees it: film thickness less the shift that keeps the volume of oil.
+    lambda_ratio : minimum of the smooth film under the whole load over the rms height of the patch.
+    minimum_film : minimum thickness [m] of `film`.
+    contact_area : real, on the whole width [m^2].
+    evaluations : films solved; contact_solves : rough contacts solved.
+    imbalance : (film_load + contact_load - load) / load.
+    status : outcome.
+    grid, boundary_friction : as given.
+    """
+
+    speeds: tuple[float, float]
+    friction: float
+    boundary_force: float
+    film_force: float
+    load: float
+    contact_load: float
+    film_load: float
+    film: FilmSolution
+    contact: ContactSolution | AsperityContact | None
+    separation: FloatArray
+    lambda_ratio: float
+    minimum_film: float
+    contact_area: float
+    evaluations: int
+    contact_solves: int
+    imbalance: float
+    status: Status
+    grid: Grid
+    boundary_friction: float
+
+    @property
+    def full_film(self) -> bool:
+        """Whether the surfaces do not touch."""
+        return self.contact is None
+
+    @property
+    def contact_pressure(self) -> FloatArray:
+        """Pressure of the rough contact (nx, ny) [Pa]; zero everywhere in full film."""
+        return np.zeros(self.grid.shape) if self.contact is None else self.contact.pressure
+
+    @property
+    def film_pressure(self) -> FloatArray:
+        """Pressure of the oil (nx, ny) [Pa], zero on cells in contact."""
+        pressure = self.film.at(self.grid.x)[0]
+        return np.where(self.contact_pressure > 0, 0.0, pressure[:, None])
+
+    @property
+    def film_shear_stress(self) -> FloatArray:
+        """Shear stress of the oil (nx, ny) [Pa], zero on cells in contact; signed like `boundary_shear_stress`."""
+        stress = self.film.shear_stress(self.grid.x)
+        return np.where(self.contact_pressure > 0, 0.0, stress[:, None])
+
+    @property
+    def boundary_shear_stress(self) -> FloatArray:
+        """Boundary friction (nx, ny) [Pa]: what the flat takes along with it, positive where u1 > u2."""
+        return sliding_sign(self.speeds) * self.boundary_friction * self.contact_pressure
+
+
+def sliding_sign(speeds: tuple[float, float]) -> float:
+    """1 where the flat moves faster along x or both alike, else -1."""
+    return 1.0 if speeds[0] >= speeds[1] else -1.0
