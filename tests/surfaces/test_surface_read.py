@@ -107,7 +107,7 @@ def test_truncated_files(measured, tmp_path, name):
         np.testing.assert_array_equal(heights, whole)
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=35, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.sampled_from(sorted(TABLE)),
     st.lists(st.tuples(st.floats(0, 1), st.integers(0, 255)), max_size=20),
@@ -143,7 +143,7 @@ def test_readers_neither_warn_nor_print(measured, tmp_path, capfd):
     assert capfd.readouterr() == ("", "")
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=35, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.binary(max_size=300),
     st.sampled_from(
