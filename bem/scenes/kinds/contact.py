@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError, Status
+from bem.grid import Grid
 from bem.materials import Body
 from bem.scenes import build
 from bem.scenes.common import (
@@ -32,7 +33,8 @@ from bem.scenes.units import Length, Ratio
 
 FloatArray = NDArray[np.float64]
 
-_CONVOLUTIONS = 60  # of one contact solve, cascade included; rough surfaces of 256 to 2048 cells take 30 to 65
+_TRANSFORMS_PER_CONVOLUTION = 3.2
+"""Time of a convolution and of all that the contact solver does besides, in transforms: measured at 256 to 1024 cells."""
 _STRESS_COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 
 
@@ -117,84 +119,101 @@ def plan(scene: ContactScene) -> Plan:
             f"{hardness * grid.area:g} N; allowed: a smaller load, a larger grid or a higher hardness"
         )
     points = padded_points(grid.shape, grid.periodic)
-    rough = [name for name in ("lower", "upper") if getattr(scene, name).surface.kind != "smooth"]
-    steps = [
-        Step(
-            "surfaces",
-            f"heights of {' and '.join(rough)}" if rough else "both bodies are smooth",
-            skipped=not rough,
-            transforms=20.0 * len(rough),
-            points=grid.cells,
-            memory=8.0 * grid.cells * (3 + 4 * bool(rough)),
-            seconds=0.5 * len(rough),
-        )
-    ]
-    layered = [
-        name for name, body in (("lower", lower), ("upper", upper)) if body is not None and body.layer is not None
-    ]
-    steps.append(
+    coupled = build.traction_couples(lower, upper, scene.contact.friction)
+    depths = _depths(scene)
+    stressed = lower if scene.outputs.body == "lower" else upper
+    vtk = scene.outputs.vtk and bool(depths)
+    steps = (
+        _plan_surfaces(scene, grid),
         Step(
             "layered kernels",
-            f"{' and '.join(layered)} carries a layer" if layered else "no body is coated",
-            skipped=not layered,
-            seconds=2.0 * len(layered) * grid.cells / 2**20 if layered else 0.0,
-            memory=8.0 * points / 4,
-        )
-    )
-    coupled = build.traction_couples(lower, upper, scene.contact.friction)
-    steps.append(
-        Step(
-            "tangential kernels in the normal gap",
-            "friction between elastically dissimilar bodies (Dundurs' beta is not zero)"
-            if coupled
-            else (
-                "no friction"
-                if scene.contact.friction == 0
-                else "Dundurs' beta is zero: traction does not move the gap"
-            ),
-            skipped=not coupled,
-            transforms=4,
+            _layered(lower, upper) or "no body is coated",
+            skipped=not _layered(lower, upper),
+            transforms=60,
             points=points,
             memory=8.0 * points / 4,
-        )
-    )
-    steps.append(
+        ),
+        Step(
+            "tangential kernels in the normal gap",
+            _coupling_reason(coupled, scene.contact.friction),
+            skipped=not coupled,
+            transforms=20,
+            points=points,
+            memory=8.0 * points / 4,
+        ),
         Step(
             "contact",
             f"{scene.contact.behaviour}, {_control(scene)}",
-            transforms=2 * _CONVOLUTIONS,
+            transforms=_TRANSFORMS_PER_CONVOLUTION * _convolutions(grid),
             points=points,
             memory=convolution_memory(grid.shape, grid.periodic),
-            seconds=2.0,
-        )
-    )
-    depths = _depths(scene)
-    components = 6 if scene.outputs.stresses else 1
-    steps.append(
-        Step(
-            "stresses below",
-            f"{len(depths)} depths in the {scene.outputs.body} body"
-            if depths
-            else "neither stresses nor von Mises are asked for",
-            skipped=not depths,
-            transforms=13.0 * len(depths),
-            points=points,
-            memory=8.0 * grid.cells * (components + (components == 6)) * len(depths) + 6 * 8.0 * points,
             seconds=1.0,
-        )
-    )
-    vtk = scene.outputs.vtk and bool(depths)
-    steps.append(
+        ),
+        _plan_stresses(scene, grid, stressed, depths),
         Step(
             "VTK",
             "stress field for ParaView" if vtk else "no stress field to write",
             skipped=not vtk,
             seconds=1.0,
             memory=1e8,
-        )
+        ),
+        Step("figures and report", "pictures of the results, and the libraries for them", seconds=4.0, memory=3e8),
     )
-    steps.append(Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8))
-    return Plan(tuple(steps))
+    return Plan(steps)
+
+
+def _plan_surfaces(scene: ContactScene, grid: Grid) -> Step:
+    surfaces = {name: getattr(scene, name).surface for name in ("lower", "upper")}
+    rough = {name: surface for name, surface in surfaces.items() if surface.kind != "smooth"}
+    # A surface that is not Gaussian is found by iteration.
+    iterated = sum(s.kind == "generated" and (s.skewness, s.kurtosis) != (0.0, 3.0) for s in rough.values())
+    return Step(
+        "surfaces",
+        f"heights of {' and '.join(rough)}" if rough else "both bodies are smooth",
+        skipped=not rough,
+        transforms=60.0 * len(rough) + 300.0 * iterated,
+        points=grid.cells,
+        memory=8.0 * grid.cells * 14,
+        seconds=0.3,
+    )
+
+
+def _plan_stresses(scene: ContactScene, grid: Grid, body: Body | None, depths: tuple[float, ...]) -> Step:
+    points = padded_points(grid.shape, grid.periodic)
+    periodic = all(grid.periodic)
+    fields = 7 if scene.outputs.stresses else 1
+    loads = 1 if scene.contact.friction == 0 else 2
+    # Six real spectra a load and depth: half arrays where periodic, quarters elsewhere, kept up to half a gigabyte.
+    spectra = min(2.0**29, len(depths) * loads * 6 * 8 * points * (0.5 if periodic else 0.25))
+    coated = body is not None and body.layer is not None
+    return Step(
+        "stresses below",
+        f"{len(depths)} depths in the {scene.outputs.body} body"
+        if depths
+        else "neither stresses nor von Mises are asked for",
+        skipped=not depths,
+        # Time of the kernels and of six components at one depth, in transforms: measured.
+        transforms=len(depths) * (25.0 if periodic else 80.0) * (2.0 if coated else 1.0),
+        points=points,
+        memory=8.0 * grid.cells * fields * len(depths) + spectra + 8 * 8.0 * points,
+        seconds=0.5,
+    )
+
+
+def _convolutions(grid: Grid) -> float:
+    """Convolutions of a solve, coarse levels included: about 26 at 256 cells a side, growing with their square root."""
+    return 26.0 * max(1.0, max(grid.shape) / 256) ** 0.5
+
+
+def _layered(lower: Body, upper: Body | None) -> str:
+    names = [name for name, body in (("lower", lower), ("upper", upper)) if body is not None and body.layer is not None]
+    return f"a layer on the {' and the '.join(names)} body" if names else ""
+
+
+def _coupling_reason(coupled: bool, friction: float) -> str:
+    if coupled:
+        return "friction between elastically dissimilar bodies (Dundurs' beta is not zero)"
+    return "no friction" if friction == 0 else "Dundurs' beta is zero: traction does not move the gap"
 
 
 def run(scene: ContactScene, context: Context) -> Outcome:
