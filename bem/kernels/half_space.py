@@ -52,20 +52,17 @@ def _point(x: float, y: float, z: float, nu: float, tangential: bool, weight: fl
 def _chi_x(x0: float, x1: float, y0: float, y1: float, z: float) -> float:
     """Integral of d/dx ln(R + z) over the rectangle whose corner differences are (x0, x1) x (y0, y1)."""
     total = 0.0
-    for i in range(2):
-        u = x1 if i else x0
-        sign = 1.0 if i else -1.0
-        across = np.sqrt(u * u + z * z)
-        if across > 0.0 and z > 0.0:
-            total += sign * z * log_ratio(y1, y0, across)
-        for j in range(2):
-            v = y1 if j else y0
-            r = np.sqrt(u * u + v * v + z * z)
-            if r > 0.0:
-                term = u * slant(u, v, z, r)
-                if v != 0.0:
-                    term += v * np.log(r + z)
-                total += term if i == j else -term
+    for j in range(2):
+        v = y1 if j else y0
+        r0 = np.sqrt(x0 * x0 + v * v + z * z)
+        r1 = np.sqrt(x1 * x1 + v * v + z * z)
+        term = x1 * slant(x1, v, z, r1) - x0 * slant(x0, v, z, r0)
+        if v != 0.0:
+            # v ln[(r1 + z) / (r0 + z)], also where the rectangle is so long that both are nearly v
+            term += v * np.log1p((x1 - x0) * (x1 + x0) / ((r1 + r0) * (r0 + z)))
+        total += term if j else -term
+    if z > 0.0:
+        total += z * (log_ratio(y1, y0, np.sqrt(x1 * x1 + z * z)) - log_ratio(y1, y0, np.sqrt(x0 * x0 + z * z)))
     return total
 
 
