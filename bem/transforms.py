@@ -165,29 +165,29 @@ def multiplier(parts: list[tuple[FloatArray, tuple[int, int], float]]) -> Multip
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")  # type: ignore[untyped-decorator]
-def _multiply_real(source, target, real, parity, half):  # type: ignore[no-untyped-def]
+def _multiply_real(source, target, real, parity, scale, half):  # type: ignore[no-untyped-def]
     rows, length = source.shape
     for i in range(rows):
         for j in range(half):
-            target[i, j] = source[i, j] * real[i, j]
+            target[i, j] = source[i, j] * (real[i, j] * scale)
         if parity > 0:
             for j in range(half, length):
-                target[i, j] = source[i, j] * real[i, length - j]
+                target[i, j] = source[i, j] * (real[i, length - j] * scale)
         else:
             for j in range(half, length):
-                target[i, j] = -source[i, j] * real[i, length - j]
+                target[i, j] = source[i, j] * (-real[i, length - j] * scale)
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")  # type: ignore[untyped-decorator]
-def _multiply_imaginary(source, target, imaginary, parity, half):  # type: ignore[no-untyped-def]
+def _multiply_imaginary(source, target, imaginary, parity, scale, half):  # type: ignore[no-untyped-def]
     rows, length = source.shape
     for i in range(rows):
         for j in range(half):
-            a = imaginary[i, j]
+            a = imaginary[i, j] * scale
             z = source[i, j]
             target[i, j] = complex(-a * z.imag, a * z.real)
         for j in range(half, length):
-            a = imaginary[i, length - j]
+            a = imaginary[i, length - j] * scale
             if parity < 0:
                 a = -a
             z = source[i, j]
@@ -195,7 +195,7 @@ def _multiply_imaginary(source, target, imaginary, parity, half):  # type: ignor
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")  # type: ignore[untyped-decorator]
-def _multiply_complex(source, target, real, imaginary, parity_real, parity_imaginary, half):  # type: ignore[no-untyped-def]
+def _multiply_complex(source, target, real, imaginary, parity_real, parity_imaginary, scale, half):  # type: ignore[no-untyped-def]
     rows, length = source.shape
     for i in range(rows):
         for j in range(length):
@@ -207,29 +207,26 @@ def _multiply_complex(source, target, real, imaginary, parity_real, parity_imagi
                     a = -a
                 if parity_imaginary < 0:
                     b = -b
+            a *= scale
+            b *= scale
             z = source[i, j]
             target[i, j] = complex(a * z.real - b * z.imag, a * z.imag + b * z.real)
 
 
-def _multiply(source: ComplexArray, target: ComplexArray, factor: Multiplier, start: int, stop: int) -> None:
+def _multiply(
+    source: ComplexArray, target: ComplexArray, factor: Multiplier, scale: Any, start: int, stop: int
+) -> None:
     half = source.shape[1] // 2 + 1
-    if factor.imaginary is None:
-        if factor.real is None:
-            target[...] = 0
-        else:
-            _multiply_real(source, target, factor.real[start:stop], factor.real_parity, half)
-    elif factor.real is None:
-        _multiply_imaginary(source, target, factor.imaginary[start:stop], factor.imaginary_parity, half)
+    real = None if factor.real is None else factor.real[start:stop]
+    imaginary = None if factor.imaginary is None else factor.imaginary[start:stop]
+    if real is None and imaginary is None:
+        target[...] = 0
+    elif imaginary is None:
+        _multiply_real(source, target, real, factor.real_parity, scale, half)
+    elif real is None:
+        _multiply_imaginary(source, target, imaginary, factor.imaginary_parity, scale, half)
     else:
-        _multiply_complex(
-            source,
-            target,
-            factor.real[start:stop],
-            factor.imaginary[start:stop],
-            factor.real_parity,
-            factor.imaginary_parity,
-            half,
-        )
+        _multiply_complex(source, target, real, imaginary, factor.real_parity, factor.imaginary_parity, scale, half)
 
 
 def _stride(length: int, itemsize: int) -> int:
@@ -413,15 +410,19 @@ class PaddedTransform:
         """Along x, block by block: forward unless `source` is given, times `factor`, back unless `out` is given."""
         if factor is not None:
             factor = factor.astype(self.dtype)
+        in_place = self.padded[0] == self.shape[0]
 
         def work(number: int, block: int) -> None:
             worker = self._workers[number]
             start = block * self._column_block
             stop = min(self.spectrum_shape[0], start + self._column_block)
             rows = stop - start
-            scratch = worker.columns[:rows]
+            half = self._half[start:stop]
+            # without padding along x the rows are transformed where they are
+            scratch = half if in_place else worker.columns[:rows]
             if source is None:
-                _pad(self._half[start:stop], scratch)
+                if not in_place:
+                    _pad(half, scratch)
                 plan = self._plan(worker, "columns forward", rows)
                 plan.update_arrays(scratch, scratch)
                 plan.execute()
@@ -429,14 +430,16 @@ class PaddedTransform:
                     out[start:stop] = scratch
                     return
             given = scratch if source is None else source[start:stop]
+            scale = self._scale
             if factor is not None:
-                _multiply(given, scratch, factor, start, stop)
-            elif source is not None:
-                scratch[...] = given
+                _multiply(given, scratch, factor, scale, start, stop)
+            else:
+                np.multiply(given, scale, out=scratch)
             plan = self._plan(worker, "columns backward", rows)
             plan.update_arrays(scratch, scratch)
             plan.execute()
-            _crop(scratch, self._half[start:stop], self._scale)
+            if not in_place:
+                half[...] = scratch[:, : self.shape[0]]
 
         share(work, self._column_blocks)
         COUNT.columns += self.spectrum_shape[0] * (1 if out is not None or source is not None else 2)
@@ -450,14 +453,6 @@ def _pad(half, scratch):  # type: ignore[no-untyped-def]
             scratch[i, j] = half[i, j]
         for j in range(width, scratch.shape[1]):
             scratch[i, j] = 0
-
-
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _crop(scratch, half, scale):  # type: ignore[no-untyped-def]
-    rows, width = half.shape
-    for i in range(rows):
-        for j in range(width):
-            half[i, j] = scratch[i, j] * scale
 
 
 _PLANNER = threading.Lock()
