@@ -134,7 +134,7 @@ def solve_contact(
         )
     patch = 0.5 if row else _choose_patch(shape, cells, nu, layer, indenter, loads[-1])
     sizes = [0.5**level for level in range(LEVELS)]
-    detailed = [loads[len(loads) // 2], loads[-1]] if len(loads) > 1 else loads
+    detailed = sorted({loads[(len(loads) - 1) // 2], loads[-1]})
     axis, across, down = _stress_points(shape, layer)
     on_axis = np.array([[0.0, z] for z in axis])
     off_axis = np.array([[x, z] for x in across for z in down])
@@ -157,6 +157,14 @@ def solve_contact(
         size = {"cells": body.cells, "dofs": body.dofs, "size": sizes[level]}
         levels.append({"parameters": body.block.__dict__, **size})
         bodies.append(body.block)
+        least, most = branch.forces[0] / _force(shape, 1.0), branch.forces[-2] / _force(shape, 1.0)
+        if not least <= loads[0] <= loads[-1] <= most:
+            reason = (
+                "above lies full contact, below an edge that the mesh does not resolve"
+                if row
+                else "what the mesh resolves"
+            )
+            raise ValueError(f"loads {loads}: must lie between {least:.3g} and {most:.3g}; {reason}")
         states = [at_force(branch, _force(shape, load)) for load in loads]
         keep("contact_radius", "load", [state.edge for state in states])
         keep("central_pressure", "load", [state.pressure[0] for state in states])

@@ -236,6 +236,31 @@ def test_snes_with_bounds_agrees() -> None:
 
 
 @pytest.mark.fem
+@pytest.mark.parametrize("thickness", ["0.01", "0.7"])
+def test_layer_of_the_same_material_is_none(thickness: str, tmp_path: Path) -> None:
+    """A new question on the command line: it solves on another mesh what Hertz solved."""
+    if not PYTHON.exists():
+        pytest.skip("no .venv-fem: make it with fem_reference/setup.sh")
+    out = tmp_path / "mine.json"
+    options = ["--layer", "1", "0.3", thickness, "--loads", "0.4", "0.8", "--cells", "16", "--out", str(out)]
+    done = subprocess.run(
+        [str(PYTHON), "-m", "fem_reference", "contact-sphere", *options],
+        cwd=ROOT,
+        env={**os.environ, "OMP_NUM_THREADS": "1"},
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    result = read(out)
+    load = np.array([0.4, 0.8])
+    hold(result, "approach", "load", load ** (2 / 3), target=1e-3)
+    hold(result, "contact_radius", "load", load ** (1 / 3), target=3e-3)  # half as many cells as the stored cases
+    hold(result, "central_pressure", "load", load ** (1 / 3), target=5e-3)
+
+
+@pytest.mark.fem
 def test_bad_input_is_refused() -> None:
     if not PYTHON.exists():
         pytest.skip("no .venv-fem: make it with fem_reference/setup.sh")
