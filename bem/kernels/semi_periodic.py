@@ -1,11 +1,11 @@
 """Free along one axis, periodic along the other: a loaded cell and all its images, summed to round-off.
 
-The image at the origin and its two neighbours are summed as they are. The other images form a function of the position
-that is smooth on the scale of the period: it is sampled at Chebyshev nodes along the periodic axis, and along the free
-axis at Chebyshev nodes of panels a period wide or, where cells are that large, at Gauss nodes over each cell. Each
-sample is a sum over k = 2, 3, ... of point forces at +-k periods: the first few explicitly, the rest as an integral
-from half a period before (Gauss, in a variable in which it is analytic up to infinity) plus the Euler-Maclaurin terms
-of the midpoint rule, taken from samples around the lower end instead of derivatives.
+The image at the origin (and its two neighbours, where a period has few cells) is summed as it is. The other images
+form a function of the position that is smooth on the scale of the period: it is sampled at Chebyshev nodes along the
+periodic axis, and along the free axis at Chebyshev nodes of panels or, where cells are as large as a period, at Gauss
+nodes over each cell. Each sample is a sum over k = 1 (or 2), 2, 3, ... of point forces at +-k periods: the first few explicitly,
+the rest as an integral from half a period before (Gauss, in a variable in which it is analytic up to infinity) plus the
+Euler-Maclaurin terms of the midpoint rule, taken from samples around the lower end instead of derivatives.
 
 Where a part of the cell is more than `_LINE` periods away (along the free axis or in depth), its images look like a
 line load: what is left out is exp(-2 pi _LINE) of it. There the plane-strain forms of `half_plane` serve.
@@ -32,12 +32,11 @@ from bem.kernels.loads import STRESS_PARITY, SURFACE_PARITY, Load, clear_odd
 from bem.materials import Material
 
 _LINE = 6.5  # exp(-2 pi 6.5) = 2e-18
-_FIRST = 2  # first image in the tail
 _EXPLICIT = 10  # first image that is not summed explicitly
 _SPAN = 2.0  # half width, in periods, of the samples for Euler-Maclaurin
 _EULER_POINTS = 16
 _GAUSS_POINTS = 24
-_CHEBYSHEV = 24  # nodes across the period, used in pairs; the nearest image of the tail is 2 half intervals off
+_MANY = 16  # cells in a period from which even the neighbouring images belong to the tail
 
 
 def _bernoulli_half(order: int) -> list[Fraction]:
@@ -126,11 +125,12 @@ def _add_tail(
     pressure: float,
     traction: float,
     reference: float,
+    first: int,
     weight: float,
     out: FloatArray,
 ) -> None:
-    """Add all point forces at +-k periods, k >= _FIRST; lengths in periods."""
-    for k in range(_FIRST, _EXPLICIT):
+    """Add all point forces at +-k periods, k >= first; lengths in periods."""
+    for k in range(first, _EXPLICIT):
         _add_pair(kind, swap, free, along, z, float(k), nu, pressure, traction, weight, out)
     start = _EXPLICIT - 0.5
     for i in range(_EULER_NODES.size):
@@ -233,6 +233,7 @@ def _fill(
     odd: FloatArray,
     parity: FloatArray,
     points: int,
+    first: int,
     tail: FloatArray,
     out: FloatArray,
 ) -> None:
@@ -275,14 +276,14 @@ def _fill(
                 for g in range(points):
                     source = centre + 0.5 * width * NODES[points, g]
                     _add_tail(
-                        kind, swap, free - source, nodes[n], z, nu, pressure, traction, reference,
+                        kind, swap, free - source, nodes[n], z, nu, pressure, traction, reference, first,
                         width * WEIGHTS[points, g], local,
                     )  # fmt: skip
             samples[:, n] = local
         middle = 0.5 * (low + high)
         for j in range(out.shape[2]):
             local[:] = 0.0
-            for k in range(1 - _FIRST, _FIRST):
+            for k in range(1 - first, first):
                 _add_cell(
                     kind, swap, free - middle, j * step_along + k, z, 0.5 * (high - low), half_along, nu, pressure,
                     traction, local, lift,
@@ -303,6 +304,7 @@ def _sample(
     pressure: float,
     traction: float,
     reference: float,
+    first: int,
     free_nodes: FloatArray,
     means: FloatArray,
     nodes: FloatArray,
@@ -315,7 +317,7 @@ def _sample(
     for s in range(free_nodes.size):
         for n in range(nodes.size):
             local[:] = 0.0
-            _add_tail(kind, swap, free_nodes[s], nodes[n], z, nu, pressure, traction, reference, 1.0, local)
+            _add_tail(kind, swap, free_nodes[s], nodes[n], z, nu, pressure, traction, reference, first, 1.0, local)
             samples[:, n] = local
         for i in range(out.shape[1]):
             w = means[i, s]
@@ -325,25 +327,26 @@ def _sample(
                         out[c, i, n] += w * samples[c, n]
 
 
-def _panels(cells: int, step: float, points: int) -> tuple[FloatArray, FloatArray]:
+def _panels(cells: int, step: float, points: int, first: int) -> tuple[FloatArray, FloatArray]:
     """Chebyshev nodes of panels along the free axis, and weights (cells, nodes) of the mean over each cell times step.
 
-    The tail's nearest image is at least a period from any point of a panel a period wide: 24 nodes reach round-off.
+    Panels are as long as the tail's nearest image is far, or shorter: 24 nodes reach round-off.
     """
     length = cells * step
-    count = int(np.ceil(length))
+    count = int(np.ceil(length / (first - 0.5 if first == 1 else 1.0)))
     width = length / count
-    angles = (np.arange(_CHEBYSHEV) + 0.5) * np.pi / _CHEBYSHEV
+    order = 24
+    angles = (np.arange(order) + 0.5) * np.pi / order
     nodes = (-0.5 * step + (np.arange(count)[:, None] + 0.5 + 0.5 * np.cos(angles)) * width).ravel()
     at = (np.arange(cells)[:, None] + 0.5 * (1 + NODES[points, :points])) * step
     panel = np.minimum((at / width).astype(np.int64), count - 1)
     inside = np.clip(2 * (at / width - panel) - 1, -1, 1)
-    orders = np.arange(_CHEBYSHEV)
-    scale = np.full(_CHEBYSHEV, 2.0 / _CHEBYSHEV)
+    orders = np.arange(order)
+    scale = np.full(order, 2.0 / order)
     scale[0] *= 0.5
     basis = np.cos(orders * np.arccos(inside)[..., None])
     cardinal = np.einsum("igk,kn->ign", basis, np.cos(orders[:, None] * angles) * scale[:, None])
-    means = np.zeros((cells, count, _CHEBYSHEV))
+    means = np.zeros((cells, count, order))
     for g in range(points):
         means[np.arange(cells), panel[:, g]] += WEIGHTS[points, g] * step * cardinal[:, g]
     return nodes, means.reshape(cells, -1)
@@ -354,22 +357,23 @@ def _points(ratio: float) -> int:
     return min(NODES.shape[1], max(2, int(np.ceil(16 / (2 * np.log10(2 * ratio))))))
 
 
-def _interpolation(cells: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _interpolation(cells: int, first: int) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Chebyshev nodes (positive ones) and the weights of an even or odd function's mean over each cell times its side.
 
     Offsets j = 0..cells // 2, in periods; the interval reaches half a cell beyond half a period.
     """
     half = 0.5 / cells
     length = 0.5 + half
-    angles = (np.arange(_CHEBYSHEV) + 0.5) * np.pi / _CHEBYSHEV
-    points = _points((2 - 0.5) / half)
+    order = 32 if first == 1 else 24  # the nearest image is `first` periods off
+    angles = (np.arange(order) + 0.5) * np.pi / order
+    points = _points((first - 0.5) / half)
     at = (np.arange(cells // 2 + 1)[:, None] / cells + half * NODES[points, :points]) / length
-    orders = np.arange(_CHEBYSHEV)
+    orders = np.arange(order)
     basis = np.cos(orders * np.arccos(np.clip(at, -1, 1))[..., None])
     integrals = np.einsum("g,jgn->jn", WEIGHTS[points, :points], basis) * 2 * half
-    positive = angles[: _CHEBYSHEV // 2]
+    positive = angles[: order // 2]
     # values at -node follow by parity, so each kept node counts twice for its own parity
-    scale = np.full(_CHEBYSHEV, 4.0 / _CHEBYSHEV)
+    scale = np.full(order, 4.0 / order)
     scale[0] *= 0.5
     cardinal = np.cos(orders[:, None] * positive) * scale[:, None]
     even = integrals[:, 0::2] @ cardinal[0::2]
@@ -385,22 +389,23 @@ def _table(
     free, along = (1, 0) if swap else (0, 1)
     cells, period = grid.shape[along], grid.lengths[along]
     step = grid.spacing[free] / period
-    nodes, even, odd = _interpolation(cells)
     quarter = np.zeros((len(parities), grid.shape[free], cells // 2 + 1))
     parity = np.array(parities, dtype=np.float64)
     half = 0.5 * step
-    points = _points(1.0 / min(half, 0.25))
     reference = grid.lengths[free] / period
     loads = (nu, pressure, traction, reference)
     z = depth / period
     # whole cells within reach, and none so wide that a panel is no gain
     smooth = half <= 0.25 and (grid.shape[free] * step) ** 2 + z * z <= _LINE**2
+    first = 1 if smooth and cells >= _MANY and step <= 1 / _MANY else 2
+    nodes, even, odd = _interpolation(cells, first)
+    points = _points((first - 0.5 if first == 1 else 1.0) / min(half, 0.25))
     tail = np.zeros((len(parities), grid.shape[free] if smooth else 0, nodes.size))
     if smooth:
-        _sample(kind, swap, z, *loads, *_panels(grid.shape[free], step, points), nodes, tail)
+        _sample(kind, swap, z, *loads, first, *_panels(grid.shape[free], step, points, first), nodes, tail)
     _fill(
         kind, swap, step, half, 1.0 / cells, z, *loads,
-        nodes, even, odd, parity, points, tail, quarter,
+        nodes, even, odd, parity, points, first, tail, quarter,
     )  # fmt: skip
     odd_parts = parity < 0
     quarter[odd_parts, :, 0] = 0.0

@@ -19,6 +19,9 @@ CASES = [
     ((4, 1), (1.0, 1.0), (False, True)),
     ((1, 5), (3.0, 1.0), (True, False)),
     ((3, 2), (2.0, 0.2), (False, True)),  # the period is a fifth of a cell's other side
+    ((5, 17), (1.0, 1.3), (False, True)),  # many cells: only the origin's image is summed as it is
+    ((40, 6), (0.1, 0.2), (True, False)),
+    ((20, 18), (0.7, 0.7), (False, True)),
 ]
 
 
