@@ -96,6 +96,7 @@ def solve(
     load_degree: int | None = None,
     loaded: Sequence[str] = ("loaded",),
     product_grid: bool = False,
+    interface: float = 0.0,
 ) -> Solution:
     """Solve one linear problem, by a sparse Cholesky factorisation or, on blocks, by conjugate gradients.
 
@@ -112,7 +113,8 @@ def solve(
     rigid : rigid motions, as values of the fields, with which the reaction of the far boundary is measured.
     load_degree : quadrature degree on the loaded facets (polynomial loads need none).
     loaded : names of the loaded facet tags.
-    product_grid : the mesh is a homogeneous block of hexahedra that is a product of three axes: `tensor_solver`.
+    product_grid : the mesh is a block of hexahedra that is a product of three axes: use `tensor_solver`.
+    interface : depth of the layer's lower side in a product grid.
 
     The reaction is the work of the residual of all held fields on each rigid motion; by equilibrium it is minus the
     load's.
@@ -151,7 +153,13 @@ def solve(
     if product_grid:
         coordinates = np.asarray(space.tabulate_dof_coordinates())
         fixed = held_nodes(len(coordinates), compat.fixed_dofs(conditions))
-        inverse = FastDiagonalisation(coordinates, degree, fixed, *materials["substrate"].lame)
+        lame_of = {name: material.lame for name, material in materials.items()}
+        below, shear_below = lame_of["substrate"]
+
+        def shear_at(depth: Array) -> Array:
+            return np.where(depth < interface, lame_of.get("layer", lame_of["substrate"])[1], shear_below)
+
+        inverse = FastDiagonalisation(coordinates, degree, fixed, shear_at, 2 + below / shear_below)
         solve_block(matrix, right, compat.petsc_vector(field), inverse, 1e-9)
     else:
         factor_and_solve(matrix, right, compat.petsc_vector(field))

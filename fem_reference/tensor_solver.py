@@ -1,16 +1,16 @@
 """Conjugate gradients for elasticity on a block of graded hexahedra, preconditioned by fast diagonalisation.
 
-Coupling between the three displacement components aside, the stiffness of a homogeneous block on a grid that is a
-product of three axes is a sum of Kronecker products of
-one-dimensional stiffness and mass matrices (on any grading, of any degree), which the eigenvectors of each axis
-diagonalise. As a preconditioner for the assembled matrix
-it needs a number of iterations that depends on Poisson's ratio only: neither on the grading nor on the degree, where
-multigrid and incomplete factorisations suffer from both.
+Coupling between the three displacement components aside, the stiffness of a block, layered in depth or not, on a grid
+that is a product of three axes is a sum of Kronecker products of one-dimensional stiffness and mass matrices (on any
+grading, of any degree), those in depth weighted with the shear modulus; the eigenvectors of each axis diagonalise it.
+As a preconditioner for the assembled matrix it needs a number of iterations that depends on Poisson's ratios only:
+neither on the grading, the degree nor the stiffness of a layer, where multigrid and incomplete factorisations suffer
+from all three.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -20,11 +20,15 @@ from petsc4py import PETSc
 Array = NDArray[np.float64]
 
 
-def axis_matrices(nodes: Array, degree: int) -> tuple[Array, Array]:
-    """Stiffness and mass matrix of one axis in the Lagrange basis of its nodes (sorted, `degree` per cell plus one)."""
+def axis_matrices(nodes: Array, degree: int, weights: Array | None = None) -> tuple[Array, Array]:
+    """Stiffness and mass matrix of one axis in the Lagrange basis of its nodes (sorted, `degree` per cell plus one).
+
+    weights : factor of either by cell.
+    """
     cells = (nodes.size - 1) // degree
+    factors = np.ones(cells) if weights is None else weights
     stiffness, mass = np.zeros((nodes.size, nodes.size)), np.zeros((nodes.size, nodes.size))
-    points, weights = np.polynomial.legendre.leggauss(degree + 1)
+    points, gauss = np.polynomial.legendre.leggauss(degree + 1)
     for cell in range(cells):
         span = slice(cell * degree, cell * degree + degree + 1)
         local = nodes[span]
@@ -34,8 +38,9 @@ def axis_matrices(nodes: Array, degree: int) -> tuple[Array, Array]:
         coefficients = np.linalg.inv(np.polynomial.legendre.legvander(reference, degree))
         values = np.polynomial.legendre.legvander(points, degree) @ coefficients
         slopes = np.polynomial.legendre.legval(points, np.polynomial.legendre.legder(coefficients)).T / half
-        mass[span, span] += values.T @ (values * (weights * half)[:, None])
-        stiffness[span, span] += slopes.T @ (slopes * (weights * half)[:, None])
+        measure = (factors[cell] * half * gauss)[:, None]
+        mass[span, span] += values.T @ (values * measure)
+        stiffness[span, span] += slopes.T @ (slopes * measure)
     return stiffness, mass
 
 
@@ -56,10 +61,18 @@ class FastDiagonalisation:
     coordinates : (n, 3) of the nodes, which form a product grid.
     degree : of the elements.
     held : (n, 3) which components are held; whole planes of the grid only.
-    lame, shear : Lame's constants of the block.
+    shear : shear modulus at depths z (n,) -> (n,), constant in each cell.
+    ratio : (lambda + 2 mu) / mu, of the substrate.
     """
 
-    def __init__(self, coordinates: Array, degree: int, held: NDArray[np.bool_], lame: float, shear: float) -> None:
+    def __init__(
+        self,
+        coordinates: Array,
+        degree: int,
+        held: NDArray[np.bool_],
+        shear: Callable[[Array], Array],
+        ratio: float,
+    ) -> None:
         self.place = []
         axes = []
         for d in range(3):
@@ -75,7 +88,13 @@ class FastDiagonalisation:
         if np.prod(self.shape) != len(coordinates):
             raise ValueError("the nodes are no product grid")
         self.held = held
-        matrices = [axis_matrices(axis, degree) for axis in axes]
+        corners = axes[2][::degree]
+        weights = shear(0.5 * (corners[1:] + corners[:-1]))
+        matrices = [
+            axis_matrices(axes[0], degree),
+            axis_matrices(axes[1], degree),
+            axis_matrices(axes[2], degree, weights),
+        ]
         self.vectors, self.diagonal = [], []
         for component in range(3):
             lattice = np.zeros(self.shape, dtype=bool)
@@ -84,7 +103,7 @@ class FastDiagonalisation:
             for d in range(3):
                 others = tuple(k for k in range(3) if k != d)
                 modes.append(_modes(*matrices[d], np.asarray(~lattice.all(axis=others))))
-            stiff = [lame + 2 * shear if d == component else shear for d in range(3)]
+            stiff = [ratio if d == component else 1.0 for d in range(3)]
             x, y, z = (stiff[d] * modes[d][0] for d in range(3))
             self.diagonal.append(x[:, None, None] + y[:, None] + z)
             self.vectors.append([mode[1] for mode in modes])

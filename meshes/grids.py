@@ -308,11 +308,14 @@ def progression(start: float, end: float, cells: int, spread: float, *, fine_at_
 BLOCK_REACH = 30.0
 
 
-def rectangle_grid(*, half_length: float, half_width: float, level: int, boxes: int = 0) -> BlockGrid:
+def rectangle_grid(
+    *, half_length: float, half_width: float, level: int, thickness: float | None = None, boxes: int = 0
+) -> BlockGrid:
     """A quarter of a block under a loaded rectangle: |x| <= half_length, |y| <= half_width.
 
-    Few cells, meant for elements of degree four: one a level and direction over the load, two beyond it, two in depth.
-    The box reaches BLOCK_REACH, and by WIDER further for each of `boxes`, the mesh inside staying the same.
+    Few cells, meant for elements of degree four: one a level and direction over the load, two beyond it, two in
+    depth, of which a quarter lie in the layer if there is one. The box reaches BLOCK_REACH, and by WIDER further
+    for each of `boxes`, the mesh inside staying the same.
     """
     beyond = []
     reach = BLOCK_REACH
@@ -324,5 +327,9 @@ def rectangle_grid(*, half_length: float, half_width: float, level: int, boxes: 
         inside = progression(0.0, half, level, 4.0, fine_at_end=True)
         return (inside, progression(half, BLOCK_REACH, 2 * level, 200.0), *beyond)
 
-    depth = (progression(0.0, BLOCK_REACH, 2 * level, 200.0), *beyond)
-    return BlockGrid(across(half_length), across(half_width), depth)
+    if thickness is None:
+        depth = (progression(0.0, BLOCK_REACH, 2 * level, 200.0), *beyond)
+        return BlockGrid(across(half_length), across(half_width), depth)
+    below = progression(thickness, BLOCK_REACH, 3 * level // 2, 200.0)
+    layer = uniform(0.0, thickness, (level + 1) // 2)
+    return BlockGrid(across(half_length), across(half_width), (layer, below, *beyond), layers=1)
