@@ -3,9 +3,10 @@
 The image at the origin (and its two neighbours, where a period has few cells) is summed as it is. The other images
 form a function of the position that is smooth on the scale of the period: it is sampled at Chebyshev nodes along the
 periodic axis, and along the free axis at Chebyshev nodes of panels or, where cells are as large as a period, at Gauss
-nodes over each cell. Each sample is a sum over k = 1 (or 2), 2, 3, ... of point forces at +-k periods: the first few explicitly,
-the rest as an integral from half a period before (Gauss, in a variable in which it is analytic up to infinity) plus the
-Euler-Maclaurin terms of the midpoint rule, taken from samples around the lower end instead of derivatives.
+nodes over each cell. Each sample is a sum over k = 1 (or 2), 2, 3, ... of point forces at +-k periods: the first few
+explicitly, the rest as an integral from half a period before (Gauss, in a variable in which it is analytic up to
+infinity) plus the Euler-Maclaurin terms of the midpoint rule, taken from samples around the lower end instead of
+derivatives.
 
 Where a part of the cell is more than `_LINE` periods away (along the free axis or in depth), its images look like a
 line load: what is left out is exp(-2 pi _LINE) of it. There the plane-strain forms of `half_plane` serve.
