@@ -29,6 +29,9 @@ _HOMES = {
     "friction": ["MixedSolution", "solve_mixed", "stribeck_curve"],
     "wear": ["find_particles", "run_in"],
     "particles": ["Particle", "particle_statistics", "particles_from_height_map"],
+    "scenes": ["load_scene"],
+    "results": ["FinishedRun", "open_run"],
+    "runs": ["plan_scene", "run_scene"],
     "tribofilm": ["grow_tribofilm"],
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}

@@ -57,41 +57,49 @@ class Terminal:
 
 def _bars() -> Any:
     from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TextColumn,
-        TimeElapsedColumn,
-        TimeRemainingColumn,
-    )
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+    from rich.table import Column
+
+    def fixed(width: int | None = None) -> Column:
+        return Column(no_wrap=True, min_width=width)
 
     return Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("[dim]{task.fields[beside]}"),
-        TimeElapsedColumn(),
-        TextColumn("left"),
-        TimeRemainingColumn(),
+        TextColumn("{task.description}", table_column=fixed()),
+        BarColumn(bar_width=16, table_column=fixed(16)),
+        MofNCompleteColumn(table_column=fixed(9)),
+        TextColumn("left", table_column=fixed()),
+        TimeRemainingColumn(compact=True, table_column=fixed(8)),
+        TextColumn("[dim]{task.fields[beside]}", table_column=Column(no_wrap=True, overflow="ellipsis")),
         console=Console(stderr=True),
     )
 
 
-def table(head: Sequence[str], rows: Sequence[Sequence[str]], *, title: str = "", right: Sequence[int] = ()) -> None:
-    """A table: ruled on a terminal, aligned columns when piped."""
+def table(
+    head: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    *,
+    title: str = "",
+    right: Sequence[int] = (),
+    wide_only: Sequence[int] = (),
+) -> None:
+    """A table: ruled on a terminal, without the columns `wide_only` if it is narrow; aligned columns when piped."""
     if sys.stdout.isatty():
         from rich import box
         from rich.console import Console
         from rich.table import Table
         from rich.text import Text
 
-        shown = Table(title=title or None, box=box.SIMPLE_HEAD, title_justify="left")
-        for i, name in enumerate(head):
-            shown.add_column(name, justify="right" if i in right else "left", no_wrap=i == 0)
+        console = Console()
+        kept = [i for i in range(len(head)) if console.width >= 130 or i not in wide_only]
+        shown = Table(
+            title=title or None, box=box.SIMPLE_HEAD, title_justify="left", title_style="bold", padding=(0, 1)
+        )
+        for i in kept:
+            short = max((len(str(row[i])) for row in rows), default=0) <= 24
+            shown.add_column(head[i], justify="right" if i in right else "left", no_wrap=short)
         for row in rows:
-            shown.add_row(*(Text(str(cell)) for cell in row))
-        Console().print(shown)
+            shown.add_row(*(Text(str(row[i])) for i in kept))
+        console.print(shown)
         return
     if title:
         print(title)

@@ -23,15 +23,14 @@ def register(app: typer.Typer) -> None:
         rows = [
             (
                 step.name,
-                "skipped" if step.skipped else "computed",
-                step.why,
                 "" if step.skipped else show_bytes(step.memory),
-                "" if step.skipped else show_seconds(step_seconds(step, rate)),
+                "skipped" if step.skipped else show_seconds(step_seconds(step, rate)),
+                step.why,
             )
             for step in planned.steps
         ]
-        rows.append(("total", "", "", show_bytes(planned.memory), show_seconds(planned.seconds(rate))))
-        table(("step", "", "why", "memory", "time"), rows, title=f"{resolved.name}: kind {resolved.kind}", right=(3, 4))
+        rows.append(("total", show_bytes(planned.memory), show_seconds(planned.seconds(rate)), ""))
+        table(("step", "memory", "time", "why"), rows, title=f"{resolved.name}: kind {resolved.kind}", right=(1, 2))
         free = available_memory()
         if planned.memory > free:
             typer.echo(

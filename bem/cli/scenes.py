@@ -34,4 +34,4 @@ def register(app: typer.Typer) -> None:
         rows = [
             (name, item["kind"], item.get("description", ""), item.get("redoes", "")) for name, item in known.items()
         ]
-        table(("scene", "kind", "what it is", "redoes"), rows)
+        table(("scene", "kind", "what it is", "redoes"), rows, wide_only=(1, 3))

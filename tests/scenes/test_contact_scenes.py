@@ -189,10 +189,10 @@ def test_plan_says_what_is_skipped_and_why():
     _, plan = plan_scene(rough(outputs={"von_mises": False}))
     skipped = {step.name: step.why for step in plan.steps if step.skipped}
     assert skipped["layered kernels"] == "no body is coated"
-    assert skipped["tangential kernels in the normal gap"] == "no friction"
+    assert skipped["traction kernels"] == "no friction"
     assert skipped["stresses below"] == "neither stresses nor von Mises are asked for"
     _, plan = plan_scene(rough(contact={"friction": 0.1}))
     skipped = {step.name: step.why for step in plan.steps if step.skipped}
-    assert "Dundurs' beta is zero" in skipped["tangential kernels in the normal gap"]
+    assert "Dundurs' beta is zero" in skipped["traction kernels"]
     _, plan = plan_scene(rough(contact={"friction": 0.1}, lower={"material": "brass-disk"}))
-    assert "tangential kernels in the normal gap" not in {step.name for step in plan.steps if step.skipped}
+    assert "traction kernels" not in {step.name for step in plan.steps if step.skipped}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -34,7 +35,7 @@ from bem.scenes.units import Length, Ratio
 FloatArray = NDArray[np.float64]
 
 _TRANSFORMS_PER_CONVOLUTION = 3.2
-"""Time of a convolution and of all that the contact solver does besides, in transforms: measured at 256 to 1024 cells."""
+"""Time of a convolution and what the contact solver does besides, in transforms: measured, 256 to 1024 cells."""
 _STRESS_COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 
 
@@ -134,7 +135,7 @@ def plan(scene: ContactScene) -> Plan:
             memory=8.0 * points / 4,
         ),
         Step(
-            "tangential kernels in the normal gap",
+            "traction kernels",
             _coupling_reason(coupled, scene.contact.friction),
             skipped=not coupled,
             transforms=20,
@@ -245,9 +246,9 @@ def run(scene: ContactScene, context: Context) -> Outcome:
 
             def watch(iterations: int, residual: float, fraction: float) -> None:
                 history.append((iterations, residual))
-                context.progress(
-                    iterations, scene.contact.max_iterations, "contact", residual=residual, area_fraction=fraction
-                )
+                # convergence is near linear in the logarithm of the residual
+                share = math.log(min(max(residual, 1e-300), 1.0)) / math.log(scene.contact.tolerance)
+                context.progress(int(100 * min(share, 1.0)), 100, "contact", residual=residual, area_fraction=fraction)
 
             solution = solve_contact(
                 undeformed,
@@ -260,6 +261,7 @@ def run(scene: ContactScene, context: Context) -> Outcome:
                 max_iterations=scene.contact.max_iterations,
                 callback=watch,
             )
+            context.progress(100, 100, "contact", residual=solution.residual)
             context.save({"solution": _fields(solution), "history": np.array(history).reshape(-1, 2)})
 
     variables = {
