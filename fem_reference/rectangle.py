@@ -1,4 +1,4 @@
-"""Problem 1: a uniformly loaded rectangle, pressure or traction along x, on a plain or layered block in three dimensions.
+"""Problem 1: a uniformly loaded rectangle, pressure or traction along x, on a plain or layered block, in 3D.
 
 A quarter is meshed. Under pressure u_x is odd in x and u_y odd in y; under traction along x, u_y and u_z are odd in x
 and u_y odd in y.

@@ -190,7 +190,7 @@ def picture_segments(result: Result) -> list[tuple[tuple[float, float], tuple[fl
     return []
 
 
-def reproduces(stored: Result, computed: Result, *, factor: float = 1.0, round_off: float = 1e-9) -> list[str]:
+def reproduces(stored: Result, computed: Result, *, factor: float = 1.0, round_off: float = 1e-8) -> list[str]:
     """Differences between a stored and a recomputed result that exceed the stored error bars.
 
     A value may differ by `factor` times its stored error bar plus `round_off` times the largest value of its curve
