@@ -114,12 +114,12 @@ def uncoupled_contact(
     summits: Summits,
     grid: Grid,
     *,
-    mean_gap: float,
+    mean_gap: float | None,
     contact_modulus: float,
     hardness: float | None,
 ) -> AsperityContact:
-    """Contact of uncoupled summits at the separation that keeps the volume of oil; `gap` is film less height."""
-    shift = volume_shift(gap, mean_gap)
+    """Contact of uncoupled summits; `gap` is film less height, brought together to keep `mean_gap` if that is given."""
+    shift = 0.0 if mean_gap is None else volume_shift(gap, mean_gap)
     ix, iy = summits.index
     plane = gap[ix, iy] + height[ix, iy] - shift  # separation of the mean planes above each summit
     load, area, plastic = asperity_loads(summits.height - plane, summits.radius, contact_modulus, hardness)

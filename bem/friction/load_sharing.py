@@ -28,6 +28,7 @@ BALANCE_POINTS = 400
 """Film nodes while the balance is looked for; the last evaluations use the number asked for."""
 MAX_EVALUATIONS = 60
 CONTACT_MODELS = ("coupled", "uncoupled")
+SEPARATIONS = ("volume", "film")
 
 
 def solve_mixed(
@@ -45,6 +46,7 @@ def solve_mixed(
     tolerance: float = 1e-4,
     film_points: int = 2000,
     contact_model: str = "coupled",
+    asperity_separation: str = "volume",
     contact_tolerance: float = 1e-6,
     film_position: FloatArray | None = None,
     striated_exit: bool = False,
@@ -67,6 +69,8 @@ def solve_mixed(
     tolerance : of the balance, (F_H + F_C - load) / load.
     film_points : nodes of the film's own mesh.
     contact_model : "coupled" (the half-space), or "uncoupled" (every summit a Hertz sphere), the usual baseline.
+    asperity_separation : distance of the mean planes for uncoupled asperities: "volume" keeps the volume of oil between
+        the surfaces, cut where they overlap; "film" is the film thickness itself.
     contact_tolerance : of the rough contact.
     film_position : ascending abscissae [m] on which `film` is returned; the film's own mesh by default.
     striated_exit : whether the oil behind the exit adds to the friction (`FilmSolution.striated_shear_force`).
@@ -88,7 +92,7 @@ def solve_mixed(
     """
     case = _Case(
         height, grid, bodies, radius, width, load, lubricant, boundary_friction, hardness, tolerance, film_points,
-        contact_model, contact_tolerance, film_position, striated_exit,
+        contact_model, asperity_separation, contact_tolerance, film_position, striated_exit,
     )  # fmt: skip
     return case.solve(speeds, initial)
 
@@ -124,11 +128,20 @@ def stribeck_curve(speeds: Sequence[float | Sequence[float]], **as_solve_mixed: 
     return curve
 
 
-def largest_difference(curve: Sequence[MixedSolution], baseline: Sequence[MixedSolution]) -> float:
-    """Maximum relative difference d of friction between two curves at the same speeds, relative to the first."""
-    if [s.speeds for s in curve] != [s.speeds for s in baseline]:
-        raise InputError("largest_difference: the curves are at different speeds")
-    return max(abs(other.friction / one.friction - 1) for one, other in zip(curve, baseline, strict=True))
+def largest_difference(coupled: Sequence[MixedSolution], uncoupled: Sequence[MixedSolution]) -> float:
+    """Maximum relative difference d of two friction curves: the largest |f_u - f_c| over f_u at that speed.
+
+    Eq. (13) of the thesis' paper A.
+
+    Raises
+    ------
+    InputError : curves at different speeds, or none.
+    """
+    if not coupled or [s.speeds for s in coupled] != [s.speeds for s in uncoupled]:
+        raise InputError("largest_difference: the curves must be at the same speeds")
+    pairs = [(one.friction, other.friction) for one, other in zip(coupled, uncoupled, strict=True)]
+    one, other = max(pairs, key=lambda pair: abs(pair[0] - pair[1]))
+    return abs(other - one) / other
 
 
 _DEFAULTS: dict[str, Any] = {
@@ -136,6 +149,7 @@ _DEFAULTS: dict[str, Any] = {
     "tolerance": 1e-4,
     "film_points": 2000,
     "contact_model": "coupled",
+    "asperity_separation": "volume",
     "contact_tolerance": 1e-6,
     "film_position": None,
     "striated_exit": False,
@@ -170,6 +184,7 @@ class _Case:
         tolerance: float,
         film_points: int,
         contact_model: str,
+        asperity_separation: str,
         contact_tolerance: float,
         film_position: FloatArray | None,
         striated_exit: bool,
@@ -190,6 +205,10 @@ class _Case:
             messages.append(f"lubricant: {type(lubricant).__name__} is not a Lubricant")
         if contact_model not in CONTACT_MODELS:
             messages.append(f"contact_model: {contact_model!r} is unknown; choose from {', '.join(CONTACT_MODELS)}")
+        if asperity_separation not in SEPARATIONS:
+            messages.append(
+                f"asperity_separation: {asperity_separation!r} is unknown; choose from {', '.join(SEPARATIONS)}"
+            )
         try:
             rough = grid.check_field(height, "height")
         except InputError as error:
@@ -225,6 +244,7 @@ class _Case:
         self.tolerance = tolerance
         self.film_points = film_points
         self.contact_model = contact_model
+        self.asperity_separation = asperity_separation
         self.contact_tolerance = contact_tolerance
         self.film_position = film_position
         self.striated_exit = striated_exit
@@ -274,7 +294,7 @@ class _Case:
                 self.height,
                 self.summits,
                 self.grid,
-                mean_gap=mean_gap,
+                mean_gap=mean_gap if self.asperity_separation == "volume" else None,
                 contact_modulus=self.modulus,
                 hardness=self.hardness,
             )
@@ -362,8 +382,9 @@ class _Case:
             area = point.contact.contact_area * self.width / self.grid.lengths[1]
             touching = np.mean(point.contact.pressure > 0, axis=1)
             covered = float(np.sum(film.shear_stress(self.grid.x) * touching)) * self.grid.spacing[0]
-        film_force = sign * (force - covered) * self.width
-        boundary_force = self.boundary_friction * point.contact_load
+        film_force = float(sign * (force - covered) * self.width)
+        slides = pair[0] != pair[1]
+        boundary_force = float(self.boundary_friction * point.contact_load) if slides else 0.0
         if self.film_position is not None:
             film = solve_line_film(
                 load=point.film_load / self.width,
@@ -377,7 +398,7 @@ class _Case:
             )
         return MixedSolution(
             speeds=pair,
-            friction=(boundary_force + film_force) / self.load,
+            friction=float((boundary_force + film_force) / self.load),
             boundary_force=boundary_force,
             film_force=film_force,
             load=self.load,

@@ -21,7 +21,7 @@ class MixedSolution:
     ----------
     speeds : (u1, u2) of flat and cylinder [m/s].
     friction : coefficient, (boundary part + film part) / load, positive where it resists the sliding.
-    boundary_force, film_force : the two parts [N].
+    boundary_force, film_force : the two parts [N]; without sliding the boundary part is zero.
     load, contact_load, film_load : [N].
     film : smooth film under `film_load`.
     contact : rough contact of one slice as long as the grid is wide; None in full film.

@@ -1,0 +1,229 @@
+"""Load sharing: limits, closed forms, what is not computed, warm starts, refusals."""
+
+import dataclasses
+import inspect
+
+import numpy as np
+import pytest
+
+import bem.friction.load_sharing as load_sharing
+from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_surface, solve_mixed, stribeck_curve
+from bem.convolution import COUNT
+from bem.friction import largest_difference
+
+STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
+GRID = Grid((100, 100), (0.9e-6, 0.9e-6), periodic=(False, True))
+ROUGH = generate_surface(
+    Grid((100, 100), (0.9e-6, 0.9e-6), periodic=(True, True)), rms_height=100e-9, seed=3, correlation_length=4e-6
+)
+CASE = {
+    "height": ROUGH,
+    "grid": GRID,
+    "bodies": (Body(STEEL), Body(STEEL)),
+    "radius": 2e-3,
+    "width": 6e-3,
+    "load": 5.5,
+    "lubricant": Lubricant(0.36, pressure_viscosity=25e-9),
+    "boundary_friction": 0.15,
+    "hardness": 6e9,
+    "film_points": 200,
+}
+SPEEDS = [0.001, 0.01, 0.03, 0.1, 0.3]
+
+
+@pytest.fixture(scope="module")
+def curve():
+    return stribeck_curve(SPEEDS, **CASE)
+
+
+def test_balance_and_friction_add_up(curve):
+    for point in curve:
+        assert point.status is Status.CONVERGED
+        assert point.contact_load + point.film_load == pytest.approx(5.5, rel=1e-4)  # the tolerance
+        assert point.friction == pytest.approx((point.boundary_force + point.film_force) / 5.5, rel=1e-14)
+        assert point.boundary_force == pytest.approx(0.15 * point.contact_load, rel=1e-14)
+
+
+def test_stribeck_curve_has_its_three_regimes(curve):
+    friction = np.array([p.friction for p in curve])
+    assert friction[0] == pytest.approx(0.15, rel=0.03)  # boundary: f_b, less what the film carries
+    assert (np.diff(friction[:4]) < 0).all()  # mixed
+    faster = solve_mixed(**CASE, speeds=(0.6, 0.0))
+    assert faster.friction > 1.2 * friction[4]  # full film: viscous
+    assert curve[0].contact_load > 0.95 * 5.5
+    assert (np.diff([p.lambda_ratio for p in curve]) > 0).all()
+    assert (np.diff([p.contact_area for p in curve]) <= 0).all()
+
+
+def test_measured_case_of_the_thesis_is_met(curve):
+    """Paper A on a synthetic surface: 5.275 N and 0 N at the two ends, one surface differing from another."""
+    assert curve[0].contact_load == pytest.approx(5.275, rel=0.05)
+    assert curve[-1].contact_load == 0
+    assert curve[-1].friction == pytest.approx(0.038, abs=0.001)
+
+
+def test_full_film_solves_no_rough_contact(monkeypatch):
+    def forbidden(*arguments, **keywords):
+        raise AssertionError("a rough contact was solved in full film")
+
+    monkeypatch.setattr(load_sharing, "solve_contact", forbidden)
+    monkeypatch.setattr(load_sharing, "displacement_operator", forbidden)
+    before = COUNT.normal, COUNT.tangential
+    point = solve_mixed(**CASE, speeds=(0.3, 0.0))
+    assert point.full_film
+    assert point.contact is None
+    assert point.contact_solves == 0
+    assert point.evaluations == 1
+    assert (COUNT.normal, COUNT.tangential) == before  # no kernel either
+    assert point.film_load == 5.5
+    assert (point.contact_pressure == 0).all()
+
+
+def test_boundary_limit():
+    point = solve_mixed(**CASE, speeds=(1e-6, 0.0))
+    assert point.film_load < 1e-3 * 5.5
+    assert point.friction == pytest.approx(0.15, rel=1e-3)
+
+
+def test_elastic_shift_is_the_mean_displacement():
+    """Where the gap vanishes under pressure, conserving volume closes by itself: shift = <u>, heights free of mean."""
+    point = solve_mixed(**{**CASE, "hardness": None}, speeds=(0.01, 0.0), contact_tolerance=1e-8)
+    mean = point.contact.displacement.mean()
+    # the contact's tolerance against a roughness of 100 nm
+    assert point.contact.approach == pytest.approx(mean, abs=1e-6 * 100e-9)
+    thickness = point.film.at(GRID.x)[1]
+    np.testing.assert_allclose(point.separation, thickness - mean, atol=1e-6 * 100e-9)
+    gap = np.maximum(point.contact.gap, 0)
+    assert gap.mean() == pytest.approx(thickness.mean(), rel=1e-6)
+
+
+def test_capped_contact_keeps_the_volume():
+    point = solve_mixed(**{**CASE, "hardness": 0.4e9}, speeds=(0.01, 0.0))
+    assert point.contact.plastic_area > 0
+    assert point.contact.pressure.max() <= 0.4e9 * (1 + 1e-12)
+    assert np.maximum(point.contact.gap, 0).mean() == pytest.approx(point.film.at(GRID.x)[1].mean(), rel=1e-5)
+
+
+def test_film_and_contact_live_on_their_own_grids():
+    x = np.linspace(-0.8e-3, 0.8e-3, 500)
+    point = solve_mixed(**CASE, speeds=(0.03, 0.0), film_position=x)
+    own = solve_mixed(**CASE, speeds=(0.03, 0.0))
+    np.testing.assert_array_equal(point.film.position, x)
+    assert point.friction == own.friction
+    fine = solve_mixed(**{**CASE, "film_points": 800}, speeds=(0.03, 0.0))
+    assert fine.friction == pytest.approx(own.friction, rel=5e-3)  # film within 0.3 % at 200 points
+    assert len(fine.film.position) == 800
+
+
+def test_warm_starts_change_nothing_but_the_work(curve):
+    for warm, speed in zip(curve[1:3], SPEEDS[1:3], strict=True):
+        cold = solve_mixed(**CASE, speeds=(speed, 0.0))
+        # both balances are met to 1e-4, and meshes of 200 points differ by 1e-3 in the film
+        assert warm.friction == pytest.approx(cold.friction, rel=2e-3)
+    again = solve_mixed(**CASE, speeds=(0.03, 0.0), initial=curve[2])
+    assert again.evaluations <= 4
+
+
+def test_order_of_speeds_does_not_matter(curve):
+    backwards = stribeck_curve(SPEEDS[::-1], **CASE)[::-1]
+    for one, other in zip(curve, backwards, strict=True):
+        assert one.friction == pytest.approx(other.friction, rel=2e-3)  # as above
+
+
+def test_same_input_gives_the_same_bits(curve):
+    again = stribeck_curve(SPEEDS, **CASE)
+    assert [p.friction for p in again] == [p.friction for p in curve]
+
+
+def test_invariant_to_datum_and_slices(curve):
+    shifted = solve_mixed(**{**CASE, "height": ROUGH + 1e-6}, speeds=(0.03, 0.0))
+    assert shifted.friction == pytest.approx(solve_mixed(**CASE, speeds=(0.03, 0.0)).friction, rel=1e-6)  # rounding
+    double = Grid((100, 200), GRID.spacing, periodic=(False, True))
+    two = solve_mixed(**{**CASE, "grid": double, "height": np.tile(ROUGH, (1, 2))}, speeds=(0.03, 0.0))
+    assert two.contact_load == pytest.approx(shifted.contact_load, rel=1e-3)  # tolerance of the balance
+
+
+def test_sliding_directions():
+    flat = solve_mixed(**CASE, speeds=(0.03, 0.0))
+    cylinder = solve_mixed(**CASE, speeds=(0.0, 0.03))
+    rolling = solve_mixed(**CASE, speeds=(0.015, 0.015))
+    mirrored = solve_mixed(**{**CASE, "height": ROUGH[::-1]}, speeds=(-0.03, 0.0))
+    assert cylinder.contact_load == pytest.approx(flat.contact_load, rel=1e-12)
+    # the pressure on the inlet's slope opposes the flat and helps the cylinder
+    assert 0 < cylinder.film_force < flat.film_force
+    assert rolling.boundary_force == 0
+    assert 0 < rolling.friction < 0.01
+    assert mirrored.friction == pytest.approx(flat.friction, rel=1e-4)  # tolerance of the balance
+
+
+def test_shear_stress_fields(curve):
+    point = curve[2]
+    touching = point.contact_pressure > 0
+    assert (point.film_shear_stress[touching] == 0).all()
+    assert (point.film_shear_stress[~touching] >= 0).all()
+    np.testing.assert_array_equal(point.boundary_shear_stress, 0.15 * point.contact_pressure)
+    assert (point.film_pressure[touching] == 0).all()
+    slices = 6e-3 / GRID.lengths[1]
+    boundary = point.boundary_shear_stress.sum() * GRID.cell_area * slices
+    assert boundary == pytest.approx(point.boundary_force, rel=1e-9)
+    # the film reaches far beyond the patch: its share within is part of the whole
+    within = point.film_shear_stress.sum() * GRID.cell_area * slices
+    assert 0.4 * point.film_force < within < point.film_force
+
+
+def test_striated_exit_adds_a_little():
+    plain = solve_mixed(**CASE, speeds=(0.3, 0.0))
+    striated = solve_mixed(**CASE, speeds=(0.3, 0.0), striated_exit=True)
+    assert 1.02 < striated.friction / plain.friction < 1.2
+
+
+def test_uncoupled_baseline(curve):
+    for separation in ("volume", "film"):
+        baseline = stribeck_curve(SPEEDS, **CASE, contact_model="uncoupled", asperity_separation=separation)
+        assert all(p.status is Status.CONVERGED for p in baseline)
+        difference = largest_difference(curve, baseline)
+        assert 0 < difference < 0.5
+        assert baseline[-1].friction == pytest.approx(curve[-1].friction, rel=1e-12)  # full film: the same
+    assert largest_difference(curve, curve) == 0
+    with pytest.raises(InputError, match="same speeds"):
+        largest_difference(curve, curve[:2])
+
+
+def test_options_of_curve_and_point_are_the_same():
+    defaults = {
+        name: parameter.default
+        for name, parameter in inspect.signature(solve_mixed).parameters.items()
+        if parameter.default is not inspect.Parameter.empty and name != "initial"
+    }
+    assert defaults == load_sharing._DEFAULTS
+    assert all(field.name for field in dataclasses.fields(load_sharing.MixedSolution))
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"speeds": (0.0, 0.0)}, "speeds"),
+        ({"load": -1.0}, "load"),
+        ({"width": 0.0}, "width"),
+        ({"radius": np.nan}, "radius"),
+        ({"height": ROUGH[:10]}, "height"),
+        ({"boundary_friction": -0.1}, "boundary_friction"),
+        ({"hardness": 0.0}, "hardness"),
+        ({"contact_model": "gw"}, "uncoupled"),
+        ({"asperity_separation": "x"}, "film"),
+        ({"bodies": STEEL}, "bodies"),
+        ({"lubricant": None}, "lubricant"),
+        ({"tolerance": 0}, "tolerance"),
+        ({"load": 5000.0}, "half-width"),
+        ({"film_position": np.linspace(-4e-5, 1e-3, 100)}, "beyond the film grid"),
+        ({"film_position": np.linspace(-5e-5, 1e-3, 100), "speeds": (0.1, 0.0)}, "start at"),
+    ],
+)
+def test_refusals(changes, word):
+    with pytest.raises(InputError, match=word):
+        solve_mixed(**{**CASE, "speeds": (0.01, 0.0), **changes})
+
+
+def test_curve_refusals():
+    with pytest.raises(InputError, match="at least one"):
+        stribeck_curve([], **CASE)

@@ -1,0 +1,86 @@
+"""Uncoupled asperities: summits, Hertz, hardness, volume."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bem import Grid
+from bem.friction.asperities import asperity_loads, find_summits, uncoupled_contact, volume_shift
+
+
+def bumps(grid, radius, centres):
+    """Paraboloids of the same radius around centres, the highest of them everywhere."""
+    x, y = grid.x[:, None], grid.y[None, :]
+    return np.max([h - ((x - cx) ** 2 + (y - cy) ** 2) / (2 * radius) for cx, cy, h in centres], axis=0)
+
+
+def test_summits_have_their_heights_and_radii():
+    grid = Grid((60, 60), (0.1e-6, 0.1e-6))
+    # off the cells' centres, so that tops are interpolated
+    centres = [(-1.03e-6, 0.27e-6, 50e-9), (1.5e-6, -1.21e-6, 30e-9)]
+    summits = find_summits(bumps(grid, 10e-6, centres), grid)
+    assert len(summits.height) == 2
+    # a paraboloid is met exactly by parabolas
+    np.testing.assert_allclose(np.sort(summits.height), [30e-9, 50e-9], rtol=1e-9)
+    np.testing.assert_allclose(summits.radius, 10e-6, rtol=1e-6)
+
+
+def test_borders_are_summits_only_where_periodic():
+    height = np.zeros((8, 8))
+    height[0, 4] = height[4, 0] = 1e-9
+    height -= 1e-12 * np.arange(64).reshape(8, 8)  # no plateaus
+    free = find_summits(height, Grid((8, 8), (1e-7, 1e-7)))
+    assert not (free.height > 0.5e-9).any()
+    along_y = find_summits(height, Grid((8, 8), (1e-7, 1e-7), periodic=(False, True)))
+    assert list(zip(*along_y.index, strict=True)) == [(4, 0)]
+    both = find_summits(height, Grid((8, 8), (1e-7, 1e-7), periodic=(True, True)))
+    assert np.sum(both.height > 0.5e-9) == 2
+
+
+def test_elastic_asperity_is_hertz():
+    radius, modulus, depth = 30e-6, 115e9, 20e-9
+    load, area, plastic = asperity_loads(np.array([depth]), np.array([radius]), modulus, None)
+    contact_radius = math.sqrt(radius * depth)
+    assert load[0] == pytest.approx(4 * modulus * contact_radius**3 / (3 * radius), rel=1e-12)
+    assert area[0] == pytest.approx(math.pi * contact_radius**2, rel=1e-12)
+    assert not plastic[0]
+
+
+@given(depth=st.floats(-1e-7, 1e-5))
+@settings(max_examples=50, deadline=None, derandomize=True)
+def test_plastic_asperities_grow_and_keep_below_the_hardness(depth):
+    at = np.array([depth, depth + 1e-9])
+    load, area, _ = asperity_loads(at, np.full(2, 30e-6), 115e9, 1e9)
+    assert load[1] >= load[0] >= 0
+    assert (load <= 1e9 * area * (1 + 1e-12)).all()
+
+
+def test_load_is_continuous_where_yield_begins():
+    critical = 30e-6 * (3 * math.pi * 1e9 / (4 * 115e9)) ** 2
+    load, area, plastic = asperity_loads(critical * np.array([1 - 1e-9, 1 + 1e-9]), np.full(2, 30e-6), 115e9, 1e9)
+    assert list(plastic) == [False, True]
+    np.testing.assert_allclose(load[0], load[1], rtol=1e-8)
+    np.testing.assert_allclose(area[0], area[1], rtol=1e-8)
+
+
+@given(seed=st.integers(0, 1000), share=st.floats(0.01, 3))
+@settings(max_examples=40, deadline=None, derandomize=True)
+def test_volume_shift_keeps_the_volume(seed, share):
+    gap = np.random.default_rng(seed).normal(1.0, 1.0, (12, 9))
+    shift = volume_shift(gap, share)
+    assert np.maximum(gap - shift, 0).mean() == pytest.approx(share, rel=1e-12)
+
+
+def test_pressure_map_carries_the_load():
+    grid = Grid((40, 40), (0.2e-6, 0.2e-6), periodic=(False, True))
+    height = bumps(grid, 30e-6, [(0.0, 0.0, 100e-9), (1.2e-6, -3.9e-6, 90e-9)])
+    height -= height.mean()
+    summits = find_summits(height, grid)
+    gap = 0.8 * height.max() - height
+    contact = uncoupled_contact(gap, height, summits, grid, mean_gap=None, contact_modulus=115e9, hardness=None)
+    assert contact.load > 0
+    assert contact.pressure.sum() * grid.cell_area == pytest.approx(contact.load, rel=1e-12)
+    assert contact.summit_load.sum() == pytest.approx(contact.load, rel=1e-12)
