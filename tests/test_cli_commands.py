@@ -222,3 +222,32 @@ def test_usage_mistakes_are_exit_code_2(tmp_path):
         done = bem(*arguments, cwd=tmp_path)
         assert done.returncode == 2, arguments
         assert "Traceback" not in done.stderr
+
+
+def test_tab_completion_knows_the_built_in_scenes():
+    from bem.cli.run import complete_scene
+    from bem.scenes import library
+
+    assert complete_scene("") == sorted(library())
+    assert complete_scene("hertz") == ["hertz-cylinder", "hertz-sphere"]
+
+
+def test_progress_is_shown_on_a_terminal_only_and_not_for_short_work(monkeypatch, capsys):
+    from bem.cli import _terminal
+
+    clock = [0.0]
+    monkeypatch.setattr(_terminal.time, "monotonic", lambda: clock[0])
+    monkeypatch.setenv("TERM", "xterm")
+    for live, shown in ((False, False), (True, True)):
+        clock[0] = 0.0
+        with _terminal.Terminal() as terminal:
+            terminal._live = live
+            terminal.progress(1, 10, "cycles", {"radius_nm": 140.0})
+            assert capsys.readouterr().err == ""
+            clock[0] = 5.0
+            terminal.progress(5, 10, "cycles", {"radius_nm": 150.0})
+            terminal.note("a note")
+        text = capsys.readouterr().err
+        assert "a note" in text
+        assert ("cycles" in text) is shown
+        assert ("5/10" in text) is shown

@@ -39,6 +39,7 @@ def build() -> typer.Typer:
         help="Friction, wear particles, running-in and tribofilms of rough lubricated contacts.",
         no_args_is_help=True,
         pretty_exceptions_enable=False,
+        rich_markup_mode=None,  # plain help: rich would take longer to import than all the rest
         context_settings={"help_option_names": ["-h", "--help"]},
     )
 

@@ -7,8 +7,20 @@ from typing import Annotated
 
 import typer
 
+
+def complete_scene(incomplete: str) -> list[str]:
+    """Built-in scenes that begin like this, for tab completion; loads nothing."""
+    folder = Path(__file__).resolve().parents[1] / "scenes" / "library"
+    return sorted(item.stem for item in folder.glob("*.toml") if item.stem.startswith(incomplete))
+
+
 SceneArgument = Annotated[
-    str, typer.Argument(metavar="SCENE", help="A scene file, a run folder, or the name of a built-in scene.")
+    str,
+    typer.Argument(
+        metavar="SCENE",
+        help="A scene file, a run folder, or the name of a built-in scene.",
+        autocompletion=complete_scene,
+    ),
 ]
 SetOption = Annotated[
     list[str] | None,

@@ -115,8 +115,9 @@ def plan(scene: ContactScene) -> Plan:
     lower, upper = scene.lower.build(), scene.upper.build()
     load, hardness = _load(scene, grid.area), scene.contact.hardness
     if load is not None and hardness is not None and load > hardness * grid.area:
+        key, value = ("load", f"{load:g} N") if scene.contact.load else ("mean_pressure", f"{load / grid.area:g} Pa")
         raise InfeasibleError(
-            f"contact.load = {load:g} N: beyond hardness x area = {hardness:g} Pa x {grid.area:g} m^2 = "
+            f"contact.{key} = {value}: beyond hardness x area = {hardness:g} Pa x {grid.area:g} m^2 = "
             f"{hardness * grid.area:g} N; allowed: a smaller load, a larger grid or a higher hardness"
         )
     points = padded_points(grid.shape, grid.periodic)
