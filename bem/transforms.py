@@ -250,6 +250,7 @@ class _Worker:
 
     rows_in: FloatArray
     rows_out: FloatArray
+    rows_spectrum: ComplexArray
     columns: ComplexArray
     plans: dict[tuple[str, int], Any] = field(default_factory=dict)
 
@@ -274,6 +275,8 @@ class PaddedTransform:
         self._column_block = _block(self.spectrum_shape[0], self._spectrum_stride * self.complex_dtype.itemsize, 1)
         self._row_blocks = -(-shape[0] // self._row_block)
         self._column_blocks = -(-self.spectrum_shape[0] // self._column_block)
+        # in single precision FFTW's own scattered writes are slower than a transposition in whole cache lines
+        self._transposes = self.dtype == np.float32
         self._workers: list[_Worker] = []
         self._lock = threading.RLock()
         self._scale = np.full((), 1.0 / (padded[0] * padded[1]), self.dtype)[()]
@@ -281,7 +284,9 @@ class PaddedTransform:
     @property
     def nbytes(self) -> int:
         """Memory of buffers."""
-        scratch = sum(w.rows_in.nbytes + w.rows_out.nbytes + w.columns.nbytes for w in self._workers)
+        scratch = sum(
+            w.rows_in.nbytes + w.rows_out.nbytes + w.rows_spectrum.nbytes + w.columns.nbytes for w in self._workers
+        )
         return self.spectrum_shape[0] * self._half_stride * self.complex_dtype.itemsize + scratch
 
     def empty_spectrum(self) -> ComplexArray:
@@ -330,10 +335,12 @@ class PaddedTransform:
     def _prepare(self) -> None:
         while len(self._workers) < get_threads():
             rows = (self._row_block, self._real_stride)
+            spectra = (self._row_block, _stride(self.spectrum_shape[0], self.complex_dtype.itemsize))
             self._workers.append(
                 _Worker(
                     pyfftw.zeros_aligned(rows, self.dtype, n=_ALIGNMENT)[:, : self.padded[1]],
                     pyfftw.zeros_aligned(rows, self.dtype, n=_ALIGNMENT)[:, : self.padded[1]],
+                    pyfftw.zeros_aligned(spectra, self.complex_dtype, n=_ALIGNMENT)[:, : self.spectrum_shape[0]],
                     pyfftw.zeros_aligned((self._column_block, self._spectrum_stride), self.complex_dtype, n=_ALIGNMENT)[
                         :, : self.padded[0]
                     ],
@@ -345,7 +352,8 @@ class PaddedTransform:
         if plan is None:
             half = self._half[:, :rows].T
             if kind == "rows forward":
-                arguments = (worker.rows_in[:rows], half, "FFTW_FORWARD")
+                target = worker.rows_spectrum[:rows] if self._transposes else half
+                arguments = (worker.rows_in[:rows], target, "FFTW_FORWARD")
             elif kind == "rows backward":
                 arguments = (half, worker.rows_out[:rows], "FFTW_BACKWARD")
             else:
@@ -373,8 +381,14 @@ class PaddedTransform:
             else:
                 source = worker.rows_in[: stop - start]
                 source[:, :width] = values[start:stop]
-            plan.update_arrays(source, self._half[:, start:stop].T)
-            plan.execute()
+            if self._transposes:
+                spectra = worker.rows_spectrum[: stop - start]
+                plan.update_arrays(source, spectra)
+                plan.execute()
+                _transpose(spectra, self._half, start)
+            else:
+                plan.update_arrays(source, self._half[:, start:stop].T)
+                plan.execute()
 
         share(work, self._row_blocks)
         COUNT.rows += self.shape[0]
@@ -443,6 +457,15 @@ class PaddedTransform:
 
         share(work, self._column_blocks)
         COUNT.columns += self.spectrum_shape[0] * (1 if out is not None or source is not None else 2)
+
+
+@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def _transpose(spectra, half, start):  # type: ignore[no-untyped-def]
+    rows, length = spectra.shape
+    for block in range(0, length, 8):
+        for j in range(block, min(length, block + 8)):
+            for i in range(rows):
+                half[j, start + i] = spectra[i, j]
 
 
 @njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]

@@ -521,6 +521,8 @@ def _gradient_step(level: _Level, control: Control, iterate: _Iterate, approach:
 def _result(
     level: _Level, iterate: _Iterate, approach: float, violation: float, converged: bool, rounds: int
 ) -> LevelResult:
-    return LevelResult(
-        _everywhere(level, iterate), level.flat["displacement"].copy(), approach, violation, converged, rounds
-    )
+    """Hand over the level's own buffers; it is done with them."""
+    pressure = level.flat["pressure"]
+    passes.scatter(pressure, iterate.cells, iterate.values)
+    passes.scatter_value(pressure, iterate.capped, level.cap)
+    return LevelResult(pressure, level.flat["displacement"], approach, violation, converged, rounds)
