@@ -10,33 +10,44 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLUE, ORANGE, SKY, VERMILION, label, map_of, prefix
+from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, map_of, prefix
 
 _DLS_STEEL = (110e-9, 175e-9)  # dynamic light scattering, both materials; thesis, papers B and C
 
 
 def _over_cycles(axes: Axes, run: Any, values: NDArray[np.float64], text: str, unit: str) -> float:
     """Mean over repetitions of each load as a line, their range as a band; returns the factor to the shown unit."""
-    cycle, load = run.dataset["cycle"].values, run.dataset["load"].values
+    cycle, groups = run.dataset["cycle"].values, _groups(run)
     factor, shown = prefix(values, unit)
-    for colour, each in zip((BLUE, VERMILION, ORANGE, SKY), np.unique(load), strict=False):
-        own = values[load == each] * factor
+    for colour, (name, rows) in zip((BLUE, VERMILION, ORANGE, SKY, GREEN, PINK, BLACK) * 9, groups, strict=False):
+        own = values[rows] * factor
         with np.errstate(all="ignore"):
             import warnings
 
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", RuntimeWarning)  # cycles in which nothing came off in any repetition
                 mean, low, high = np.nanmean(own, axis=0), np.nanmin(own, axis=0), np.nanmax(own, axis=0)
-        axes.plot(cycle, mean, color=colour, label=f"{each:g} N")
+        axes.plot(cycle, mean, color=colour, label=name)
         if len(own) > 1:
             axes.fill_between(cycle, low, high, color=colour, alpha=0.2, linewidth=0)
     axes.set_xlabel("cycle")
     axes.set_ylabel(label(text, shown))
     axes.set_xlim(1, max(2, cycle[-1]))
     axes.set_ylim(0)
-    if len(np.unique(load)) > 1:
-        axes.legend(title="load", ncols=len(np.unique(load)))
+    if len(groups) > 1:
+        axes.legend(ncols=min(len(groups), 3))
     return factor
+
+
+def _groups(run: Any) -> list[tuple[str, list[int]]]:
+    """Label and rows of each load and variant; the label says only what differs."""
+    loads = [f"{value:g} N" for value in run.dataset["load"].values]
+    variants = (
+        [str(value) for value in run.dataset["variant"].values] if "variant" in run.dataset else [""] * len(loads)
+    )
+    differ = [column for column in (loads, variants) if len(set(column)) > 1]
+    names = [", ".join(parts) for parts in zip(*differ, strict=True)] if differ else [""] * len(loads)
+    return [(name, [i for i, other in enumerate(names) if other == name]) for name in dict.fromkeys(names)]
 
 
 def _radius(run: Any, figure: Figure) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from bem.errors import InfeasibleError
+from bem.errors import InfeasibleError, InputError
 from bem.grid import Grid
 from bem.materials import contact_modulus
 from bem.scenes import build
@@ -122,6 +122,22 @@ class CyclesScene(Table):
         return self
 
 
+class WearVariantScene(Table):
+    """A run that differs from the scene in what is given here: mesh, roughness, film, sliding per cycle."""
+
+    name: Annotated[str, Field(min_length=1, max_length=60)]
+    cells: Annotated[int, Field(strict=True, ge=2, le=8192)] | None = None
+    depths: WearDepthsScene | None = None
+    shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] | None = None
+    lower_rms_height: PositiveLength | None = None
+    upper_rms_height: PositiveLength | None = None
+    layer_thickness: PositiveLength | None = None
+    connectivity: Literal[6, 18, 26] | None = None
+    refinement: Literal["monotone_cubic", "linear", "exact"] | None = None
+    criterion: Literal["von_mises", "tresca", "maximum_tension"] | None = None
+    removal: Literal["cap", "top_run"] | None = None
+
+
 class WearScene(SceneModel):
     """A rough cylinder slides on a rough flat; what yields and reaches the surface leaves."""
 
@@ -134,6 +150,7 @@ class WearScene(SceneModel):
     wear: WearScenePart = WearScenePart()
     cycles: CyclesScene = CyclesScene()
     sizes: SizesScene = SizesScene()
+    variants: list[WearVariantScene] = []  # noqa: RUF012
     repetitions: Annotated[int, Field(strict=True, ge=1, le=1000)] = 1
 
     @model_validator(mode="after")
@@ -141,6 +158,44 @@ class WearScene(SceneModel):
         if self.cylinder.radius == 0 and self.domain.lengths is None:
             raise problem("half_widths for a flat", "domain.lengths where cylinder.radius is 0")
         return self
+
+
+def variant_of(scene: WearScene, variant: WearVariantScene | None) -> WearScene:
+    """The scene with a variant's changes in it.
+
+    Raises
+    ------
+    InputError : a roughness for a surface that is not generated, a film thickness without a film.
+    """
+    if variant is None:
+        return scene
+    update: dict[str, Any] = {}
+    if variant.cells is not None:
+        update["domain"] = scene.domain.model_copy(update={"cells": (variant.cells, variant.cells)})
+    if variant.depths is not None:
+        update["depths"] = variant.depths
+    parts = {
+        key: getattr(variant, key)
+        for key in ("shift", "connectivity", "refinement", "criterion", "removal")
+        if getattr(variant, key) is not None
+    }
+    update["wear"] = scene.wear.model_copy(update=parts)
+    for name, rms_height in (("lower", variant.lower_rms_height), ("upper", variant.upper_rms_height)):
+        if rms_height is not None:
+            body = getattr(scene, name)
+            if body.surface.kind == "smooth":
+                raise InputError(f"variants.{name}_rms_height: the {name} surface is smooth; allowed: a rough one")
+            surface = body.surface.model_copy(update={"rms_height": rms_height})
+            update[name] = body.model_copy(update={"surface": surface})
+    if variant.layer_thickness is not None:
+        coated = [name for name in ("lower", "upper") if getattr(scene, name).layer is not None]
+        if not coated:
+            raise InputError("variants.layer_thickness: neither body is coated; allowed: a scene with a layer")
+        for name in coated:
+            body = update.get(name, getattr(scene, name))
+            layer = body.layer.model_copy(update={"thickness": variant.layer_thickness})
+            update[name] = body.model_copy(update={"layer": layer})
+    return scene.model_copy(update=update)
 
 
 def hertz_half_width(scene: WearScene, load: float) -> float:
@@ -195,7 +250,9 @@ def plan(scene: WearScene) -> Plan:
             )
     grid = grid_at(scene, max(scene.cylinder.loads))
     points = padded_points(grid.shape, grid.periodic)
-    runs = len(scene.cylinder.loads) * scene.repetitions
+    for variant in scene.variants:
+        variant_of(scene, variant)
+    runs = len(scene.cylinder.loads) * max(1, len(scene.variants)) * scene.repetitions
     cycles = runs * scene.cycles.count
     depths = min(scene.depths.count, _DEPTHS_NEEDED)
     lower, upper = scene.lower.build(), scene.upper.build()
@@ -205,7 +262,8 @@ def plan(scene: WearScene) -> Plan:
         (
             Step(
                 "surfaces",
-                f"{runs} pairs: {len(scene.cylinder.loads)} loads, {scene.repetitions} repetitions",
+                f"{runs} pairs: {len(scene.cylinder.loads)} loads, {max(1, len(scene.variants))} variants, "
+                f"{scene.repetitions} repetitions",
                 transforms=40.0 * runs,
                 points=grid.cells,
                 memory=8.0 * grid.cells * 8,
@@ -256,20 +314,25 @@ def run(scene: WearScene, context: Context) -> Outcome:
     """All loads and repetitions, one wear loop each."""
     from bem.wear import RunningInState, Settled, WearModel, pack_state, run_in, unpack_state
 
-    model = WearModel(**scene.wear.model_dump())
     stop = Settled(tolerance=scene.cycles.tolerance) if scene.cycles.stop_when_settled else None
-    runs = [(load, repetition) for load in scene.cylinder.loads for repetition in range(scene.repetitions)]
+    runs = [
+        (load, variant, repetition)
+        for load in scene.cylinder.loads
+        for variant in (*scene.variants,) or (None,)
+        for repetition in range(scene.repetitions)
+    ]
     saved = context.saved() or {"finished": [], "current": None}
     finished: list[dict[str, Any]] = [_unpack_record(record) for record in saved["finished"]]
     current = saved["current"]
-    for index, (load, repetition) in enumerate(runs):
+    for index, (load, variant, repetition) in enumerate(runs):
         if index < len(finished):
             continue
-        grid = grid_at(scene, load)
+        own = variant_of(scene, variant)
+        grid = grid_at(own, load)
         with context.timer("surfaces"):
             initial = [
                 build.heights_of(body.surface, grid, context.seed(name, repetition), context.note)
-                for name, body in (("lower", scene.lower), ("upper", scene.upper))
+                for name, body in (("lower", own.lower), ("upper", own.upper))
             ]
         state = None if current is None else unpack_state(current)
         current = None
@@ -292,19 +355,19 @@ def run(scene: WearScene, context: Context) -> Outcome:
                 initial[0],
                 initial[1],
                 grid=grid,
-                bodies=(scene.lower.build(), scene.upper.build()),
-                load=load_on(scene, grid, load),
-                depths=scene.depths.build(),
-                gap=_cylinder(scene, grid),
+                bodies=(own.lower.build(), own.upper.build()),
+                load=load_on(own, grid, load),
+                depths=own.depths.build(),
+                gap=_cylinder(own, grid),
                 friction=scene.cylinder.friction,
                 hardness=scene.cylinder.hardness,
                 cycles=scene.cycles.count,
-                model=model,
+                model=WearModel(**own.wear.model_dump()),
                 stop=stop,
                 state=state,
                 callback=watch,
             )
-        finished.append(_record(scene, load, repetition, grid, initial, result))
+        finished.append(_record(scene, load, variant, repetition, grid, initial, result))
         context.save({"finished": [_pack_record(r) for r in finished], "current": None})
     return _outcome(scene, finished)
 
@@ -332,7 +395,13 @@ def _unpack_record(packed: dict[str, Any]) -> dict[str, Any]:
 
 
 def _record(
-    scene: WearScene, load: float, repetition: int, grid: Grid, initial: list[NDArray[np.float64]], result: Any
+    scene: WearScene,
+    load: float,
+    variant: WearVariantScene | None,
+    repetition: int,
+    grid: Grid,
+    initial: list[NDArray[np.float64]],
+    result: Any,
 ) -> dict[str, Any]:
     """What is kept of a finished run: tables and the worn surface, no more."""
     wears_lower = bool((result.lower_heights != initial[0]).any()) or not bool(
@@ -342,6 +411,7 @@ def _record(
     pick = {"wearing": body, "lower": 0, "upper": 1}[scene.sizes.particles_of]
     return {
         "load": load,
+        "variant": "" if variant is None else variant.name,
         "repetition": repetition,
         "area": grid.area,
         "cell_area": grid.cell_area,
@@ -358,31 +428,18 @@ def _record(
 
 
 def size_statistics(particles: NDArray[np.void], smallest: float) -> dict[str, dict[str, float]]:
-    """Means of radius, length, width and thickness [m] by number, area and volume, and by number above a size.
+    """Means of radius, length, width and thickness [m] by number, area and volume, and by number above a size."""
+    from bem.particles import particle_statistics
 
-    The area weight is length x width of the bounding rectangle, what a microscope sees.
-    """
-    radius = np.cbrt(3 * particles["volume"] / (4 * np.pi))
-    large = radius >= smallest
-    weights = {
-        "number": np.ones(radius.size),
-        "area": particles["length"] * particles["width"],
-        "volume": particles["volume"],
-        "number_above": large.astype(np.float64),
-    }
-    found: dict[str, dict[str, float]] = {}
-    for name, weight in weights.items():
-        total = float(weight.sum())
-        found[name] = {
-            quantity: float((weight * values).sum() / total) if total > 0 else float("nan")
-            for quantity, values in (
-                ("equivalent_radius", radius),
-                ("length", particles["length"]),
-                ("width", particles["width"]),
-                ("thickness", particles["thickness"]),
-            )
+    statistics = {weight: particle_statistics(particles, weight=weight) for weight in ("number", "area", "volume")}
+    statistics["number_above"] = particle_statistics(particles, smallest_radius=smallest)
+    return {
+        name: {
+            quantity: getattr(each, f"mean_{quantity}")
+            for quantity in ("equivalent_radius", "length", "width", "thickness")
         }
-    return found
+        for name, each in statistics.items()
+    }
 
 
 def _volume_mean_radius(volume: NDArray[np.float64]) -> float:
@@ -391,22 +448,22 @@ def _volume_mean_radius(volume: NDArray[np.float64]) -> float:
 
 
 def _outcome(scene: WearScene, finished: list[dict[str, Any]]) -> Outcome:
-    loads = scene.cylinder.loads
-    single = len(loads) == 1 and scene.repetitions == 1
+    each = scene.repetitions
     rows = [_figures(scene, record) for record in finished]
-    summary: dict[str, Any] = {"load_N": loads[0] if len(loads) == 1 else list(loads), "repetitions": scene.repetitions}
-    keys = [key for key in rows[0] if key not in ("load", "repetition")]
-    for key in keys:
-        by_load = [[row[key] for row in rows if row["load"] == load] for load in loads]
-        if single:
-            summary[key] = by_load[0][0]
-            continue
-        means = [_mean(values) for values in by_load]
-        summary[key] = means[0] if len(loads) == 1 else means
-        if scene.repetitions > 1:
-            spreads = [_spread(values) for values in by_load]
-            summary[f"{key}_spread"] = spreads[0] if len(loads) == 1 else spreads
-            summary[f"{key}_each"] = by_load[0] if len(loads) == 1 else by_load
+    groups = [rows[start : start + each] for start in range(0, len(rows), each)]  # one per load and variant
+
+    def listed(values: list[Any]) -> Any:
+        return values[0] if len(groups) == 1 else values
+
+    summary: dict[str, Any] = {"load_N": listed([group[0]["load"] for group in groups]), "repetitions": each}
+    if scene.variants:
+        summary["variant"] = listed([group[0]["variant"] for group in groups])
+    for key in (key for key in rows[0] if key not in ("load", "variant", "repetition")):
+        by_group = [[row[key] for row in group] for group in groups]
+        summary[key] = listed([_mean(values) if each > 1 else values[0] for values in by_group])
+        if each > 1:
+            summary[f"{key}_spread"] = listed([_spread(values) for values in by_group])
+            summary[f"{key}_each"] = listed(by_group)
     summary["reported_mean"] = scene.sizes.report
     summary["smallest_radius_nm"] = 1e9 * scene.sizes.smallest
     return Outcome(summary, _variables(scene, finished))
@@ -428,7 +485,7 @@ def _figures(scene: WearScene, record: dict[str, Any]) -> dict[str, Any]:
     settled = cycles[-scene.cycles.settled :]
     late = particles[particles["cycle"] > cycles["cycle"][-1] - scene.cycles.settled]
     sizes = size_statistics(late, scene.sizes.smallest)
-    figures: dict[str, Any] = {"load": record["load"], "repetition": record["repetition"]}
+    figures: dict[str, Any] = {key: record[key] for key in ("load", "variant", "repetition")}
     for quantity in ("equivalent_radius", "length", "width", "thickness"):
         figures[f"particle_{quantity}_nm"] = 1e9 * sizes[scene.sizes.report][quantity]
     for weight, values in sizes.items():
@@ -479,6 +536,7 @@ def _variables(scene: WearScene, finished: list[dict[str, Any]]) -> dict[str, Va
     last = finished[-1]
     variables = {
         "load": Variable(("run",), np.array([r["load"] for r in finished]), "N", "load on the full width"),
+        "variant": Variable(("run",), np.array([r["variant"] for r in finished]), "1", "variant"),
         "repetition": Variable(("run",), np.array([r["repetition"] for r in finished]), "1", "repetition"),
         "cycle": Variable(("cycle",), np.arange(1, longest + 1), "1", "cycle"),
         "radius": Variable(
