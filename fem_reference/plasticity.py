@@ -22,6 +22,8 @@ from numpy.typing import NDArray
 from petsc4py import PETSc
 
 from fem_reference import compat, layers, provenance
+from fem_reference.contact_body import elastic_body
+from fem_reference.contact_solve import weighted_profile
 from fem_reference.problem import POISSONS_RATIO, Parameter, Problem
 from fem_reference.results import Quantity, Result, as_coordinates
 from fem_reference.richardson import estimate
@@ -262,6 +264,59 @@ class _EdgeFinder:
         return float(np.clip(-offset / slope, self.x[last], self.x[last + 1]))
 
 
+CAP = 2.8
+"""Hardness over yield stress in the capped model that the plastic one is compared to (Tabor)."""
+
+
+def capped(
+    loads: NDArray[np.float64], sizes: NDArray[np.float64], nu: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Contact sizes and approaches of an elastic body whose pressure is capped at CAP yield stresses.
+
+    loads : what is carried; sizes : contact sizes near the answer, which choose the scale of each problem; all in the
+    units of `_express`.
+
+    The condensed body of the contact cases, one mesh; each load by bisection over the approach, each approach by an
+    active set with three states: open, in contact, at the cap.
+    """
+    block = ContactBlock(patch=1.3, cells=104, reach=1.3e5, depth=1.3e5)
+    body = elastic_body(block, {"substrate": (1.0, nu)}, axisymmetric=True)
+    stiffness = 1 / (1 - nu**2)
+    parabola = weighted_profile(body.nodes, lambda x: x * x / 2, axisymmetric=True)
+
+    def pressures(profile: NDArray[np.float64], approach: float) -> NDArray[np.float64]:
+        state = np.where(profile < approach * body.weights, 1, 0)
+        for _ in range(200):
+            free = state == 1
+            pressure = np.where(state == 2, CAP, 0.0)
+            right = (approach * body.weights - profile - body.compliance @ pressure)[free]
+            pressure[free] = np.linalg.solve(body.compliance[np.ix_(free, free)], right)
+            gap = body.compliance @ pressure + profile - approach * body.weights
+            small = 1e-12 * approach * body.weights
+            new = np.where(free & (pressure < 0), 0, state)
+            new = np.where(free & (pressure > CAP), 2, new)
+            # a node leaves the cap where the gap has opened, and joins the contact where the bodies would overlap
+            new = np.where(((state == 2) & (gap > small)) | ((state == 0) & (gap < -small)), 1, new)
+            if np.array_equal(new, state):
+                return pressure
+            state = new
+        raise RuntimeError(f"the capped contact at an approach of {approach:g} does not settle")
+
+    radius, depth = np.empty(loads.size), np.empty(loads.size)
+    for i, (load, size) in enumerate(zip(loads, sizes, strict=True)):
+        force = load / (2 * np.pi * size**2)
+        profile = size / stiffness * parabola
+        low, high = 0.0, 2 * size / stiffness
+        for _ in range(45):
+            middle = 0.5 * (low + high)
+            pressure = pressures(profile, middle)
+            low, high = (middle, high) if body.weights @ pressure < force else (low, middle)
+        last = int(np.flatnonzero(pressure > 0)[-1])
+        radius[i] = 0.5 * (body.nodes[last] + body.nodes[last + 1]) * size
+        depth[i] = middle * size * stiffness
+    return radius, depth
+
+
 def solve_indentation(*, nu: float, sizes: Any, cells: int) -> Result:
     """Indent on three meshes and express the results at given contact sizes."""
     started = provenance.processor_time()
@@ -291,17 +346,18 @@ def solve_indentation(*, nu: float, sizes: Any, cells: int) -> Result:
         ("approach", "R (sigma_y / E*)^2", ""),
         ("load", "R^2 sigma_y^3 / E*^2", ""),
     ):
-        figures = estimate([level["size"] for level in levels], np.stack([c[name] for c in curves]), expected_order=1.0)
-        bar = np.maximum(
-            figures.error_bar, 0.5 * np.sqrt(np.mean((figures.error_bar / figures.values) ** 2)) * figures.values
-        )
+        # over four decades: relative errors, by the logarithm
+        logarithms = np.log(np.stack([c[name] for c in curves]))
+        figures = estimate([level["size"] for level in levels], logarithms, expected_order=1.0)
+        values = np.exp(figures.values)
+        bar = np.maximum(figures.error_bar, 0.5 * np.sqrt(np.mean(figures.error_bar**2))) * values
         quantities.append(
             Quantity(
                 name,
                 unit,
                 "a E* / (R sigma_y)",
                 as_coordinates([[s, 0, 0] for s in sizes]),
-                figures.values.tolist(),
+                values.tolist(),
                 bar.tolist(),
                 figures.order,
                 note,
@@ -322,6 +378,26 @@ def solve_indentation(*, nu: float, sizes: Any, cells: int) -> Result:
             "Hertz' central pressure at which the largest von Mises stress of the elastic contact reaches sigma_y",
         )
     )
+    # the capped model at the loads of the plastic one; its edge is known to half a cell of a hundred and four on 1.3
+    load = np.array(quantities[2].values)
+    radius, depth = capped(load, np.array(sizes), nu)
+    for name, unit, values, share in (
+        ("mean_pressure_capped", "sigma_y", load / (np.pi * radius**2), 2 * 0.5 * 1.3 / 104),
+        ("contact_size_capped", "a E* / (R sigma_y)", radius, 0.5 * 1.3 / 104),
+        ("approach_capped", "R (sigma_y / E*)^2", depth, 1e-3),
+    ):
+        quantities.append(
+            Quantity(
+                name,
+                unit,
+                "a E* / (R sigma_y)",
+                as_coordinates([[s, 0, 0] for s in sizes]),
+                values.tolist(),
+                (share * values).tolist(),
+                None,
+                f"elastic body, pressure capped at {CAP:g} sigma_y, at the plastic body's load for that contact size",
+            )
+        )
     xs, zs = (np.array([c for c in part if c <= 3]) for part in runs[0][0].block.lines())
     return Result(
         case="",

@@ -60,6 +60,18 @@ def test_load_is_mean_pressure_times_area(result) -> None:
     np.testing.assert_allclose(load, np.pi * size**2 * pressure, rtol=1e-8)
 
 
+def test_capped_model_is_elastic_at_first_and_ends_at_its_cap(result) -> None:
+    size, pressure, _ = curve(result, "mean_pressure_capped")
+    _, plastic, _ = curve(result, "mean_pressure")
+    # nothing is capped while Hertz' central pressure, 1.5 times the mean, is below 2.8: the two models agree to yield
+    np.testing.assert_allclose(pressure[size < 2.4], plastic[size < 2.4], rtol=0.03)
+    # the cap on all but the edge's cell
+    assert np.all(np.abs(pressure[size >= 15] - 2.8) < 0.04 * 2.8)
+    # what the plastic computation shows: in between, the capped contact is too small by a tenth of its radius
+    _, capped, _ = curve(result, "contact_size_capped")
+    assert 0.85 < np.min(capped / size) < 0.93
+
+
 def test_checks(result) -> None:
     for name, check in result.checks.items():
         assert abs(check["value"] - check["expected"]) <= check["tolerance"], name
