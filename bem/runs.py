@@ -192,7 +192,12 @@ def _write(
         run = FinishedRun(directory.path, scene_table(scene), summary)
         run.__dict__["dataset"] = to_dataset(outcome.variables, attributes)  # no need to read it back
         with context.timer("figures and report"):
-            drawn = draw_all(run, kind.figures, directory.figures)
+            drawn = draw_all(
+                run,
+                kind.figures,
+                directory.figures,
+                on_failure=lambda name, error: context.note(f"figure {name} could not be drawn: {error!r}"),
+            )
             summary["wall_time_s"] = time.perf_counter() - start
             write_report(run, drawn, kind.headline)
     summary["wall_time_s"] = time.perf_counter() - start

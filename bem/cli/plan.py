@@ -29,7 +29,7 @@ def register(app: typer.Typer) -> None:
             )
             for step in planned.steps
         ]
-        rows.append(("total", show_bytes(planned.memory), show_seconds(planned.seconds(rate)), ""))
+        rows.append(("peak, total", show_bytes(planned.memory), show_seconds(planned.seconds(rate)), ""))
         table(("step", "memory", "time", "why"), rows, title=f"{resolved.name}: kind {resolved.kind}", right=(1, 2))
         free = available_memory()
         if planned.memory > free:

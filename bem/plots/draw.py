@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from bem.errors import InputError
+from bem.errors import BemError, InputError
 from bem.plots.figures import FigureKind, all_figures
 from bem.results.atomic import replacing
 
@@ -22,10 +22,31 @@ class Drawn:
     paths: tuple[Path, ...]
 
 
-def draw_all(run: Any, names: Sequence[str], folder: Path, formats: Sequence[str] = ("png", "pdf")) -> list[Drawn]:
-    """Draw those of the named figures that fit the run, in that order; ResultsError if a file cannot be written."""
+def draw_all(
+    run: Any,
+    names: Sequence[str],
+    folder: Path,
+    formats: Sequence[str] = ("png", "pdf"),
+    on_failure: Callable[[str, Exception], None] | None = None,
+) -> list[Drawn]:
+    """Draw those of the named figures that fit the run, in that order.
+
+    With `on_failure` a figure that cannot be drawn is reported to it by name and left out: hours of results must not be
+    lost to a picture. Files that cannot be written are a ResultsError all the same.
+    """
     known = all_figures()
-    return [draw(run, known[name], folder, formats) for name in names if known[name].fits(run)]
+    drawn = []
+    for name in names:
+        try:
+            if known[name].fits(run):
+                drawn.append(draw(run, known[name], folder, formats))
+        except BemError:
+            raise
+        except Exception as error:
+            if on_failure is None:
+                raise
+            on_failure(name, error)
+    return drawn
 
 
 def draw(

@@ -26,7 +26,8 @@ class Step:
     skipped : whether the scene can do without.
     transforms : how many real transforms (one direction) of `points` points it takes.
     points : points of one of these transforms, padding included.
-    memory : bytes held at its peak beyond what the other steps hold.
+    memory : bytes held at its peak beyond what the steps before it keep.
+    kept : bytes of these that stay when it is over; all of them where not given.
     seconds : further time that is not spent in transforms, on any machine [s].
     """
 
@@ -37,6 +38,7 @@ class Step:
     points: float = 0.0
     memory: float = 0.0
     seconds: float = 0.0
+    kept: float | None = None
 
 
 @dataclass(frozen=True)
@@ -47,8 +49,13 @@ class Plan:
 
     @property
     def memory(self) -> float:
-        """Upper estimate of the bytes of arrays at the peak."""
-        return math.fsum(step.memory for step in self.steps if not step.skipped)
+        """Estimated bytes at the peak."""
+        peak = held = 0.0
+        for step in self.steps:
+            if not step.skipped:
+                peak = max(peak, held + step.memory)
+                held += step.memory if step.kept is None else step.kept
+        return peak
 
     def seconds(self, rate: float) -> float:
         """Estimated time [s] on a machine with that transform rate [flop/s]."""

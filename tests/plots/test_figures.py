@@ -212,3 +212,21 @@ def test_report_in_a_browser(tmp_path):
         capture_output=True, text=True, timeout=120, check=False,
     )  # fmt: skip
     assert f"<title>{count} of {count}</title>" in done.stdout
+
+
+def test_a_figure_that_fails_does_not_cost_the_others(tmp_path, monkeypatch):
+    from bem.plots import draw as module
+    from bem.plots.figures import FigureKind
+
+    def broken(run, figure):
+        raise ZeroDivisionError("no")
+
+    known = all_figures() | {"broken": FigureKind("broken", "", (), broken)}
+    monkeypatch.setattr(module, "all_figures", lambda: known)
+    failed = []
+    run = contact_run(tmp_path)
+    drawn = draw_all(run, ("broken", "convergence"), tmp_path, ("png",), lambda name, error: failed.append(name))
+    assert [item.kind.name for item in drawn] == ["convergence"]
+    assert failed == ["broken"]
+    with pytest.raises(ZeroDivisionError):
+        draw_all(run, ("broken",), tmp_path, ("png",))

@@ -196,3 +196,18 @@ def test_plan_says_what_is_skipped_and_why():
     assert "Dundurs' beta is zero" in skipped["traction kernels"]
     _, plan = plan_scene(rough(contact={"friction": 0.1}, lower={"material": "brass-disk"}))
     assert "traction kernels" not in {step.name for step in plan.steps if step.skipped}
+
+
+def test_same_bits_on_two_threads():
+    from bem.threads import get_threads, set_threads
+
+    before = get_threads()
+    try:
+        set_threads(1)
+        _, one, _ = run(ROUGH)
+        set_threads(2)
+        _, two, _ = run(ROUGH)
+    finally:
+        set_threads(before)
+    for name, item in one.variables.items():
+        assert item.values.tobytes() == two.variables[name].values.tobytes(), name

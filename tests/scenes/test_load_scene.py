@@ -218,6 +218,20 @@ def test_a_scene_too_large_for_the_memory_is_refused_before_any_work():
         run_scene(changed(grid__shape=side), "/nonexistent/never-made")
 
 
+def test_peak_of_a_plan_counts_what_is_kept():
+    from bem.scenes import Plan, Step
+
+    steps = (
+        Step("a", "", memory=100, kept=10),
+        Step("b", "", memory=50),
+        Step("skipped", "", skipped=True, memory=1e9),
+        Step("c", "", memory=70, kept=0),
+        Step("d", "", memory=60),
+    )
+    assert Plan(steps).memory == 130  # a: 100; b: 10 + 50; c: 60 + 70; d: 60 + 60
+    assert Plan(steps[:1]).memory == 100
+
+
 words = st.sampled_from(
     [
         *(

@@ -149,6 +149,7 @@ def plan(scene: ContactScene) -> Plan:
             transforms=_TRANSFORMS_PER_CONVOLUTION * _convolutions(grid),
             points=points,
             memory=convolution_memory(grid.shape, grid.periodic),
+            kept=8.0 * grid.cells * 5 + 4 * points,
             seconds=1.0,
         ),
         _plan_stresses(scene, grid, stressed, depths),
@@ -158,6 +159,7 @@ def plan(scene: ContactScene) -> Plan:
             skipped=not vtk,
             seconds=1.0,
             memory=1e8,
+            kept=0.0,
         ),
         Step("figures and report", "pictures of the results, and the libraries for them", seconds=4.0, memory=3e8),
     )
@@ -176,6 +178,7 @@ def _plan_surfaces(scene: ContactScene, grid: Grid) -> Step:
         transforms=60.0 * len(rough) + 300.0 * iterated,
         points=grid.cells,
         memory=8.0 * grid.cells * 14,
+        kept=8.0 * grid.cells * 3,
         seconds=0.3,
     )
 
@@ -198,6 +201,7 @@ def _plan_stresses(scene: ContactScene, grid: Grid, body: Body | None, depths: t
         transforms=len(depths) * (25.0 if periodic else 80.0) * (2.0 if coated else 1.0),
         points=points,
         memory=8.0 * grid.cells * fields * len(depths) + spectra + 8 * 8.0 * points,
+        kept=8.0 * grid.cells * fields * len(depths) + spectra,
         seconds=0.5,
     )
 
