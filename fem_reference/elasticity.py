@@ -207,4 +207,8 @@ def factor_and_solve(matrix: Any, right: Any, solution: Any) -> None:
     correction = right.duplicate()
     solver.solve(residual, correction)
     solution.axpy(1.0, correction)
+    # by hand, all: petsc4py keeps what python merely forgets
+    preconditioner.destroy()
     solver.destroy()
+    residual.destroy()
+    correction.destroy()

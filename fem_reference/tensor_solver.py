@@ -138,6 +138,8 @@ def solve_block(matrix: Any, right: Any, solution: Any, preconditioner: FastDiag
     solver.setUp()
     solver.solve(right, solution)
     reason, iterations = solver.getConvergedReason(), solver.getIterationNumber()
+    # by hand, both: petsc4py keeps what python merely forgets
+    chosen.destroy()
     solver.destroy()
     if reason < 0:
         raise RuntimeError(f"conjugate gradients failed after {iterations} iterations: PETSc's reason {reason}")
