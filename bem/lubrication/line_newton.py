@@ -89,11 +89,12 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
     extrapolation = np.zeros(cells)
     extrapolation[1:] = 0.5 * width[1:] / width[:-1]
 
-    pressure, film, datum, exit_ = start.pressure.copy(), start.film, start.datum, start.exit
+    pressure, film, exit_ = start.pressure.copy(), start.film, start.exit
     pressure[-1] = 0.0
     pressure[0] = inlet_pressure(exit_ + offset[0])[0]
     scale = film.copy()
-    mismatch = film - (datum + 0.5 * (exit_ + offset) ** 2 - DEFLECTION * (weights @ pressure))
+    mismatch = film - (0.5 * (exit_ + offset) ** 2 - DEFLECTION * (weights @ pressure))
+    datum, mismatch = float(mismatch[-1]), mismatch - mismatch[-1]
 
     def residual(pressure: FloatArray, film: FloatArray, inlet: float) -> tuple[FloatArray, tuple[FloatArray, ...]]:
         positive = np.maximum(pressure, 0.0)

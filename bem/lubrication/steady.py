@@ -107,7 +107,7 @@ def solve_line_film(
         if not isinstance(initial, FilmSolution):
             raise InputError(f"initial: {type(initial).__name__} is not a FilmSolution")
         if isinstance(initial.state, _Kept):
-            outcome = _from_neighbour(problem, scales, initial.state, points - 1, tolerance, max_iterations)
+            outcome = _from_neighbour(problem, initial, points - 1, tolerance, max_iterations)
             spent += outcome.iterations
     if outcome is None or not outcome.converged:
         outcome = _from_scratch(problem, scales, lubricant, points - 1, tolerance, max_iterations)
@@ -135,16 +135,64 @@ class _Kept:
         return pressure, film
 
 
-def _from_neighbour(problem: Problem, scales: Scales, kept: _Kept, cells: int, tolerance: float, limit: int) -> Outcome:
+def _from_neighbour(
+    problem: Problem, initial: FilmSolution, cells: int, tolerance: float, limit: int
+) -> Outcome:
+    """From the solution of another case, on its mesh if that has the right number of cells and still fits."""
+    kept = initial.state
     factor, film_factor = _scaling(kept.load, problem.load)
-    state = stretched(kept.state, factor, problem.load / kept.load / factor, film_factor)
+    pressure_factor = problem.load / kept.load / factor
+    state = stretched(kept.state, factor, pressure_factor, film_factor)
+    spent = 0
     if len(state.offset) != cells + 1:
         state = remesh(problem, state, cells, SPIKE_CELLS[-1])
-    outcome = newton(problem, state, tolerance, limit)
+    elif cells > 2 * MIDDLE:
+        state, spent = _coarse_change(problem, initial, state, limit)
+    # with a sharp spike the steps are many and a cold start is cheaper: do not insist
+    outcome = newton(problem, state, tolerance, min(limit, 8 if cells > 2 * MIDDLE else 20))
     if outcome.converged and mesh_imbalance(problem, outcome.state) > MAX_IMBALANCE:
         again = newton(problem, remesh(problem, outcome.state, cells, SPIKE_CELLS[-1]), tolerance, limit)
         outcome = replace(again, iterations=again.iterations + outcome.iterations)
-    return outcome
+    return replace(outcome, iterations=outcome.iterations + spent)
+
+
+def _coarse_change(problem: Problem, initial: FilmSolution, guess: State, limit: int) -> tuple[State, int]:
+    """The guess, corrected by the change from the old case to the new one on every few nodes; and steps taken.
+
+    That change is smooth, and the fine mesh is left with one or two of the expensive steps.
+    """
+    kept = initial.state
+    old_problem = scaled_problem(kept.scales, kept.load, initial.lubricant)
+    cells = len(guess.offset) - 1
+    index = np.arange(cells, 0, -math.ceil(cells / MIDDLE))[::-1]
+    index = np.concatenate([[0], index])
+    nodes = kept.state.offset[index]
+    coarse = State(
+        nodes,
+        logarithmic_weights(nodes, nodes),
+        kept.state.pressure[index],
+        kept.state.film[index],
+        kept.state.datum,
+        kept.state.exit,
+    )
+    old = newton(old_problem, coarse, 1e-6, min(limit, 15))
+    if not old.converged:
+        return guess, old.iterations
+    factor, film_factor = _scaling(kept.load, problem.load)
+    start = stretched(old.state, factor, problem.load / kept.load / factor, film_factor)
+    new = newton(problem, start, 1e-6, min(limit, 15))
+    spent = old.iterations + new.iterations
+    if not new.converged:
+        return guess, spent
+    pressure = np.interp(guess.offset, start.offset, new.state.pressure - start.pressure)
+    film = np.interp(guess.offset, start.offset, np.log(new.state.film / start.film))
+    changed = replace(
+        guess,
+        pressure=np.maximum(guess.pressure + pressure, 0.0),
+        film=guess.film * np.exp(film),
+        exit=guess.exit + new.state.exit - start.exit,
+    )
+    return changed, spent
 
 
 def _scaling(old: float, new: float) -> tuple[float, float]:
