@@ -211,8 +211,7 @@ def solve_level(
         total = passes.gather_sum(level.flat["displacement"], gap, iterate.cells, residual)
         approach = _approach(level, control, iterate, total)
         residual -= approach
-        found = np.empty(gap.size, np.int32)
-        count, largest, _ = passes.find_violations(level.flat["displacement"], gap, level.state, approach, found)
+        found, largest = passes.find_violations(level.flat["displacement"], gap, level.state, approach)
         violation = max(largest, float(np.abs(residual).max(initial=0.0)))
         if report is not None:
             report(effort.iterations, violation, iterate.cells.size + iterate.capped.size)
@@ -240,8 +239,8 @@ def solve_level(
             iterate = _gradient_step(level, control, accepted.iterate, accepted.approach, step)
             continue
         accepted, refused = current, 0
-        if count:
-            iterate, residual = _take_in(level, iterate, found[:count], approach)
+        if found.size:
+            iterate, residual = _take_in(level, iterate, found, approach)
         if iterate.cells.size == 0:
             return _result(level, iterate, approach, violation, False, rounds)
         if (
@@ -370,7 +369,7 @@ def _conjugate_gradients(
     quick_in, quick_out = level.flat["quick_in"], level.flat["quick_out"]
     n = cells.size
     direction, preconditioned, response, previous = np.zeros(n), np.empty(n), np.empty(n), np.zeros(n)
-    squares = float(residual @ residual)
+    squares = passes.squares(residual)
     lowest, enough = squares * tuning.reduction**2, squares * tuning.least_reduction**2
     self_response = float(level.operator.near_field(0)[0, 0])
     beta = 0.0
@@ -498,7 +497,7 @@ def _best_share(level: _Level, old: _Accepted, new: _Accepted, approach: float) 
     The displacement of the new pressure is in the buffer. 0 if the energy rises from the start.
     """
     change = _everywhere(level, new.iterate) - _everywhere(level, old.iterate)
-    slope = float(change @ (level.gap + level.flat["displacement"] - approach))
+    slope = float((change * (level.gap + level.flat["displacement"] - approach)).sum())
     rise = new.energy - old.energy - approach * (new.force - old.force)
     curvature = 2 * (slope - rise)
     if not curvature > 0:

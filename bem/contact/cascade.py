@@ -10,6 +10,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from bem.contact import passes
+from bem.threads import share
+
 FloatArray = NDArray[np.float64]
 Table = tuple[NDArray[np.int64], FloatArray]
 
@@ -71,7 +74,13 @@ def prolong(
     fine = np.zeros(shape)
     rows = interpolation(pressure.shape[0], shape[0], periodic[0])
     columns = interpolation(pressure.shape[1], shape[1], periodic[1])
-    _prolong_phi(phi, *rows, *columns, cap, fine)
+    lines = max(1, passes.BLOCK // shape[1])
+
+    def work(_worker: int, block: int) -> None:
+        part = slice(block * lines, (block + 1) * lines)
+        _prolong_phi(phi, rows[0][part], rows[1][part], *columns, cap, fine[part])
+
+    share(work, -(-shape[0] // lines))
     return fine
 
 

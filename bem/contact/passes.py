@@ -1,40 +1,76 @@
-"""Fused passes over a field or over the cells in contact; each reads and writes memory once."""
+"""Fused passes over a field or over the cells in contact; each reads and writes memory once.
+
+Every pass works in blocks of fixed size, shared between threads; sums are formed over blocks in order, so that a result
+has the same bits whatever the number of threads.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
+
+from bem.threads import share
+
+FloatArray = NDArray[np.float64]
 
 FREE, CONTACT, CAPPED = 0, 1, 2
 """State of a cell: no pressure; pressure between the bounds; pressure at the cap."""
 
+BLOCK = 1 << 15
+"""Entries that one thread works on at a time: enough to hide the call, few enough to share."""
+
 _fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
+_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
+
+
+def in_blocks(size: int, results: int, kernel: Callable[..., None], *arguments: Any) -> FloatArray:
+    """Call `kernel(start, stop, out, *arguments)` for all blocks of `size` entries; returns (blocks, results)."""
+    blocks = -(-size // BLOCK)
+    partial = np.zeros((blocks, results))
+
+    def work(_worker: int, block: int) -> None:
+        kernel(block * BLOCK, min(size, (block + 1) * BLOCK), partial[block], *arguments)
+
+    share(work, blocks)
+    return partial
+
+
+def gather_sum(displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], out: FloatArray) -> float:
+    """out = (gap + displacement)[cells]; returns its sum."""
+    return float(in_blocks(cells.size, 1, _gather_sum, displacement, gap, cells, out)[:, 0].sum())
 
 
 @_fast
-def gather_sum(displacement, gap, cells, out):  # type: ignore[no-untyped-def]
-    """out = (gap + displacement)[cells]; returns its sum."""
+def _gather_sum(start, stop, result, displacement, gap, cells, out):  # type: ignore[no-untyped-def]
     total = 0.0
-    for k in range(cells.size):
+    for k in range(start, stop):
         c = cells[k]
         value = gap[c] + displacement[c]
         out[k] = value
         total += value
-    return total
+    result[0] = total
+
+
+def find_violations(
+    displacement: FloatArray, gap: FloatArray, state: NDArray[np.uint8], approach: float
+) -> tuple[NDArray[np.int32], float]:
+    """Cells that should not stay free (they overlap) or at the cap (they open), and the largest violation."""
+    found = np.empty(gap.size, np.int32)
+    partial = in_blocks(gap.size, 2, _find_violations, displacement, gap, state, approach, found)
+    parts = [found[b * BLOCK : b * BLOCK + int(count)] for b, count in enumerate(partial[:, 0]) if count]
+    cells = np.concatenate(parts) if parts else found[:0]
+    return cells, float(partial[:, 1].max(initial=0.0))
 
 
 @_fast
-def find_violations(displacement, gap, state, approach, found):  # type: ignore[no-untyped-def]
-    """Cells that should not stay free (overlap) or at the cap (opening).
-
-    Writes them to `found`; returns their number, the largest violation and the sum of its squares.
-    """
-    count = 0
+def _find_violations(start, stop, result, displacement, gap, state, approach, found):  # type: ignore[no-untyped-def]
+    place = start
     largest = 0.0
-    squares = 0.0
-    for c in range(gap.size):
+    for c in range(start, stop):
         if state[c] == 0:
             value = approach - gap[c] - displacement[c]
         elif state[c] == 2:
@@ -42,40 +78,34 @@ def find_violations(displacement, gap, state, approach, found):  # type: ignore[
         else:
             continue
         if value > 0:
-            if count < found.size:
-                found[count] = c
-            count += 1
-            squares += value * value
-            if value > largest:
-                largest = value
-    return count, largest, squares
+            found[place] = c
+            place += 1
+            largest = max(largest, value)
+    result[0] = place - start
+    result[1] = largest
 
 
-@_fast
-def separation_sums(displacement, gap, state):  # type: ignore[no-untyped-def]
-    """Sum of gap + displacement over the cells that are not at the cap, and their number."""
-    total = 0.0
-    count = 0
-    for c in range(gap.size):
-        if state[c] != 2:
-            total += gap[c] + displacement[c]
-            count += 1
-    return total, count
-
-
-@_fast
-def energy(displacement, gap, cells, values):  # type: ignore[no-untyped-def]
+def energy(
+    displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], values: FloatArray
+) -> tuple[float, float, float]:
     """Sum of p (gap + displacement / 2), of its magnitude, and of p over some cells."""
+    energy, size, force = in_blocks(cells.size, 3, _energy, displacement, gap, cells, values).sum(axis=0)
+    return float(energy), float(size), float(force)
+
+
+@_fast
+def _energy(start, stop, result, displacement, gap, cells, values):  # type: ignore[no-untyped-def]
     total = 0.0
     size = 0.0
     force = 0.0
-    for k in range(cells.size):
+    for k in range(start, stop):
         c = cells[k]
-        term = values[k] * (gap[c] + 0.5 * displacement[c])
-        total += term
+        total += values[k] * (gap[c] + 0.5 * displacement[c])
         size += abs(values[k] * gap[c]) + abs(values[k] * displacement[c])
         force += values[k]
-    return total, size, force
+    result[0] = total
+    result[1] = size
+    result[2] = force
 
 
 @_fast
@@ -92,58 +122,102 @@ def scatter_value(field, cells, value):  # type: ignore[no-untyped-def]
         field[cells[k]] = value
 
 
-@_fast
-def gather(field, cells, out):  # type: ignore[no-untyped-def]
-    """out = field[cells]."""
-    for k in range(cells.size):
-        out[k] = field[cells[k]]
+def squares(values: FloatArray) -> float:
+    """Sum of squares."""
+    return float(in_blocks(values.size, 1, _squares, values)[:, 0].sum())
 
 
 @_fast
-def turn(preconditioned, mean, residual, previous):  # type: ignore[no-untyped-def]
+def _squares(start, stop, result, values):  # type: ignore[no-untyped-def]
+    total = 0.0
+    for k in range(start, stop):
+        total += values[k] * values[k]
+    result[0] = total
+
+
+def turn(preconditioned: FloatArray, mean: float, residual: FloatArray, previous: FloatArray) -> tuple[float, float]:
     """Take the mean from z; return z.r and z.(r - r_previous)."""
+    full, change = in_blocks(residual.size, 2, _turn, preconditioned, mean, residual, previous).sum(axis=0)
+    return float(full), float(change)
+
+
+@_fast
+def _turn(start, stop, result, preconditioned, mean, residual, previous):  # type: ignore[no-untyped-def]
     full = 0.0
     change = 0.0
-    for k in range(residual.size):
+    for k in range(start, stop):
         z = preconditioned[k] - mean
         preconditioned[k] = z
         full += z * residual[k]
         change += z * (residual[k] - previous[k])
-    return full, change
+    result[0] = full
+    result[1] = change
+
+
+def new_direction(
+    direction: FloatArray,
+    preconditioned: FloatArray,
+    beta: float,
+    cells: NDArray[Any],
+    field: NDArray[Any],
+    residual: FloatArray,
+) -> float:
+    """t = z + beta t, also written to field[cells]; returns t.r."""
+    partial = in_blocks(cells.size, 1, _new_direction, direction, preconditioned, beta, cells, field, residual)
+    return float(partial[:, 0].sum())
 
 
 @_fast
-def new_direction(direction, preconditioned, beta, cells, field, residual):  # type: ignore[no-untyped-def]
-    """t = z + beta t, also written to field[cells]; returns t.r."""
+def _new_direction(start, stop, result, direction, preconditioned, beta, cells, field, residual):  # type: ignore[no-untyped-def]
     slope = 0.0
-    for k in range(cells.size):
+    for k in range(start, stop):
         t = preconditioned[k] + beta * direction[k]
         direction[k] = t
         field[cells[k]] = t
         slope += t * residual[k]
-    return slope
+    result[0] = slope
+
+
+def gather_dot(field: NDArray[Any], cells: NDArray[Any], out: FloatArray, direction: FloatArray) -> tuple[float, float]:
+    """out = field[cells]; returns its sum and its product with the direction."""
+    total, product = in_blocks(cells.size, 2, _gather_dot, field, cells, out, direction).sum(axis=0)
+    return float(total), float(product)
 
 
 @_fast
-def gather_dot(field, cells, out, direction):  # type: ignore[no-untyped-def]
-    """out = field[cells]; returns its sum and its product with the direction."""
+def _gather_dot(start, stop, result, field, cells, out, direction):  # type: ignore[no-untyped-def]
     total = 0.0
     product = 0.0
-    for k in range(cells.size):
+    for k in range(start, stop):
         value = np.float64(field[cells[k]])
         out[k] = value
         total += value
         product += value * direction[k]
-    return total, product
+    result[0] = total
+    result[1] = product
+
+
+def advance(
+    pressure: FloatArray,
+    residual: FloatArray,
+    previous: FloatArray,
+    direction: FloatArray,
+    response: FloatArray,
+    mean: float,
+    step: float,
+    cap: float,
+) -> tuple[float, float, float]:
+    """p -= step t, r -= step (q - mean), keeping the old r; returns |r|^2, max |r| and how far p left the bounds."""
+    partial = in_blocks(pressure.size, 3, _advance, pressure, residual, previous, direction, response, mean, step, cap)
+    return float(partial[:, 0].sum()), float(partial[:, 1].max()), float(partial[:, 2].max())
 
 
 @_fast
-def advance(pressure, residual, previous, direction, response, mean, step, cap):  # type: ignore[no-untyped-def]
-    """p -= step t, r -= step (q - mean), keeping the old r; returns |r|^2, max |r| and how far p left the bounds."""
+def _advance(start, stop, result, pressure, residual, previous, direction, response, mean, step, cap):  # type: ignore[no-untyped-def]
     squares = 0.0
     largest = 0.0
     outside = 0.0
-    for k in range(pressure.size):
+    for k in range(start, stop):
         p = pressure[k] - step * direction[k]
         pressure[k] = p
         outside = max(outside, max(-p, p - cap))
@@ -153,64 +227,107 @@ def advance(pressure, residual, previous, direction, response, mean, step, cap):
         residual[k] = r
         squares += r * r
         largest = max(largest, abs(r))
-    return squares, largest, outside
+    result[0] = squares
+    result[1] = largest
+    result[2] = outside
+
+
+def shifted_sum(values: FloatArray, shift: float, cap: float) -> tuple[float, int]:
+    """Sum of clip(values + shift, 0, cap) and how many of them are strictly inside."""
+    total, inside = in_blocks(values.size, 2, _shifted_sum, values, shift, cap).sum(axis=0)
+    return float(total), int(inside)
 
 
 @_fast
-def shifted_sum(values, shift, cap):  # type: ignore[no-untyped-def]
-    """Sum of clip(values + shift, 0, cap) and how many of them are strictly inside."""
+def _shifted_sum(start, stop, result, values, shift, cap):  # type: ignore[no-untyped-def]
     total = 0.0
     inside = 0
-    for k in range(values.size):
+    for k in range(start, stop):
         p = values[k] + shift
         if p >= cap:
             total += cap
         elif p > 0:
             total += p
             inside += 1
-    return total, inside
+    result[0] = total
+    result[1] = inside
+
+
+def moments(values: FloatArray) -> tuple[float, float, float]:
+    """Minimum, mean and root mean square about the mean; sums are of differences from the first value."""
+    first = float(values[0])
+    partial = in_blocks(values.size, 2, _least_and_sum, values, first)
+    mean = float(partial[:, 1].sum()) / values.size
+    about = in_blocks(values.size, 1, _squares_about, values, first, mean)
+    return float(partial[:, 0].min()), first + mean, float(np.sqrt(about[:, 0].sum() / values.size))
 
 
 @_fast
-def moments(values):  # type: ignore[no-untyped-def]
-    """Minimum, mean and root mean square about the mean; sums are of differences from the first value."""
-    first = values[0]
-    lowest = first
+def _least_and_sum(start, stop, result, values, first):  # type: ignore[no-untyped-def]
+    lowest = values[start]
     total = 0.0
-    for k in range(values.size):
+    for k in range(start, stop):
         total += values[k] - first
         lowest = min(lowest, values[k])
-    mean = total / values.size
-    squares = 0.0
-    for k in range(values.size):
-        d = values[k] - first - mean
-        squares += d * d
-    return lowest, first + mean, np.sqrt(squares / values.size)
+    result[0] = lowest
+    result[1] = total
 
 
 @_fast
-def rescale(values, datum, factor, out):  # type: ignore[no-untyped-def]
+def _squares_about(start, stop, result, values, first, mean):  # type: ignore[no-untyped-def]
+    total = 0.0
+    for k in range(start, stop):
+        d = values[k] - first - mean
+        total += d * d
+    result[0] = total
+
+
+def rescale(values: FloatArray, datum: float, factor: float, out: FloatArray) -> None:
     """out = (values - datum) factor."""
-    for k in range(values.size):
+    in_blocks(values.size, 0, _rescale, values, datum, factor, out)
+
+
+@_fast
+def _rescale(start, stop, result, values, datum, factor, out):  # type: ignore[no-untyped-def]
+    for k in range(start, stop):
         out[k] = (values[k] - datum) * factor
 
 
-@njit(cache=True, nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
-def assemble(  # type: ignore[no-untyped-def]
-    pressure, displacement, gap, to_pressure, length, approach, cap, deformed, depth
-):
+def assemble(
+    pressure: FloatArray,
+    displacement: FloatArray,
+    gap: FloatArray,
+    to_pressure: float,
+    length: float,
+    approach: float,
+    cap: float,
+    deformed: FloatArray,
+    depth: FloatArray,
+) -> tuple[float, float, float, int, int, float]:
     """Turn scaled results into SI units in place, and judge them from the pressure's own values.
 
     Writes the deformed gap and the plastic depth; returns the largest violation of the contact conditions, the largest
     displacement, the sum of pressures, the numbers of cells in contact and at the cap, and the sum of positive gaps.
     """
+    partial = in_blocks(
+        gap.size, 6, _assemble, pressure, displacement, gap, to_pressure, length, approach, cap, deformed, depth
+    )
+    largest, reach = partial[:, 0].max(), partial[:, 1].max()
+    force, contact, capped, volume = partial[:, 2:].sum(axis=0)
+    return float(largest), float(reach), float(force), int(contact), int(capped), float(volume)
+
+
+@_strict
+def _assemble(  # type: ignore[no-untyped-def]
+    start, stop, result, pressure, displacement, gap, to_pressure, length, approach, cap, deformed, depth
+):
     largest = 0.0
     reach = 0.0
     force = 0.0
     contact = 0
     capped = 0
     volume = 0.0
-    for c in range(gap.size):
+    for c in range(start, stop):
         p = min(pressure[c] * to_pressure, cap)
         u = displacement[c] * length
         pressure[c] = p
@@ -234,4 +351,9 @@ def assemble(  # type: ignore[no-untyped-def]
         deformed[c] = opening
         if not violation <= largest:
             largest = violation
-    return largest, reach, force, contact, capped, volume
+    result[0] = largest
+    result[1] = reach
+    result[2] = force
+    result[3] = contact
+    result[4] = capped
+    result[5] = volume

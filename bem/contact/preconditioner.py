@@ -14,6 +14,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from bem.contact import passes
+
 FloatArray = NDArray[np.float64]
 
 _fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
@@ -52,7 +54,10 @@ class SparseInverse:
         _mark(self.position, cells, True)
         columns = np.empty((cells.size, self.offsets.shape[0]), np.int32)
         pattern = np.empty(cells.size, np.int32)
-        _connect(
+        distant = passes.in_blocks(
+            cells.size,
+            1,
+            _connect,
             cells,
             self.position,
             self.shape[0],
@@ -64,7 +69,7 @@ class SparseInverse:
             pattern,
         )
         _solve_patterns(pattern, self.offsets, self.near_field, self.table, self.solved)
-        return SparseInverseOnCells(columns, pattern, self.table)
+        return SparseInverseOnCells(columns, pattern, self.table, distant[:, 0].astype(np.int64))
 
 
 @dataclass(frozen=True)
@@ -74,10 +79,33 @@ class SparseInverseOnCells:
     columns: NDArray[np.int32]
     pattern: NDArray[np.int32]
     table: FloatArray
+    distant: NDArray[np.int64]
 
     def apply(self, residual: FloatArray, out: FloatArray) -> float:
-        """out = G^T G residual; returns its sum."""
-        return float(_apply(self.columns, self.pattern, self.table, residual, out))
+        """out = G^T G residual; returns its sum.
+
+        Each block adds to its own cells at once; what belongs to the cells of other blocks is kept and added at the
+        end, in order.
+        """
+        starts = np.concatenate([[0], np.cumsum(self.distant)])
+        targets = np.empty(starts[-1], np.int32)
+        amounts = np.empty(starts[-1])
+        partial = passes.in_blocks(
+            residual.size,
+            1,
+            _apply,
+            self.columns,
+            self.pattern,
+            self.table,
+            residual,
+            out,
+            starts,
+            passes.BLOCK,
+            targets,
+            amounts,
+        )
+        _add(out, targets, amounts)
+        return float(partial[:, 0].sum() + amounts.sum())
 
 
 def sparse_inverse(
@@ -108,8 +136,9 @@ def _mark(position, cells, numbered):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _connect(cells, position, nx, ny, wrap_x, wrap_y, offsets, columns, pattern):  # type: ignore[no-untyped-def]
-    for k in range(cells.size):
+def _connect(start, stop, result, cells, position, nx, ny, wrap_x, wrap_y, offsets, columns, pattern):  # type: ignore[no-untyped-def]
+    distant = 0
+    for k in range(start, stop):
         i = cells[k] // ny
         j = cells[k] - i * ny
         bits = 0
@@ -124,9 +153,12 @@ def _connect(cells, position, nx, ny, wrap_x, wrap_y, offsets, columns, pattern)
                 jj = jj - ny if wrap_y else -1
             neighbour = position[ii * ny + jj] if ii >= 0 and jj >= 0 else -1
             columns[k, a] = neighbour
+            if neighbour >= 0 and (neighbour < start or neighbour >= stop):
+                distant += 1
             if neighbour >= 0:
                 bits |= 1 << a
         pattern[k] = bits
+    result[0] = distant
 
 
 @njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
@@ -178,11 +210,12 @@ def _solve_patterns(pattern, offsets, near_field, table, solved):  # type: ignor
 
 
 @_fast
-def _apply(columns, pattern, table, residual, out):  # type: ignore[no-untyped-def]
-    n, m = columns.shape
-    for k in range(n):
+def _apply(start, stop, result, columns, pattern, table, residual, out, starts, block, targets, amounts):  # type: ignore[no-untyped-def]
+    m = columns.shape[1]
+    place = starts[start // block]
+    for k in range(start, stop):
         out[k] = 0
-    for k in range(n):
+    for k in range(start, stop):
         bits = pattern[k]
         s = table[bits, m] * residual[k]
         for a in range(m):
@@ -192,9 +225,19 @@ def _apply(columns, pattern, table, residual, out):  # type: ignore[no-untyped-d
         out[k] += table[bits, m] * s
         for a in range(m):
             c = columns[k, a]
-            if c >= 0:
+            if c >= start and c < stop:
                 out[c] += table[bits, a] * s
+            elif c >= 0:
+                targets[place] = c
+                amounts[place] = table[bits, a] * s
+                place += 1
     total = 0.0
-    for k in range(n):
+    for k in range(start, stop):
         total += out[k]
-    return total
+    result[0] = total
+
+
+@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def _add(out, targets, amounts):  # type: ignore[no-untyped-def]
+    for k in range(targets.size):
+        out[targets[k]] += amounts[k]

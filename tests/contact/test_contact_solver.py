@@ -10,7 +10,7 @@ import pytest
 from contact_oracles import FREE, HALF_Y, PERIODIC, body, notes_surface, operator, rough
 
 from bem import threads
-from bem.contact import solve_contact
+from bem.contact import passes, solve_contact
 from bem.convolution import displacement_operator
 from bem.errors import InfeasibleError, InputError
 from bem.grid import Grid
@@ -161,18 +161,30 @@ def test_fields_fit_together(problem):
         s.load = 1.0
 
 
-def test_threads_leave_the_bits_alone():
-    gap = -notes_surface(256)
-    op = operator((256, 256), (1 / 256, 1 / 256), FREE)
+@pytest.mark.parametrize("periodic", [FREE, PERIODIC])
+def test_threads_leave_the_bits_alone(monkeypatch, periodic):
+    monkeypatch.setattr(passes, "BLOCK", 1000)  # many blocks on a small grid
+    gap = -notes_surface(128)
+    op = operator((128, 128), (1 / 128, 1 / 128), periodic)
     before = threads.get_threads()
     results = []
     try:
-        for count in (1, 2):
+        for count in (1, 2, 3):
             threads.set_threads(count)
-            results.append(solve_contact(gap, op, load=1e-3).pressure)
+            results.append(solve_contact(gap, op, load=3e-3).pressure)
     finally:
         threads.set_threads(before)
-    assert np.array_equal(*results)
+    assert all(np.array_equal(results[0], other) for other in results[1:])
+
+
+def test_blocks_change_nothing_but_round_off(monkeypatch):
+    gap = -notes_surface(128)
+    op = operator((128, 128), (1 / 128, 1 / 128), PERIODIC)
+    whole = solve_contact(gap, op, load=3e-3)
+    monkeypatch.setattr(passes, "BLOCK", 77)
+    parts = solve_contact(gap, op, load=3e-3)
+    assert parts.convolutions == pytest.approx(whole.convolutions, rel=0.1)
+    assert np.abs(parts.pressure - whole.pressure).max() <= 1e-5 * whole.pressure.max()  # both certified to 1e-8
 
 
 def _bits():
