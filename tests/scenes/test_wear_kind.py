@@ -1,0 +1,156 @@
+"""Kind wear: figures of the summary, variants, plans, and runs that are killed and go on to the same bits."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from bem.errors import InfeasibleError, InputError
+from bem.scenes import load_scene
+from bem.scenes.context import PlainContext
+from bem.scenes.kinds import get_kind
+
+SMALL = """
+kind = "wear"
+repetitions = 1
+[lower]
+material = "steel-disk"
+surface = { kind = "generated", rms_height = "120 nm", correlation_length = "0.4 um" }
+[upper]
+material = "steel-cylinder"
+surface = { kind = "generated", rms_height = "30 nm", correlation_length = "0.3 um" }
+[cylinder]
+radius = "2 mm"
+width = "6 mm"
+loads = ["2.5 N"]
+friction = 0.16
+[domain]
+cells = 40
+lengths = "4 um"
+[depths]
+count = 20
+spacing = "95 nm"
+[cycles]
+count = 12
+settled = 4
+"""
+
+KEYS = {
+    "particle_equivalent_radius_nm",
+    "particle_length_nm",
+    "particle_width_nm",
+    "particle_thickness_nm",
+    "particles_per_cycle",
+    "Sq_initial_nm",
+    "Sq_final_nm",
+    "contact_area_fraction",
+    "cycles",
+    "number_mean_equivalent_radius_nm",
+    "area_mean_equivalent_radius_nm",
+    "volume_mean_equivalent_radius_nm",
+    "number_above_mean_equivalent_radius_nm",
+    "cell_nm",
+    "smallest_radius_nm",
+}
+
+
+@pytest.fixture
+def scene_file(tmp_path):
+    def write(text=SMALL, **replaced):
+        for old, new in replaced.items():
+            assert f"{old} = " in text, old
+            head, _, rest = text.rpartition(f"{old} = ")  # the last one: cycles.count, not depths.count
+            text = f"{head}{old} = {new}\n{rest.partition(chr(10))[2]}"
+        path = tmp_path / "scene.toml"
+        path.write_text(text)
+        return path
+
+    return write
+
+
+def run(path):
+    scene = load_scene(path)
+    kind = get_kind("wear")
+    scene = kind.resolve(scene)
+    kind.plan(scene)
+    return kind.run(scene, PlainContext(scene.seed))
+
+
+def test_summary_has_its_figures_and_the_balance_holds(scene_file):
+    outcome = run(scene_file())
+    assert KEYS <= outcome.summary.keys()
+    assert outcome.summary["cycles"] == 12
+    worn = outcome.variables["height_before"].values - outcome.variables["height_after"].values
+    volume = outcome.variables["particle_volume"].values
+    cell = outcome.summary["cell_nm"] ** 2 * 1e-18
+    assert volume.sum() == pytest.approx(worn.sum() * cell, rel=1e-10)  # round-off of sums of a thousand heights
+    assert outcome.variables["radius"].values.shape == (1, 12)
+
+
+def test_loads_variants_and_repetitions_make_lists_in_the_order_of_the_scene(scene_file):
+    text = (
+        SMALL + '[[variants]]\nname = "coarse"\ncells = 20\n[[variants]]\nname = "rough"\nupper_rms_height = "60 nm"\n'
+    )
+    outcome = run(scene_file(text, loads='["2.5 N", "5 N"]', repetitions="2", count="4", settled="2"))
+    assert outcome.summary["load_N"] == [2.5, 2.5, 5.0, 5.0]
+    assert outcome.summary["variant"] == ["coarse", "rough", "coarse", "rough"]
+    assert outcome.summary["cell_nm"] == pytest.approx([200, 100, 200, 100])
+    for key in ("particle_equivalent_radius_nm", "particle_equivalent_radius_nm_spread"):
+        assert len(outcome.summary[key]) == 4
+
+
+def test_a_load_beyond_the_hardness_and_wrong_variants_are_refused_by_the_plan(scene_file):
+    kind = get_kind("wear")
+    with pytest.raises(InfeasibleError, match=r"cylinder\.loads"):
+        kind.plan(kind.resolve(load_scene(scene_file(loads='["1 MN"]'))))
+    text = SMALL + '[[variants]]\nname = "film"\nlayer_thickness = "50 nm"\n'
+    with pytest.raises(InputError, match="layer_thickness"):
+        kind.plan(kind.resolve(load_scene(scene_file(text))))
+    with pytest.raises(InputError, match="settled"):
+        load_scene(scene_file(settled="99"))
+
+
+def test_the_plan_says_what_is_skipped(scene_file):
+    kind = get_kind("wear")
+    steps = {step.name: step for step in kind.plan(kind.resolve(load_scene(scene_file()))).steps}
+    assert steps["layered kernels"].skipped
+    assert steps["tangential kernels in the normal gap"].skipped  # steel on steel: Dundurs' beta is zero
+    assert any(step.skipped and "deeper" in name for name, step in steps.items())
+
+
+@pytest.mark.slow
+def test_killed_ten_times_it_ends_in_the_same_bits(scene_file, tmp_path):
+    path = scene_file(count="100", settled="20")
+    bem = [sys.executable, "-m", "bem", "run", str(path)]
+    whole, torn = tmp_path / "whole", tmp_path / "torn"
+    subprocess.run([*bem, "--out", str(whole)], check=True, capture_output=True, timeout=300)
+    random = np.random.default_rng(5)
+    kills = 0
+    for attempt in range(40):
+        command = [*bem, "--out", str(torn), *(["--resume"] if torn.exists() else [])]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        try:
+            # some in the middle of start-up, some in the cycles, some while files are written
+            process.wait(timeout=float(random.uniform(0.5, 4.0)) if kills < 10 else 300)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+            kills += 1
+            continue
+        finally:
+            message = process.stderr.read().decode()
+            process.stderr.close()
+        assert process.returncode == 0, (attempt, message)
+        break
+    assert kills >= 3  # a fast machine may finish before the tenth
+    import xarray
+
+    with xarray.open_dataset(whole / "results.nc") as a, xarray.open_dataset(torn / "results.nc") as b:
+        for name in a.variables:
+            assert np.array_equal(a[name].values, b[name].values, equal_nan=a[name].dtype.kind == "f"), name
+    first, second = (json.loads((folder / "summary.json").read_text()) for folder in (whole, torn))
+    for key in first:
+        if not key.endswith("seconds") and key not in ("wall_time_s", "seconds_by_stage", "scene"):
+            assert first[key] == second[key], key
