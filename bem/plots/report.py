@@ -41,7 +41,7 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
         converged=summary["status"] == "converged",
         headline=[spelled(name, summary[name]) for name in first],
         figures=summary_rows(summary, rest),
-        pictures=[(item.kind.name, item.kind.caption, _embedded(item.paths)) for item in drawn],
+        pictures=[(item.kind, _embedded(item.paths)) for item in drawn],
         stages=sorted(summary.get("seconds_by_stage", {}).items(), key=lambda item: -item[1]),
         scene_text=scene_text,
         date=datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),

@@ -428,7 +428,9 @@ KIND = Kind(
         "contact-section",
         "pressure-histogram",
         "von-mises-section",
+        "von-mises-depth",
         "convergence",
+        "surface-maps",
     ),
     headline=(
         "load_N",
