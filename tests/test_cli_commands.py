@@ -27,7 +27,7 @@ behaviour = "capped"
 """
 
 
-def bem(*arguments, cwd, timeout=120, env=None):
+def bem(*arguments, cwd, timeout=300, env=None):
     return subprocess.run(
         [sys.executable, "-W", "error", "-m", "bem", *map(str, arguments)],
         cwd=cwd, capture_output=True, text=True, timeout=timeout, check=False, env={**os.environ, **(env or {})},
@@ -128,7 +128,7 @@ def test_a_disk_that_fills_is_exit_code_4_one_message_nothing_half_written(small
         "sys.argv = ['bem', 'run', 'small.toml', '--out', 'out', '--no-figures']; from bem.cli import main; main()"
     )
     done = subprocess.run(
-        [sys.executable, "-c", code], cwd=small, capture_output=True, text=True, timeout=120, check=False
+        [sys.executable, "-c", code], cwd=small, capture_output=True, text=True, timeout=300, check=False
     )
     assert done.returncode == 4, done.stderr
     assert len(done.stderr.splitlines()) == 1
@@ -164,7 +164,7 @@ def test_interrupted_runs_resume_to_the_same_bits(tmp_path, whole, sent, code):
     (tmp_path / "long.toml").write_text(LONG)
     command = [sys.executable, "-m", "bem", "run", "long.toml", "--out", "cut", "--no-figures"]
     process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-    deadline = time.monotonic() + 100
+    deadline = time.monotonic() + 250
     while not (tmp_path / "cut" / "checkpoint.bin").exists():
         assert time.monotonic() < deadline
         assert process.poll() is None, process.communicate()
