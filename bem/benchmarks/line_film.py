@@ -1,0 +1,193 @@
+"""Table of line-contact films over Moes' M and L: converged values, observed order, error against points, the fits.
+
+`python -m bem.benchmarks.line_film TABLE.csv [FIGURE.png]` makes the committed table again.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import sys
+from dataclasses import astuple, dataclass, fields
+from pathlib import Path
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from bem.grid import FloatArray
+from bem.lubrication import FilmSolution, Lubricant, solve_line_film
+from bem.lubrication.line_kernel import logarithmic_weights
+from bem.lubrication.line_newton import Problem, State, newton
+from bem.lubrication.steady import lowest_film, scaled_problem
+from bem.reference_solutions.line_film import dowson_higginson_minimum, moes_central
+
+LOADS = (0.003, 0.03, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0)
+PIEZO = (0.0, 2.0, 5.0, 10.0, 15.0)
+VISCOSITY, PRESSURE_VISCOSITY, RADIUS, ENTRAINMENT = 0.36, 25e-9, 2e-3, 1.0
+"""The oil of the thesis' paper A: with Roelands' law M and L leave its constants to be said."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """Films in Moes' unit R sqrt(mu (u1 + u2) / (2 E* R)); errors in per cent of the converged film."""
+
+    load: float
+    piezo: float
+    minimum: float
+    central: float
+    order_minimum: float
+    order_central: float
+    error_minimum_200: float
+    error_central_200: float
+    error_minimum_400: float
+    error_central_400: float
+    error_minimum_2000: float
+    error_central_2000: float
+    newton_steps_2000: int
+    moes_central_fit: float
+    dowson_higginson_minimum_fit: float
+
+
+def similarity_case(load: float, piezo: float) -> tuple[dict[str, object], float]:
+    """Arguments of `solve_line_film` for Moes' M and L, and the unit of its film [m]."""
+    if piezo > 0:
+        reduced = (piezo / PRESSURE_VISCOSITY) ** (4 / 3) * (RADIUS / (VISCOSITY * ENTRAINMENT)) ** (1 / 3)
+    else:
+        reduced = 4e11
+    speed = VISCOSITY * ENTRAINMENT / (reduced * RADIUS)
+    case: dict[str, object] = {
+        "load": load * math.sqrt(speed) * reduced * RADIUS,
+        "radius": RADIUS,
+        "contact_modulus": reduced / 2,
+        "speeds": (ENTRAINMENT, 0.0),
+        "lubricant": Lubricant(VISCOSITY, pressure_viscosity=PRESSURE_VISCOSITY if piezo > 0 else 0.0),
+    }
+    return case, RADIUS * math.sqrt(speed)
+
+
+def nested_films(film: FilmSolution, levels: int) -> list[tuple[float, float]]:
+    """(minimum, central) film in Moes' unit on the film's mesh and on it split again and again."""
+    kept = film.state
+    problem: Problem = scaled_problem(kept.scales, kept.load, film.lubricant)
+    state: State = kept.state
+    found = [_measures(state)]
+    for _ in range(levels):
+        half = np.arange(2 * len(state.offset) - 1) / 2
+        nodes: FloatArray = PchipInterpolator(np.arange(len(state.offset)), state.offset)(half)
+        start = State(
+            nodes,
+            logarithmic_weights(nodes, nodes),
+            np.interp(nodes, state.offset, state.pressure),
+            np.exp(np.interp(nodes, state.offset, np.log(state.film))),
+            state.datum,
+            state.exit,
+        )
+        state = newton(problem, start, 1e-9).state
+        found.append(_measures(state))
+    return found
+
+
+def _measures(state: State) -> tuple[float, float]:
+    return lowest_film(state.position, state.film), float(PchipInterpolator(state.position, state.film)(0.0))
+
+
+def film_row(load: float, piezo: float) -> Row:
+    """One row: the converged film by extrapolation over nested meshes of 250 to 2000 cells."""
+    case, unit = similarity_case(load, piezo)
+    levels: FloatArray = np.array(nested_films(solve_line_film(**case, points=251), 3))  # type: ignore[arg-type]
+    steps = np.diff(levels, axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        orders = np.log2(np.abs(steps[-2] / steps[-1]))
+    rates = np.clip(np.nan_to_num(orders, nan=2.0, posinf=2.0, neginf=2.0), 0.5, 3.0)
+    limit = levels[-1] + steps[-1] / (2**rates - 1)
+    errors: list[float] = []
+    iterations = 0
+    for points in (200, 400, 2000):
+        film = solve_line_film(**case, points=points)  # type: ignore[arg-type]
+        errors += [
+            100 * (film.minimum_thickness / unit / limit[0] - 1),
+            100 * (film.central_thickness / unit / limit[1] - 1),
+        ]
+        iterations = film.iterations
+    fit = math.nan
+    if piezo > 0:
+        arguments = {key: float(case[key]) for key in ("load", "radius", "contact_modulus")}  # type: ignore[arg-type]
+        fit = dowson_higginson_minimum(
+            **arguments,
+            mean_speed=ENTRAINMENT / 2,
+            viscosity=VISCOSITY,
+            pressure_viscosity=PRESSURE_VISCOSITY,
+        )
+    return Row(
+        load=load,
+        piezo=piezo,
+        minimum=float(limit[0]),
+        central=float(limit[1]),
+        order_minimum=float(orders[0]),
+        order_central=float(orders[1]),
+        error_minimum_200=errors[0],
+        error_central_200=errors[1],
+        error_minimum_400=errors[2],
+        error_central_400=errors[3],
+        error_minimum_2000=errors[4],
+        error_central_2000=errors[5],
+        newton_steps_2000=iterations,
+        moes_central_fit=moes_central(load, piezo),
+        dowson_higginson_minimum_fit=fit / unit,
+    )
+
+
+def write_table(path: Path, rows: list[Row]) -> None:
+    """Write the table as CSV, five figures."""
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow([f.name for f in fields(Row)])
+        writer.writerows([[f"{value:.5g}" for value in astuple(row)] for row in rows])
+
+
+def read_table(path: Path) -> list[Row]:
+    """Read a table that `write_table` wrote."""
+    with path.open() as file:
+        rows = list(csv.DictReader(file))
+    return [
+        Row(**{f.name: int(row[f.name]) if f.type == "int" else float(row[f.name]) for f in fields(Row)})  # type: ignore[arg-type]
+        for row in rows
+    ]
+
+
+def draw(path: Path, rows: list[Row]) -> None:
+    """Figure: films over M for each L, with Martin's limit and the fits."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(9, 4.2), layout="constrained")
+    FigureCanvasAgg(figure)
+    left, right = figure.subplots(1, 2, sharex=True)
+    for axes, name, fit, title in (
+        (left, "central", "moes_central_fit", "central film; dashed: Moes (1992)"),
+        (right, "minimum", "dowson_higginson_minimum_fit", "minimum film; dashed: Dowson and Higginson"),
+    ):
+        for k, piezo in enumerate(sorted({row.piezo for row in rows})):
+            mine = [row for row in rows if row.piezo == piezo]
+            loads = [row.load for row in mine]
+            axes.loglog(loads, [getattr(row, name) for row in mine], "o-", color=f"C{k}", ms=3, label=f"L = {piezo:g}")
+            axes.loglog(loads, [getattr(row, fit) for row in mine], "--", color=f"C{k}", lw=1)
+        low = np.array([min(LOADS), 1.0])
+        axes.loglog(low, 2.4475 / low, "k:", lw=1, label="Martin")
+        axes.set_xlabel("M")
+        axes.set_ylabel("H")
+        axes.set_title(title, fontsize=10)
+    left.legend(fontsize=8)
+    figure.savefig(path, dpi=150)
+
+
+def main(arguments: list[str]) -> None:
+    """Make the table, and the figure where a second path is given."""
+    rows = [film_row(load, piezo) for load in LOADS for piezo in PIEZO]
+    write_table(Path(arguments[0]), rows)
+    if len(arguments) > 1:
+        draw(Path(arguments[1]), rows)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
