@@ -104,5 +104,5 @@ def test_resumed_run_gives_the_same_bits():
     ],
 )
 def test_refusals(changes):
-    with pytest.raises(ValueError, match="allowed|greater|input"):
+    with pytest.raises(ValueError, match=r"allowed|greater|input"):
         FrictionScene.model_validate(SCENE | changes)
