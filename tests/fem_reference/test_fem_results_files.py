@@ -130,12 +130,14 @@ def test_stored_cases_are_what_they_claim(path):
     assert results.picture_segments(result)
     for check in result.checks.values():
         assert abs(check["value"] - check["expected"]) <= check["tolerance"]
+    largest = max(abs(v) for q in result.quantities if "displacement" in q.name for v in q.values)
     for curve in result.quantities:
         size = max(abs(value) for value in curve.values)
         assert size > 0
         if "displacement" in curve.name:
-            # 0.1 % of the largest; a tangential displacement under a pressure has a kink at the load's edge
-            assert max(curve.error_bar) <= (1e-3 if "harmonic" not in path.stem else 1e-5) * max(size, 0.1), curve
+            # 0.1 % of the largest displacement of the case; of blocks a little more for the cautious bound of the far field
+            limit = {"harmonic": 1e-5, "rectangle": 1.1e-3}.get(result.problem, 1e-3)
+            assert max(curve.error_bar) <= limit * largest, curve
         elif curve.name.startswith("stress"):
             # 0.5 % of the load, the scale on which a stress field is read
             assert max(curve.error_bar) <= 5e-3 * max(size, 1.0), curve
