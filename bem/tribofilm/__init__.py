@@ -4,6 +4,7 @@ from bem.tribofilm.contact_growth import ContactSample, FilmContact, GrowthTable
 from bem.tribofilm.evolution import FilmHistory, evolve_film, steady_thickness
 from bem.tribofilm.grow import TribofilmGrowth, grow_tribofilm
 from bem.tribofilm.growth import StressActivatedGrowth
+from bem.tribofilm.local import LocalFilm, grow_local_film
 from bem.tribofilm.properties import Constant, FadingSubstrate, FilmProperty, Table
 
 __all__ = [
@@ -14,10 +15,12 @@ __all__ = [
     "FilmHistory",
     "FilmProperty",
     "GrowthTable",
+    "LocalFilm",
     "StressActivatedGrowth",
     "Table",
     "TribofilmGrowth",
     "evolve_film",
+    "grow_local_film",
     "grow_tribofilm",
     "solve_film_contact",
     "steady_thickness",

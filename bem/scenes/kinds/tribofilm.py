@@ -90,6 +90,8 @@ class FilmScene(Table):
     concentration_constant: Annotated[InverseLength, Field(gt=0)] | None = None
     initial_thickness: Annotated[Length, Field(ge=0)] = 0.0
     average: Literal["contact", "nominal"] = "contact"
+    feedback: Literal["mean", "local"] = "mean"
+    local_tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = 1e-2
 
 
 class VariantScene(Table):
@@ -133,6 +135,12 @@ class TribofilmScene(SceneModel):
     variants: list[VariantScene] = []  # noqa: RUF012
     reuse_tolerance: Annotated[Ratio, Field(ge=0, lt=1)] = 2e-3
     repetitions: Annotated[int, Field(strict=True, ge=1, le=1000)] = 1
+
+    @model_validator(mode="after")
+    def _delay_needs_the_mean(self) -> TribofilmScene:
+        if self.film.feedback == "local" and (self.film.lag > 0 or any(v.lag for v in self.variants)):
+            raise problem("a lag with local feedback", 'lag with film.feedback = "mean", or no lag')
+        return self
 
     @model_validator(mode="after")
     def _film_is_the_layer(self) -> TribofilmScene:
@@ -262,6 +270,11 @@ def run(scene: TribofilmScene, context: Context) -> Outcome:
             average=own.average,
             nominal_area=_nominal_area(scene, grid, film["load"]),
         )
+        if own.feedback == "local":
+            finished.append(_local_record(scene, film, contact, times, chosen, context))
+            context.save({"finished": finished})
+            context.progress(1000 * (index + 1), 1000 * len(wanted), "films")
+            continue
         solved = 0
 
         def watch(sample: Any, index: int = index) -> None:
@@ -324,6 +337,56 @@ def _record(scene: TribofilmScene, film: dict[str, Any], grown: Any) -> dict[str
         "sample_contact_area": np.array([s.contact_area for s in grown.contacts]),
         "film_map": grown.film_map,
         "pressure": last.pressure,
+    }
+
+
+def _local_record(
+    scene: TribofilmScene,
+    film: dict[str, Any],
+    contact: Any,
+    times: NDArray[np.float64],
+    chosen: Any,
+    context: Context,
+) -> dict[str, Any]:
+    """A film with local feedback, in the shape of `_record`."""
+    from bem.tribofilm import grow_local_film
+
+    samples: list[Any] = []
+    with context.timer("films"):
+        grown = grow_local_film(
+            times,
+            contact,
+            wear_coefficient=chosen("wear_coefficient"),
+            concentration_constant=scene.film.concentration_constant or np.inf,
+            initial_thickness=scene.film.initial_thickness,
+            tolerance=scene.film.local_tolerance,
+            callback=lambda now, sample: samples.append(sample),
+        )
+    constant = scene.film.concentration_constant
+    report = scene.rubbing.report
+    depth = None if report is None else float(np.diff(np.interp(report, times, grown.substrate_wear))[0])
+    return {
+        "load": film["load"],
+        "temperature": film["temperature"],
+        "variant": film["variant"].name,
+        "repetition": film["repetition"],
+        "thickness": grown.thickness,
+        "grown": grown.grown,
+        "worn": grown.worn,
+        "substrate_wear": grown.substrate_wear,
+        "growth_rate": np.gradient(grown.grown, times),
+        "wear_rate": chosen("wear_coefficient") * grown.thickness,
+        "concentration": np.zeros_like(times) if constant is None else np.exp(-constant * grown.thickness),
+        "wear_depth": depth,
+        "steady": None,
+        "contacts": grown.contacts,
+        "sample_thickness": np.array([s.thickness for s in samples]),
+        "sample_mean_pressure": np.array([s.mean_pressure for s in samples]),
+        "sample_hardness": np.array([s.hardness for s in samples]),
+        "sample_growth": np.array([s.growth for s in samples]),
+        "sample_contact_area": np.array([s.contact_area for s in samples]),
+        "film_map": grown.film_map,
+        "pressure": grown.pressure,
     }
 
 
