@@ -1,0 +1,107 @@
+"""Kind tribofilm: figures of the summary, variants, what is refused, what is skipped, and a run that goes on."""
+
+import numpy as np
+import pytest
+
+from bem.errors import InfeasibleError, InputError
+from bem.scenes import load_scene
+from bem.scenes.context import PlainContext
+from bem.scenes.kinds import get_kind
+
+SMALL = """
+kind = "tribofilm"
+[grid]
+shape = 20
+lengths = "40 nm"
+[lower]
+material = { name = "iron", youngs_modulus = "210 GPa", poissons_ratio = 0.3 }
+[upper]
+material = "dlc"
+[shape]
+kind = "sphere"
+radius = "53 nm"
+[rubbing]
+loads = ["600 nN"]
+temperatures = ["90 degC", "100 degC"]
+duration = "6000 s"
+points = 21
+report = ["3000 s", "6000 s"]
+[film]
+activation_energy = "0.8 eV"
+activation_volume = "85 angstrom^3"
+wear_coefficient = "1e-3 1/s"
+concentration_constant = "1.24e7 1/m"
+hardness = { kind = "constant", value = "2 GPa" }
+youngs_modulus = { kind = "constant", value = "15 GPa" }
+"""
+KEYS = {"temperature_C", "film_thickness_nm", "film_wear_rate_nm_s", "wear_depth_nm", "concentration"}
+
+
+def prepared(tmp_path, text):
+    path = tmp_path / "scene.toml"
+    path.write_text(text)
+    kind = get_kind("tribofilm")
+    return kind, kind.resolve(load_scene(path))
+
+
+def test_summary_lists_run_over_temperatures(tmp_path):
+    kind, scene = prepared(tmp_path, SMALL)
+    outcome = kind.run(scene, PlainContext(1))
+    assert outcome.summary.keys() >= KEYS
+    assert outcome.summary["temperature_C"] == pytest.approx([90, 100])
+    thickness, worn = outcome.summary["film_thickness_nm"], outcome.summary["wear_depth_nm"]
+    assert thickness[1] > thickness[0] > 0  # growth is thermally activated
+    # a steady film: depth = alpha h exp(-C1 h) over the time between the two reports
+    for h, depth in zip(thickness, worn, strict=True):
+        expected = 1e-3 * h * np.exp(-1.24e7 * 1e-9 * h) * 3000
+        assert depth == pytest.approx(expected, rel=0.05)  # 3 e-foldings after the start the film is 95 % there
+    history = outcome.variables["thickness"].values
+    assert history.shape == (2, len(outcome.variables["time"].values))
+
+
+def test_loads_and_variants_come_in_the_order_of_the_scene(tmp_path):
+    text = SMALL.replace('["600 nN"]', '["600 nN", "340 nN"]').replace('["90 degC", "100 degC"]', '["100 degC"]')
+    text += '[[variants]]\nname = "worn"\n[[variants]]\nname = "unworn"\nwear_coefficient = "0 1/s"\n'
+    kind, scene = prepared(tmp_path, text)
+    summary = kind.run(scene, PlainContext(1)).summary
+    assert summary["variant"] == ["worn", "unworn", "worn", "unworn"]
+    assert summary["load_N"] == pytest.approx([600e-9, 600e-9, 340e-9, 340e-9])
+    thickness = summary["film_thickness_nm"]
+    assert thickness[1] > thickness[0]
+    assert thickness[3] > thickness[2]
+    assert thickness[0] > thickness[2]
+
+
+def test_a_finished_film_is_not_grown_again(tmp_path):
+    kind, scene = prepared(tmp_path, SMALL)
+    context = PlainContext(1)
+    whole = kind.run(scene, context)
+    stopped = PlainContext(1, resumed=True)
+    stopped.state = {"finished": context.state["finished"][:1]}
+    rest = kind.run(scene, stopped)
+    assert np.array_equal(whole.variables["thickness"].values, rest.variables["thickness"].values)
+    assert stopped.seconds["films"] < context.seconds["films"] or len(stopped.state["finished"]) == 2
+
+
+def test_local_feedback_runs_and_refuses_a_lag(tmp_path):
+    text = SMALL.replace('["90 degC", "100 degC"]', '["100 degC"]') + 'feedback = "local"\nlocal_tolerance = 0.05\n'
+    kind, scene = prepared(tmp_path, text)
+    outcome = kind.run(scene, PlainContext(1))
+    assert outcome.summary["film_thickness_nm"] > 0
+    with pytest.raises(InputError, match="lag"):
+        prepared(tmp_path, text + 'lag = "10 s"\n')
+
+
+def test_plan_refuses_what_the_film_cannot_carry_and_says_what_is_reused(tmp_path):
+    kind, scene = prepared(tmp_path, SMALL)
+    steps = {step.name: step for step in kind.plan(scene).steps}
+    assert steps["contacts at other times"].skipped
+    assert steps["tangential kernels"].skipped
+    kind, scene = prepared(tmp_path, SMALL.replace("600 nN", "1 N"))
+    with pytest.raises(InfeasibleError, match="loads"):
+        kind.plan(scene)
+    with pytest.raises(InputError, match="report"):
+        prepared(tmp_path, SMALL.replace('"6000 s"]', '"9000 s"]'))
+    table = 'hardness = { kind = "table", thickness = ["1 nm", "0 nm"], value = ["1 GPa", "2 GPa"] }'
+    with pytest.raises(InputError, match="curve"):
+        prepared(tmp_path, SMALL.replace('hardness = { kind = "constant", value = "2 GPa" }', table))
