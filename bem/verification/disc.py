@@ -1,0 +1,180 @@
+"""A disc of pressure or traction: cells under the mean pressure of each, through the operator and the stresses."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bem.convolution import displacement_operator
+from bem.grid import FloatArray
+from bem.kernels.half_space import rectangle_displacement
+from bem.kernels.loads import Load
+from bem.materials import Body
+from bem.stress import subsurface_stress
+from bem.verification.patches import PointGrid, disc_means, free_grid, window
+from bem.verification.rows import Curve
+from bem.verification.stored import StoredCase, StoredCurve
+
+STRESS_NAMES = ("stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz", "stress_xy")
+STEP = 1 / 40
+"""Side of a cell over the radius."""
+GLASS, WINDOW, NEAR = 9, 6, 6.5
+"""Smaller cells by that factor (odd), for so many cells on each side of points nearer than so many cells."""
+REASON = "cells of 1/40 of the radius, smaller ones near points at the surface or at the load's edge"
+STRESS = (2e-3, 3e-3)
+"""Under pressure, under traction (whose direct stresses along the surface are logarithmic at the load's edge)."""
+COUPLED = 1.5e-3
+"""Displacements across the load are a few times smaller and bend sharply at its edge."""
+
+
+def curves(case: StoredCase) -> list[Curve]:
+    """Both sides of a stored disc; tangential displacements of coated bodies are no result of bem and are left out."""
+    tangential = case.problem == "disc-tangential"
+    solution = _Disc(case.body, case.parameters["pressure"], tangential=tangential, step=STEP)
+    found = []
+    for curve in case.curves:
+        keep = _compared(case, curve)
+        if keep is None:
+            continue
+        curve = curve.only(keep)
+        values = solution.values(curve)
+        stress, across = curve.name.startswith("stress"), curve.name != _along(case)
+        quantity = curve.name + (f" ({curve.side})" if curve.side else "")
+        if curve.name == "tangential_displacement" and tangential:
+            quantity += f", {curve.along.partition(', ')[2]}"
+        found.append(
+            Curve(
+                quantity,
+                curve.along,
+                curve.unit,
+                curve.coordinates,
+                values,
+                curve.values,
+                curve.error_bar,
+                STRESS[tangential] if stress else COUPLED if across else 5e-4,
+                REASON,
+            )
+        )
+    return found
+
+
+def _along(case: StoredCase) -> str:
+    """The displacement along the load."""
+    return "normal_displacement" if case.problem == "disc" else "tangential_displacement"
+
+
+def _compared(case: StoredCase, curve: StoredCurve) -> NDArray[np.bool_] | None:
+    """Which points of a curve are compared; None where bem has no such result."""
+    x, y, z = curve.coordinates.T
+    if curve.name == "tangential_displacement" and case.body.layer is not None:
+        return None
+    if curve.name.startswith("stress"):
+        return z > STEP / GLASS  # nearer to the surface than the smallest cell, shear is that of the cell's own edges
+    if curve.name != _along(case) and case.parameters["pressure"] == "uniform":
+        return np.abs(np.hypot(x, y) - 1) > 1e-9  # the slope jumps at the edge of the load, which the cells round
+    return np.ones(x.size, dtype=bool)
+
+
+class _Disc:
+    """bem's side: a grid for the surface, one for the stresses, and a magnifying glass.
+
+    Where a point is nearer to the surface than a few cells, or on the surface nearer to the load's edge, the cells
+    around it are taken away and replaced by GLASS times smaller ones: all of it linear, all of it the same operator.
+    """
+
+    def __init__(self, body: Body, profile: str, *, tangential: bool, step: float, glass: bool = True) -> None:
+        self.body, self.profile, self.tangential, self.step, self.glass = body, profile, tangential, step, glass
+        self.friction = 1.0 if tangential else 0.0
+        self.planes: dict[float, FloatArray] = {}
+        self.points: dict[tuple[float, float, float], FloatArray] = {}
+        self.below = free_grid(step, (-1.2, 3.0), (-1.0, 1.0))
+        self.pressure = disc_means(self.below, profile)
+
+    def values(self, curve: StoredCurve) -> FloatArray:
+        """The stored curve's points."""
+        x, y, z = curve.coordinates.T
+        if curve.name == "normal_displacement":
+            return self.normal_displacement(x, y)
+        if curve.name == "tangential_displacement":
+            return self.tangential_displacement(x, y)
+        component = STRESS_NAMES.index(curve.name)
+        if curve.side == "substrate" and self.body.layer is not None:
+            # on the interface bem gives the layer's side: the next depth a number can be is the substrate's
+            z = np.where(z <= self.body.layer.thickness, np.nextafter(self.body.layer.thickness, np.inf), z)
+        return np.array(
+            [self.stress(*point)[component] for point in zip(x.tolist(), y.tolist(), z.tolist(), strict=True)]
+        )
+
+    def normal_displacement(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Through the operator."""
+        where = free_grid(self.step, (-1.0, float(x.max())), (-1.0, 1.0))
+        values = self.surface(where)[where.at(x, y)]
+        for i in self.near_edge(x, y):
+            fine, coarse = self.windows((x[i], y[i]))
+            for part, sign in ((fine, 1), (coarse, -1)):
+                values[i] += sign * self.surface(part)[part.origin]
+        return values
+
+    def surface(self, where: PointGrid) -> FloatArray:
+        """Normal displacement of the part of the load on a grid, (nx, ny)."""
+        pressure = disc_means(where, self.profile)
+        field = displacement_operator(where.grid, self.body, friction=self.friction)(pressure)
+        if self.tangential:
+            field = field - displacement_operator(where.grid, self.body)(pressure)
+        return field
+
+    def tangential_displacement(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Rectangles summed at the points: no operator makes this."""
+        values = self.rectangles(self.below, x, y)
+        for i in self.near_edge(x, y):
+            fine, coarse = self.windows((x[i], y[i]))
+            values[i] += (self.rectangles(fine, x[i], y[i]) - self.rectangles(coarse, x[i], y[i]))[0]
+        return values
+
+    def rectangles(self, where: PointGrid, x: ArrayLike, y: ArrayLike) -> FloatArray:
+        """Displacement along x at points, of the part of the load on a grid."""
+        x, y = np.atleast_1d(x), np.atleast_1d(y)
+        at_x, at_y = where.axes
+        pressure = disc_means(where, self.profile)
+        cells = np.nonzero(pressure)
+        load = Load.TANGENTIAL if self.tangential else Load.NORMAL
+        field = rectangle_displacement(
+            x[:, None] - at_x[cells[0]],
+            y[:, None] - at_y[cells[1]],
+            0.0,
+            where.grid.spacing,
+            self.body.material,
+            load,
+        )
+        return np.einsum("pc,c->p", field[0], pressure[cells])
+
+    def stress(self, x: float, y: float, z: float) -> FloatArray:
+        """Six stresses at a point, through `subsurface_stress` plane by plane."""
+        key = (x, y, z)
+        if key not in self.points:
+            if z not in self.planes:
+                self.planes[z] = self.plane(self.below, self.pressure, z)
+            values = self.planes[z][:, *self.below.at(np.array(x), np.array(y))].copy()
+            if self.glass and z < NEAR * self.step:
+                for part, sign in zip(self.windows((x, y)), (1, -1), strict=True):
+                    values += sign * self.plane(part, disc_means(part, self.profile), z)[:, *part.origin]
+            self.points[key] = values
+        return self.points[key]
+
+    def plane(self, where: PointGrid, pressure: FloatArray, depth: float) -> FloatArray:
+        """(6, nx, ny) at a depth."""
+        stress = subsurface_stress(pressure, where.grid, self.body, [depth], friction=self.friction)[:, 0]
+        if self.tangential:
+            stress = stress - subsurface_stress(pressure, where.grid, self.body, [depth])[:, 0]
+        return stress
+
+    def near_edge(self, x: FloatArray, y: FloatArray) -> list[int]:
+        """Indices of points near the circle."""
+        if not self.glass:
+            return []
+        return np.flatnonzero(np.abs(np.hypot(x, y) - 1) < NEAR * self.step + 1e-9).tolist()
+
+    def windows(self, point: tuple[float, float]) -> tuple[PointGrid, PointGrid]:
+        """Small cells around a point, and the cells they stand for."""
+        half = WINDOW * GLASS + GLASS // 2
+        return window(self.step / GLASS, half, point), window(self.step, WINDOW, point)

@@ -1,0 +1,148 @@
+"""A harmonic load on a doubly periodic cell: the frequency response, through operator, stresses and wave functions."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from bem.convolution import displacement_operator
+from bem.grid import FloatArray, Grid
+from bem.kernels.layered import ACROSS_U, NORMAL_U, NORMAL_W, TANGENTIAL_U, TANGENTIAL_W, wave_functions
+from bem.materials import Body, Layer
+from bem.stress import subsurface_stress
+from bem.verification.disc import STRESS_NAMES
+from bem.verification.rows import Curve
+from bem.verification.stored import StoredCase, StoredCurve
+from bem.verification.strip import ANTIPLANE
+
+CELLS = 8
+"""In a wavelength: a harmonic is exact on any number of cells."""
+REASON = "closed form in the wavevector; what is left is for the reference's error bars being estimates"
+
+
+def curves(case: StoredCase) -> list[Curve]:
+    """Both sides. Surface displacements under normal load come from the operator, others from the wave functions."""
+    found = []
+    for curve in case.curves:
+        waves = curve.name.endswith("displacement")
+        quantity = curve.name + (f" ({curve.side})" if curve.side else " (surface)")
+        sides = [(quantity + (", wave functions" if waves else ""), _waves if waves else _stress)]
+        if curve.along == "q h" and curve.name == "normal_displacement":
+            sides.append((quantity, _operator))
+        for name, compute in sides:
+            found.append(
+                Curve(
+                    name,
+                    curve.along,
+                    curve.unit,
+                    curve.coordinates,
+                    compute(case, curve),
+                    curve.values,
+                    curve.error_bar,
+                    1e-5,
+                    REASON,
+                )
+            )
+    return found
+
+
+def _body(case: StoredCase, thickness: float) -> Body:
+    """Wavenumber 1: the thickness is q h."""
+    body = case.body
+    assert body.layer is not None
+    return Body(body.material, layer=Layer(body.layer.material, thickness))
+
+
+def _points(curve: StoredCurve) -> list[tuple[float, float]]:
+    """(q h, q z) of each value."""
+    if curve.along == "q h":
+        return [(float(point[0]), 0.0) for point in curve.coordinates]
+    match = re.search(r"q h = ([\d.eE+-]+)", curve.along)
+    assert match is not None
+    return [(float(match[1]), float(point[2])) for point in curve.coordinates]
+
+
+def _depth(thickness: float, depth: float, side: str) -> float:
+    """The depth on the wanted side of the interface, where the reference's is rounded."""
+    if abs(depth - thickness) < 1e-6 * thickness:
+        return float(np.nextafter(thickness, np.inf)) if side == "substrate" else thickness
+    return depth
+
+
+@dataclass(frozen=True)
+class _Cell:
+    """One wavelength along the wave's axis: grid, cosine on it, and how to pick crest and node."""
+
+    grid: Grid
+    pressure: FloatArray
+    along_y: bool
+
+    def pick(self, field: FloatArray, index: int) -> float:
+        """The value at the cell `index` along the wave."""
+        return float(field[0, index] if self.along_y else field[index, 0])
+
+
+def _cell(load: str) -> _Cell:
+    """Traction along x across a wave along y is the anti-plane problem."""
+    side, wave = 2 * np.pi / CELLS, np.cos(2 * np.pi / CELLS * np.arange(CELLS))
+    if load == "antiplane":
+        return _Cell(Grid((2, CELLS), (side, side), periodic=(True, True)), np.tile(wave, (2, 1)), True)
+    return _Cell(Grid((CELLS, 2), (side, side), periodic=(True, True)), np.tile(wave[:, None], (1, 2)), False)
+
+
+def _operator(case: StoredCase, curve: StoredCurve) -> FloatArray:
+    """Normal displacement of the surface through the operator; sine at a quarter wavelength under traction."""
+    load = case.parameters["load"]
+    cell = _cell(load)
+    values = []
+    for thickness, _ in _points(curve):
+        body = _body(case, thickness)
+        field = displacement_operator(cell.grid, body)(cell.pressure)
+        if load == "tangential":
+            field = displacement_operator(cell.grid, body, friction=1.0)(cell.pressure) - field
+        values.append(cell.pick(field, CELLS // 4 if load == "tangential" else 0))
+    return np.array(values)
+
+
+def _stress(case: StoredCase, curve: StoredCurve) -> FloatArray:
+    """Stress amplitudes over the depth, through `subsurface_stress`."""
+    load = case.parameters["load"]
+    cell = _cell(load)
+    component = STRESS_NAMES.index(curve.name)
+    # as in the reference: where the cosine or sine of each quantity is one
+    node = {"normal": {4}, "tangential": {0, 1, 2}, "antiplane": {5}}[load]
+    index = CELLS // 4 if component in node else 0
+    if load == "antiplane":
+        component = ANTIPLANE[component]
+    values = []
+    for thickness, depth in _points(curve):
+        body = _body(case, thickness)
+        z = [_depth(thickness, depth, curve.side)]
+        if load == "normal":
+            field = subsurface_stress(cell.pressure, cell.grid, body, z)
+        else:
+            field = subsurface_stress(cell.pressure, cell.grid, body, z, friction=1.0)
+            field = field - subsurface_stress(cell.pressure, cell.grid, body, z)
+        values.append(cell.pick(field[component, 0], index))
+    return np.array(values)
+
+
+def _waves(case: StoredCase, curve: StoredCurve) -> FloatArray:
+    """Displacement amplitudes at any depth from the wave functions (which give 2 G1 q u; u_e = i u, load cos)."""
+    load = case.parameters["load"]
+    row, sign = {
+        ("normal", "normal_displacement"): (NORMAL_W, 1),
+        ("normal", "tangential_displacement"): (NORMAL_U, -1),
+        ("tangential", "normal_displacement"): (TANGENTIAL_W, -1),
+        ("tangential", "tangential_displacement"): (TANGENTIAL_U, -1),
+        ("antiplane", "transverse_displacement"): (ACROSS_U, 1),
+    }[load, curve.name]
+    values = []
+    for thickness, depth in _points(curve):
+        body = _body(case, thickness)
+        assert body.layer is not None
+        found = wave_functions(np.ones(1), body, _depth(thickness, depth, curve.side))
+        values.append(sign * found[row, 0] / (2 * body.layer.material.shear_modulus))
+    return np.array(values)

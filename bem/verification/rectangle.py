@@ -1,0 +1,94 @@
+"""A uniformly loaded rectangle in three dimensions: one kernel at a point, and cells through operator and stresses."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bem.convolution import displacement_operator
+from bem.grid import FloatArray
+from bem.kernels.half_space import rectangle_displacement
+from bem.kernels.loads import Load
+from bem.kernels.subsurface import rectangle_stress
+from bem.stress import subsurface_stress
+from bem.verification.disc import STRESS_NAMES
+from bem.verification.patches import PointGrid, free_grid
+from bem.verification.rows import Curve
+from bem.verification.stored import StoredCase, StoredCurve
+
+STEP = 1 / 80
+"""Side of a cell over the half-length."""
+EXACT = "closed form; what is left is for error bars that three meshes in three dimensions estimate to a factor of two"
+REASON = "cells of 1/80 of the half-length, halves along the rectangle's edges"
+
+
+def curves(case: StoredCase) -> list[Curve]:
+    """Both sides of a stored rectangle: the kernels at the points, and what production does with cells."""
+    load = Load.NORMAL if case.parameters["load"] == "normal" else Load.TANGENTIAL
+    sides = (2.0, 2.0 * case.parameters["width"])
+    cells, bare = _Cells(case), case.body.layer is None
+    found = []
+    for curve in case.curves:
+        x, y, z = curve.coordinates.T
+        name = curve.name + (f" ({curve.side})" if curve.side else "")
+        pairs: list[tuple[str, FloatArray, float, str]] = []
+        if curve.name.startswith("stress"):
+            component = STRESS_NAMES.index(curve.name)
+            pairs.append((name, cells.stress(curve, component), 2e-3 if load is Load.NORMAL else 3e-3, REASON))
+            if bare:
+                exact = rectangle_stress(x, y, z, sides, case.body.material.poissons_ratio, load)[component]
+                pairs.append((name + ", kernel", exact, 2e-3, EXACT))
+        else:
+            if curve.name == "normal_displacement":
+                pairs.append((name, cells.displacement(curve), 1e-3, REASON))
+            if bare:
+                field = rectangle_displacement(x, y, 0.0, sides, case.body.material, load)
+                exact = field[0 if curve.name == "tangential_displacement" else 2]
+                pairs.append((name + ", kernel", exact, 1e-3, EXACT))
+        found += [
+            Curve(name, curve.along, curve.unit, curve.coordinates, values, curve.values, curve.error_bar, share, why)
+            for name, values, share, why in pairs
+        ]
+    return found
+
+
+class _Cells:
+    """The rectangle on a grid whose cells have their middles at the reference's points."""
+
+    def __init__(self, case: StoredCase) -> None:
+        self.body, self.width = case.body, case.parameters["width"]
+        self.tangential = case.parameters["load"] == "tangential"
+        self.planes: dict[float, FloatArray] = {}
+        self.below = free_grid(STEP, (-1.0, 1.5), (-self.width, self.width))
+
+    def pressure(self, where: PointGrid) -> FloatArray:
+        """Share of each cell that is loaded."""
+        x, y = (
+            np.clip(np.minimum(at + STEP / 2, half) - np.maximum(at - STEP / 2, -half), 0, None) / STEP
+            for at, half in zip(where.axes, (1.0, self.width), strict=True)
+        )
+        return np.outer(x, y)
+
+    def displacement(self, curve: StoredCurve) -> FloatArray:
+        """Through the operator."""
+        x, y, _ = curve.coordinates.T
+        where = free_grid(STEP, (-1.0, max(1.0, x.max())), (-self.width, max(self.width, y.max())))
+        pressure = self.pressure(where)
+        field = displacement_operator(where.grid, self.body, friction=float(self.tangential))(pressure)
+        if self.tangential:
+            field = field - displacement_operator(where.grid, self.body)(pressure)
+        return field[where.at(x, y)]
+
+    def stress(self, curve: StoredCurve, component: int) -> FloatArray:
+        """Through `subsurface_stress`."""
+        x, y, z = curve.coordinates.T
+        layer = self.body.layer
+        if curve.side == "substrate" and layer is not None:
+            z = np.where(z <= layer.thickness, np.nextafter(layer.thickness, np.inf), z)
+        pressure = self.pressure(self.below)
+        for depth in set(z.tolist()) - set(self.planes):
+            plane = subsurface_stress(pressure, self.below.grid, self.body, [depth], friction=float(self.tangential))
+            if self.tangential:
+                plane = plane - subsurface_stress(pressure, self.below.grid, self.body, [depth])
+            self.planes[depth] = plane[:, 0]
+        i, j = self.below.at(x, y)
+        return np.array([self.planes[d][component, a, b] for a, b, d in zip(i, j, z.tolist(), strict=True)])

@@ -1,0 +1,134 @@
+"""A loaded strip, plane strain: grids that repeat along the strip, and the closed kernels of the half-plane.
+
+Traction along the strip (anti-plane) is a traction along x on a strip along x: the other semi-periodic grid.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bem.convolution import displacement_operator
+from bem.grid import FloatArray, Grid
+from bem.kernels.half_plane import strip_displacement, strip_stress
+from bem.kernels.loads import Load
+from bem.stress import subsurface_stress
+from bem.verification.disc import STRESS_NAMES
+from bem.verification.rows import Curve
+from bem.verification.stored import StoredCase, StoredCurve
+
+STEP = 1 / 180
+"""Side of a cell over the half-width."""
+ROWS = 2
+"""Cells in a period along the strip; the load does not vary there."""
+REASON = "cells of 1/180 of the half-width, halves at the strip's edges"
+EXACT = "closed form; what is left is for the reference's error bars being estimates"
+DATUM = 4.0
+ANTIPLANE = (1, 0, 2, 4, 3, 5)
+"""Stresses of the reference (x across, y along the strip) in bem's axes exchanged: yz is xz."""
+
+
+def curves(case: StoredCase) -> list[Curve]:
+    """Both sides of a stored strip; what bem has no kernel for (tangential displacements) is left out."""
+    found = []
+    load = case.parameters["load"]
+    solution = _Strip(case, STEP)
+    for stored in case.curves:
+        curve = stored
+        if curve.name == "normal_displacement" and load == "tangential":
+            # the slope jumps at the edge of the load, which cells (and elements) round
+            curve = curve.only(np.abs(curve.coordinates[:, 0] - 1) > 1e-9)
+        quantity = curve.name + (f" ({curve.side})" if curve.side else "")
+        values = solution.values(curve)
+        if values is not None:
+            allowance = 1.5e-3 if curve.name.startswith("stress") else 5e-4
+            found.append(_pair(curve, quantity, values, allowance, REASON))
+        if case.body.layer is None and load != "antiplane":
+            closed = _closed(case, curve)
+            if closed is not None:
+                found.append(_pair(curve, f"{quantity}, half-plane kernel", closed, 1e-5, EXACT))
+    return found
+
+
+def _pair(curve: StoredCurve, quantity: str, values: FloatArray, allowance: float, reason: str) -> Curve:
+    return Curve(
+        quantity,
+        curve.along,
+        curve.unit,
+        curve.coordinates,
+        values,
+        curve.values,
+        curve.error_bar,
+        allowance,
+        reason,
+    )
+
+
+class _Strip:
+    """bem's side through the production path; each depth is computed once."""
+
+    def __init__(self, case: StoredCase, step: float) -> None:
+        self.body, self.load, self.step = case.body, case.parameters["load"], step
+        self.planes: dict[float, FloatArray] = {}
+
+    def across(self, reach: float) -> tuple[Grid, FloatArray, FloatArray]:
+        """A grid from -1 to `reach` across the strip, the pressure on it and the middles of its cells."""
+        before = round(1 / self.step)
+        count = before + int(np.ceil(reach / self.step - 1e-9)) + 1
+        x: FloatArray = np.asarray((np.arange(count) - before) * self.step, dtype=np.float64)
+        cover = np.clip(np.minimum(x + self.step / 2, 1) - np.maximum(x - self.step / 2, -1), 0, None) / self.step
+        if self.load == "antiplane":
+            grid = Grid((ROWS, count), (1.0, self.step), periodic=(True, False))
+            return grid, np.tile(cover, (ROWS, 1)), x
+        grid = Grid((count, ROWS), (self.step, 1.0), periodic=(False, True))
+        return grid, np.tile(cover[:, None], (1, ROWS)), x
+
+    def values(self, curve: StoredCurve) -> FloatArray | None:
+        """The stored curve's points, or None where bem has no such result."""
+        x, _, z = curve.coordinates.T
+        if curve.name == "normal_displacement":
+            return self.displacement(x)
+        if not curve.name.startswith("stress"):
+            return None
+        layer = self.body.layer
+        if curve.side == "substrate" and layer is not None:
+            z = np.where(z <= layer.thickness, np.nextafter(layer.thickness, np.inf), z)
+        component = STRESS_NAMES.index(curve.name)
+        return np.array([self.stress(component, *point) for point in zip(x.tolist(), z.tolist(), strict=True)])
+
+    def displacement(self, x: FloatArray) -> FloatArray:
+        """Normal displacement: under pressure less that at the datum."""
+        grid, pressure, at = self.across(max(DATUM, float(x.max())))
+        if self.load == "normal":
+            field = displacement_operator(grid, self.body)(pressure)[:, 0]
+            return np.interp(x, at, field) - np.interp(DATUM, at, field)
+        pair = (displacement_operator(grid, self.body, friction=f)(pressure)[:, 0] for f in (1.0, 0.0))
+        return np.interp(x, at, next(pair) - next(pair))
+
+    def stress(self, component: int, x: float, z: float) -> float:
+        """One stress at a point."""
+        grid, pressure, at = self.across(3.0)
+        if z not in self.planes:
+            if self.load == "normal":
+                plane = subsurface_stress(pressure, grid, self.body, [z])
+            else:
+                plane = subsurface_stress(pressure, grid, self.body, [z], friction=1.0)
+                plane = plane - subsurface_stress(pressure, grid, self.body, [z])
+            self.planes[z] = plane[:, 0, 0, :] if self.load == "antiplane" else plane[:, 0, :, 0]
+        if self.load == "antiplane":
+            component = ANTIPLANE[component]
+        return float(self.planes[z][component][int(np.argmin(np.abs(at - x)))])
+
+
+def _closed(case: StoredCase, curve: StoredCurve) -> FloatArray | None:
+    """The half-plane kernels."""
+    load = Load.NORMAL if case.parameters["load"] == "normal" else Load.TANGENTIAL
+    x, _, z = curve.coordinates.T
+    material = case.body.material
+    if curve.name == "normal_displacement":
+        values = strip_displacement(x, 2.0, material, load, reference_length=1.0)
+        if load is Load.NORMAL:
+            values = values - strip_displacement(DATUM, 2.0, material, load, reference_length=1.0)
+        return values
+    if curve.name.startswith("stress"):
+        return strip_stress(x, z, 2.0, material.poissons_ratio, load)[STRESS_NAMES.index(curve.name)]
+    return None
