@@ -437,10 +437,11 @@ def build() -> Page:
         Section(
             "How to read this",
             text(
-                "Each line holds a number or trend of the thesis (A. Akchurin, Generation of Wear Particles in Lubricated "
-                "Contacts during Running-In, Twente 2017) against a full-size run of a built-in scene. Ours are means over "
-                "repetitions with surfaces of their own, ± their standard deviation. The thesis' measured surfaces are not "
-                "public, so sizes are expected to agree within a factor of about 1.6, trends exactly."
+                "Each line holds a number or trend of the thesis (A. Akchurin, Generation of Wear Particles in "
+                "Lubricated Contacts during Running-In, Twente 2017) against a full-size run of a built-in scene. Ours "
+                "are means over repetitions with surfaces of their own, ± their standard deviation. The thesis' "
+                "measured surfaces are not public, so sizes are expected to agree within a factor of about 1.6, trends "
+                "exactly."
             ),
         )
     ]
@@ -453,7 +454,7 @@ def build() -> Page:
     return Page(
         "validation",
         "Validation",
-        "What the thesis found and what these scenes give: numbers, spreads, agreement, and the reason where there is none.",
+        "What the thesis found and what these scenes give: numbers, spreads, agreement, and reasons where there is none.",
         sections,
     )
 
