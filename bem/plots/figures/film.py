@@ -1,0 +1,73 @@
+"""Figures of a film in time: thickness and friction over time, profiles of thickness and pressure."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from bem.plots.figures import FigureKind
+from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, prefix
+
+_COLOURS = (BLUE, VERMILION, ORANGE, SKY, GREEN, PINK, BLACK)
+
+
+def _over_time(run: Any, figure: Figure) -> None:
+    data = run.dataset
+    t_factor, t_unit = prefix(data["time"].values, "s")
+    time = data["time"].values * t_factor
+    panels = figure.subplots(3, 1, sharex=True)
+    panels[0].plot(time, data["speed"].values, color=BLACK)
+    panels[0].set_ylabel("speed (m/s)")
+    factor, unit = prefix(data["central_film"].values, "m")
+    panels[1].plot(time, data["central_film"].values * factor, color=BLUE, label="central")
+    panels[1].plot(time, data["minimum_film"].values * factor, color=VERMILION, label="minimum")
+    panels[1].set_ylabel(label("film", unit))
+    panels[1].set_ylim(0)
+    panels[1].legend()
+    panels[2].plot(time, data["friction"].values, color=BLACK)
+    panels[2].set_ylabel("friction")
+    panels[2].set_xlabel(label("time", t_unit))
+
+
+def _profiles(run: Any, figure: Figure, name: str, text: str, base: str) -> None:
+    data = run.dataset
+    axes = figure.add_subplot()
+    x, values, time = data["film_x"].values, data[name].values, data["time"].values
+    loaded = np.flatnonzero(data["film_pressure"].values.max(axis=0) > 0.02 * data["film_pressure"].values.max())
+    window = slice(max(loaded[0] - 2, 0), loaded[-1] + 3)
+    wanted = np.unique(np.linspace(0, len(time) - 1, 6).round().astype(int))
+    factor, unit = prefix(values[wanted][:, window], base)
+    x_factor, x_unit = prefix(x[window], "m")
+    for colour, index in zip(_COLOURS, wanted, strict=False):
+        axes.plot(x[window] * x_factor, values[index, window] * factor, color=colour, label=f"{time[index]:.3g} s")
+    axes.set_xlabel(label("x", x_unit))
+    axes.set_ylabel(label(text, unit))
+    axes.set_ylim(0)
+    axes.legend()
+
+
+def _thickness(run: Any, figure: Figure) -> None:
+    _profiles(run, figure, "thickness", "film thickness", "m")
+
+
+def _pressure(run: Any, figure: Figure) -> None:
+    _profiles(run, figure, "film_pressure", "film pressure", "Pa")
+
+
+FIGURES = (
+    FigureKind(
+        "film-over-time",
+        "Speed, film thickness and friction over time.",
+        ("time", "minimum_film", "central_film"),
+        _over_time,
+        (5.0, 6.0),
+    ),
+    FigureKind(
+        "film-profiles", "Film thickness along sliding, at six times.", ("thickness", "film_x", "time"), _thickness
+    ),
+    FigureKind(
+        "film-pressures", "Film pressure along sliding, at six times.", ("film_pressure", "film_x", "time"), _pressure
+    ),
+)

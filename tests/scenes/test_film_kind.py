@@ -1,0 +1,79 @@
+"""Kind `film`: a film in time from a scene."""
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from bem.scenes import PlainContext
+from bem.scenes.kinds.film import KIND, FilmScene
+
+STEEL = {"material": {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}}
+SCENE = {
+    "kind": "film",
+    "lower": STEEL,
+    "upper": STEEL,
+    "cylinder": {"radius": "2 mm", "width": "6 mm", "load": "5.5 N"},
+    "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
+    "motion": {"kind": "table", "times": ["0 s", "5 ms", "10 ms"], "speeds": ["0.05 m/s", "0 m/s", "0.05 m/s"]},
+    "march": {"duration": "12 ms", "steps": 40, "points": 201},
+}
+
+
+def run(changes=None):
+    return KIND.run(FilmScene.model_validate(SCENE | (changes or {})), PlainContext())
+
+
+def test_stop_and_start():
+    outcome = run()
+    assert str(outcome.status) == "converged"
+    variables = outcome.variables
+    film = variables["minimum_film"].values
+    time = variables["time"].values
+    assert film.shape == time.shape == (41,)
+    assert variables["thickness"].values.shape == (41, 201)
+    thinnest = time[film.argmin()]
+    assert 4e-3 < thinnest < 8e-3  # while it stands, or just after
+    assert outcome.summary["thinnest_film_time_s"] == pytest.approx(thinnest)
+    assert outcome.summary["thinnest_film_nm"] == pytest.approx(1e9 * film.min())
+    assert outcome.summary["volume_imbalance"] < 1e-4
+    load = np.trapezoid(variables["film_pressure"].values, variables["film_x"].values, axis=1)
+    np.testing.assert_allclose(load[1:] * 6e-3, 5.5, rtol=1e-5)
+    assert load[0] * 6e-3 == pytest.approx(5.5, rel=2e-3)  # the steady film, put on this mesh
+
+
+def test_reciprocating_and_changing_load():
+    outcome = run(
+        {
+            "motion": {"kind": "reciprocating", "speed": "0.1 m/s", "period": "40 ms"},
+            "cylinder": SCENE["cylinder"] | {"load_end": "8 N"},
+            "march": {"duration": "20 ms", "steps": 40, "points": 201},
+        }
+    )
+    speed = outcome.variables["speed"].values
+    assert speed[0] == pytest.approx(0.1)
+    assert speed[-1] == pytest.approx(-0.1)
+    friction = outcome.variables["friction"].values
+    assert friction[0] > 0 > friction[-1]
+    load = np.trapezoid(outcome.variables["film_pressure"].values[-1], outcome.variables["film_x"].values)
+    assert load * 6e-3 == pytest.approx(8.0, rel=1e-5)
+
+
+def test_plan_skips_the_rough_contact():
+    steps = {step.name: step for step in KIND.plan(FilmScene.model_validate(SCENE)).steps}
+    assert steps["rough contact"].skipped
+    assert not steps["film in time"].skipped
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"motion": {"kind": "table", "times": ["0 s", "1 s"], "speeds": [0.0, 0.1]}}, "rest"),
+        ({"motion": {"kind": "table", "times": ["1 s", "0 s"], "speeds": [0.1, 0.1]}}, "rise"),
+        ({"motion": {"kind": "table", "times": ["0 s", "1 s", "2 s"], "speeds": [0.1, 0.1]}}, "as many"),
+        ({"motion": {"kind": "reciprocating", "speed": 0.1}}, "period"),
+        ({"lower": STEEL | {"surface": {"kind": "generated", "rms_height": 1e-7, "hurst": 0.8}}}, "rough"),
+    ],
+)
+def test_refusals(changes, word):
+    with pytest.raises(ValidationError, match=word):
+        FilmScene.model_validate(SCENE | changes)
