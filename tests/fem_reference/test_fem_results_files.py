@@ -135,7 +135,7 @@ def test_stored_cases_are_what_they_claim(path):
         size = max(abs(value) for value in curve.values)
         assert size > 0
         if "displacement" in curve.name:
-            # 0.1 % of the largest displacement of the case; of blocks a little more for the cautious bound of the far field
+            # 0.1 % of the largest displacement of the case; blocks: a little more for the far field's cautious bound
             limit = {"harmonic": 1e-5, "rectangle": 1.1e-3}.get(result.problem, 1e-3)
             assert max(curve.error_bar) <= limit * largest, curve
         elif curve.name.startswith("stress"):
