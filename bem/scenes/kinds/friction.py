@@ -113,7 +113,9 @@ def resolve(scene: FrictionScene) -> FrictionScene:
     grid = build.resolved_grid(scene.grid, scene.lower.surface, scene.upper.surface)
     contact = scene.contact
     if contact.hardness is None and any(model in ("capped", "uncoupled") for model in scene.sharing.models):
-        contact = contact.model_copy(update={"hardness": build.softer_hardness(scene.lower.build(), scene.upper.build())})
+        contact = contact.model_copy(
+            update={"hardness": build.softer_hardness(scene.lower.build(), scene.upper.build())}
+        )
     return scene.model_copy(update={"grid": grid, "contact": contact})
 
 
@@ -125,7 +127,9 @@ def surface_of(scene: FrictionScene, variant: SurfaceVariant | None) -> Any:
         raise InputError("variants: the lower surface is not generated; allowed: a generated one")
     changes = {k: v for k, v in variant.model_dump(exclude={"name"}).items() if v is not None}
     if "correlation_length" in changes and scene.lower.surface.correlation_length is None:
-        raise InputError("variants.correlation_length: the lower surface has none; allowed: one with correlation_length")
+        raise InputError(
+            "variants.correlation_length: the lower surface has none; allowed: one with correlation_length"
+        )
     return scene.lower.surface.model_copy(update=changes)
 
 
@@ -240,7 +244,9 @@ def run(scene: FrictionScene, context: Context) -> Outcome:
                 index * len(pairs) + number + 1, len(curves) * len(pairs), "speeds", friction=solutions[-1].friction
             )
         name = "" if variant is None else variant.name
-        finished.append({"load": load, "variant": name, "model": model, "repetition": repetition} | _record(solutions, height))
+        finished.append(
+            {"load": load, "variant": name, "model": model, "repetition": repetition} | _record(solutions, height)
+        )
         context.save({"finished": finished})
     return _outcome(scene, grid, finished)
 
@@ -293,7 +299,9 @@ def _record(solutions: list[Any], height: NDArray[np.float64]) -> dict[str, Any]
         "patch_film_pressure": pressure,
         "patch_film_thickness": thickness,
         "separation": s.separation,
-        "displacement": _zeros(s) if s.contact is None or not hasattr(s.contact, "displacement") else s.contact.displacement,
+        "displacement": _zeros(s)
+        if s.contact is None or not hasattr(s.contact, "displacement")
+        else s.contact.displacement,
         "statuses": [str(one.status.value) for one in solutions],
         "failed": bad,
     }
@@ -344,7 +352,7 @@ def _outcome(scene: FrictionScene, grid: Grid, finished: list[dict[str, Any]]) -
 
 
 def _differences(groups: list[list[dict[str, Any]]]) -> list[dict[str, Any]]:
-    """The largest |f_u - f_c| over f_u there, in per cent, eq. (13) of paper A: per repetition, then mean and spread."""
+    """The largest |f_u - f_c| over f_u there [%], eq. (13) of paper A: mean and spread over the repetitions."""
     found = []
     by_key = {(g[0]["load"], g[0]["variant"], g[0]["model"]): g for g in groups}
     for (load, variant, model), group in by_key.items():

@@ -1,0 +1,396 @@
+"""Figures of friction and running-in: Stribeck curves with their parts, sections through film and surface, cycles."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from bem.plots.figures import FigureKind
+from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, prefix
+
+_COLOURS = (BLUE, VERMILION, GREEN, ORANGE, SKY, PINK, BLACK) * 9
+_MODEL_NAMES = {
+    "capped": "capped at the hardness",
+    "elastic": "elastic",
+    "uncoupled": "uncoupled asperities, plastic",
+    "uncoupled_elastic": "uncoupled asperities, elastic",
+}
+_MEASURED_RADIUS = (210e-9, 236e-9)  # dynamic light scattering at 0.01 m/s, 223 +- 13 nm; thesis, paper D
+Array = NDArray[Any]
+
+
+def _labels(run: Any) -> list[str]:
+    """What tells a curve from the others."""
+    data = run.dataset
+    models = [_MODEL_NAMES.get(str(m), str(m)) for m in data["model"].values]
+    variants = [str(v) for v in data["variant"].values]
+    loads = [f"{v:.3g} N" for v in data["load"].values]
+    differ = [column for column in (models, variants, loads) if len(set(column)) > 1]
+    return [", ".join(parts) for parts in zip(*differ, strict=True)] if differ else ["friction"] * len(models)
+
+
+def _band(axes: Axes, x: Array, values: Array, colour: str, name: str, **how: Any) -> None:
+    """Mean of the rows as a line, their range as a band."""
+    axes.plot(x, values.mean(axis=0), color=colour, label=name, **how)
+    if len(values) > 1:
+        axes.fill_between(x, values.min(axis=0), values.max(axis=0), color=colour, alpha=0.18, linewidth=0)
+
+
+def _speed_axis(axes: Axes, speed: Array) -> None:
+    axes.set_xlabel("speed (m/s)")
+    if (speed > 0).all() and len(speed) > 1:
+        axes.set_xscale("log")
+    axes.set_ylim(0)
+
+
+def _stribeck(run: Any, figure: Figure) -> None:
+    data, axes = run.dataset, figure.add_subplot()
+    speed, names = data["speed"].values, _labels(run)
+    order = np.argsort(speed)
+    groups = list(dict.fromkeys(names))
+    many = len(groups) > 6
+    for number, name in enumerate(groups):
+        rows = [i for i, other in enumerate(names) if other == name]
+        style = "--" if "uncoupled" in name else "-"
+        values = data["friction"].values[rows][:, order]
+        _band(axes, speed[order], values, _COLOURS[number], name, linestyle=style, linewidth=0.9 if many else 1.4)
+        if number == 0:
+            for key, text, dots in (("boundary_part", "of it boundary", ":"), ("film_part", "of it film", "-.")):
+                part = data[key].values[rows][:, order].mean(axis=0)
+                axes.plot(speed[order], part, color="0.45", linestyle=dots, linewidth=1.1, label=text)
+    axes.set_ylabel("coefficient of friction")
+    _speed_axis(axes, speed)
+    axes.legend(fontsize=6.5 if many else 7.5, ncols=2 if many else 1)
+
+
+def _sharing(run: Any, figure: Figure) -> None:
+    """Loads above, film thickness below, of the first curve over its repetitions."""
+    data = run.dataset
+    names = _labels(run)
+    rows = [i for i, name in enumerate(names) if name == names[0]]
+    speed = data["speed"].values
+    order = np.argsort(speed)
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    for key, colour, text in (("contact_load", VERMILION, "contact"), ("film_load", BLUE, "film")):
+        _band(upper, speed[order], data[key].values[rows][:, order], colour, text)
+    upper.set_ylabel("load (N)")
+    upper.set_ylim(0)
+    upper.legend()
+    film = data["minimum_film"].values[rows][:, order]
+    factor, unit = prefix(film, "m")
+    _band(lower, speed[order], film * factor, BLUE, "")
+    lower.set_ylabel(label("minimum film", unit))
+    _speed_axis(lower, speed)
+
+
+def _section(run: Any, figure: Figure) -> None:
+    """The middle line of the patch at the speed at which film and contact share the load most evenly."""
+    data = run.dataset
+    x, height = data["x"].values, data["height"].values
+    pressure = data["pressure"].values
+    row = int(np.argmax((pressure > 0).sum(axis=0)))  # the line with most contacts
+    deformed = (height - height.mean() - data["displacement"].values)[:, row]
+    plane = data["separation"].values
+    shift = data["film_thickness_patch"].values - plane
+    reach = np.abs(x[pressure.any(axis=1)])
+    limit = min(2.5 * float(reach.max()), float(np.abs(x).max())) if reach.size else float(np.abs(x).max())
+    seen = np.abs(x) <= limit
+    factor_x, unit_x = prefix(limit, "m")
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+    upper.plot(x[seen] * factor_x, plane[seen] * 1e9, color=BLUE, label="flat, as the rough contact sees it")
+    upper.plot(
+        x[seen] * factor_x, data["film_thickness_patch"].values[seen] * 1e9, color=SKY, linestyle="--", label="film"
+    )
+    upper.plot(x[seen] * factor_x, deformed[seen] * 1e9, color="0.25", linewidth=1.0, label="rough surface, deformed")
+    touch = seen & (pressure[:, row] > 0)
+    upper.plot(x[touch] * factor_x, deformed[touch] * 1e9, ".", color=VERMILION, markersize=4, label="in contact")
+    low = float(deformed[seen].min()) * 1e9
+    high = 1.4e9 * float(np.quantile(data["film_thickness_patch"].values[seen], 0.75))
+    upper.set_ylim(low * 1.05, max(high, deformed[seen].max() * 1e9 * 1.4))
+    upper.set_ylabel("height (nm)")
+    upper.legend(fontsize=7, ncols=2, loc="upper center")
+    upper.set_title(
+        f"{float(data['shown_speed']):.3g} m/s: surfaces {1e9 * float(shift.mean()):.3g} nm closer than the film",
+        fontsize=8.5,
+    )
+    lower.plot(x[seen] * factor_x, data["film_pressure_patch"].values[seen] * 1e-6, color=BLUE, label="film")
+    lower.plot(
+        x[seen] * factor_x,
+        pressure.mean(axis=1)[seen] * 1e-6,
+        color=VERMILION,
+        linewidth=1.0,
+        label="contact, mean over y",
+    )
+    lower.set_xlabel(label("x", unit_x))
+    lower.set_ylabel("pressure (MPa)")
+    lower.set_ylim(0)
+    lower.legend(fontsize=7)
+
+
+def _film(run: Any, figure: Figure) -> None:
+    data = run.dataset
+    x, pressure, film = data["film_x"].values, data["film_pressure"].values, data["film_thickness"].values
+    wide = np.flatnonzero(pressure > 0.01 * pressure.max())
+    half = 0.75 * float(x[wide[-1]] - x[wide[0]])
+    middle = 0.5 * float(x[wide[-1]] + x[wide[0]])
+    seen = np.abs(x - middle) <= half
+    factor_x, unit_x = prefix(half, "m")
+    factor, unit = prefix(pressure, "Pa")
+    axes = figure.add_subplot()
+    axes.plot(x[seen] * factor_x, pressure[seen] * factor, color=BLUE)
+    axes.set_xlabel(label("x", unit_x))
+    axes.set_ylabel(label("film pressure", unit), color=BLUE)
+    axes.set_ylim(0)
+    other = axes.twinx()
+    other.spines["right"].set_visible(True)
+    other.plot(x[seen] * factor_x, film[seen] * 1e9, color=VERMILION)
+    other.set_ylim(0, 4 * float(film.min()) * 1e9)
+    other.set_ylabel("film thickness (nm)", color=VERMILION)
+
+
+def _difference(run: Any, figure: Figure) -> None:
+    rows = list(run.summary["largest_difference"])
+    axes = figure.add_subplot()
+    names = list(dict.fromkeys((row["variant"], row["model"]) for row in rows))
+    pressures = run.scene["contact"].get("hertz_pressures")
+    loads = sorted({row["load_N"] for row in rows})
+    x_of = dict(zip(loads, sorted(pressures), strict=True)) if pressures else {load: load for load in loads}
+    for colour, (variant, model) in zip(_COLOURS, names, strict=False):
+        own = [row for row in rows if (row["variant"], row["model"]) == (variant, model)]
+        x = [x_of[row["load_N"]] * (1e-9 if pressures else 1.0) for row in own]
+        text = ", ".join(part for part in (variant, _MODEL_NAMES[model]) if part)
+        axes.errorbar(
+            x,
+            [row["d_percent"] for row in own],
+            yerr=[row["d_percent_spread"] for row in own],
+            color=colour,
+            marker="o",
+            markersize=4,
+            capsize=2,
+            linestyle="--" if model == "elastic" else "-",
+            label=text,
+        )
+    axes.set_xlabel("maximum Hertz pressure (GPa)" if pressures else "load (N)")
+    axes.set_ylabel("largest difference d (%)")
+    axes.set_ylim(0)
+    axes.legend()
+
+
+def _by_speed(run: Any, name: str) -> tuple[Array, Array, Array, Array]:
+    """Speeds, and mean, least and largest of a run variable at each."""
+    speeds, values = run.dataset["run_speed"].values, run.dataset[name].values
+    each = np.unique(speeds)
+    rows = [values[speeds == s] for s in each]
+    return (
+        each,
+        np.array([r.mean() for r in rows]),
+        np.array([r.min() for r in rows]),
+        np.array([r.max() for r in rows]),
+    )
+
+
+def _run_in_stribeck(run: Any, figure: Figure) -> None:
+    axes = figure.add_subplot()
+    for name, colour, text, how in (
+        ("friction_initial", VERMILION, "initial", "-"),
+        ("friction_run_in", BLUE, "run in", "-"),
+        ("boundary_friction_part", "0.45", "run in, of it boundary", ":"),
+        ("film_friction_part", "0.45", "run in, of it film", "-."),
+    ):
+        speed, mean, low, high = _by_speed(run, name)
+        axes.plot(speed, mean, how, color=colour, label=text, marker="o" if how == "-" else None, markersize=3.5)
+        if how == "-" and (high > low).any():
+            axes.fill_between(speed, low, high, color=colour, alpha=0.18, linewidth=0)
+    axes.set_ylabel("coefficient of friction")
+    _speed_axis(axes, speed)
+    axes.legend()
+
+
+def _run_groups(run: Any) -> list[tuple[str, list[int]]]:
+    speeds, hardness = run.dataset["run_speed"].values, run.dataset["hardness"].values
+    differ_speed, differ_hardness = len(set(speeds)) > 1, len(set(hardness)) > 1
+    names = [
+        ", ".join(([f"{s:g} m/s"] if differ_speed else []) + ([f"{h / 1e9:.3g} GPa"] if differ_hardness else []))
+        for s, h in zip(speeds, hardness, strict=True)
+    ]
+    return [(name, [i for i, other in enumerate(names) if other == name]) for name in dict.fromkeys(names)]
+
+
+def _cycles(name: str, text: str) -> Any:
+    def draw(run: Any, figure: Figure) -> None:
+        axes = figure.add_subplot()
+        cycle, groups = run.dataset["cycle"].values, _run_groups(run)
+        for number, (group, rows) in enumerate(groups):
+            import matplotlib
+
+            colour = matplotlib.colormaps["viridis"](0.95 * number / max(1, len(groups) - 1))
+            axes.plot(cycle, run.dataset[name].values[rows].mean(axis=0), color=colour, linewidth=1.1, label=group)
+        axes.set_xlabel("cycle")
+        axes.set_ylabel(text)
+        axes.set_xlim(1, max(2, cycle[-1]))
+        axes.set_ylim(0)
+        if len(groups) > 1:
+            axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
+
+    return draw
+
+
+def _radius_over_speed(run: Any, figure: Figure) -> None:
+    axes = figure.add_subplot()
+    speed, mean, low, high = _by_speed(run, "particle_equivalent_radius")
+    axes.plot(speed, mean * 1e9, "o-", color=BLUE, markersize=4, label="computed; 0: no particles")
+    axes.fill_between(speed, low * 1e9, high * 1e9, color=BLUE, alpha=0.18, linewidth=0)
+    middle = 0.5e9 * sum(_MEASURED_RADIUS)
+    axes.errorbar(
+        [0.01], [middle], yerr=[0.5e9 * (_MEASURED_RADIUS[1] - _MEASURED_RADIUS[0])], fmt="s", color=VERMILION,
+        markersize=4, capsize=3, label="light scattering (thesis, paper D)",
+    )  # fmt: skip
+    axes.set_ylabel("equivalent radius (nm)")
+    _speed_axis(axes, speed)
+    axes.legend()
+
+
+def _over_hardness(run: Any, figure: Figure) -> None:
+    axes = figure.add_subplot()
+    hardness = run.dataset["hardness"].values
+    each = np.unique(hardness)
+    for name, colour, text in (("friction_initial", VERMILION, "initial"), ("friction_run_in", BLUE, "run in")):
+        values = run.dataset[name].values
+        rows = [values[hardness == h] for h in each]
+        axes.plot(each * 1e-9, [r.mean() for r in rows], "o-", color=colour, markersize=4, label=text)
+        axes.fill_between(
+            each * 1e-9, [r.min() for r in rows], [r.max() for r in rows], color=colour, alpha=0.18, linewidth=0
+        )
+    axes.set_xlabel("hardness of the disk (GPa)")
+    axes.set_ylabel("coefficient of friction")
+    axes.legend()
+
+
+def _frames(run: Any, figure: Figure) -> None:
+    """Pressure in the strip in contact at six of the cycles that were kept."""
+    data = run.dataset
+    x, y = data["x"].values * 1e6, data["y"].values * 1e6
+    frames, cycles = data["pressure_frames"].values, data["frame"].values
+    touched = np.flatnonzero((frames > 0).any(axis=(0, 2)))
+    low, high = (touched[0], touched[-1] + 1) if touched.size else (0, len(x))
+    shown = np.unique(np.linspace(0, len(frames) - 1, min(6, len(frames))).round().astype(int))
+    vmax = float(frames.max()) * 1e-6 or 1.0
+    many = figure.subplots(1, len(shown), sharey=True, squeeze=False)[0]
+    for axes, index in zip(many, shown, strict=True):
+        part = frames[index, low:high].T * 1e-6
+        image = axes.imshow(
+            np.where(part > 0, part, np.nan),
+            extent=(x[low], x[high - 1], y[0], y[-1]),
+            aspect="equal",
+            cmap="viridis_r",
+            vmin=0,
+            vmax=vmax,
+        )
+        axes.set_title(f"cycle {int(cycles[index])}", fontsize=8)
+        axes.set_xlabel("x (µm)")
+    many[0].set_ylabel("y (µm)")
+    figure.colorbar(image, ax=list(many), label="contact pressure (MPa)", shrink=0.9)
+
+
+def _has_differences(run: Any) -> bool:
+    return bool(run.summary.get("largest_difference"))
+
+
+def _many_speeds(run: Any) -> bool:
+    return np.unique(run.dataset["run_speed"].values).size > 1
+
+
+def _many_hardnesses(run: Any) -> bool:
+    return np.unique(run.dataset["hardness"].values).size > 1
+
+
+_WIDE = (5.6, 3.6)
+FIGURES = (
+    FigureKind(
+        "stribeck-curve",
+        "Coefficient of friction over speed, and the parts that boundary friction and the film have in the first "
+        "curve; bands span the repetitions.",
+        ("speed", "friction", "boundary_part", "film_part", "model"),
+        _stribeck,
+        (5.4, 4.0),
+    ),
+    FigureKind(
+        "load-sharing",
+        "Load on film and contact, and the smallest film, over speed (first curve).",
+        ("speed", "contact_load", "film_load", "minimum_film", "model"),
+        _sharing,
+        (5.0, 4.6),
+    ),
+    FigureKind(
+        "film-section",
+        "A section along sliding: film, separation that the rough contact sees, deformed surface, and pressures.",
+        ("x", "height", "separation", "film_thickness_patch", "displacement", "pressure", "shown_speed"),
+        _section,
+        (6.0, 4.8),
+        lambda run: bool(run.dataset["pressure"].values.any()),
+    ),
+    FigureKind(
+        "film-pressure",
+        "Pressure and thickness of the smooth film.",
+        ("film_x", "film_pressure", "film_thickness", "shown_speed"),
+        _film,
+        (5.4, 3.4),
+    ),
+    FigureKind(
+        "largest-difference",
+        "Largest relative difference of friction between uncoupled asperities and the rough half-space, over load.",
+        ("speed", "friction", "model"),
+        _difference,
+        _WIDE,
+        _has_differences,
+    ),
+    FigureKind(
+        "running-in-stribeck",
+        "Friction in the first cycle and after running-in, over speed; bands span the repetitions.",
+        ("run_speed", "friction_initial", "friction_run_in"),
+        _run_in_stribeck,
+        _WIDE,
+        _many_speeds,
+    ),
+    FigureKind(
+        "friction-over-cycles",
+        "Coefficient of friction over the cycles.",
+        ("cycle", "friction_over_cycles", "run_speed", "hardness"),
+        _cycles("friction_over_cycles", "coefficient of friction"),
+        (6.2, 3.6),
+    ),
+    FigureKind(
+        "contact-share-over-cycles",
+        "Share of the load that the surfaces carry, over the cycles.",
+        ("cycle", "contact_share", "run_speed", "hardness"),
+        _cycles("contact_share", "share of the load on contact"),
+        (6.2, 3.6),
+    ),
+    FigureKind(
+        "particle-radius-over-speed",
+        "Settled radius of the particles over speed, beside what dynamic light scattering found (thesis, paper D).",
+        ("run_speed", "particle_equivalent_radius"),
+        _radius_over_speed,
+        _WIDE,
+        _many_speeds,
+    ),
+    FigureKind(
+        "friction-over-hardness",
+        "Friction before and after running-in over the hardness of the disk; bands span the repetitions.",
+        ("hardness", "friction_initial", "friction_run_in"),
+        _over_hardness,
+        _WIDE,
+        _many_hardnesses,
+    ),
+    FigureKind(
+        "running-in-frames",
+        "Contact pressure of the first run at some of its cycles, in the strip where the surfaces touch.",
+        ("pressure_frames", "frame", "x", "y"),
+        _frames,
+        (7.6, 4.6),
+    ),
+)
