@@ -24,6 +24,7 @@ ORDER = [
     {"results"},
     {"plots"},
     {"runs"},
+    {"sweeps"},
     {"verification", "benchmarks"},
     {"cli"},
 ]

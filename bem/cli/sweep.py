@@ -1,0 +1,79 @@
+"""`bem sweep`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from bem.cli.run import SceneArgument, SetOption
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+
+    @app.command()
+    def sweep(
+        scene: SceneArgument,
+        over: Annotated[
+            list[str] | None,
+            typer.Option(
+                "--over",
+                metavar="KEY=VALUES",
+                help='Swept key: "contact.load=1 N:10 N:4", "contact.load=log:1 N:100 N:5", "seed=1:5", '
+                '"contact.behaviour=elastic,capped". Repeated: all combinations.',
+            ),
+        ] = None,
+        out: Annotated[Path | None, typer.Option(help="The sweep's folder; without it sweeps/NAME.")] = None,
+        set_: SetOption = None,
+        resume: Annotated[
+            bool, typer.Option("--resume", help="Go on in a folder that holds a sweep; values may be added.")
+        ] = False,
+        workers: Annotated[
+            int | None, typer.Option(min=1, max=1024, help="Processes; without it one per core.")
+        ] = None,
+        scheduler: Annotated[
+            str | None, typer.Option(metavar="ADDRESS", help="Use the Dask cluster of this scheduler instead.")
+        ] = None,
+        threads: Annotated[int, typer.Option(min=1, max=1024, help="Threads of each run.")] = 1,
+    ) -> None:
+        """Run a scene at every combination of values: sweep.nc, sweep.csv and a figure.
+
+        Exit codes: 0 done, 2 bad scene or range (nothing is written), 3 points failed or did not converge (the others
+        are kept), 4 results cannot be written, 130 interrupted (resumable).
+        """
+        import os
+
+        from bem.cli._terminal import Terminal
+
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers share the cores already
+        from bem.sweeps import run_sweep
+        from bem.sweeps.run import DATASET, FIGURE, TABLE
+
+        with Terminal() as terminal:
+            try:
+                done = run_sweep(
+                    scene,
+                    over or (),
+                    out,
+                    settings=set_ or (),
+                    workers=workers,
+                    scheduler=scheduler,
+                    threads=threads,
+                    resume=resume,
+                    watcher=terminal,
+                )
+            except KeyboardInterrupt:
+                terminal.say("interrupted; the same command with --resume goes on")
+                raise typer.Exit(130) from None
+        print(f"points computed: {done.computed}")
+        for what, name in (("dataset", DATASET), ("table  ", TABLE), ("figure ", f"{FIGURE}.png")):
+            if (done.path / name).exists():
+                print(f"{what}: {done.path / name}")
+        for folder, words in done.failed.items():
+            typer.echo(f"bem: failed: {done.path / folder}: {words}", err=True)
+        for folder in done.not_converged:
+            typer.echo(f"bem: not converged: {done.path / folder}", err=True)
+        if done.failed or done.not_converged:
+            raise typer.Exit(3)

@@ -1,0 +1,156 @@
+"""The figure of a sweep: headline figures over the first swept key, a line for each value of the others."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem.plots.style import label, prefix, style
+from bem.results.atomic import replacing
+from bem.scenes.context import Variable
+
+_MOST_PANELS, _MOST_LINES = 4, 8
+_LINES, _MARKERS = ("-", "--", ":", "-."), ("o", "s", "^", "D", "v", "P", "X", "*")
+
+
+def draw_sweep(
+    variables: Mapping[str, Variable],
+    spacings: Mapping[str, str],
+    headline: Sequence[str],
+    path: Path,
+    formats: Sequence[str] = ("png", "pdf"),
+) -> list[Path]:
+    """Draw up to four of the headline figures.
+
+    Parameters
+    ----------
+    variables : as `bem.sweeps.collect.dataset_variables` gives them.
+    spacings : the swept keys in order, with "list", "linear" or "logarithmic".
+    headline : names of figures, most important first; others follow where these are not numbers over the keys.
+    path : file to write, without ending.
+    formats : endings.
+
+    Returns
+    -------
+    list of Path : the files; none where there is nothing to draw.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    keys = list(spacings)
+    names = _chosen(variables, keys, headline)
+    if not names:
+        return []
+    columns = 2 if len(names) > 1 else 1
+    rows = -(-len(names) // columns)
+    paths = []
+    with style():
+        figure = Figure(figsize=(3.5 * columns, 2.7 * rows + 0.3), layout="constrained")
+        FigureCanvasAgg(figure)
+        for i, name in enumerate(names):
+            _panel(figure.add_subplot(rows, columns, i + 1), variables, name, keys, spacings)
+        axes = figure.axes[0]
+        if len(axes.get_legend_handles_labels()[1]) > 1:
+            figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2, fontsize=7.5)
+        for ending in formats:
+            target = path.with_name(f"{path.name}.{ending}")
+            with replacing(target) as temporary:
+                figure.savefig(temporary, format=ending)
+            paths.append(target)
+    return paths
+
+
+def _chosen(variables: Mapping[str, Variable], keys: Sequence[str], headline: Sequence[str]) -> list[str]:
+    """Figures worth a panel: numbers that exist and, where possible, vary."""
+    others = [name for name in variables if name not in keys and name not in headline]
+    known = [name for name in (*headline, *others) if name in variables and _drawable(variables[name], name)]
+    varying = [name for name in known if np.nanmax(variables[name].values) > np.nanmin(variables[name].values)]
+    preferred = [name for name in varying if name in headline]
+    return (preferred or varying or known)[:_MOST_PANELS]
+
+
+def _drawable(variable: Variable, name: str) -> bool:
+    plain = variable.values.dtype.kind == "f" and bool(np.isfinite(variable.values).any())
+    return plain and name not in ("wall_time_s", "seed", "iterations", "convolutions", "residual")
+
+
+def _panel(
+    axes: Any, variables: Mapping[str, Variable], name: str, keys: Sequence[str], spacings: Mapping[str, str]
+) -> None:
+    """One figure over one key; over seeds its mean with the range as a band."""
+    variable = variables[name]
+    values, dimensions = variable.values, list(variable.dimensions)
+    low = high = values
+    if "seed" in dimensions and len(dimensions) > 1:
+        axis = dimensions.index("seed")
+        with np.errstate(all="ignore"):
+            count = np.isfinite(values).sum(axis)
+            low = np.nanmin(np.where(np.isfinite(values), values, np.inf), axis)
+            high = np.nanmax(np.where(np.isfinite(values), values, -np.inf), axis)
+            values = np.where(count > 0, np.nansum(values, axis) / np.maximum(count, 1), np.nan)
+        low, high = (np.where(np.isfinite(item), item, np.nan) for item in (low, high))
+        dimensions.remove("seed")
+    along = next((key for key in keys if key in dimensions and len(variables[key].values) > 1), dimensions[0])
+    position, ticks, words, unit = _positions(variables.get(along), values.shape[dimensions.index(along)], along)
+    factor, shown = prefix(values, variable.units if variable.units != "1" else "")
+    others = [d for d in dimensions if d != along]
+    sizes = [values.shape[dimensions.index(d)] for d in others]
+    for number, place in enumerate(product(*(range(size) for size in sizes))):
+        if number == _MOST_LINES:
+            break
+        index: list[Any] = [slice(None)] * len(dimensions)
+        for other, i in zip(others, place, strict=True):
+            index[dimensions.index(other)] = i
+        line = tuple(index)
+        text = ", ".join(_value(variables.get(d), d, i) for d, i in zip(others, place, strict=True))
+        drawn = axes.plot(
+            position,
+            values[line] * factor,
+            _LINES[number % 4],
+            marker=_MARKERS[number % 8],
+            markersize=3.5,
+            label=text or name,
+        )
+        if low is not variable.values:
+            axes.fill_between(
+                position, low[line] * factor, high[line] * factor, alpha=0.15, color=drawn[0].get_color(), linewidth=0
+            )
+    if ticks:
+        axes.set_xticks(position, ticks, rotation=30 if max(map(len, ticks)) > 6 else 0)
+    elif spacings.get(along) == "logarithmic":
+        axes.set_xscale("log")
+        if np.max(position) < 100 * np.min(position):  # too few decades for a readable label at each
+            shown_at = position[:: -(-len(position) // 6)]
+            axes.set_xticks(shown_at, [f"{value:.3g}" for value in shown_at])
+            axes.minorticks_off()
+    axes.set_xlabel(label(words, unit))
+    axes.set_ylabel(label(_spelt(name, variable.units), shown))
+
+
+def _positions(variable: Variable | None, size: int, name: str) -> tuple[Any, list[str], str, str]:
+    if variable is None:
+        return np.arange(size), [], name.replace("_", " "), ""
+    if variable.values.dtype.kind in "US":
+        return np.arange(size), [str(value) for value in variable.values], name, ""
+    factor, unit = prefix(variable.values, variable.units if variable.units != "1" else "")
+    return variable.values * factor, [], name, unit
+
+
+def _value(variable: Variable | None, name: str, index: int) -> str:
+    if variable is None:
+        return f"{name} {index}"
+    value = variable.values[index]
+    if variable.values.dtype.kind in "US":
+        return f"{name} = {value}"
+    factor, unit = prefix([value], variable.units if variable.units != "1" else "")
+    return f"{name} = {value * factor:.4g} {unit}".rstrip()
+
+
+def _spelt(name: str, unit: str) -> str:
+    ending = "_" + unit.replace("/", "_")
+    words = name.removesuffix(ending) if unit != "1" else name
+    return words.replace("_", " ").replace("von mises", "von Mises")

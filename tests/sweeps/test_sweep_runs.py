@@ -1,0 +1,247 @@
+"""Sweeps on this machine: every point once, workers that die, folders in use, what comes out."""
+
+import csv
+import json
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+import bem.sweeps.run
+from bem.errors import InputError, ResultsError
+from bem.results import RunDirectory, open_run
+from bem.results.dataset import read_dataset
+from bem.sweeps import run_sweep
+from bem.sweeps.point import compute
+
+SCENE = {
+    "kind": "contact",
+    "name": "small",
+    "seed": 3,
+    "grid": {"shape": 16, "spacing": "0.5 um", "periodic": True},
+    "lower": {
+        "material": "steel-disk",
+        "surface": {"kind": "generated", "rms_height": "100 nm", "correlation_length": "2 um"},
+    },
+    "contact": {"mean_pressure": "80 MPa", "behaviour": "capped"},
+}
+OVER = ["contact.mean_pressure=log:20 MPa:80 MPa:3", "seed=1:2"]
+
+
+@pytest.fixture
+def here(monkeypatch):
+    """Points computed in this process, and counted."""
+    counted = []
+
+    def locally(points, workers):
+        for point in points:
+            counted.append(point.folder)
+            yield compute(point)
+
+    monkeypatch.setattr("bem.sweeps.local.compute_locally", locally)
+    return counted
+
+
+class Telling:
+    def __init__(self, act=lambda done: None):
+        self.act, self.notes = act, []
+
+    def progress(self, done, total, what, figures):
+        self.act(done)
+
+    def note(self, text):
+        self.notes.append(text)
+
+
+def test_dataset_table_and_figure(tmp_path, here):
+    done = run_sweep(SCENE, OVER, tmp_path / "s")
+    assert done.computed == 6
+    assert (done.failed, done.not_converged) == ({}, ())
+    dataset = done.dataset
+    assert dataset.sizes == {"contact.mean_pressure": 3, "seed": 2}
+    # twelve digits of a logarithmic range
+    np.testing.assert_allclose(dataset["contact.mean_pressure"], [20e6, 40e6, 80e6], rtol=1e-11)
+    assert dataset["contact.mean_pressure"].attrs["units"] == "Pa"
+    assert dataset["load_N"].attrs["units"] == "N"
+    area = dataset["contact_area_fraction"].values
+    assert np.all(np.diff(area, axis=0) > 0), "more load, more contact"
+    rows = list(csv.DictReader((tmp_path / "s" / "sweep.csv").read_text().splitlines()))
+    assert len(rows) == 6
+    for row in rows:
+        own = open_run(tmp_path / "s" / row["folder"])
+        assert float(row["contact_area_fraction"]) == own.summary["contact_area_fraction"]
+        assert float(row["contact.mean_pressure [Pa]"]) == own.scene["contact"]["mean_pressure"]
+        at = dataset.sel(seed=int(row["seed"])).sel({"contact.mean_pressure": own.scene["contact"]["mean_pressure"]})
+        assert float(at["contact_area_fraction"]) == own.summary["contact_area_fraction"]
+    for name in ("sweep.png", "sweep.pdf"):
+        assert (tmp_path / "s" / name).stat().st_size > 5000
+    assert not (tmp_path / "s" / ".sweep-token").exists()
+
+
+def test_a_finished_point_is_never_computed_again(tmp_path, here):
+    run_sweep(SCENE, OVER, tmp_path / "s")
+    stamps = {path: path.stat().st_mtime_ns for path in (tmp_path / "s").rglob("summary.json")}
+    with pytest.raises(ResultsError, match="--resume"):
+        run_sweep(SCENE, OVER, tmp_path / "s")
+    assert run_sweep(SCENE, OVER, tmp_path / "s", resume=True).computed == 0
+    wider = run_sweep(SCENE, ["contact.mean_pressure=log:20 MPa:80 MPa:3", "seed=1:3"], tmp_path / "s", resume=True)
+    assert wider.computed == 3, "values may be added"
+    assert len(here) == 9
+    assert len(set(here)) == 9
+    assert {path: path.stat().st_mtime_ns for path in stamps} == stamps
+    assert wider.dataset.sizes["seed"] == 3
+
+
+def test_a_damaged_point_is_computed_again(tmp_path, here):
+    run_sweep(SCENE, ["seed=1:2"], tmp_path / "s")
+    victim = tmp_path / "s" / here[0] / "summary.json"
+    victim.write_text(victim.read_text().replace("converged", "comverged"))
+    assert run_sweep(SCENE, ["seed=1:2"], tmp_path / "s", resume=True).computed == 1
+    assert open_run(victim.parent).summary["status"] == "converged"
+
+
+def test_equal_points_are_computed_once(tmp_path, here):
+    done = run_sweep(SCENE, ["contact.mean_pressure=80 MPa,80000 kPa"], tmp_path / "s")
+    assert done.computed == 1
+    assert done.dataset["load_N"].shape == (2,)
+
+
+def test_values_that_are_no_numbers(tmp_path, here):
+    done = run_sweep(
+        SCENE, ["contact.behaviour=elastic,capped", "lower.material=steel-disk,brass-disk"], tmp_path / "s"
+    )
+    assert list(done.dataset["contact.behaviour"].values) == ["elastic", "capped"]
+    assert list(done.dataset["lower.material"].values) == ["steel-disk", "brass-disk"]
+
+
+def test_bad_points_are_found_before_any_work(tmp_path, here):
+    with pytest.raises(InputError) as caught:
+        run_sweep(SCENE, ["contact.behaviour=elastic,capd", "seed=1:2"], tmp_path / "s")
+    assert "at contact.behaviour=capd, seed=1" in caught.value.messages[0]
+    assert "capped" in caught.value.messages[0]
+    with pytest.raises(InputError, match="kind"):
+        run_sweep({"kind": "contct"}, ["seed=1:2"], tmp_path / "s")
+    with pytest.raises(InputError, match="workers"):
+        run_sweep(SCENE, ["seed=1:2"], tmp_path / "s", workers=0)
+    assert os.listdir(tmp_path) == []
+
+
+def test_a_point_that_fails_does_not_end_the_sweep(tmp_path, here, monkeypatch):
+    import bem.runs
+
+    whole = bem.runs.run_scene
+
+    def some(source, out, **more):
+        if source["seed"] == 2:
+            raise InputError("lower.surface: cannot be generated")
+        return whole(source, out, **more)
+
+    monkeypatch.setattr("bem.runs.run_scene", some)
+    watcher = Telling()
+    done = run_sweep(SCENE, ["seed=1:3"], tmp_path / "s", watcher=watcher)
+    assert done.computed == 2
+    assert list(done.failed.values()) == ["lower.surface: cannot be generated"]
+    assert "cannot be generated" in watcher.notes[0]
+    assert np.isnan(done.dataset["load_N"].sel(seed=2))
+    assert "cannot be generated" in (tmp_path / "s" / "sweep.csv").read_text()
+    monkeypatch.setattr("bem.runs.run_scene", whole)
+    assert run_sweep(SCENE, ["seed=1:3"], tmp_path / "s", resume=True).computed == 1
+
+
+def test_two_sweeps_in_one_folder_refuse_each_other(tmp_path, here):
+    with RunDirectory(tmp_path / "s"), pytest.raises(ResultsError, match="another run is using this folder"):
+        run_sweep(SCENE, ["seed=1:2"], tmp_path / "s")
+    (tmp_path / "s" / "scene.toml").write_text("")
+    with pytest.raises(ResultsError, match="holds a single run"):
+        run_sweep(SCENE, ["seed=1:2"], tmp_path / "s")
+
+
+def test_a_worker_that_does_not_see_the_folder_sends_its_files(tmp_path, monkeypatch):
+    import dataclasses
+
+    def elsewhere(points, workers):
+        for point in points:
+            hidden = dataclasses.replace(point, root="/nonexistent")
+            done = compute(hidden)
+            assert done.files
+            yield done
+
+    monkeypatch.setattr("bem.sweeps.local.compute_locally", elsewhere)
+    done = run_sweep(SCENE, ["seed=1:2"], tmp_path / "s")
+    assert done.computed == 2
+    assert np.isfinite(done.dataset["load_N"]).all()
+
+
+def test_a_worker_cannot_write_outside_its_folder(tmp_path):
+    from bem.sweeps.point import Done, store
+
+    with pytest.raises(ResultsError, match="outside"):
+        store(Done(0, files={"../../escaped": b"x"}), tmp_path / "a" / "b")
+    assert not (tmp_path / "escaped").exists()
+
+
+@pytest.mark.slow
+def test_killed_workers_are_replaced(tmp_path):
+    killed = []
+
+    def kill(done):
+        children = multiprocessing.active_children()
+        if children and len(killed) < 2:
+            killed.append(children[0].pid)
+            children[0].kill()
+
+    done = run_sweep(SCENE, ["seed=1:6"], tmp_path / "s", workers=2, watcher=Telling(kill))
+    assert len(killed) == 2
+    assert done.computed == 6
+    assert done.failed == {}
+    single = run_sweep(SCENE, ["seed=1:6"], tmp_path / "t", workers=1)
+    for name, item in single.dataset.variables.items():
+        if name != "wall_time_s":
+            np.testing.assert_array_equal(item.values, done.dataset[name].values)
+    assert multiprocessing.active_children() == []
+
+
+@pytest.mark.slow
+def test_interrupted_command_resumes(tmp_path):
+    (tmp_path / "small.json").write_text(json.dumps(SCENE))
+    (tmp_path / "small.toml").write_text(
+        'kind = "contact"\ngrid = {shape = 16, spacing = "0.5 um", periodic = true}\n'
+        'lower = {material = "steel-disk", surface = {kind = "generated", rms_height = "100 nm", '
+        'correlation_length = "2 um"}}\ncontact = {mean_pressure = "80 MPa", behaviour = "capped"}\n'
+    )
+    command = [sys.executable, "-m", "bem", "sweep", "small.toml", "--over", "seed=1:12", "--out", "s"]
+    command += ["--workers", "2"]
+    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 100
+    while not list((tmp_path / "s").rglob("summary.json")):
+        assert time.monotonic() < deadline
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.005)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "--resume goes on" in errors
+    assert "Traceback" not in errors
+    finished = {path: path.stat().st_mtime_ns for path in (tmp_path / "s").rglob("summary.json")}
+    assert 0 < len(finished) < 12
+    resumed = subprocess.run([*command, "--resume"], cwd=tmp_path, capture_output=True, text=True, timeout=100)
+    assert resumed.returncode == 0, resumed.stderr
+    assert f"points computed: {12 - len(finished)}" in resumed.stdout
+    assert {path: path.stat().st_mtime_ns for path in finished} == finished
+    assert read_dataset(tmp_path / "s" / "sweep.nc").sizes["seed"] == 12
+
+
+def test_fewer_processes_where_memory_is_short(monkeypatch):
+    monkeypatch.setattr(bem.sweeps.run, "available_memory", lambda: 10.0)
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: range(8), raising=False)
+    watcher = Telling()
+    assert bem.sweeps.run._staff(None, 100, 4.0, watcher) == 2
+    assert "memory" in watcher.notes[0]
+    assert bem.sweeps.run._staff(None, 100, 1.0, watcher) == 8
+    assert bem.sweeps.run._staff(None, 3, 1.0, watcher) == 3
+    assert bem.sweeps.run._staff(5, 100, 1e9, watcher) == 5
