@@ -15,10 +15,9 @@ from bem.errors import ConvergenceError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body, Material, contact_modulus
 from bem.stress import subsurface_stress, von_mises
-from bem.verification.disc import STRESS_NAMES
 from bem.verification.patches import PointGrid, free_grid
 from bem.verification.rows import Curve
-from bem.verification.stored import StoredCase, StoredCurve
+from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve
 
 SPHERE_STEP, LINE_STEP, ROW_CELLS = 1 / 60, 1 / 200, 1000
 """Cells: of the sphere and the cylinder over the Hertz length, of the row in a wavelength."""

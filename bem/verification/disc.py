@@ -13,9 +13,8 @@ from bem.materials import Body
 from bem.stress import subsurface_stress
 from bem.verification.patches import PointGrid, disc_means, free_grid, window
 from bem.verification.rows import Curve
-from bem.verification.stored import StoredCase, StoredCurve
+from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve
 
-STRESS_NAMES = ("stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz", "stress_xy")
 STEP = 1 / 40
 """Side of a cell over the radius."""
 GLASS, WINDOW, NEAR = 9, 6, 6.5
@@ -30,7 +29,7 @@ COUPLED = 1.5e-3
 def curves(case: StoredCase) -> list[Curve]:
     """Both sides of a stored disc; tangential displacements of coated bodies are no result of bem and are left out."""
     tangential = case.problem == "disc-tangential"
-    solution = _Disc(case.body, case.parameters["pressure"], tangential=tangential, step=STEP)
+    solution = Disc(case.body, case.parameters["pressure"], tangential=tangential, step=STEP)
     found = []
     for curve in case.curves:
         keep = _compared(case, curve)
@@ -75,7 +74,7 @@ def _compared(case: StoredCase, curve: StoredCurve) -> NDArray[np.bool_] | None:
     return np.ones(x.size, dtype=bool)
 
 
-class _Disc:
+class Disc:
     """bem's side: a grid for the surface, one for the stresses, and a magnifying glass.
 
     Where a point is nearer to the surface than a few cells, or on the surface nearer to the load's edge, the cells

@@ -12,9 +12,8 @@ from bem.grid import FloatArray, Grid
 from bem.kernels.layered import ACROSS_U, NORMAL_U, NORMAL_W, TANGENTIAL_U, TANGENTIAL_W, wave_functions
 from bem.materials import Body, Layer
 from bem.stress import subsurface_stress
-from bem.verification.disc import STRESS_NAMES
 from bem.verification.rows import Curve
-from bem.verification.stored import StoredCase, StoredCurve
+from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve
 from bem.verification.strip import ANTIPLANE
 
 CELLS = 8

@@ -10,10 +10,9 @@ from bem.kernels.half_space import rectangle_displacement
 from bem.kernels.loads import Load
 from bem.kernels.subsurface import rectangle_stress
 from bem.stress import subsurface_stress
-from bem.verification.disc import STRESS_NAMES
 from bem.verification.patches import PointGrid, free_grid
 from bem.verification.rows import Curve
-from bem.verification.stored import StoredCase, StoredCurve
+from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve
 
 STEP = 1 / 80
 """Side of a cell over the half-length."""

@@ -17,6 +17,7 @@ from bem.grid import FloatArray
 from bem.materials import Body, Layer, Material
 
 FORMAT = "fem-reference 1"
+STRESS_NAMES = ("stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz", "stress_xy")
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,8 @@ from bem.grid import FloatArray, Grid
 from bem.kernels.half_plane import strip_displacement, strip_stress
 from bem.kernels.loads import Load
 from bem.stress import subsurface_stress
-from bem.verification.disc import STRESS_NAMES
 from bem.verification.rows import Curve
-from bem.verification.stored import StoredCase, StoredCurve
+from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve
 
 STEP = 1 / 180
 """Side of a cell over the half-width."""
@@ -31,7 +30,7 @@ def curves(case: StoredCase) -> list[Curve]:
     """Both sides of a stored strip; what bem has no kernel for (tangential displacements) is left out."""
     found = []
     load = case.parameters["load"]
-    solution = _Strip(case, STEP)
+    solution = Strip(case, STEP)
     for stored in case.curves:
         curve = stored
         if curve.name == "normal_displacement" and load == "tangential":
@@ -63,7 +62,7 @@ def _pair(curve: StoredCurve, quantity: str, values: FloatArray, allowance: floa
     )
 
 
-class _Strip:
+class Strip:
     """bem's side through the production path; each depth is computed once."""
 
     def __init__(self, case: StoredCase, step: float) -> None:
