@@ -13,6 +13,8 @@ from bem.lubrication.density import DENSITY_LAWS
 from bem.lubrication.shear_thinning import SHEAR_LAWS
 from bem.lubrication.viscosity import ROELANDS_VISCOSITY, VISCOSITY_LAWS
 
+_LARGEST_LOGARITHM = 600.0
+
 
 @dataclass(frozen=True)
 class Lubricant:
@@ -99,8 +101,11 @@ class Lubricant:
         return VISCOSITY_LAWS[self.viscosity_law](pressure, self.viscosity, self.pressure_viscosity)
 
     def viscosity_at(self, pressure: FloatArray) -> FloatArray:
-        """Viscosity [Pa s] at pressures >= 0 [Pa]."""
-        return self.viscosity * np.exp(self.log_viscosity_ratio(pressure)[0])
+        """Viscosity [Pa s] at pressures >= 0 [Pa]; beyond the range of floating point the largest number in it.
+
+        Long before that a Newtonian oil is no model of friction: use the eyring or carreau law.
+        """
+        return self.viscosity * np.exp(np.minimum(self.log_viscosity_ratio(pressure)[0], _LARGEST_LOGARITHM))
 
     def density_ratio(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Density over that at ambient pressure and its derivative [1/Pa] at pressures >= 0 [Pa]."""

@@ -85,7 +85,7 @@ def solve_line_film(
 
     Returns
     -------
-    FilmSolution. `status` is `converged`, or `stalled` or `max_iterations` with the last iterate.
+    FilmSolution. `status` is `converged`, or `stalled` with the last iterate, whose `load` may be another one.
 
     Raises
     ------
@@ -135,9 +135,7 @@ class _Kept:
         return pressure, film
 
 
-def _from_neighbour(
-    problem: Problem, initial: FilmSolution, cells: int, tolerance: float, limit: int
-) -> Outcome:
+def _from_neighbour(problem: Problem, initial: FilmSolution, cells: int, tolerance: float, limit: int) -> Outcome:
     """From the solution of another case, on its mesh if that has the right number of cells and still fits."""
     kept = initial.state
     factor, film_factor = _scaling(kept.load, problem.load)
@@ -216,8 +214,9 @@ def _from_scratch(
     """Continuation in the load from Martin's film on a coarse mesh, then finer ones."""
     last: Outcome | None = None
     spent = 0
-    for coarse, first_step in ATTEMPTS:
-        coarse = min(cells, coarse)
+    reached = 0.0
+    attempts = (((cells, 4.0),) if cells < ATTEMPTS[0][0] else ()) + ATTEMPTS
+    for coarse, first_step in attempts:
         load = min(problem.load, START_LOAD)
         step = first_step
         last = newton(replace(problem, load=load), martin_start(load, coarse), 1e-6, limit)
@@ -243,14 +242,16 @@ def _from_scratch(
             if final.converged:
                 return replace(final, iterations=spent)
             last = final
+        reached = load
     assert last is not None
-    return replace(last, iterations=spent, converged=False)
+    residual = max(last.residual, abs(1 - reached / problem.load))
+    return replace(last, iterations=spent, residual=residual, converged=False)
 
 
 def _ladder(problem: Problem, state: State, coarse: int, cells: int, tolerance: float, limit: int) -> Outcome:
     """From a coarse solution to the wanted number of cells, a spike refined little by little."""
     middle = min(cells, MIDDLE)
-    stages: list[tuple[int, float | None]] = [(coarse, None)] if coarse < middle else []
+    stages: list[tuple[int, float | None]] = [(coarse, None)]
     wanted = spike_cell(problem, state, middle)
     stages += [(middle, smallest) for smallest in SPIKE_CELLS if smallest > wanted or smallest == SPIKE_CELLS[-1]]
     if cells > middle:
@@ -310,8 +311,8 @@ def _check(
     messages += check_speeds(speeds)
     if not isinstance(lubricant, Lubricant):
         messages.append(f"lubricant: {type(lubricant).__name__} is not a Lubricant")
-    if not (isinstance(points, (int, np.integer)) and 50 <= points <= 20000):
-        messages.append(f"points: {points!r} must be an integer from 50 to 20000")
+    if not (isinstance(points, (int, np.integer)) and 100 <= points <= 20000):
+        messages.append(f"points: {points!r} must be an integer from 100 to 20000")
     if not (_real(tolerance) and 1e-11 <= tolerance <= 1e-2):
         messages.append(f"tolerance: {tolerance!r} must lie between 1e-11 and 1e-2")
     if position is not None:
