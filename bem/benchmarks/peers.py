@@ -1,0 +1,179 @@
+"""Other codes on the same surface, in an environment of their own: tamaas, ContactMechanics, ASPHER from PyPI.
+
+Each peer solves in its own interpreter and hands back its pressure; its residual is then recomputed here from the
+pressure by the routine that judges bem too. bem is timed at the coarsest tolerance whose pressure is at least as good.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem.benchmarks.cases import MEAN_PRESSURE, PERIODIC, UNIT, common_residual, rough_gap
+from bem.benchmarks.measure import THREAD_VARIABLES, Point, measure_apart
+from bem.errors import InputError
+
+PACKAGES = ("tamaas", "ContactMechanics", "SurfaceTopography", "aspher", "numpy", "scipy")
+GOALS = {("tamaas", 1024): 60.0, ("aspher", 1024): 8.0, ("tamaas", 2048): 80.0, ("aspher", 2048): 10.0}
+"""How many times faster bem is meant to be, at equal residual on one thread."""
+
+_TIMER = """
+import sys, time, numpy as np
+folder, pressure, tolerance = sys.argv[1], float(sys.argv[2]), float(sys.argv[3])
+gap = np.load(folder + "/gap.npy")
+n = gap.shape[0]
+def keep(solve):
+    times = []
+    for _ in range(int(sys.argv[4])):
+        start = time.process_time(); result = solve(); times.append(time.process_time() - start)
+    np.save(folder + "/pressure.npy", np.ascontiguousarray(result, dtype=float)); print(repr(times))
+"""
+SCRIPTS = {
+    "tamaas": """
+import tamaas as tm
+tm.initialize(1); tm.set_log_level(tm.LogLevel.error)
+def solve():
+    model = tm.Model(tm.model_type.basic_2d, [1.0, 1.0], [n, n]); model.E = 1.0; model.nu = 0.0
+    solver = tm.PolonskyKeerRey(model, np.ascontiguousarray(-gap), tolerance)
+    solver.max_iter = 20000
+    solver.solve(pressure)
+    return np.array(model.traction)
+keep(solve)
+""",
+    "ContactMechanics": """
+from ContactMechanics import PeriodicFFTElasticHalfSpace
+from ContactMechanics.Systems import NonSmoothContactSystem
+from SurfaceTopography import Topography
+def solve():
+    substrate = PeriodicFFTElasticHalfSpace((n, n), 1.0, (1.0, 1.0))
+    system = NonSmoothContactSystem(substrate, Topography(-gap, (1.0, 1.0), periodic=True))
+    result = system.minimize_proxy(external_force=pressure, pentol=tolerance * gap.std(), prestol=1e-9 * pressure,
+                                   maxiter=20000)
+    force = np.asarray(result.jac)
+    return np.abs(force) * n * n
+keep(solve)
+""",
+    "aspher": """
+import aspher
+def solve():
+    result = aspher.solve_nested(n, gap - gap.min(), pressure, 1.0, 1.0, tol=tolerance, backend="periodic")
+    return np.array(result.pressure).reshape(n, n)
+keep(solve)
+""",
+}
+TOLERANCES = {"tamaas": 1e-8, "ContactMechanics": 1e-5, "aspher": 1e-6}
+"""Tolerances, each in the meaning of its code, that give about the same complementarity, near 1e-6."""
+
+
+def environment(folder: Path, say: Callable[[str], None]) -> Path:
+    """The interpreter of the peers' environment, made if it is not there.
+
+    Raises
+    ------
+    InputError : neither uv nor pip can install the peers.
+    """
+    python = folder / "bin" / "python"
+    if (folder / ".installed").is_file():
+        return python
+    say(f"installing {', '.join(PACKAGES[:4])} into {folder}")
+    uv = shutil.which("uv") or shutil.which("uv", path=str(Path(sys.executable).parent))
+    commands: list[list[str]]
+    if uv:
+        commands = [
+            [uv, "venv", "-q", "--python", sys.executable, str(folder)],
+            [uv, "pip", "install", "-q", "--python", str(python), *PACKAGES],
+        ]
+    else:
+        commands = [
+            [sys.executable, "-m", "venv", str(folder)],
+            [str(python), "-m", "pip", "install", "-q", *PACKAGES],
+        ]
+    for command in commands:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+            raise InputError(f"--peers: {' '.join(command[:3])} failed ({last}); allowed: a network that reaches PyPI")
+    (folder / ".installed").write_text("")
+    return python
+
+
+def run_peer(python: Path, peer: str, cells: int, repeats: int, limit: float = 1800.0) -> dict[str, Any]:
+    """One peer on the rough surface: processor times, and its residuals by the common routine."""
+    from bem.convolution import displacement_operator
+    from bem.grid import Grid
+
+    gap = rough_gap(cells)
+    with tempfile.TemporaryDirectory() as folder:
+        np.save(f"{folder}/gap.npy", gap)
+        done = subprocess.run(
+            [
+                str(python),
+                "-c",
+                _TIMER + SCRIPTS[peer],
+                folder,
+                repr(MEAN_PRESSURE),
+                repr(TOLERANCES[peer]),
+                str(repeats),
+            ],
+            capture_output=True,
+            text=True,
+            timeout=limit,
+            env=os.environ | dict.fromkeys(THREAD_VARIABLES, "1"),
+            check=False,
+        )
+        if done.returncode != 0:
+            last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+            raise RuntimeError(f"{peer} at {cells}: {last}")
+        times = [float(word) for word in done.stdout.strip().splitlines()[-1].strip("[]").split(",")]
+        pressure = np.load(f"{folder}/pressure.npy")
+    operator = displacement_operator(Grid((cells, cells), (1 / cells, 1 / cells), periodic=PERIODIC), UNIT)
+    complementarity, violation = common_residual(np.maximum(pressure, 0.0), gap, operator)
+    return {
+        "peer": peer,
+        "cells": cells,
+        "cpu": times,
+        "complementarity": complementarity,
+        "violation": violation,
+        "load_error": abs(float(pressure.mean()) / MEAN_PRESSURE - 1),
+        "contact_fraction": float((pressure > 0).mean()),
+    }
+
+
+def compare_with_peers(
+    python: Path, cells: int, repeats: int, say: Callable[[str], None], peers: tuple[str, ...] = tuple(SCRIPTS)
+) -> tuple[list[dict[str, Any]], dict[str, str]]:
+    """Rows of all peers with bem's time at equal or smaller complementarity beside, and what failed."""
+    rows: list[dict[str, Any]] = []
+    failures: dict[str, str] = {}
+    own: dict[int, Point] = {}
+    for peer in peers:
+        say(f"{peer} at {cells}")
+        try:
+            row = run_peer(python, peer, cells, repeats)
+        except (RuntimeError, subprocess.TimeoutExpired) as error:
+            failures[f"{peer} {cells}"] = str(error)
+            continue
+        for digits in range(2, 12):
+            if digits not in own:
+                own[digits] = measure_apart("peer-tolerance", cells + digits / 100, 1, max(3, repeats))
+            if own[digits].errors["complementarity"] <= row["complementarity"]:
+                break
+        mine = own[digits]
+        row |= {
+            "bem_cpu": list(mine.cpu),
+            "bem_digits": digits,
+            "bem_complementarity": mine.errors["complementarity"],
+            "bem_convolutions": mine.counts["convolutions"],
+            "ratio": float(np.median(row["cpu"])) / mine.cpu_median,
+            "goal": GOALS.get((peer, cells)),
+        }
+        rows.append(row)
+    return rows, failures

@@ -1,0 +1,84 @@
+"""All points of a run, each in its own process."""
+
+from __future__ import annotations
+
+import difflib
+import subprocess
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from bem.benchmarks.cases import CASES, Case
+from bem.benchmarks.floor import measure_floor
+from bem.benchmarks.history import Run, new_run
+from bem.benchmarks.measure import Point, measure_apart
+from bem.errors import InputError
+
+
+def check_names(names: Sequence[str] | None) -> list[str]:
+    """Names of cases, all where none are given.
+
+    Raises
+    ------
+    InputError : one message per name that is not known.
+    """
+    if not names:
+        return list(CASES)
+    messages = []
+    for name in names:
+        if name not in CASES:
+            near = difflib.get_close_matches(name, CASES, 1)
+            hint = f"; nearest: {near[0]}" if near else ""
+            messages.append(f"--only: {name!r} is not a case; allowed: {', '.join(CASES)}{hint}")
+    if messages:
+        raise InputError(messages)
+    return list(names)
+
+
+def sizes_of(case: Case, *, quick: bool, sizes: Sequence[float] | None, limit: float) -> tuple[float, ...]:
+    """Sizes to measure."""
+    chosen = tuple(sizes) if sizes else (case.quick if quick else case.sizes)
+    return tuple(size for size in chosen if case.size_name != "cells a side" or size <= limit)
+
+
+def run_cases(
+    names: Sequence[str],
+    *,
+    quick: bool = False,
+    sizes: Sequence[float] | None = None,
+    limit: float = 2048,
+    threads: Sequence[int] | None = None,
+    repeats: int = 5,
+    with_floor: bool = True,
+    peers: tuple[Path, tuple[int, ...]] | None = None,
+    say: Callable[[str], None] = lambda words: None,
+) -> Run:
+    """Measure; a point that fails is named in `failures` and the rest goes on."""
+    points: list[Point] = []
+    failures: dict[str, str] = {}
+    counts = set()
+    for name in names:
+        case = CASES[name]
+        for size in sizes_of(case, quick=quick, sizes=sizes, limit=limit):
+            for count in threads or ((1, 2) if case.threads else (1,)):
+                say(f"{name}: {size:g} {case.size_name}, {count} thread{'s' if count > 1 else ''}")
+                counts.add(count)
+                try:
+                    points.append(measure_apart(name, size, count, repeats))
+                except (RuntimeError, subprocess.TimeoutExpired) as error:
+                    failures[f"{name} {size:g} ({count})"] = str(error)
+    floor = None
+    if with_floor:
+        wanted = {int(p.size) for p in points if p.case.startswith("contact-") and p.size >= 32}
+        say("the machine's floor")
+        floor = measure_floor(tuple(sorted({240} | wanted)), tuple(sorted(counts)) or (1,))
+    rows = []
+    if peers is not None:
+        from bem.benchmarks.peers import compare_with_peers, environment
+
+        folder, cells = peers
+        python = environment(folder, say)
+        for n in cells:
+            more, failed = compare_with_peers(python, n, min(repeats, 3), say)
+            rows += more
+            failures |= failed
+    return new_run(points, floor, rows, failures)

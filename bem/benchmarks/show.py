@@ -1,0 +1,220 @@
+"""A run as tables and a figure; two runs side by side."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from bem.benchmarks.cases import CASES
+from bem.benchmarks.history import Run, compare, find_run, read_history
+from bem.benchmarks.measure import Point, growth
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Table = Callable[..., None]
+
+PAIR_GOALS = {512: 26.0, 1024: 32.0, 2048: 42.0}
+"""Convolutions to 1e-8 of the periodic case."""
+
+
+def by_case(run: Run, threads: int | None = 1) -> dict[str, list[Point]]:
+    """Points of each case, by size."""
+    found: dict[str, list[Point]] = {}
+    for point in sorted(run.points, key=lambda p: (p.size, p.threads)):
+        if threads is None or point.threads == threads:
+            found.setdefault(point.case, []).append(point)
+    return {name: found[name] for name in CASES if name in found}
+
+
+def time_exponent(points: Sequence[Point]) -> float:
+    """How the time grows with the size."""
+    return growth([p.size for p in points], [p.cpu_median for p in points])
+
+
+def floor_share(run: Run, point: Point) -> float | None:
+    """Time over that of as many single-precision pairs of transforms with FFTW's measured plans; periodic only."""
+    if (
+        run.floor is None
+        or "convolutions" not in point.counts
+        or point.case not in ("contact-periodic", "contact-capped")
+    ):
+        return None
+    pair = run.floor.pair(int(point.size), 32, 1)
+    return None if pair is None else point.cpu_median / (point.counts["convolutions"] * pair)
+
+
+def point_rows(run: Run) -> list[tuple[str, ...]]:
+    """One row of words per point."""
+    rows: list[tuple[str, ...]] = []
+    for points in by_case(run, None).values():
+        for p in points:
+            counts = ", ".join(f"{name} {value:.4g}" for name, value in p.counts.items())
+            rows.append(
+                (
+                    p.case,
+                    f"{p.size:g}",
+                    str(p.threads),
+                    f"{p.error:.1e}",
+                    f"{1e3 * p.cpu_median:.3g}",
+                    f"{100 * p.spread:.0f} %",
+                    f"{1e3 * p.wall_median:.3g}",
+                    f"{1e3 * p.first_cpu:.3g}",
+                    f"{p.memory / 2**20:.0f}",
+                    counts,
+                )
+            )
+    return rows
+
+
+POINT_HEADERS = ("case", "size", "threads", "error", "CPU ms", "spread", "wall ms", "first ms", "MiB", "counts")
+
+
+def split_rows(run: Run) -> list[tuple[str, ...]]:
+    """Where the time of the largest point of each case goes, in per cent."""
+    rows: list[tuple[str, ...]] = []
+    for name, points in by_case(run).items():
+        split = points[-1].split
+        whole = split.get("whole", 0.0)
+        if whole <= 0:
+            continue
+        shares = {key: value / whole for key, value in split.items() if key != "whole"}
+        if not shares:
+            continue
+        rest = max(0.0, 1 - sum(shares.values()))
+        words = [
+            f"{100 * shares.get(key, 0.0):.0f}" for key in ("transforms", "elementwise", "preconditioner", "pieces")
+        ]
+        share = floor_share(run, points[-1])
+        rows.append(
+            (name, f"{points[-1].size:g}", *words, f"{100 * rest:.0f}", "" if share is None else f"{share:.2f}")
+        )
+    return rows
+
+
+SPLIT_HEADERS = (
+    "case",
+    "size",
+    "transforms %",
+    "elementwise %",
+    "preconditioner %",
+    "pieces %",
+    "other %",
+    "time / floor",
+)
+
+
+def peer_rows(run: Run) -> list[tuple[str, ...]]:
+    """Peers beside bem."""
+    from statistics import median
+
+    return [
+        (
+            row["peer"],
+            str(row["cells"]),
+            f"{row['complementarity']:.1e}",
+            f"{median(row['cpu']):.3g}",
+            f"{row['bem_complementarity']:.1e}",
+            f"{median(row['bem_cpu']):.3g}",
+            f"{row['ratio']:.1f}",
+            "" if row.get("goal") is None else f"{row['goal']:g}",
+        )
+        for row in run.peers
+    ]
+
+
+PEER_HEADERS = ("peer", "cells", "its residual", "its CPU s", "bem's residual", "bem's CPU s", "ratio", "goal")
+
+
+def print_run(run: Run, table: Table) -> None:
+    """The tables of a run."""
+    table(POINT_HEADERS, point_rows(run), title=f"commit {run.commit or 'unknown'}", right=range(1, 9))
+    exponents = [(name, f"{time_exponent(points):.2f}") for name, points in by_case(run).items() if len(points) > 1]
+    if exponents:
+        table(("case", "time grows with size to the power"), exponents, right=(1,))
+    if rows := split_rows(run):
+        table(SPLIT_HEADERS, rows, title="where the time goes", right=range(1, 8))
+    if rows := peer_rows(run):
+        table(PEER_HEADERS, rows, title="peers at equal residual, one thread", right=range(1, 8))
+    if run.floor is not None:
+        pairs = [(key, f"{1e3 * value:.3g}") for key, value in run.floor.pairs.items()]
+        pairs.append(("memory bandwidth, GB/s", f"{run.floor.bandwidth / 1e9:.3g}"))
+        table(("cells-bits-threads", "FFTW pair, ms"), pairs, title="the machine's floor", right=(1,))
+
+
+def print_comparison(path: Path, old: str, new: str, table: Table) -> None:
+    """Two commits of a history side by side.
+
+    Raises
+    ------
+    InputError : a commit that the history does not have.
+    """
+    runs = read_history(path)
+    before, after = find_run(runs, old), find_run(runs, new)
+    rows = []
+    for c in compare(before, after):
+        counts = ", ".join(f"{name} {a:.4g} -> {b:.4g}" for name, (a, b) in c.counts.items())
+        verdict = ("slower" if c.ratio > 1 else "faster") if c.clear else "within noise"
+        rows.append(
+            (
+                c.case,
+                f"{c.size:g}",
+                str(c.threads),
+                f"{1e3 * c.before:.3g}",
+                f"{1e3 * c.after:.3g}",
+                f"{c.ratio:.2f}",
+                verdict,
+                "" if math.isnan(c.error_ratio) else f"{c.error_ratio:.2f}",
+                counts,
+            )
+        )
+    headers = ("case", "size", "threads", "old ms", "new ms", "ratio", "", "error ratio", "counts that changed")
+    table(headers, rows, title=f"{before.commit} ({before.date}) -> {after.commit} ({after.date})", right=range(1, 6))
+
+
+def work_precision(run: Run, names: Sequence[str], title: str, extra: Sequence[dict[str, Any]] = ()) -> Figure:
+    """Error over processor time and over memory, a line for each case."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(9, 3.8), layout="constrained")
+    FigureCanvasAgg(figure)
+    time, memory = figure.subplots(1, 2, sharey=True)
+    for number, (name, points) in enumerate((n, p) for n, p in by_case(run).items() if n in names):
+        colour = f"C{number}"
+        low = [p.cpu_median - min(p.cpu) for p in points]
+        high = [max(p.cpu) - p.cpu_median for p in points]
+        errors = [max(p.error, 1e-17) for p in points]
+        time.errorbar(
+            [p.cpu_median for p in points], errors, xerr=[low, high], fmt="o-", ms=4, color=colour, label=name
+        )
+        memory.plot([max(p.memory, 1e5) / 2**20 for p in points], errors, "o-", ms=4, color=colour, label=name)
+        for p in points:
+            time.annotate(
+                f"{p.size:g}",
+                (p.cpu_median, max(p.error, 1e-17)),
+                fontsize=6,
+                xytext=(3, 3),
+                textcoords="offset points",
+            )
+    for curve in extra:
+        time.plot(curve["time"], curve["error"], "s--", ms=4, color="0.3", label=curve["label"])
+        if "memory" in curve:
+            memory.plot(curve["memory"], curve["error"], "s--", ms=4, color="0.3")
+    for axes, words in ((time, "processor time, s"), (memory, "memory beyond the inputs, MiB")):
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlabel(words)
+        axes.grid(True, which="major", lw=0.3)
+    error_names = {CASES[name].error_name for name in names if name in CASES}
+    time.set_ylabel(error_names.pop() if len(error_names) == 1 else "error")
+    time.legend(fontsize=7)
+    figure.suptitle(title, fontsize=10)
+    return figure
+
+
+def draw_run(run: Run, path: Path) -> None:
+    """All cases in one figure."""
+    work_precision(run, list(CASES), "error against time and memory").savefig(path, dpi=150)
