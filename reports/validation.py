@@ -454,7 +454,7 @@ def build() -> Page:
     return Page(
         "validation",
         "Validation",
-        "What the thesis found and what these scenes give: numbers, spreads, agreement, and reasons where there is none.",
+        "What the thesis found and what these scenes give: numbers, spreads, agreement, reasons where there is none.",
         sections,
     )
 
