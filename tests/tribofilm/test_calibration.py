@@ -45,6 +45,7 @@ def test_parameters_come_back_within_their_error_bars():
     assert np.abs(pulls).mean() > 0.2  # error bars that are far too wide would be wrong as well
 
 
+@pytest.mark.slow
 def test_two_wear_depths_do_not_determine_the_model():
     """The two published depths (thesis, paper E, table 3)."""
     data = [
