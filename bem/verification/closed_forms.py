@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bem.contact import ContactSolution, solve_contact
 from bem.convolution import displacement_operator
@@ -43,7 +45,7 @@ def curve(
     return Curve(quantity, along, unit, points, values, reference, np.zeros(values.size), allowance, reason)
 
 
-def _line(x: FloatArray) -> FloatArray:
+def _line(x: NDArray[Any]) -> FloatArray:
     return np.column_stack([x, 0 * x, 0 * x])
 
 

@@ -1,0 +1,158 @@
+"""A kernel that is off by one per cent, or has a sign turned, does not get through the gates."""
+
+import importlib
+
+import numpy as np
+import pytest
+
+from bem import convolution, stress
+from bem.kernels.loads import Load
+from bem.verification import registry
+
+FACTORS = {"one per cent": 1.01, "sign": -1.0}
+
+
+def forget():
+    """Spectra of healthy kernels must not serve a broken one, nor the other way round."""
+    convolution._CACHE.kept.clear()
+    for cache in (stress._SPECTRA, stress._TABLES):
+        cache.kept.clear()
+        cache.used = 0
+
+
+@pytest.fixture(autouse=True)
+def _clean_caches():
+    forget()
+    yield
+    forget()
+
+
+def passes(gate):
+    """Whether all rows pass; a solver that a broken kernel makes fail is caught as well."""
+    forget()
+    (chosen,) = registry.select([gate])
+    try:
+        return all(row.passed for row in chosen.run())
+    except Exception:
+        return False
+
+
+def break_kernel(monkeypatch, target, factor, *, component=None, load=None):
+    """Multiply what a function returns, or one component of it, for one load (given as Load or `tangential=`)."""
+    module, name = target.rsplit(".", 1)
+    home = importlib.import_module(module)
+    healthy = getattr(home, name)
+
+    def broken(*args, **kwargs):
+        out = healthy(*args, **kwargs)
+        given = kwargs.get("load", next((a for a in args if isinstance(a, Load)), Load.NORMAL))
+        if "tangential" in kwargs:
+            given = Load.TANGENTIAL if kwargs["tangential"] else Load.NORMAL
+        if load is not None and given is not load:
+            return out
+        out = np.array(out)
+        if component is None:
+            out *= factor
+        else:
+            out[component] *= factor
+        return out
+
+    monkeypatch.setattr(home, name, broken)
+
+
+# (function, component or None, load or None, gate that must see it)
+SURFACE = [
+    ("bem.kernels.half_space.surface_table", None, Load.NORMAL, "disc-uniform"),
+    ("bem.kernels.half_space.surface_table", None, Load.TANGENTIAL, "disc-tangential-uniform"),
+    ("bem.kernels.semi_periodic.surface_table", None, Load.NORMAL, "strip-normal"),
+    ("bem.kernels.semi_periodic.surface_table", None, Load.TANGENTIAL, "strip-tangential"),
+    ("bem.convolution.surface_response", None, Load.NORMAL, "oblique-wave"),
+    ("bem.convolution.surface_response", None, Load.TANGENTIAL, "oblique-wave"),
+    ("bem.kernels.layered.surface_response", None, Load.NORMAL, "harmonic-normal-soft"),
+    ("bem.kernels.layered.surface_response", None, Load.TANGENTIAL, "harmonic-tangential-soft"),
+    ("bem.kernels.layered_cells.surface_remainder", None, Load.NORMAL, "disc-uniform-soft"),
+    ("bem.kernels.layered_cells.surface_remainder", None, Load.TANGENTIAL, "disc-tangential-uniform-soft"),
+    ("bem.kernels.layered_semi.surface_remainder", None, Load.NORMAL, "strip-normal-soft"),
+    ("bem.kernels.layered_semi.surface_remainder", None, Load.TANGENTIAL, "strip-tangential-soft"),
+    ("bem.verification.strip.strip_displacement", None, Load.NORMAL, "strip-normal"),
+    ("bem.verification.strip.strip_displacement", None, Load.TANGENTIAL, "strip-tangential"),
+    ("bem.verification.rectangle.rectangle_displacement", 2, Load.NORMAL, "rectangle-normal"),
+    ("bem.verification.rectangle.rectangle_displacement", 0, Load.NORMAL, "rectangle-normal"),
+    ("bem.verification.rectangle.rectangle_displacement", 2, Load.TANGENTIAL, "rectangle-tangential"),
+    ("bem.verification.rectangle.rectangle_displacement", 0, Load.TANGENTIAL, "rectangle-tangential"),
+]
+STRESSES = [
+    (function, component, load, gate)
+    for function, gates in (
+        ("bem.kernels.subsurface.stress_table", ("disc-uniform", "disc-tangential-uniform")),
+        ("bem.kernels.semi_periodic.stress_table", ("images-bare-x", "images-bare-x")),
+        ("bem.stress.stress_response", ("oblique-wave", "oblique-wave")),
+        ("bem.kernels.layered_cells.stress_remainder", ("disc-uniform-soft", "disc-tangential-uniform-soft")),
+        ("bem.kernels.layered_semi.stress_remainder", ("images-coated-x", "images-coated-x")),
+        ("bem.verification.rectangle.rectangle_stress", ("rectangle-normal", "rectangle-tangential")),
+    )
+    for load, gate in zip(Load, gates, strict=True)
+    for component in range(6)
+]
+PLANE = [
+    (function, component, load, gate)
+    for function, gates in (
+        ("bem.kernels.semi_periodic.stress_table", ("strip-normal", "strip-tangential")),
+        ("bem.kernels.layered_semi.stress_remainder", ("strip-normal-soft", "strip-tangential-soft")),
+        ("bem.verification.strip.strip_stress", ("strip-normal", "strip-tangential")),
+        ("bem.kernels.layered.stress_response", ("harmonic-normal-soft", "harmonic-tangential-soft")),
+    )
+    for load, gate in zip(Load, gates, strict=True)
+    for component in (0, 1, 2, 4)
+]
+ACROSS = [("bem.kernels.layered.stress_response", c, Load.TANGENTIAL, "harmonic-antiplane-soft") for c in (4, 5)]
+WAVES = [
+    ("bem.kernels.layered.wave_functions", row, None, gate)
+    for rows, gate in (
+        (range(1, 6), "harmonic-normal-soft"),
+        (range(7, 12), "harmonic-tangential-soft"),
+        ((13, 14), "harmonic-antiplane-soft"),
+    )
+    for row in rows
+] + [  # displacements along the surface, which no operator uses
+    ("bem.verification.harmonic.wave_functions", row, None, f"harmonic-{load}-soft")
+    for row, load in ((0, "normal"), (6, "tangential"), (12, "antiplane"))
+]
+OTHERS = [
+    ("bem.verification.contact.contact_modulus", None, None, "contact-sphere-elastic-pair"),
+    ("bem.verification.contact.von_mises", None, None, "contact-cylinder-plain"),
+]
+ALL = [*SURFACE, *STRESSES, *PLANE, *ACROSS, *WAVES, *OTHERS]
+QUICK = [SURFACE[0], SURFACE[3], SURFACE[8], STRESSES[4], STRESSES[11], PLANE[0], WAVES[3]]
+GATES = sorted({gate for *_, gate in ALL})
+
+
+def label(mutant):
+    function, component, load, gate = mutant
+    return f"{function.removeprefix('bem.')}[{component}]-{load.name.lower() if load else 'any'}-{gate}"
+
+
+def check_caught(monkeypatch, mutant, factor):
+    function, component, load, gate = mutant
+    break_kernel(monkeypatch, function, factor, component=component, load=load)
+    assert not passes(gate)
+
+
+@pytest.mark.parametrize("factor", FACTORS.values(), ids=FACTORS)
+@pytest.mark.parametrize("mutant", QUICK, ids=label)
+def test_some_broken_kernels_are_caught(monkeypatch, mutant, factor):
+    check_caught(monkeypatch, mutant, factor)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("factor", FACTORS.values(), ids=FACTORS)
+@pytest.mark.parametrize("mutant", ALL, ids=label)
+def test_every_broken_kernel_is_caught(monkeypatch, mutant, factor):
+    check_caught(monkeypatch, mutant, factor)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("gate", GATES)
+def test_healthy_kernels_pass(gate):
+    """Without this the tests above could be right for the wrong reason."""
+    assert passes(gate)
