@@ -23,6 +23,9 @@ _CLOSE = 0.05
 
 _STEPS = 100
 
+_LARGEST = 600.0
+"""Logarithm of a load beyond which there is no use in looking."""
+
 
 def mean_gap_by_approach(
     mean_gap: float,
@@ -53,7 +56,7 @@ def approach_by_load(
     """Solution whose approach is `approach`, to `tolerance`."""
 
     def control(logarithm: float) -> LoadControl:
-        return LoadControl(min(math.exp(logarithm), cap * cells))
+        return LoadControl(min(math.exp(min(logarithm, _LARGEST)), cap * cells))
 
     force = float(start.sum()) if start is not None else 0.0
     guess = math.log(force if force > 0 else 1e-3 * cells * scale)
@@ -112,7 +115,8 @@ def _next(points: list[tuple[float, float]], low: float, high: float, step: floa
     if len(points) > 1:
         x0, e0 = points[-2]
         if e1 != e0:
-            trial = x1 - e1 * (x1 - x0) / (e1 - e0)
+            reach = 4 * max(abs(x1 - x0), step)
+            trial = min(max(x1 - e1 * (x1 - x0) / (e1 - e0), x1 - reach), x1 + reach)
     elif step == step and e1:
         trial = x1 - math.copysign(min(step, abs(e1) * 1.5) if abs(e1) < step else step, e1)
     stuck = len(points) > 6 and abs(points[-1][1]) > 0.5 * abs(points[-4][1])

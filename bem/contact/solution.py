@@ -8,10 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.errors import Status
+from bem.representation import readable
 
 FloatArray = NDArray[np.float64]
 
 
+@readable
 @dataclass(frozen=True)
 class ContactSolution:
     """Pressures and gaps of two bodies in contact; arrays (nx, ny), SI units.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -152,7 +152,12 @@ def _solve(
         allowed = Tolerance(
             tolerance if problem.scale > 0 else math.inf, tolerance / problem.scale if problem.scale > 0 else tolerance
         )
-        return solve_level(operator, gap, control, cap, start, allowed, problem.effort, problem.tuning, report)
+        result = solve_level(operator, gap, control, cap, start, allowed, problem.effort, problem.tuning, report)
+        if result.converged or problem.effort.left <= 0 or not operator.symmetric:
+            return result
+        # once more from there, with every round on the guard
+        wary = replace(problem.tuning, patience=0, rounds=300)
+        return solve_level(operator, gap, control, cap, result.pressure, allowed, problem.effort, wary, report)
 
     if isinstance(control, MeanGapControl) and operator.mean_free and math.isinf(cap):
         # displacements have no mean: the mean gap fixes the approach
