@@ -10,10 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.errors import InputError
+from bem.representation import tabled
 
 FloatArray = NDArray[np.float64]
 
 
+@tabled
 @dataclass(frozen=True)
 class Grid:
     """A rectangle of equal cells; fields are constant on a cell (free axes) or sampled at its centre (periodic).

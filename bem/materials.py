@@ -6,11 +6,13 @@ import math
 from dataclasses import dataclass
 
 from bem.errors import InputError
+from bem.representation import tabled
 
 HARDNESS_TO_YIELD = 2.8
 """Hardness over yield stress in uniaxial tension; Tabor, *The Hardness of Metals* (1951); the thesis' paper C."""
 
 
+@tabled
 @dataclass(frozen=True)
 class Material:
     """An isotropic, linear elastic, perfectly plastic solid.

@@ -8,7 +8,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1] / "bem"
 
 ORDER = [
-    {"errors"},
+    {"errors", "representation"},
     {"grid", "materials", "threads"},
     {"kernels", "reference_solutions"},
     {"transforms"},

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.grid import FloatArray, Grid
+from bem.representation import readable
 
 
 @dataclass(frozen=True)
@@ -23,6 +24,7 @@ class Summits:
     radius: FloatArray
 
 
+@readable
 @dataclass(frozen=True)
 class AsperityContact:
     """Loads of uncoupled asperities; attributes as far as they exist for them as in `ContactSolution`.

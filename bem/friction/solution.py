@@ -11,8 +11,10 @@ from bem.errors import Status
 from bem.friction.asperities import AsperityContact
 from bem.grid import FloatArray, Grid
 from bem.lubrication import FilmSolution
+from bem.representation import readable
 
 
+@readable
 @dataclass(frozen=True)
 class MixedSolution:
     """Load and friction shared between oil film and rough contact; forces on the whole width.

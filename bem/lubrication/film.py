@@ -11,8 +11,10 @@ from scipy.interpolate import PchipInterpolator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
+from bem.representation import readable
 
 
+@readable
 @dataclass(frozen=True)
 class FilmSolution:
     """Film of a line contact: a cylinder (surface 2, above) on a flat (surface 1, below), per unit length.

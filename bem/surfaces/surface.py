@@ -12,8 +12,10 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
+from bem.representation import readable
 
 
+@readable
 @dataclass(frozen=True, eq=False)
 class Surface:
     """Heights (nx, ny) [m], positive out of the body, on cells of `spacing` (dx, dy) [m].

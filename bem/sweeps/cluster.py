@@ -40,10 +40,10 @@ def compute_on_cluster(points: Iterable[Point], scheduler: str) -> Iterator[Done
         try:
             for future in distributed.as_completed(futures, loop=client.loop):
                 point = futures[future]
-                error = future.exception()
-                if future.status == "cancelled" or isinstance(error, distributed.client.FutureCancelledError):
+                failure = future.exception()
+                if future.status == "cancelled":
                     raise ResultsError("--scheduler: the scheduler is gone; the same command with --resume goes on")
-                yield future.result() if error is None else Done(point.index, f"{type(error).__name__}: {error}")
+                yield future.result() if failure is None else Done(point.index, f"{type(failure).__name__}: {failure}")
                 future.release()
         finally:
             client.cancel(list(futures), force=True)

@@ -164,9 +164,9 @@ def _coordinate(axis: Axis, place: int, axes: Sequence[Axis], scenes: Sequence[S
         if isinstance(value, list) and value and all(item == value[0] for item in value):
             value = value[0]
         found.append(value)
-    if all(isinstance(value, int | float) and not isinstance(value, bool) for value in found):
-        if len(set(found)) == len(found):
-            return Coordinate(axis, tuple(found), _unit_at(scenes[0], axis.key))
+    numbers = all(isinstance(value, int | float) and not isinstance(value, bool) for value in found)
+    if numbers and len(set(found)) == len(found):
+        return Coordinate(axis, tuple(found), _unit_at(scenes[0], axis.key))
     return Coordinate(axis, tuple(text.strip("\"'") for text in axis.values), "1")
 
 

@@ -20,6 +20,7 @@ from scipy.integrate import solve_ivp
 
 from bem.errors import ConvergenceError, InputError
 from bem.grid import FloatArray
+from bem.representation import readable
 
 GrowthRate = Callable[[float], float]
 """mean thickness [m] -> growth rate [m/s]"""
@@ -31,6 +32,7 @@ _SHORT = 1e-3
 """Wear may take what is there within this part of the lag, never more: it keeps a delayed film from going negative."""
 
 
+@readable
 @dataclass(frozen=True, eq=False)
 class FilmHistory:
     """Film over time; all arrays have the shape of `time`.

@@ -10,10 +10,12 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray
+from bem.representation import tabled
 from bem.tribofilm.contact_growth import ContactSample, FilmContact, GrowthTable, solve_film_contact
 from bem.tribofilm.evolution import FilmHistory, evolve_film, steady_thickness
 
 
+@tabled
 @dataclass(frozen=True, eq=False)
 class TribofilmGrowth:
     """A finished film.

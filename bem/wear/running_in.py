@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
+from bem.representation import tabled
 from bem.wear.cycle import (
     LOWER,
     UPPER,
@@ -145,6 +146,7 @@ class Settled:
         return True
 
 
+@tabled
 @dataclass(frozen=True, eq=False)
 class RunningIn:
     """A finished (or stopped) wear loop.

@@ -24,7 +24,7 @@ contact = {mean_pressure = "80 MPa", behaviour = "capped"}
 def cluster(tmp_path):
     """Address of a scheduler and its two worker processes; ended after the test."""
     file = tmp_path / "scheduler.json"
-    log = open(tmp_path / "cluster.log", "w")
+    log = open(tmp_path / "cluster.log", "w")  # noqa: SIM115
     quiet = {"cwd": tmp_path, "stdout": log, "stderr": log, "env": {**os.environ, "OPENBLAS_NUM_THREADS": "1"}}
     started = [
         subprocess.Popen(

@@ -1,0 +1,42 @@
+"""`bem new`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def complete_kind(incomplete: str) -> list[str]:
+    """Kinds of scene that begin like this, for tab completion; loads nothing."""
+    folder = Path(__file__).resolve().parents[1] / "scenes" / "kinds"
+    names = (item.stem.replace("_", "-") for item in folder.glob("*.py") if not item.name.startswith("_"))
+    return sorted(name for name in names if name.startswith(incomplete))
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+
+    @app.command()
+    def new(
+        kind: Annotated[
+            str, typer.Argument(metavar="KIND", help="Kind of scene, such as contact.", autocompletion=complete_kind)
+        ],
+        file: Annotated[
+            Path | None, typer.Argument(metavar="[FILE]", help="File to write; without it KIND.toml.")
+        ] = None,
+    ) -> None:
+        """Write a commented scene of a kind, with all its keys, to start from."""
+        from bem.errors import ResultsError
+        from bem.results.atomic import write_text
+        from bem.scenes.template import scene_template
+
+        text = scene_template(kind)
+        path = file or Path(f"{kind}.toml")
+        if path.exists():
+            raise ResultsError(f"{path}: exists; give another FILE")
+        if not path.parent.is_dir():
+            raise ResultsError(f"{path.parent}: no such folder")
+        write_text(path, text)
+        print(f"written: {path}\nnext:    bem plan {path}; bem run {path}")

@@ -1,0 +1,166 @@
+"""A commented scene of any kind, written from the kind's model: what is set, and what could be."""
+
+from __future__ import annotations
+
+import json
+import typing
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic_core import PydanticUndefined
+
+from bem.errors import InputError
+from bem.scenes.kinds import get_kind, kind_names
+from bem.scenes.load import _dump_value, library
+from bem.scenes.units import Dimension
+from bem.scenes.validate import _fields, _literals, _member, _unwrap, _without_none, nearest, show
+
+_NOT_SHOWN = ("kind", "redoes", "name")
+
+
+def scene_template(kind: str) -> str:
+    """A TOML scene that runs as it is, with every other key of the kind as a comment: default, unit, choices.
+
+    Raises
+    ------
+    InputError : no such kind, or none of its built-in scenes can serve as a start.
+    """
+    if kind not in kind_names():
+        listed = ", ".join(f'"{name}"' for name in kind_names())
+        raise InputError(f"KIND {show(kind)}: not a kind of scene{nearest(kind, kind_names())}; allowed: {listed}")
+    found = get_kind(kind)
+    name, data = _start(kind)
+    lines = [
+        f"# {found.title}",
+        f"# Values are those of the built-in scene `{name}`; lines behind a # are other keys with their defaults.",
+        "# Numbers without a unit are in SI units. `bem plan FILE` says what would run, `bem run FILE` runs it.",
+        f'kind = "{kind}"',
+        *_table(found.model, data, (), commented=False),
+    ]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _start(kind: str) -> tuple[str, dict[str, Any]]:
+    """The shortest built-in scene of the kind that needs no file of the user."""
+    scenes = {
+        name: data
+        for name, data in library().items()
+        if data["kind"] == kind and '"path"' not in json.dumps(data, default=str)
+    }
+    if not scenes:
+        raise InputError(f'KIND "{kind}": has no built-in scene to start from; allowed: a kind that `bem scenes` lists')
+    plain = {name: data for name, data in scenes.items() if "variants" not in data} or scenes
+    name = min(plain, key=lambda item: len(json.dumps(plain[item], default=str)))
+    return name, plain[name]
+
+
+def _table(model: Any, data: Mapping[str, Any], path: tuple[str, ...], *, commented: bool) -> Iterator[str]:
+    """The keys of a table, then its tables, each under its heading."""
+    inner: list[tuple[str, Any, Any]] = []
+    mark = "# " if commented else ""
+    fields = _fields(model)
+    for key in data:  # short forms that are no fields, such as the name of a catalogue material
+        if key not in fields:
+            yield f"{mark}{key} = {_dump_value(data[key])}"
+    for key, field in fields.items():
+        if key in _NOT_SHOWN and not (path and key == "kind" and key in data):
+            continue
+        value = data.get(key)
+        if key in data and not isinstance(value, Mapping):
+            if isinstance(value, list) and value and isinstance(value[0], Mapping):
+                inner.append((key, field, value))
+            else:
+                yield _line(f"{mark}{key} = {_dump_value(value)}", field)
+        elif key in data or _is_table(field.annotation):
+            inner.append((key, field, value))
+        else:
+            yield _line(f"# {key} = {_default(field)}", field)
+    for key, field, value in inner:
+        yield from _inner(key, field, value, (*path, key), commented)
+
+
+def _inner(key: str, field: Any, value: Any, path: tuple[str, ...], commented: bool) -> Iterator[str]:
+    annotation = _without_none(field.annotation)
+    yield ""
+    if isinstance(value, list):
+        item = _unwrap(typing.get_args(annotation)[0])[0]
+        for entry in value:
+            yield f"[[{'.'.join(path)}]]"
+            for own, number in entry.items():
+                yield f"{own} = {_dump_value(number)}"
+            yield from (f"# {line}" for line in _about_table(item))
+        return
+    if isinstance(value, Mapping):
+        model = _member(annotation, value.get("kind")) or annotation
+        yield from (f"# {line}" for line in _about_table(model))
+        yield f"[{'.'.join(path)}]" if not commented else f"# [{'.'.join(path)}]"
+        yield from _table(model, value, path, commented=commented)
+        return
+    if typing.get_origin(annotation) is list:
+        item = _unwrap(typing.get_args(annotation)[0])[0]
+        yield from (f"# {line}" for line in _about_table(item))
+        yield f"# [[{'.'.join(path)}]]"
+        for name, inner in _fields(item).items():
+            yield _line(f"# {name} = {_default(inner)}", inner)
+        return
+    members = [annotation] if _fields(annotation) else [_unwrap(m)[0] for m in typing.get_args(annotation)]
+    for model in members:
+        if not _fields(model):
+            continue
+        yield from (f"# {line}" for line in _about_table(model))
+        yield f"# [{'.'.join(path)}]"
+        for name, inner in _fields(model).items():
+            yield _line(f"# {name} = {_default(inner)}", inner)
+
+
+def _is_table(annotation: Any) -> bool:
+    annotation = _without_none(annotation)
+    if _fields(annotation):
+        return True
+    arguments = typing.get_args(annotation)
+    if typing.get_origin(annotation) is list:
+        return bool(_fields(arguments[0]))
+    return bool(arguments) and all(
+        bool(_fields(_unwrap(item)[0])) for item in arguments if item not in (type(None), Ellipsis)
+    )
+
+
+def _line(text: str, field: Any) -> str:
+    about = _about(field)
+    return f"{text:<36}  # {about}" if about else text
+
+
+def _about(field: Any) -> str:
+    """Unit and choices of a key."""
+    annotation, metadata = _unwrap(_without_none(field.annotation))
+    pending = [*metadata, *field.metadata, *typing.get_args(annotation)]
+    literals: list[str] = list(_literals(annotation))
+    for item in pending:
+        item, more = _unwrap(item)
+        pending_more = [*more, item]
+        for part in pending_more:
+            if isinstance(part, Dimension):
+                return part.allowed
+        literals = literals or list(_literals(item))
+    if literals:
+        return "one of " + ", ".join(literals)
+    if annotation is bool:
+        return "true or false"
+    return ""
+
+
+def _about_table(model: Any) -> list[str]:
+    """The first paragraph of a table's docstring."""
+    if not (isinstance(model, type) and issubclass(model, BaseModel)) or not model.__doc__:
+        return []
+    return [line.strip() for line in model.__doc__.strip().split("\n\n")[0].splitlines()]
+
+
+def _default(field: Any) -> str:
+    if field.default is PydanticUndefined or field.default is None:
+        return "..." if field.default is PydanticUndefined else "(not set)"
+    try:
+        return _dump_value(field.default)
+    except TypeError:
+        return "..."
