@@ -159,11 +159,14 @@ def _solve(
         wary = replace(problem.tuning, patience=0, rounds=300)
         return solve_level(operator, gap, control, cap, result.pressure, allowed, problem.effort, wary, report)
 
-    if isinstance(control, MeanGapControl) and operator.mean_free and math.isinf(cap):
-        # displacements have no mean: the mean gap fixes the approach
+    if isinstance(control, MeanGapControl) and operator.mean_free:
         if control.mean_gap <= tolerance:
-            return _full_contact(operator, gap)
-        control = ApproachControl(float(gap.mean()) - control.mean_gap)
+            closed = _full_contact(operator, gap)
+            if closed.pressure.max() < cap:
+                return closed
+        if math.isinf(cap):
+            # displacements have no mean: the mean gap fixes the approach
+            control = ApproachControl(float(gap.mean()) - control.mean_gap)
     scale = problem.scale or 1.0
     if isinstance(control, MeanGapControl):
         return mean_gap_by_approach(control.mean_gap, gap, start.pressure, start.approach, scale, tolerance, directly)
