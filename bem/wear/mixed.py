@@ -182,7 +182,7 @@ class MixedContact:
     boundary_friction : traction over pressure where the surfaces touch; the oil's shear stress, a hundred times
         smaller, is left out of the stresses. hardness : cap of the contact pressure [Pa].
     film_points : nodes of the film's mesh. tolerance : of (F_H + F_C - load) / load.
-    contact_tolerance : of the rough contact.
+    contact_tolerance : of the rough contact; 1e-4 of the roughness moves friction by some 1e-6 of itself.
     state, rows : to go on from, as they were after the last cycle.
 
     `rows` has a row of `MIXED_FIELDS` per cycle; `film` is the last cycle's film and `separation` the distance (nx,)
@@ -207,7 +207,7 @@ class MixedContact:
         hardness: float | None = None,
         film_points: int = 2000,
         tolerance: float = 5e-4,
-        contact_tolerance: float = 1e-5,
+        contact_tolerance: float = 1e-4,
         state: MixedState | None = None,
         rows: NDArray[np.void] | None = None,
     ) -> None:

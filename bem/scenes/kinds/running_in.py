@@ -51,7 +51,7 @@ class RunningInSharing(Table):
     """
 
     tolerance: Annotated[Ratio, Field(ge=1e-8, le=0.01)] = 5e-4
-    contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = 1e-5
+    contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = 1e-4
     film_points: Annotated[int, Field(strict=True, ge=100, le=5000)] = 400
 
 
