@@ -249,12 +249,19 @@ def remesh(problem: Problem, state: State, cells: int, smallest: float | None) -
     """
     state = _with_inlet(state)
     smooth, spike = densities(problem, state)
+    top = int(np.clip(np.argmin(np.diff(state.pressure) / np.diff(state.offset)), 1, len(state.offset) - 2))
     if smallest is None:
         size = cell_sizes(state.offset, smooth, 0 * spike, cells, np.inf)
     else:
+        # at a spike everything is sharp: fluidity and film as much as pressure
+        middle = 0.5 * (state.offset[1:] + state.offset[:-1])
+        near = np.abs(middle - state.offset[top]) < 20 * smallest * state.exit
+        limit = 1 / (smallest * state.exit)
+        total = np.sum((smooth + spike) * np.diff(state.offset)) / cells
+        smooth = np.where(near, np.minimum(smooth, limit * total), smooth)
         size = cell_sizes(state.offset, smooth, spike, cells, smallest * state.exit)
-    # the peak keeps its node: interpolating across a spike would move it
-    nodes = redistribute(state.offset, size, cells, int(np.argmax(state.pressure[1:-1])) + 1)
+    # the node where the steepest fall begins stays: interpolating across a spike would move it
+    nodes = redistribute(state.offset, size, cells, top)
     pressure = np.maximum(PchipInterpolator(state.offset, state.pressure)(nodes), 0.0)
     film = np.exp(PchipInterpolator(state.offset, np.log(state.film))(nodes))
     return State(nodes, logarithmic_weights(nodes, nodes), pressure, film, state.datum, state.exit)
