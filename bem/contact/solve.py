@@ -89,7 +89,8 @@ def solve_contact(
     result = _without_contact(control, scaled_gap)
     if result is None:
         if initial_pressure is not None:
-            start = _Start(np.clip(initial_pressure.reshape(-1) / to_pressure, 0.0, scaled_cap), -math.inf)
+            pressure = np.clip(initial_pressure.reshape(-1) / to_pressure, 0.0, scaled_cap)
+            start = _Start(pressure, _approach_of(operator, scaled_gap, pressure, control))
         else:
             start = _from_coarser(problem, operator, scaled_gap.reshape(grid.shape), control, scaled_cap)
         report = None
@@ -121,6 +122,16 @@ class _Start:
 
     pressure: FloatArray | None
     approach: float
+
+
+def _approach_of(operator: DisplacementOperator, gap: FloatArray, pressure: FloatArray, control: Control) -> float:
+    """The approach that a given pressure belongs to; needed only where the approach is searched for."""
+    touching = pressure > 0
+    if not isinstance(control, MeanGapControl) or not touching.any():
+        return -math.inf
+    shape = operator.grid.shape
+    displacement = operator.scaled().apply(pressure.reshape(shape), np.empty(shape)).reshape(-1)
+    return float((gap + displacement)[touching].mean())
 
 
 def _without_contact(control: Control, gap: FloatArray) -> LevelResult | None:
