@@ -1,0 +1,121 @@
+"""Sketches of the verification problems: load, body, layer and dimensions. Schematic, not to scale."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from bem.verification.stored import StoredCase
+
+BODY, LAYER, LOAD = "#e8e8e8", "#f4c27a", "#0072B2"
+
+
+def draw(ax: Any, case: StoredCase) -> None:
+    """Draw a stored problem on empty axes: a section y = 0, z down."""
+    parameters = case.parameters
+    layer = parameters.get("layer")
+    ax.set_axis_off()
+    ax.set_aspect("equal")
+    ax.set_xlim(-3, 3)
+    ax.set_ylim(-2.6, 2.1)
+    ax.fill_between([-3, 3], -2.4, 0, color=BODY, lw=0)
+    thickness = 0.0
+    if layer is not None:
+        thickness = float(np.clip(0.9 * layer[2] ** 0.5 if layer[2] else 0.6, 0.15, 1.6))
+        ax.fill_between([-3, 3], -thickness, 0, color=LAYER, lw=0)
+        ax.annotate(
+            "", (2.2, 0), (2.2, -thickness), arrowprops={"arrowstyle": "<->", "lw": 0.7, "shrinkA": 0, "shrinkB": 0}
+        )
+        height = "h" if case.problem == "harmonic" else f"h = {layer[2]:.4g}"
+        ax.text(2.3, -thickness / 2, height, fontsize=6.5, va="center")
+        words = f"E1 = {layer[0]:.3g} E, ν1 = {layer[1]:g}"
+        ax.text(-2.9, -thickness / 2, words, fontsize=6.5, va="center")
+    ax.text(-2.9, -2.2, f"E, ν = {parameters['nu']:g}", fontsize=6.5, va="center")
+    ax.plot([-3, 3], [0, 0], "k-", lw=0.8)
+    _axes(ax)
+    load = _direction(case)
+    if case.problem.startswith(("contact", "plasticity")):
+        _indenter(ax, case)
+    elif case.problem == "harmonic":
+        x = np.linspace(-3, 3, 61)
+        profile = np.cos(2 * np.pi * x / 3)
+        ax.plot(x, 0.75 + 0.5 * profile, color=LOAD, lw=1)
+        ax.plot(x, 0 * x + 0.75, color=LOAD, lw=0.4, ls="--")
+        _arrows(ax, x[::5], 0.5 * profile[::5], load, base=0.75)
+        ax.text(0, 1.6, "p cos(q x), wavelength 2π / q", fontsize=7, ha="center", color=LOAD)
+    else:
+        x = np.linspace(-1, 1, 9)
+        hertz = parameters.get("pressure") == "hertz"
+        profile = np.sqrt(1 - x**2) if hertz else np.ones(9)
+        fine = np.linspace(-1, 1, 101)
+        top = np.sqrt(1 - fine**2) if hertz else np.ones(101)
+        ax.fill_between(fine, 0.05, 0.05 + 0.9 * top, color=LOAD, alpha=0.15, lw=0)
+        _arrows(ax, x, 0.9 * profile, load, base=0.05)
+        ax.annotate("", (-1, 1.25), (1, 1.25), arrowprops={"arrowstyle": "<->", "lw": 0.7, "shrinkA": 0, "shrinkB": 0})
+        width = {"rectangle": "2a along x, {:.3g} along y".format(2 * parameters.get("width", 1))}
+        ax.text(0, 1.35, width.get(case.problem, "2a, a = 1"), fontsize=7, ha="center")
+    kind = {"normal": "pressure", "tangential": "traction along x", "antiplane": "traction along y"}[load]
+    shape = {"disc": "disc", "disc-tangential": "disc", "strip": "strip", "rectangle": "rectangle", "harmonic": "wave"}
+    if case.problem in shape:
+        ax.set_title(f"{shape[case.problem]}: {kind}", fontsize=8)
+    else:
+        ax.set_title(case.problem.replace("-", ": "), fontsize=8)
+
+
+def _direction(case: StoredCase) -> str:
+    if case.problem == "disc-tangential":
+        return "tangential"
+    return str(case.parameters.get("load", "normal"))
+
+
+def _axes(ax: Any) -> None:
+    style = {"arrowstyle": "->", "lw": 0.8, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", (-1.8, 1.6), (-2.6, 1.6), arrowprops=style)
+    ax.annotate("", (-2.6, 0.8), (-2.6, 1.6), arrowprops=style)
+    ax.text(-1.75, 1.55, "x", fontsize=7)
+    ax.text(-2.55, 0.62, "z", fontsize=7)
+
+
+def _arrows(ax: Any, x: Any, heights: Any, load: str, *, base: float) -> None:
+    """Arrows of a load on the body: down, along x, or dots for out of the plane."""
+    for at, height in zip(x, heights, strict=True):
+        if load == "antiplane":
+            ax.plot(at, base + 0.12 + 0.3 * abs(height), "o", mfc="none", mec=LOAD, ms=2 + 4 * abs(height), mew=0.7)
+            ax.plot(at, base + 0.12 + 0.3 * abs(height), ".", color=LOAD, ms=1.5)
+        elif abs(height) < 0.06:
+            continue
+        elif load == "tangential":
+            half = 0.11 * height / 0.9
+            y = base + 0.12
+            ax.annotate(
+                "",
+                (at + half, y),
+                (at - half, y),
+                arrowprops={"arrowstyle": "->", "color": LOAD, "lw": 0.8, "shrinkA": 0, "shrinkB": 0},
+            )
+        else:
+            ends = ((at, base), (at, base + height))
+            ax.annotate(
+                "", *ends, arrowprops={"arrowstyle": "->", "color": LOAD, "lw": 0.8, "shrinkA": 0, "shrinkB": 0}
+            )
+
+
+def _indenter(ax: Any, case: StoredCase) -> None:
+    x = np.linspace(-2.2, 2.2, 121)
+    if case.problem == "contact-row":
+        x = np.linspace(-3, 3, 181)
+        edge = 0.45 * (1 - np.cos(2 * np.pi * x / 2.5))
+        top = 1.4
+    else:
+        edge = 0.22 * x**2
+        top = 1.15
+    upper = np.maximum(edge, top)
+    ax.fill_between(x, edge, np.minimum(upper, top) + 0 * x, where=edge <= top, color="#c9d6e4", lw=0)
+    ax.plot(x[edge <= top], edge[edge <= top], color="0.3", lw=0.8)
+    ax.annotate("", (0, 1.2), (0, 2.0), arrowprops={"arrowstyle": "->", "color": LOAD, "lw": 1.4})
+    ax.text(0.12, 1.75, "load", fontsize=7, color=LOAD)
+    indenter = case.parameters.get("indenter")
+    ax.text(
+        0, 0.75, "rigid" if indenter is None else f"E = {indenter[0]:g}, ν = {indenter[1]:g}", fontsize=6.5, ha="center"
+    )
