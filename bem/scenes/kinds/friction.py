@@ -5,6 +5,8 @@ One curve per load, surface and contact model, each over repetitions with surfac
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -217,7 +219,7 @@ def run(scene: FrictionScene, context: Context) -> Outcome:
             ) + build.heights_of(scene.upper.surface, grid, context.seed("upper", repetition), context.note)
         solutions: list[Any] = []
         for number, speeds in enumerate(pairs):
-            with context.timer("load sharing"):
+            with context.timer("load sharing"), _in_words_of_the_scene():
                 solutions.append(
                     solve_mixed(
                         height=height,
@@ -249,6 +251,15 @@ def run(scene: FrictionScene, context: Context) -> Outcome:
         )
         context.save({"finished": finished})
     return _outcome(scene, grid, finished)
+
+
+@contextmanager
+def _in_words_of_the_scene() -> Iterator[None]:
+    """Messages about `position` are about the table `film`."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError([m.replace("position: ", "film: the film grid ", 1) for m in error.messages]) from None
 
 
 _FIGURES = (
