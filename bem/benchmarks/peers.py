@@ -55,7 +55,7 @@ from SurfaceTopography import Topography
 def solve():
     substrate = PeriodicFFTElasticHalfSpace((n, n), 1.0, (1.0, 1.0))
     system = NonSmoothContactSystem(substrate, Topography(-gap, (1.0, 1.0), periodic=True))
-    result = system.minimize_proxy(external_force=pressure, pentol=tolerance * gap.std(), prestol=1e-9 * pressure,
+    result = system.minimize_proxy(external_force=pressure, pentol=tolerance * gap.std(),
                                    maxiter=20000)
     force = np.asarray(result.jac)
     return np.abs(force) * n * n

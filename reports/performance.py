@@ -1,0 +1,319 @@
+"""Run time and memory against error, what the goals were, where the time goes, and where each part holds.
+
+Everything is drawn from `reports/results/performance.json`, which `bem bench --json` appends to; nothing is timed here.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from bem.benchmarks.cases import CASES
+from bem.benchmarks.history import Run, compare, read_history
+from bem.benchmarks.measure import Point
+from bem.benchmarks.show import (
+    PAIR_GOALS,
+    PEER_HEADERS,
+    POINT_HEADERS,
+    SPLIT_HEADERS,
+    by_case,
+    peer_rows,
+    point_rows,
+    split_rows,
+    time_exponent,
+    work_precision,
+)
+from reports.builder import Page, Section, figure, table, text
+
+RESULTS = Path(__file__).resolve().parent / "results" / "performance.json"
+FEM_RESULTS = Path(__file__).resolve().parents[1] / "bem" / "verification" / "fem_results"
+
+GROUPS = (
+    (
+        "Dry contact of rough surfaces",
+        ("contact-periodic", "contact-free", "contact-semi-periodic", "contact-tolerance"),
+    ),
+    ("Capped and coated contact", ("contact-capped", "contact-layered")),
+    ("Contact with a closed form", ("hertz-sphere", "hertz-cylinder", "sinusoid")),
+    ("Stresses below the surface", ("stress", "stress-warm", "von-mises-warm")),
+    ("Line-contact film", ("line-film",)),
+    ("Load sharing and the Stribeck curve", ("load-sharing", "stribeck")),
+    ("A wear cycle", ("wear-cycle",)),
+    ("A tribofilm run", ("tribofilm",)),
+)
+
+NOTES_TIMES = {
+    "tamaas 2.9": {512: 1.79, 1024: 14.7, 2048: 121.0},
+    "ContactMechanics 1.8": {512: 2.1, 1024: 21.6, 2048: 200.0},
+    "slippy 0.5": {512: 0.94, 1024: 8.2, 2048: 66.8},
+    "ASPHER 0.1": {512: 0.26, 1024: 1.86, 2048: 12.8},
+}
+"""Processor times [s] of an earlier measurement on a quiet machine, to a residual near 1e-6; for orientation only."""
+
+LIMITS = (
+    (
+        "influence coefficients",
+        "cells 1e-6 to 1e6 long for wide; depths 0 to 1e6 cells; distances to 8000 cells",
+        "nu = 0.5 is refused (below it, by 1e-15, they hold)",
+    ),
+    (
+        "layered responses",
+        "moduli 1e-6 to 1e6 of the base, thickness 1e-6 to 1e6 wavelengths over 2 pi",
+        "no limit found",
+    ),
+    (
+        "layered coefficients",
+        "moduli 1e-6 to 1e6, thickness 1e-6 to 1e4 cells, free and semi-periodic",
+        "no limit found",
+    ),
+    (
+        "units",
+        "cells of 1e-300 to 1e30 m (stresses: 1e-30 to 1e30)",
+        "denormal pressures lose digits, as all numbers there do",
+    ),
+    (
+        "contact, load",
+        "twelve decades, one cell to beyond full contact, Hurst 0.1 to 1",
+        "status stalled where a mean pressure exceeds 1e9 times what "
+        "flattens the roughness: its round-off is all that is left",
+    ),
+    (
+        "contact, shape",
+        "spikes, steps, stairs, pits, prime grids, one cell",
+        "roughness of 1e-12 of the heights' offset: converged or stalled",
+    ),
+    (
+        "contact, cap",
+        "hardness 1e-6 to 1e3 of the mean elastic pressure, up to all cells capped",
+        "a load beyond hardness x area is refused at once",
+    ),
+    (
+        "contact, friction",
+        "|f| up to 1 with Dundurs' beta 0.5, all boundary conditions, elastic and capped",
+        "no limit found",
+    ),
+    (
+        "line-contact film",
+        "M 0.001 to 3000, L 0 to 5 everywhere; L 10 and 20 where a film exists",
+        "incompressible Roelands films cease to exist above L = 6 to 10: a status says so",
+    ),
+    ("film in time", "speed and load reversed within a period", "no limit found in the cases run"),
+    (
+        "load sharing",
+        "boundary to full film, speeds 1e-6 to 5 m/s, boundary friction 0 to 1, smooth surfaces",
+        "a patch shorter than the Hertz contact is refused",
+    ),
+    ("wear", "no cell, one cell, all cells yielding; stresses of 0 and 1e300", "no limit found"),
+    ("tribofilm", "0 to 400 degrees Celsius, with and without wear", "no limit found"),
+    (
+        "reproducibility",
+        "the same bits over processes, repeats and 1, 2, 3 threads",
+        "another processor or library version may round differently",
+    ),
+)
+"""Part, range that tests/stress holds, and what happens beyond."""
+
+
+def _find(run: Run, case: str, size: float, threads: int = 1) -> Point | None:
+    return next((p for p in run.points if (p.case, p.size, p.threads) == (case, size, threads)), None)
+
+
+def goal_rows(run: Run) -> list[tuple[Any, ...]]:
+    """(what, goal, measured, met) for every goal; None where it was not measured."""
+    rows: list[tuple[Any, ...]] = []
+
+    def add(what: str, goal: str, value: float | None, met: bool | None, words: str = "{:.3g}") -> None:
+        rows.append((what, goal, None if value is None else words.format(value), met))
+
+    for peer, cells, wanted in (("tamaas", 1024, 60), ("aspher", 1024, 8), ("tamaas", 2048, 80), ("aspher", 2048, 10)):
+        row = next((r for r in run.peers if (r["peer"], r["cells"]) == (peer, cells)), None)
+        ratio = None if row is None else float(row["ratio"])
+        add(f"times faster than {peer}, {cells}", f">= {wanted}", ratio, None if ratio is None else ratio >= wanted)
+    for cells, pairs in PAIR_GOALS.items():
+        point = _find(run, "contact-periodic", cells)
+        value = None if point is None else point.counts["convolutions"]
+        add(
+            f"convolutions to 1e-8, periodic {cells}", f"<= {pairs:g}", value, None if value is None else value <= pairs
+        )
+        free = _find(run, "contact-free", cells)
+        value = None if free is None else free.counts["convolutions"]
+        add(f"convolutions to 1e-8, free {cells}", f"<= {pairs:g}", value, None if value is None else value <= pairs)
+    one, two = _find(run, "contact-periodic", 2048), _find(run, "contact-periodic", 2048, 2)
+    gain = None if one is None or two is None else one.wall_median / two.wall_median
+    add("two threads over one, 2048 (wall time)", ">= 1.6", gain, None if gain is None else gain >= 1.6)
+    largest = _find(run, "contact-periodic", 4096)
+    memory = None if largest is None else largest.memory / 2**30
+    add("memory of 4096 x 4096, GiB", "<= 3", memory, None if memory is None else memory <= 3)
+    for case, limit in (("stress-warm", 0.4), ("von-mises-warm", 0.4)):
+        point = _find(run, case, 256)
+        value = None if point is None else point.cpu_median
+        add(f"{CASES[case].title}, 256 x 256 x 64, s", f"<= {limit}", value, None if value is None else value <= limit)
+    point = _find(run, "stress-warm", 256)
+    value = None if point is None else point.memory / 2**30
+    what = "memory of 256 x 256 x 64 stresses, result and kernels, GiB"
+    add(what, "<= 0.5", value, None if value is None else value <= 0.5)
+    point = _find(run, "wear-cycle", 64)
+    value = None if point is None else 1e3 * point.cpu_median
+    add("wear cycle 240 x 240 x 64, ms", "<= 50", value, None if value is None else value <= 50)
+    return rows
+
+
+def finite_elements() -> list[dict[str, Any]]:
+    """Stored finite-element spheres: unknowns, seconds, and errors against Hertz where the body is uncoated."""
+    rows = []
+    for path in sorted(FEM_RESULTS.glob("contact-sphere-*.json")):
+        data = json.loads(path.read_text())
+        levels = data["mesh"]["levels"]
+        row: dict[str, Any] = {
+            "case": data["case"],
+            "unknowns": sum(level["dofs"] for level in levels),
+            "finest": levels[-1]["dofs"],
+            "seconds": data["time_s"],
+        }
+        for quantity in data["quantities"]:
+            if quantity["name"] in ("central_pressure", "approach", "contact_radius"):
+                value, bar = quantity["values"][-1], quantity["error_bar"][-1]
+                row[quantity["name"]] = abs(value - 1) if data["case"].endswith("plain") else bar
+                row[quantity["name"] + "_bar"] = bar
+        rows.append(row)
+    return rows
+
+
+def _finite_element_section(run: Run) -> Section:
+    words = text(
+        "The same sphere on a half-space, by finite elements and by boundary elements. The finite-element problem is "
+        "axisymmetric, two-dimensional, graded towards the edge of contact, and solves five loads on three meshes for "
+        "its error bar; the time is that of all of them. The boundary elements solve the three-dimensional problem, "
+        "which would also take a surface that is not round."
+    )
+    rows: list[tuple[Any, ...]] = []
+    for row in finite_elements():
+        rows.append(
+            (
+                "finite elements: " + row["case"],
+                row["finest"],
+                float(row["seconds"]),
+                row.get("central_pressure"),
+                row.get("approach"),
+                row.get("contact_radius"),
+            )
+        )
+    for point in by_case(run).get("hertz-sphere", []):
+        rows.append(
+            (
+                f"boundary elements, {point.size:g} cells a side",
+                int(point.values["unknowns"]),
+                point.cpu_median,
+                point.errors["maximum_pressure"],
+                point.errors["approach"],
+                point.errors["contact_radius"],
+            )
+        )
+    headers = ("method", "unknowns", "s", "error of the largest pressure", "of the approach", "of the radius")
+    caption = (
+        "Errors against Hertz; of coated spheres, which have no closed form, the finite elements' own error bar. Time: "
+        "processor time; of finite elements for the whole case."
+    )
+    return Section("What boundary elements save", words + table(headers, rows, caption=caption))
+
+
+def build() -> Page:
+    """The page, from the last run of the stored history."""
+    runs = read_history(RESULTS)
+    if not runs:
+        missing = text("No run is stored yet: bem bench --json reports/results/performance.json makes one.")
+        return Page("performance", "Run time against error", "Nothing measured yet.", [Section("Nothing yet", missing)])
+    run = runs[-1]
+    sections = [
+        Section(
+            "Goals and what was measured",
+            text(
+                "Times are processor times of one thread unless said otherwise: medians of repeats, after kernels and "
+                "plans are made. Where a column is empty the point was not part of the run."
+            )
+            + table(("goal", "wanted", "measured", ""), goal_rows(run)),
+        )
+    ]
+    for title, names in GROUPS:
+        if any(p.case in names for p in run.points):
+            drawing = work_precision(run, names, title)
+            exponents = [
+                (CASES[name].title, time_exponent(points), CASES[name].size_name)
+                for name, points in by_case(run).items()
+                if name in names and len(points) > 1
+            ]
+            caption = f"{title}: error over processor time and memory; numbers are sizes, bars the extremes."
+            body = figure(drawing, caption)
+            if exponents:
+                body += table(("case", "time grows with size to the power", "size"), exponents)
+            sections.append(Section(title, body))
+    sections.append(_finite_element_section(run))
+    if run.peers:
+        sections.append(
+            Section(
+                "Beside other codes",
+                text(
+                    "The same surface in the same run. Each code's residual is recomputed from its pressure by one "
+                    "routine (sum p |g| / sum p over the rms height); bem is timed at the first tolerance whose "
+                    "pressure is at least as good."
+                )
+                + table(PEER_HEADERS, peer_rows(run)),
+            )
+        )
+    notes = [(name, *(times.get(n) for n in (512, 1024, 2048))) for name, times in NOTES_TIMES.items()]
+    mine = [_find(run, "contact-periodic", n) for n in (512, 1024, 2048)]
+    notes.append(("bem, this run, to 1e-8", *(None if p is None else p.cpu_median for p in mine)))
+    sections.append(
+        Section(
+            "Earlier measurement of the peers",
+            table(("code, s", "512", "1024", "2048"), notes, caption="On a quiet machine, to a residual near 1e-6."),
+        )
+    )
+    sections.append(Section("Where the time goes", _split(run)))
+    sections.append(Section("All points", table(POINT_HEADERS, point_rows(run))))
+    sections.append(
+        Section(
+            "Where each part holds",
+            text("Held by tests/stress; beyond these ranges the answer is a status or an error, never a wrong number.")
+            + table(("part", "holds", "beyond"), LIMITS),
+        )
+    )
+    if len(runs) > 1:
+        sections.append(Section("Since the run before", _changes(runs[-2], run)))
+    facts = {"commit": run.commit, "measured": run.date} | {f"measured on: {k}": v for k, v in run.machine.items()}
+    facts["measured with"] = ", ".join(f"{name} {number}" for name, number in run.versions.items())
+    lead = "Error against run time and memory, goals beside what was measured, other codes, and where each part holds."
+    return Page("performance", "Run time against error", lead, sections, facts)
+
+
+def _split(run: Run) -> str:
+    body = text(
+        "Processor time of one solve of the largest size, by counters around transforms (with their products), "
+        "elementwise passes, preconditioner and segmentation. The floor is as many float32 pairs of transforms as "
+        "there were convolutions, with FFTW's measured plans and nothing else."
+    )
+    body += table(SPLIT_HEADERS, split_rows(run))
+    if run.floor is not None:
+        pairs = [(key, 1e3 * value) for key, value in run.floor.pairs.items()]
+        body += table(("cells - bits - threads", "FFTW pair, ms"), pairs, caption="Floor of this machine.")
+        body += text(f"Memory bandwidth of a copy, one thread: {run.floor.bandwidth / 1e9:.3g} GB/s.")
+    return body
+
+
+def _changes(old: Run, new: Run) -> str:
+    rows = [
+        (
+            c.case,
+            f"{c.size:g}",
+            c.threads,
+            1e3 * c.before,
+            1e3 * c.after,
+            c.ratio,
+            "clear" if c.clear else "within noise",
+        )
+        for c in compare(old, new)
+    ]
+    return text(f"{old.commit} ({old.date}) to {new.commit} ({new.date}).") + table(
+        ("case", "size", "threads", "before ms", "after ms", "ratio", ""), rows
+    )

@@ -1,0 +1,171 @@
+"""The harness: points, history, comparison, the common residual. Figures themselves are never asserted here."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from bem import InputError, ResultsError, displacement_operator, solve_contact
+from bem.benchmarks.cases import CASES, UNIT, common_residual, rough_gap
+from bem.benchmarks.floor import Floor, bandwidth, transform_pair
+from bem.benchmarks.history import append_run, compare, find_run, new_run, read_history
+from bem.benchmarks.measure import Point, growth, measure, measure_apart, watched
+from bem.benchmarks.run import check_names, sizes_of
+from bem.grid import Grid
+
+
+def point(**change):
+    settings = {
+        "case": "contact-periodic",
+        "size": 256,
+        "threads": 1,
+        "first_cpu": 0.1,
+        "cpu": (0.010, 0.011, 0.012),
+        "wall": (0.01, 0.01, 0.01),
+        "memory": 1e6,
+        "errors": {"residual": 1e-9},
+        "counts": {"convolutions": 30.0},
+        "values": {},
+        "split": {"whole": 0.01},
+    }
+    return Point(**(settings | change))
+
+
+@pytest.mark.parametrize(
+    "name", ["contact-periodic", "hertz-sphere", "hertz-cylinder", "sinusoid", "stress", "von-mises-warm"]
+)
+def test_a_point_of_a_case(name):
+    case = CASES[name]
+    found = measure(name, case.warm_size, 1, case.prepare, 2)
+    assert len(found.cpu) == len(found.wall) == 2
+    assert min(found.cpu) > 0
+    assert 0 <= found.error < 0.1
+    # counters are read one after another: what they found is part of the whole, up to the clock's tick
+    assert sum(v for k, v in found.split.items() if k != "whole") <= found.split["whole"] + 1e-3
+    assert found.split["transforms"] > 0
+
+
+def test_errors_of_closed_forms_fall_with_the_mesh():
+    for name in ("hertz-sphere", "hertz-cylinder", "sinusoid"):
+        coarse, fine = (measure(name, n, 1, CASES[name].prepare, 1).error for n in (32, 128))
+        assert fine < 0.4 * coarse
+
+
+def test_counters_leave_no_trace():
+    from bem.contact import passes
+    from bem.transforms import PaddedTransform
+
+    before = PaddedTransform.convolve, passes.moments
+    with watched():
+        assert PaddedTransform.convolve is not before[0]
+    with pytest.raises(ZeroDivisionError), watched():
+        _ = 1 / 0
+    assert (PaddedTransform.convolve, passes.moments) == before
+
+
+def test_a_point_in_a_process_of_its_own_and_a_failure_that_says_why():
+    found = measure_apart("sinusoid", 32, 1, 1)
+    assert found.memory >= 0
+    assert found.counts["convolutions"] > 0
+    with pytest.raises(RuntimeError, match="KeyError"):
+        measure_apart("no-such-case", 32, 1, 1)
+
+
+def test_the_common_residual_sees_what_is_wrong_with_a_pressure():
+    gap = rough_gap(64)
+    operator = displacement_operator(Grid((64, 64), (1 / 64, 1 / 64), periodic=(True, True)), UNIT)
+    exact = solve_contact(gap, operator, load=0.0035, tolerance=1e-10).pressure
+    rough = solve_contact(gap, operator, load=0.0035, tolerance=1e-3).pressure
+    fine, coarse = common_residual(exact, gap, operator), common_residual(rough, gap, operator)
+    assert max(fine) < 1e-9
+    assert coarse[1] < 2e-3
+    assert coarse[1] > 10 * fine[1]
+    wrong = np.roll(exact, 3, axis=0)
+    assert min(common_residual(wrong, gap, operator)) > 1e-3
+    # a factor of the units changes nothing
+    assert common_residual(exact, gap, operator) == pytest.approx(
+        common_residual(4 * exact, 4 * gap, operator), rel=1e-6
+    )
+
+
+def test_history_is_appended_read_back_and_compared(tmp_path):
+    path = tmp_path / "history.json"
+    assert read_history(path) == []
+    old = dataclasses.replace(new_run([point()], Floor({"256-64-1": 1e-3}, 1e10)), commit="aaaa111")
+    faster = point(cpu=(0.005, 0.0051, 0.0052), counts={"convolutions": 25.0})
+    new = dataclasses.replace(new_run([faster, point(size=512)]), commit="bbbb222")
+    append_run(path, old)
+    append_run(path, new)
+    runs = read_history(path)
+    assert runs == [old, new]
+    assert find_run(runs, "aaaa") == old
+    assert find_run(runs, "-1") == new
+    (change,) = compare(find_run(runs, "-2"), find_run(runs, "bbbb222"))
+    assert change.clear
+    assert change.ratio == pytest.approx(0.0051 / 0.011)
+    assert change.counts == {"convolutions": (30.0, 25.0)}
+    with pytest.raises(InputError, match="aaaa111, bbbb222"):
+        find_run(runs, "cccc")
+    path.write_text("{}")
+    with pytest.raises(ResultsError, match="not a history"):
+        read_history(path)
+
+
+def test_within_the_spread_a_change_is_not_clear():
+    (change,) = compare(new_run([point()]), new_run([point(cpu=(0.0105, 0.0112, 0.0118))]))
+    assert not change.clear
+
+
+def test_names_and_sizes():
+    assert check_names(None) == list(CASES)
+    with pytest.raises(InputError, match="nearest: line-film"):
+        check_names(["line-flim"])
+    case = CASES["contact-periodic"]
+    assert sizes_of(case, quick=False, sizes=None, limit=512) == (256, 512)
+    assert sizes_of(case, quick=True, sizes=None, limit=512) == case.quick
+    assert sizes_of(case, quick=False, sizes=[64], limit=512) == (64,)
+
+
+def test_growth_is_the_exponent_of_a_power_law():
+    assert growth([1, 2, 4], [3, 12, 48]) == pytest.approx(2)
+    assert math.isnan(growth([1], [1]))
+
+
+def test_the_floor_is_positive():
+    assert transform_pair(32, 32, 1) > 0
+    assert bandwidth() > 1e8
+
+
+def test_the_report_is_built_from_a_history(tmp_path, monkeypatch):
+    import reports.performance as report
+
+    monkeypatch.setattr(report, "RESULTS", tmp_path / "none.json")
+    assert "bem bench" in report.build().sections[0].body
+    append_run(
+        tmp_path / "some.json",
+        new_run(
+            [
+                point(),
+                point(size=512),
+                point(
+                    case="hertz-sphere",
+                    size=64,
+                    errors={
+                        "mean_pressure_error": 1e-3,
+                        "maximum_pressure": 1e-3,
+                        "approach": 1e-4,
+                        "contact_radius": 1e-3,
+                    },
+                    values={"unknowns": 4096.0},
+                ),
+            ]
+        ),
+    )
+    monkeypatch.setattr(report, "RESULTS", tmp_path / "some.json")
+    page = report.build()
+    titles = [section.title for section in page.sections]
+    assert "Goals and what was measured" in titles
+    assert "Where each part holds" in titles
+    assert "Dry contact of rough surfaces" in titles
+    assert len(report.finite_elements()) >= 1

@@ -1,0 +1,66 @@
+"""The same bits over threads, over processes, and over repeats: contact, stresses, a wear loop."""
+
+import hashlib
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from bem import Body, Grid, Material, displacement_operator, generate_surface, solve_contact, subsurface_stress
+from bem.threads import get_threads, set_threads
+
+CODE = """
+import hashlib, numpy as np
+from bem import Body, Grid, Material, displacement_operator, generate_surface, run_in, solve_contact, subsurface_stress
+from bem.threads import set_threads
+import sys
+set_threads(int(sys.argv[1]))
+digest = hashlib.sha256()
+steel = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9))
+soft = Body(Material("soft", youngs_modulus=70e9, poissons_ratio=0.2))
+for shape, periodic in (((144, 131), (True, True)), ((97, 128), (False, True)), ((113, 120), (False, False))):
+    grid = Grid(shape, (1e-7, 1e-7), periodic=periodic)
+    gap = -generate_surface(grid, rms_height=4e-8, correlation_length=8e-7, seed=3)
+    operator = displacement_operator(grid, (steel, soft), friction=0.3)
+    solution = solve_contact(gap, operator, load=5e-3, hardness=1.8e9)
+    digest.update(solution.pressure.tobytes())
+    digest.update(subsurface_stress(solution.pressure, grid, steel, [1e-7, 4e-7], friction=0.3).tobytes())
+grid = Grid((48, 40), (1e-7, 1e-7), periodic=(False, True))
+lower = generate_surface(grid, rms_height=1e-7, correlation_length=4e-7, seed=1)
+upper = generate_surface(grid, rms_height=3e-8, correlation_length=4e-7, seed=2)
+settings = {"grid": grid, "bodies": (steel, steel), "load": 2e-3, "depths": np.arange(12) * 95e-9, "friction": 0.16}
+run = run_in(lower, upper, cycles=4, **settings)
+digest.update(run.lower_heights.tobytes())
+print(digest.hexdigest())
+"""
+
+
+def bits(threads):
+    done = subprocess.run([sys.executable, "-c", CODE, str(threads)], capture_output=True, text=True, check=True)
+    return done.stdout.strip()
+
+
+@pytest.mark.slow
+def test_the_same_bits_in_every_process_and_for_every_number_of_threads():
+    first = bits(1)
+    assert len(first) == 64
+    assert bits(3) == first
+
+
+def test_the_same_bits_within_a_process_over_threads_and_repeats():
+    body = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
+    grid = Grid((160, 150), (1e-7, 1e-7), periodic=(False, True))
+    gap = -generate_surface(grid, rms_height=4e-8, correlation_length=8e-7, seed=3)
+    operator = displacement_operator(grid, body)
+    before, digests = get_threads(), set()
+    try:
+        for threads in (1, 2, 3, 1):
+            set_threads(threads)
+            solution = solve_contact(gap, operator, load=5e-3)
+            stress = subsurface_stress(solution.pressure, grid, body, [1e-7, 5e-7], friction=0.2)
+            digests.add(hashlib.sha256(solution.pressure.tobytes() + stress.tobytes()).hexdigest())
+    finally:
+        set_threads(before)
+    assert len(digests) == 1
+    assert np.isfinite(solution.residual)
