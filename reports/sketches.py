@@ -71,10 +71,10 @@ def _direction(case: StoredCase) -> str:
 
 def _axes(ax: Any) -> None:
     style = {"arrowstyle": "->", "lw": 0.8, "shrinkA": 0, "shrinkB": 0}
-    ax.annotate("", (-1.8, 1.6), (-2.6, 1.6), arrowprops=style)
-    ax.annotate("", (-2.6, 0.8), (-2.6, 1.6), arrowprops=style)
-    ax.text(-1.75, 1.55, "x", fontsize=7)
-    ax.text(-2.55, 0.62, "z", fontsize=7)
+    ax.annotate("", (2.5, -1.75), (1.8, -1.75), arrowprops=style)
+    ax.annotate("", (1.8, -2.35), (1.8, -1.75), arrowprops=style)
+    ax.text(2.55, -1.82, "x", fontsize=7)
+    ax.text(1.87, -2.35, "z", fontsize=7)
 
 
 def _arrows(ax: Any, x: Any, heights: Any, load: str, *, base: float) -> None:

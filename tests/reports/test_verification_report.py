@@ -1,0 +1,90 @@
+"""The verification report: every case is there, every picture shows."""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+
+from bem.verification import registry
+from reports import builder, verification
+
+FEW = ("disc-hertz-soft", "harmonic-antiplane-soft", "contact-row-plain", "oblique-wave", "refinement-strip-normal")
+
+
+@pytest.fixture(scope="module")
+def few_gates():
+    return [gate for gate in registry.gates() if gate.name in FEW]
+
+
+@pytest.fixture(scope="module")
+def page(few_gates):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(registry, "gates", lambda: few_gates)
+        return verification.build()
+
+
+def test_every_gate_has_a_section_with_figure_and_table(page, few_gates):
+    bodies = {section.title: section.body for section in page.sections}
+    for gate in few_gates:
+        assert "data:image/png" in bodies[gate.name]
+        assert "<table>" in bodies[gate.name]
+        assert 'class="fail"' not in bodies[gate.name]
+
+
+def test_rows_that_fail_are_said_first(few_gates, monkeypatch):
+    import dataclasses
+
+    (gate,) = [g for g in few_gates if g.name == "oblique-wave"]
+    broken = dataclasses.replace(
+        gate, curves=lambda: [dataclasses.replace(curve, bem=1.01 * curve.bem) for curve in gate.curves()]
+    )
+    monkeypatch.setattr(registry, "gates", lambda: [broken])
+    page = verification.build()
+    assert "NOT within tolerance" in page.lead
+    assert page.sections[0].title == "Verdict"
+    assert "FAILED" in page.sections[0].body
+
+
+def look(browser, html_page, tmp_path):
+    """The page as a browser sees it, every picture marked with its width."""
+    script = (
+        "<script>window.onload = () => document.querySelectorAll('img').forEach("
+        "picture => picture.setAttribute('data-width', picture.naturalWidth))</script>"
+    )
+    path = tmp_path / "page.html"
+    path.write_text(html_page.replace("</body>", script + "</body>"), encoding="utf-8")
+    done = subprocess.run(
+        [
+            browser,
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-background-networking",
+            f"--user-data-dir={tmp_path / 'profile'}",
+            "--virtual-time-budget=10000",
+            "--dump-dom",
+            path.as_uri(),
+        ],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=120,
+    )
+    return done.stdout
+
+
+@pytest.mark.browser
+def test_a_browser_shows_every_case_and_no_broken_picture(page, few_gates, tmp_path):
+    browser = next((b for b in map(shutil.which, ("chromium", "google-chrome", "chromium-browser")) if b), None)
+    if browser is None:
+        pytest.skip("no chromium")
+    seen = look(browser, builder.render(page, [page]), tmp_path)
+    for gate in few_gates:
+        assert f'id="{builder.Section(gate.name, "").anchor}"' in seen
+    widths = [int(width) for width in re.findall(r'data-width="(\d+)"', seen)]
+    assert len(widths) == seen.count("<img ")
+    assert len(widths) > len(few_gates)  # and the elastic-plastic one
+    assert min(widths) > 500
+    # no link inside the page leads nowhere
+    assert set(re.findall(r'href="#([^"]+)"', seen)) <= set(re.findall(r'id="([^"]+)"', seen))

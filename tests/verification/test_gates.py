@@ -1,0 +1,131 @@
+"""The gates themselves: nothing stored goes uncompared, rows mean what they say, the command line obeys."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from bem.cli import build
+from bem.errors import InputError, ResultsError
+from bem.verification import patches, registry, rows, stored
+from bem.verification.rows import Curve, Gate
+
+KEYS = {"case", "quantity", "bem", "reference", "error_bar", "difference", "tolerance", "passed"}
+
+
+def a_curve(values, reference, *, allowance=1e-3, bar=0.0, quantity="stress_xx"):
+    points = np.column_stack([np.arange(len(values)), np.zeros((len(values), 2))])
+    bars = np.full(len(values), bar)
+    return Curve(quantity, "axis", "p", points, np.array(values), np.array(reference), bars, allowance, "reason")
+
+
+def test_every_stored_case_is_compared_or_reported():
+    problems = {case.problem for case in stored.cases()}
+    assert problems <= set(registry.FAMILIES) | set(registry.REPORTED)
+    names = [gate.name for gate in registry.gates()]
+    assert len(names) == len(set(names))
+    assert {case.name for case in stored.cases() if case.problem in registry.FAMILIES} <= set(names)
+
+
+def test_the_worst_point_makes_the_row():
+    (row,) = rows.judge("c", [a_curve([1.0, -4.0, 2.002], [1.001, -4.0, 2.0])])
+    assert (row.bem, row.reference) == (2.002, 2.0)
+    assert row.difference == pytest.approx(0.002 / 4)
+    assert row.passed
+    (row,) = rows.judge("c", [a_curve([1.0, -4.0, 2.008], [1.001, -4.0, 2.0])])
+    assert row.difference == pytest.approx(0.002)
+    assert not row.passed
+
+
+def test_curves_of_one_name_share_a_row_and_their_largest_value():
+    found = rows.judge("c", [a_curve([10.0], [10.0]), a_curve([0.1], [0.105])])
+    assert len(found) == 1
+    assert found[0].difference == pytest.approx(0.005 / 10)
+
+
+def test_error_bars_widen_a_tolerance_but_not_without_end():
+    (row,) = rows.judge("c", [a_curve([1.0], [1.0], bar=2e-3)])
+    assert row.tolerance == pytest.approx(3e-3)
+    (row,) = rows.judge("c", [a_curve([1.0], [1.0], bar=0.5)])
+    assert row.tolerance == rows.STRESS_LIMIT
+    (row,) = rows.judge("c", [a_curve([1.0], [1.0], bar=0.5, quantity="approach")])
+    assert row.tolerance == rows.DISPLACEMENT_LIMIT
+
+
+def test_a_figure_that_is_not_a_number_fails():
+    (row,) = rows.judge("c", [a_curve([1.0, math.nan], [1.0, 1.0])])
+    assert not row.passed
+
+
+@pytest.mark.parametrize("profile", ["uniform", "hertz"])
+def test_cells_carry_the_whole_load(profile):
+    where = patches.free_grid(0.07, (-1.0, 1.0), (-1.0, 1.0))
+    means = patches.disc_means(where, profile)
+    total = means.sum() * 0.07**2
+    expected = math.pi if profile == "uniform" else 2 * math.pi / 3
+    assert total == pytest.approx(expected, rel=1e-5)  # Gauss points on columns cut at the circle
+    assert means[where.origin] == pytest.approx(1.0, rel=1e-3)  # the Hertz mean of a cell is below its middle
+
+
+def test_points_that_are_no_middles_are_refused():
+    where = patches.free_grid(0.1, (-1.0, 1.0), (-1.0, 1.0))
+    with pytest.raises(ValueError, match="not all centres"):
+        where.at(np.array([0.05]), np.array([0.0]))
+
+
+def test_unknown_cases_name_the_nearest():
+    with pytest.raises(InputError, match=r"disc-hertz-sof.*did you mean disc-hertz-soft"):
+        registry.select(["disc-hertz-sof"])
+
+
+def test_a_missing_result_is_an_error():
+    with pytest.raises(ResultsError, match="no-such-case"):
+        stored.read("no-such-case")
+
+
+def run(*arguments):
+    return CliRunner().invoke(build(), ["verify", *arguments])
+
+
+def test_list_names_gates(capsys):
+    done = run("--list", "--case", "harmonic-*")
+    assert done.exit_code == 0
+    assert "harmonic-normal-soft" in done.output
+    assert "strip-normal" not in done.output
+
+
+def test_json_has_the_promised_keys(tmp_path):
+    path = tmp_path / "rows.json"
+    done = run("--case", "oblique-wave", "--json", str(path))
+    assert done.exit_code == 0
+    found = json.loads(path.read_text())
+    assert len(found) > 10
+    assert all(set(row) == KEYS and row["passed"] is True for row in found)
+    assert all(row["difference"] <= row["tolerance"] for row in found)
+
+
+def test_a_failing_gate_ends_with_exit_code_one(monkeypatch, tmp_path):
+    bad = Gate("bad", "test", "One is two.", lambda: [a_curve([1.0, math.nan], [2.0, 1.0])])
+    monkeypatch.setattr(registry, "select", lambda patterns: [bad])
+    path = tmp_path / "rows.json"
+    done = run("--json", str(path))
+    assert done.exit_code == 1
+    assert "FAIL" in done.output
+    assert json.loads(path.read_text())[0]["passed"] is False
+
+
+@pytest.mark.parametrize("name", ["disc-uniform", "strip-tangential", "harmonic-antiplane-soft", "contact-row-plain"])
+def test_quick_gates_pass(name):
+    (gate,) = registry.select([name])
+    assert [row for row in gate.run() if not row.passed] == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [gate.name for gate in registry.gates()])
+def test_every_gate_passes(name):
+    (gate,) = registry.select([name])
+    found = gate.run()
+    assert found
+    assert [row for row in found if not row.passed] == []
