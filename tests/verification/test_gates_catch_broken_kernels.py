@@ -1,4 +1,7 @@
-"""A kernel that is off by one per cent, or has a sign turned, does not get through the gates."""
+"""A kernel that is off by one per cent, or has a sign turned, does not get through the gates.
+
+That healthy kernels do is tested in `test_gates.py`.
+"""
 
 import importlib
 
@@ -124,7 +127,6 @@ OTHERS = [
 ]
 ALL = [*SURFACE, *STRESSES, *PLANE, *ACROSS, *WAVES, *OTHERS]
 QUICK = [SURFACE[0], SURFACE[3], SURFACE[8], STRESSES[4], STRESSES[11], PLANE[0], WAVES[3]]
-GATES = sorted({gate for *_, gate in ALL})
 
 
 def label(mutant):
@@ -149,10 +151,3 @@ def test_some_broken_kernels_are_caught(monkeypatch, mutant, factor):
 @pytest.mark.parametrize("mutant", ALL, ids=label)
 def test_every_broken_kernel_is_caught(monkeypatch, mutant, factor):
     check_caught(monkeypatch, mutant, factor)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("gate", GATES)
-def test_healthy_kernels_pass(gate):
-    """Without this the tests above could be right for the wrong reason."""
-    assert passes(gate)
