@@ -74,6 +74,11 @@ def draw(
             with replacing(path) as temporary:
                 figure.savefig(temporary, format=ending)
             paths.append(path)
+        if kind.animate is not None:
+            path = folder / f"{kind.name}.gif"
+            with replacing(path) as temporary:
+                kind.animate(run, temporary)
+            paths.append(path)
     return Drawn(kind, tuple(paths))
 
 

@@ -12,6 +12,7 @@ import importlib
 import pkgutil
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 
@@ -31,6 +32,7 @@ class FigureKind:
     draw : draw(run, figure).
     size : width and height [inch].
     applies : applies(run) -> whether there is anything to show.
+    animate : animate(run, path) writes an animated GIF beside the figure; None for most.
     """
 
     name: str
@@ -39,6 +41,7 @@ class FigureKind:
     draw: Callable[[Any, Any], None]
     size: tuple[float, float] = (5.0, 4.0)
     applies: Callable[[Any], bool] = _always
+    animate: Callable[[Any, Path], None] | None = None
 
     def fits(self, run: Any) -> bool:
         """Whether this figure can be drawn from `run`."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, prefix
+from bem.plots.style import BLACK, BLUE, GREEN, OPEN, ORANGE, PINK, SEQUENTIAL, SKY, VERMILION, label, prefix
 
 _COLOURS = (BLUE, VERMILION, GREEN, ORANGE, SKY, PINK, BLACK) * 9
 _MODEL_NAMES = {
@@ -217,7 +218,8 @@ def _run_groups(run: Any) -> list[tuple[str, list[int]]]:
         ", ".join(([f"{s:g} m/s"] if differ_speed else []) + ([f"{h / 1e9:.3g} GPa"] if differ_hardness else []))
         for s, h in zip(speeds, hardness, strict=True)
     ]
-    return [(name, [i for i, other in enumerate(names) if other == name]) for name in dict.fromkeys(names)]
+    names_in_order = [names[i] for i in np.lexsort((hardness, speeds))]
+    return [(name, [i for i, other in enumerate(names) if other == name]) for name in dict.fromkeys(names_in_order)]
 
 
 def _cycles(name: str, text: str) -> Any:
@@ -270,30 +272,72 @@ def _over_hardness(run: Any, figure: Figure) -> None:
     axes.legend()
 
 
-def _frames(run: Any, figure: Figure) -> None:
-    """Pressure in the strip in contact at six of the cycles that were kept."""
+def _touched_strip(run: Any) -> tuple[Array, tuple[float, float, float, float], float]:
+    """Pressure of the kept cycles [MPa] (frame, y, x) where the surfaces ever touch, its extent [um], its maximum.
+
+    Contacts are a few cells each: every pixel shows the largest pressure of the cells around it.
+    """
+    from scipy.ndimage import grey_dilation
+
     data = run.dataset
     x, y = data["x"].values * 1e6, data["y"].values * 1e6
-    frames, cycles = data["pressure_frames"].values, data["frame"].values
+    frames = data["pressure_frames"].values * 1e-6
     touched = np.flatnonzero((frames > 0).any(axis=(0, 2)))
     low, high = (touched[0], touched[-1] + 1) if touched.size else (0, len(x))
-    shown = np.unique(np.linspace(0, len(frames) - 1, min(6, len(frames))).round().astype(int))
-    vmax = float(frames.max()) * 1e-6 or 1.0
+    strip = np.array([grey_dilation(f[low:high].T, size=3) for f in frames])
+    return strip, (x[low], x[high - 1], y[0], y[-1]), float(frames.max()) or 1.0
+
+
+def _frames(run: Any, figure: Figure) -> None:
+    """Pressure in the strip in contact at five of the cycles that were kept."""
+    frames, extent, highest = _touched_strip(run)
+    cycles = run.dataset["frame"].values
+    shown = np.unique(np.geomspace(1, len(frames), min(5, len(frames))).round().astype(int)) - 1
     many = figure.subplots(1, len(shown), sharey=True, squeeze=False)[0]
     for axes, index in zip(many, shown, strict=True):
-        part = frames[index, low:high].T * 1e-6
-        image = axes.imshow(
-            np.where(part > 0, part, np.nan),
-            extent=(x[low], x[high - 1], y[0], y[-1]),
-            aspect="equal",
-            cmap="viridis_r",
-            vmin=0,
-            vmax=vmax,
-        )
-        axes.set_title(f"cycle {int(cycles[index])}", fontsize=8)
+        image = _pressure_image(axes, frames[index], extent, highest)
+        axes.set_title(f"cycle {int(cycles[index])}")
         axes.set_xlabel("x (µm)")
     many[0].set_ylabel("y (µm)")
-    figure.colorbar(image, ax=list(many), label="contact pressure (MPa)", shrink=0.6)
+    figure.colorbar(image, ax=list(many), label="contact pressure (MPa)")
+
+
+def _pressure_image(axes: Axes, values: Array, extent: tuple[float, float, float, float], highest: float) -> Any:
+    axes.set_facecolor(OPEN)
+    shown = np.where(values > 0, values, np.nan)
+    return axes.imshow(shown, extent=extent, aspect="equal", cmap=SEQUENTIAL, vmin=0, vmax=highest)
+
+
+def _animate(run: Any, path: Path) -> None:
+    """Pressure over the cycles, beside the friction up to then."""
+    from matplotlib.animation import FuncAnimation, PillowWriter
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    frames, extent, highest = _touched_strip(run)
+    cycles, friction = run.dataset["frame"].values, run.dataset["friction_over_cycles"].values[0]
+    figure = Figure(figsize=(6.4, 3.6), layout="constrained")
+    FigureCanvasAgg(figure)
+    left, right = figure.subplots(1, 2, width_ratios=(2, 3))
+    image = _pressure_image(left, frames[0], extent, highest)
+    left.set_xlabel("x (µm)")
+    left.set_ylabel("y (µm)")
+    figure.colorbar(image, ax=left, label="contact pressure (MPa)")
+    right.plot(run.dataset["cycle"].values, friction, color="0.85")
+    (line,) = right.plot([], [], color=BLUE)
+    right.set_xlabel("cycle")
+    right.set_ylabel("coefficient of friction")
+    right.set_ylim(0)
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+
+    def show(index: int) -> tuple[Any, ...]:
+        image.set_data(np.where(frames[index] > 0, frames[index], np.nan))
+        line.set_data(np.arange(1, cycles[index] + 1), friction[: int(cycles[index])])
+        left.set_title(f"cycle {int(cycles[index])}")
+        return image, line
+
+    animation = FuncAnimation(figure, show, frames=len(frames), init_func=lambda: ())
+    animation.save(str(path), writer=PillowWriter(fps=4), dpi=110)
 
 
 def _asperity_loads(run: Any, figure: Figure) -> None:
@@ -419,8 +463,9 @@ FIGURES = (
     FigureKind(
         "running-in-frames",
         "Contact pressure of the first run at some of its cycles, in the strip where the surfaces touch.",
-        ("pressure_frames", "frame", "x", "y"),
+        ("pressure_frames", "frame", "x", "y", "friction_over_cycles"),
         _frames,
-        (8.4, 2.8),
+        (8.4, 3.0),
+        animate=_animate,
     ),
 )
