@@ -199,12 +199,14 @@ def _provenance(case: stored.StoredCase) -> str:
 
 def _groups(curves: Sequence[Curve], count: int) -> list[list[Curve]]:
     """Up to `count` panels: curves over the same points, displacements and lengths first, the fullest first."""
-    panels: dict[tuple[bool, str], list[Curve]] = {}
+    panels: dict[tuple[bool, str, str], list[Curve]] = {}
     for curve in curves:
         stress = curve.quantity.startswith(("stress", "von_mises"))
         along = re.sub(r" \((layer|substrate)\)$", "", curve.along)
         if len(curve.bem) > 1:
-            panels.setdefault((stress, along), []).append(curve)
+            # figures in SI differ by orders of magnitude, scaled ones do not
+            unit = curve.unit if curve.unit in ("m", "Pa") else ""
+            panels.setdefault((stress, along, unit), []).append(curve)
     soft = sorted((k for k in panels if not k[0]), key=lambda k: (k[1] != "q h", -len(panels[k])))
     hard = sorted((k for k in panels if k[0]), key=lambda k: (not _is_line(panels[k]), -len(panels[k])))
     take_soft = min(len(soft), max(1, count - len(hard)) if len(hard) < count - 1 else 1)
@@ -255,6 +257,9 @@ def _draw_curves(upper: object, lower: object, group: Sequence[Curve]) -> None:
     upper.set_title(along or "all points", fontsize=8)
     upper.legend(fontsize=6, frameon=False, ncols=2)
     lower.axhline(0, color="0.6", lw=0.5)
+    if np.max(np.abs(columns[:, axis])) < 1e-2:
+        for ax in (upper, lower):
+            ax.ticklabel_format(axis="x", style="sci", scilimits=(-2, 2))
     if along == "load":
         name = "load"
     elif along == "q h":
@@ -264,13 +269,16 @@ def _draw_curves(upper: object, lower: object, group: Sequence[Curve]) -> None:
     lower.set_xlabel(name, fontsize=7)
     if along == "q h":
         upper.set_xscale("log")
-        upper.set_yscale("symlog", linthresh=0.1)
+        if all((curve.reference > 0).all() for curve in group):
+            upper.set_yscale("log")
         lower.set_xscale("log")
     units = list(dict.fromkeys(curve.unit for curve in group))
     upper.set_ylabel(" or ".join(units[:2]), fontsize=7)
     lower.set_ylabel("difference / largest", fontsize=7)
     lower.ticklabel_format(axis="y", style="sci", scilimits=(-2, 2))
-    lower.yaxis.get_offset_text().set_fontsize(6)
+    for ax in (upper, lower):
+        ax.xaxis.get_offset_text().set_fontsize(6)
+        ax.yaxis.get_offset_text().set_fontsize(6)
 
 
 def _panels(rows: int) -> tuple[object, object]:
