@@ -257,33 +257,30 @@ def _extents(cells, starts, shape, periodic):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _slopes(values, depths, slopes):  # type: ignore[no-untyped-def]
-    """Fritsch-Butland slopes: harmonic mean inside, one-sided three-point formula, limited, at the ends."""
+def _slope(values, depths, k):  # type: ignore[no-untyped-def]
+    """Fritsch-Butland slope at sample k: harmonic mean inside, one-sided three-point formula, limited, at the ends."""
     n = values.size
     if n == 2:
-        slopes[0] = slopes[1] = (values[1] - values[0]) / (depths[1] - depths[0])
-        return
-    for k in range(1, n - 1):
+        return (values[1] - values[0]) / (depths[1] - depths[0])
+    if 0 < k < n - 1:
         before, after = depths[k] - depths[k - 1], depths[k + 1] - depths[k]
         rise, fall = (values[k] - values[k - 1]) / before, (values[k + 1] - values[k]) / after
         if rise * fall <= 0.0:
-            slopes[k] = 0.0
-        else:
-            first, second = 2 * after + before, after + 2 * before
-            slopes[k] = (first + second) / (first / rise + second / fall)
-    for end in range(2):
-        if end == 0:
-            near, far = depths[1] - depths[0], depths[2] - depths[1]
-            own, other = (values[1] - values[0]) / near, (values[2] - values[1]) / far
-        else:
-            near, far = depths[n - 1] - depths[n - 2], depths[n - 2] - depths[n - 3]
-            own, other = (values[n - 1] - values[n - 2]) / near, (values[n - 2] - values[n - 3]) / far
-        slope = ((2 * near + far) * own - near * other) / (near + far)
-        if slope * own <= 0.0:
-            slope = 0.0
-        elif own * other <= 0.0 and abs(slope) > 3 * abs(own):
-            slope = 3 * own
-        slopes[0 if end == 0 else n - 1] = slope
+            return 0.0
+        first, second = 2 * after + before, after + 2 * before
+        return (first + second) / (first / rise + second / fall)
+    if k == 0:
+        near, far = depths[1] - depths[0], depths[2] - depths[1]
+        own, other = (values[1] - values[0]) / near, (values[2] - values[1]) / far
+    else:
+        near, far = depths[n - 1] - depths[n - 2], depths[n - 2] - depths[n - 3]
+        own, other = (values[n - 1] - values[n - 2]) / near, (values[n - 2] - values[n - 3]) / far
+    slope = ((2 * near + far) * own - near * other) / (near + far)
+    if slope * own <= 0.0:
+        return 0.0
+    if own * other <= 0.0 and abs(slope) > 3 * abs(own):
+        return 3 * own
+    return slope
 
 
 @njit(cache=True)
@@ -292,6 +289,9 @@ def _runs(columns, depths, strength, refine, cubic):  # type: ignore[no-untyped-
 
     Returns first (n+1) - where a column's runs begin -, top and bottom sample of each run, and the depth at which the
     stress falls back to yield below it, by linear interpolation between the two fine samples.
+
+    Between two depths the interpolant is monotone: an interval with both ends above or both below yield needs no
+    sample, one with an end on either side is sampled from above until the side changes.
     """
     n, nz = columns.shape
     first = np.zeros(n + 1, np.int64)
@@ -299,55 +299,56 @@ def _runs(columns, depths, strength, refine, cubic):  # type: ignore[no-untyped-
     top = np.empty(capacity, np.int64)
     bottom = np.empty(capacity, np.int64)
     bottom_depth = np.empty(capacity, np.float64)
-    slopes = np.zeros(nz)
     used = 0
     for column in range(n):
         values = columns[column]
         limit = strength[column]
-        if cubic:
-            _slopes(values, depths, slopes)
-        inside = False
-        previous, previous_depth = 0.0, 0.0
+        if used + nz > capacity:
+            grown = 2 * capacity + nz
+            top = np.append(top, np.empty(grown - capacity, np.int64))
+            bottom = np.append(bottom, np.empty(grown - capacity, np.int64))
+            bottom_depth = np.append(bottom_depth, np.empty(grown - capacity, np.float64))
+            capacity = grown
+        if values[0] > limit:
+            top[used] = 0
         for k in range(nz - 1):
-            steps = refine + 1 if k == nz - 2 else refine
-            if not inside and values[k] <= limit and values[k + 1] <= limit:
-                # both ends below yield: so is all between, and the last sample is below too
-                previous, previous_depth = values[k + 1], depths[k + 1]
+            above, below = values[k] > limit, values[k + 1] > limit
+            if above == below:
                 continue
             span = depths[k + 1] - depths[k]
-            for step in range(steps):
+            upper = lower = 0.0
+            if cubic and refine > 1:
+                upper, lower = span * _slope(values, depths, k), span * _slope(values, depths, k + 1)
+            previous, previous_depth = values[k], depths[k]
+            for step in range(1, refine + 1):
                 t = step / refine
-                if step == 0:
-                    value = values[k]
-                elif step == refine:
+                if step == refine:
                     value = values[k + 1]
                 elif cubic:
                     value = (
                         (1 + 2 * t) * (1 - t) * (1 - t) * values[k]
-                        + t * (1 - t) * (1 - t) * span * slopes[k]
+                        + t * (1 - t) * (1 - t) * upper
                         + t * t * (3 - 2 * t) * values[k + 1]
-                        - t * t * (1 - t) * span * slopes[k + 1]
+                        - t * t * (1 - t) * lower
                     )
                 else:
                     value = (1 - t) * values[k] + t * values[k + 1]
                 depth = depths[k] + t * span
-                sample = k * refine + step
-                if value > limit:
-                    if not inside:
-                        if used == capacity:
-                            capacity *= 2
-                            top = np.append(top, np.empty(capacity - used, np.int64))
-                            bottom = np.append(bottom, np.empty(capacity - used, np.int64))
-                            bottom_depth = np.append(bottom_depth, np.empty(capacity - used, np.float64))
-                        top[used] = sample
+                if (value > limit) == below:
+                    if below:
+                        top[used] = k * refine + step
+                    else:
+                        bottom[used] = k * refine + step - 1
+                        bottom_depth[used] = previous_depth + (previous - limit) / (previous - value) * (
+                            depth - previous_depth
+                        )
                         used += 1
-                        inside = True
-                    bottom[used - 1] = sample
-                    bottom_depth[used - 1] = depth
-                elif inside:
-                    bottom_depth[used - 1] += (previous - limit) / (previous - value) * (depth - previous_depth)
-                    inside = False
+                    break
                 previous, previous_depth = value, depth
+        if values[nz - 1] > limit:
+            bottom[used] = (nz - 1) * refine
+            bottom_depth[used] = depths[nz - 1]
+            used += 1
         first[column + 1] = used
     return first, top[:used], bottom[:used], bottom_depth[:used]
 
