@@ -332,7 +332,7 @@ CHECKS: dict[str, list[Check]] = {
             "particles per mm and N, steel",
             "particles-afm-map",
             "1200-6000",
-            lambda s: f"{at(s, 'particles_per_mm_N')}",
+            lambda s: f"{at(s, 'particles_per_mm_and_N')}",
             lambda s: None,
             "Wear rate over mean particle volume; with radii of 110-175 nm by DLS instead of this map's: 1600-6300.",
         ),

@@ -75,12 +75,14 @@ class RunningInState:
 
     heights : of the lower and the upper body; the counterface may be longer along x than the grid, and passes through.
     offset : cells that the counterface has slid. pressure : of the last cycle, None before the first.
+    removed : what left from each column of the (first) wearing body in the last cycle [m], None before the first.
     """
 
     cycle: int
     heights: tuple[FloatArray, FloatArray]
     offset: int
     pressure: FloatArray | None
+    removed: FloatArray | None
     cycles: NDArray[np.void]
     particles: NDArray[np.void]
     times: NDArray[np.void]
@@ -94,6 +96,7 @@ def pack_state(state: RunningInState) -> dict[str, Any]:
         "upper_heights": state.heights[UPPER],
         "offset": state.offset,
         "pressure": state.pressure,
+        "removed": state.removed,
         **{name: pack_table(getattr(state, name)) for name in ("cycles", "particles", "times")},
     }
 
@@ -105,6 +108,7 @@ def unpack_state(packed: dict[str, Any]) -> RunningInState:
         heights=(packed["lower_heights"], packed["upper_heights"]),
         offset=int(packed["offset"]),
         pressure=packed["pressure"],
+        removed=packed["removed"],
         cycles=unpack_table(packed["cycles"], CYCLE_FIELDS),
         particles=unpack_table(packed["particles"], PARTICLE_FIELDS),
         times=unpack_table(packed["times"], TIME_FIELDS),
@@ -188,6 +192,7 @@ def initial_state(lower_heights: FloatArray, upper_heights: FloatArray) -> Runni
         heights=(np.array(lower_heights, dtype=np.float64), np.array(upper_heights, dtype=np.float64)),
         offset=0,
         pressure=None,
+        removed=None,
         cycles=np.zeros(0, CYCLE_FIELDS),
         particles=np.zeros(0, PARTICLE_FIELDS),
         times=np.zeros(0, TIME_FIELDS),
@@ -304,6 +309,7 @@ def advance(
         heights=(heights[LOWER], heights[UPPER]),
         offset=offset,
         pressure=contact.pressure,
+        removed=removals[0].pieces.thickness,
         cycles=np.append(state.cycles, _cycle_row(cycle, contact, removals, particles, worn)),
         particles=np.concatenate([state.particles, particles]),
         times=np.append(

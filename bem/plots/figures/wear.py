@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from bem.plots.figures import FigureKind
@@ -138,6 +140,47 @@ def _worn_surface(run: Any, figure: Figure) -> None:
         axes.set_title(title)
 
 
+def _shapes(run: Any, figure: Figure) -> None:
+    """The six largest pieces of the last cycle, upside down, at a slant; thickness is drawn twice as large."""
+    from matplotlib.colors import Normalize
+    from scipy.ndimage import find_objects
+    from scipy.ndimage import label as connected
+
+    removed = run.dataset["removed"].values
+    x, y = run.dataset["x"].values, run.dataset["y"].values
+    cell = (float(x[1] - x[0]), float(y[1] - y[0]))
+    names, count = connected(removed > 0)
+    volume = np.bincount(names.ravel(), removed.ravel(), minlength=count + 1)[1:]
+    boxes = find_objects(names)
+    chosen = np.argsort(volume)[::-1][: min(6, count)]
+    deepest = float(removed.max())
+    for place, index in enumerate(chosen):
+        box = boxes[index]
+        depth = np.pad(np.where(names[box] == index + 1, removed[box], 0.0), 1)
+        axes: Any = figure.add_subplot(2, 3, place + 1, projection="3d")
+        # a column is a prism: repeat its corners so that the walls stand upright
+        steps = np.repeat(np.repeat(depth, 2, axis=0), 2, axis=1)
+        along = [1e9 * side * np.repeat(np.arange(n + 1), 2)[1:-1] for side, n in zip(cell, depth.shape, strict=True)]
+        grid_x, grid_y = np.meshgrid(*along, indexing="ij")
+        colours = matplotlib.colormaps["viridis"](Normalize(0, 1e9 * deepest)(1e9 * steps[:-1, :-1]))
+        axes.plot_surface(grid_x, grid_y, 1e9 * steps, facecolors=colours, rstride=1, cstride=1, shade=True)
+        radius = (3 * volume[index] * cell[0] * cell[1] / (4 * np.pi)) ** (1 / 3)
+        axes.set_title(f"radius {1e9 * radius:.0f} nm", fontsize=8)
+        spans = (along[0][-1], along[1][-1], 2e9 * float(depth.max()))
+        axes.set_box_aspect(spans, zoom=0.85)
+        axes.tick_params(labelsize=5, pad=-3)
+        axes.set_xlabel("x (nm)", fontsize=6, labelpad=-8)
+        axes.set_ylabel("y (nm)", fontsize=6, labelpad=-8)
+        axes.set_zlabel("thickness (nm)", fontsize=6, labelpad=-9)
+        axes.xaxis.set_major_locator(MaxNLocator(3))
+        axes.yaxis.set_major_locator(MaxNLocator(3))
+        axes.zaxis.set_major_locator(MaxNLocator(2))
+
+
+def _something_left(run: Any) -> bool:
+    return bool((run.dataset["removed"].values > 0).any())
+
+
 def _many_runs(run: Any) -> bool:
     return np.unique(run.dataset["load"].values).size > 1
 
@@ -193,5 +236,13 @@ FIGURES = (
         ("x", "y", "height_before", "height_after"),
         _worn_surface,
         (9.0, 3.8),
+    ),
+    FigureKind(
+        "particle-shapes",
+        "The six largest particles of the last cycle, upside down; their thickness is drawn to twice its scale.",
+        ("x", "y", "removed"),
+        _shapes,
+        (9.0, 5.2),
+        _something_left,
     ),
 )

@@ -172,7 +172,7 @@ def _archard(scene: ParticlesScene, statistics: Any, count: int) -> dict[str, fl
     return {
         "wear_volume_mm3": 1e9 * volume,
         "particle_number": particle_number(volume, mean),
-        "particles_per_mm_N": 1e-3 * particle_coefficient(scene.archard.specific_wear_rate, mean),
+        "particles_per_mm_and_N": 1e-3 * particle_coefficient(scene.archard.specific_wear_rate, mean),
     }
 
 
@@ -203,7 +203,7 @@ KIND = Kind(
         "length_nm",
         "width_nm",
         "thickness_nm",
-        "particles_per_mm_N",
+        "particles_per_mm_and_N",
         "sedimentation_time_h",
     ),
 )

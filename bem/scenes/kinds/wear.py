@@ -19,7 +19,7 @@ from bem.scenes.common import BodyScene, Cells, Force, PositiveLength, PositiveP
 from bem.scenes.context import Context, Outcome, Variable
 from bem.scenes.kinds import Kind
 from bem.scenes.planner import Plan, Step, convolution_memory, padded_points
-from bem.scenes.units import Length, Ratio
+from bem.scenes.units import Length, Ratio, WearCoefficient
 
 Count = Annotated[int, Field(strict=True, ge=1)]
 _CONVOLUTIONS = 25  # of one warm-started contact solve, coarse levels included
@@ -122,6 +122,13 @@ class CyclesScene(Table):
         return self
 
 
+class WearRateScene(Table):
+    """Archard's law: the wear volume that the criterion cannot give, and so the number of particles."""
+
+    specific_wear_rate: Annotated[WearCoefficient, Field(gt=0)]
+    distance: PositiveLength
+
+
 class WearVariantScene(Table):
     """A run that differs from the scene in what is given here: mesh, roughness, film, sliding per cycle."""
 
@@ -150,6 +157,7 @@ class WearScene(SceneModel):
     wear: WearScenePart = WearScenePart()
     cycles: CyclesScene = CyclesScene()
     sizes: SizesScene = SizesScene()
+    archard: WearRateScene | None = None
     variants: list[WearVariantScene] = []  # noqa: RUF012
     repetitions: Annotated[int, Field(strict=True, ge=1, le=1000)] = 1
 
@@ -423,6 +431,7 @@ def _record(
         "before": initial[body],
         "after": (result.lower_heights, result.upper_heights)[body][: grid.shape[0]],
         "pressure": result.pressure,
+        "removed": result.state.removed,
         "body": "lower" if body == 0 else "upper",
     }
 
@@ -511,6 +520,14 @@ def _figures(scene: WearScene, record: dict[str, Any]) -> dict[str, Any]:
         "depths_computed_per_cycle": float(cycles["depths_computed"].mean()),
         "convolutions_per_cycle": float(cycles["convolutions"].mean()),
     }
+    if scene.archard is not None and late.size:
+        from bem.particles import archard_volume, particle_coefficient, particle_number
+
+        rate, mean = scene.archard.specific_wear_rate, float(late["volume"].mean())
+        volume = archard_volume(rate, record["load"], scene.archard.distance)
+        figures["wear_volume_mm3"] = 1e9 * volume
+        figures["particle_number"] = particle_number(volume, mean)
+        figures["particles_per_mm_and_N"] = 1e-3 * particle_coefficient(rate, mean)
     return figures
 
 
@@ -548,6 +565,7 @@ def _variables(scene: WearScene, finished: list[dict[str, Any]]) -> dict[str, Va
         "height_before": Variable(("x", "y"), last["before"], "m", f"height of the {last['body']} surface, unworn"),
         "height_after": Variable(("x", "y"), last["after"], "m", f"height of the {last['body']} surface, run in"),
         "pressure": Variable(("x", "y"), last["pressure"], "Pa", "contact pressure in the last cycle"),
+        "removed": Variable(("x", "y"), last["removed"], "m", f"what left the {last['body']} body in the last cycle"),
     }
     for name, unit, text in (
         ("volume", "m^3", "volume worn per cycle"),
@@ -594,6 +612,7 @@ KIND = Kind(
         "particle-distribution",
         "radius-over-load",
         "worn-surface",
+        "particle-shapes",
         "pressure-map",
     ),
     headline=(
