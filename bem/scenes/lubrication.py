@@ -155,4 +155,4 @@ class FilmMeshScene(Table):
 
     def positions(self) -> Any:
         """Abscissae [m], or None."""
-        return None if self.start is None else np.linspace(self.start, self.end, self.count)
+        return None if self.start is None or self.end is None else np.linspace(self.start, self.end, self.count)

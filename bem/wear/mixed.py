@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import ContactSolution, solve_contact
-from bem.convolution import displacement_operator
+from bem.convolution import DisplacementOperator, displacement_operator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
@@ -240,7 +240,7 @@ class MixedContact:
         self.film: FilmRow | None = None
         self.separation: FloatArray | None = None
         self.contact_solves = 0
-        self._operator = None
+        self._operator: DisplacementOperator | None = None
 
     def __call__(self, heights: FloatArray, last_pressure: FloatArray | None) -> ContactOutcome:
         """The contact of one cycle; see `bem.wear.ContactStep`."""

@@ -9,6 +9,7 @@ import math
 from typing import Annotated, Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from bem.errors import InputError, Status
@@ -98,7 +99,9 @@ def run(scene: AsperitiesScene, context: Context) -> Outcome:
     depth = np.array(sorted(array.interferences))
     hertz = 4 / 3 * modulus * math.sqrt(array.radius) * depth**1.5
     loads = 4 / 3 * modulus * math.sqrt(array.radius) * np.geomspace(0.02 * depth[0], 1.6 * depth[-1], _LOADS) ** 1.5
-    mean_plane, from_flat, shown, status = [], [], None, Status.CONVERGED
+    mean_plane: list[NDArray[np.float64]] = []
+    from_flat: list[NDArray[np.float64]] = []
+    shown, status = None, Status.CONVERGED
     for number, spacing in enumerate(array.spacings):
         grid = grid_at(scene, spacing)
         x, y = grid.x[:, None], grid.y[None, :]

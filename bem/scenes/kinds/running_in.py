@@ -103,6 +103,10 @@ def with_hardness(scene: RunningInScene, hardness: float | None) -> RunningInSce
     return scene.model_copy(update={"lower": lower, "contact": scene.contact.model_copy(update={"hardness": cap})})
 
 
+def _hardnesses(scene: RunningInScene) -> list[float | None]:
+    return [*scene.hardnesses] or [None]
+
+
 def plan(scene: RunningInScene) -> Plan:
     """What will be computed.
 
@@ -115,7 +119,7 @@ def plan(scene: RunningInScene) -> Plan:
     from bem.scenes.lubrication import FilmMeshScene
 
     check_patch(grid, FilmMeshScene(), [half_width(scene, load) for load in loads])
-    for hardness in scene.hardnesses or [None]:
+    for hardness in _hardnesses(scene):
         check_loads(with_hardness(scene, hardness), loads)
     strengths = [body.build().surface_material.yield_stress for body in (scene.lower, scene.upper)]
     if all(value is None for value in strengths) and not scene.hardnesses:
@@ -168,7 +172,7 @@ def run(scene: RunningInScene, context: Context) -> Outcome:
     oil = scene.oil.build()
     runs = [
         (hardness, speeds, repetition)
-        for hardness in scene.hardnesses or [None]
+        for hardness in _hardnesses(scene)
         for speeds in scene.speeds.build()
         for repetition in range(scene.repetitions)
     ]
