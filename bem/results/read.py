@@ -70,7 +70,7 @@ def open_run(path: str | os.PathLike[str]) -> FinishedRun:
         scene = tomllib.loads((folder / SCENE).read_text("utf-8"))
     except OSError as error:
         raise ResultsError(f"{folder}: cannot be read ({reason(error)})") from error
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise ResultsError(f"{folder}: a file of the run is damaged ({error})") from error
     return FinishedRun(folder, scene, summary)
 
@@ -99,6 +99,6 @@ def _known(folder: Path) -> dict[str, str]:
         known = json.loads((folder / CHECKSUMS).read_text("utf-8"))
     except FileNotFoundError:
         return {}
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise ResultsError(f"{folder / CHECKSUMS}: is damaged ({error})") from error
     return known if isinstance(known, dict) else {}

@@ -120,7 +120,7 @@ class GeneratedSurface(Table):
     @model_validator(mode="after")
     def _one_spectrum(self) -> GeneratedSurface:
         exactly_one(self, "correlation_length", "hurst")
-        if self.kurtosis < 1 + self.skewness**2:
+        if self.kurtosis < 1 + self.skewness * self.skewness:  # a power of a float can overflow
             raise problem(
                 f"kurtosis {self.kurtosis:g} with skewness {self.skewness:g} is a pair that no distribution has",
                 "kurtosis >= 1 + skewness^2",

@@ -1,0 +1,208 @@
+"""Every built-in scene, run: `python -m reports gallery` at full size, with `--reduced` in some minutes.
+
+Runs lie under `reports/gallery/` (or `--out`), one folder for each scene, and are not run again once they are finished;
+`reports/gallery.html` shows them. Scenes on measured surfaces get two generated maps as stand-ins, which the page says.
+"""
+
+from __future__ import annotations
+
+import base64
+import copy
+import html
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from bem.errors import BemError
+from bem.results import FinishedRun
+from bem.runs import run_scene
+from bem.scenes import get_kind, library
+from reports.builder import HERE, Page, Section, table, text
+
+RUNS = HERE / "gallery"
+_STAND_IN_CELLS, _STAND_IN_LENGTH = 256, 100e-6
+
+
+def gallery_scene(name: str, folder: Path, *, reduced: bool = False) -> dict[str, Any]:
+    """The table of a built-in scene as the gallery runs it.
+
+    Parameters
+    ----------
+    name : of the scene.
+    folder : where stand-ins for measured surfaces are written, if the scene needs them.
+    reduced : fewer cells, cycles, speeds, loads and repetitions; the physics and every code path stay.
+    """
+    scene = copy.deepcopy(library()[name]) | {"name": name}
+    for place, side in enumerate(("lower", "upper")):
+        surface = scene.get(side, {}).get("surface")
+        if isinstance(surface, dict) and "path" in surface:
+            surface["path"] = str(_stand_in(folder, side, seed=place + 1))
+    return _reduced(scene) if reduced else scene
+
+
+def run_gallery(
+    folder: Path = RUNS, *, names: Sequence[str] = (), reduced: bool = False
+) -> dict[str, FinishedRun | str]:
+    """Run scenes (all where none is named); what went wrong stands in a run's place.
+
+    Finished runs are taken as they are."""
+    found: dict[str, FinishedRun | str] = {}
+    for name in names or library():
+        try:
+            scene = gallery_scene(name, folder, reduced=reduced)
+            found[name] = run_scene(scene, folder / name, resume=True)
+        except BemError as error:
+            found[name] = str(error)
+    return found
+
+
+def build(folder: Path = RUNS, *, reduced: bool = False) -> Page:
+    """The page, from finished runs; those that are missing are run."""
+    runs = run_gallery(folder, reduced=reduced)
+    known = library()
+    rows = [
+        (name, known[name]["kind"], known[name].get("redoes", ""), _status(run), _seconds(run))
+        for name, run in runs.items()
+    ]
+    sections = [Section("All scenes", table(("scene", "kind", "redoes", "status", "time"), rows))]
+    sections += [Section(name, _about(name, known[name], run)) for name, run in runs.items()]
+    size = "at reduced size" if reduced else "at full size"
+    return Page("gallery", "Gallery", f"Every built-in scene of bem, run {size}: figures and what they redo.", sections)
+
+
+def _about(name: str, scene: dict[str, Any], run: FinishedRun | str) -> str:
+    body = text(scene["description"] + (f" Redoes {scene['redoes']}." if scene.get("redoes") else ""))
+    if '"path"' in str(scene).replace("'", '"'):
+        body += text("The measured surfaces are the user's to give: two generated maps stand in for them here.")
+    body += f"<pre>bem run {html.escape(name)}</pre>"
+    if isinstance(run, str):
+        return body + text(f"Not finished: {run}")
+    from bem.plots.report import spelled
+
+    headline = [key for key in get_kind(scene["kind"]).headline if run.summary.get(key) is not None]
+    body += table(("figure", "value"), [spelled(key, run.summary[key]) for key in headline])
+    for note in run.summary.get("notes", ()):
+        body += text(f"Note: {note}")
+    pictures = sorted((run.path / "figures").glob("*.png"), key=lambda item: _rank(scene["kind"], item.stem))
+    for picture in pictures[:4]:
+        data = base64.b64encode(picture.read_bytes()).decode()
+        words = html.escape(picture.stem.replace("-", " "))
+        body += (
+            f'<figure><img alt="{words}" src="data:image/png;base64,{data}"><figcaption>{words}</figcaption></figure>'
+        )
+    return body
+
+
+def _rank(kind: str, figure: str) -> int:
+    figures = get_kind(kind).figures
+    return figures.index(figure) if figure in figures else len(figures)
+
+
+def _status(run: FinishedRun | str) -> str:
+    return "not finished" if isinstance(run, str) else str(run.summary["status"])
+
+
+def _seconds(run: FinishedRun | str) -> str:
+    return "" if isinstance(run, str) else f"{run.summary['wall_time_s']:.0f} s"
+
+
+def _stand_in(folder: Path, side: str, seed: int) -> Path:
+    """A generated map in place of a measured one, the same bits every time."""
+    from bem.grid import Grid
+    from bem.surfaces import Surface, generate_surface, write_surface
+
+    path = folder / "stand-ins" / f"{side}.npz"
+    if not path.is_file():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        cell = _STAND_IN_LENGTH / _STAND_IN_CELLS
+        grid = Grid((_STAND_IN_CELLS, _STAND_IN_CELLS), (cell, cell), periodic=(True, True))
+        heights = generate_surface(grid, rms_height=100e-9, seed=seed, hurst=0.8, rolloff_wavelength=20e-6)
+        write_surface(path, Surface(heights, grid.spacing, {"stand-in": True}))
+    return path
+
+
+def _reduced(scene: dict[str, Any]) -> dict[str, Any]:
+    """The scene with everything that only costs time made small."""
+    if "repetitions" in scene:
+        scene["repetitions"] = 1
+    for path, keep in ((("cylinder", "loads"), 1), (("contact", "loads"), 1), (("rubbing", "temperatures"), 2)):
+        _shorten(scene, path, keep)
+    _shorten(scene, ("variants",), 2)
+    _shorten(scene, ("hardnesses",), 2)
+    _shorten(scene, ("contact", "hertz_pressures"), 1)
+    _shorten(scene, ("speeds", "values"), 2)
+    _shorten(scene, ("array", "spacings"), 2)
+    _shorten(scene, ("array", "interferences"), 2)
+    _smaller(scene, ("speeds", "count"), 3)
+    _smaller(scene, ("cycles", "count"), 4)
+    _smaller(scene, ("cycles", "settled"), 2)
+    _smaller(scene, ("cycles", "averaged"), 2)
+    _smaller(scene, ("march", "steps"), 20)
+    _smaller(scene, ("film", "points"), 400)
+    _smaller(scene, ("outputs", "depths", "count"), 6)
+    _smaller(scene, ("synthetic", "count"), 30)
+    if scene["kind"] in ("wear", "running-in") and "cycles" not in scene:
+        scene["cycles"] = {"count": 4, "settled": 2}
+    _coarser(scene)
+    return scene
+
+
+def _coarser(scene: dict[str, Any]) -> None:
+    """Fewer cells over the same lengths, fewer depths to the same depth."""
+    grid = scene.get("grid", {})
+    if "shape" in grid:
+        old = grid["shape"] if isinstance(grid["shape"], list) else [grid["shape"]] * 2
+        new = [min(n, max(8, n // 4)) for n in old]
+        if "spacing" in grid:
+            grid["lengths"] = [f"{_number(grid['spacing']) * n:.12g} {_unit(grid['spacing'])}" for n in old]
+            del grid["spacing"]
+        grid["shape"] = new
+    for place in [scene.get("domain", {}), *scene.get("variants", ())]:
+        if isinstance(place.get("cells"), int):
+            place["cells"] = max(20, place["cells"] // 5)
+    if scene["kind"] == "wear" and "cells" not in scene["domain"]:
+        scene["domain"]["cells"] = 48
+    for place in [scene, *scene.get("variants", ())]:
+        depths = place.get("depths")
+        if isinstance(depths, dict) and depths.get("count", 0) > 8:
+            deepest = _number(depths["spacing"]) * (depths["count"] - 1)
+            depths["count"] = 8
+            depths["spacing"] = f"{deepest / 7:.12g} {_unit(depths['spacing'])}"
+    if "synthetic" in scene:
+        scene["synthetic"]["shape"] = [256, 256]
+        scene["synthetic"]["lengths"] = ["10 um", "10 um"]
+    if "array" in scene:
+        scene["array"]["cell"] = "460 nm"
+        scene["array"]["window"] = "92 um"
+
+
+def _at(scene: dict[str, Any], path: Sequence[str]) -> dict[str, Any] | None:
+    """The innermost table of a path of keys, if the whole path is there."""
+    for key in path[:-1]:
+        scene = scene.get(key, {})
+        if not isinstance(scene, dict):
+            return None
+    return scene if path[-1] in scene else None
+
+
+def _shorten(scene: dict[str, Any], path: Sequence[str], keep: int) -> None:
+    place = _at(scene, path)
+    if place is not None and len(place[path[-1]]) > keep:
+        values = place[path[-1]]
+        step = max(1, math.ceil((len(values) - 1) / max(keep - 1, 1)))
+        place[path[-1]] = values[::step][:keep]
+
+
+def _smaller(scene: dict[str, Any], path: Sequence[str], largest: int) -> None:
+    place = _at(scene, path)
+    if place is not None:
+        place[path[-1]] = min(place[path[-1]], largest)
+
+
+def _number(quantity: str) -> float:
+    return float(quantity.split()[0])
+
+
+def _unit(quantity: str) -> str:
+    return quantity.split()[1]

@@ -1,0 +1,63 @@
+"""Every built-in scene runs to its end, at reduced size."""
+
+import math
+
+import pytest
+
+from bem.results.read import damaged_files
+from bem.runs import plan_scene, run_scene
+from bem.scenes import get_kind, kind_names, library
+from reports.gallery import gallery_scene
+
+NAMES = sorted(library())
+# what `summary.json` promises by kind, in every run of that kind
+PROMISED = {
+    "contact": "contact_area_fraction plastic_area_fraction mean_contact_pressure_Pa approach_m residual convolutions",
+    "wear": "particle_equivalent_radius_nm particle_length_nm particle_width_nm particle_thickness_nm "
+    "particles_per_cycle Sq_initial_nm Sq_final_nm contact_area_fraction cycles",
+    "friction": "speed_m_s friction contact_load_N film_load_N minimum_film_nm lambda_ratio",
+    "running-in": "speed_m_s friction contact_load_N film_load_N minimum_film_nm lambda_ratio friction_initial "
+    "friction_run_in particle_equivalent_radius_nm Sq_initial_nm Sq_final_nm",
+    "tribofilm": "temperature_C film_thickness_nm film_wear_rate_nm_s wear_depth_nm concentration",
+    "particles": "count number_mean_radius_nm area_mean_radius_nm volume_mean_radius_nm "
+    "length_nm width_nm thickness_nm",
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("gallery")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", NAMES)
+def test_reduced_scene_runs(folder, name):
+    scene = gallery_scene(name, folder, reduced=True)
+    run = run_scene(scene, folder / name)
+    assert run.summary["status"] == "converged", run.summary["where"]
+    kind = get_kind(scene["kind"])
+    for key in ("scene", "kind", "version", "seed", "wall_time_s", "status", *PROMISED.get(scene["kind"], "").split()):
+        assert key in run.summary, key
+    for key in kind.headline:
+        value = run.summary.get(key)
+        for number in value if isinstance(value, list) else [value]:
+            assert not isinstance(number, float) or math.isfinite(number), key
+    assert not [note for note in run.summary["notes"] if "could not be drawn" in note]
+    assert len(list((run.path / "figures").glob("*.png"))) >= 1
+    assert damaged_files(run.path) == []
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_reduced_scene_is_a_good_scene_and_cheap(folder, name):
+    scene, plan = plan_scene(gallery_scene(name, folder, reduced=True))
+    assert scene.kind == library()[name]["kind"]
+    whole = plan_scene(gallery_scene(name, folder))[1]
+    rate = 1e9
+    assert plan.seconds(rate) < 30
+    assert plan.seconds(rate) <= whole.seconds(rate)
+
+
+def test_every_kind_has_a_built_in_scene_that_says_what_it_is():
+    assert {table["kind"] for table in library().values()} == set(kind_names())
+    for name, table in library().items():
+        assert table["description"], name

@@ -1,0 +1,55 @@
+"""Nothing heavy is loaded before it is needed: by the names in sys.modules, not by the clock."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+HEAVY = {
+    *("numpy", "scipy", "numba", "pyfftw", "matplotlib", "xarray", "pydantic", "pint", "h5py", "h5netcdf", "pandas"),
+    *("rich", "jinja2", "meshio", "SurfaceTopography", "dask", "distributed", "multiprocessing"),
+}
+
+
+def loaded(code, *arguments):
+    """Top-level modules that a piece of Python has loaded by its end, with warnings as errors."""
+    tail = "\nimport json, sys; print(json.dumps(sorted({name.partition('.')[0] for name in sys.modules})))"
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code + tail, *arguments],
+        capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    return set(json.loads(done.stdout.splitlines()[-1]))
+
+
+COMMAND = """
+import sys
+sys.argv = ["bem", *sys.argv[1:]]
+from bem.cli import main
+try:
+    main()
+except SystemExit as end:
+    assert not end.code, end.code
+"""
+
+
+def test_importing_bem_loads_nothing_heavy():
+    assert not loaded("import bem") & HEAVY
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["run", "--help"], ["sweep", "--help"]])
+def test_help_loads_nothing_heavy(arguments):
+    # a recent typer loads pydantic itself as soon as there is an option to convert
+    own = set() if arguments == ["--help"] else {"pydantic"}
+    assert not loaded(COMMAND, *arguments) & (HEAVY - own)
+
+
+def test_planning_loads_no_solver_and_no_plots():
+    modules = loaded(COMMAND, "scenes")
+    assert not modules & {"numba", "pyfftw", "matplotlib", "xarray", "SurfaceTopography", "h5py", "meshio", "dask"}
+
+
+def test_a_light_name_does_not_pull_in_a_heavy_one():
+    assert not loaded("from bem import Grid, Material, Status") & (HEAVY - {"numpy"})
