@@ -11,6 +11,8 @@ from importlib.resources import files
 
 import numpy as np
 
+from bem.convolution import set_spectra_memory
+from bem.stress import set_stress_memory
 from bem.verification import registry, stored
 from bem.verification.rows import DISPLACEMENT_LIMIT, STRESS_LIMIT, Curve, Gate, Row, judge
 from fem_reference import results as fem_results
@@ -59,6 +61,8 @@ def build() -> Page:
     import matplotlib
 
     matplotlib.use("Agg")
+    set_spectra_memory(1 << 26)  # gates share no spectra
+    set_stress_memory(1 << 26)
     done = []
     for gate in registry.gates():
         curves = list(gate.curves())

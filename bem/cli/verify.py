@@ -29,10 +29,15 @@ def register(app: typer.Typer) -> None:
         """
         from bem.cli._quantity import new_file
         from bem.cli._terminal import Terminal, table
+        from bem.convolution import set_spectra_memory
+        from bem.stress import set_stress_memory
         from bem.verification import registry
 
         if json_out is not None:
             new_file(json_out, "--json", (".json",))
+        # gates share no spectra: keeping them would only fill the memory
+        set_spectra_memory(1 << 26)
+        set_stress_memory(1 << 26)
         chosen = registry.select(case or [])
         if show_list:
             table(["gate", "what is compared"], [[gate.name, gate.sentence] for gate in chosen])

@@ -21,6 +21,8 @@ def few_gates():
 def page(few_gates):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(registry, "gates", lambda: few_gates)
+        patch.setattr(verification, "set_spectra_memory", lambda limit: None)  # tests share the caches of a process
+        patch.setattr(verification, "set_stress_memory", lambda limit: None)
         return verification.build()
 
 
@@ -40,6 +42,8 @@ def test_rows_that_fail_are_said_first(few_gates, monkeypatch):
         gate, curves=lambda: [dataclasses.replace(curve, bem=1.01 * curve.bem) for curve in gate.curves()]
     )
     monkeypatch.setattr(registry, "gates", lambda: [broken])
+    monkeypatch.setattr(verification, "set_spectra_memory", lambda limit: None)
+    monkeypatch.setattr(verification, "set_stress_memory", lambda limit: None)
     page = verification.build()
     assert "NOT within tolerance" in page.lead
     assert page.sections[0].title == "Verdict"

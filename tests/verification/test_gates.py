@@ -85,6 +85,13 @@ def test_a_missing_result_is_an_error():
         stored.read("no-such-case")
 
 
+@pytest.fixture(autouse=True)
+def _memory_as_before(monkeypatch):
+    """The command bounds the caches of its own process; tests share theirs."""
+    monkeypatch.setattr("bem.convolution.set_spectra_memory", lambda limit: None)
+    monkeypatch.setattr("bem.stress.set_stress_memory", lambda limit: None)
+
+
 def run(*arguments):
     return CliRunner().invoke(build(), ["verify", *arguments])
 
