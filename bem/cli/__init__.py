@@ -6,6 +6,7 @@ A new command is a new file with `def register(app: typer.Typer) -> None`. `ORDE
 from __future__ import annotations
 
 import importlib
+import os
 import pkgutil
 import signal
 import sys
@@ -13,6 +14,9 @@ import sys
 import typer
 
 from bem.errors import BemError
+
+# Small dense systems only: threads of the linear algebra spin without gain, and bits may depend on their number.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 ORDER = (
     "run",
