@@ -52,20 +52,25 @@ def run_cases(
     peers: tuple[Path, tuple[int, ...]] | None = None,
     say: Callable[[str], None] = lambda words: None,
 ) -> Run:
-    """Measure; a point that fails is named in `failures` and the rest goes on."""
+    """Measure; a point that fails is named in `failures` and the rest goes on. An interrupt keeps what there is."""
     points: list[Point] = []
     failures: dict[str, str] = {}
-    counts = set()
-    for name in names:
-        case = CASES[name]
-        for size in sizes_of(case, quick=quick, sizes=sizes, limit=limit):
-            for count in threads or ((1, 2) if case.threads else (1,)):
-                say(f"{name}: {size:g} {case.size_name}, {count} thread{'s' if count > 1 else ''}")
-                counts.add(count)
-                try:
-                    points.append(measure_apart(name, size, count, repeats))
-                except (RuntimeError, subprocess.TimeoutExpired) as error:
-                    failures[f"{name} {size:g} ({count})"] = str(error)
+    wanted_points = [
+        (name, size, count)
+        for name in names
+        for size in sizes_of(CASES[name], quick=quick, sizes=sizes, limit=limit)
+        for count in threads or ((1, 2) if CASES[name].threads else (1,))
+    ]
+    counts = {count for _, _, count in wanted_points}
+    for name, size, count in wanted_points:
+        say(f"{name}: {size:g} {CASES[name].size_name}, {count} thread{'s' if count > 1 else ''}")
+        try:
+            points.append(measure_apart(name, size, count, repeats))
+        except (RuntimeError, subprocess.TimeoutExpired) as error:
+            failures[f"{name} {size:g} ({count})"] = str(error)
+        except KeyboardInterrupt:
+            failures["interrupted"] = f"at {name} {size:g}; {len(points)} of {len(wanted_points)} points are kept"
+            return new_run(points, None, (), failures)
     floor = None
     if with_floor:
         wanted = {int(p.size) for p in points if p.case.startswith("contact-") and p.size >= 32}

@@ -6,8 +6,9 @@ import math
 import pytest
 
 from bem.runs import plan_scene
-from bem.scenes import library
+from bem.scenes import PlainContext, build, get_kind, library
 from bem.scenes.kinds import kind_names
+from bem.transforms import COUNT
 
 SCENES = sorted(name for name, tables in library().items() if '"kind": "measured"' not in json.dumps(tables))
 """Those that need no file of the user's."""
@@ -58,3 +59,41 @@ def test_time_and_memory_of_a_plan_grow_with_the_grid():
     _, large = plan_scene("hertz-sphere", ["grid.shape=1024"])
     assert large.memory > 4 * small.memory
     assert large.seconds(2e9) > small.seconds(2e9)
+
+
+@pytest.mark.parametrize("name", ["rough-contact", "hertz-sphere", "sinusoid", "coated-sphere"])
+def test_convolutions_of_a_contact_are_as_many_as_planned_within_a_factor_of_two(name):
+    from bem.scenes.kinds.contact import _convolutions
+
+    scene, _ = plan_scene(name, ["grid.shape=128", "outputs.von_mises=false", "outputs.stresses=false"])
+    outcome = get_kind(scene.kind).run(scene, PlainContext(scene.seed))
+    planned = _convolutions(build.grid_of(scene.grid))
+    assert planned / 2 <= outcome.summary["convolutions"] <= 2 * planned
+
+
+SMALL = {
+    "wear-steel-steel": [
+        "repetitions=1",
+        'cylinder.loads=["2.5 N"]',
+        "domain.cells=120",
+        "cycles.count=6",
+        "cycles.settled=3",
+    ],
+    "stribeck-mineral-oil": [
+        "repetitions=1",
+        'sharing.models=["capped"]',
+        "speeds.count=4",
+        "grid.shape=100",
+        "grid.spacing=0.9 um",
+    ],
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SMALL)
+def test_transforms_of_a_run_are_as_many_as_planned_within_a_factor_of_two(name):
+    scene, plan = plan_scene(name, SMALL[name])
+    planned = sum(step.transforms for step in plan.steps if not step.skipped)
+    COUNT.reset()
+    get_kind(scene.kind).run(scene, PlainContext(scene.seed))
+    assert planned / 2 <= COUNT.forward + COUNT.inverse <= 2 * planned
