@@ -208,8 +208,8 @@ CHECKS: dict[str, list[Check]] = {
             "model 635 / 262 / 95; AFM 751 / 521 / 126",
             sizes(load(10)),
             near_sizes(10, 635, 262, 95),
-            "Thickness is limited by the film, as in the thesis. Lengths depend on whether the disk keeps its shape: 4.7 "
-            "um by volume if it does, 0.15-0.2 um if it wears along, as here; the thesis lies between.",
+            "Thickness is limited by the film, as in the thesis. Lengths depend on whether the disk keeps its shape: "
+            "4.7 um by volume if it does, 0.15-0.2 um if it wears along, as here; the thesis lies between.",
         ),
         Check(
             "brass film 2.5 N, length / width / thickness (nm)",
