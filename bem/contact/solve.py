@@ -90,7 +90,7 @@ def solve_contact(
     if result is None:
         if initial_pressure is not None:
             pressure = np.clip(initial_pressure.reshape(-1) / to_pressure, 0.0, scaled_cap)
-            start = _Start(pressure, _approach_of(operator, scaled_gap, pressure, control))
+            start = _Start(pressure, _approach_of(operator, scaled_gap, pressure, control, scaled_cap))
         else:
             start = _from_coarser(problem, operator, scaled_gap.reshape(grid.shape), control, scaled_cap)
         report = None
@@ -124,10 +124,15 @@ class _Start:
     approach: float
 
 
-def _approach_of(operator: DisplacementOperator, gap: FloatArray, pressure: FloatArray, control: Control) -> float:
-    """The approach that a given pressure belongs to; needed only where the approach is searched for."""
+def _approach_of(
+    operator: DisplacementOperator, gap: FloatArray, pressure: FloatArray, control: Control, cap: float
+) -> float:
+    """The approach that a given pressure belongs to; needed only where the approach is searched for.
+
+    Bodies overlap where the pressure is at its cap, and the mean over a plastic contact says nothing.
+    """
     touching = pressure > 0
-    if not isinstance(control, MeanGapControl) or not touching.any():
+    if not isinstance(control, MeanGapControl) or not touching.any() or (pressure >= cap).any():
         return -math.inf
     shape = operator.grid.shape
     displacement = operator.scaled().apply(pressure.reshape(shape), np.empty(shape)).reshape(-1)
