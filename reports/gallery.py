@@ -145,6 +145,7 @@ def _reduced(scene: dict[str, Any]) -> dict[str, Any]:
     if scene["kind"] in ("wear", "running-in") and "cycles" not in scene:
         scene["cycles"] = {"count": 4, "settled": 2}
     _coarser(scene)
+    _smoother(scene)
     return scene
 
 
@@ -175,6 +176,18 @@ def _coarser(scene: dict[str, Any]) -> None:
     if "array" in scene:
         scene["array"]["cell"] = "460 nm"
         scene["array"]["window"] = "92 um"
+
+
+def _smoother(scene: dict[str, Any]) -> None:
+    """Roughness that the coarser cells can hold: no cut-off but the cells' own, no correlation below a few cells."""
+    for side in ("lower", "upper"):
+        surface = scene.get(side, {}).get("surface")
+        if not isinstance(surface, dict):
+            continue
+        surface.pop("cutoff_wavelength", None)
+        length = surface.get("correlation_length")
+        if length is not None and "grid" in scene and _unit(length) == "um" and _number(length) < 5:
+            surface["correlation_length"] = f"{4 * _number(length):g} um"
 
 
 def _at(scene: dict[str, Any], path: Sequence[str]) -> dict[str, Any] | None:

@@ -137,6 +137,8 @@ def strip_displacement(
     Parameters
     ----------
     x : positions on the surface [m].
+    width : full width of the strip [m].
+    material : of the half-plane.
     load : unit pressure, or unit traction along +x.
     reference_length : distance [m] at which a line load of pressure would displace nothing (no effect on traction).
 

@@ -217,6 +217,7 @@ def rectangle_displacement(
     ----------
     x, y, depth : coordinates of the points [m], broadcast together; depth >= 0.
     sides : (along x, along y), full sides of the rectangle [m].
+    material : of the half-space.
     load : unit pressure, or unit traction along +x.
 
     Returns

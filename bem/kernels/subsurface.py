@@ -225,6 +225,7 @@ def rectangle_stress(
     ----------
     x, y, depth : coordinates of the points [m], broadcast together; depth >= 0.
     sides : (along x, along y), full sides of the rectangle [m].
+    poissons_ratio : of the half-space.
     load : unit pressure, or unit traction along +x.
 
     Returns

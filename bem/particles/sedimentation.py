@@ -40,7 +40,11 @@ def sedimentation_time(
 
     Parameters
     ----------
-    viscosity : [Pa s]; densities [kg/m^3]; particle_radius [m].
+    distance : to settle [m].
+    viscosity : dynamic [Pa s].
+    relative_centrifugal_force : in multiples of gravity.
+    particle_density, liquid_density : [kg/m^3].
+    particle_radius : [m].
 
     Raises
     ------

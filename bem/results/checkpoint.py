@@ -29,6 +29,7 @@ def save_checkpoint(path: Path, state: Mapping[str, Any]) -> None:
 
     Parameters
     ----------
+    path : of the file.
     state : arrays of numbers, numbers, strings, booleans, None, and lists and dictionaries (with text keys) of them.
 
     Raises

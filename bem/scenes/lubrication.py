@@ -121,7 +121,7 @@ class LubricatedScene(Table):
         if self.loads is not None:
             return [float(v) for v in self.loads]
         assert self.hertz_pressures is not None
-        return [math.pi * self.radius * p**2 / contact_modulus * self.width for p in self.hertz_pressures]
+        return [math.pi * self.radius * p * p / contact_modulus * self.width for p in self.hertz_pressures]
 
 
 class FilmMeshScene(Table):

@@ -1,0 +1,213 @@
+"""Every example in README and guide runs; every key, command and file they name exists."""
+
+import contextlib
+import io
+import re
+import shlex
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+import typer
+
+from bem import Grid
+from bem.cli import build as build_cli
+from bem.lubrication.viscosity import VISCOSITY_LAWS
+from bem.runs import plan_scene
+from bem.scenes import get_kind, kind_names, library
+from bem.scenes.load import load_scene
+from bem.sweeps.axes import parse_axes
+from bem.wear.criterion import CRITERIA
+from reports import guide
+from reports.builder import render
+from reports.guide_options import EFFECTS
+
+ROOT = Path(__file__).resolve().parents[2]
+README = (ROOT / "README.md").read_text("utf-8")
+
+
+def blocks(language):
+    return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
+
+
+@pytest.fixture(scope="module")
+def page():
+    return render(guide.build())
+
+
+@pytest.fixture(scope="module")
+def surface(tmp_path_factory):
+    from bem.surfaces import Surface, generate_surface, write_surface
+
+    grid = Grid((64, 64), (2e-6, 2e-6), periodic=(True, True))
+    heights = generate_surface(grid, rms_height=100e-9, seed=1, correlation_length=10e-6)
+    return write_surface(tmp_path_factory.mktemp("surface") / "map.npz", Surface(heights, grid.spacing, {}))
+
+
+def test_the_readme_scene_is_a_good_scene(tmp_path, monkeypatch, surface):
+    (text,) = blocks("toml")
+    data = tomllib.loads(text)
+    assert data["lower"]["surface"]["path"] == "my-surface.al3d"
+    data["lower"]["surface"]["path"] = str(surface)  # the user's own file
+    scene, plan = plan_scene(data)
+    assert scene.contact.load == 2.0
+    assert plan.steps
+    (tmp_path / "my-scene.toml").write_text(text)
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "my-surface.al3d").write_bytes(b"x")
+    assert load_scene("my-scene.toml").lower.surface.path.endswith("my-surface.al3d")
+
+
+def commands():
+    """`bem ...` lines of README and guide, without comments and paths."""
+    lines = [line for block in blocks("sh") for line in block.splitlines()]
+    lines += [line for text in (guide.FIRST_STEPS, guide.SWEEP, guide.OWN_SURFACES) for line in text.splitlines()]
+    found = []
+    for line in lines:
+        for part in line.split(";"):
+            words = shlex.split(part, comments=True)
+            if words and Path(words[0]).name == "bem":
+                found.append(words[1 : words.index(">")] if ">" in words else words[1:])
+    return found
+
+
+def cli_command(words):
+    """The click command that words address, and the words that are left."""
+    command = typer.main.get_command(build_cli())
+    rest = list(words)
+    while hasattr(command, "commands") and rest and not rest[0].startswith("-"):
+        assert rest[0] in command.commands, f"no command {rest[0]}"
+        command = command.commands[rest.pop(0)]
+    return command, rest
+
+
+@pytest.mark.parametrize("words", commands(), ids=" ".join)
+def test_commands_and_their_options_exist(words):
+    command, rest = cli_command(words)
+    options = {name for item in command.params for name in (*item.opts, *item.secondary_opts)}
+    for word in rest:
+        if word.startswith("--"):
+            assert word in options, f"{word}: not an option of {command.name}"
+    arguments = [item for item in command.params if item.param_type_name == "argument"]
+    assert len([item for item in arguments if item.required]) <= len([w for w in rest if not w.startswith("-")])
+
+
+def test_commands_of_the_readme_table_and_targets_of_make_exist():
+    names = set(typer.main.get_command(build_cli()).commands)
+    for name in re.findall(r"`bem ([a-z]+)`", README):
+        assert name in names, name
+    targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
+    for name in re.findall(r"`?make ([a-z-]+)", README):
+        assert name in targets, name
+    for path in re.findall(r"\]\(([^)#]+)\)", README):
+        assert path.startswith("http") or (ROOT / path).exists(), path
+
+
+def test_first_steps_lead_somewhere(tmp_path, monkeypatch, surface):
+    """What the guide says to type, planned and not run: names, settings and ranges fit the scenes."""
+    from bem.scenes.template import scene_template
+
+    (tmp_path / "mine.toml").write_text(scene_template("contact"))
+    (tmp_path / "disk.npz").write_bytes(surface.read_bytes())
+    (tmp_path / "pin.npz").write_bytes(surface.read_bytes())
+    monkeypatch.chdir(tmp_path)
+    seen = 0
+    for words in commands():
+        if words[0] not in ("run", "plan", "sweep") or words[1] == "my-scene.toml":
+            continue
+        given = [words[i + 1] for i, word in enumerate(words) if word == "--set"]
+        over = [words[i + 1] for i, word in enumerate(words) if word == "--over"]
+        if over:
+            given += [f"{axis.key}={axis.values[-1]}" for axis in parse_axes(over)]
+        plan_scene(words[1], given)
+        seen += 1
+    assert seen >= 5
+
+
+@pytest.mark.parametrize("name", sorted(guide.SNIPPETS))
+def test_python_examples_run(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    laws, criteria = dict(VISCOSITY_LAWS), dict(CRITERIA)
+    printed = io.StringIO()
+    try:
+        with contextlib.redirect_stdout(printed):
+            exec(compile(guide.SNIPPETS[name], name, "exec"), {"__name__": name})
+    finally:
+        for table, before in ((VISCOSITY_LAWS, laws), (CRITERIA, criteria)):
+            table.clear()
+            table.update(before)
+    if name == "python":
+        assert "converged" in printed.getvalue()
+
+
+def test_slope_of_the_example_law_is_its_derivative():
+    scope = {}
+    laws = dict(VISCOSITY_LAWS)
+    try:
+        exec(guide.LAW, scope)
+    finally:
+        VISCOSITY_LAWS.clear()
+        VISCOSITY_LAWS.update(laws)
+    pressure = np.array([0.0, 1e8, 1e9])
+    step = 1e3
+    high, low = scope["power"](pressure + step, 0.1, 2e-8)[0], scope["power"](pressure - step, 0.1, 2e-8)[0]
+    # central difference: round-off of ln mu (1e-15 x 50) over 2 kPa
+    np.testing.assert_allclose((high - low) / (2 * step), scope["power"](pressure, 0.1, 2e-8)[1], rtol=1e-5)
+
+
+@pytest.mark.parametrize("kind", kind_names())
+def test_the_guide_says_what_every_key_does(kind, page):
+    for name, _, _, effect in guide._keys(get_kind(kind).model, ""):
+        assert effect, f"{kind}: {name} has no line in reports/guide_options.py"
+        assert f"<td>{name}</td>" in page, name
+
+
+def test_no_effect_is_left_of_keys_that_are_gone():
+    used = {name.split(".")[-1] for kind in kind_names() for name, *_ in guide._keys(get_kind(kind).model, "")}
+    assert EFFECTS.keys() <= used | {"kind"}
+
+
+def test_the_guide_names_what_exists(page):
+    for name in library():
+        assert f"<td>{name}</td>" in page
+    for *_, places in guide.THEORY:
+        path = ROOT
+        for place in places.split(", "):
+            path = ROOT / place if "/" in place else path.parent / place
+            assert path.exists(), place
+    for place in re.findall(r"(?:bem|tests|reports)/[a-z_/]+(?:\.py)?", page):
+        assert (ROOT / place).exists() or place == "bem/kernels/my_kernel.py", place
+    anchors = re.findall(r'<h[234] id="([^"]+)"', page)
+    assert len(anchors) == len(set(anchors))
+    assert "src=" not in page.replace('src="data:', "")
+    assert "http" not in re.sub(r"https://json-schema.org|xmlns=\"[^\"]+\"", "", page)
+
+
+@pytest.mark.slow
+def test_tab_completion_installs_and_completes(tmp_path):
+    """As a shell does it, in a home folder of its own."""
+    environment = {"HOME": str(tmp_path), "PATH": str(Path(sys.executable).parent), "SHELL": "/bin/bash"}
+    command = [str(Path(sys.executable).with_name("bem"))]
+    done = subprocess.run(
+        [*command, "--show-completion", "bash"],
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "_BEM_COMPLETE" in done.stdout
+    shown = subprocess.run(
+        command, env=environment | {"_BEM_COMPLETE": "complete_bash", "COMP_WORDS": "bem run hertz", "COMP_CWORD": "2"},
+        capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+    assert shown.stdout.split() == ["hertz-cylinder", "hertz-sphere"]
+    kinds = subprocess.run(
+        command, env=environment | {"_BEM_COMPLETE": "complete_bash", "COMP_WORDS": "bem new con", "COMP_CWORD": "2"},
+        capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+    assert kinds.stdout.split() == ["contact"]
