@@ -11,7 +11,7 @@ from typing import Any
 from bem.errors import InputError
 from bem.scenes import get_kind, kind_names, library
 from bem.scenes.template import _about, _default, scene_template
-from bem.scenes.validate import _fields, _unwrap, _without_none
+from bem.scenes.validate import _fields, _literals, _unwrap, _without_none
 from reports.builder import Page, Section, table, text
 from reports.guide_options import EFFECTS
 
@@ -422,14 +422,24 @@ def _keys(model: Any, prefix: str) -> Iterator[tuple[str, str, str, str]]:
         if key == "kind" and not prefix:
             continue
         default = "" if tables else _default(field).replace("(not set)", "-").replace("...", "required")
-        yield name, default, _about(field), EFFECTS.get(key, "")
+        yield name, default, _about(field), effect_of(name)
         if key in ("material", "layer", "surface") and prefix not in ("lower.", "layer."):
             continue  # said once, for the lower body
+        if len(tables) > 1:
+            tags = [tag for inner in tables for tag in _literals(_fields(inner)["kind"].annotation)]
+            shown.add(f"{name}.kind")
+            yield f"{name}.kind", "", "one of " + ", ".join(tags), effect_of(f"{name}.kind")
         for inner in tables:
             for row in _keys(inner, f"{name}."):
                 if row[0] not in shown:
                     shown.add(row[0])
                     yield row
+
+
+def effect_of(name: str) -> str:
+    """What a dotted key does; the same word may mean different things in different tables."""
+    *tables, key = name.split(".")
+    return EFFECTS.get(f"{tables[-1]}.{key}" if tables else key, EFFECTS.get(key, ""))
 
 
 def _tables(annotation: Any) -> list[Any]:
