@@ -161,7 +161,7 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
     ),
     (
         "Displacement of a rectangle",
-        "u = (1/(pi E*)) sum over corners of x ln(y + r) + y ln(x + r), times p",
+        "u = (1/(pi E*)) sum over corners, signs alternating, of x ln(y + r) + y ln(x + r), times p",
         "Love (1929); Johnson (1985), eq. 3.25",
         "Thesis, Paper A, appendix A prints pi E' for pi E'/2 = pi E*, and calls half cell sides spacings.",
         "bem/kernels/half_space.py",
@@ -175,15 +175,17 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
     ),
     (
         "Periodic response",
-        "u^(q) = 2/(E* |q|) p^(q);  mean mode: 0 (it moves the datum only)",
+        "u(q) = 2/(E* |q|) p(q);  mean mode: 0 (it moves the datum only)",
         "Westergaard (1939); Johnson (1985), section 13.2",
         "",
         "bem/kernels/spectral.py",
     ),
     (
         "Bonded layer",
-        "down- and up-going waves of both solids, joined at the interface; free-space coefficients are those of the "
-        "layer's material plus a smooth remainder by a Hankel transform",
+        "u/p = (1 - nu1)/(mu1 q) (1 + 4 x k e^-2x - l k e^-4x)/(1 - (l + k + 4 k x^2) e^-2x + l k e^-4x),  x = q h,\n"
+        "l = 1 - 4(1 - nu1)/(1 + m(3 - 4nu2)),  k = (m - 1)/(m + 3 - 4nu1),  m = mu1/mu2;\n"
+        "stresses: down- and up-going waves of both solids, joined at the interface. Free-space coefficients:\n"
+        "those of the layer's material plus a smooth remainder by a Hankel transform",
         "Burmister (1945); O'Sullivan and King (1988); derived anew here",
         "Plain sampling of the spectrum leaves 2 to 24 % of error; nothing here does that.",
         "bem/kernels/layered.py, layered_hankel.py",
@@ -504,7 +506,7 @@ def _formula(words: str) -> str:
         shown = re.sub(rf"(?<![A-Za-z]){name}(?![a-z])", letter, shown)
     shown = re.sub(r"\bintegral\b", "∫", shown)
     shown = re.sub(r"\bdU\b", "ΔU", re.sub(r"\bdV\b", "ΔV", shown))
-    shown = re.sub(r"\^(\d|z)", r"<sup>\1</sup>", shown)
+    shown = re.sub(r"\^(-\dx|\d|z)", r"<sup>\1</sup>", shown)
     return shown.replace("&lt;=", "≤").replace("&gt;=", "≥").replace(" * ", " ∗ ")
 
 
