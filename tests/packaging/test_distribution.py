@@ -38,7 +38,8 @@ def test_version_comes_from_the_tag(built):
 
 @pytest.mark.slow
 def test_the_wheel_holds_bem_whole_and_nothing_else(built):
-    names = zipfile.ZipFile(next(built.glob("*.whl"))).namelist()
+    with zipfile.ZipFile(next(built.glob("*.whl"))) as archive:
+        names = archive.namelist()
     tops = {name.split("/")[0] for name in names}
     assert tops == {"bem", "bem-7.8.9.dist-info"}
     for path in (ROOT / "bem").rglob("*"):
@@ -53,7 +54,8 @@ def test_the_wheel_holds_bem_whole_and_nothing_else(built):
 
 @pytest.mark.slow
 def test_the_sdist_holds_what_tests_and_reports_need(built):
-    names = tarfile.open(next(built.glob("*.tar.gz"))).getnames()
+    with tarfile.open(next(built.glob("*.tar.gz"))) as archive:
+        names = archive.getnames()
     for path in ("LICENSE", "README.md", "CHANGELOG.md", "Makefile", "tests/conftest.py", "reports/builder.py"):
         assert f"bem-7.8.9/{path}" in names, path
 
