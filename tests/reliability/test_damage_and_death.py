@@ -71,6 +71,7 @@ def files(folder):
     return sorted(str(item.relative_to(folder)) for item in folder.rglob("*") if item.is_file())
 
 
+@pytest.mark.slow
 def test_a_flipped_bit_in_any_file_is_found(finished):
     names = [name for name in files(finished) if name != "checksums.json"]
     assert len(names) > 6
@@ -96,6 +97,7 @@ def test_a_flipped_bit_in_any_file_is_found(finished):
     assert damaged_files(finished) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("content", [b"", b"{", b"\xff\xfe", b"[" * 3000])
 def test_damaged_checksums_are_said(finished, content):
     path = finished / "checksums.json"
