@@ -126,11 +126,12 @@ def _find(run: Run, case: str, size: float, threads: int = 1) -> Point | None:
 
 
 def goal_rows(run: Run) -> list[tuple[Any, ...]]:
-    """(what, goal, measured, met) for every goal; None where it was not measured."""
+    """(what, goal, measured, verdict) for every goal; measured is None where it was not part of the run."""
     rows: list[tuple[Any, ...]] = []
 
     def add(what: str, goal: str, value: float | None, met: bool | None, words: str = "{:.3g}") -> None:
-        rows.append((what, goal, None if value is None else words.format(value), met))
+        verdict = "not in this run" if met is None else ("reached" if met else "not yet")
+        rows.append((what, goal, None if value is None else words.format(value), verdict))
 
     for peer, cells, wanted in (("tamaas", 1024, 60), ("aspher", 1024, 8), ("tamaas", 2048, 80), ("aspher", 2048, 10)):
         row = next((r for r in run.peers if (r["peer"], r["cells"]) == (peer, cells)), None)
