@@ -33,9 +33,7 @@ def replacing(path: Path) -> Iterator[Path]:
     except OSError as error:
         if isinstance(error, ResultsError):
             raise
-        raise ResultsError(
-            f"{path}: cannot be written ({reason(error)}); nothing is left half-written"
-        ) from error
+        raise ResultsError(f"{path}: cannot be written ({reason(error)}); nothing is left half-written") from error
     finally:
         with suppress(OSError):
             temporary.unlink(missing_ok=True)
