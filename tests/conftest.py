@@ -7,6 +7,11 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
+from hypothesis import settings
+
+# the same examples in every run, so that a red run can be repeated; HYPOTHESIS_PROFILE=default hunts with fresh ones
+settings.register_profile("seeded", derandomize=True, deadline=None)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "seeded"))
 
 MEASURED = Path(__file__).resolve().parents[2] / "shared" / "data" / "measured"
 
