@@ -38,7 +38,7 @@ bench: setup
 	$(BIN)/bem bench
 
 report: setup
-	$(BIN)/python -m reports
+	$(BIN)/python -m reports --pdf
 
 gallery: setup
 	$(BIN)/python -m reports gallery

@@ -31,7 +31,7 @@ bem schema contact > contact.schema.json    # for completion and checks in an ed
 bem --install-completion                    # tab completion of commands, options and scene names
 """
 SWEEP = """bem sweep rough-contact --over "contact.mean_pressure=log:20 MPa:500 MPa:6" --over seed=1:3 --out pressures
-bem sweep rough-contact --over contact.behaviour=elastic,capped --scheduler tcp://10.0.0.5:8786
+bem sweep rough-contact --over contact.behaviour=elastic,capped --scheduler tcp://scheduler:8786
 """
 OWN_SURFACES = """bem surface read disk.al3d disk.npz --detrend curvature
 bem surface describe disk.npz
