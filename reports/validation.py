@@ -210,7 +210,7 @@ CHECKS: dict[str, list[Check]] = {
             "converges",
             mesh_means("volume"),
             settled_by_mesh,
-            "This one settles with the cells, and with depth below the thesis' 95 nm (168, 173, 170 nm at 95, 48, 24 nm "
+            "This one settles with the cells, and with depth at the thesis' 95 nm (168, 173, 170 nm at 95, 48, 24 nm "
             "between depths); it is what the scenes report.",
         ),
         Check(
