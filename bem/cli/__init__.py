@@ -18,6 +18,8 @@ from bem.errors import BemError
 # Small dense systems only: threads of the linear algebra spin without gain, and bits may depend on their number.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+_INTERRUPTED = 130
+
 ORDER = (
     "run",
     "plan",
@@ -74,13 +76,25 @@ def main() -> None:
         sys.exit(error.exit_code)
     except KeyboardInterrupt:
         print("bem: interrupted", file=sys.stderr)
-        sys.exit(130)
+        _leave_interrupted()
+    except SystemExit as end:
+        if end.code == _INTERRUPTED:
+            _leave_interrupted()
+        raise
     except MemoryError:
         print("bem: out of memory; `bem plan SCENE` shows what takes how much", file=sys.stderr)
         sys.exit(1)
     except BrokenPipeError:
         sys.stderr.close()
         sys.exit(1)
+
+
+def _leave_interrupted() -> None:
+    """End with the exit code of an interrupt. CPython itself ends by the signal instead where the interrupt once passed
+    through `exec` of a text (as in a dataclass being made), even if it was caught afterwards."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(_INTERRUPTED)
 
 
 def _interrupt(*_: object) -> None:
