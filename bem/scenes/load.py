@@ -16,8 +16,9 @@ from pydantic import BaseModel
 from bem.errors import InputError
 from bem.scenes.common import SceneModel
 from bem.scenes.kinds import get_kind, kind_names
+from bem.scenes.paths import Key, parse_key, put, values_in_file
 from bem.scenes.units import Dimension
-from bem.scenes.validate import nearest, show, validate
+from bem.scenes.validate import is_pair, nearest, show, validate
 
 _LARGEST_FILE = 1_000_000
 
@@ -28,7 +29,9 @@ def load_scene(source: str | os.PathLike[str] | Mapping[str, Any], settings: Seq
     Parameters
     ----------
     source : path of a TOML file, a run directory, the name of a built-in scene, or a table of plain values.
-    settings : `key=value` with dotted keys, values as in TOML; quotes may be left out. They replace what the file says.
+    settings : `key=value` with dotted keys (into lists with an index: `variants[0].name`), values as in TOML; quotes
+        may be left out, and `key=@FILE` takes a list from a text file, one value a line. They replace what the file
+        says.
 
     Raises
     ------
@@ -72,8 +75,14 @@ def _read(source: str | os.PathLike[str] | Mapping[str, Any], settings: Sequence
         data.setdefault("name", "scene")
     else:
         data, folder = _read_named(os.fspath(source))
+    messages: list[str] = []
     for setting in settings:
-        _set(data, setting)
+        try:
+            _set(data, setting)
+        except InputError as error:
+            messages += error.messages
+    if messages:
+        raise InputError(messages)
     return data, folder
 
 
@@ -114,24 +123,35 @@ def _read_file(path: Path) -> dict[str, Any]:
 
 def _set(data: dict[str, Any], setting: str) -> None:
     """Put one `key=value` into the table."""
-    key, equals, text = setting.partition("=")
-    parts = [part.strip() for part in key.split(".")]
-    if not equals or not all(parts):
-        raise InputError(f'--set {show(setting)}: not of the form key=value; allowed: for example contact.load="10 N"')
-    value: Any = text.strip()
-    with suppress(ValueError, RecursionError):  # otherwise a plain word or a quantity without quotes
-        value = tomllib.loads(f"value = {value}")["value"] if "\n" not in value else value
-    if parts[-1] == "path" and isinstance(value, str):
-        value = str(Path(value).absolute())  # what is typed in a shell is relative to the shell's folder
-    table = data
-    for part in parts[:-1]:
-        inner = table.get(part)
-        if isinstance(inner, str) and part in ("material", "surface"):
-            inner = {"catalogue": inner} if part == "material" else {"kind": inner}
-        inner = dict(inner) if isinstance(inner, Mapping) else {}
-        table[part] = inner
-        table = inner
-    table[parts[-1]] = value
+    text, equals, value = setting.partition("=")
+    key = parse_key(text)
+    if not equals or key is None:
+        raise InputError(
+            f'--set {show(setting)}: not of the form key=value; allowed: for example contact.load="10 N", '
+            'variants[0].name="a", or key=@FILE with a value on each line'
+        )
+    if value.strip().startswith("@"):
+        found: Any = [_plain(line) for line in values_in_file(value.strip()[1:], f"--set {show(setting)}")]
+    else:
+        found = _plain(value)
+    if key[-1] == "path" and isinstance(found, str):
+        found = str(Path(found).absolute())  # what is typed in a shell is relative to the shell's folder
+    put(data, key, found, pair=_is_pair(data, key))
+
+
+def _plain(text: str) -> Any:
+    """A value as in TOML; what is none is a plain word or a quantity without quotes."""
+    value = text.strip()
+    with suppress(ValueError, RecursionError):
+        return tomllib.loads(f"value = {value}")["value"] if "\n" not in value else value
+    return value
+
+
+def _is_pair(data: Mapping[str, Any], key: Key) -> bool:
+    """Whether the list that the key's last index points into has one entry for each axis."""
+    if data.get("kind") not in kind_names() or not isinstance(key[-1], int):
+        return False
+    return is_pair(key[:-1], data, get_kind(data["kind"]).model)
 
 
 def _absolute(value: Any, folder: Path, depth: int = 0) -> Any:

@@ -135,6 +135,12 @@ def _locate(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> tuple[str,
     return key, annotation, metadata
 
 
+def is_pair(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> bool:
+    """Whether the field at these keys holds two values, one for each axis."""
+    arguments = typing.get_args(_without_none(_locate(loc, data, model)[1]))
+    return len(arguments) == 2 and Ellipsis not in arguments
+
+
 def _unwrap(annotation: Any) -> tuple[Any, tuple[Any, ...]]:
     """An annotation without `Annotated`, and what was in it."""
     metadata: tuple[Any, ...] = ()

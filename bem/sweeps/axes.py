@@ -9,12 +9,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from bem.errors import InputError
+from bem.scenes.paths import parse_key, spell_key, values_in_file
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*", re.DOTALL)
 _MOST_VALUES = 100_000
 _ALLOWED = (
-    "key=first:last:count, key=log:first:last:count, key=first:last (whole numbers), or key=value,value,...; "
-    'for example contact.load="1 N:10 N:4", contact.load="log:1 N:100 N:5", seed=1:5'
+    "key=first:last:count, key=log:first:last:count, key=first:last (whole numbers), key=value,value,... or key=@FILE "
+    '(a value on each line); for example contact.load="1 N:10 N:4", contact.load="log:1 N:100 N:5", seed=1:5, '
+    "variants[0].depths.count=8,16"
 )
 
 
@@ -24,7 +26,7 @@ class Axis:
 
     Parameters
     ----------
-    key : dotted key of the scene.
+    key : dotted key of the scene, with indices into lists as in `variants[0].name`.
     values : what each point sets it to, as text of `bem run --set key=VALUE`.
     spacing : "list", "linear" or "logarithmic": how a figure shows it.
     """
@@ -61,16 +63,24 @@ def parse_axes(texts: Sequence[str]) -> tuple[Axis, ...]:
 
 
 def parse_axis(text: str) -> Axis:
-    """One axis: `key=a:b:n` (linear), `key=log:a:b:n`, `key=a:b` (whole numbers) or `key=v1,v2,...`.
+    """One axis: `key=a:b:n` (linear), `key=log:a:b:n`, `key=a:b` (whole numbers), `key=v1,v2,...` or `key=@FILE`.
 
     Raises
     ------
     InputError : it cannot be read, or values come twice.
     """
-    key, equals, body = text.partition("=")
-    key, body = key.strip(), body.strip()
-    if not equals or not all(part.strip() for part in key.split(".")) or not body:
+    name, equals, body = text.partition("=")
+    parsed, body = parse_key(name), body.strip()
+    if not equals or parsed is None or not body:
         raise _refused(text, "is not of the form key=values")
+    key = spell_key(parsed)
+    if body.startswith("@"):
+        values = values_in_file(body[1:], f"--over {_shown(text)}")
+        if len(values) > _MOST_VALUES:
+            raise _refused(text, f"has more than {_MOST_VALUES} values")
+        if len(set(values)) < len(values):
+            raise _refused(text, "has the same value twice")
+        return Axis(key, values)
     parts = [part.strip() for part in _split(body, ":")]
     spacing = "list"
     if len(parts) == 1:
@@ -165,4 +175,8 @@ def _split(text: str, separator: str) -> list[str]:
 
 
 def _refused(text: str, why: str) -> InputError:
-    return InputError(f"--over {json.dumps(text[:80], ensure_ascii=False)}: {why}; allowed: {_ALLOWED}")
+    return InputError(f"--over {_shown(text)}: {why}; allowed: {_ALLOWED}")
+
+
+def _shown(text: str) -> str:
+    return json.dumps(text[:80], ensure_ascii=False)

@@ -25,6 +25,7 @@ from bem.runs import Watcher, plan_scene
 from bem.scenes import get_kind
 from bem.scenes.common import SceneModel
 from bem.scenes.load import _unit_of, dump_scene, load_scene, scene_table
+from bem.scenes.paths import parse_key, value_at
 from bem.scenes.planner import available_memory, check_memory
 from bem.sweeps.axes import Axis, parse_axes
 from bem.sweeps.collect import Coordinate, dataset_variables, table_text
@@ -78,7 +79,8 @@ def run_sweep(
     ----------
     source : as `bem.scenes.load_scene` takes it.
     over : swept keys: `key=first:last:count`, `key=log:first:last:count`, `key=first:last` (whole numbers) or
-        `key=value,value,...`; units as in scenes.
+        `key=value,value,...` or `key=@FILE` (a value on each line); units as in scenes, an index into lists as in
+        `variants[0].name`.
     out : the sweep's folder; `sweeps/NAME` where not given.
     settings : `key=value` changes to the scene.
     workers : processes on this machine; as many as cores (and memory) allow where not given.
@@ -158,9 +160,7 @@ def _coordinate(axis: Axis, place: int, axes: Sequence[Axis], scenes: Sequence[S
     step = math.prod(len(other.values) for other in axes[place + 1 :])
     found: list[Any] = []
     for i in range(len(axis.values)):
-        value: Any = scene_table(scenes[i * step])
-        for part in axis.key.split("."):
-            value = value.get(part.strip()) if isinstance(value, Mapping) else None
+        value: Any = value_at(scene_table(scenes[i * step]), parse_key(axis.key) or ())
         if isinstance(value, list) and value and all(item == value[0] for item in value):
             value = value[0]
         found.append(value)
@@ -171,12 +171,17 @@ def _coordinate(axis: Axis, place: int, axes: Sequence[Axis], scenes: Sequence[S
 
 
 def _unit_at(scene: SceneModel, key: str) -> str:
+    """The SI unit of the field at a key, of which an index picks one value."""
     table: Any = scene
-    *path, last = (part.strip() for part in key.split("."))
-    for part in path:
+    unit = ""
+    for part in parse_key(key) or ():
+        if isinstance(part, int):
+            table = table[part] if isinstance(table, list | tuple) and part < len(table) else None
+            continue
+        field = getattr(type(table), "model_fields", {}).get(part)
+        unit = "" if field is None else _unit_of(field)
         table = getattr(table, part, None)
-    field = getattr(type(table), "model_fields", {}).get(last)
-    return (_unit_of(field) if field is not None else "") or "1"
+    return unit or "1"
 
 
 def _take(folder: Path, name: str, axes: Sequence[Axis], settings: Sequence[str], resume: bool) -> None:

@@ -134,7 +134,42 @@ def test_settings_change_the_scene():
     assert (scene.seed, scene.name) == (7, "other")
 
 
-@pytest.mark.parametrize("setting", ["nothing", "=3", "a..b=3", ".=1"])
+def test_settings_reach_into_lists():
+    scene = load_scene(
+        "wear-mesh-convergence", ["variants[0].name=first", "variants.1.cells=96", "cylinder.loads=[3.0]"]
+    )
+    assert scene.variants[0].name == "first"
+    assert scene.variants[1].cells == 96
+    before = load_scene("wear-mesh-convergence")
+    assert scene.variants[0].model_copy(update={"name": before.variants[0].name}) == before.variants[0]
+    assert load_scene(SCENE, ["grid.shape[1]=8"]).grid.shape == (32, 8), "one value that stands for both axes"
+
+
+def test_a_setting_from_a_file(tmp_path):
+    (tmp_path / "loads").write_text("# from the tester\n2.5 N\n\n5\n")
+    assert load_scene("wear-steel-steel", [f"cylinder.loads=@{tmp_path}/loads"]).cylinder.loads == [2.5, 5.0]
+
+
+@pytest.mark.parametrize(
+    ("setting", "message"),
+    [
+        ("grid.shape[2]=8", "grid.shape[2]: grid.shape has 2 entries; allowed: grid.shape[0] to grid.shape[1]"),
+        ("seed[0]=8", "seed[0]: seed is not set and so has no entries; allowed: all of it, seed=..."),
+        ("contact[0]=8", "contact[0]: contact is a table, not a list; allowed: no index"),
+        ("contact.mean_pressure[0]=8", "contact.mean_pressure[0]: contact.mean_pressure is one value, not a list"),
+        ("outputs.depths.x=8", "outputs.depths.x: outputs.depths is a list; allowed: outputs.depths[0]"),
+        ("outputs.depths[0].x[1]=8", "outputs.depths[0].x[1]: outputs.depths[0].x is not set"),
+    ],
+)
+def test_a_bad_index_is_one_message(setting, message):
+    scene = SCENE | {"outputs": {"depths": ["1 um"]}}
+    with pytest.raises(InputError) as caught:
+        load_scene(scene, [setting, "nonsense"])
+    assert caught.value.messages[0].startswith(message)
+    assert len(caught.value.messages) == 2, "all mistakes at once"
+
+
+@pytest.mark.parametrize("setting", ["nothing", "=3", "a..b=3", ".=1", "a[]=1", "a[x]=1", "0.a=1", "a=@", "a=@/"])
 def test_bad_settings(setting):
     with pytest.raises(InputError, match="--set"):
         load_scene(SCENE, [setting])

@@ -24,6 +24,9 @@ from bem.sweeps.axes import parse_axes, parse_axis
         ('cylinder.loads=["1 N","2 N"],["3 N"]', "cylinder.loads", ('["1 N","2 N"]', '["3 N"]')),
         ('a.path="x,y.di","z:1.di"', "a.path", ('"x,y.di"', '"z:1.di"')),
         ("x=log:1 GPa:100 MPa:2", "x", ("1.0 GPa", "0.1 GPa")),
+        ("variants[0].cells=8,16", "variants[0].cells", ("8", "16")),
+        (" variants . 0 .cells = 8,16", "variants[0].cells", ("8", "16")),
+        ("a.1.2=1:2", "a[1][2]", ("1", "2")),
     ],
 )
 def test_values(text, key, values):
@@ -51,12 +54,36 @@ def test_values(text, key, values):
         ("a=1 N:2 furlongs:3", "different dimensions"),
         ("a=1 N:2 xyzzy:3", "unknown unit"),
         ("a=1:99999999999", "more than"),
+        ("0=1,2", "form key=values"),
+        ("[0]=1,2", "form key=values"),
+        ("a[-1]=1,2", "form key=values"),
+        ("a[x]=1,2", "form key=values"),
+        ("a[0=1,2", "form key=values"),
+        ("a[]=1,2", "form key=values"),
     ],
 )
 def test_mistakes_say_what_is_allowed(text, why):
     with pytest.raises(InputError, match="allowed: ") as caught:
         parse_axis(text)
     assert why in str(caught.value)
+
+
+def test_values_from_a_file(tmp_path):
+    file = tmp_path / "loads.txt"
+    file.write_text("# measured\n2.5 N\n\n  5 N\n")
+    axis = parse_axis(f"contact.load=@{file}")
+    assert (axis.key, axis.values, axis.spacing) == ("contact.load", ("2.5 N", "5 N"), "list")
+    for content, why in (("# none\n", "holds no values"), ("1\n1\n", "same value twice"), ("\udcff", "cannot be read")):
+        file.write_bytes(content.encode("utf-8", "surrogateescape"))
+        with pytest.raises(InputError, match=f"{why}.*allowed: "):
+            parse_axis(f"contact.load=@{file}")
+    with pytest.raises(InputError, match=r"No such file.*allowed: a text file"):
+        parse_axis(f"contact.load=@{tmp_path}/nowhere")
+
+
+def test_an_index_counts_as_the_same_key_however_it_is_written():
+    with pytest.raises(InputError, match=r"a\[0\].*more than once"):
+        parse_axes(["a[0]=1,2", "a.0=3,4"])
 
 
 def test_all_mistakes_at_once():

@@ -83,6 +83,22 @@ def test_dataset_table_and_figure(tmp_path, here):
     assert not (tmp_path / "s" / ".sweep-token").exists()
 
 
+def test_keys_reach_into_lists(tmp_path, here):
+    scene = SCENE | {"outputs": {"von_mises": True, "depths": {"values": ["0.1 um", "0.3 um"]}, "vtk": False}}
+    done = run_sweep(scene, ["outputs.depths.values.1=0.4 um:0.6 um:2", "grid.shape[1]=16,32"], tmp_path / "s")
+    dataset = done.dataset
+    assert dataset["max_von_mises_Pa"].dims == ("outputs.depths.values[1]", "grid.shape[1]")
+    np.testing.assert_allclose(dataset["outputs.depths.values[1]"], [0.4e-6, 0.6e-6], rtol=1e-12)  # decimal to metres
+    assert dataset["outputs.depths.values[1]"].attrs["units"] == "m"
+    assert list(dataset["grid.shape[1]"].values) == [16, 32]
+    own = [open_run(path).scene for path in sorted((tmp_path / "s" / "points").iterdir())]
+    found = sorted((item["outputs"]["depths"]["values"][1], *item["grid"]["shape"]) for item in own)
+    assert found == [(4e-7, 16, 16), (4e-7, 16, 32), (6e-7, 16, 16), (6e-7, 16, 32)]
+    with pytest.raises(InputError, match=r"depths.values has 2 entries"):
+        run_sweep(scene, ["outputs.depths.values[2]=1 um,2 um"], tmp_path / "t")
+    assert not (tmp_path / "t").exists()
+
+
 def test_a_finished_point_is_never_computed_again(tmp_path, here):
     run_sweep(SCENE, OVER, tmp_path / "s")
     stamps = {path: path.stat().st_mtime_ns for path in (tmp_path / "s").rglob("summary.json")}

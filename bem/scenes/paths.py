@@ -1,0 +1,136 @@
+"""Keys of a scene as they are typed: `contact.load`; into lists by index, `variants[0].name` or `variants.0.name`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from bem.errors import InputError
+
+Key = tuple[str | int, ...]
+
+_LARGEST_FILE = 1_000_000
+_INDEXED = re.compile(r"([^\[\]]*)((?:\[[0-9]{1,6}\])*)")
+
+
+def parse_key(text: str) -> Key | None:
+    """Parts of a dotted key, indices as numbers; None where it is not one."""
+    parts: list[str | int] = []
+    for piece in text.split("."):
+        match = _INDEXED.fullmatch(piece.strip())
+        name = match[1].strip() if match else ""
+        if match is None or not name:
+            return None
+        parts.append(int(name) if re.fullmatch("[0-9]{1,6}", name) else name)
+        parts += [int(number) for number in re.findall("[0-9]+", match[2])]
+    return tuple(parts) if isinstance(parts[0], str) else None
+
+
+def spell_key(key: Sequence[str | int]) -> str:
+    """The key as messages and results spell it: `variants[0].name`."""
+    text = ""
+    for part in key:
+        text += f"[{part}]" if isinstance(part, int) else f".{part}" if text else part
+    return text
+
+
+def value_at(table: Any, key: Sequence[str | int]) -> Any:
+    """What stands at the key in tables and lists of plain values; None where nothing does."""
+    for part in key:
+        if isinstance(part, int):
+            table = table[part] if isinstance(table, list | tuple) and part < len(table) else None
+        else:
+            table = table.get(part) if isinstance(table, Mapping) else None
+    return table
+
+
+def put(data: dict[str, Any], key: Key, value: Any, pair: bool = False) -> None:
+    """Set the value at a key, in place; tables on the way are made where they are missing, lists are not.
+
+    The lists and tables on the way are copied first, so that what `data` was made from stays as it is.
+
+    Parameters
+    ----------
+    data : the scene's table.
+    key : where.
+    value : plain value.
+    pair : whether one value that stands where the last index points stands for both axes.
+
+    Raises
+    ------
+    InputError : an index into something that is not a list, or beyond its end; a list entered without an index.
+    """
+    place: Any = data
+    for depth, part in enumerate(key):
+        here = key[:depth]
+        if isinstance(part, int):
+            _check_index(place, here, part)
+        elif isinstance(place, list):
+            raise InputError(f"{spell_key(key)}: {spell_key(here)} is a list; allowed: {_entries(here, place)}")
+        if depth == len(key) - 1:
+            place[part] = value
+            return
+        below = place[part] if isinstance(part, int) else place.get(part)
+        if isinstance(below, list | tuple):
+            below = list(below)
+        elif isinstance(key[depth + 1], int) and pair and depth == len(key) - 2 and _is_single(below):
+            below = [below, below]
+        elif isinstance(below, Mapping):
+            below = dict(below)
+        elif isinstance(below, str) and part in ("material", "surface"):
+            below = {"catalogue": below} if part == "material" else {"kind": below}
+        elif not isinstance(key[depth + 1], int):
+            below = {}
+        place[part] = below
+        place = below
+
+
+def _check_index(place: Any, here: Key, index: int) -> None:
+    if place is None:
+        raise InputError(
+            f"{spell_key(here)}[{index}]: {spell_key(here)} is not set and so has no entries; "
+            f"allowed: all of it, {spell_key(here)}=..."
+        )
+    if not isinstance(place, list):
+        what = "a table" if isinstance(place, Mapping) else "one value"
+        raise InputError(f"{spell_key(here)}[{index}]: {spell_key(here)} is {what}, not a list; allowed: no index")
+    if index >= len(place):
+        raise InputError(
+            f"{spell_key(here)}[{index}]: {spell_key(here)} has {len(place)} "
+            f"{'entry' if len(place) == 1 else 'entries'}; allowed: {_entries(here, place)}"
+        )
+
+
+def _entries(here: Key, place: Sequence[Any]) -> str:
+    name = spell_key(here)
+    if not place:
+        return f"the whole list, {name}=[...]"
+    return f"{name}[0]" + (f" to {name}[{len(place) - 1}]" if len(place) > 1 else "")
+
+
+def _is_single(value: Any) -> bool:
+    return isinstance(value, bool | int | float | str)
+
+
+def values_in_file(name: str, option: str) -> tuple[str, ...]:
+    """Values from a text file, one a line; empty lines and those that begin with # are left out.
+
+    Raises
+    ------
+    InputError : the file cannot be read or holds no values.
+    """
+    try:
+        with open(Path(name), "rb") as file:
+            raw = file.read(_LARGEST_FILE + 1)
+        if len(raw) > _LARGEST_FILE:
+            raise ValueError(f"larger than {_LARGEST_FILE} bytes")
+        lines = [line.strip() for line in raw.decode("utf-8").splitlines()]
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        raise InputError(f"{option}: {name} cannot be read ({why}); allowed: a text file, one value a line") from None
+    values = tuple(line for line in lines if line and not line.startswith("#"))
+    if not values:
+        raise InputError(f"{option}: {name} holds no values; allowed: a text file, one value a line")
+    return values
