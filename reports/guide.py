@@ -202,7 +202,7 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
         "sigma_ij(z) = F^N_ij * p + F^S_ij * (f p)",
         "Love (1929) and Cerruti's potentials, integrated over rectangles; Hamilton (1983) as check",
         "",
-        "bem/kernels/subsurface.py, bem/stress.py",
+        "bem/kernels/subsurface.py, bem/stress",
     ),
     (
         "Line film",

@@ -151,7 +151,7 @@ def watched() -> Iterator[dict[str, float]]:
 
     Counters stand around the functions only here, so that a timed solve does not pay for them.
     """
-    import bem.stress
+    import bem.stress.sweeps
     from bem.contact import passes, preconditioner
     from bem.transforms import PaddedTransform
     from bem.wear import cycle
@@ -185,7 +185,7 @@ def watched() -> Iterator[dict[str, float]]:
     targets += [
         (preconditioner.SparseInverse, "on", "preconditioner"),
         (preconditioner.SparseInverseOnCells, "apply", "preconditioner"),
-        (bem.stress, "_share_rows", "elementwise"),
+        (bem.stress.sweeps, "_share_rows", "elementwise"),
         (cycle, "segment", "pieces"),
     ]
     kept = [(owner, name, getattr(owner, name)) for owner, name, _ in targets]

@@ -203,7 +203,7 @@ def test_without_traction_no_tangential_stress_coefficient_is_evaluated(monkeypa
         asked.append(load)
         return inner(grid, body, depth, load)
 
-    monkeypatch.setattr(stress, "stress_coefficients", counted)
+    monkeypatch.setattr(stress.spectra, "stress_coefficients", counted)
     pressure = np.full(GRID.shape, 1e8)
     still = subsurface_stress(pressure, GRID, SOFT, [1e-7])
     assert asked == [Load.NORMAL]

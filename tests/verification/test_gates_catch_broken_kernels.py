@@ -89,7 +89,7 @@ STRESSES = [
     for function, gates in (
         ("bem.kernels.subsurface.stress_table", ("disc-uniform", "disc-tangential-uniform")),
         ("bem.kernels.semi_periodic.stress_table", ("images-bare-x", "images-bare-x")),
-        ("bem.stress.stress_response", ("oblique-wave", "oblique-wave")),
+        ("bem.stress.spectra.stress_response", ("oblique-wave", "oblique-wave")),
         ("bem.kernels.layered_cells.stress_remainder", ("disc-uniform-soft", "disc-tangential-uniform-soft")),
         ("bem.kernels.layered_semi.stress_remainder", ("images-coated-x", "images-coated-x")),
         ("bem.verification.rectangle.rectangle_stress", ("rectangle-normal", "rectangle-tangential")),

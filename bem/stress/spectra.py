@@ -1,0 +1,198 @@
+"""Kernels of a stress request: checked, their spectra made once and kept in bounded memory.
+
+Spectra are quarter arrays of reals, for
+
+    t = xx + yy + zz,   d = xx - yy,   e = zz - (xx + yy)/2,   yz,   xz,   xy
+
+of which von Mises, sqrt(3/4 d^2 + e^2 + 3 (yz^2 + xz^2 + xy^2)), needs the last five.
+
+Memory: a quarter array holds (px/2 + 1)(py/2 + 1) numbers (p: padded lengths); with traction there are twelve a depth:
+6.3 MB for 256 x 256 free cells. They are bounded by `set_stress_memory`. Where a sweep through the depths does not fit,
+the first ones are kept and the rest is computed anew every time, which is the best there is for a repeated sweep.
+"""
+
+from __future__ import annotations
+
+import math
+import threading
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bem.errors import InputError
+from bem.grid import FloatArray, Grid
+from bem.kernels.coefficients import STRESS_PARITY, Load, stress_coefficients
+from bem.kernels.spectral import stress_response
+from bem.materials import Body
+from bem.transforms import Multiplier, kernel_spectrum, multiplier, padded_length
+
+
+@dataclass
+class StressCount:
+    """What was computed since the last reset: depths whose spectra, and depths whose bound tables, were made."""
+
+    spectra: int = 0
+    bounds: int = 0
+
+    def reset(self) -> None:
+        """Back to zero."""
+        self.spectra = self.bounds = 0
+
+
+COUNT = StressCount()
+"""Kernels evaluated by this process; what the cache served is not counted."""
+
+
+@dataclass
+class _Kept:
+    value: Any
+    nbytes: int
+    sweep: int
+
+
+class SweepCache:
+    """Bounded store for values that are asked for in repeated sweeps.
+
+    What the last two sweeps did not use gives way; what the present one used does not. Dropping the least recently
+    used would, in a sweep a little too long for the memory, drop each value just before it is needed again.
+    """
+
+    def __init__(self, limit: int) -> None:
+        self.limit = limit
+        self.kept: dict[Any, _Kept] = {}
+        self.used = 0
+        self.sweep = 0
+        self.lock = threading.Lock()
+
+    def begin(self) -> int:
+        """Number of a new sweep."""
+        with self.lock:
+            self.sweep += 1
+            return self.sweep
+
+    def get(self, key: Any, sweep: int) -> Any:
+        """What is kept under a key, from now on in use by this sweep; None if nothing."""
+        with self.lock:
+            found = self.kept.get(key)
+            if found is None:
+                return None
+            found.sweep = sweep
+            return found.value
+
+    def put(self, key: Any, value: Any, nbytes: int, sweep: int) -> None:
+        """Keep a value if there is room for it."""
+        with self.lock:
+            if key in self.kept:
+                return
+            self._make_room(self.limit - nbytes, sweep - 1)
+            if self.used + nbytes <= self.limit:
+                self.kept[key] = _Kept(value, nbytes, sweep)
+                self.used += nbytes
+
+    def resize(self, limit: int) -> None:
+        """Another limit [bytes]."""
+        with self.lock:
+            self.limit = limit
+            self._make_room(limit, self.sweep + 1)
+
+    def _make_room(self, target: int, before: int) -> None:
+        """Drop values last used before a sweep, oldest first, until `target` bytes are held."""
+        if self.used <= target:
+            return
+        for key in sorted((k for k, v in self.kept.items() if v.sweep < before), key=lambda k: self.kept[k].sweep):
+            self.used -= self.kept.pop(key).nbytes
+            if self.used <= target:
+                return
+
+
+SPECTRA = SweepCache(1 << 29)
+
+
+def set_stress_memory(limit: int) -> None:
+    """Bound the memory that cached stress spectra may hold [bytes]; default 512 MiB, 0 keeps none.
+
+    Raises
+    ------
+    InputError : not a number of bytes.
+    """
+    if not (isinstance(limit, int | float) and math.isfinite(limit) and limit >= 0):
+        raise InputError(f"set_stress_memory: limit {limit!r} must be a number of bytes >= 0")
+    SPECTRA.resize(int(limit))
+
+
+def stress_memory() -> int:
+    """Memory held by cached stress spectra [bytes]."""
+    return SPECTRA.used
+
+
+def elastic(body: Body) -> tuple[float, ...]:
+    """What of a body decides its stresses: nu alone if homogeneous, else the ratio of moduli too."""
+    nu = body.material.poissons_ratio
+    if body.layer is None:
+        return (nu,)
+    coating = body.layer.material
+    return (nu, coating.poissons_ratio, coating.youngs_modulus / body.material.youngs_modulus, body.layer.thickness)
+
+
+def check_request(
+    name: str, grid: object, body: object, depths: ArrayLike, friction: object
+) -> tuple[tuple[float, ...], float]:
+    """Depths and friction of a request as numbers.
+
+    Raises
+    ------
+    InputError : any of them is not what its name says.
+    """
+    messages = []
+    if not isinstance(grid, Grid):
+        messages.append(f"{name}: grid {grid!r} must be a Grid")
+    if not isinstance(body, Body):
+        messages.append(f"{name}: body {body!r} must be a Body")
+    if not (isinstance(friction, int | float | np.floating | np.integer) and math.isfinite(friction)):
+        messages.append(f"{name}: friction {friction!r} must be a finite number")
+    values = np.asarray(depths)
+    if values.dtype.kind not in "fiu" or values.ndim != 1:
+        messages.append(f"{name}: depths must be a one-dimensional sequence of numbers [m]")
+    elif not np.isfinite(values).all() or (values < 0).any():
+        messages.append(f"{name}: depths must be finite and not negative (0 is the surface) [m]")
+    if messages:
+        raise InputError(messages)
+    return tuple(float(z) for z in values), float(friction)  # type: ignore[arg-type]
+
+
+def padded_lengths(grid: Grid) -> tuple[int, int]:
+    """Lengths of the transforms."""
+    return padded_length(grid.shape[0], grid.periodic[0]), padded_length(grid.shape[1], grid.periodic[1])
+
+
+def loads(friction: float) -> list[tuple[Load, float]]:
+    """The loads that act, each with its factor of the pressure."""
+    return [(Load.NORMAL, 1.0)] + ([(Load.TANGENTIAL, friction)] if friction != 0 else [])
+
+
+def multipliers(grid: Grid, body: Body, depth: float, friction: float) -> tuple[Multiplier, ...]:
+    """Spectra of t, d, e, yz, xz, xy at a depth, computed now."""
+    COUNT.spectra += 1
+    padded = padded_lengths(grid)
+    parts: list[list[tuple[FloatArray, tuple[int, int], float]]] = [[] for _ in range(6)]
+    for load, factor in loads(friction):
+        if all(grid.periodic):
+            kernels = stress_response(grid, body, depth, load)
+        else:
+            kernels = stress_coefficients(grid, body, depth, load)
+        xx, yy, zz = kernels[0].copy(), kernels[1].copy(), kernels[2].copy()
+        kernels[0] = xx + yy + zz
+        kernels[1] = xx - yy
+        kernels[2] = zz - 0.5 * (xx + yy)
+        for component in range(6):
+            parity = STRESS_PARITY[load][component]
+            if all(grid.periodic):
+                # `multiplier` takes i^2 = -1 for a kernel odd along both axes; the response has it already
+                sign = -1.0 if parity == (-1, -1) else 1.0
+                quarter = np.ascontiguousarray(kernels[component][: padded[0] // 2 + 1].T) * sign
+            else:
+                quarter = kernel_spectrum(kernels[component], padded, parity)
+            parts[component].append((quarter, parity, factor))
+    return tuple(multiplier(part) for part in parts)

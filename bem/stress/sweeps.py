@@ -1,0 +1,223 @@
+"""Stresses plane by plane: six components, or von Mises only.
+
+One forward transform of the pressure serves all depths and components; the traction `friction x pressure` is part of
+the kernel, so it costs none of its own. Von Mises needs five of the six spectra (see `spectra`): it is a sixth cheaper
+than the stress itself, and it is never stored but as one number a point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import ArrayLike, NDArray
+
+from bem.errors import InputError
+from bem.grid import FloatArray, Grid
+from bem.materials import Body
+from bem.stress.spectra import SPECTRA, check_request, elastic, multipliers, padded_lengths
+from bem.threads import share
+from bem.transforms import Multiplier, PaddedTransform, transform_of
+
+
+def subsurface_stress(
+    pressure: ArrayLike,
+    grid: Grid,
+    body: Body,
+    depths: ArrayLike,
+    *,
+    friction: float = 0.0,
+    out: FloatArray | None = None,
+) -> FloatArray:
+    """Stress in `body` under `pressure` and the traction friction x pressure along +x, at the grid's points.
+
+    Parameters
+    ----------
+    pressure : (nx, ny) [Pa], positive in compression.
+    grid : free or periodic along each axis. On a doubly periodic grid the pressure is its trigonometric interpolant
+        and the mean pressure gives the laterally constrained uniform state; otherwise it is constant on each cell.
+    depths : (nz,) [m], any order, each >= 0; on a layer's interface the layer's side.
+    friction : f of the traction on the body.
+    out : (6, nz, nx, ny) to write into.
+
+    Returns
+    -------
+    (6, nz, nx, ny) [Pa], xx yy zz yz xz xy, tension positive.
+
+    Raises
+    ------
+    InputError : shapes that do not match, values that are not finite, depths above the surface.
+    """
+    sweep = Sweep.of("subsurface_stress", pressure, grid, body, depths, friction)
+    shape = (6, len(sweep.depths), *grid.shape)
+    result = check_out("subsurface_stress", out, shape)
+    for index in range(len(sweep.depths)):
+        factors = sweep.factors(index)
+        for component in range(6):
+            sweep.transform.inverse(sweep.spectrum, factors[component], result[component, index])
+        _share_rows(_recombine, grid.shape[0], result[:, index])
+    return result
+
+
+def von_mises_planes(
+    pressure: ArrayLike,
+    grid: Grid,
+    body: Body,
+    depths: ArrayLike,
+    *,
+    friction: float = 0.0,
+    out: FloatArray | None = None,
+) -> Iterator[FloatArray]:
+    """Von Mises stress, one plane (nx, ny) [Pa] for each depth in turn; arguments as in `subsurface_stress`.
+
+    The next plane is computed when it is asked for. Each is a new array, or `out` written over.
+    """
+    sweep = Sweep.of("von_mises_planes", pressure, grid, body, depths, friction)
+    if out is not None:
+        check_out("von_mises_planes", out, grid.shape)
+    return planes(sweep, [out] * len(sweep.depths))
+
+
+def von_mises_field(
+    pressure: ArrayLike,
+    grid: Grid,
+    body: Body,
+    depths: ArrayLike,
+    *,
+    friction: float = 0.0,
+    out: FloatArray | None = None,
+) -> FloatArray:
+    """Von Mises stress (nz, nx, ny) [Pa] without ever storing six components; arguments as in `subsurface_stress`.
+
+    `out` : (nz, nx, ny) to write into, made if not given.
+    """
+    sweep = Sweep.of("von_mises_field", pressure, grid, body, depths, friction)
+    result = check_out("von_mises_field", out, (len(sweep.depths), *grid.shape))
+    for _ in planes(sweep, list(result)):
+        pass
+    return result
+
+
+def von_mises(stress: ArrayLike) -> FloatArray:
+    """Von Mises stress (...) of a stress (6, ...), xx yy zz yz xz xy.
+
+    Raises
+    ------
+    InputError : a first axis that does not hold six components.
+    """
+    components = np.asarray(stress, dtype=np.float64)
+    if components.ndim < 1 or components.shape[0] != 6:
+        raise InputError(f"von_mises: shape {components.shape} must start with 6 components (xx yy zz yz xz xy)")
+    flat = components.reshape(6, -1)
+    result = np.empty(flat.shape[1])
+    _von_mises(flat, result)
+    return result.reshape(components.shape[1:])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
+def _von_mises(s, out):  # type: ignore[no-untyped-def]
+    for i in range(out.size):
+        d = s[0, i] - s[1, i]
+        e = s[2, i] - 0.5 * (s[0, i] + s[1, i])
+        shear = s[3, i] * s[3, i] + s[4, i] * s[4, i] + s[5, i] * s[5, i]
+        out[i] = np.sqrt(0.75 * d * d + e * e + 3.0 * shear)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
+def _recombine(start, stop, stress):  # type: ignore[no-untyped-def]
+    """In place from (t, d, e, ...) to (xx, yy, zz, ...)."""
+    for i in range(start, stop):
+        for j in range(stress.shape[2]):
+            t, d, e = stress[0, i, j], stress[1, i, j], stress[2, i, j]
+            mean = (t - e) / 3.0
+            stress[0, i, j] = mean + 0.5 * d
+            stress[1, i, j] = mean - 0.5 * d
+            stress[2, i, j] = mean + e
+
+
+@njit(cache=True, nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
+def _accumulate(start, stop, values, weight, out):  # type: ignore[no-untyped-def]
+    for i in range(start, stop):
+        for j in range(out.shape[1]):
+            out[i, j] += weight * values[i, j] * values[i, j]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
+def _finish(start, stop, values, weight, out):  # type: ignore[no-untyped-def]
+    for i in range(start, stop):
+        for j in range(out.shape[1]):
+            out[i, j] = np.sqrt(out[i, j] + weight * values[i, j] * values[i, j])
+
+
+_ROWS = 64  # rows in a block of elementwise work
+
+
+def _share_rows(work: Any, rows: int, *arguments: Any) -> None:
+    def block(_: int, number: int) -> None:
+        work(number * _ROWS, min(rows, (number + 1) * _ROWS), *arguments)
+
+    share(block, -(-rows // _ROWS))
+
+
+_SHARES = (0.0, 0.75, 1.0, 3.0, 3.0, 3.0)  # of t, d, e, yz, xz, xy squared in von Mises squared
+
+
+def planes(sweep: Sweep, outs: Sequence[FloatArray | None]) -> Iterator[FloatArray]:
+    """Von Mises stress of one depth after the other, each into its own array, or a new one where that is None."""
+    shape = sweep.grid.shape
+    scratch = np.empty(shape)
+    for index, out in enumerate(outs):
+        plane = np.empty(shape) if out is None else out
+        plane[...] = 0.0
+        factors = sweep.factors(index)
+        for component in range(1, 6):
+            sweep.transform.inverse(sweep.spectrum, factors[component], scratch)
+            work = _finish if component == 5 else _accumulate
+            _share_rows(work, shape[0], scratch, _SHARES[component], plane)
+        yield plane
+
+
+def check_out(name: str, out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:
+    """The array to write into: `out` if it fits, a new one if it is None."""
+    if out is None:
+        return np.empty(shape)
+    if not (isinstance(out, np.ndarray) and out.shape == shape and out.dtype == np.float64 and out.flags.writeable):
+        found = f"{out.dtype} {out.shape}" if isinstance(out, np.ndarray) else type(out).__name__
+        raise InputError(f"{name}: out ({found}) must be a writeable float64 array of shape {shape}")
+    return out
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A checked request: the transformed pressure, and the spectra of each depth as they are needed."""
+
+    grid: Grid
+    body: Body
+    depths: tuple[float, ...]
+    friction: float
+    transform: PaddedTransform
+    spectrum: NDArray[Any]
+    number: int
+
+    @classmethod
+    def of(cls, name: str, pressure: ArrayLike, grid: Grid, body: Body, depths: ArrayLike, friction: float) -> Sweep:
+        """Check a request and transform its pressure."""
+        places, coefficient = check_request(name, grid, body, depths, friction)
+        field = grid.check_field(pressure, "pressure")
+        padded = padded_lengths(grid)
+        transform = transform_of(grid.shape, padded)
+        spectrum = transform.forward(field) if places else transform.empty_spectrum()
+        return cls(grid, body, places, coefficient, transform, spectrum, SPECTRA.begin())
+
+    def factors(self, index: int) -> tuple[Multiplier, ...]:
+        """Multipliers of t, d, e, yz, xz, xy at a depth."""
+        depth = self.depths[index]
+        key = (self.grid, elastic(self.body), depth, self.friction)
+        found: tuple[Multiplier, ...] | None = SPECTRA.get(key, self.number)
+        if found is None:
+            found = multipliers(self.grid, self.body, depth, self.friction)
+            SPECTRA.put(key, found, sum(m.nbytes for m in found), self.number)
+        return found
