@@ -16,7 +16,7 @@ from scipy.interpolate import PchipInterpolator
 
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
-from bem.lubrication.line_kernel import logarithmic_weights
+from bem.lubrication.line_kernel import LineOperator
 from bem.lubrication.line_newton import Problem, State, newton
 from bem.lubrication.steady import lowest_film, scaled_problem
 from bem.reference_solutions.line_film import dowson_higginson_minimum, moes_central
@@ -76,7 +76,7 @@ def nested_films(film: FilmSolution, levels: int) -> list[tuple[float, float]]:
         nodes: FloatArray = PchipInterpolator(np.arange(len(state.offset)), state.offset)(half)
         start = State(
             nodes,
-            logarithmic_weights(nodes, nodes),
+            LineOperator.of(nodes),
             np.interp(nodes, state.offset, state.pressure),
             np.exp(np.interp(nodes, state.offset, np.log(state.film))),
             state.datum,

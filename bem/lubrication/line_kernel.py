@@ -1,10 +1,132 @@
-"""Deflection of a half-plane under a line-contact pressure that is linear between nodes."""
+"""Deflection of a half-plane under a line-contact pressure that is linear between nodes.
+
+For many nodes the weights are kept hierarchically (HODLR): dense blocks on the diagonal, and for each pair of
+neighbouring halves a product of two thin matrices by adaptive cross approximation (Bebendorf 2000), since ln|x - x'|
+is smooth away from x = x'. Storage, product and the solution of Newton's equations then grow like n (ln n)^2.
+"""
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
 import numpy as np
+from numba import njit
 
 from bem.grid import FloatArray
+
+HIERARCHICAL_FROM = 600
+"""Cells from which weights are kept hierarchically; below, dense matrices are as fast."""
+LEAF = 64
+CROSS_TOLERANCE = 1e-11
+"""Of the kernel between two halves. A film is up to 1e4 times thinner than what the kernel adds up to: 1e-7 of it."""
+LARGEST_RANK = 48
+UNIT_REACH = 4.0
+"""Distances are measured in this many lengths of the mesh: -ln is then positive everywhere, every block definite."""
+
+
+@njit(cache=True)
+def _primitive(t: float) -> float:
+    """Second primitive of ln|t|: t^2/2 ln|t| - 3 t^2/4."""
+    return 0.0 if t == 0 else t * t * (0.5 * math.log(abs(t)) - 0.75)
+
+
+@njit(cache=True)
+def _weight(t: float, left: float, right: float) -> float:
+    """Integral of a hat of half-widths `left`, `right` (0: half a hat) times ln|t - s|, t from the hat's node.
+
+    Near: the second difference of the second primitive. Far: moments of the hat, where that difference would cancel.
+    """
+    width = max(left, right)
+    if abs(t) <= 12 * width:
+        first = 0.0 if t == 0 else t * (math.log(abs(t)) - 1)
+        total = 0.0
+        if right > 0:
+            total += (_primitive(t - right) - _primitive(t)) / right + first
+        if left > 0:
+            total -= (_primitive(t) - _primitive(t + left)) / left + first
+        return total
+    total = 0.5 * (left + right) * math.log(abs(t))
+    ratio_right, ratio_left = right / t, -left / t
+    power_right, power_left = right, left
+    size = width / abs(t)
+    reach = 1.0
+    for k in range(1, 14):
+        power_right *= ratio_right
+        power_left *= ratio_left
+        reach *= size
+        if reach < 1e-17:
+            break
+        total -= (power_right + power_left) / (k * (k + 1) * (k + 2))
+    return total
+
+
+@njit(cache=True)
+def _fill(out: FloatArray, targets: FloatArray, nodes: FloatArray, first: int) -> None:
+    """Rows of weights for hats at nodes first, first + 1, ... at the targets."""
+    last = len(nodes) - 1
+    for j in range(out.shape[1]):
+        k = first + j
+        left = nodes[k] - nodes[k - 1] if k > 0 else 0.0
+        right = nodes[k + 1] - nodes[k] if k < last else 0.0
+        for i in range(len(targets)):
+            out[i, j] = _weight(targets[i] - nodes[k], left, right)
+
+
+@njit(cache=True)
+def _cross(
+    nodes: FloatArray, row0: int, row1: int, col0: int, col1: int, pivot: int, unit: float, tolerance: float, rank: int
+) -> tuple[int, FloatArray, FloatArray]:
+    """Adaptive cross approximation of the kernel ln(|x - x'|/unit), averaged over hats, between rows and columns."""
+    rows, cols = row1 - row0, col1 - col0
+    rank = min(rank, rows, cols)
+    left = np.zeros((rank, rows))
+    right = np.zeros((rank, cols))
+    log_unit = math.log(unit)
+    used = np.zeros(rows, dtype=np.bool_)
+    squared = 0.0
+    row = pivot - row0
+    done = 0
+    while done < rank:
+        used[row] = True
+        for j in range(cols):
+            k = col0 + j
+            before, after = nodes[k] - nodes[k - 1], nodes[k + 1] - nodes[k]
+            value = _weight(nodes[row0 + row] - nodes[k], before, after) / (0.5 * (before + after)) - log_unit
+            for r in range(done):
+                value -= left[r, row] * right[r, j]
+            right[done, j] = value
+        col = int(np.argmax(np.abs(right[done])))
+        top = right[done, col]
+        if top == 0.0:
+            break
+        k = col0 + col
+        before, after = nodes[k] - nodes[k - 1], nodes[k + 1] - nodes[k]
+        for i in range(rows):
+            value = _weight(nodes[row0 + i] - nodes[k], before, after) / (0.5 * (before + after)) - log_unit
+            for r in range(done):
+                value -= left[r, i] * right[r, col]
+            left[done, i] = value / top
+        new = np.sum(left[done] ** 2) * np.sum(right[done] ** 2)
+        squared += new
+        for r in range(done):
+            squared += 2 * np.sum(left[r] * left[done]) * np.sum(right[r] * right[done])
+        done += 1
+        if new <= tolerance**2 * squared:
+            break
+        best, row = -1.0, -1
+        for i in range(rows):
+            if not used[i] and abs(left[done - 1, i]) > best:
+                best, row = abs(left[done - 1, i]), i
+        if row < 0:
+            break
+    for j in range(cols):
+        k = col0 + j
+        mean = 0.5 * (nodes[k + 1] - nodes[k - 1])
+        for r in range(done):
+            right[r, j] *= mean
+    return done, left[:done], right[:done]
 
 
 def logarithmic_weights(targets: FloatArray, nodes: FloatArray) -> FloatArray:
@@ -23,20 +145,157 @@ def logarithmic_weights(targets: FloatArray, nodes: FloatArray) -> FloatArray:
     -------
     (m, n) weights, in that unit.
     """
-    distance = targets[:, None] - nodes[None, :]
-    log = np.abs(distance)
-    np.maximum(log, np.finfo(np.float64).tiny, out=log)
-    np.log(log, out=log)
-    ends = distance[:, [0, -1]]
-    first = ends * log[:, [0, -1]] - ends
-    log -= 1.5
-    log *= distance
-    log *= distance
-    log *= 0.5
-    slope = np.diff(log, axis=1)
-    slope /= np.diff(nodes)
-    weights = log
-    weights[:, 1:-1] = slope[:, 1:] - slope[:, :-1]
-    weights[:, 0] = first[:, 0] + slope[:, 0]
-    weights[:, -1] = -first[:, 1] - slope[:, -1]
+    weights = np.empty((len(targets), len(nodes)))
+    _fill(weights, np.ascontiguousarray(targets, dtype=np.float64), np.ascontiguousarray(nodes, dtype=np.float64), 0)
     return weights
+
+
+@dataclass(frozen=True, eq=False)
+class Level:
+    """One division of the interior nodes into 2^k clusters, in pairs of neighbours: rows of one, columns of the other.
+
+    left : (clusters, size + 2, rank), rows of a cluster, with the row before and the row after it.
+    right : (clusters, size, rank), columns of a cluster, as its neighbour's rows see them.
+    edge : (clusters, size), columns of a cluster as the first row seen from the neighbour *inside* it: its own row
+        next to the neighbour.
+    """
+
+    left: FloatArray
+    right: FloatArray
+    edge: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class LineOperator:
+    """Weights of ln(|x - x'|/unit) from nodes to the same nodes, dense or hierarchical; `self @ p`.
+
+    nodes : (n+1,) ascending. unit : length. Multiplying all lengths by a factor multiplies the weights by it, so
+    `factor` stands for that and a stretched operator shares its arrays. n counts the cells.
+    """
+
+    nodes: FloatArray
+    unit: float
+    factor: float = 1.0
+
+    @classmethod
+    def of(cls, nodes: FloatArray) -> LineOperator:
+        """The operator of a mesh."""
+        return cls(nodes, UNIT_REACH * float(nodes[-1] - nodes[0]))
+
+    @property
+    def hierarchical(self) -> bool:
+        """Whether weights are kept hierarchically."""
+        return len(self.nodes) > HIERARCHICAL_FROM
+
+    def stretched(self, factor: float) -> LineOperator:
+        """The operator of the same mesh with lengths multiplied."""
+        other = replace(self, factor=self.factor * factor)
+        # the arrays are those of the nodes as they were
+        other.__dict__.update({key: value for key, value in self.__dict__.items() if key in _SHARED})
+        return other
+
+    @property
+    def log_unit(self) -> float:
+        """ln of the unit, stretched: what separates this kernel from ln|x - x'|."""
+        return math.log(self.unit * self.factor)
+
+    @cached_property
+    def dense(self) -> FloatArray:
+        """(n+1, n+1) weights of the mesh before stretching."""
+        weights = logarithmic_weights(self.nodes, self.nodes)
+        weights -= math.log(self.unit) * self.quadrature
+        return weights
+
+    @cached_property
+    def quadrature(self) -> FloatArray:
+        """Trapezoidal weights of the mesh before stretching."""
+        width = np.diff(self.nodes)
+        return 0.5 * (np.append(width, 0.0) + np.append(0.0, width))
+
+    @cached_property
+    def depth(self) -> int:
+        """Number of levels."""
+        return max(1, math.ceil(math.log2((len(self.nodes) - 2) / LEAF)))
+
+    @cached_property
+    def leaf(self) -> int:
+        """Interior nodes in a diagonal block; the last ones are filled up."""
+        return math.ceil((len(self.nodes) - 2) / 2**self.depth)
+
+    @cached_property
+    def rows(self) -> FloatArray:
+        """Weights at nodes 0, 1 and n: (3, n+1)."""
+        weights = logarithmic_weights(self.nodes[[0, 1, -1]], self.nodes)
+        return weights - math.log(self.unit) * self.quadrature
+
+    @cached_property
+    def ends(self) -> FloatArray:
+        """Weights of the hats at nodes 0 and n at every node: (n+1, 2)."""
+        n = len(self.nodes) - 1
+        out = np.empty((n + 1, 2))
+        _fill(out[:, :1], self.nodes, self.nodes, 0)
+        _fill(out[:, 1:], self.nodes, self.nodes, n)
+        return out - math.log(self.unit) * self.quadrature[[0, -1]]
+
+    @cached_property
+    def blocks(self) -> FloatArray:
+        """Diagonal blocks, (leaves, leaf + 2, leaf): rows of a leaf with one before and one after, columns of it."""
+        n, size = len(self.nodes) - 1, self.leaf
+        out = np.zeros((2**self.depth, size + 2, size))
+        for k in range(2**self.depth):
+            start, stop = 1 + k * size, min(1 + (k + 1) * size, n)
+            part = np.empty((stop - start + 2, stop - start))
+            _fill(part, self.nodes[start - 1 : stop + 1], self.nodes, start)
+            out[k, : stop - start + 2, : stop - start] = part - math.log(self.unit) * self.quadrature[start:stop]
+        return out
+
+    @cached_property
+    def levels(self) -> tuple[Level, ...]:
+        """From two halves down to the leaves."""
+        return tuple(self._level(2 ** (k + 1)) for k in range(self.depth))
+
+    def _level(self, clusters: int) -> Level:
+        n = len(self.nodes) - 1
+        size = self.leaf * (2**self.depth // clusters)
+        found = []
+        edge = np.zeros((clusters, size))
+        for k in range(clusters):
+            other = k ^ 1
+            start, stop = 1 + k * size, min(1 + (k + 1) * size, n)
+            first, last = 1 + other * size, min(1 + (other + 1) * size, n)
+            even = k % 2 == 0  # the neighbour's columns lie to the right
+            rows = (start - 1, stop) if even else (start, stop + 1)
+            pivot = stop - 1 if even else start
+            rank, left, right = _cross(self.nodes, *rows, first, last, pivot, self.unit, CROSS_TOLERANCE, LARGEST_RANK)
+            found.append((k, rows[0] - (start - 1), left[:rank].T, right[:rank].T))
+            row = stop - 1 if even else start
+            part = np.empty((1, stop - start))
+            _fill(part, self.nodes[row : row + 1], self.nodes, start)
+            edge[k, : stop - start] = part[0] - math.log(self.unit) * self.quadrature[start:stop]
+        rank = max(left.shape[1] for _, _, left, _ in found)
+        lefts, rights = np.zeros((clusters, size + 2, rank)), np.zeros((clusters, size, rank))
+        for k, offset, left, right in found:
+            lefts[k, offset : offset + len(left), : left.shape[1]] = left
+            rights[k ^ 1, : len(right), : right.shape[1]] = right
+        return Level(lefts, rights, edge)
+
+    def __matmul__(self, pressure: FloatArray) -> FloatArray:
+        """Integral of p ln(|x - x'|/unit) at the nodes."""
+        if not self.hierarchical:
+            return np.asarray(self.factor * (self.dense @ pressure))
+        n, size = len(self.nodes) - 1, self.leaf
+        inner = np.zeros(size * 2**self.depth)
+        inner[: n - 1] = pressure[1:-1]
+        out = np.matmul(self.blocks[:, 1:-1], inner.reshape(-1, size, 1)).ravel()
+        for level in self.levels:
+            clusters, width, _ = level.right.shape
+            seen = np.matmul(level.right.transpose(0, 2, 1), inner.reshape(clusters, width, 1))
+            swapped = seen.reshape(-1, 2, *seen.shape[1:])[:, ::-1].reshape(seen.shape)
+            out += np.matmul(level.left[:, 1:-1], swapped).ravel()
+        total = self.ends[:, 0] * pressure[0] + self.ends[:, 1] * pressure[-1]
+        total[1:-1] += out[: n - 1]
+        total[[0, -1]] = self.rows[[0, 2]] @ pressure
+        return np.asarray(self.factor * total)
+
+
+_SHARED = ("dense", "quadrature", "depth", "leaf", "rows", "ends", "blocks", "levels")

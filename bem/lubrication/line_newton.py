@@ -22,14 +22,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
-from scipy.linalg import lu_factor, lu_solve
 
 from bem.grid import FloatArray
-from bem.lubrication.line_kernel import logarithmic_weights
+from bem.lubrication.line_kernel import LineOperator
+from bem.lubrication.line_linear import DEFLECTION, Change, Equations, solve
 from bem.lubrication.line_mesh import FAR_INLET, cell_densities, cell_sizes, redistribute
-
-DEFLECTION = 4 / np.pi
-SINGLE_PRECISION_FROM = 700  # cells from which the factorisation is done in float32 and refined
 
 
 @dataclass(frozen=True)
@@ -43,10 +40,13 @@ class Problem:
 
 @dataclass(frozen=True)
 class State:
-    """Node offsets from the exit (n+1,), kernel weights (n+1, n+1), pressure, film, datum H0 and exit X_e."""
+    """Node offsets from the exit (n+1,), their elastic operator, pressure, film, datum H0 and exit X_e.
+
+    The datum is that of the kernel ln|x - x'|, whatever the operator's unit.
+    """
 
     offset: FloatArray
-    weights: FloatArray
+    operator: LineOperator
     pressure: FloatArray
     film: FloatArray
     datum: float
@@ -80,7 +80,7 @@ def inlet_load(position: float) -> tuple[float, float]:
 
 def newton(problem: Problem, start: State, tolerance: float, max_iterations: int = 40) -> Outcome:
     """Solve from `start`, whose film (positive) and pressure need not belong together."""
-    offset, weights = start.offset, start.weights
+    offset, operator = start.offset, start.operator
     cells = len(offset) - 1
     width = np.diff(offset)
     quadrature = np.zeros(cells + 1)
@@ -93,7 +93,7 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
     pressure[-1] = 0.0
     pressure[0] = inlet_pressure(exit_ + offset[0])[0]
     scale = film.copy()
-    mismatch = film - (0.5 * (exit_ + offset) ** 2 - DEFLECTION * (weights @ pressure))
+    mismatch = film - (0.5 * (exit_ + offset) ** 2 - DEFLECTION * (operator @ pressure))
     datum, mismatch = float(mismatch[-1]), mismatch - mismatch[-1]
 
     def residual(pressure: FloatArray, film: FloatArray, inlet: float) -> tuple[FloatArray, tuple[FloatArray, ...]]:
@@ -117,18 +117,11 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
         left, right = left * slope[:-1] * mean_density / 6, right * slope[1:] * mean_density / 6
         return out, (thickness, fluidity, mean_density, gradient, density, left, right, density_slope)
 
-    def step(
-        error: FloatArray, parts: tuple[FloatArray, ...], film: FloatArray, pressure: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Newton step in (P_1 .. P_{n-1}, H0, X_e), and the change of film it brings."""
+    def step(error: FloatArray, parts: tuple[FloatArray, ...], film: FloatArray, pressure: FloatArray) -> Change:
+        """Newton step in (P_1 .. P_{n-1}, H0, X_e), and the change of film it brings besides the mismatch."""
         thickness, fluidity, mean_density, gradient, density, left, right, density_slope = parts
         inlet = exit_ + offset[0]
-        unit_p, unit_h, unit_x = pressure.max(), film[-1], 0.01 * abs(offset[0])
         inlet_slope, load_slope = inlet_pressure(inlet)[1], inlet_load(inlet)[1]
-        response = np.empty((cells + 1, cells + 1))
-        np.multiply(weights[:, 1:-1], -DEFLECTION * unit_p, out=response[:, :-2])
-        response[:, -2] = unit_h
-        response[:, -1] = (exit_ + offset - DEFLECTION * inlet_slope * weights[:, 0]) * unit_x
 
         row = 1 / scale[:-1]
         through_film = 1.5 * thickness**2 * fluidity * gradient
@@ -138,13 +131,6 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
         after = through_film.copy()
         here[0] = through_film[0] - 0.5 * density[0]
         after[0] = through_film[0] - 0.5 * density[1]
-        before, here, after = before * row, here * row, after * row
-
-        jacobian = np.empty((cells + 1, cells + 1))
-        np.multiply(response[:-1], here[:, None], out=jacobian[:-1])
-        jacobian[:-1] += response[1:] * after[:, None]
-        jacobian[1:-1] += response[:-2] * before[1:, None]
-        jacobian[:-1] += response[-1] * row[:, None]
 
         mobility = thickness**3 * fluidity
         flow = mobility * gradient
@@ -155,22 +141,25 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
         from_left -= (1 + extrapolation) * carried[:-1]
         from_left[0] += 0.5 * carried[0]
         from_right[0] -= 0.5 * carried[1]
-        from_before = extrapolation[2:] * carried[1:-2]
-        index = np.arange(cells)
-        jacobian[index[:-1], index[:-1]] += (from_right * row)[:-1] * unit_p
-        jacobian[index[1:], index[:-1]] += (from_left * row)[1:] * unit_p
-        jacobian[index[2:], index[:-2]] += from_before * row[2:] * unit_p
-        jacobian[0, -1] += from_left[0] * row[0] * inlet_slope * unit_x
-        jacobian[1, -1] += extrapolation[1] * carried[0] * row[1] * inlet_slope * unit_x
-        jacobian[-1, :-2] = -quadrature[1:-1] * unit_p / problem.load
-        jacobian[-1, -2] = 0.0
-        jacobian[-1, -1] = -(quadrature[0] * inlet_slope + load_slope) * unit_x / problem.load
-
-        right = -error
-        right[:-1] += here * mismatch[:-1] + after * mismatch[1:] + row * mismatch[-1]
-        right[1:-1] += before[1:] * mismatch[:-2]
-        change = _solve(jacobian, right)
-        return change * np.concatenate([np.full(cells - 1, unit_p), [unit_h, unit_x]]), response @ change - mismatch
+        from_before = np.zeros(cells)
+        from_before[1:] = extrapolation[1:] * carried[:-2]
+        equations = Equations(
+            before=before * row,
+            here=here * row,
+            after=after * row,
+            exit=row,
+            low=from_before * row,
+            diagonal=from_left * row,
+            high=from_right * row,
+            load=-quadrature / problem.load,
+            load_exit=-(quadrature[0] * inlet_slope + load_slope) / problem.load,
+            position=exit_ + offset,
+            inlet_slope=inlet_slope,
+            units=(float(pressure.max()), float(film[-1]), 0.01 * abs(float(offset[0]))),
+            right=-error,
+            mismatch=mismatch,
+        )
+        return solve(operator, equations)
 
     error, parts = residual(pressure, film, exit_ + offset[0])
     iterations, converged = 0, False
@@ -180,8 +169,9 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
             converged = True
         if converged or iterations == max_iterations or not np.isfinite(largest):
             break
-        change, film_change = step(error, parts, film, pressure)
-        if not np.isfinite(change).all():
+        change = step(error, parts, film, pressure)
+        film_change = change.film - mismatch
+        if not (np.isfinite(film_change).all() and np.isfinite(change.pressure).all()):
             break
         size = error @ error + (mismatch / scale) @ (mismatch / scale)
         shrinking = film_change < 0
@@ -190,15 +180,15 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
             length = min(1.0, 0.9 * float(np.min(-film[shrinking] / film_change[shrinking])))
         while length > 1e-3:
             new_pressure = pressure.copy()
-            new_pressure[1:-1] += length * change[:-2]
-            new_exit = exit_ + length * change[-1]
-            new_datum = datum + length * change[-2]
+            new_pressure[1:-1] += length * change.pressure
+            new_exit = exit_ + length * change.exit
+            new_datum = datum + length * change.datum
             new_inlet = new_exit + offset[0]
             if new_inlet < 0:
                 new_pressure[0] = inlet_pressure(new_inlet)[0]
                 new_mismatch = (1 - length) * mismatch
                 new_film = (
-                    new_datum + 0.5 * (new_exit + offset) ** 2 - DEFLECTION * (weights @ new_pressure) + new_mismatch
+                    new_datum + 0.5 * (new_exit + offset) ** 2 - DEFLECTION * (operator @ new_pressure) + new_mismatch
                 )
                 if new_film.min() > 0:
                     new_error, new_parts = residual(new_pressure, new_film, new_inlet)
@@ -211,7 +201,8 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
         pressure, film, datum, exit_, mismatch = new_pressure, new_film, new_datum, new_exit, new_mismatch
         error, parts = new_error, new_parts
         iterations += 1
-    state = State(offset, weights, pressure, film, datum, exit_)
+    plain = datum + DEFLECTION * operator.log_unit * float(quadrature @ pressure)
+    state = State(offset, operator, pressure, film, plain, exit_)
     return Outcome(state, iterations, largest, converged)
 
 
@@ -230,16 +221,6 @@ def mean_fluidity(log_viscosity: FloatArray) -> tuple[FloatArray, FloatArray, Fl
     left = np.where(small, -0.5 * mean - odd, (mean - low) / safe)
     right = np.where(small, -0.5 * mean + odd, (high - mean) / safe)
     return mean, left, right
-
-
-def _solve(matrix: FloatArray, right: FloatArray) -> FloatArray:
-    if len(right) <= SINGLE_PRECISION_FROM:
-        return np.asarray(lu_solve(lu_factor(matrix, overwrite_a=False, check_finite=False), right, check_finite=False))
-    factors = lu_factor(matrix.astype(np.float32), overwrite_a=True, check_finite=False)
-    solution = lu_solve(factors, right.astype(np.float32), check_finite=False).astype(np.float64)
-    for _ in range(3):
-        solution += lu_solve(factors, (right - matrix @ solution).astype(np.float32), check_finite=False)
-    return np.asarray(solution)
 
 
 def remesh(problem: Problem, state: State, cells: int, smallest: float | None) -> State:
@@ -264,7 +245,7 @@ def remesh(problem: Problem, state: State, cells: int, smallest: float | None) -
     nodes = redistribute(state.offset, size, cells, top)
     pressure = np.maximum(PchipInterpolator(state.offset, state.pressure)(nodes), 0.0)
     film = np.exp(PchipInterpolator(state.offset, np.log(state.film))(nodes))
-    return State(nodes, logarithmic_weights(nodes, nodes), pressure, film, state.datum, state.exit)
+    return State(nodes, LineOperator.of(nodes), pressure, film, state.datum, state.exit)
 
 
 def _with_inlet(state: State) -> State:
@@ -306,10 +287,10 @@ def spike_cell(problem: Problem, state: State, cells: int) -> float:
 
 
 def stretched(state: State, factor: float, pressure_factor: float, film_factor: float) -> State:
-    """The state with lengths, pressures and films multiplied; the weights scale with the lengths up to a datum."""
+    """The state with lengths, pressures and films multiplied; not its datum."""
     return State(
         state.offset * factor,
-        state.weights * factor,
+        state.operator.stretched(factor),
         state.pressure * pressure_factor,
         state.film * film_factor,
         state.datum,
@@ -331,4 +312,4 @@ def martin_start(load: float, cells: int) -> State:
     pressure = np.concatenate([[0.0], np.cumsum(0.5 * (gradient[1:] + gradient[:-1]) * np.diff(offset))])
     pressure = np.maximum(pressure + inlet_pressure(exit_ + offset[0])[0], 0.0)
     pressure[-1] = 0.0
-    return State(offset, logarithmic_weights(offset, offset), pressure, film, lowest, exit_)
+    return State(offset, LineOperator.of(offset), pressure, film, lowest, exit_)

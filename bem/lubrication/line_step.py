@@ -19,7 +19,8 @@ from scipy.linalg import lu_factor, lu_solve
 
 from bem.grid import FloatArray
 from bem.lubrication.line_kernel import logarithmic_weights
-from bem.lubrication.line_newton import DEFLECTION, Problem, mean_fluidity
+from bem.lubrication.line_linear import DEFLECTION
+from bem.lubrication.line_newton import Problem, mean_fluidity
 
 
 @dataclass(frozen=True)

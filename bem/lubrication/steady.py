@@ -12,9 +12,9 @@ from scipy.interpolate import PchipInterpolator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_kernel import logarithmic_weights
+from bem.lubrication.line_kernel import LineOperator, logarithmic_weights
+from bem.lubrication.line_linear import DEFLECTION
 from bem.lubrication.line_newton import (
-    DEFLECTION,
     Outcome,
     Problem,
     State,
@@ -167,7 +167,7 @@ def _coarse_change(problem: Problem, initial: FilmSolution, guess: State, limit:
     nodes = kept.state.offset[index]
     coarse = State(
         nodes,
-        logarithmic_weights(nodes, nodes),
+        LineOperator.of(nodes),
         kept.state.pressure[index],
         kept.state.film[index],
         kept.state.datum,
