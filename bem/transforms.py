@@ -213,18 +213,17 @@ def _multiply_imaginary(source, target, imaginary, parity, scale, half):  # type
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")  # type: ignore[untyped-decorator]
 def _multiply_complex(source, target, real, imaginary, parity_real, parity_imaginary, scale, half):  # type: ignore[no-untyped-def]
     rows, length = source.shape
+    mirrored_real = scale if parity_real > 0 else -scale
+    mirrored_imaginary = scale if parity_imaginary > 0 else -scale
     for i in range(rows):
-        for j in range(length):
-            k = j
-            a = real[i, k] if j < half else real[i, length - j]
-            b = imaginary[i, k] if j < half else imaginary[i, length - j]
-            if j >= half:
-                if parity_real < 0:
-                    a = -a
-                if parity_imaginary < 0:
-                    b = -b
-            a *= scale
-            b *= scale
+        for j in range(half):
+            a = real[i, j] * scale
+            b = imaginary[i, j] * scale
+            z = source[i, j]
+            target[i, j] = complex(a * z.real - b * z.imag, a * z.imag + b * z.real)
+        for j in range(half, length):
+            a = real[i, length - j] * mirrored_real
+            b = imaginary[i, length - j] * mirrored_imaginary
             z = source[i, j]
             target[i, j] = complex(a * z.real - b * z.imag, a * z.imag + b * z.real)
 
@@ -268,6 +267,7 @@ class _Worker:
     rows_out: FloatArray
     rows_spectrum: ComplexArray
     columns: ComplexArray
+    columns_out: ComplexArray
     plans: dict[tuple[str, int], Any] = field(default_factory=dict)
 
 
@@ -301,7 +301,7 @@ class PaddedTransform:
     def nbytes(self) -> int:
         """Memory of buffers."""
         scratch = sum(
-            w.rows_in.nbytes + w.rows_out.nbytes + w.rows_spectrum.nbytes + w.columns.nbytes for w in self._workers
+            w.rows_in.nbytes + w.rows_out.nbytes + w.rows_spectrum.nbytes + 2 * w.columns.nbytes for w in self._workers
         )
         return self.spectrum_shape[0] * self._half_stride * self.complex_dtype.itemsize + scratch
 
@@ -352,14 +352,14 @@ class PaddedTransform:
         while len(self._workers) < get_threads():
             rows = (self._row_block, self._real_stride)
             spectra = (self._row_block, _stride(self.spectrum_shape[0], self.complex_dtype.itemsize))
+            columns = (self._column_block, self._spectrum_stride)
             self._workers.append(
                 _Worker(
                     pyfftw.zeros_aligned(rows, self.dtype, n=_ALIGNMENT)[:, : self.padded[1]],
                     pyfftw.zeros_aligned(rows, self.dtype, n=_ALIGNMENT)[:, : self.padded[1]],
                     pyfftw.zeros_aligned(spectra, self.complex_dtype, n=_ALIGNMENT)[:, : self.spectrum_shape[0]],
-                    pyfftw.zeros_aligned((self._column_block, self._spectrum_stride), self.complex_dtype, n=_ALIGNMENT)[
-                        :, : self.padded[0]
-                    ],
+                    pyfftw.zeros_aligned(columns, self.complex_dtype, n=_ALIGNMENT)[:, : self.padded[0]],
+                    pyfftw.zeros_aligned(columns, self.complex_dtype, n=_ALIGNMENT)[:, : self.padded[0]],
                 )
             )
 
@@ -373,8 +373,9 @@ class PaddedTransform:
             elif kind == "rows backward":
                 arguments = (half, worker.rows_out[:rows], "FFTW_BACKWARD")
             else:
-                block = worker.columns[:rows]
-                arguments = (block, block, "FFTW_FORWARD" if kind == "columns forward" else "FFTW_BACKWARD")
+                # from one array into another: plans made without timing are a quarter faster so than in place
+                direction = "FFTW_FORWARD" if kind == "columns forward" else "FFTW_BACKWARD"
+                arguments = (worker.columns[:rows], worker.columns_out[:rows], direction)
             flags = ("FFTW_ESTIMATE",) if kind == "rows forward" else ("FFTW_ESTIMATE", "FFTW_DESTROY_INPUT")
             with _PLANNER:
                 plan = pyfftw.FFTW(
@@ -440,7 +441,6 @@ class PaddedTransform:
         """Along x, block by block: forward unless `source` is given, times `factor`, back unless `out` is given."""
         if factor is not None:
             factor = factor.astype(self.dtype)
-        in_place = self.padded[0] == self.shape[0]
 
         def work(number: int, block: int) -> None:
             worker = self._workers[number]
@@ -448,28 +448,21 @@ class PaddedTransform:
             stop = min(self.spectrum_shape[0], start + self._column_block)
             rows = stop - start
             half = self._half[start:stop]
-            # without padding along x the rows are transformed where they are
-            scratch = half if in_place else worker.columns[:rows]
+            scratch, result = worker.columns[:rows], worker.columns_out[:rows]
             if source is None:
-                if not in_place:
-                    _pad(half, scratch)
-                plan = self._plan(worker, "columns forward", rows)
-                plan.update_arrays(scratch, scratch)
-                plan.execute()
+                _pad(half, scratch)
+                self._plan(worker, "columns forward", rows).execute()
                 if out is not None:
-                    out[start:stop] = scratch
+                    out[start:stop] = result
                     return
-            given = scratch if source is None else source[start:stop]
+            given = result if source is None else source[start:stop]
             scale = self._scale
             if factor is not None:
                 _multiply(given, scratch, factor, scale, start, stop)
             else:
                 np.multiply(given, scale, out=scratch)
-            plan = self._plan(worker, "columns backward", rows)
-            plan.update_arrays(scratch, scratch)
-            plan.execute()
-            if not in_place:
-                half[...] = scratch[:, : self.shape[0]]
+            self._plan(worker, "columns backward", rows).execute()
+            _crop(result, half)
 
         share(work, self._column_blocks)
         COUNT.columns += self.spectrum_shape[0] * (1 if out is not None or source is not None else 2)
@@ -492,6 +485,14 @@ def _pad(half, scratch):  # type: ignore[no-untyped-def]
             scratch[i, j] = half[i, j]
         for j in range(width, scratch.shape[1]):
             scratch[i, j] = 0
+
+
+@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def _crop(result, half):  # type: ignore[no-untyped-def]
+    rows, width = half.shape
+    for i in range(rows):
+        for j in range(width):
+            half[i, j] = result[i, j]
 
 
 _PLANNER = threading.Lock()
