@@ -7,7 +7,7 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import bem
 from bem.errors import InputError, Status
@@ -18,6 +18,10 @@ from bem.scenes.context import Outcome, derive_seed
 from bem.scenes.kinds import Kind, get_kind
 from bem.scenes.load import dump_scene, load_scene, scene_table
 from bem.scenes.planner import Plan, check_memory
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 class Watcher(Protocol):
@@ -80,6 +84,12 @@ class RunContext:
         finally:
             self.seconds[stage] = self.seconds.get(stage, 0.0) + time.perf_counter() - start
 
+    def scratch(self, shape: tuple[int, ...]) -> NDArray[np.float64]:
+        """See `bem.scenes.Context`."""
+        from bem.results.scratch import scratch_array
+
+        return scratch_array(self._directory.path, shape)
+
     def save(self, state: Mapping[str, Any]) -> None:
         """See `bem.scenes.Context`."""
         self._directory.save_checkpoint({**state, "_notes": self.notes, "_seconds": self.seconds})
@@ -122,7 +132,7 @@ def run_scene(
     out : the run's folder; the next free `runs/NAME-001` where not given.
     settings : `key=value` changes to the scene.
     resume : go on from the checkpoint of an interrupted run; a finished run is returned as it is.
-    overwrite : replace an older run in the folder.
+    overwrite : replace an older run in the folder; it stays until this one is finished.
     figures : draw figures and write the report; `bem report` can do it later.
     watcher : told of progress and notes.
 

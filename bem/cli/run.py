@@ -43,7 +43,9 @@ def register(app: typer.Typer) -> None:
         resume: Annotated[
             bool, typer.Option("--resume", help="Go on from the checkpoint of an interrupted run.")
         ] = False,
-        overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace an older run in the folder.")] = False,
+        overwrite: Annotated[
+            bool, typer.Option("--overwrite", help="Replace an older run in the folder, once this one is finished.")
+        ] = False,
         figures: Annotated[
             bool, typer.Option("--figures/--no-figures", help="Draw figures and write the report.")
         ] = True,

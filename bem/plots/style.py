@@ -13,6 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from bem.scenes.context import release
+
 BLUE, ORANGE, GREEN, PINK, SKY, VERMILION, YELLOW, BLACK = [
     "#0072B2",
     "#E69F00",
@@ -49,6 +51,9 @@ _RC: dict[str, Any] = {
     "axes.formatter.useoffset": False,
 }
 _PREFIXES = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}
+_PART = 1 << 22
+_MOST_CELLS = 1400
+"""Along each axis of a map: twice the dots of the widest."""
 _PREFIXED = ("m", "Pa", "N", "s", "m/s", "N/m", "J", "W")
 
 
@@ -61,13 +66,33 @@ def prefix(values: Any, unit: str) -> tuple[float, str]:
     """Factor and unit label that bring the largest of `values` between 1 and 1000: (1e6, "µm") for micrometres."""
     if unit in ("", "1"):
         return 1.0, ""
-    finite = np.abs(np.asarray(values, dtype=np.float64))
-    finite = finite[np.isfinite(finite)]
-    largest = float(finite.max()) if finite.size else 0.0
-    if largest == 0 or unit not in _PREFIXED:
+    if unit not in _PREFIXED:
+        return 1.0, unit
+    largest = largest_of(values)
+    if largest == 0:
         return 1.0, unit
     power = min(max(math.floor(math.log10(largest * 1.0000001) / 3), -4), 4)
     return 10.0 ** (-3 * power), _PREFIXES[power] + unit
+
+
+def largest_of(values: Any) -> float:
+    """The largest finite absolute value, 0 where there is none; large arrays are gone through in parts."""
+    array = np.asarray(values, dtype=np.float64)
+    largest = 0.0
+    for part in array if array.size > _PART else (array,):
+        if part.size > _PART and part.ndim > 1:
+            largest = max(largest, largest_of(part))
+        else:
+            finite = np.abs(part[np.isfinite(part)])
+            largest = max(largest, float(finite.max()) if finite.size else 0.0)
+        release(array)
+    return largest
+
+
+def thinned(values: NDArray[Any]) -> NDArray[Any]:
+    """The map (nx, ny) with every n-th cell only where it has far more than a figure can show: a view."""
+    strides = [max(1, -(-n // _MOST_CELLS)) for n in values.shape]
+    return values[strides[0] // 2 :: strides[0], strides[1] // 2 :: strides[1]]
 
 
 def label(text: str, unit: str) -> str:
@@ -107,11 +132,17 @@ def map_of(
     unit: str,
     **more: Any,
 ) -> Any:
-    """A colour map of values[ix, iy] with its bar; not-a-number is drawn as open."""
+    """A colour map of values[ix, iy] with its bar; not-a-number is drawn as open.
+
+    Of a map with more cells than dots, every n-th is drawn; unit and colours are those of all.
+    """
     factor, shown = prefix(values, unit)
     extent = field_axes(axes, x, y)
     axes.set_facecolor(OPEN)
-    image = axes.imshow(values.T * factor, extent=extent, origin="lower", aspect=axes.get_aspect(), **more)
+    drawn = thinned(values)
+    if drawn.size < values.size and np.isfinite(drawn).any():
+        more = {"vmin": float(np.nanmin(values)) * factor, "vmax": float(np.nanmax(values)) * factor} | more
+    image = axes.imshow(drawn.T * factor, extent=extent, origin="lower", aspect=axes.get_aspect(), **more)
     bar = figure.colorbar(image, ax=axes, shrink=0.9, pad=0.03)
     bar.set_label(label(text, shown))
     bar.outline.set_linewidth(0.6)

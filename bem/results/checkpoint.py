@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import struct
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,24 +64,37 @@ def load_checkpoint(path: Path) -> dict[str, Any] | None:
     ResultsError : the file is damaged or cannot be read.
     """
     try:
-        raw = path.read_bytes()
+        with open(path, "rb") as file:
+            return _read(path, file)
     except FileNotFoundError:
         return None
     except OSError as error:
         raise ResultsError(f"{path}: the checkpoint cannot be read ({reason(error)})") from error
-    if not raw.startswith(_MAGIC) or hashlib.sha256(raw[:-_DIGEST]).digest() != raw[-_DIGEST:]:
+
+
+def _read(path: Path, file: BinaryIO) -> dict[str, Any]:
+    """The checksum first, then the parts: never more than the arrays in memory."""
+    size = os.fstat(file.fileno()).st_size
+    digest = hashlib.sha256()
+    left = size - _DIGEST
+    sound = left >= len(_MAGIC) + 8 and file.read(len(_MAGIC)) == _MAGIC
+    file.seek(0)
+    while sound and left > 0:
+        part = file.read(min(left, 1 << 24))
+        sound = bool(part)
+        digest.update(part)
+        left -= len(part)
+    if not sound or file.read() != digest.digest():
         raise ResultsError(f"{path}: the checkpoint is damaged (its checksum does not match); delete it to start again")
-    start = len(_MAGIC)
-    (length,) = struct.unpack_from("<Q", raw, start)
-    start += 8
-    header = json.loads(raw[start : start + length])
-    start += length
+    file.seek(len(_MAGIC))
+    (length,) = struct.unpack("<Q", file.read(8))
+    header = json.loads(file.read(length))
     arrays = []
     for kind, shape in header["arrays"]:
-        dtype = np.dtype(kind)
-        count = int(np.prod(shape, dtype=np.int64))
-        arrays.append(np.frombuffer(raw, dtype, count, start).reshape(shape).copy())
-        start += count * dtype.itemsize
+        array = np.empty(shape, np.dtype(kind))
+        if array.size:
+            file.readinto(array.reshape(-1).view(np.uint8).data)  # type: ignore[attr-defined]
+        arrays.append(array)
     state = _restore(header["state"], arrays)
     assert isinstance(state, dict)
     return state

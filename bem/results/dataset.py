@@ -11,10 +11,13 @@ import numpy as np
 
 from bem.errors import ResultsError
 from bem.results.atomic import reason, replacing
-from bem.scenes.context import Variable
+from bem.scenes.context import Variable, release
 
 if TYPE_CHECKING:
     import xarray
+
+_LARGE = 1 << 30
+"""From this size on [bytes] an array is written in parts: it may be on disk and not in memory."""
 
 
 def to_dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> xarray.Dataset:
@@ -49,7 +52,11 @@ def write_variables(path: Path, variables: Mapping[str, Variable], attributes: M
                 text = item.values.dtype.kind in "US"
                 kind = h5py.string_dtype() if text else item.values.dtype
                 values = item.values.astype(object) if text else np.ascontiguousarray(item.values)
-                stored = file.create_variable(name, item.dimensions, kind, data=values)
+                parts = not text and values.nbytes >= _LARGE
+                stored = file.create_variable(name, item.dimensions, kind, data=None if parts else values)
+                for i in range(len(values) if parts else 0):
+                    stored[i] = values[i]
+                    release(values)
                 stored.attrs["units"] = item.units
                 stored.attrs["long_name"] = item.description
         if sink.error is not None:

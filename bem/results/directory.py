@@ -20,17 +20,21 @@ from bem.results.checkpoint import load_checkpoint, save_checkpoint
 
 SCENE, SUMMARY, RESULTS, REPORT = "scene.toml", "summary.json", "results.nc", "report.html"
 FIGURES, CHECKPOINT, CHECKSUMS, LOCK = "figures", "checkpoint.bin", "checksums.json", ".lock"
-_OURS = (SCENE, SUMMARY, RESULTS, REPORT, CHECKPOINT, CHECKSUMS)
+BESIDE, SWAPPING = ".replacement", ".replacing"
+_OURS = (SUMMARY, SCENE, RESULTS, REPORT, CHECKPOINT, CHECKSUMS)
 
 
 class RunDirectory:
     """A run's folder, held by this process until `close`.
 
-    Use `RunDirectory.start`; the constructor only takes the lock.
+    Use `RunDirectory.start`; the constructor only takes the lock. A run that replaces an older one is written into the
+    folder `.replacement` inside it (`path` is that folder until `finish`), which becomes `.replacing` when it is whole;
+    then its files take the place of the older run's. Who finds a folder of the second name ends the move.
     """
 
     def __init__(self, path: Path, made: Sequence[Path] = ()) -> None:
         self.path = path
+        self._home = path
         self.resumed = False
         self._made = list(made)
         self._filled = False
@@ -67,7 +71,7 @@ class RunDirectory:
         ----------
         out : the folder; None takes the next free `runs/NAME-001`, or with `resume` this scene's latest unfinished one.
         resume : go on from the checkpoint in it.
-        overwrite : replace an older run in it.
+        overwrite : replace an older run in it, which stays until this one is finished.
 
         Raises
         ------
@@ -88,9 +92,14 @@ class RunDirectory:
         return directory
 
     def _take(self, scene: str, resume: bool, overwrite: bool) -> None:
-        there = self.path / SCENE
-        old = there.read_text("utf-8", errors="replace") if there.is_file() else None
-        if old is not None and resume:
+        self._swap()
+        old, begun = _scene_text(self._home), _scene_text(self._home / BESIDE)
+        self.remove_leftovers()
+        if resume and begun == scene:
+            self.path = self._home / BESIDE
+            self.resumed = True
+            self.remove_leftovers()
+        elif old is not None and resume:
             if old != scene:
                 raise InputError(
                     f"--resume: the run in {self.path} is of another scene ({_difference(old, scene)} differ); "
@@ -100,10 +109,14 @@ class RunDirectory:
         elif old is not None and not overwrite:
             raise ResultsError(f"{self.path}: holds a run already; --resume continues it, --overwrite replaces it")
         elif old is not None:
-            self._clear()
-        self.remove_leftovers()
+            self.path = self._home / BESIDE
+            shutil.rmtree(self.path, ignore_errors=True)
+            try:
+                self.path.mkdir(exist_ok=True)
+            except OSError as error:
+                raise ResultsError(f"{self.path}: cannot be made ({reason(error)})") from error
         self._filled = True
-        write_text(there, scene)
+        write_text(self.path / SCENE, scene)
 
     @property
     def finished(self) -> bool:
@@ -129,7 +142,7 @@ class RunDirectory:
         return load_checkpoint(self.path / CHECKPOINT)
 
     def finish(self, summary: Mapping[str, Any]) -> None:
-        """Write checksums and, last of all, the summary; the checkpoint goes."""
+        """Write checksums and, last of all, the summary; the checkpoint goes, and so does the run that was replaced."""
         self.remove_leftovers()
         text = summary_text(summary)
         known = checksums(self.path) | {SUMMARY: hashlib.sha256(text.encode()).hexdigest()}
@@ -137,6 +150,51 @@ class RunDirectory:
         write_text(self.path / SUMMARY, text)
         with suppress(OSError):
             (self.path / CHECKPOINT).unlink(missing_ok=True)
+        self._swap()
+
+    def _swap(self) -> None:
+        """Let a finished run that is beside an older one take its place."""
+        try:
+            if (self._home / BESIDE / SUMMARY).is_file():
+                os.rename(self._home / BESIDE, self._home / SWAPPING)
+            if (self._home / SWAPPING).is_dir():
+                self._end_swap()
+        except OSError as error:
+            raise ResultsError(
+                f"{self._home}: the finished run in {BESIDE} or {SWAPPING} cannot take the older one's place "
+                f"({reason(error)}); the same command with --resume ends that"
+            ) from error
+        self.path = self._home
+
+    def _end_swap(self) -> None:
+        """Move the finished run in `.replacing` to where the older one is; what of that is left over goes.
+
+        May be interrupted and repeated at any point: until the summary moves, last of all, there is none.
+        """
+        source = self._home / SWAPPING
+        if (source / SUMMARY).is_file():
+            for old in (SUMMARY, CHECKSUMS, CHECKPOINT):
+                if old == CHECKPOINT or (source / old).is_file():  # else the one at home is new already
+                    (self._home / old).unlink(missing_ok=True)
+            new = [item.relative_to(source) for item in source.rglob("*") if item.is_file()]
+            if FIGURES in {name.parts[0] for name in new}:
+                (self._home / FIGURES).mkdir(exist_ok=True)
+            for name in sorted(new, key=lambda name: (name.name == SUMMARY, name.name == CHECKSUMS)):
+                if name.name == SUMMARY:
+                    self._remove_unknown()
+                os.replace(source / name, self._home / name)
+        shutil.rmtree(source, ignore_errors=True)
+
+    def _remove_unknown(self) -> None:
+        """Remove the files of an older run that the run whose checksums are here does not have."""
+        known = json.loads((self._home / CHECKSUMS).read_text("utf-8"))
+        older = [RESULTS, REPORT, *(item.name for item in self._home.glob("volume*.vtu"))]
+        older += [f"{FIGURES}/{item.name}" for item in (self._home / FIGURES).glob("*")]
+        for name in older:
+            if name not in known:
+                (self._home / name).unlink(missing_ok=True)
+        with suppress(OSError):
+            (self._home / FIGURES).rmdir()
 
     def remove_leftovers(self) -> None:
         """Delete temporary files that a killed process left."""
@@ -149,7 +207,7 @@ class RunDirectory:
         """Give the folder back."""
         if self._lock >= 0:
             with suppress(OSError):
-                (self.path / LOCK).unlink(missing_ok=True)
+                (self._home / LOCK).unlink(missing_ok=True)
             os.close(self._lock)
             self._lock = -1
 
@@ -170,6 +228,9 @@ class RunDirectory:
             with suppress(OSError):
                 volume.unlink()
         shutil.rmtree(self.path / FIGURES, ignore_errors=True)
+        if self.path != self._home:
+            with suppress(OSError):
+                self.path.rmdir()
 
     def _unmake(self) -> None:
         for folder in reversed(self._made):
@@ -243,6 +304,12 @@ def _latest_unfinished(name: str, scene: str) -> Path | None:
             if (path / SCENE).read_text("utf-8") == scene and not (path / SUMMARY).is_file():
                 return path
     return None
+
+
+def _scene_text(folder: Path) -> str | None:
+    """The scene of the run in a folder, None where there is none."""
+    path = folder / SCENE
+    return path.read_text("utf-8", errors="replace") if path.is_file() else None
 
 
 def _in_use(path: Path, holder: str) -> str:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from bem.errors import ResultsError
 from bem.results.atomic import reason
 from bem.results.dataset import read_dataset
-from bem.results.directory import CHECKSUMS, RESULTS, SCENE, SUMMARY, checksum
+from bem.results.directory import CHECKSUMS, RESULTS, SCENE, SUMMARY, SWAPPING, checksum
 
 if TYPE_CHECKING:
     import xarray
@@ -61,7 +61,8 @@ def open_run(path: str | os.PathLike[str]) -> FinishedRun:
     if not folder.is_dir():
         raise ResultsError(f"{folder}: no such folder; give the folder of a run")
     if not (folder / SUMMARY).is_file():
-        hint = "it is unfinished; `bem run` with --resume ends it" if (folder / SCENE).is_file() else "no run is in it"
+        begun = (folder / SCENE).is_file() or (folder / SWAPPING).is_dir()
+        hint = "it is unfinished; `bem run` with --resume ends it" if begun else "no run is in it"
         raise ResultsError(f"{folder}: no finished run: {hint}")
     _check(folder, SUMMARY)
     _check(folder, SCENE)

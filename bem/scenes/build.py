@@ -74,7 +74,7 @@ def heights_of(
 
 
 def shape_of(scene: ShapeScene, grid: Grid) -> FloatArray:
-    """Gap of the upper body's smooth shape over the plane [m], (nx, ny); spheres and cylinders as parabolas."""
+    """Gap of the upper body's smooth shape over the plane [m], (nx, ny), new; spheres and cylinders as parabolas."""
     x, y = grid.x[:, None], grid.y[None, :]
     if scene.kind == "flat":
         gap = np.zeros(grid.shape)
@@ -88,7 +88,7 @@ def shape_of(scene: ShapeScene, grid: Grid) -> FloatArray:
             scene.kind
         ]
         gap = x**2 / (2 * scene.radius) + curvature * y**2 / 2
-    return np.ascontiguousarray(np.broadcast_to(gap, grid.shape))
+    return gap if gap.shape == grid.shape else np.array(np.broadcast_to(gap, grid.shape), order="C")
 
 
 def softer_hardness(lower: Body, upper: Body | None) -> float:

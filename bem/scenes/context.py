@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import mmap
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
@@ -33,6 +34,9 @@ class Context(Protocol):
 
     def timer(self, stage: str) -> AbstractContextManager[None]:
         """Add the time spent in the `with` block to the stage's sum, which the summary holds."""
+
+    def scratch(self, shape: tuple[int, ...]) -> NDArray[np.float64]:
+        """An uninitialised array; a very large one is on disk, so that it need not fit into memory. See `release`."""
 
     def save(self, state: Mapping[str, Any]) -> None:
         """Replace the checkpoint, whole or not at all: arrays, plain values, lists and dictionaries of them."""
@@ -85,6 +89,19 @@ class Outcome:
     volumes: tuple[str, ...] = ()
 
 
+def release(values: NDArray[Any]) -> None:
+    """Let go of the memory behind a large array of `Context.scratch`; what is in it stays on disk. Others are kept.
+
+    After each part of such an array is written or read, so that never the whole of it is in memory.
+    """
+    owner: Any = values
+    while isinstance(owner, np.ndarray):
+        owner = owner.base
+    pages = owner.obj if isinstance(owner, memoryview) else owner
+    if isinstance(pages, mmap.mmap):
+        pages.madvise(mmap.MADV_DONTNEED)
+
+
 def derive_seed(seed: int, purpose: str, *indices: int) -> int:
     """63 bits that depend on the scene's seed and the purpose only."""
     text = "/".join([str(seed), purpose, *map(str, indices)])
@@ -121,6 +138,10 @@ class PlainContext:
             yield
         finally:
             self.seconds[stage] = self.seconds.get(stage, 0.0) + time.perf_counter() - start
+
+    def scratch(self, shape: tuple[int, ...]) -> NDArray[np.float64]:
+        """See `Context`; always in memory."""
+        return np.empty(shape)
 
     def save(self, state: Mapping[str, Any]) -> None:
         """See `Context`."""

@@ -225,18 +225,106 @@ def test_an_older_run_is_not_overwritten_unasked(tmp_path):
     with pytest.raises(ResultsError, match="--resume continues it, --overwrite replaces it"):
         RunDirectory.start(tmp_path, "a", "a = 1\n")
     assert (tmp_path / "scene.toml").read_text() == "a = 1\n"
-    RunDirectory.start(tmp_path, "a", "a = 2\n", overwrite=True).close()
-    assert (tmp_path / "scene.toml").read_text() == "a = 2\n"
+
+
+def finished_run(path, scene, figure, **start):
+    with RunDirectory.start(path, "a", scene, **start) as run:
+        write_text(run.figures / figure, scene)
+        write_text(run.path / f"volume-{figure}.vtu", scene)
+        write_variables(run.path / "results.nc", fields(4, 2), {"scene": scene})
+        run.save_checkpoint({"a": 1})
+        run.finish({"scene": scene})
 
 
 def test_overwriting_removes_the_old_run_and_nothing_else(tmp_path):
-    with RunDirectory.start(tmp_path, "a", "a = 1\n") as run:
-        write_text(run.figures / "old.png", "x")
-        write_text(tmp_path / "mine.txt", "mine")
-        run.save_checkpoint({"a": 1})
-        run.finish({"scene": "a"})
-    RunDirectory.start(tmp_path, "a", "a = 2\n", overwrite=True).close()
-    assert sorted(os.listdir(tmp_path)) == ["mine.txt", "scene.toml"]
+    finished_run(tmp_path, "a = 1\n", "old.png")
+    write_text(tmp_path / "mine.txt", "mine")
+    finished_run(tmp_path, "a = 2\n", "new.png", overwrite=True)
+    assert sorted(os.listdir(tmp_path)) == [
+        "checksums.json", "figures", "mine.txt", "results.nc", "scene.toml", "summary.json", "volume-new.png.vtu",
+    ]  # fmt: skip
+    assert os.listdir(tmp_path / "figures") == ["new.png"]
+    assert open_run(tmp_path).scene == {"a": 2}
+    assert damaged_files(tmp_path) == []
+
+
+def test_an_older_run_stays_until_the_new_one_is_finished(tmp_path):
+    finished_run(tmp_path, "a = 1\n", "old.png")
+    before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    with RunDirectory.start(tmp_path, "a", "a = 2\n", overwrite=True) as run:
+        run.save_checkpoint({"cycle": 7})
+        write_text(run.figures / "new.png", "x")
+    assert all(path.read_bytes() == content for path, content in before.items()), "interrupted: the old run is whole"
+    assert open_run(tmp_path).scene == {"a": 1}
+    with RunDirectory.start(tmp_path, "a", "a = 2\n", resume=True, overwrite=True) as run:
+        assert run.resumed
+        assert not run.finished
+        assert run.load_checkpoint() == {"cycle": 7}
+        run.finish({"scene": "new"})
+        assert run.path == tmp_path
+    assert open_run(tmp_path).summary == {"scene": "new"}
+    assert sorted(os.listdir(tmp_path)) == ["checksums.json", "figures", "scene.toml", "summary.json"]
+
+
+def test_a_run_that_may_not_start_leaves_the_old_one(tmp_path):
+    finished_run(tmp_path, "a = 1\n", "old.png")
+    before = sorted(os.listdir(tmp_path))
+    RunDirectory.start(tmp_path, "a", "a = 2\n", overwrite=True).discard()
+    assert sorted(os.listdir(tmp_path)) == before
+    assert open_run(tmp_path).scene == {"a": 1}
+
+
+def test_overwriting_again_starts_anew(tmp_path):
+    finished_run(tmp_path, "a = 1\n", "old.png")
+    with RunDirectory.start(tmp_path, "a", "a = 2\n", overwrite=True) as run:
+        run.save_checkpoint({"cycle": 7})
+    with RunDirectory.start(tmp_path, "a", "a = 2\n", overwrite=True) as run:
+        assert not run.resumed
+        assert run.load_checkpoint() is None
+
+
+@pytest.mark.parametrize("steps", range(12))
+def test_a_swap_that_is_cut_short_is_ended_by_the_next(tmp_path, monkeypatch, steps):
+    """Killed after any number of its moves and removals."""
+    finished_run(tmp_path, "a = 1\n", "old.png")
+    left = [steps]
+
+    def counted(work):
+        def step(*arguments, **keywords):
+            if ".writing" not in str(arguments[0]):
+                if left[0] == 0:
+                    raise KeyboardInterrupt
+                left[0] -= 1
+            return work(*arguments, **keywords)
+
+        return step
+
+    with RunDirectory.start(tmp_path, "a", "a = 2\n", overwrite=True) as run:
+        write_text(run.figures / "new.png", "x")
+        write_variables(run.path / "results.nc", fields(4, 2), {})
+        with monkeypatch.context() as patch:
+            patch.setattr("os.rename", counted(os.rename))
+            patch.setattr("os.replace", counted(os.replace))
+            patch.setattr("pathlib.Path.unlink", counted(type(tmp_path).unlink))
+            try:
+                run.finish({"scene": "new"})
+            except KeyboardInterrupt:
+                assert left == [0]
+            else:
+                assert steps == 11, "the last case goes through"
+    try:
+        assert open_run(tmp_path).scene in ({"a": 1}, {"a": 2})
+        assert damaged_files(tmp_path) == []
+    except ResultsError as error:
+        assert "--resume ends it" in str(error)  # noqa: PT017
+    with RunDirectory.start(tmp_path, "a", "a = 2\n", resume=True, overwrite=True) as run:
+        if not run.finished:  # cut before the new run was whole
+            run.finish({"scene": "new"})
+    assert open_run(tmp_path).scene == {"a": 2}
+    assert open_run(tmp_path).summary == {"scene": "new"}
+    assert damaged_files(tmp_path) == []
+    assert sorted(os.listdir(tmp_path)) == ["checksums.json", "figures", "results.nc", "scene.toml", "summary.json"]
+    assert os.listdir(tmp_path / "figures") == ["new.png"]
 
 
 def test_resuming_another_scene_is_refused(tmp_path):

@@ -11,7 +11,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLACK, BLUE, OPEN, ORANGE, VERMILION, field_axes, label, map_of, prefix
+from bem.plots.style import BLACK, BLUE, OPEN, ORANGE, VERMILION, field_axes, label, map_of, prefix, thinned
 
 
 def _array(run: Any, name: str) -> Any:
@@ -19,9 +19,14 @@ def _array(run: Any, name: str) -> Any:
 
 
 def _pressure_map(run: Any, figure: Figure) -> None:
-    pressure = np.where(_array(run, "pressure") > 0, _array(run, "pressure"), np.nan)
+    pressure = _array(run, "pressure")
+    factor, _ = prefix(pressure, "Pa")
+    shown = thinned(pressure)
     axes = figure.add_subplot()
-    map_of(figure, axes, _array(run, "x"), _array(run, "y"), pressure, "contact pressure", "Pa", vmin=0)
+    map_of(
+        figure, axes, _array(run, "x"), _array(run, "y"), np.where(shown > 0, shown, np.nan), "contact pressure", "Pa",
+        vmin=0, vmax=float(pressure.max()) * factor,
+    )  # fmt: skip
 
 
 def _contact_map(run: Any, figure: Figure) -> None:
@@ -30,7 +35,7 @@ def _contact_map(run: Any, figure: Figure) -> None:
     extent = field_axes(axes, _array(run, "x"), _array(run, "y"))
     colours = ListedColormap([OPEN, BLUE, ORANGE])
     axes.imshow(
-        state.T,
+        thinned(state).T,
         extent=extent,
         origin="lower",
         aspect=axes.get_aspect(),
@@ -113,7 +118,7 @@ def _surfaces(run: Any, figure: Figure) -> None:
     names = [name for name in ("lower_height", "upper_height") if name in run.dataset]
     for axes, name in zip(np.atleast_1d(figure.subplots(1, len(names))), names, strict=True):
         values = _array(run, name)
-        limit = float(np.percentile(np.abs(values), 99.8))
+        limit = float(np.percentile(np.abs(thinned(values)), 99.8))
         factor, _ = prefix(values, "m")
         map_of(
             figure, axes, _array(run, "x"), _array(run, "y"), values, "height", "m",

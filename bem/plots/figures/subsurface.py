@@ -6,9 +6,11 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from bem.plots.figures import FigureKind
 from bem.plots.style import SKY, label, prefix
+from bem.scenes.context import release
 
 
 def _von_mises_section(run: Any, figure: Figure) -> None:
@@ -17,20 +19,32 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
     across = "y"
     if len(x) < 2:
         stress, x, across = stress.transpose(0, 2, 1), run.dataset["y"].values, "x"
-    iz, ix, iy = np.unravel_index(int(np.argmax(stress)), stress.shape)
-    section = stress[:, :, iy]
+    iz = int(np.argmax(_by_depth(stress)[0]))
+    ix, iy = np.unravel_index(int(np.argmax(stress[iz])), stress[iz].shape)
+    highest = float(stress[iz, ix, iy])
+    stride = max(1, len(x) // 2000)  # far more than a figure has dots
+    section, across_x = np.array(stress[:, ::stride, iy]), x[::stride]
+    release(stress)
     factor_x, unit_x = prefix(x, "m")
     factor_z, unit_z = prefix(depth, "m")
-    factor, unit = prefix(section, "Pa")
+    factor, unit = prefix([highest], "Pa")
     axes = figure.add_subplot()
     shown = axes.pcolormesh(
-        x * factor_x, depth * factor_z, section * factor, shading="gouraud", vmin=0, cmap="inferno", rasterized=True
+        across_x * factor_x,
+        depth * factor_z,
+        section * factor,
+        shading="gouraud",
+        vmin=0,
+        cmap="inferno",
+        rasterized=True,
     )
     bar = figure.colorbar(shown, ax=axes, pad=0.02)
     bar.set_label(label("von Mises stress", unit))
     yield_stress = _yield_stress(run)
     if yield_stress is not None and section.max() > yield_stress > section.min():
-        axes.contour(x * factor_x, depth * factor_z, section, levels=[yield_stress], colors="white", linewidths=1.0)
+        axes.contour(
+            across_x * factor_x, depth * factor_z, section, levels=[yield_stress], colors="white", linewidths=1.0
+        )
         axes.plot([], [], color="0.6", linewidth=1.0, label=f"yield, {yield_stress * factor:.3g} {unit}")
     axes.plot(
         x[ix] * factor_x,
@@ -39,7 +53,7 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
         color=SKY,
         markersize=9,
         linestyle="none",
-        label=f"maximum, {section.max() * factor:.3g} {unit}",
+        label=f"maximum, {highest * factor:.3g} {unit}",
     )
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     axes.set_ylim(depth[-1] * factor_z, depth[0] * factor_z)
@@ -54,10 +68,11 @@ def _depth_profile(run: Any, figure: Figure) -> None:
     """Largest and mean von Mises stress at each depth."""
     stress, depth = run.dataset["von_mises"].values, run.dataset["depth"].values
     factor_z, unit_z = prefix(depth, "m")
-    factor, unit = prefix(stress, "Pa")
+    largest, mean = _by_depth(stress)
+    factor, unit = prefix(largest, "Pa")
     axes = figure.add_subplot()
-    axes.plot(depth * factor_z, stress.max(axis=(1, 2)) * factor, marker="o", markersize=3, label="largest")
-    axes.plot(depth * factor_z, stress.mean(axis=(1, 2)) * factor, marker="s", markersize=3, label="mean")
+    axes.plot(depth * factor_z, largest * factor, marker="o", markersize=3, label="largest")
+    axes.plot(depth * factor_z, mean * factor, marker="s", markersize=3, label="mean")
     yield_stress = _yield_stress(run)
     if yield_stress is not None:
         axes.axhline(yield_stress * factor, color="0.4", linestyle="--", linewidth=1.0, label="yield stress")
@@ -66,6 +81,15 @@ def _depth_profile(run: Any, figure: Figure) -> None:
     axes.set_xlim(0)
     axes.set_ylim(0)
     axes.legend()
+
+
+def _by_depth(stress: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Largest and mean value at each depth, one plane in memory at a time."""
+    largest, mean = np.empty(len(stress)), np.empty(len(stress))
+    for i, plane in enumerate(stress):
+        largest[i], mean[i] = plane.max(), plane.mean()
+        release(stress)
+    return largest, mean
 
 
 def _yield_stress(run: Any) -> float | None:

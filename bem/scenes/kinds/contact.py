@@ -27,7 +27,7 @@ from bem.scenes.common import (
     exactly_one,
     problem,
 )
-from bem.scenes.context import Context, Outcome, Variable
+from bem.scenes.context import Context, Outcome, Variable, release
 from bem.scenes.kinds import Kind
 from bem.scenes.planner import Plan, Step, convolution_memory, padded_points
 from bem.scenes.units import Length, Ratio
@@ -234,7 +234,9 @@ def run(scene: ContactScene, context: Context) -> Outcome:
             "lower": build.heights_of(scene.lower.surface, grid, context.seed("lower"), context.note),
             "upper": build.heights_of(scene.upper.surface, grid, context.seed("upper"), context.note),
         }
-    undeformed = build.shape_of(scene.shape, grid) - heights["lower"] - heights["upper"]
+    undeformed = build.shape_of(scene.shape, grid)
+    undeformed -= heights["lower"]
+    undeformed -= heights["upper"]
     if any(values.any() for values in heights.values()):
         undeformed -= undeformed.min()  # approach counts from first touch; smooth shapes touch at zero already
 
@@ -266,6 +268,7 @@ def run(scene: ContactScene, context: Context) -> Outcome:
                 max_iterations=scene.contact.max_iterations,
                 callback=watch,
             )
+            del operator  # and with it its spectra
             context.progress(100, 100, "contact", residual=solution.residual)
             context.save({"solution": _fields(solution), "history": np.array(history).reshape(-1, 2)})
 
@@ -298,17 +301,9 @@ def run(scene: ContactScene, context: Context) -> Outcome:
     volumes: tuple[str, ...] = ()
     if _depths(scene):
         with context.timer("stresses"):
-            stresses = _stresses(scene, solution.pressure, context)
+            stresses, found = _stresses(scene, solution.pressure, context)
         variables |= stresses
-        mises = stresses["von_mises"].values
-        deepest, _, _ = np.unravel_index(int(np.argmax(mises)), mises.shape)
-        summary["max_von_mises_Pa"] = float(mises.max())
-        summary["max_von_mises_depth_m"] = float(stresses["depth"].values[deepest])
-        below = lower if scene.outputs.body == "lower" else upper
-        assert below is not None
-        yielded = _yielded_volume(mises, stresses["depth"].values, below, grid.cell_area)
-        if yielded is not None:
-            summary["yielded_volume_m3"] = yielded
+        summary |= found
         volumes = ("von_mises", "stress") if scene.outputs.stresses else ("von_mises",)
     where = (
         ""
@@ -339,8 +334,10 @@ def _summary(solution: Any, area: float, heights: dict[str, FloatArray]) -> dict
     return summary
 
 
-def _stresses(scene: ContactScene, pressure: FloatArray, context: Context) -> dict[str, Variable]:
-    """Von Mises at every depth, and the six components where asked for."""
+def _stresses(
+    scene: ContactScene, pressure: FloatArray, context: Context
+) -> tuple[dict[str, Variable], dict[str, float]]:
+    """Von Mises at every depth, the six components where asked for, and the figures of both."""
     from bem.stress import subsurface_stress, von_mises, von_mises_planes
 
     grid, depths = build.grid_of(scene.grid), np.array(_depths(scene))
@@ -348,33 +345,42 @@ def _stresses(scene: ContactScene, pressure: FloatArray, context: Context) -> di
     assert below is not None
     # Traction on the lower body acts along +x, on the upper one along -x; z points into the body itself.
     friction = scene.contact.friction if scene.outputs.body == "lower" else -scene.contact.friction
-    if scene.outputs.stresses:
-        stress = subsurface_stress(pressure, grid, below, depths, friction=friction)
-        mises = von_mises(stress)
-    else:
-        mises = np.empty((len(depths), *grid.shape))
-        for i, plane in enumerate(von_mises_planes(pressure, grid, below, depths, friction=friction)):
-            mises[i] = plane
-            context.progress(i + 1, len(depths), "stresses")
+    stress = subsurface_stress(pressure, grid, below, depths, friction=friction) if scene.outputs.stresses else None
+    limits = _yield_stresses(below, depths)
+    mises = context.scratch((len(depths), *grid.shape))
+    highest, yielded = np.empty(len(depths)), np.empty(len(depths))
+    planes: Any = (
+        von_mises_planes(pressure, grid, below, depths, friction=friction, out=np.empty(grid.shape))
+        if stress is None
+        else (von_mises(stress[:, i]) for i in range(len(depths)))
+    )
+    for i, plane in enumerate(planes):
+        mises[i] = plane
+        highest[i] = plane.max()
+        yielded[i] = np.count_nonzero(plane > limits[i]) * grid.cell_area
+        release(mises)
+        context.progress(i + 1, len(depths), "stresses")
     variables = {
         "depth": Variable(("depth",), depths, "m", f"depth below the surface of the {scene.outputs.body} body"),
         "von_mises": Variable(("depth", "x", "y"), mises, "Pa", "von Mises stress"),
     }
-    if scene.outputs.stresses:
+    if stress is not None:
         variables["component"] = Variable(("component",), np.array(_STRESS_COMPONENTS), "1", "component of the stress")
         variables["stress"] = Variable(("component", "depth", "x", "y"), stress, "Pa", "stress, positive in tension")
-    return variables
+    found = {
+        "max_von_mises_Pa": float(highest.max()),
+        "max_von_mises_depth_m": float(depths[int(np.argmax(highest))]),
+    }
+    if np.isfinite(limits).any():
+        found["yielded_volume_m3"] = float(np.trapezoid(yielded, depths))
+    return variables, found
 
 
-def _yielded_volume(mises: FloatArray, depths: FloatArray, body: Body, cell_area: float) -> float | None:
-    """Volume with von Mises above yield [m^3], by trapezia over depth; None if no yield stress is known."""
+def _yield_stresses(body: Body, depths: FloatArray) -> FloatArray:
+    """The yield stress at each depth [Pa]; infinite where none is known."""
     in_layer = depths <= (0.0 if body.layer is None else body.layer.thickness)
     here = (body.surface_material if inside and body.layer else body.material for inside in in_layer)
-    limits = np.array([np.inf if material.yield_stress is None else material.yield_stress for material in here])
-    if not np.isfinite(limits).any():
-        return None
-    areas = (mises > limits[:, None, None]).sum(axis=(1, 2)) * cell_area
-    return float(np.trapezoid(areas, depths))
+    return np.array([np.inf if material.yield_stress is None else material.yield_stress for material in here])
 
 
 def _contact_state(pressure: FloatArray, hardness: float | None) -> NDArray[np.int8]:

@@ -1,0 +1,86 @@
+"""Fields that may not fit into memory: on disk while they are made, written in parts, drawn with fewer cells."""
+
+import errno
+import os
+
+import numpy as np
+import pytest
+
+from bem.errors import ResultsError
+from bem.plots.style import largest_of, thinned
+from bem.results import open_run
+from bem.results.dataset import read_dataset, write_variables
+from bem.results.scratch import scratch_array
+from bem.runs import run_scene
+from bem.scenes.context import Variable, release
+
+SCENE = {
+    "kind": "contact",
+    "grid": {"shape": [32, 16], "spacing": "0.5 um", "periodic": True},
+    "lower": {"material": "steel-disk"},
+    "shape": {"kind": "sinusoid", "amplitude": "10 nm", "wavelength": "16 um"},
+    "contact": {"mean_pressure": "2 MPa"},
+    "outputs": {"von_mises": True, "depths": {"deepest": "4 um", "count": 5}},
+}
+
+
+def test_a_large_array_is_on_disk_and_leaves_no_file(tmp_path):
+    values = scratch_array(tmp_path, (3, 64, 64), large=1)
+    assert os.listdir(tmp_path) == []
+    for i in range(3):
+        values[i] = i
+        release(values[i])
+    assert [set(np.unique(plane)) for plane in values] == [{0.0}, {1.0}, {2.0}]
+    small = scratch_array(tmp_path, (3, 4))
+    small[:] = 1
+    release(small)  # in memory: kept as it is
+    assert np.all(small == 1)
+
+
+def test_a_disk_without_room_is_said_beforehand(tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("os.posix_fallocate", full)
+    with pytest.raises(ResultsError, match="No space left on device"):
+        scratch_array(tmp_path, (4, 4), large=1)
+    assert os.listdir(tmp_path) == []
+
+
+def test_results_are_the_same_on_disk_and_in_memory(tmp_path, monkeypatch):
+    run_scene(SCENE, tmp_path / "memory")
+    monkeypatch.setattr("bem.results.scratch.scratch_array.__defaults__", (1,))
+    monkeypatch.setattr("bem.results.dataset._LARGE", 1)
+    run_scene(SCENE, tmp_path / "disk")
+    first, second = open_run(tmp_path / "memory"), open_run(tmp_path / "disk")
+    assert first.dataset.identical(second.dataset)
+    timing = ("wall_time_s", "seconds_by_stage")
+    assert {k: v for k, v in first.summary.items() if k not in timing} == {
+        k: v for k, v in second.summary.items() if k not in timing
+    }
+    for figure in (tmp_path / "memory" / "figures").glob("*.png"):
+        assert figure.read_bytes() == (tmp_path / "disk" / "figures" / figure.name).read_bytes()
+
+
+def test_a_field_written_in_parts_reads_the_same(tmp_path, monkeypatch):
+    values = np.random.default_rng(1).normal(size=(5, 6, 7))
+    variables = {"field": Variable(("a", "b", "c"), values, "Pa", "a field")}
+    monkeypatch.setattr("bem.results.dataset._LARGE", 1)
+    write_variables(tmp_path / "parts.nc", variables, {})
+    np.testing.assert_array_equal(read_dataset(tmp_path / "parts.nc")["field"], values)
+
+
+def test_maps_with_more_cells_than_dots():
+    values = np.arange(3000.0 * 900).reshape(3000, 900)
+    few = thinned(values)
+    assert few.shape == (1000, 900)
+    assert np.shares_memory(few, values), "no copy"
+    assert few[0, 0] == values[1, 0], "the middle of each group"
+    assert thinned(values[:1400]).shape == (1400, 900)
+
+
+def test_the_largest_of_a_large_array():
+    values = np.zeros((3, 2000, 2000))
+    values[1, 7, 7], values[2, 0, 0], values[0, 0, 0] = -5.0, np.nan, np.inf
+    assert largest_of(values) == 5.0
+    assert largest_of(np.full(4, np.nan)) == 0.0
