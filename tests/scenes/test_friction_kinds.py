@@ -1,11 +1,13 @@
 """Kinds friction, running-in and asperities: closed forms, skips that change nothing, resuming, messages."""
 
 import copy
+import dataclasses
 import math
 
 import numpy as np
 import pytest
 
+from bem.contact import solve_contact
 from bem.errors import InputError, Status
 from bem.friction import solve_mixed
 from bem.grid import Grid
@@ -154,6 +156,45 @@ def test_cycle_contact_is_load_sharing(speed):
     assert row["minimum_film"] == pytest.approx(solution.minimum_film, rel=5e-3)
     if speed == 0.5:
         assert step.contact_solves == 0
+
+
+def test_a_contact_solved_too_coarsely_is_solved_better(monkeypatch):
+    """Loads that jump with the contact's own tolerance must not keep film and contact from their balance."""
+    grid = Grid((64, 32), (0.8e-6, 0.8e-6), periodic=(False, True))
+    height = generate_surface(grid, rms_height=120e-9, correlation_length=2e-6, seed=4)
+    case = {
+        "grid": grid,
+        "bodies": (Body(CATALOGUE["steel-disk-110HV"].material), Body(CATALOGUE["steel-cylinder"].material)),
+        "radius": 2e-3,
+        "width": 6e-3,
+        "load": 5.5,
+        "speeds": (0.05, 0.0),
+        "lubricant": OIL,
+        "boundary_friction": 0.15,
+        "hardness": 1.08e9,
+        "film_points": 200,
+    }
+    exact = MixedContact(**case)
+    exact(height, None)
+    middle = exact.rows["film_load"][0]
+    tolerances = []
+
+    def jumping(gap, operator, *, mean_gap, tolerance, **others):
+        solution = solve_contact(gap, operator, mean_gap=mean_gap, tolerance=tolerance, **others)
+        tolerances.append(tolerance)
+        jump = 50 * tolerance * (1 if mean_gap < balance else -1)
+        return dataclasses.replace(solution, load=solution.load * (1 + jump))
+
+    balance = exact.table.at(middle / 6e-3).thickness.mean()
+    monkeypatch.setattr("bem.wear.mixed.solve_contact", jumping)
+    # a jump of 1 % across the balance, twenty times the tolerance of the balance
+    step = MixedContact(**case, contact_tolerance=1e-4)
+    outcome = step(height, None)
+    assert outcome.status is Status.CONVERGED
+    assert abs(step.rows["imbalance"][0]) <= 5e-4
+    assert tolerances[0] == 1e-4
+    assert tolerances[-1] == pytest.approx(1e-6)
+    assert step.rows["film_load"][0] == pytest.approx(middle, rel=1e-3)  # the balance' tolerance, twice
 
 
 class StopHereError(Exception):
