@@ -12,7 +12,14 @@ from bem.kernels.loads import STRESS_PARITY, Load
 from bem.kernels.spectral import stress_response
 from bem.reference_solutions.hamilton import sphere_stress
 from bem.reference_solutions.mcewen import cylinder_stress
-from bem.stress import bound_tile, von_mises_bound, von_mises_field, von_mises_planes, von_mises_where_above
+from bem.stress import (
+    bound_tile,
+    von_mises_bound,
+    von_mises_field,
+    von_mises_limit,
+    von_mises_planes,
+    von_mises_where_above,
+)
 from bem.threads import set_threads
 from bem.transforms import COUNT as TRANSFORMS
 
@@ -240,6 +247,52 @@ def test_the_bound_is_exact_for_one_loaded_cell_and_useful_for_many():
     assert coarse[2] < 2.5 * peak[2]
 
 
+@pytest.mark.parametrize("periodic", ALL_PERIODIC)
+@pytest.mark.parametrize("friction", [0.0, -0.4])
+def test_the_limit_is_never_exceeded(periodic, friction):
+    rng = np.random.default_rng(15)
+    depths = [0.0, 0.3, 2.0, 10.0]
+    for shape in ((7, 6), (1, 14), (15, 1), (23, 31)):
+        grid = Grid(shape, (1.0, 0.7), periodic=periodic)
+        blob = np.zeros(shape)
+        blob[: (shape[0] + 1) // 2, : (shape[1] + 1) // 2] = 2.0
+        for pressure in (rough(rng, shape, 0.2), rough(rng, shape, 1) * rng.choice([-1, 1], shape), blob):
+            limit = von_mises_limit(pressure, grid, BODY, depths, friction=friction)
+            field = von_mises_field(pressure, grid, BODY, depths, friction=friction)
+            # round-off of the transforms
+            assert (field.max(axis=(1, 2)) <= limit + 1e-14 * np.abs(pressure).max()).all()
+
+
+def test_the_limit_is_near_for_one_loaded_cell_and_costs_one_pass_a_depth():
+    grid = Grid((40, 36), (1.0, 1.0), periodic=(False, True))
+    one, many = np.zeros((2, *grid.shape))
+    one[11, 27] = 3.0
+    many[5:11, 6:12] = 1.0
+    depths = [0.5, 3.0]
+    room.COUNT.reset()
+    for pressure, factor in ((one, 1.6), (many, 3.0)):
+        limit = von_mises_limit(pressure, grid, BODY, depths, friction=0.2)
+        peak = von_mises_field(pressure, grid, BODY, depths, friction=0.2).max(axis=(1, 2))
+        # one cell: sqrt(5) at most if the largest d, e, yz, xz, xy were equal and apart; as measured, rounded up
+        assert (limit < factor * peak).all()
+    assert room.COUNT.bounds == 2
+    assert not von_mises_limit(0 * many, grid, BODY, depths).any()
+
+
+def test_planes_go_where_they_are_wanted():
+    grid = Grid((9, 6), (1.0, 1.0), periodic=(False, True))
+    pressure = np.random.default_rng(16).random(grid.shape)
+    whole = von_mises_field(pressure, grid, BODY, [0.0, 1.0, 2.0], friction=0.1)
+    stack = np.full((3, 9, 6), np.nan)
+    sweep = von_mises_planes(pressure, grid, BODY, [0.0, 1.0, 2.0], friction=0.1, out=stack)
+    next(sweep)
+    next(sweep)
+    np.testing.assert_array_equal(stack[:2], whole[:2])
+    assert np.isnan(stack[2]).all()  # not asked for, not touched
+    with pytest.raises(InputError, match="out"):
+        von_mises_planes(pressure, grid, BODY, [0.0, 1.0], out=stack)
+
+
 def test_depths_that_cannot_reach_the_threshold_are_left_out_and_nothing_else_changes():
     grid = Grid((40, 30), (1.0, 1.0), periodic=(False, True))
     pressure = rough(np.random.default_rng(7), grid.shape, 0.03)
@@ -323,7 +376,7 @@ def test_linearity_mirror_and_scale(nx, ny, periodic, friction, seed):
 def test_bad_input_is_refused_with_every_mistake_named():
     grid = Grid((4, 4), (1, 1))
     pressure = np.ones((4, 4))
-    for function in (subsurface_stress, von_mises_field, von_mises_bound, von_mises_planes):
+    for function in (subsurface_stress, von_mises_field, von_mises_bound, von_mises_limit, von_mises_planes):
         with pytest.raises(InputError) as caught:
             function(pressure, grid, "steel", [-1.0], friction=np.nan)
         assert len(caught.value.messages) == 3

@@ -3,7 +3,7 @@
 `spectra` makes and keeps the kernels, `sweeps` goes through the depths, `bound` says where nothing can be.
 """
 
-from bem.stress.bound import bound_tile, von_mises_bound, von_mises_where_above
+from bem.stress.bound import bound_tile, von_mises_bound, von_mises_limit, von_mises_where_above
 from bem.stress.spectra import COUNT, set_stress_memory, stress_memory
 from bem.stress.sweeps import subsurface_stress, von_mises, von_mises_field, von_mises_planes
 
@@ -16,6 +16,7 @@ __all__ = [
     "von_mises",
     "von_mises_bound",
     "von_mises_field",
+    "von_mises_limit",
     "von_mises_planes",
     "von_mises_where_above",
 ]

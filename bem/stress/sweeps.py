@@ -19,7 +19,7 @@ from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.stress.spectra import SPECTRA, check_request, elastic, multipliers, padded_lengths
-from bem.threads import share
+from bem.threads import get_threads, share
 from bem.transforms import Multiplier, PaddedTransform, transform_of
 
 
@@ -73,9 +73,12 @@ def von_mises_planes(
 ) -> Iterator[FloatArray]:
     """Von Mises stress, one plane (nx, ny) [Pa] for each depth in turn; arguments as in `subsurface_stress`.
 
-    The next plane is computed when it is asked for. Each is a new array, or `out` written over.
+    The next plane is computed when it is asked for. Each is a new array; or `out` (nx, ny) written over; or the next of
+    `out` (nz, nx, ny).
     """
     sweep = Sweep.of("von_mises_planes", pressure, grid, body, depths, friction)
+    if out is not None and np.ndim(out) == 3:
+        return planes(sweep, list(check_out("von_mises_planes", out, (len(sweep.depths), *grid.shape))))
     if out is not None:
         check_out("von_mises_planes", out, grid.shape)
     return planes(sweep, [out] * len(sweep.depths))
@@ -139,6 +142,13 @@ def _recombine(start, stop, stress):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
+def _begin(start, stop, values, weight, out):  # type: ignore[no-untyped-def]
+    for i in range(start, stop):
+        for j in range(out.shape[1]):
+            out[i, j] = weight * values[i, j] * values[i, j]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
 def _accumulate(start, stop, values, weight, out):  # type: ignore[no-untyped-def]
     for i in range(start, stop):
         for j in range(out.shape[1]):
@@ -159,7 +169,10 @@ def _share_rows(work: Any, rows: int, *arguments: Any) -> None:
     def block(_: int, number: int) -> None:
         work(number * _ROWS, min(rows, (number + 1) * _ROWS), *arguments)
 
-    share(block, -(-rows // _ROWS))
+    if get_threads() == 1:
+        work(0, rows, *arguments)
+    else:
+        share(block, -(-rows // _ROWS))
 
 
 _SHARES = (0.0, 0.75, 1.0, 3.0, 3.0, 3.0)  # of t, d, e, yz, xz, xy squared in von Mises squared
@@ -168,14 +181,13 @@ _SHARES = (0.0, 0.75, 1.0, 3.0, 3.0, 3.0)  # of t, d, e, yz, xz, xy squared in v
 def planes(sweep: Sweep, outs: Sequence[FloatArray | None]) -> Iterator[FloatArray]:
     """Von Mises stress of one depth after the other, each into its own array, or a new one where that is None."""
     shape = sweep.grid.shape
-    scratch = np.empty(shape)
+    scratch = sweep.transform.zeros_field()  # aligned: written by the transform itself where y is not padded
     for index, out in enumerate(outs):
         plane = np.empty(shape) if out is None else out
-        plane[...] = 0.0
         factors = sweep.factors(index)
         for component in range(1, 6):
             sweep.transform.inverse(sweep.spectrum, factors[component], scratch)
-            work = _finish if component == 5 else _accumulate
+            work = {1: _begin, 5: _finish}.get(component, _accumulate)
             _share_rows(work, shape[0], scratch, _SHARES[component], plane)
         yield plane
 

@@ -16,7 +16,7 @@ from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
-from bem.stress import subsurface_stress, von_mises_bound, von_mises_planes
+from bem.stress import subsurface_stress, von_mises_limit, von_mises_planes
 from bem.wear.criterion import CRITERIA
 from bem.wear.segmentation import CONNECTIVITIES, REFINEMENTS, REMOVALS, Segmentation, refine_depths, segment
 
@@ -172,19 +172,20 @@ class Removal:
 
 
 def equivalent_stress_planes(
-    pressure: FloatArray, setup: WearSetup, body: int, depths: FloatArray, criterion: str
+    pressure: FloatArray, setup: WearSetup, body: int, depths: FloatArray, criterion: str, out: FloatArray
 ) -> Iterator[FloatArray]:
-    """Equivalent stress in one body, a plane (nx, ny) [Pa] per depth, each computed when it is asked for.
+    """Equivalent stress in one body, a plane of `out` (nz, nx, ny) [Pa] per depth, each written when it is asked for.
 
     Traction on the upper body has the other sign.
     """
     friction = setup.friction if body == LOWER else -setup.friction
     if criterion == "von_mises":
-        yield from von_mises_planes(pressure, setup.grid, setup.bodies[body], depths, friction=friction)
+        yield from von_mises_planes(pressure, setup.grid, setup.bodies[body], depths, friction=friction, out=out)
         return
-    for depth in depths:
+    for index, depth in enumerate(depths):
         stress = subsurface_stress(pressure, setup.grid, setup.bodies[body], depth[None], friction=friction)
-        yield CRITERIA[criterion].equivalent_stress(stress[:, 0])
+        out[index] = CRITERIA[criterion].equivalent_stress(stress[:, 0])
+        yield out[index]
 
 
 def cannot_yield(pressure: FloatArray, setup: WearSetup, body: int, depth: float, criterion: str) -> bool:
@@ -193,8 +194,8 @@ def cannot_yield(pressure: FloatArray, setup: WearSetup, body: int, depth: float
     if factor is None:
         return False
     friction = setup.friction if body == LOWER else -setup.friction
-    bound = von_mises_bound(pressure, setup.grid, setup.bodies[body], [depth], friction=friction)
-    return bool(factor * bound.max() <= setup.yield_stress(body))
+    (limit,) = von_mises_limit(pressure, setup.grid, setup.bodies[body], [depth], friction=friction)
+    return bool(factor * limit <= setup.yield_stress(body))
 
 
 def depths_for(setup: WearSetup, model: WearModel, body: int) -> FloatArray:
@@ -215,23 +216,25 @@ def yielded_pieces(pressure: FloatArray, setup: WearSetup, model: WearModel, bod
 
     Depths are computed from the surface down, and no further than one below the first depth at which nothing yields: a
     piece reaches the surface, so it would have to pass that depth, and refinement never exceeds the values it lies
-    between. The one below is what the slope of the monotone cubic there needs.
+    between. The one below is what the slope of the monotone cubic there needs; other refinements do without.
     """
     start = time.perf_counter()
     strength = setup.yield_stress(body)
     depths = depths_for(setup, model, body)
-    planes: list[FloatArray] = []
+    below = 1 if model.refinement == "monotone_cubic" else 0
+    computed = 0
     blocked: int | None = None
     if cannot_yield(pressure, setup, body, float(depths[0]), model.criterion):
         blocked = 0
     else:
-        for plane in equivalent_stress_planes(pressure, setup, body, depths, model.criterion):
-            planes.append(plane)
+        # pages of planes that are never written are never touched
+        stack = np.empty((depths.size, *setup.grid.shape))
+        for plane in equivalent_stress_planes(pressure, setup, body, depths, model.criterion, stack):
+            computed += 1
             if blocked is None and plane.max() <= strength:
-                blocked = len(planes) - 1
-            if blocked is not None and (blocked == 0 or len(planes) == blocked + 2):
+                blocked = computed - 1
+            if blocked is not None and (blocked == 0 or computed == blocked + 1 + below):
                 break
-    computed = len(planes)
     if blocked == 0:
         shape = setup.grid.shape
         nothing = Segmentation(np.zeros(shape, np.int32), np.zeros(shape), 0, np.zeros(1, dtype=np.bool_))
@@ -239,7 +242,7 @@ def yielded_pieces(pressure: FloatArray, setup: WearSetup, model: WearModel, bod
     exact = model.refinement == "exact"
     after_stress = time.perf_counter()
     pieces = segment(
-        np.stack(planes),
+        stack[:computed],
         depths[:computed],
         yield_stress=strength,
         periodic=setup.grid.periodic,

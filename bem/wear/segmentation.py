@@ -76,16 +76,15 @@ def segment(
     if not (np.isfinite(strength).all() and (strength > 0).all()):
         raise InputError(f"yield_stress {yield_stress!r} must be positive and finite [Pa]")
 
-    yields = (stack > strength).any(axis=0) if (stack[0] > strength).any() else np.zeros((nx, ny), dtype=bool)
-    candidates = np.flatnonzero(yields)
+    flat, limits = stack.reshape(nz, -1), np.ascontiguousarray(strength).ravel()
+    candidates = _yielding_columns(flat, limits) if (stack[0] > strength).any() else np.empty(0, np.int64)
     labels = np.zeros((nx, ny), dtype=np.int32)
     thickness = np.zeros((nx, ny))
     if candidates.size == 0:
         return Segmentation(labels, thickness, 0, np.zeros(1, dtype=np.bool_))
 
-    columns = np.ascontiguousarray(stack.reshape(nz, -1)[:, candidates].T)
     first, top, bottom, bottom_depth = _runs(
-        columns, levels, strength.ravel()[candidates], refine, REFINEMENTS[refinement] == 3
+        _columns(flat, candidates), levels, limits[candidates], refine, REFINEMENTS[refinement] == 3
     )
     last_sample = (nz - 1) * refine
     slot = np.full(nx * ny, -1, dtype=np.int64)
@@ -209,7 +208,7 @@ def _check(
         messages.append("depths: at least two are needed to tell how thick a particle is")
     if depths.ndim == 1 and depths.size and not (depths[0] >= 0 and (np.diff(depths) > 0).all()):
         messages.append("depths: must be >= 0 and increasing [m]")
-    if not np.isfinite(stack).all():
+    if not all(_is_finite(plane.ravel()) for plane in stack):
         messages.append("equivalent stress: some values are not finite")
     if refine != int(refine) or refine < 1:
         messages.append(f"refine {refine!r} must be an integer >= 1")
@@ -222,6 +221,34 @@ def _check(
             messages.append(f"{key} {value!r} must be one of {allowed}")
     if messages:
         raise InputError(messages)
+
+
+@njit(cache=True, error_model="numpy")
+def _is_finite(values):  # type: ignore[no-untyped-def]
+    bad = 0
+    for i in range(values.size):
+        bad += values[i] - values[i] != 0.0  # infinity minus itself is not a number either
+    return bad == 0
+
+
+@njit(cache=True, error_model="numpy")
+def _yielding_columns(stack, strength):  # type: ignore[no-untyped-def]
+    """Columns of (nz, columns) in which any value exceeds its strength."""
+    above = np.zeros(strength.size, np.bool_)
+    for k in range(stack.shape[0]):
+        for column in range(strength.size):
+            above[column] |= stack[k, column] > strength[column]
+    return np.flatnonzero(above)
+
+
+@njit(cache=True)
+def _columns(stack, candidates):  # type: ignore[no-untyped-def]
+    """(candidates, nz): depth runs fastest."""
+    out = np.empty((candidates.size, stack.shape[0]))
+    for k in range(stack.shape[0]):
+        for own in range(candidates.size):
+            out[own, k] = stack[k, candidates[own]]
+    return out
 
 
 @njit(cache=True)

@@ -81,6 +81,20 @@ def test_a_bound_spares_every_transform_where_nothing_can_yield():
     assert stack.max() < 0.64e9  # and indeed nothing does
 
 
+def test_only_the_cubic_needs_the_depth_below_the_quiet_one():
+    lower, upper = surfaces()
+    fixed = setup()
+    pressure = dry_contact(fixed)(lower + upper, None).pressure
+    cubic, linear = (
+        yielded_pieces(pressure, fixed, WearModel(refinement=name), 0) for name in ("monotone_cubic", "linear")
+    )
+    assert linear.depths_computed == cubic.depths_computed - 1
+    stack = von_mises_field(pressure, GRID, SOFT, DEPTHS, friction=0.16)
+    whole = segment(stack, DEPTHS, yield_stress=0.64e9, periodic=GRID.periodic, refinement="linear")
+    assert whole.count > 3
+    assert np.array_equal(linear.pieces.thickness, whole.thickness)
+
+
 def test_a_stopped_run_goes_on_to_the_same_bits():
     lower, upper = surfaces()
     whole = run_in(lower, upper, cycles=6, **ARGUMENTS)
