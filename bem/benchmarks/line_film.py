@@ -50,6 +50,7 @@ class Row:
 
 def similarity_case(load: float, piezo: float) -> tuple[dict[str, object], float]:
     """Arguments of `solve_line_film` for Moes' M and L, and the unit of its film [m]."""
+    piezo = piezo if piezo > 1e-6 else 0.0  # the modulus would leave the range of floating point
     if piezo > 0:
         reduced = (piezo / PRESSURE_VISCOSITY) ** (4 / 3) * (RADIUS / (VISCOSITY * ENTRAINMENT)) ** (1 / 3)
     else:

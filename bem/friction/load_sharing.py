@@ -311,7 +311,7 @@ class _Case:
         balance_points = min(self.film_points, BALANCE_POINTS)
         warm = initial is not None and initial.grid == self.grid
         whole = self.film(self.load, speeds, balance_points, initial.film if initial is not None else None)
-        films, contacts = 1, 0
+        films, contacts, slope = 1, 0, 1.0
         status = Status.CONVERGED
         if self.clears(whole) and balance_points < self.film_points:
             whole = self.film(self.load, speeds, self.film_points, whole)
@@ -319,16 +319,16 @@ class _Case:
         if self.clears(whole):
             point = _Point(self.load, whole, None, 0.0, 0.0)
         else:
-            point, films, contacts, status = self._balance(speeds, whole, initial if warm else None, films)
+            point, slope, films, contacts, status = self._balance(speeds, whole, initial if warm else None, films)
         if point.film.status is not Status.CONVERGED:
             status = point.film.status
         elif isinstance(point.contact, ContactSolution) and point.contact.status is not Status.CONVERGED:
             status = point.contact.status
-        return self._solution(speeds, point, whole, films, contacts, status)
+        return self._solution(speeds, point, slope, whole, films, contacts, status)
 
     def _balance(
         self, speeds: Sequence[float], whole: FilmSolution, initial: MixedSolution | None, films: int
-    ) -> tuple[_Point, int, int, Status]:
+    ) -> tuple[_Point, float, int, int, Status]:
         """Find the film load at which film and contact carry the load."""
         solves = 0
         last: list[_Point] = []
@@ -348,24 +348,27 @@ class _Case:
             return point
 
         top = math.log(self.load)
-        share = 0.5
+        share, steepness = 0.5, 1.0
         if initial is not None and initial.contact is not None:
-            share = min(initial.film_load / initial.load, 0.98)
+            # at a given thickness the film carries in proportion to the speed
+            faster = abs(sum(speeds)) / abs(sum(initial.speeds))
+            share, steepness = min(faster * initial.film_load / initial.load, 0.98), initial.balance_slope
         guess = top + math.log(share)
         coarse = min(self.film_points, BALANCE_POINTS)
         goal = self.tolerance if coarse == self.film_points else max(self.tolerance, 1e-3)
-        root, slope, done = _find_root(lambda t: evaluate(t, coarse), guess, top, goal)
+        root, slope, done = _find_root(lambda t: evaluate(t, coarse), guess, top, goal, steepness)
         if coarse < self.film_points and done:
             root, slope, done = _polish(lambda t: evaluate(t, self.film_points), root, slope, top, self.tolerance)
         best = min(last[-3:], key=lambda p: abs(p.excess) if len(p.film.position) >= self.film_points else math.inf)
         if not done:
             best = min(last, key=lambda p: abs(p.excess))
-        return best, films, solves, Status.CONVERGED if done else Status.STALLED
+        return best, slope, films, solves, Status.CONVERGED if done else Status.STALLED
 
     def _solution(
         self,
         speeds: Sequence[float],
         point: _Point,
+        slope: float,
         whole: FilmSolution,
         films: int,
         contacts: int,
@@ -413,43 +416,45 @@ class _Case:
             evaluations=films,
             contact_solves=contacts,
             imbalance=point.excess,
+            balance_slope=slope,
             status=status,
             grid=self.grid,
             boundary_friction=self.boundary_friction,
         )
 
 
-def _find_root(evaluate: Callable[[float], _Point], guess: float, top: float, goal: float) -> tuple[float, float, bool]:
-    """Root of the excess, which grows with ln F_H and is positive at `top`: secant within a bracket.
+def _find_root(
+    evaluate: Callable[[float], _Point], guess: float, top: float, goal: float, slope: float
+) -> tuple[float, float, bool]:
+    """Root of ln(1 + excess) = ln(carried / load), which grows with ln F_H and is positive at `top`: secant within a
+    bracket. Films and contacts follow powers of the load, so both logarithms are nearly linear in each other.
 
-    Returns the root, the slope of the excess there, and whether the goal was met.
+    Returns the root, the slope there, and whether the goal was met.
     """
     low: tuple[float, float] | None = None
     high: tuple[float, float] | None = None
-    slope = 1.0
-    at = guess
-    reach = 1.0
+    at, step = guess, 0.0
     for _ in range(MAX_EVALUATIONS):
         excess = evaluate(at).excess
+        value = math.log1p(excess)
         previous = [p for p in (low, high) if p is not None]
         if previous:
             nearest = min(previous, key=lambda p: abs(p[0] - at))
-            found = (excess - nearest[1]) / (at - nearest[0])
+            found = (value - nearest[1]) / (at - nearest[0])
             if found > 0:
                 slope = found
         if abs(excess) <= goal:
             return at, slope, True
-        if excess < 0:
-            low = (at, excess)
+        if value < 0:
+            low = (at, value)
         else:
-            high = (at, excess)
+            high = (at, value)
         if low is None:
-            # still too much: further down, by the secant but not by less than a third of the last reach
-            wanted = at - 1.3 * excess / slope if slope > 0 else at - reach
-            at = min(max(wanted, at - 4.0), at - 0.3 * reach)
-            reach *= 1.5
+            # still too much: further down, a little beyond the secant's root, and by more than before
+            step = max(1.05 * value / slope, 1.5 * step)
+            at -= min(step, 4.0)
         elif high is None:
-            wanted = at - excess / slope
+            wanted = at - value / slope
             at = (
                 min(max(wanted, at + 1e-3), 0.5 * (at + top))
                 if wanted >= top
@@ -459,7 +464,7 @@ def _find_root(evaluate: Callable[[float], _Point], guess: float, top: float, go
                 return at, slope, False
         else:
             secant = low[0] - low[1] * (high[0] - low[0]) / (high[1] - low[1])
-            newton = at - excess / slope
+            newton = at - value / slope
             width = high[0] - low[0]
             if width < 1e-13:
                 return at, slope, False
@@ -476,14 +481,15 @@ def _polish(
     before: tuple[float, float] | None = None
     for _ in range(4):
         excess = evaluate(at).excess
+        value = math.log1p(excess)
+        if before is not None and abs(before[0] - at) > 1e-3:
+            found = (value - before[1]) / (at - before[0])
+            slope = found if found > 0 else slope
         if abs(excess) <= goal:
             return at, slope, True
-        if before is not None and before[0] != at:
-            found = (excess - before[1]) / (at - before[0])
-            slope = found if found > 0 else slope
-        before = (at, excess)
-        at = min(at - excess / slope, 0.5 * (at + top))
-    return _find_root(evaluate, at, top, goal)
+        before = (at, value)
+        at = min(at - value / slope, 0.5 * (at + top))
+    return _find_root(evaluate, at, top, goal, slope)
 
 
 def _real(value: object) -> bool:

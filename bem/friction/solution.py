@@ -34,6 +34,7 @@ class MixedSolution:
     contact_area : real, on the whole width [m^2].
     evaluations : films solved; contact_solves : rough contacts solved.
     imbalance : (film_load + contact_load - load) / load.
+    balance_slope : of ln(film_load + contact_load) with ln(film_load): where the next speed's balance starts from.
     status : outcome.
     grid, boundary_friction : as given.
     """
@@ -54,6 +55,7 @@ class MixedSolution:
     evaluations: int
     contact_solves: int
     imbalance: float
+    balance_slope: float
     status: Status
     grid: Grid
     boundary_friction: float

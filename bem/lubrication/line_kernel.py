@@ -16,7 +16,7 @@ from numba import njit
 
 from bem.grid import FloatArray
 
-HIERARCHICAL_FROM = 600
+HIERARCHICAL_FROM = 300
 """Cells from which weights are kept hierarchically; below, dense matrices are as fast."""
 LEAF = 64
 CROSS_TOLERANCE = 1e-11

@@ -286,6 +286,13 @@ def spike_cell(problem: Problem, state: State, cells: int) -> float:
     return float(np.min(total / spike.max()) / state.exit)
 
 
+def spike_cells_to_exit(state: State) -> float:
+    """Distance from the steepest fall of pressure to the exit, in cells as wide as those at the fall."""
+    width = np.diff(state.offset)
+    steepest = int(np.argmin(np.diff(state.pressure) / width))
+    return float(-state.offset[steepest] / width[steepest])
+
+
 def stretched(state: State, factor: float, pressure_factor: float, film_factor: float) -> State:
     """The state with lengths, pressures and films multiplied; not its datum."""
     return State(

@@ -12,7 +12,7 @@ from scipy.interpolate import PchipInterpolator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_kernel import LineOperator, logarithmic_weights
+from bem.lubrication.line_kernel import logarithmic_weights
 from bem.lubrication.line_linear import DEFLECTION
 from bem.lubrication.line_newton import (
     Outcome,
@@ -23,6 +23,7 @@ from bem.lubrication.line_newton import (
     newton,
     remesh,
     spike_cell,
+    spike_cells_to_exit,
     stretched,
 )
 from bem.lubrication.lubricant import Lubricant
@@ -32,6 +33,10 @@ ATTEMPTS = ((160, 4.0), (240, 2.0), (200, 1.5))
 SPIKE_CELLS = (2e-3, 7e-4, 2.5e-4)
 """Smallest cells at a spike, as shares of the exit's abscissa, on the way to the last mesh. The film is off by about
 five times the last one where the spike has no limit."""
+SPIKE_SHIFT = 0.75
+"""A spike's distance from the exit goes about like M^(-3/4), in units of the exit's abscissa."""
+MAX_SHIFT = 1.0
+"""Cells by which a sharp spike may move on its mesh."""
 MAX_IMBALANCE = 5.0
 MIDDLE = 400
 START_LOAD = 0.3
@@ -107,7 +112,7 @@ def solve_line_film(
         if not isinstance(initial, FilmSolution):
             raise InputError(f"initial: {type(initial).__name__} is not a FilmSolution")
         if isinstance(initial.state, _Kept):
-            outcome = _from_neighbour(problem, initial, points - 1, tolerance, max_iterations)
+            outcome = _from_neighbour(problem, initial, scales.pressure, points - 1, tolerance, max_iterations)
             spent += outcome.iterations
     if outcome is None or not outcome.converged:
         outcome = _from_scratch(problem, scales, lubricant, points - 1, tolerance, max_iterations)
@@ -135,62 +140,26 @@ class _Kept:
         return pressure, film
 
 
-def _from_neighbour(problem: Problem, initial: FilmSolution, cells: int, tolerance: float, limit: int) -> Outcome:
-    """From the solution of another case, on its mesh if that has the right number of cells and still fits."""
+def _from_neighbour(
+    problem: Problem, initial: FilmSolution, unit: float, cells: int, tolerance: float, limit: int
+) -> Outcome:
+    """From the solution of another case: on its mesh as long as a sharp spike stays on its fine cells, else anew from
+    a coarse mesh upwards, where a spike that has moved is found in few and cheap steps."""
     kept = initial.state
     factor, film_factor = _scaling(kept.load, problem.load)
-    pressure_factor = problem.load / kept.load / factor
-    state = stretched(kept.state, factor, pressure_factor, film_factor)
-    spent = 0
+    state = stretched(kept.state, factor, problem.load / kept.load / factor, film_factor)
+    change = max(abs(math.log(problem.load / kept.load)), abs(math.log(unit / kept.scales.pressure)))
+    if spike_cell(problem, state, min(cells, MIDDLE)) < SPIKE_CELLS[0] and (
+        len(state.offset) != cells + 1 or SPIKE_SHIFT * change * spike_cells_to_exit(state) > MAX_SHIFT
+    ):
+        return _ladder(problem, state, ATTEMPTS[0][0], cells, tolerance, limit)
     if len(state.offset) != cells + 1:
         state = remesh(problem, state, cells, SPIKE_CELLS[-1])
-    elif cells > 2 * MIDDLE:
-        state, spent = _coarse_change(problem, initial, state, limit)
-    # with a sharp spike the steps are many and a cold start is cheaper: do not insist
-    outcome = newton(problem, state, tolerance, min(limit, 8 if cells > 2 * MIDDLE else 20))
+    outcome = newton(problem, state, tolerance, min(limit, 20))
     if outcome.converged and mesh_imbalance(problem, outcome.state) > MAX_IMBALANCE:
         again = newton(problem, remesh(problem, outcome.state, cells, SPIKE_CELLS[-1]), tolerance, limit)
         outcome = replace(again, iterations=again.iterations + outcome.iterations)
-    return replace(outcome, iterations=outcome.iterations + spent)
-
-
-def _coarse_change(problem: Problem, initial: FilmSolution, guess: State, limit: int) -> tuple[State, int]:
-    """The guess, corrected by the change from the old case to the new one on every few nodes; and steps taken.
-
-    That change is smooth, and the fine mesh is left with one or two of the expensive steps.
-    """
-    kept = initial.state
-    old_problem = scaled_problem(kept.scales, kept.load, initial.lubricant)
-    cells = len(guess.offset) - 1
-    index = np.arange(cells, 0, -math.ceil(cells / MIDDLE))[::-1]
-    index = np.concatenate([[0], index])
-    nodes = kept.state.offset[index]
-    coarse = State(
-        nodes,
-        LineOperator.of(nodes),
-        kept.state.pressure[index],
-        kept.state.film[index],
-        kept.state.datum,
-        kept.state.exit,
-    )
-    old = newton(old_problem, coarse, 1e-6, min(limit, 15))
-    if not old.converged:
-        return guess, old.iterations
-    factor, film_factor = _scaling(kept.load, problem.load)
-    start = stretched(old.state, factor, problem.load / kept.load / factor, film_factor)
-    new = newton(problem, start, 1e-6, min(limit, 15))
-    spent = old.iterations + new.iterations
-    if not new.converged:
-        return guess, spent
-    pressure = np.interp(guess.offset, start.offset, new.state.pressure - start.pressure)
-    film = np.interp(guess.offset, start.offset, np.log(new.state.film / start.film))
-    changed = replace(
-        guess,
-        pressure=np.maximum(guess.pressure + pressure, 0.0),
-        film=guess.film * np.exp(film),
-        exit=guess.exit + new.state.exit - start.exit,
-    )
-    return changed, spent
+    return outcome
 
 
 def _scaling(old: float, new: float) -> tuple[float, float]:
@@ -488,9 +457,15 @@ def _shear_force(
     full = couette + poiseuille * scales.film * scales.pressure
 
     # streamers behind the exit cover the fraction h_e/h: integral of (h_e/h) tau(h), out to where it no longer counts
-    reach = np.concatenate([[0.0], np.geomspace(1e-3, 1e3, 400)]) * max(state.exit, math.sqrt(2 * film[-1]))
-    weights = logarithmic_weights(reach, state.offset)
-    behind = state.datum + 0.5 * (state.exit + reach) ** 2 - DEFLECTION * (weights @ state.pressure)
+    span = math.log(1e3) - math.log(1e-6)
+    points, weights = np.polynomial.legendre.leggauss(64)
+    near, far = 1e-6 * max(state.exit, math.sqrt(2 * film[-1])), 0.5 * span * (points + 1)
+    reach = np.concatenate([[0.0], near * np.exp(far)])
+    behind = (
+        state.datum
+        + 0.5 * (state.exit + reach) ** 2
+        - DEFLECTION * (logarithmic_weights(reach, state.offset) @ state.pressure)
+    )
     ambient = lubricant.shear_stress(lubricant.viscosity * difference / (behind * scales.film)) * film[-1] / behind
-    streamers = float(np.sum(0.5 * np.diff(reach) * (ambient[1:] + ambient[:-1]))) * scales.length
-    return full, full + streamers
+    streamers = near * ambient[0] + 0.5 * span * float(np.sum(weights * ambient[1:] * reach[1:]))
+    return full, full + streamers * scales.length

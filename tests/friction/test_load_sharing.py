@@ -124,6 +124,15 @@ def test_warm_starts_change_nothing_but_the_work(curve):
     assert again.evaluations <= 4
 
 
+def test_balance_along_a_curve_takes_few_evaluations():
+    """The film carries in proportion to the speed at a given thickness, and the slope of the balance is passed on."""
+    speeds = np.geomspace(0.003, 0.03, 6)
+    curve = stribeck_curve(speeds, **{**CASE, "film_points": 800})
+    # the whole load, two or three on the coarse film, two on the fine one; a few more at the knee of the curve
+    assert np.mean([point.evaluations for point in curve[1:]]) <= 6.5
+    assert np.mean([point.contact_solves for point in curve[1:]]) <= 5.5
+
+
 def test_order_of_speeds_does_not_matter(curve):
     backwards = stribeck_curve(SPEEDS[::-1], **CASE)[::-1]
     for one, other in zip(curve, backwards, strict=True):

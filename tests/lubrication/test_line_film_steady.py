@@ -8,8 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import bem.lubrication.steady as steady
 from bem import InputError, Lubricant, Status, solve_line_film
 from bem.benchmarks.line_film import LOADS, PIEZO, film_row, read_table
+from bem.lubrication.line_newton import newton
 from bem.reference_solutions.line_film import MartinFilm, dowson_higginson_minimum, moes_central
 
 THESIS = {
@@ -243,6 +245,52 @@ def test_warm_start_gives_the_same_film_in_fewer_steps():
     assert len(other_points.position) == 600
     far = solve_line_film(**THESIS, speeds=(0.3, 0.0), points=400, initial=cold)
     assert far.status is Status.CONVERGED
+
+
+@pytest.mark.parametrize("factor", [0.6, 1.4])
+def test_film_behind_the_exit_does_not_remember_the_start(factor):
+    """A mesh stretched from a neighbour's has a kernel in other units: the datum must not take that along."""
+    case, _ = similarity_case(10, 2)
+    first = solve_line_film(**case, points=400)
+    case["load"] *= factor
+    warm, cold = solve_line_film(**case, points=400, initial=first), solve_line_film(**case, points=400)
+    behind = cold.exit_position * np.array([1.0001, 1.5, 3.0])
+    # meshes differ, each within 0.1 %
+    np.testing.assert_allclose(warm.at(behind)[1], cold.at(behind)[1], rtol=1e-3)
+    assert warm.striated_shear_force == pytest.approx(cold.striated_shear_force, rel=1e-3)
+
+
+@pytest.mark.parametrize(("load", "piezo"), [(0.1, 5), (10, 2), (100, 5), (100, 15), (1000, 10)])
+def test_steps_on_the_fine_mesh_are_few(monkeypatch, load, piezo):
+    """Counts, not times: what a solve at 2000 points costs, cold and from a neighbour in load or speed."""
+    spent = []
+
+    def counted(*arguments, **keywords):
+        outcome = newton(*arguments, **keywords)
+        spent.append((len(outcome.state.offset), outcome.iterations))
+        return outcome
+
+    def fine():
+        steps = sum(n for nodes, n in spent if nodes == 2000)
+        coarse = sum(n for nodes, n in spent if nodes < 2000)
+        spent.clear()
+        return steps, coarse
+
+    monkeypatch.setattr(steady, "newton", counted)
+    case, _ = similarity_case(load, piezo)
+    cold = solve_line_film(**case)
+    steps, coarse = fine()
+    assert steps <= 10
+    assert coarse <= 110
+    for change in ({"load": 1.2 * case["load"]}, {"load": 0.8 * case["load"]}, {"speeds": (1.2, 0.0)}):
+        solve_line_film(**{**case, **change}, initial=cold)
+        steps, coarse = fine()
+        assert steps <= 9
+        assert coarse <= 60
+    solve_line_film(**{**case, "load": 1.0001 * case["load"]}, initial=cold)
+    steps, coarse = fine()
+    assert steps <= 6
+    assert coarse == 0
 
 
 def test_requested_positions():

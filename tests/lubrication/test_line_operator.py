@@ -1,0 +1,96 @@
+"""The hierarchical elastic operator and Newton's equations on it, against dense matrices and quadrature."""
+
+import dataclasses
+
+import mpmath
+import numpy as np
+import pytest
+
+import bem.lubrication.line_linear as line_linear
+import bem.lubrication.line_newton as line_newton
+from bem import solve_line_film
+from bem.benchmarks.line_film import similarity_case
+from bem.lubrication.line_kernel import LineOperator, logarithmic_weights
+
+
+def graded(cells):
+    return np.concatenate([-np.geomspace(2500, 10, cells // 5), np.linspace(-10, 0, cells - cells // 5 + 1)[1:]])
+
+
+@pytest.mark.parametrize(("target", "node"), [(5, 300), (399, 3), (200, 201), (200, 213), (0, 399), (20, 0), (7, 7)])
+def test_weights_are_integrals_of_hats(target, node):
+    """Two primitives of ln|t| in 40 digits; distances up to 1e5 cells, where second differences cancel in doubles."""
+    x = graded(400)
+    weight = logarithmic_weights(x, x)[target, node]
+    with mpmath.workdps(40):
+
+        def first(t):
+            return t * (mpmath.log(abs(t)) - 1) if t else mpmath.mpf(0)
+
+        def second(t):
+            return t * t * (mpmath.log(abs(t)) / 2 - mpmath.mpf(3) / 4) if t else mpmath.mpf(0)
+
+        nodes = [mpmath.mpf(float(v)) for v in x]
+        t = nodes[target] - nodes[node]
+        exact = mpmath.mpf(0)
+        if node < len(x) - 1:
+            h = nodes[node + 1] - nodes[node]
+            exact += (second(t - h) - second(t)) / h + first(t)
+        if node > 0:
+            h = nodes[node] - nodes[node - 1]
+            exact -= (second(t) - second(t + h)) / h + first(t)
+    # rounding of a sum of a few terms; the near formula cancels (12 cells)^2 of it
+    assert weight == pytest.approx(float(exact), rel=1e-13)
+
+
+@pytest.mark.parametrize("cells", [301, 777, 2000])
+def test_hierarchical_product_is_the_dense_one(cells):
+    operator = LineOperator.of(graded(cells))
+    assert operator.hierarchical
+    pressure = np.random.default_rng(0).random(cells + (len(operator.nodes) - cells))
+    dense = operator.dense @ pressure
+    # the cross approximation's tolerance is 1e-11 of a block
+    np.testing.assert_allclose(operator @ pressure, dense, rtol=0, atol=1e-10 * np.abs(dense).max())
+    stretched = LineOperator.of(3.7 * graded(cells))
+    np.testing.assert_allclose(operator.stretched(3.7) @ pressure, stretched @ pressure, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("load", "piezo", "density"),
+    [
+        (0.003, 5, "incompressible"),
+        (10, 20, "incompressible"),
+        (3000, 0, "incompressible"),
+        (100, 10, "dowson_higginson"),
+    ],
+)
+def test_hierarchical_newton_steps_are_the_dense_ones(monkeypatch, load, piezo, density):
+    compared = []
+    plain = line_newton.solve
+
+    def both(operator, equations):
+        if operator.hierarchical:
+            right = equations.right.copy()
+            right[:-1] += line_linear._by_film(equations, equations.mismatch)
+            one = line_linear._hierarchical(operator, equations, right)
+            other = line_linear._dense(operator, equations, right)
+            compared.append(float(np.abs(one - other).max() / np.abs(other).max()))
+        return plain(operator, equations)
+
+    monkeypatch.setattr(line_newton, "solve", both)
+    case, _ = similarity_case(load, piezo)
+    oil = dataclasses.replace(case["lubricant"])
+    oil = type(oil)(oil.viscosity, pressure_viscosity=oil.pressure_viscosity, density_law=density)
+    solve_line_film(**{**case, "lubricant": oil}, points=701)
+    assert compared
+    # both solve the same equations; 1e-7 is far below what Newton's method notices
+    assert max(compared) < 1e-7
+
+
+def test_dense_equations_stand_in_where_the_hierarchical_ones_fail(monkeypatch):
+    case, _ = similarity_case(3, 2)
+    right = solve_line_film(**case, points=401)
+    monkeypatch.setattr(line_linear, "_hierarchical", lambda operator, equations, right: np.zeros_like(right))
+    film = solve_line_film(**case, points=401)
+    assert film.iterations == right.iterations
+    assert film.minimum_thickness == pytest.approx(right.minimum_thickness, rel=1e-9)  # rounding, conditioned
