@@ -76,10 +76,17 @@ COUNT = TransformCount()
 
 
 def padded_length(cells: int, periodic: bool) -> int:
-    """Length of the transform along an axis: the axis itself if periodic, else an even fast length >= 2 cells - 1."""
+    """Length of the transform along an axis: the axis itself if periodic, else an even fast length >= 2 cells - 1.
+
+    A power of two serves where it is little longer, since plans made without timing are so much better for it: up to a
+    tenth for 512, up to 3 % beyond. Measured, a convolution of 240 cells along x gains a seventh with 512 for 480, of
+    500 or 1000 cells a tenth to a third; 1024 for 960 would lose.
+    """
     if periodic or cells == 1:
         return cells
-    return 2 * int(scipy.fft.next_fast_len(cells, real=True))
+    fast = 2 * int(scipy.fft.next_fast_len(cells, real=True))
+    power = 1 << (fast - 1).bit_length()
+    return power if power >= 512 and power <= (1.1 if power == 512 else 1.03) * fast else fast
 
 
 def kernel_spectrum(coefficients: FloatArray, padded: tuple[int, int], parity: tuple[int, int]) -> FloatArray:

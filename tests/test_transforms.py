@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import scipy.fft
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -188,3 +189,15 @@ def test_errors_in_threads_are_raised():
             threads.share(work, 4)
     finally:
         threads.set_threads(before)
+
+
+def test_padded_lengths_hold_every_offset_and_prefer_powers_of_two_that_are_little_longer():
+    for cells in range(2, 1100):
+        length = transforms.padded_length(cells, False)
+        fast = 2 * int(scipy.fft.next_fast_len(cells, real=True))
+        assert length % 2 == 0
+        assert length >= 2 * cells - 1
+        assert length == fast or (length in (512, 1024, 2048) and length <= 1.1 * fast)
+        assert transforms.padded_length(cells, True) == cells
+    chosen = {cells: transforms.padded_length(cells, False) for cells in (120, 240, 480, 500, 1000)}
+    assert chosen == {120: 240, 240: 512, 480: 960, 500: 1024, 1000: 2048}
