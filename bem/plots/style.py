@@ -51,7 +51,7 @@ _RC: dict[str, Any] = {
     "axes.formatter.useoffset": False,
 }
 _PREFIXES = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}
-_PART = 1 << 22
+_PART = 1 << 20
 _MOST_CELLS = 1400
 """Along each axis of a map: twice the dots of the widest."""
 _PREFIXED = ("m", "Pa", "N", "s", "m/s", "N/m", "J", "W")

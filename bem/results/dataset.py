@@ -11,13 +11,10 @@ import numpy as np
 
 from bem.errors import ResultsError
 from bem.results.atomic import reason, replacing
-from bem.scenes.context import Variable, release
+from bem.scenes.context import LARGE, Variable, release
 
 if TYPE_CHECKING:
     import xarray
-
-_LARGE = 1 << 30
-"""From this size on [bytes] an array is written in parts: it may be on disk and not in memory."""
 
 
 def to_dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> xarray.Dataset:
@@ -52,7 +49,7 @@ def write_variables(path: Path, variables: Mapping[str, Variable], attributes: M
                 text = item.values.dtype.kind in "US"
                 kind = h5py.string_dtype() if text else item.values.dtype
                 values = item.values.astype(object) if text else np.ascontiguousarray(item.values)
-                parts = not text and values.nbytes >= _LARGE
+                parts = not text and values.nbytes >= LARGE  # it may be on disk and not in memory
                 stored = file.create_variable(name, item.dimensions, kind, data=None if parts else values)
                 for i in range(len(values) if parts else 0):
                     stored[i] = values[i]

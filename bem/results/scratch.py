@@ -13,9 +13,7 @@ from numpy.typing import NDArray
 
 from bem.errors import ResultsError
 from bem.results.atomic import reason
-
-LARGE = 1 << 30
-"""From this size on [bytes] an array goes to disk."""
+from bem.scenes.context import LARGE
 
 
 def scratch_array(folder: Path, shape: tuple[int, ...], large: int = LARGE) -> NDArray[np.float64]:

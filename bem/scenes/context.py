@@ -15,6 +15,9 @@ from numpy.typing import NDArray
 
 from bem.errors import Status
 
+LARGE = 1 << 30
+"""From this size on [bytes] an array of `Context.scratch` is on disk."""
+
 
 class Context(Protocol):
     """What `Kind.run` may use besides its scene."""

@@ -27,15 +27,17 @@ from bem.scenes.common import (
     exactly_one,
     problem,
 )
-from bem.scenes.context import Context, Outcome, Variable, release
+from bem.scenes.context import LARGE, Context, Outcome, Variable, release
 from bem.scenes.kinds import Kind
-from bem.scenes.planner import Plan, Step, convolution_memory, padded_points
+from bem.scenes.planner import Plan, Step, padded_points, show_bytes
 from bem.scenes.units import Length, Ratio
 
 FloatArray = NDArray[np.float64]
 
 _TRANSFORMS_PER_CONVOLUTION = 3.2
 """Time of a convolution and what the contact solver does besides, in transforms: measured, 256 to 1024 cells."""
+_LIBRARIES = 2.2e8
+"""Bytes of the interpreter with the solver's libraries."""
 _STRESS_COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 
 
@@ -148,8 +150,9 @@ def plan(scene: ContactScene) -> Plan:
             f"{scene.contact.behaviour}, {_control(scene)}",
             transforms=_TRANSFORMS_PER_CONVOLUTION * _convolutions(grid),
             points=points,
-            memory=convolution_memory(grid.shape, grid.periodic),
-            kept=8.0 * grid.cells * 5 + 4 * points,
+            # Measured from 2048 to 4096 cells: fields of the solver and of its coarser grids, spectra and buffers.
+            memory=_LIBRARIES + 8.0 * grid.cells * 9.5 + 20.0 * points,
+            kept=_LIBRARIES + 8.0 * grid.cells * 4.2 + 8.0 * points,
             seconds=1.0,
         ),
         _plan_stresses(scene, grid, stressed, depths),
@@ -161,7 +164,12 @@ def plan(scene: ContactScene) -> Plan:
             memory=1e8,
             kept=0.0,
         ),
-        Step("figures and report", "pictures of the results, and the libraries for them", seconds=4.0, memory=3e8),
+        Step(
+            "figures and report",
+            "pictures of the results, and the libraries for them",
+            seconds=4.0,
+            memory=3.5e8 + 8.0 * grid.cells * 2,
+        ),
     )
     return Plan(steps)
 
@@ -178,7 +186,7 @@ def _plan_surfaces(scene: ContactScene, grid: Grid) -> Step:
         transforms=60.0 * len(rough) + 300.0 * iterated,
         points=grid.cells,
         memory=8.0 * grid.cells * 14,
-        kept=8.0 * grid.cells * 3,
+        kept=8.0 * grid.cells * (1 + len(rough)),
         seconds=0.3,
     )
 
@@ -191,17 +199,21 @@ def _plan_stresses(scene: ContactScene, grid: Grid, body: Body | None, depths: t
     # Six real spectra a load and depth: half arrays where periodic, quarters elsewhere, kept up to half a gigabyte.
     spectra = min(2.0**29, len(depths) * loads * 6 * 8 * points * (0.5 if periodic else 0.25))
     coated = body is not None and body.layer is not None
+    volume = 8.0 * grid.cells * len(depths)
+    on_disk = volume >= LARGE
+    held = volume * (fields - on_disk)
+    where = f"; {show_bytes(volume)} of them on disk, not in memory" if on_disk else ""
     return Step(
         "stresses below",
-        f"{len(depths)} depths in the {scene.outputs.body} body"
+        f"{len(depths)} depths in the {scene.outputs.body} body{where}"
         if depths
         else "neither stresses nor von Mises are asked for",
         skipped=not depths,
         # Time of the kernels and of six components at one depth, in transforms: measured.
         transforms=len(depths) * (25.0 if periodic else 80.0) * (2.0 if coated else 1.0),
         points=points,
-        memory=8.0 * grid.cells * fields * len(depths) + spectra + 8 * 8.0 * points,
-        kept=8.0 * grid.cells * fields * len(depths) + spectra,
+        memory=held + spectra + 8 * 8.0 * points,
+        kept=held + spectra,
         seconds=0.5,
     )
 
