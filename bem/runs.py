@@ -132,7 +132,8 @@ def run_scene(
     out : the run's folder; the next free `runs/NAME-001` where not given.
     settings : `key=value` changes to the scene.
     resume : go on from the checkpoint of an interrupted run; a finished run is returned as it is.
-    overwrite : replace an older run in the folder; it stays until this one is finished.
+    overwrite : replace an older run in the folder; it stays until this one is finished. With `resume`, replace
+        it only if it is of another scene.
     figures : draw figures and write the report; `bem report` can do it later.
     watcher : told of progress and notes.
 

@@ -1,9 +1,14 @@
-"""Build the reports: `python -m reports [NAME ...] [--pdf] [--out DIR]`, all of them where none is named."""
+"""Build the reports: `python -m reports [NAME ...] [--pdf] [--out DIR]`, all of them where none is named.
+
+`gallery` is built only where it is named: it runs every built-in scene, and goes on where it was interrupted. The exit
+code is 1 where a scene failed or did not converge.
+"""
 
 from __future__ import annotations
 
 import argparse
 import importlib
+import sys
 from pathlib import Path
 
 from reports.builder import HERE, write_site
@@ -23,15 +28,29 @@ def main() -> None:
     unknown = [name for name in options.names if name not in (*REPORTS, GALLERY)]
     if unknown:
         parser.error(f"no report {', '.join(unknown)}; there are {', '.join((*REPORTS, GALLERY))}")
-    pages = []
+    pages, failed = [], []
     for name in options.names or REPORTS:
         report = importlib.import_module(f"reports.{name}")
         if name == GALLERY:
-            pages.append(report.build(options.out / GALLERY, reduced=options.reduced))
+            try:
+                runs = report.run_gallery(options.out / GALLERY, reduced=options.reduced, say=say)
+            except KeyboardInterrupt:
+                say("interrupted; the same command goes on where it stopped")
+                sys.exit(130)
+            failed = report.unfinished(runs)
+            pages.append(report.page(runs, reduced=options.reduced))
         else:
             pages.append(report.build())
     for path in write_site(pages, options.out, pdf=options.pdf):
         print(path)
+    for words in failed:
+        say(f"failed: {words}")
+    sys.exit(1 if failed else 0)
+
+
+def say(words: str) -> None:
+    """A line on the error stream."""
+    print(f"reports: {words}", file=sys.stderr, flush=True)
 
 
 if __name__ == "__main__":

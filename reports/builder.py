@@ -10,6 +10,7 @@ import html
 import io
 import os
 import platform
+import re
 import shutil
 import subprocess
 import tempfile
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 HERE = Path(__file__).resolve().parent
+
+ORDER = ("verification", "performance", "validation", "guide", "gallery")
+"""Of the pages in the index."""
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 """Okabe and Ito's palette, told apart by colour-blind readers; first bem, second the reference."""
@@ -117,14 +121,31 @@ def render(page: Page, pages: Sequence[Page] = ()) -> str:
 
 
 def write_site(pages: Sequence[Page], folder: Path = HERE, *, pdf: bool = False) -> list[Path]:
-    """Write every page and the index into `folder`, each whole or not at all; PDFs too where a browser is installed."""
+    """Write every page and the index into `folder`, each whole or not at all; PDFs too where a browser is installed.
+
+    Pages that were built before and lie in the folder stay, and stay in the index.
+    """
     folder.mkdir(parents=True, exist_ok=True)
-    written = [_write(folder / f"{page.name}.html", render(page, pages)) for page in pages]
-    index = _environment().get_template("index.html").render(pages=pages, facts=machine_facts())
+    names = [page.name for page in pages]
+    everything = [*pages, *(page for page in _pages_in(folder) if page.name not in names)]
+    everything.sort(key=lambda page: ORDER.index(page.name) if page.name in ORDER else len(ORDER))
+    written = [_write(folder / f"{page.name}.html", render(page, everything)) for page in pages]
+    index = _environment().get_template("index.html").render(pages=everything, facts=machine_facts())
     written.append(_write(folder / "index.html", index))
     if pdf:
         written += [made for path in written[:-1] if (made := print_pdf(path)) is not None]
     return written
+
+
+def _pages_in(folder: Path) -> list[Page]:
+    """What an index needs to know of the pages in a folder."""
+    found = []
+    for path in sorted(folder.glob("*.html")):
+        head = path.read_text(encoding="utf-8", errors="replace")[:100_000]
+        match = re.search(r'<h1>([^<]*)</h1>\s*<p class="lead">([^<]*)</p>', head)
+        if match and path.stem != "index":
+            found.append(Page(path.stem, html.unescape(match[1]), html.unescape(match[2]), []))
+    return found
 
 
 def print_pdf(path: Path) -> Path | None:

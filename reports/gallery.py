@@ -10,14 +10,18 @@ import base64
 import copy
 import html
 import math
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from bem.cli._terminal import Terminal
 from bem.errors import BemError
 from bem.results import FinishedRun
-from bem.runs import run_scene
+from bem.results.read import damaged_files
+from bem.runs import plan_scene, run_scene
 from bem.scenes import get_kind, library
+from bem.scenes.planner import machine_rate, show_seconds
 from reports.builder import HERE, Page, Section, table, text
 
 RUNS = HERE / "gallery"
@@ -42,33 +46,109 @@ def gallery_scene(name: str, folder: Path, *, reduced: bool = False) -> dict[str
 
 
 def run_gallery(
-    folder: Path = RUNS, *, names: Sequence[str] = (), reduced: bool = False
+    folder: Path = RUNS,
+    *,
+    names: Sequence[str] = (),
+    reduced: bool = False,
+    say: Callable[[str], None] = lambda words: None,
 ) -> dict[str, FinishedRun | str]:
-    """Run scenes (all where none is named); what went wrong stands in a run's place.
+    """Run scenes (all where none is named), the quickest first; what went wrong stands in a run's place.
 
-    Finished runs are taken as they are."""
+    Finished runs of the very same scene are taken as they are, begun ones go on from their checkpoint. A scene that
+    fails, in whatever way, does not keep the others from running. `say` is told what runs, and about how much is left.
+    """
     found: dict[str, FinishedRun | str] = {}
-    for name in names or library():
+    chosen = list(names or library())
+    scenes: dict[str, dict[str, Any]] = {}
+    planned: dict[str, float] = {}
+    for name in chosen:
         try:
-            scene = gallery_scene(name, folder, reduced=reduced)
-            found[name] = run_scene(scene, folder / name, resume=True)
-        except BemError as error:
-            found[name] = str(error)
-    return found
+            scenes[name] = gallery_scene(name, folder, reduced=reduced)
+            planned[name] = plan_scene(scenes[name])[1].seconds(machine_rate())
+        except Exception as error:
+            found[name] = _words(error)
+    clock = _Clock()
+    waiting = sorted(planned, key=lambda name: planned[name])
+    with Terminal() as terminal:
+        for number, name in enumerate(waiting):
+            left = math.fsum(planned[other] for other in waiting[number:])
+            say(
+                f"{number + 1} of {len(waiting)}, {name}: about {show_seconds(clock.factor * planned[name])}; "
+                f"about {show_seconds(clock.factor * left)} left in all"
+            )
+            start = time.monotonic()
+            try:
+                damaged = _is_damaged(folder / name)
+                run = run_scene(scenes[name], folder / name, resume=not damaged, overwrite=True, watcher=terminal)
+                found[name] = run
+                if run.summary["wall_time_s"] > 0.5 * (time.monotonic() - start):  # it was not there already
+                    clock.add(planned[name], run.summary["wall_time_s"])
+            except Exception as error:
+                found[name] = _words(error)
+                say(f"{name} failed: {found[name]}")
+    return {name: found[name] for name in chosen}
 
 
-def build(folder: Path = RUNS, *, reduced: bool = False) -> Page:
-    """The page, from finished runs; those that are missing are run."""
-    runs = run_gallery(folder, reduced=reduced)
+class _Clock:
+    """How much longer runs take than planned, from those that are over."""
+
+    def __init__(self) -> None:
+        self._planned = self._taken = 0.0
+
+    def add(self, planned: float, taken: float) -> None:
+        self._planned += planned
+        self._taken += taken
+
+    @property
+    def factor(self) -> float:
+        return self._taken / self._planned if self._planned > 0 else 1.0
+
+
+def unfinished(runs: Mapping[str, FinishedRun | str]) -> list[str]:
+    """A line for each scene that failed or did not converge."""
+    lines = []
+    for name, run in runs.items():
+        if isinstance(run, str):
+            lines.append(f"{name}: {run}")
+        elif run.summary["status"] != "converged":
+            lines.append(f"{name}: {run.summary['status']}: {run.summary['where']}")
+    return lines
+
+
+def page(runs: Mapping[str, FinishedRun | str], *, reduced: bool = False) -> Page:
+    """The page of these runs."""
     known = library()
     rows = [
         (name, known[name]["kind"], known[name].get("redoes", ""), _status(run), _seconds(run))
         for name, run in runs.items()
     ]
-    sections = [Section("All scenes", table(("scene", "kind", "redoes", "status", "time"), rows))]
+    failed = unfinished(runs)
+    summary = text(
+        f"{len(runs) - len(failed)} of {len(runs)} scenes converged."
+        if failed
+        else f"All {len(runs)} scenes converged."
+    )
+    sections = [Section("All scenes", summary + table(("scene", "kind", "redoes", "status", "time"), rows))]
     sections += [Section(name, _about(name, known[name], run)) for name, run in runs.items()]
     size = "at reduced size" if reduced else "at full size"
     return Page("gallery", "Gallery", f"Every built-in scene of bem, run {size}: figures and what they redo.", sections)
+
+
+def build(folder: Path = RUNS, *, reduced: bool = False) -> Page:
+    """The page, from finished runs; those that are missing are run."""
+    return page(run_gallery(folder, reduced=reduced), reduced=reduced)
+
+
+def _is_damaged(folder: Path) -> bool:
+    """Whether a run was finished there once, but cannot be trusted now."""
+    try:
+        return (folder / "summary.json").exists() and bool(damaged_files(folder))
+    except BemError:
+        return True
+
+
+def _words(error: Exception) -> str:
+    return str(error) if isinstance(error, BemError) else f"{type(error).__name__}: {error}"
 
 
 def _about(name: str, scene: dict[str, Any], run: FinishedRun | str) -> str:

@@ -232,6 +232,42 @@ def test_tab_completion_knows_the_built_in_scenes():
     assert complete_scene("hertz") == ["hertz-cylinder", "hertz-sphere"]
 
 
+def test_completion_of_figures_and_formats(tmp_path):
+    from types import SimpleNamespace
+
+    from bem.cli.plot import complete_figure, complete_format
+    from bem.plots.draw import FORMATS
+
+    (tmp_path / "figures").mkdir()
+    for name in ("pressure-map.png", "pressure-map.pdf", "contact-map.png"):
+        (tmp_path / "figures" / name).touch()
+    context = SimpleNamespace(params={"run": tmp_path})
+    assert complete_figure(context, "") == ["contact-map", "pressure-map"]
+    assert complete_figure(context, "p") == ["pressure-map"]
+    assert complete_format("") == list(FORMATS)
+
+
+def test_every_example_in_a_help_text_is_of_that_command():
+    """Commands, options and built-in scenes in the examples are there."""
+    import re
+    import shlex
+
+    from typer.main import get_command
+
+    from bem.cli import build
+
+    app = get_command(build())
+    found = 0
+    for name, command in app.commands.items():
+        for line in re.findall(r"^ +(bem .*)$", command.help or "", re.MULTILINE):
+            words = shlex.split(line.split(" > ")[0])
+            assert words[1] == name
+            known = {option for parameter in command.params for option in parameter.opts}
+            assert {word for word in words if word.startswith("--")} <= known, line
+            found += 1
+    assert found >= 15
+
+
 def test_progress_is_shown_on_a_terminal_only_and_not_for_short_work(monkeypatch, capsys):
     from bem.cli import _terminal
 

@@ -11,7 +11,7 @@ import typer
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
-    @app.command()
+    @app.command(short_help="Run time and memory against error.")
     def bench(
         only: Annotated[
             list[str] | None, typer.Option("--only", metavar="NAME", help="A case; may be repeated. Without it, all.")

@@ -11,7 +11,7 @@ import typer
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
-    @app.command()
+    @app.command(short_help="Fit a tribofilm's constants to measurements.")
     def calibrate(
         data: Annotated[
             Path,
@@ -32,7 +32,12 @@ def register(app: typer.Typer) -> None:
             Path | None, typer.Option("--figure", metavar="FILE", help="Draw fit and residuals: .png, .pdf, .svg.")
         ] = None,
     ) -> None:
-        """Fit a tribofilm's constants to measured thickness and wear over time."""
+        """Fit a tribofilm's constants to measured thickness and wear over time.
+
+        \b
+        Example:
+          bem calibrate film.csv --fit activation_energy_eV --figure fit.png
+        """
         from dataclasses import fields, replace
 
         from bem.cli._quantity import new_file

@@ -11,7 +11,7 @@ import typer
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
-    @app.command()
+    @app.command(short_help="Compare two runs: scenes, results, curves.")
     def compare(
         first: Annotated[Path, typer.Argument(metavar="A", help="A finished run's folder.")],
         second: Annotated[Path, typer.Argument(metavar="B", help="Another one.")],
@@ -21,7 +21,12 @@ def register(app: typer.Typer) -> None:
         figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the overlaid figures.")] = True,
         all_: Annotated[bool, typer.Option("--all", help="Show equal figures too.")] = False,
     ) -> None:
-        """Compare two runs: what differs in the scenes, what in the results, and both in the same figures."""
+        """Compare two runs: what differs in the scenes, what in the results, and both in the same figures.
+
+        \b
+        Example:
+          bem compare runs/rough-contact-001 runs/rough-contact-002 --out both
+        """
         import math
 
         from bem.cli._terminal import table

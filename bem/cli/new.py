@@ -18,7 +18,7 @@ def complete_kind(incomplete: str) -> list[str]:
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
-    @app.command()
+    @app.command(short_help="Write a commented scene of a kind, to start from.")
     def new(
         kind: Annotated[
             str, typer.Argument(metavar="KIND", help="Kind of scene, such as contact.", autocompletion=complete_kind)
@@ -27,7 +27,13 @@ def register(app: typer.Typer) -> None:
             Path | None, typer.Argument(metavar="[FILE]", help="File to write; without it KIND.toml.")
         ] = None,
     ) -> None:
-        """Write a commented scene of a kind, with all its keys, to start from."""
+        """Write a commented scene of a kind, with all its keys, to start from.
+
+        \b
+        Examples:
+          bem new contact
+          bem new wear my-wear.toml
+        """
         from bem.errors import ResultsError
         from bem.results.atomic import write_text
         from bem.scenes.template import scene_template

@@ -11,7 +11,7 @@ import typer
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
-    @app.command()
+    @app.command(short_help="Find wear particles in a measured AFM height map.")
     def particles(
         map_: Annotated[Path, typer.Argument(metavar="MAP", help="An AFM height map: any instrument's file, or .npz.")],
         threshold: Annotated[str, typer.Option(help="Height above the plate from which a particle is one.")] = "50 nm",
@@ -39,7 +39,13 @@ def register(app: typer.Typer) -> None:
             Path | None, typer.Option("--figure", metavar="FILE", help="Draw map and distribution: .png, .pdf, .svg.")
         ] = None,
     ) -> None:
-        """Find the wear particles in a measured AFM height map and print their sizes."""
+        """Find the wear particles in a measured AFM height map and print their sizes.
+
+        \b
+        Examples:
+          bem particles plate.spm
+          bem particles plate.npz --threshold "30 nm" --table particles.csv --figure particles.png
+        """
         from bem.cli._quantity import length, new_file, pair_of_lengths
         from bem.cli._terminal import table
         from bem.particles import particle_statistics, particles_from_height_map, size_summary

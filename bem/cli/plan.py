@@ -10,9 +10,17 @@ from bem.cli.run import SceneArgument, SetOption
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
-    @app.command()
+    @app.command(short_help="Show what would be computed, what is skipped, memory, time.")
     def plan(scene: SceneArgument, set_: SetOption = None) -> None:
-        """Show what a scene would compute, what it skips and why, with estimated memory and time."""
+        """Show what a scene would compute, what it skips and why, with estimated memory and time.
+
+        Exit code 2 where it would not fit into the memory that is free now.
+
+        \b
+        Examples:
+          bem plan rough-contact
+          bem plan rough-contact --set grid.shape=8192
+        """
         from bem.cli._terminal import table
         from bem.runs import plan_scene
         from bem.scenes.planner import available_memory, machine_rate, show_bytes, show_seconds, step_seconds

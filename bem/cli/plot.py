@@ -9,6 +9,17 @@ from typing import Annotated
 import typer
 
 
+def complete_figure(context: typer.Context, incomplete: str) -> list[str]:
+    """Figures that the run has drawn, for tab completion; loads nothing."""
+    folder = Path(str(context.params.get("run") or ".")) / "figures"
+    return sorted(item.stem for item in folder.glob("*.png") if item.stem.startswith(incomplete))
+
+
+def complete_format(incomplete: str) -> list[str]:
+    """Formats of figures, for tab completion."""
+    return [name for name in ("png", "pdf", "svg") if name.startswith(incomplete)]
+
+
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
@@ -16,15 +27,26 @@ def register(app: typer.Typer) -> None:
     def plot(
         run: Annotated[Path, typer.Argument(metavar="DIR", help="A finished run's folder.")],
         figure: Annotated[
-            str | None, typer.Option(metavar="NAME", help="Which figure; without it all names are listed.")
+            str | None,
+            typer.Option(
+                metavar="NAME", help="Which figure; without it all names are listed.", autocompletion=complete_figure
+            ),
         ] = None,
         size: Annotated[
             str | None, typer.Option(metavar="WxH", help='Width and height, such as "85x60 mm" or "5x4" (inch).')
         ] = None,
-        format_: Annotated[str, typer.Option("--format", help="png, pdf or svg.")] = "png",
+        format_: Annotated[
+            str, typer.Option("--format", help="png, pdf or svg.", autocompletion=complete_format)
+        ] = "png",
         out: Annotated[Path | None, typer.Option(help="Folder for the picture; without it the current one.")] = None,
     ) -> None:
-        """Draw a figure of a finished run in a given size and format."""
+        """Draw a figure of a finished run in a given size and format.
+
+        \b
+        Examples:
+          bem plot runs/rough-contact-001
+          bem plot runs/rough-contact-001 --figure pressure-map --size "85x70 mm" --format pdf
+        """
         from bem.cli._terminal import table
         from bem.errors import InputError, ResultsError
         from bem.plots.draw import FORMATS, draw, figure_kind

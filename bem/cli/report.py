@@ -11,7 +11,7 @@ import typer
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
-    @app.command()
+    @app.command(short_help="Draw a finished run's figures again, with its HTML report.")
     def report(run: Annotated[Path, typer.Argument(metavar="DIR", help="A finished run's folder.")]) -> None:
         """Draw a finished run's figures again and write its HTML report."""
         from bem.plots.draw import draw_all

@@ -25,7 +25,10 @@ SceneArgument = Annotated[
 SetOption = Annotated[
     list[str] | None,
     typer.Option(
-        "--set", metavar="KEY=VALUE", help='Change a key of the scene, such as contact.load="10 N". May be repeated.'
+        "--set",
+        metavar="KEY=VALUE",
+        help='Change a key of the scene, such as contact.load="10 N" or, in a list, variants[0].cells=96; KEY=@FILE '
+        "takes a list from a file, one value a line. May be repeated.",
     ),
 ]
 
@@ -57,6 +60,12 @@ def register(app: typer.Typer) -> None:
 
         Exit codes: 0 done, 2 bad scene (nothing is written), 3 not converged (what exists is kept),
         4 results cannot be written, 130 interrupted (resumable).
+
+        \b
+        Examples:
+          bem run rough-contact
+          bem run my-scene.toml --out first --set contact.load="5 N"
+          bem run my-scene.toml --out first --resume
         """
         from bem.cli._terminal import Terminal, print_summary
         from bem.runs import run_scene

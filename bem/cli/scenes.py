@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from bem.cli.run import complete_scene
+
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
@@ -14,10 +16,21 @@ def register(app: typer.Typer) -> None:
     def scenes(
         show: Annotated[
             str | None,
-            typer.Option("--show", metavar="NAME", help="Print the file of a built-in scene, to start from."),
+            typer.Option(
+                "--show",
+                metavar="NAME",
+                help="Print the file of a built-in scene, to start from.",
+                autocompletion=complete_scene,
+            ),
         ] = None,
     ) -> None:
-        """List the built-in scenes, a line each."""
+        """List the built-in scenes, a line each.
+
+        \b
+        Examples:
+          bem scenes
+          bem scenes --show rough-contact > my-scene.toml
+        """
         from bem.cli._terminal import table
         from bem.errors import InputError
         from bem.scenes.load import library, library_text

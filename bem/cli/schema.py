@@ -12,14 +12,21 @@ from bem.cli.new import complete_kind
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
-    @app.command()
+    @app.command(short_help="Print the JSON Schema of scenes, for editors.")
     def schema(
         kind: Annotated[
             str | None,
             typer.Argument(metavar="[KIND]", help="One kind; without it all of them.", autocompletion=complete_kind),
         ] = None,
     ) -> None:
-        """Print the JSON Schema of scenes, for completion and checks in an editor."""
+        """Print the JSON Schema of scenes, for completion and checks in an editor.
+
+        With `#:schema scene.schema.json` as its first line, editors with TOML support know a scene's keys.
+
+        \b
+        Example:
+          bem schema contact > scene.schema.json
+        """
         import json
 
         from bem.errors import InputError

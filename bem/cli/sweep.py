@@ -13,7 +13,7 @@ from bem.cli.run import SceneArgument, SetOption
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
-    @app.command()
+    @app.command(short_help="Run a scene at every combination of values of its keys.")
     def sweep(
         scene: SceneArgument,
         over: Annotated[
@@ -22,7 +22,8 @@ def register(app: typer.Typer) -> None:
                 "--over",
                 metavar="KEY=VALUES",
                 help='Swept key: "contact.load=1 N:10 N:4", "contact.load=log:1 N:100 N:5", "seed=1:5", '
-                '"contact.behaviour=elastic,capped". Repeated: all combinations.',
+                '"contact.behaviour=elastic,capped", in a list "variants[0].cells=48,96", from a file '
+                '(one value a line) "contact.load=@loads.txt". Repeated: all combinations.',
             ),
         ] = None,
         out: Annotated[Path | None, typer.Option(help="The sweep's folder; without it sweeps/NAME.")] = None,
@@ -42,6 +43,13 @@ def register(app: typer.Typer) -> None:
 
         Exit codes: 0 done, 2 bad scene or range (nothing is written), 3 points failed or did not converge (the others
         are kept), 4 results cannot be written, 130 interrupted (resumable).
+
+        \b
+        Examples:
+          bem sweep hertz-sphere --over contact.load="log:1 N:100 N:5"
+          bem sweep rough-contact --over seed=1:5 --over contact.friction=0,0.2 --out s
+          bem sweep rough-contact --over seed=1:8 --out s --resume
+          bem sweep rough-contact --over seed=1:9 --scheduler tcp://10.0.0.1:8786
         """
         import os
 

@@ -11,7 +11,7 @@ import typer
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
-    @app.command()
+    @app.command(short_help="Accuracy gates: against finite elements and closed forms.")
     def verify(
         case: Annotated[
             list[str] | None,
@@ -26,6 +26,11 @@ def register(app: typer.Typer) -> None:
 
         Error bar, difference and tolerance are relative to the largest value of the curve; both figures are shown
         where they differ most.
+
+        \b
+        Examples:
+          bem verify --list
+          bem verify --case "contact-*" --json rows.json
         """
         from bem.cli._quantity import new_file
         from bem.cli._terminal import Terminal, table

@@ -71,7 +71,8 @@ class RunDirectory:
         ----------
         out : the folder; None takes the next free `runs/NAME-001`, or with `resume` this scene's latest unfinished one.
         resume : go on from the checkpoint in it.
-        overwrite : replace an older run in it, which stays until this one is finished.
+        overwrite : replace an older run in it, which stays until this one is finished; with `resume`, one of another
+            scene only.
 
         Raises
         ------
@@ -99,7 +100,7 @@ class RunDirectory:
             self.path = self._home / BESIDE
             self.resumed = True
             self.remove_leftovers()
-        elif old is not None and resume:
+        elif old is not None and resume and not (overwrite and old != scene):
             if old != scene:
                 raise InputError(
                     f"--resume: the run in {self.path} is of another scene ({_difference(old, scene)} differ); "
