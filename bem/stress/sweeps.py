@@ -18,9 +18,9 @@ from numpy.typing import ArrayLike, NDArray
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
-from bem.stress.spectra import SPECTRA, check_request, elastic, multipliers, padded_lengths
+from bem.stress.spectra import SPECTRA, Factors, check_request, elastic, factors_of, packs, padded_lengths
 from bem.threads import get_threads, share
-from bem.transforms import Multiplier, PaddedTransform, transform_of
+from bem.transforms import PaddedTransform, transform_of
 
 
 def subsurface_stress(
@@ -57,7 +57,7 @@ def subsurface_stress(
     for index in range(len(sweep.depths)):
         factors = sweep.factors(index)
         for component in range(6):
-            sweep.transform.inverse(sweep.spectrum, factors[component], result[component, index])
+            sweep.inverse(factors, component, result[component, index])
         _share_rows(_recombine, grid.shape[0], result[:, index])
     return result
 
@@ -186,7 +186,7 @@ def planes(sweep: Sweep, outs: Sequence[FloatArray | None]) -> Iterator[FloatArr
         plane = np.empty(shape) if out is None else out
         factors = sweep.factors(index)
         for component in range(1, 6):
-            sweep.transform.inverse(sweep.spectrum, factors[component], scratch)
+            sweep.inverse(factors, component, scratch)
             work = {1: _begin, 5: _finish}.get(component, _accumulate)
             _share_rows(work, shape[0], scratch, _SHARES[component], plane)
         yield plane
@@ -212,6 +212,7 @@ class Sweep:
     friction: float
     transform: PaddedTransform
     spectrum: NDArray[Any]
+    room: FloatArray
     number: int
 
     @classmethod
@@ -222,14 +223,19 @@ class Sweep:
         padded = padded_lengths(grid)
         transform = transform_of(grid.shape, padded)
         spectrum = transform.forward(field) if places else transform.empty_spectrum()
-        return cls(grid, body, places, coefficient, transform, spectrum, SPECTRA.begin())
+        room = np.empty((3 if packs(grid) else 0, padded[1] // 2 + 1, padded[0] // 2 + 1))
+        return cls(grid, body, places, coefficient, transform, spectrum, room, SPECTRA.begin())
 
-    def factors(self, index: int) -> tuple[Multiplier, ...]:
-        """Multipliers of t, d, e, yz, xz, xy at a depth."""
+    def inverse(self, factors: Factors, component: int, out: FloatArray) -> None:
+        """One of t, d, e, yz, xz, xy at the grid's points."""
+        self.transform.inverse(self.spectrum, factors.multiplier(component, self.room), out)
+
+    def factors(self, index: int) -> Factors:
+        """Spectra of t, d, e, yz, xz, xy at a depth."""
         depth = self.depths[index]
         key = (self.grid, elastic(self.body), depth, self.friction)
-        found: tuple[Multiplier, ...] | None = SPECTRA.get(key, self.number)
+        found: Factors | None = SPECTRA.get(key, self.number)
         if found is None:
-            found = multipliers(self.grid, self.body, depth, self.friction)
-            SPECTRA.put(key, found, sum(m.nbytes for m in found), self.number)
+            found = factors_of(self.grid, self.body, depth, self.friction)
+            SPECTRA.put(key, found, found.nbytes, self.number)
         return found

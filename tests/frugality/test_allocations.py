@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, Material, displacement_operator, solve_contact
-from bem.stress import von_mises_planes
+from bem.stress import set_stress_memory, stress_memory, subsurface_stress, von_mises_planes
 
 STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
 
@@ -44,6 +44,32 @@ def test_von_mises_of_many_depths_holds_one_plane_and_one_scratch():
     padded_spectrum = 16 * 256 * 129
     # the transformed pressure, and one plane to work in; twelve planes would be 1.5 MB
     assert peak_of(sweep) < 1.2 * (padded_spectrum + out.nbytes)
+
+
+def test_six_stresses_hold_the_result_and_eleven_packed_spectra_a_depth():
+    cells, depths = 256, np.linspace(1e-6, 2e-5, 5)
+    grid = Grid((cells, cells), (1e-6, 1e-6))
+    pressure = np.zeros(grid.shape)
+    pressure[40:60, 40:60] = 1e9
+    subsurface_stress(pressure, grid, STEEL, depths[:1], friction=0.3)  # plans, compiled loops
+    set_stress_memory(0)
+    set_stress_memory(1 << 29)
+    tracemalloc.start()
+    try:
+        stress = subsurface_stress(pressure, grid, STEEL, depths, friction=0.3)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    quarter = (cells + 1) ** 2
+    # pressure and traction: twelve parts, one of which follows from two others; six bytes a number, a step a row
+    assert stress_memory() == depths.size * 11 * (6 * quarter + 8 * (cells + 1))
+    # beyond both: the transformed pressure, and what one depth needs while its kernels are made - coefficients of both
+    # loads (12 fields), spectra before they are packed (18 quarters) - for one depth at a time
+    working = 16 * (cells + 1) * 2 * cells + 8 * (12 * grid.cells + 18 * quarter)
+    assert peak < stress.nbytes + stress_memory() + 1.1 * working
+    # with 64 depths: 0.5 GB for result, spectra and work
+    whole = 64 / depths.size * (stress.nbytes + stress_memory()) + working
+    assert whole < 0.5e9
 
 
 def test_a_contact_solve_holds_a_bounded_number_of_fields():
