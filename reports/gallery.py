@@ -21,6 +21,7 @@ from bem.results import FinishedRun
 from bem.results.read import damaged_files
 from bem.runs import plan_scene, run_scene
 from bem.scenes import get_kind, library
+from bem.scenes.load import dump_scene
 from bem.scenes.planner import machine_rate, show_seconds
 from reports.builder import HERE, Page, Section, table, text
 
@@ -64,7 +65,8 @@ def run_gallery(
     for name in chosen:
         try:
             scenes[name] = gallery_scene(name, folder, reduced=reduced)
-            planned[name] = plan_scene(scenes[name])[1].seconds(machine_rate())
+            scene, plan = plan_scene(scenes[name])
+            planned[name] = 0.0 if _is_there(folder / name, dump_scene(scene)) else plan.seconds(machine_rate())
         except Exception as error:
             found[name] = _words(error)
     clock = _Clock()
@@ -72,17 +74,19 @@ def run_gallery(
     with Terminal() as terminal:
         for number, name in enumerate(waiting):
             left = math.fsum(planned[other] for other in waiting[number:])
-            say(
-                f"{number + 1} of {len(waiting)}, {name}: about {show_seconds(clock.factor * planned[name])}; "
-                f"about {show_seconds(clock.factor * left)} left in all"
-            )
+            if planned[name] == 0:
+                say(f"{number + 1} of {len(waiting)}, {name}: finished before")
+            else:
+                say(
+                    f"{number + 1} of {len(waiting)}, {name}: about {show_seconds(clock.factor * planned[name])}; "
+                    f"about {show_seconds(clock.factor * left)} left in all"
+                )
             start = time.monotonic()
             try:
-                damaged = _is_damaged(folder / name)
-                run = run_scene(scenes[name], folder / name, resume=not damaged, overwrite=True, watcher=terminal)
-                found[name] = run
-                if run.summary["wall_time_s"] > 0.5 * (time.monotonic() - start):  # it was not there already
-                    clock.add(planned[name], run.summary["wall_time_s"])
+                sound = not _is_damaged(folder / name)
+                found[name] = run_scene(scenes[name], folder / name, resume=sound, overwrite=True, watcher=terminal)
+                if planned[name] > 0:
+                    clock.add(planned[name], time.monotonic() - start)
             except Exception as error:
                 found[name] = _words(error)
                 say(f"{name} failed: {found[name]}")
@@ -137,6 +141,14 @@ def page(runs: Mapping[str, FinishedRun | str], *, reduced: bool = False) -> Pag
 def build(folder: Path = RUNS, *, reduced: bool = False) -> Page:
     """The page, from finished runs; those that are missing are run."""
     return page(run_gallery(folder, reduced=reduced), reduced=reduced)
+
+
+def _is_there(folder: Path, scene: str) -> bool:
+    """Whether a finished run of this very scene is in the folder."""
+    try:
+        return (folder / "scene.toml").read_text("utf-8") == scene and (folder / "summary.json").exists()
+    except OSError:
+        return False
 
 
 def _is_damaged(folder: Path) -> bool:

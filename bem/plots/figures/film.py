@@ -11,6 +11,7 @@ from bem.plots.figures import FigureKind
 from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, prefix
 
 _COLOURS = (BLUE, VERMILION, ORANGE, SKY, GREEN, PINK, BLACK)
+_DASHES = ("-", "--", "-.", ":")
 
 
 def _over_time(run: Any, figure: Figure) -> None:
@@ -22,7 +23,7 @@ def _over_time(run: Any, figure: Figure) -> None:
     panels[0].set_ylabel("speed (m/s)")
     factor, unit = prefix(data["central_film"].values, "m")
     panels[1].plot(time, data["central_film"].values * factor, color=BLUE, label="central")
-    panels[1].plot(time, data["minimum_film"].values * factor, color=VERMILION, label="minimum")
+    panels[1].plot(time, data["minimum_film"].values * factor, color=VERMILION, linestyle="--", label="minimum")
     panels[1].set_ylabel(label("film", unit))
     panels[1].set_ylim(0)
     panels[1].legend()
@@ -40,8 +41,15 @@ def _profiles(run: Any, figure: Figure, name: str, text: str, base: str) -> None
     wanted = np.unique(np.linspace(0, len(time) - 1, 6).round().astype(int))
     factor, unit = prefix(values[wanted][:, window], base)
     x_factor, x_unit = prefix(x[window], "m")
-    for colour, index in zip(_COLOURS, wanted, strict=False):
-        axes.plot(x[window] * x_factor, values[index, window] * factor, color=colour, label=f"{time[index]:.3g} s")
+    t_factor, t_unit = prefix(time, "s")
+    for number, index in enumerate(wanted):
+        axes.plot(
+            x[window] * x_factor,
+            values[index, window] * factor,
+            color=_COLOURS[number % len(_COLOURS)],
+            linestyle=_DASHES[number % len(_DASHES)],  # profiles may lie on each other
+            label=f"{time[index] * t_factor:.3g} {t_unit}",
+        )
     axes.set_xlabel(label("x", x_unit))
     axes.set_ylabel(label(text, unit))
     axes.set_ylim(0)

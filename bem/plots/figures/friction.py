@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from bem.plots.figures import FigureKind
@@ -234,6 +235,7 @@ def _cycles(name: str, text: str) -> Any:
         axes.set_xlabel("cycle")
         axes.set_ylabel(text)
         axes.set_xlim(1, max(2, cycle[-1]))
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
         axes.set_ylim(0)
         if len(groups) > 1:
             axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))

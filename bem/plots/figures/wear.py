@@ -35,6 +35,7 @@ def _over_cycles(axes: Axes, run: Any, values: NDArray[np.float64], text: str, u
     axes.set_xlabel("cycle")
     axes.set_ylabel(label(text, shown))
     axes.set_xlim(1, max(2, cycle[-1]))
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.set_ylim(0)
     if len(groups) > 1:
         axes.legend(ncols=min(len(groups), 3))
@@ -169,8 +170,8 @@ def _shapes(run: Any, figure: Figure) -> None:
         spans = (along[0][-1], along[1][-1], 2e9 * float(depth.max()))
         axes.set_box_aspect(spans, zoom=0.85)
         axes.tick_params(labelsize=5, pad=-3)
-        axes.set_xlabel("x (nm)", fontsize=6, labelpad=-8)
-        axes.set_ylabel("y (nm)", fontsize=6, labelpad=-8)
+        axes.set_xlabel("x (nm)", fontsize=6, labelpad=-6)
+        axes.set_ylabel("y (nm)", fontsize=6, labelpad=-5)
         axes.set_zlabel("thickness (nm)", fontsize=6, labelpad=-9)
         axes.xaxis.set_major_locator(MaxNLocator(3))
         axes.yaxis.set_major_locator(MaxNLocator(3))
