@@ -1,0 +1,220 @@
+"""Our numbers for the validation report: kept summaries of full-size runs, and what a line of the report holds."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from bem import Material, contact_modulus
+from bem.particles import particle_coefficient
+from reports.builder import HERE
+
+STORED = HERE / "results" / "validation"
+Summary = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Value:
+    """One of our numbers: mean over repetitions, and their standard deviation where there are several."""
+
+    mean: float
+    spread: float | None = None
+
+    def __str__(self) -> str:
+        if not math.isfinite(self.mean):
+            return "none"
+        shown = f"{self.mean:.3g}" if abs(self.mean) < 1000 else f"{self.mean:.0f}"
+        if not self.spread:
+            return shown
+        return f"{shown} ± {self.spread:.2g}" if self.spread < 99.5 else f"{shown} ± {self.spread:.0f}"
+
+
+@dataclass(frozen=True)
+class Check:
+    """A line of the table: what the source says, what we get, whether that agrees, and why not where it does not."""
+
+    item: str
+    scene: str
+    source: str
+    ours: Callable[[Summary], str]
+    agrees: Callable[[Summary], bool | None]
+    remark: str = ""
+
+
+def at(summary: Summary, key: str, index: int | None = None) -> Value:
+    """A figure of a summary and its spread; `index` into lists over loads, speeds, temperatures or variants."""
+    value, spread = summary.get(key), summary.get(f"{key}_spread")
+    if isinstance(value, list):
+        value = value[index or 0]
+        spread = spread[index or 0] if isinstance(spread, list) else None
+    return Value(float("nan") if value is None else float(value), spread)
+
+
+def within(value: Value, low: float, high: float) -> bool:
+    """Whether the mean lies in a range widened by the spread over repetitions."""
+    margin = value.spread or 0.0
+    return low - margin <= value.mean <= high + margin
+
+
+def row_of(summary: Summary, key: str, wanted: float) -> int:
+    """Index of the run whose `key` (a list) is nearest to `wanted`."""
+    values = summary[key] if isinstance(summary[key], list) else [summary[key]]
+    return min(range(len(values)), key=lambda i: abs(values[i] - wanted))
+
+
+def speed(metres_per_second: float) -> Callable[[Summary], int]:
+    """Index of a speed."""
+    return lambda summary: row_of(summary, "speed_m_s", metres_per_second)
+
+
+def drop(summary: Summary, metres_per_second: float) -> float:
+    """Initial less run-in friction at a speed."""
+    index = speed(metres_per_second)(summary)
+    return at(summary, "friction_initial", index).mean - at(summary, "friction_run_in", index).mean
+
+
+def sizes(index_of: Callable[[Summary], int]) -> Callable[[Summary], str]:
+    """Length / width / thickness by volume at one load."""
+
+    def show(summary: Summary) -> str:
+        parts = [at(summary, f"particle_{q}_nm", index_of(summary)) for q in ("length", "width", "thickness")]
+        return " / ".join(str(part) for part in parts)
+
+    return show
+
+
+def load(newtons: float) -> Callable[[Summary], int]:
+    """Index of a load."""
+    return lambda summary: row_of(summary, "load_N", newtons)
+
+
+def near_sizes(newtons: float, length: float, width: float, thickness: float) -> Callable[[Summary], bool]:
+    """Each of the three within a factor 1.6: the thesis' surfaces are not public, and sizes depend on them."""
+
+    def judge(summary: Summary) -> bool:
+        index = load(newtons)(summary)
+        return all(
+            within(at(summary, f"particle_{q}_nm", index), wanted / 1.6, wanted * 1.6)
+            for q, wanted in (("length", length), ("width", width), ("thickness", thickness))
+        )
+
+    return judge
+
+
+def radius(newtons: float) -> Callable[[Summary], str]:
+    """Volume-mean radius at a load."""
+    return lambda summary: str(at(summary, "particle_equivalent_radius_nm", load(newtons)(summary)))
+
+
+def radii(summary: Summary) -> list[Value]:
+    """Reported radius of every run of a scene."""
+    count = len(summary["load_N"]) if isinstance(summary["load_N"], list) else 1
+    return [at(summary, "particle_equivalent_radius_nm", i) for i in range(count)]
+
+
+def listed(values: Sequence[Value]) -> str:
+    """Values side by side."""
+    return ", ".join(str(v) for v in values)
+
+
+def mesh_means(weight: str) -> Callable[[Summary], str]:
+    """Mean radius of one weight over the meshes of the convergence scene."""
+    return lambda s: ", ".join(
+        f"{at(s, f'{weight}_mean_equivalent_radius_nm', i).mean:.0f}" for i in range(len(s["variant"]))
+    )
+
+
+def last_change(summary: Summary, weight: str) -> float:
+    """Relative change of a mean radius from 240 to 320 cells."""
+    values = [at(summary, f"{weight}_mean_equivalent_radius_nm", i).mean for i in (2, 3)]
+    return abs(values[1] / values[0] - 1)
+
+
+def settled_by_mesh(summary: Summary) -> bool:
+    """Volume mean changes by less than 10 % from 240 to 320 cells."""
+    return last_change(summary, "volume") < 0.1
+
+
+def over_runs(key: str) -> Callable[[Summary], str]:
+    """A list of a summary, value after value."""
+    return lambda summary: listed([at(summary, key, i) for i in range(len(summary[key]))])
+
+
+def largest_drop(summary: Summary) -> float:
+    """Speed [m/s] at which friction falls most by running-in."""
+    return max((drop(summary, v), v) for v in summary["speed_m_s"])[1]
+
+
+def clear_minimum(summary: Summary) -> bool:
+    """Whether run-in friction is least inside the range of hardness, and both ends are above it by more than spread."""
+    friction, spread = summary["friction_run_in"], summary["friction_run_in_spread"]
+    least = min(range(len(friction)), key=friction.__getitem__)
+    return all(friction[end] > friction[least] + max(spread[end], spread[least]) for end in (0, -1))
+
+
+def criterion_over_archard(summary: Summary, newtons: float, wear_rate: float, shift: int = 3) -> float:
+    """Wear per load and distance of the yield criterion, over a measured specific wear rate [mm^3/(N m)].
+
+    A cycle slides `shift` cells; the grid, 240 cells wide, carries its share of the load on 6 mm.
+    """
+    index = load(newtons)(summary)
+    cell = 1e-9 * at(summary, "cell_nm", index).mean
+    volume = 1e-9 * at(summary, "worn_volume_per_cycle_um3", index).mean
+    share = newtons * 240 * cell / 6e-3
+    return volume / (share * shift * cell) / wear_rate
+
+
+def particles_per_mm_and_newton(summary: Summary, newtons: float, wear_rate: float) -> float:
+    """Measured specific wear rate [mm^3/(N m)] over our mean particle volume."""
+    index = load(newtons)(summary)
+    volume = at(summary, "worn_volume_per_cycle_um3", index).mean / at(summary, "particles_per_cycle", index).mean
+    return 1e-3 * particle_coefficient(1e-9 * wear_rate, 1e-18 * volume)
+
+
+def steel_modulus() -> float:
+    """E* of steel on steel [Pa]: 2 E* is the thesis' 231 GPa."""
+    steel = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
+    return contact_modulus(steel, steel)
+
+
+def hertz_pressure(newtons: float) -> float:
+    """Largest pressure [GPa] of the cylinder, 2 mm by 6 mm, on steel; Johnson (1985), eq. 4.45."""
+    return 1e-9 * math.sqrt(newtons / 6e-3 * steel_modulus() / (math.pi * 2e-3))
+
+
+def curve(summary: Summary, **wanted: Any) -> Summary:
+    """The friction curve of a summary with that load, variant or model."""
+    return next(c for c in summary["curves"] if all(c[key] == value for key, value in wanted.items()))
+
+
+def signed_difference(summary: Summary, one: Summary) -> float:
+    """Largest difference, uncoupled less coupled, over uncoupled friction at its speed [%]; `one` is coupled."""
+    other = curve(
+        summary,
+        load_N=one["load_N"],
+        variant=one["variant"],
+        model={"capped": "uncoupled", "elastic": "uncoupled_elastic"}[one["model"]],
+    )
+    pairs = list(zip(one["friction"], other["friction"], strict=True))
+    coupled, alone = max(pairs, key=lambda pair: abs(pair[1] - pair[0]))
+    return 100 * (alone - coupled) / alone
+
+
+def differences(summary: Summary, variant: str) -> list[float]:
+    """Signed largest differences of the elastic curves of one surface, load after load [%]."""
+    curves = [c for c in summary["curves"] if c["variant"] == variant and c["model"] == "elastic"]
+    return [signed_difference(summary, c) for c in sorted(curves, key=lambda c: c["load_N"])]
+
+
+def stored(scene: str) -> Summary:
+    """The kept summary of a scene.
+
+    Raises
+    ------
+    FileNotFoundError : the scene was not run at full size.
+    """
+    found: Summary = json.loads((STORED / f"{scene}.json").read_text())
+    return found
