@@ -32,6 +32,7 @@ bem --install-completion                    # tab completion of commands, option
 """
 SWEEP = """bem sweep rough-contact --over "contact.mean_pressure=log:20 MPa:500 MPa:6" --over seed=1:3 --out pressures
 bem sweep rough-contact --over contact.behaviour=elastic,capped --scheduler tcp://scheduler:8786
+bem sweep wear-mesh-convergence --over "variants[0].cells=40,60" --set "cylinder.loads=[10.0]"
 """
 OWN_SURFACES = """bem surface read disk.al3d disk.npz --detrend curvature
 bem surface describe disk.npz
@@ -213,9 +214,33 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
         "bem/lubrication/",
     ),
     (
+        "Cavitation",
+        "p >= 0 and, where p = 0, either d(rho h u)/dx is left open (Swift-Stieber) or a fraction\n"
+        "theta <= 1 of the gap is filled and carried along,\n"
+        "d(theta rho h)/dt + u_mean d(theta rho h)/dx = 0 (mass-conserving)",
+        "Swift (1932), Stieber (1933); Jakobsson and Floberg (1957), Olsson (1965), Elrod and Adams (1974)",
+        "",
+        "bem/lubrication/cavitation.py",
+    ),
+    (
+        "Density",
+        "rho/rho0 = 1 + 0.6e-9 p / (1 + 1.7e-9 p),  p in Pa",
+        "Dowson and Higginson (1966)",
+        "Incompressible heavy films have a pressure spike without limit: their thickness is sound, the spike is not.",
+        "bem/lubrication/density.py",
+    ),
+    (
+        "Shear of the oil",
+        "Newtonian: tau = mu du/h;  Eyring: tau = tau0 asinh(mu du/(h tau0));\n"
+        "Carreau: tau = (mu du/h) [1 + (mu du/(h G))^2]^((n - 1)/2)",
+        "Eyring (1936), Johnson and Tevaarwerk (1977); Bair (2007)",
+        "",
+        "bem/lubrication/shear_thinning.py",
+    ),
+    (
         "Viscosity",
-        "mu = mu0 exp{ln(mu0/mu_r) [(1 + p/p_r)^z - 1]}, z = alpha p_r / ln(mu0/mu_r)",
-        "Roelands (1966)",
+        "mu = mu0 exp{ln(mu0/mu_r) [(1 + p/p_r)^z - 1]}, z = alpha p_r / ln(mu0/mu_r);  or mu = mu0 exp(alpha p)",
+        "Roelands (1966); Barus (1893)",
         "The thesis' nomenclature calls it kinematic; it is dynamic.",
         "bem/lubrication/viscosity.py",
     ),
@@ -233,6 +258,21 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
         "thesis, papers A, D; Johnson, Greenwood and Poon (1972)",
         "The averaging of the search direction printed in the source belongs to load control.",
         "bem/friction/load_sharing.py",
+    ),
+    (
+        "Uncoupled asperities",
+        "every summit a Hertz sphere of its own radius, F = (4/3) E* sqrt(R) d^(3/2), then hardness times\n"
+        "the area pi R (2 d - d_c) beyond first yield d_c; blind to the others",
+        "Greenwood and Williamson (1966), without the statistics; thesis, Paper A",
+        "How it compares depends on what separation is measured from: see the option asperity_separation.",
+        "bem/friction/asperities.py",
+    ),
+    (
+        "Equivalent stress",
+        "von Mises: sqrt(3/2 s:s);  Tresca: sigma_1 - sigma_3;  maximum tension: sigma_1",
+        "Malvern (1969), section 3.3 (principal stresses)",
+        "",
+        "bem/wear/criterion.py",
     ),
     (
         "Detachment",
@@ -254,6 +294,29 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
         "Gosvami et al. (2015); thesis, Paper E",
         "The nomenclature gives G0 in nm/s: it is 1e-2 m/s. Temperatures are kelvin.",
         "bem/tribofilm/",
+    ),
+    (
+        "Properties of the tribofilm",
+        "film + (substrate - film) exp(-h/length), the film's own value times a factor that falls with temperature",
+        "the shape of Demmou et al. (2006) and of Bosman and Schipper (2011), constants calibrated",
+        "The thesis only plots both curves: they are inputs, or a table.",
+        "bem/tribofilm/properties.py",
+    ),
+    (
+        "Film ratio",
+        "lambda = h_min / Sq,  h_min/R = 2.65 G^0.54 U^0.7 W^-0.13,\n"
+        "U = mu u/(E' R), G = alpha E', W = w/(E' R), E' = 2 E*",
+        "Dowson and Higginson (1966); thesis, Paper B",
+        "",
+        "bem/particles/film_ratio.py",
+    ),
+    (
+        "Generated surfaces",
+        "sum of waves with amplitudes from the autocorrelation exp(-(r/l)^2) or exp(-r/l), or q^-(1+H)\n"
+        "below a roll-off, each with a random phase; other statistics by exchanging ranks until spectrum and heights both agree",
+        "Schreiber and Schmitz (1996); Hu and Tonder (1992)",
+        "Hu and Tonder filter a translated sequence once, which makes it Gaussian again.",
+        "bem/surfaces/generate.py",
     ),
     (
         "Sedimentation",
@@ -373,7 +436,8 @@ def _using() -> list[Section]:
             + _code(SWEEP)
             + text(
                 "In Python it is bem.sweeps.run_sweep; values are ranges first:last:count, log:first:last:count, "
-                "whole numbers first:last, or lists."
+                "whole numbers first:last, lists, or @FILE with a value on each line. An index reaches into lists, "
+                "variants[0].cells; the same keys stand behind --set."
             ),
         ),
         Section(
@@ -506,7 +570,9 @@ def _formula(words: str) -> str:
         shown = re.sub(rf"(?<![A-Za-z]){name}(?![a-z])", letter, shown)
     shown = re.sub(r"\bintegral\b", "∫", shown)
     shown = re.sub(r"\bdU\b", "ΔU", re.sub(r"\bdV\b", "ΔV", shown))
-    shown = re.sub(r"\^(-\dx|\d|z)", r"<sup>\1</sup>", shown)
+    shown = re.sub(r"\btheta\b", "θ", re.sub(r"\blambda\b", "λ", shown))
+    shown = re.sub(r"\^\(3/2\)", "<sup>3/2</sup>", shown)
+    shown = re.sub(r"\^(-\dx|-?\d\.\d+|\d|z)", r"<sup>\1</sup>", shown)
     return shown.replace("&lt;=", "≤").replace("&gt;=", "≥").replace(" * ", " ∗ ")
 
 
