@@ -22,6 +22,7 @@ from bem.scenes.kinds.friction import check_loads, check_patch, half_width, modu
 from bem.scenes.kinds.wear import Count, SizesScene, WearDepthsScene, WearScenePart, size_statistics
 from bem.scenes.lubrication import LubricatedScene, OilScene, SpeedsScene
 from bem.scenes.planner import Plan, Step, convolution_memory, padded_points
+from bem.scenes.records import pack_record, unpack_record
 from bem.scenes.units import Ratio
 
 _CONVOLUTIONS = 80  # of the two or three contacts of a cycle
@@ -165,8 +166,9 @@ def run(scene: RunningInScene, context: Context) -> Outcome:
     """All hardnesses, speeds and repetitions, one wear loop each."""
     from bem.wear import WearModel, pack_state, run_in, unpack_state
     from bem.wear.mixed import MIXED_FIELDS, FilmTable, MixedContact, MixedState
-    from bem.wear.running_in import RunningInState, pack_table, unpack_table
+    from bem.wear.running_in import CYCLE_FIELDS, PARTICLE_FIELDS, RunningInState, pack_table, unpack_table
 
+    records = {"cycles": CYCLE_FIELDS, "particles": PARTICLE_FIELDS, "rows": MIXED_FIELDS}
     grid = build.grid_of(scene.grid)
     load = scene.contact.forces(modulus_of(scene))[0]
     oil = scene.oil.build()
@@ -177,7 +179,7 @@ def run(scene: RunningInScene, context: Context) -> Outcome:
         for repetition in range(scene.repetitions)
     ]
     saved = context.saved() or {"finished": [], "current": None}
-    finished: list[dict[str, Any]] = [_unpack_record(record) for record in saved["finished"]]
+    finished: list[dict[str, Any]] = [unpack_record(record, records) for record in saved["finished"]]
     current = saved["current"]
     tables: dict[tuple[float, float], FilmTable] = {}
     for index, (hardness, speeds, repetition) in enumerate(runs):
@@ -226,7 +228,7 @@ def run(scene: RunningInScene, context: Context) -> Outcome:
             if now.cycle % _CHECKPOINT_EVERY == 0:
                 context.save(
                     {
-                        "finished": [_pack_record(record) for record in finished],
+                        "finished": [pack_record(record, records) for record in finished],
                         "current": {
                             "wear": pack_state(now),
                             "film_load": step.state.film_load,
@@ -269,30 +271,13 @@ def run(scene: RunningInScene, context: Context) -> Outcome:
         with context.timer("films"):
             film_error = step.table.error(float(step.rows["film_load"][-1]) / scene.contact.width)
         finished.append(_record(scene, own, speeds, repetition, grid, initial, result, step, frames, film_error))
-        context.save({"finished": [_pack_record(record) for record in finished], "current": None})
+        context.save({"finished": [pack_record(record, records) for record in finished], "current": None})
     return _outcome(scene, grid, finished)
 
 
 def _frame_cycles(count: int) -> list[int]:
     """Cycles whose pressure is kept for the animation: early ones close together."""
     return sorted({1, count, *(round(v) for v in np.geomspace(1, count, 24))})
-
-
-_TABLES = ("cycles", "particles", "rows")
-
-
-def _pack_record(record: dict[str, Any]) -> dict[str, Any]:
-    from bem.wear.running_in import pack_table
-
-    return record | {name: pack_table(record[name]) for name in _TABLES}
-
-
-def _unpack_record(packed: dict[str, Any]) -> dict[str, Any]:
-    from bem.wear.mixed import MIXED_FIELDS
-    from bem.wear.running_in import CYCLE_FIELDS, PARTICLE_FIELDS, unpack_table
-
-    fields = dict(zip(_TABLES, (CYCLE_FIELDS, PARTICLE_FIELDS, MIXED_FIELDS), strict=True))
-    return packed | {name: unpack_table(packed[name], fields[name]) for name in _TABLES}
 
 
 def _record(

@@ -19,6 +19,7 @@ from bem.scenes.common import BodyScene, Cells, Force, PositiveLength, PositiveP
 from bem.scenes.context import Context, Outcome, Variable
 from bem.scenes.kinds import Kind
 from bem.scenes.planner import Plan, Step, convolution_memory, padded_points
+from bem.scenes.records import pack_record, unpack_record
 from bem.scenes.units import Length, Ratio, WearCoefficient
 
 Count = Annotated[int, Field(strict=True, ge=1)]
@@ -321,6 +322,9 @@ def plan(scene: WearScene) -> Plan:
 def run(scene: WearScene, context: Context) -> Outcome:
     """All loads and repetitions, one wear loop each."""
     from bem.wear import RunningInState, Settled, WearModel, pack_state, run_in, unpack_state
+    from bem.wear.running_in import CYCLE_FIELDS, PARTICLE_FIELDS, TIME_FIELDS
+
+    tables = {"cycles": CYCLE_FIELDS, "particles": PARTICLE_FIELDS, "times": TIME_FIELDS}
 
     stop = Settled(tolerance=scene.cycles.tolerance) if scene.cycles.stop_when_settled else None
     runs = [
@@ -330,7 +334,7 @@ def run(scene: WearScene, context: Context) -> Outcome:
         for repetition in range(scene.repetitions)
     ]
     saved = context.saved() or {"finished": [], "current": None}
-    finished: list[dict[str, Any]] = [_unpack_record(record) for record in saved["finished"]]
+    finished: list[dict[str, Any]] = [unpack_record(record, tables) for record in saved["finished"]]
     current = saved["current"]
     for index, (load, variant, repetition) in enumerate(runs):
         if index < len(finished):
@@ -347,7 +351,7 @@ def run(scene: WearScene, context: Context) -> Outcome:
 
         def watch(now: RunningInState, index: int = index, area: float = grid.area) -> None:
             if now.cycle % _CHECKPOINT_EVERY == 0 or now.cycle == scene.cycles.count:
-                context.save({"finished": [_pack_record(r) for r in finished], "current": pack_state(now)})
+                context.save({"finished": [pack_record(r, tables) for r in finished], "current": pack_state(now)})
             row = now.cycles[-1]
             last = now.particles[now.particles["cycle"] == now.cycle]
             context.progress(
@@ -376,7 +380,7 @@ def run(scene: WearScene, context: Context) -> Outcome:
                 callback=watch,
             )
         finished.append(_record(scene, load, variant, repetition, grid, initial, result))
-        context.save({"finished": [_pack_record(r) for r in finished], "current": None})
+        context.save({"finished": [pack_record(r, tables) for r in finished], "current": None})
     return _outcome(scene, finished)
 
 
@@ -384,22 +388,6 @@ def _cylinder(scene: WearScene, grid: Grid) -> NDArray[np.float64]:
     if scene.cylinder.radius == 0:
         return np.zeros(grid.shape)
     return np.ascontiguousarray(np.broadcast_to(grid.x[:, None] ** 2 / (2 * scene.cylinder.radius), grid.shape))
-
-
-_TABLES = ("cycles", "particles", "times")
-
-
-def _pack_record(record: dict[str, Any]) -> dict[str, Any]:
-    from bem.wear.running_in import pack_table
-
-    return record | {name: pack_table(record[name]) for name in _TABLES}
-
-
-def _unpack_record(packed: dict[str, Any]) -> dict[str, Any]:
-    from bem.wear.running_in import CYCLE_FIELDS, PARTICLE_FIELDS, TIME_FIELDS, unpack_table
-
-    fields = dict(zip(_TABLES, (CYCLE_FIELDS, PARTICLE_FIELDS, TIME_FIELDS), strict=True))
-    return packed | {name: unpack_table(packed[name], fields[name]) for name in _TABLES}
 
 
 def _record(
