@@ -226,7 +226,7 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
         "Density",
         "rho/rho0 = 1 + 0.6e-9 p / (1 + 1.7e-9 p),  p in Pa",
         "Dowson and Higginson (1966)",
-        "Incompressible heavy films have a pressure spike without limit: their thickness is sound, the spike is not.",
+        "",
         "bem/lubrication/density.py",
     ),
     (
@@ -246,7 +246,7 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
     ),
     (
         "Friction of the film",
-        "F = integral of mu (u1 - u2)/h + (h/2) dp/dx over the full film, on the flat; by equilibrium on either",
+        "F = integral mu (u1 - u2)/h + (h/2) dp/dx over the full film, on the flat; by equilibrium on either",
         "equilibrium of the film",
         "The thesis integrates on the upper surface, where the pressure on the slope carries the rest: up to six times "
         "smaller.",
@@ -264,7 +264,7 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
         "every summit a Hertz sphere of its own radius, F = (4/3) E* sqrt(R) d^(3/2), then hardness times\n"
         "the area pi R (2 d - d_c) beyond first yield d_c; blind to the others",
         "Greenwood and Williamson (1966), without the statistics; thesis, Paper A",
-        "How it compares depends on what separation is measured from: see the option asperity_separation.",
+        "",
         "bem/friction/asperities.py",
     ),
     (
@@ -313,7 +313,8 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
     (
         "Generated surfaces",
         "sum of waves with amplitudes from the autocorrelation exp(-(r/l)^2) or exp(-r/l), or q^-(1+H)\n"
-        "below a roll-off, each with a random phase; other statistics by exchanging ranks until spectrum and heights both agree",
+        "below a roll-off, each with a random phase; other statistics by exchanging ranks\n"
+        "until spectrum and heights both agree",
         "Schreiber and Schmitz (1996); Hu and Tonder (1992)",
         "Hu and Tonder filter a translated sequence once, which makes it Gaussian again.",
         "bem/surfaces/generate.py",
@@ -356,6 +357,11 @@ LIMITS = (
         "Isothermal",
         "No heat: at high sliding speed and pressure the oil is warmer and thinner than here. Non-Newtonian laws limit "
         "the sliding part of the shear stress only.",
+    ),
+    (
+        "Incompressible oil",
+        "Heavily loaded incompressible films have a pressure spike that sharpens without limit: their thickness and "
+        "friction are sound, the height of the spike is not. Dowson-Higginson density bounds it.",
     ),
     ("Line contact", "The lubricated kinds know cylinders: no side leakage, and nothing varies along y but roughness."),
     (
