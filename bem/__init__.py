@@ -25,7 +25,7 @@ _HOMES = {
     "contact": ["ContactSolution", "solve_contact"],
     "stress": ["subsurface_stress", "von_mises"],
     "surfaces": ["Surface", "SurfaceDescription", "describe_surface", "generate_surface", "read_surface"],
-    "lubrication": ["FilmSolution", "Lubricant", "march_line_film", "solve_line_film"],
+    "lubrication": ["Cavitation", "FilmSolution", "Lubricant", "march_line_film", "solve_line_film"],
     "friction": ["MixedSolution", "solve_mixed", "stribeck_curve"],
     "wear": ["find_particles", "run_in"],
     "particles": ["Particle", "particle_statistics", "particles_from_height_map"],

@@ -133,6 +133,7 @@ EFFECTS = {
     "steps": "In time; halve the step to see its error.",
     "points": "Of the film's mesh, or of the output in time.",
     "initial_thickness": "Of the film at the start.",
+    "cavitation": "Oil behind a rupture: forgotten (swift_stieber), or carried along (mass_conserving).",
     "film": "Mesh of the oil film, or constants of the tribofilm; in a property, the film's own value.",
     "start": "Inlet end of an output mesh of equal steps.",
     "end": "Outlet end of it.",

@@ -40,6 +40,8 @@ class FilmSolution:
     speeds, lubricant : as given.
     rate : dh/dt [m/s] at the positions; None for a steady film.
     time : [s]; None for a steady film.
+    film_fraction : (n,) share of the gap that is filled with oil; 1 in the full film. None with Swift and Stieber's
+        cavitation, which keeps no account of it.
     volume_imbalance : relative error of the volume balance of a time step; None for a steady film.
     """
 
@@ -60,6 +62,7 @@ class FilmSolution:
     lubricant: Lubricant
     time: float | None = None
     volume_imbalance: float | None = None
+    film_fraction: FloatArray | None = None
     state: Any = field(default=None, repr=False, compare=False)
 
     def shear_stress(self, position: FloatArray | None = None) -> FloatArray:

@@ -7,6 +7,12 @@ speed over that reference:
 
 finite volumes around the nodes, Couette flow extrapolated from the two nodes upstream. Every full-film volume is
 balanced exactly by construction; at cavitated nodes the excess is the void that opens.
+
+With mass-conserving cavitation H becomes theta H in both flow and storage, theta <= 1 the fraction of the gap that is
+filled, the balance is an equation at every node, and P >= 0 is complementary to 1 - theta >= 0 instead: an active set
+says which of P and theta is unknown at a node, and changes with every Newton step. A face carries the theta of the
+node upstream on the film extrapolated to it: of second order in the full film, without oscillations behind it, and the
+same formula whoever is full, so that the discrete problem has one solution.
 """
 
 from __future__ import annotations
@@ -14,10 +20,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import lu_factor, lu_solve
 
 from bem.grid import FloatArray
+from bem.lubrication.cavitation import Cavitation
 from bem.lubrication.line_kernel import logarithmic_weights
 from bem.lubrication.line_linear import DEFLECTION
 from bem.lubrication.line_newton import Problem, mean_fluidity
@@ -25,9 +33,11 @@ from bem.lubrication.line_newton import Problem, mean_fluidity
 
 @dataclass(frozen=True)
 class FixedMesh:
-    """Nodes (n+1,), kernel weights, volumes, quadrature, and the operators from nodes to faces and back."""
+    """Nodes (n+1,), film of undeformed bodies, kernel weights, volumes, quadrature, and the operators from nodes to
+    faces and back; `ahead` and `behind` take the upstream node alone."""
 
     position: FloatArray
+    shape: FloatArray
     weights: FloatArray
     volume: FloatArray
     quadrature: FloatArray
@@ -35,18 +45,21 @@ class FixedMesh:
     average: sparse.csr_array
     forward: sparse.csr_array
     backward: sparse.csr_array
+    ahead: sparse.csr_array
+    behind: sparse.csr_array
     divergence: sparse.csr_array
 
 
 @dataclass(frozen=True)
 class Film:
-    """Pressure and film at the nodes, datum, the mass rho H, and which nodes are full of oil."""
+    """Pressure and film at the nodes, datum, the mass rho H theta, which nodes carry pressure, and theta."""
 
     pressure: FloatArray
     film: FloatArray
     datum: float
     mass: FloatArray
-    full: FloatArray
+    full: NDArray[np.bool_]
+    fraction: FloatArray
 
 
 @dataclass(frozen=True)
@@ -76,6 +89,11 @@ def fixed_mesh(half_width: float, far: float, cells: int) -> FixedMesh:
         [np.arange(inner + 1) * width, half_width + width * np.cumsum(ratio ** np.arange(1, outer + 1))]
     )
     position = np.concatenate([-right[:0:-1], right])
+    return mesh_of(position, 0.5 * position**2, logarithmic_weights(position, position))
+
+
+def mesh_of(position: FloatArray, shape: FloatArray, weights: FloatArray) -> FixedMesh:
+    """The mesh with given nodes, film of undeformed bodies and kernel weights."""
     n = len(position) - 1
     spacing = np.diff(position)
     quadrature = np.zeros(n + 1)
@@ -98,20 +116,23 @@ def fixed_mesh(half_width: float, far: float, cells: int) -> FixedMesh:
     behind[:-1] = 0.5 * spacing[:-1] / spacing[1:]
     return FixedMesh(
         position=position,
-        weights=logarithmic_weights(position, position),
+        shape=shape,
+        weights=weights,
         volume=quadrature.copy(),
         quadrature=quadrature,
         gradient=faces((-1 / spacing, 0), (1 / spacing, 1)),
         average=faces((0.5 * ones, 0), (0.5 * ones, 1)),
         forward=faces((1 + ahead, 0), (-ahead, -1)),
         backward=faces((1 + behind, 1), (-behind, 2)),
+        ahead=faces((ones, 0)),
+        behind=faces((ones, 1)),
         divergence=sparse.csr_array(sparse.diags_array([ones, -ones], offsets=[0, -1], shape=(n + 1, n))),
     )
 
 
 def elastic_film(mesh: FixedMesh, pressure: FloatArray, datum: float) -> FloatArray:
     """Film of a pressure and a datum."""
-    film: FloatArray = datum + 0.5 * mesh.position**2 - DEFLECTION * (mesh.weights @ pressure)
+    film: FloatArray = datum + mesh.shape - DEFLECTION * (mesh.weights @ pressure)
     return film
 
 
@@ -124,13 +145,23 @@ def time_step(
     history: FloatArray,
     tolerance: float,
     max_iterations: int = 30,
+    cavitation: Cavitation = Cavitation.SWIFT_STIEBER,
 ) -> StepOutcome:
-    """Solve for pressure and datum such that flow, `leading * rho H + history` (the time derivative) and load agree."""
+    """Solve for pressure and datum such that flow, `leading * rho H + history` (the time derivative) and load agree.
+
+    An infinite load keeps the datum as it is: a gap of given shape.
+    """
     nodes = len(mesh.position)
-    upwind = mesh.forward if entrainment >= 0 else mesh.backward
+    conserving = cavitation is Cavitation.MASS_CONSERVING
+    loaded = np.isfinite(problem.load)
+    extrapolated, carrier = (mesh.forward, mesh.ahead) if entrainment >= 0 else (mesh.backward, mesh.behind)
     pressure, film, datum = start.pressure.copy(), start.film.copy(), start.datum
+    fraction = start.fraction.copy() if conserving else np.ones(nodes)
+    inlet = 0 if entrainment >= 0 else -1
+    fraction[inlet] = 1.0  # flooded
     full = start.full.copy()
     full[0] = full[-1] = False
+    interior = np.arange(1, nodes - 1)
     # one flux to measure by: what is entrained or squeezed through the contact
     converged, residual, iterations = False, np.inf, 0
     seen: list[bytes] = []
@@ -143,24 +174,36 @@ def time_step(
         fluid, left, right = mean_fluidity(log_viscosity)
         gradient = mesh.gradient @ pressure
         cubed = thickness**3 / 6
-        mass = density * film
-        flux = entrainment * (upwind @ mass) - cubed * mean_density * fluid * gradient
-        excess = mesh.divergence @ flux + mesh.volume * (leading * mass + history)
-        row = mesh.volume * leading * film + abs(entrainment) * film
-        scaled = excess / row
-        load_error = 1 - (mesh.quadrature @ pressure) / problem.load
+        mass = fraction * density * film
 
-        # a node is full unless pressure vanishes there and a void opens; both measured by their own scale
+        carried = carrier @ fraction
+        upwind = extrapolated * carried[:, None]
+        flux = entrainment * (upwind @ (density * film)) - cubed * mean_density * fluid * gradient
+        excess = mesh.divergence @ flux + mesh.volume * (leading * mass + history)
+        # what is carried through a ruptured gap is as thin as the exit, however wide the gap
+        measure = np.minimum(film, 10 * film.min()) if conserving else film
+        row = (mesh.volume * leading + abs(entrainment)) * measure
+        scaled = excess / row
+        load_error = 1 - (mesh.quadrature @ pressure) / problem.load if loaded else 0.0
+
+        # a node carries pressure unless that vanishes and a void opens; both measured by their own scale
         highest = max(float(pressure.max()), 1e-300)
-        new_full = pressure / highest > scaled
+        new_full = pressure / highest > (1 - fraction if conserving else scaled)
         new_full[0] = new_full[-1] = False
         if iterations:
-            residual = max(
-                float(np.max(np.abs(scaled[full]), initial=0.0)),
-                abs(float(load_error)),
-                max(-float(pressure.min()) / highest, 0.0),
-                -float(np.where(full, 0.0, scaled)[1:-1].min(initial=0.0)),
-            )
+            worst = [abs(float(load_error)), max(-float(pressure.min()) / highest, 0.0)]
+            if conserving:
+                worst += [
+                    float(np.max(np.abs(scaled[1:-1]))),
+                    float(np.max(fraction[1:-1])) - 1,
+                    float(np.max(np.abs(np.where(full, 1 - fraction, pressure / highest))[1:-1])),
+                ]
+            else:
+                worst += [
+                    float(np.max(np.abs(scaled[full]), initial=0.0)),
+                    -float(np.where(full, 0.0, scaled)[1:-1].min(initial=0.0)),
+                ]
+            residual = max(worst)
             if residual <= tolerance:
                 converged = True
                 break
@@ -174,12 +217,13 @@ def time_step(
             seen.append(key)
             full = new_full
         full[np.flatnonzero(full)[0] if full.any() else nodes // 2] = True
-
         index = np.flatnonzero(full)
+        rows_at = interior if conserving else index
+        empty = interior[~full[1:-1]] if conserving else interior[:0]
         through_film = mesh.average * (0.5 * thickness**2 * mean_density * fluid * gradient)[:, None]
         by_film = mesh.divergence @ (entrainment * (upwind * density[None, :]) - through_film)
-        by_film = by_film + sparse.diags_array(mesh.volume * leading * density)
-        rows = sparse.csr_array(by_film)[index] * (1 / row[index])[:, None]
+        by_film = by_film + sparse.diags_array(mesh.volume * leading * fraction * density)
+        rows = sparse.csr_array(by_film)[rows_at] * (1 / row[rows_at])[:, None]
         steep = cubed * gradient * mean_density
         low = mesh.gradient * (cubed * mean_density * fluid)[:, None]
         ends = sparse.diags_array(
@@ -190,29 +234,45 @@ def time_step(
             offsets=[0, 1],
             shape=(nodes - 1, nodes),
         )
-        by_pressure = mesh.divergence @ (entrainment * (upwind * (film * density_slope)[None, :]) - low - ends)
-        by_pressure = by_pressure + sparse.diags_array(mesh.volume * leading * film * density_slope)
-        direct = (sparse.csr_array(by_pressure)[index] * (1 / row[index])[:, None])[:, index].toarray()
+        stored = film * density_slope
+        by_pressure = mesh.divergence @ (entrainment * (upwind * stored[None, :]) - low - ends)
+        by_pressure = by_pressure + sparse.diags_array(mesh.volume * leading * fraction * stored)
+        by_pressure = sparse.csr_array(by_pressure)[rows_at]
+        by_pressure = sparse.csr_array(by_pressure * (1 / row[rows_at])[:, None])
 
-        size = len(index)
-        matrix = np.empty((size + 1, size + 1))
-        matrix[:-1, :-1] = (rows @ mesh.weights[:, index]) * (-DEFLECTION * highest) + direct * highest
+        size = len(rows_at)
+        matrix = np.zeros((size + 1, size + 1))
+        unknown = len(index)
+        matrix[:-1, :unknown] = (rows @ mesh.weights[:, index]) * (-DEFLECTION * highest)
+        matrix[:-1, :unknown] += by_pressure[:, index].toarray() * highest
         unit = float(film.min())
         matrix[:-1, -1] = (rows @ np.ones(nodes)) * unit
-        matrix[-1, :-1] = mesh.quadrature[index] * highest / problem.load
-        matrix[-1, -1] = 0.0
+        if loaded:
+            matrix[-1, :unknown] = mesh.quadrature[index] * highest / problem.load
+        else:
+            matrix[-1, -1] = 1.0
         # nodes that leave the film drop their pressure in the same step
         dropped = np.where(full, 0.0, -pressure)
         film_drop = -DEFLECTION * (mesh.weights @ dropped)
-        right_side = np.append(
-            -scaled[index] - rows @ film_drop - (sparse.csr_array(by_pressure)[index] @ dropped) / row[index],
-            load_error - (mesh.quadrature @ dropped) / problem.load,
-        )
+        known = -scaled[rows_at] - rows @ film_drop - by_pressure @ dropped
+        filled = np.zeros(nodes)
+        if conserving:
+            # and those that enter it are filled
+            filled = np.where(full, 1 - fraction, 0.0)
+            held = density * film
+            by_fraction = mesh.divergence @ (entrainment * (carrier * (extrapolated @ held)[:, None]))
+            by_fraction = sparse.csr_array(by_fraction + sparse.diags_array(mesh.volume * leading * held))[rows_at]
+            by_fraction = sparse.csr_array(by_fraction * (1 / row[rows_at])[:, None])
+            matrix[:-1, unknown:-1] = by_fraction[:, empty].toarray()
+            known -= by_fraction @ filled
+        right_side = np.append(known, load_error - (mesh.quadrature @ dropped) / problem.load if loaded else 0.0)
         change = lu_solve(lu_factor(matrix, overwrite_a=True, check_finite=False), right_side, check_finite=False)
         if not np.isfinite(change).all():
             break
         step_pressure = dropped
-        step_pressure[index] = change[:-1] * highest
+        step_pressure[index] = change[:unknown] * highest
+        step_fraction = filled
+        step_fraction[empty] = change[unknown:-1]
         step_datum = change[-1] * unit
         step_film = step_datum - DEFLECTION * (mesh.weights @ step_pressure)
         shrinking = step_film < 0
@@ -220,10 +280,16 @@ def time_step(
         if shrinking.any():
             length = min(1.0, 0.8 * float(np.min(-film[shrinking] / step_film[shrinking])))
         pressure = pressure + length * step_pressure
+        fraction = fraction + length * step_fraction
         datum += length * step_datum
         film = film + length * step_film
         iterations += 1
     moved = float(np.abs(flux).max()) + float(np.abs(mesh.volume * (leading * mass + history))[full].sum())
-    imbalance = abs(float(excess[full].sum())) / max(moved, 1e-300)
-    outcome = Film(np.maximum(pressure, 0.0), film, datum, mass, full)
+    balanced = excess[1:-1] if conserving else excess[full]
+    imbalance = abs(float(balanced.sum())) / max(moved, 1e-300)
+    if conserving:
+        outlet, last = (-1, -2) if entrainment >= 0 else (0, 1)
+        fraction[outlet] = min(mass[last] / (density[outlet] * film[outlet]), 1.0)
+        mass[outlet] = fraction[outlet] * density[outlet] * film[outlet]
+    outcome = Film(np.maximum(pressure, 0.0), film, datum, mass, full, fraction)
     return StepOutcome(outcome, iterations, residual, converged, imbalance)

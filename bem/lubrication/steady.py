@@ -11,6 +11,7 @@ from scipy.interpolate import PchipInterpolator
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
+from bem.lubrication.cavitation import Cavitation, unknown_cavitation
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_kernel import logarithmic_weights
 from bem.lubrication.line_linear import DEFLECTION
@@ -68,6 +69,7 @@ def solve_line_film(
     position: FloatArray | None = None,
     initial: FilmSolution | None = None,
     max_iterations: int = 40,
+    cavitation: Cavitation = Cavitation.SWIFT_STIEBER,
 ) -> FilmSolution:
     """Steady film between a cylinder and a flat: Reynolds' equation with cavitation and elastic deflection.
 
@@ -87,6 +89,9 @@ def solve_line_film(
     position : ascending abscissae [m] at which to return pressure and thickness; the mesh itself by default.
     initial : an earlier solution of a similar case: its film and mesh are the start.
     max_iterations : Newton steps of one solve.
+    cavitation : `Cavitation.MASS_CONSERVING` also says how full the gap is behind the exit, `film_fraction`. Pressure
+        and thickness are the same as with SWIFT_STIEBER: with a flooded inlet both rupture where p = dp/dx = 0, and
+        behind a cylinder the gap only opens, so no film forms again. In time (`march_line_film`) the two differ.
 
     Returns
     -------
@@ -104,6 +109,8 @@ def solve_line_film(
     L = 6 to 10 the pressure spike has no limit: it grows with the mesh as the inverse root of a cell, while the film
     thickness converges.
     """
+    if not isinstance(cavitation, Cavitation):
+        raise InputError(unknown_cavitation(cavitation))
     scales, reversed_ = _check(load, radius, contact_modulus, speeds, lubricant, points, tolerance, position)
     problem = scaled_problem(scales, scales.load, lubricant)
     outcome = None
@@ -116,9 +123,13 @@ def solve_line_film(
             spent += outcome.iterations
     if outcome is None or not outcome.converged:
         outcome = _from_scratch(problem, scales, lubricant, points - 1, tolerance, max_iterations)
-    return _result(
-        replace(outcome, iterations=outcome.iterations + spent), problem, scales, speeds, reversed_, lubricant, position
-    )
+    outcome = replace(outcome, iterations=outcome.iterations + spent)
+    film = _result(outcome, problem, scales, speeds, reversed_, lubricant, position)
+    if cavitation is Cavitation.SWIFT_STIEBER:
+        return film
+    exit_film = outcome.state.film[-1] * scales.film
+    behind = film.position * (-1.0 if reversed_ else 1.0) > outcome.state.exit * scales.length
+    return replace(film, film_fraction=np.where(behind, exit_film / film.thickness, 1.0))
 
 
 @dataclass(frozen=True)

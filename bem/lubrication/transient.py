@@ -11,6 +11,7 @@ import numpy as np
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
+from bem.lubrication.cavitation import Cavitation, unknown_cavitation
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_newton import Problem
 from bem.lubrication.line_step import Film, FixedMesh, elastic_film, fixed_mesh, time_step
@@ -41,11 +42,12 @@ def march_line_film(
     tolerance: float = 1e-7,
     initial: FilmSolution | None = None,
     initial_thickness: float | None = None,
+    cavitation: Cavitation = Cavitation.SWIFT_STIEBER,
 ) -> list[FilmSolution]:
     """Film of a line contact at each of `times`, of second order in the time step (BDF2, L-stable).
 
     One step is taken from each time to the next; a step that does not converge is halved. The load is balanced at
-    every time (no inertia). Cavitation is a complementarity, Reynolds' equation or no pressure, at both ends.
+    every time (no inertia). Cavitation is a complementarity at both ends, of one of two kinds.
 
     Parameters
     ----------
@@ -56,7 +58,11 @@ def march_line_film(
     points : nodes of the fixed, symmetric mesh (made odd).
     tolerance : largest residual of a step, relative to the local film, and to the load.
     initial : film at the first time. Without it the steady film of the first time, or
-    initial_thickness : the first film is that of undeformed bodies with this gap [m] at x = 0, the load not yet felt.
+    initial_thickness : the first film is that of undeformed bodies with this gap [m] at x = 0, full of oil, the load
+        not yet felt.
+    cavitation : `Cavitation.SWIFT_STIEBER`, or MASS_CONSERVING: oil behind a rupture is carried along and counts where
+        the film forms again, as after a reversal; `film_fraction` of the solutions says how much there is. The mesh's
+        upstream end is flooded, downstream of it comes what comes.
 
     Returns
     -------
@@ -87,6 +93,8 @@ def march_line_film(
         messages.append(f"lubricant: {type(lubricant).__name__} is not a Lubricant")
     if not (isinstance(points, (int, np.integer)) and 101 <= points <= 5000):
         messages.append(f"points: {points!r} must be an integer from 101 to 5000")
+    if not isinstance(cavitation, Cavitation):
+        messages.append(unknown_cavitation(cavitation))
     if initial is not None and initial_thickness is not None:
         messages.append("initial, initial_thickness: give one of them")
     if initial_thickness is not None and not (math.isfinite(initial_thickness) and initial_thickness > 0):
@@ -115,7 +123,7 @@ def march_line_film(
     reach = max(typical_half_width(w / max(loads) * scales.load) for w in (min(loads), max(loads)))
     reach = max(reach if highest == 0 else math.sqrt(8 * scales.load / math.pi + 2 * highest), 1e-12)
     mesh = fixed_mesh(2.0 * reach, FAR * reach, 2 * (int(points) // 2))
-    march = _March(mesh, scales, lubricant, radius, max(loads), reference, load, speeds, tolerance)
+    march = _March(mesh, scales, lubricant, radius, max(loads), reference, load, speeds, tolerance, cavitation)
     film = march.start(initial, initial_thickness)
     solutions = [march.solution(film, float(steps[0]), 0, 0.0, 0.0, True)]
     past: tuple[float, Film] | None = None
@@ -143,7 +151,9 @@ class _March:
         load: Callable[[float], float],
         speeds: Callable[[float], Sequence[float]],
         tolerance: float,
+        cavitation: Cavitation,
     ) -> None:
+        self.cavitation = cavitation
         self.mesh = mesh
         self.scales = scales
         self.lubricant = lubricant
@@ -183,7 +193,19 @@ class _March:
                 film = elastic_film(self.mesh, pressure, datum)
             full = pressure > 0
         density = self.problem.density(pressure)[0]
-        return Film(pressure, film, datum, density * film, full)
+        fraction = np.ones_like(x)
+        if self.cavitation is Cavitation.MASS_CONSERVING and initial is not None:
+            fraction = self.filled(initial, film)
+        return Film(pressure, film, datum, fraction * density * film, full, fraction)
+
+    def filled(self, initial: FilmSolution, film: FloatArray) -> FloatArray:
+        """Filled fraction of the gap at the start: behind the exit of a steady film, what flows through it."""
+        x = self.mesh.position
+        if initial.film_fraction is not None and initial.time is not None:
+            return np.interp(x, initial.position / self.scales.length, initial.film_fraction)
+        exit_ = initial.exit_position / self.scales.length
+        behind = x > exit_ if sum(initial.speeds) > 0 else x < exit_
+        return np.where(behind, np.minimum(np.interp(exit_, x, film) / film, 1.0), 1.0)
 
     def advance(
         self, past: tuple[float, Film] | None, before: float, film: Film, after: float, depth: int
@@ -199,7 +221,16 @@ class _March:
             history = (-(1 + ratio) * film.mass + ratio**2 / (1 + ratio) * past[1].mass) / step
         first, second = self.speeds(after)
         entrainment = (first + second) / self.reference_speed
-        outcome = time_step(self.at(after), self.mesh, film, entrainment, leading, history, self.tolerance)
+        outcome = time_step(
+            self.at(after),
+            self.mesh,
+            film,
+            entrainment,
+            leading,
+            history,
+            self.tolerance,
+            cavitation=self.cavitation,
+        )
         if outcome.converged or depth == MAX_HALVINGS:
             self.last = outcome.film
             solution = self.solution(
@@ -241,6 +272,8 @@ class _March:
             exit_ = float(x[last])
             behind = (x > exit_) if first + second >= 0 else (x < exit_)
             cover = np.where(behind, thickness[last] / thickness, 0.0)
+            if self.cavitation is Cavitation.MASS_CONSERVING:
+                cover = np.where(full, 0.0, film.fraction)
             thin = self.lubricant.shear_stress(self.lubricant.viscosity * difference / thickness) * cover
             streamers = float(np.sum(0.5 * np.diff(x) * (thin[1:] + thin[:-1])))
         carried = float(np.sum(0.5 * np.diff(x) * (pressure[1:] + pressure[:-1])))
@@ -262,6 +295,7 @@ class _March:
             lubricant=self.lubricant,
             time=time,
             volume_imbalance=imbalance,
+            film_fraction=film.fraction if self.cavitation is Cavitation.MASS_CONSERVING else None,
         )
 
 

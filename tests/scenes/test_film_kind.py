@@ -58,6 +58,22 @@ def test_reciprocating_and_changing_load():
     assert load * 6e-3 == pytest.approx(8.0, rel=1e-5)
 
 
+def test_cavitation_is_an_option():
+    motion = {"motion": {"kind": "reciprocating", "speed": "0.05 m/s", "period": "4 ms"}}
+    short = {"duration": "2 ms", "steps": 40, "points": 201}
+    made = run(motion | {"march": short})
+    kept = run(motion | {"march": short | {"cavitation": "mass_conserving"}})
+    assert "film_fraction" not in made.variables
+    fraction = kept.variables["film_fraction"].values
+    assert fraction.shape == (41, 201)
+    assert fraction.min() < 0.1  # far behind the exit
+    # the film that forms at the former exit has only the oil that left there
+    assert kept.summary["film_at_end_nm"] < 0.9 * made.summary["film_at_end_nm"]
+    assert kept.summary["volume_imbalance"] < 1e-5
+    with pytest.raises(ValidationError, match="mass_conserving"):
+        FilmScene.model_validate(SCENE | {"march": short | {"cavitation": "jfo"}})
+
+
 def test_plan_skips_the_rough_contact():
     steps = {step.name: step for step in KIND.plan(FilmScene.model_validate(SCENE)).steps}
     assert steps["rough contact"].skipped

@@ -63,12 +63,17 @@ class FilmCylinderScene(Table):
 
 
 class MarchScene(Table):
-    """How long and how finely; `initial_thickness` where the motion starts from rest."""
+    """How long and how finely; `initial_thickness` where the motion starts from rest.
+
+    cavitation : "swift_stieber" forgets the oil behind a rupture, "mass_conserving" carries it along, so that a film
+        that forms again, as after a reversal, has no more than that.
+    """
 
     duration: Annotated[Time, Field(gt=0)]
     steps: Annotated[int, Field(strict=True, ge=2, le=100_000)] = 200
     points: Annotated[int, Field(strict=True, ge=101, le=5000)] = 501
     initial_thickness: Annotated[Length, Field(gt=0)] | None = None
+    cavitation: Literal["swift_stieber", "mass_conserving"] = "swift_stieber"
 
 
 class FilmScene(SceneModel):
@@ -110,7 +115,7 @@ def plan(scene: FilmScene) -> Plan:
 
 def run(scene: FilmScene, context: Context) -> Outcome:
     """March through the motion."""
-    from bem.lubrication import march_line_film
+    from bem.lubrication import Cavitation, march_line_film
     from bem.materials import contact_modulus
 
     lower, upper = scene.lower.build(), scene.upper.build()
@@ -136,6 +141,7 @@ def run(scene: FilmScene, context: Context) -> Outcome:
             lubricant=scene.oil.build(),
             points=march.points,
             initial_thickness=march.initial_thickness,
+            cavitation=Cavitation(march.cavitation),
         )
     last = films[-1]
     minimum = np.array([film.minimum_thickness for film in films])
@@ -169,6 +175,13 @@ def run(scene: FilmScene, context: Context) -> Outcome:
             ("time", "film_x"), np.array([film.pressure for film in films]), "Pa", "film pressure"
         ),
     }
+    if last.film_fraction is not None:
+        variables["film_fraction"] = Variable(
+            ("time", "film_x"),
+            np.array([film.film_fraction for film in films]),
+            "1",
+            "share of the gap filled with oil",
+        )
     where = "" if last.status is Status.CONVERGED else f"time {last.time:g} s: {last.status.message}"
     return Outcome(summary, variables, last.status, where)
 

@@ -1,0 +1,24 @@
+"""What happens to the oil where the film ruptures."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Cavitation(Enum):
+    """Model of the ruptured film.
+
+    SWIFT_STIEBER : Reynolds' equation or no pressure, a complementarity (Swift 1932, Stieber 1933). Oil behind the
+        rupture is forgotten: a film that forms again is supplied with as much as it can take.
+    MASS_CONSERVING : Jakobsson and Floberg (1957), Olsson (1965), in the form of Elrod and Adams (1974): where there is
+        no pressure, a fraction of the gap is filled and carried along, nowhere is oil made or lost. Rupture is Swift
+        and Stieber's; a film forms again where the fraction reaches one, with a step in pressure gradient.
+    """
+
+    SWIFT_STIEBER = "swift_stieber"
+    MASS_CONSERVING = "mass_conserving"
+
+
+def unknown_cavitation(value: object) -> str:
+    """Message about something that is not a `Cavitation`."""
+    return f"cavitation: {value!r} must be one of {', '.join(f'Cavitation.{one.name}' for one in Cavitation)}"
