@@ -16,7 +16,7 @@ from bem.stress import set_stress_memory
 from bem.verification import registry, stored
 from bem.verification.rows import DISPLACEMENT_LIMIT, STRESS_LIMIT, Curve, Gate, Row, judge
 from fem_reference import results as fem_results
-from reports import sketches
+from reports import line_film, sketches
 from reports.builder import COLOURS, Page, Section, picture, table, text
 
 FAMILIES = {
@@ -74,6 +74,7 @@ def build() -> Page:
             links = ", ".join(f'<a href="#{Section(d.gate.name, "").anchor}">{d.gate.name}</a>' for d in members)
             sections.append(Section(title, text(INTRODUCTIONS[family]) + f"<p>{links}</p>"))
             sections += [Section(d.gate.name, _case(d), level=3) for d in members]
+    sections.append(Section("Line-contact film", line_film.body()))
     sections.append(Section("Elastic-plastic indentation (reported, not gated)", _plasticity()))
     versions = next((c.document["versions"] for c in stored.cases()), {})
     rows = [row for d in done for row in d.rows]

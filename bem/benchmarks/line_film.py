@@ -10,6 +10,7 @@ import math
 import sys
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -20,6 +21,9 @@ from bem.lubrication.line_kernel import LineOperator
 from bem.lubrication.line_newton import Problem, State, newton
 from bem.lubrication.steady import lowest_film, scaled_problem
 from bem.reference_solutions.line_film import dowson_higginson_minimum, moes_central
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 LOADS = (0.003, 0.03, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0)
 PIEZO = (0.0, 2.0, 5.0, 10.0, 15.0)
@@ -156,30 +160,39 @@ def read_table(path: Path) -> list[Row]:
     ]
 
 
-def draw(path: Path, rows: list[Row]) -> None:
-    """Figure: films over M for each L, with Martin's limit and the fits."""
+def drawing(rows: list[Row]) -> Figure:
+    """Figure: films over M for each L with Martin's limit and the fits, and below what a fit is off by."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(9, 4.2), layout="constrained")
+    figure = Figure(figsize=(9, 6.4), layout="constrained")
     FigureCanvasAgg(figure)
-    left, right = figure.subplots(1, 2, sharex=True)
-    for axes, name, fit, title in (
-        (left, "central", "moes_central_fit", "central film; dashed: Moes (1992)"),
-        (right, "minimum", "dowson_higginson_minimum_fit", "minimum film; dashed: Dowson and Higginson"),
+    panels = figure.subplots(2, 2, sharex=True, height_ratios=(3, 2))
+    for column, (name, fit, title) in enumerate(
+        (
+            ("central", "moes_central_fit", "central film; dashed: fit of Moes (1992)"),
+            ("minimum", "dowson_higginson_minimum_fit", "minimum film; dashed: fit of Dowson (1968)"),
+        )
     ):
+        films, ratios = panels[:, column]
         for k, piezo in enumerate(sorted({row.piezo for row in rows})):
             mine = [row for row in rows if row.piezo == piezo]
             loads = [row.load for row in mine]
-            axes.loglog(loads, [getattr(row, name) for row in mine], "o-", color=f"C{k}", ms=3, label=f"L = {piezo:g}")
-            axes.loglog(loads, [getattr(row, fit) for row in mine], "--", color=f"C{k}", lw=1)
+            values, fitted = ([getattr(row, key) for row in mine] for key in (name, fit))
+            films.loglog(loads, values, "o-", color=f"C{k}", ms=3, label=f"L = {piezo:g}")
+            films.loglog(loads, fitted, "--", color=f"C{k}", lw=1)
+            percent = [100 * (one / other - 1) for one, other in zip(fitted, values, strict=True)]
+            ratios.semilogx(loads, percent, "o--", color=f"C{k}", lw=1, ms=3)
         low = np.array([min(LOADS), 1.0])
-        axes.loglog(low, 2.4475 / low, "k:", lw=1, label="Martin")
-        axes.set_xlabel("M")
-        axes.set_ylabel("H")
-        axes.set_title(title, fontsize=10)
-    left.legend(fontsize=8)
-    figure.savefig(path, dpi=150)
+        films.loglog(low, 2.4475 / low, "k:", lw=1.5, label="Martin: rigid, isoviscous")
+        films.set_ylabel("H = h / R U^(1/2)")
+        films.set_title(title, fontsize=10)
+        ratios.axhline(0, color="0.5", lw=0.8)
+        ratios.set_ylim(-60, 60)
+        ratios.set_xlabel("M = w / (E' R U^(1/2)),   U = mu (u1 + u2) / (E' R)")
+        ratios.set_ylabel("fit over computed - 1 (%)")
+    panels[0, 0].legend(fontsize=8)
+    return figure
 
 
 def main(arguments: list[str]) -> None:
@@ -187,7 +200,7 @@ def main(arguments: list[str]) -> None:
     rows = [film_row(load, piezo) for load in LOADS for piezo in PIEZO]
     write_table(Path(arguments[0]), rows)
     if len(arguments) > 1:
-        draw(Path(arguments[1]), rows)
+        drawing(rows).savefig(Path(arguments[1]), dpi=150)
 
 
 if __name__ == "__main__":

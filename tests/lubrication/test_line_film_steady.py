@@ -74,7 +74,7 @@ def test_second_order(load, piezo):
         assert errors[2] < 1.5e-3
 
 
-TABLE = Path(__file__).with_name("line_film_table.csv")
+TABLE = Path(__file__).parents[2] / "reports" / "results" / "line_film.csv"
 """Converged films over M and L; `python -m bem.benchmarks.line_film` with this path makes it again."""
 
 

@@ -34,6 +34,14 @@ def test_every_gate_has_a_section_with_figure_and_table(page, few_gates):
         assert 'class="fail"' not in bodies[gate.name]
 
 
+def test_line_films_are_shown_with_orders_and_fits(page):
+    (body,) = [section.body for section in page.sections if section.title == "Line-contact film"]
+    assert "data:image/png" in body
+    assert body.count("<tr>") == 51  # ten loads, five piezoviscous parameters, the head
+    assert "Moes" in body
+    assert "Dowson" in body
+
+
 def test_rows_that_fail_are_said_first(few_gates, monkeypatch):
     import dataclasses
 
