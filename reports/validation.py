@@ -56,6 +56,12 @@ def build() -> Page:
                 "are means over repetitions with surfaces of their own, ± their standard deviation. The thesis' "
                 "measured surfaces are not public, so sizes are expected to agree within a factor of about 1.6, trends "
                 "exactly."
+            )
+            + text(
+                "Verdicts are computed from the kept runs. A remark names a cause only where it was tried, and says what "
+                "was tried and what came out; single runs of such experiments are of one surface unless they say "
+                "otherwise. Dry contact, subsurface stresses and layers have no numbers in the thesis that could be "
+                "redone: the verification report holds them against closed forms and finite elements."
             ),
         )
     ]

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import itertools
+import math
 
 from bem.particles import dowson_higginson_minimum_film, lambda_ratio, sedimentation_time
+from bem.surfaces import SurfaceDescription
 from reports.validation_values import (
     Check,
     Summary,
@@ -25,12 +27,15 @@ from reports.validation_values import (
     particles_per_mm_and_newton,
     radii,
     radius,
+    ratio_of_means,
     settled_by_mesh,
     signed_difference,
     sizes,
     speed,
+    statistics_line,
     steel_modulus,
     stored,
+    surface_statistics,
     within,
 )
 
@@ -60,6 +65,20 @@ def _apart(summary: Summary, one: str, other: str) -> float:
     """Largest difference of the friction of two models."""
     pair = (curve(summary, model=one)["friction"], curve(summary, model=other)["friction"])
     return max(abs(a - b) for a, b in zip(*pair, strict=True))
+
+
+def _alike(surface: SurfaceDescription, rms: float, skewness: float, kurtosis: float, slope: float) -> bool:
+    """Height statistics as given, slope within the factor for what depends on waves."""
+    heights = abs(surface.Sq / rms - 1) < 0.02 and abs(surface.Ssk - skewness) < 0.05
+    return heights and abs(surface.Sku / kurtosis - 1) < 0.02 and slope / 1.6 < surface.Sdq < 1.6 * slope
+
+
+def _spread_of_sizes(summary: Summary) -> float:
+    return ratio_of_means(summary, 10, "volume_mean_equivalent_radius_nm", "number_mean_equivalent_radius_nm")
+
+
+def _flatness(summary: Summary) -> float:
+    return ratio_of_means(summary, 10, "particle_width_nm", "particle_thickness_nm")
 
 
 CHECKS: dict[str, list[Check]] = {
@@ -106,6 +125,31 @@ CHECKS: dict[str, list[Check]] = {
                 abs(hertz_pressure(f) / wanted - 1) < 0.01 for f, wanted in ((2.5, 0.0875), (5.0, 0.124), (10.0, 0.175))
             ),
             "By Hertz' formula: all three are maxima, and the 130 MPa given for 5 N is that of 5.5 N.",
+        ),
+        Check(
+            "cylinder: Sq, skewness, kurtosis, slope",
+            "wear-steel-steel",
+            "50 nm, -0.27, 8.6, 0.22",
+            lambda s: statistics_line(surface_statistics("wear-steel-steel", "upper")),
+            lambda s: _alike(surface_statistics("wear-steel-steel", "upper"), 50e-9, -0.27, 8.6, 0.22),
+            "Generated; the slope is that of the waves chosen.",
+        ),
+        Check(
+            "steel disk: Sq, skewness, kurtosis, slope",
+            "wear-steel-steel",
+            "610 nm, -0.84, 4.46, 0.28",
+            lambda s: statistics_line(surface_statistics("wear-steel-steel", "lower")),
+            lambda s: _alike(surface_statistics("wear-steel-steel", "lower"), 610e-9, -0.84, 4.46, 0.28),
+            "Generated; the slope is that of the waves chosen.",
+        ),
+        Check(
+            "brass disk: Sq, skewness, kurtosis, slope",
+            "wear-steel-brass",
+            "760 nm, -1, 4.94, 0.15",
+            lambda s: statistics_line(surface_statistics("wear-steel-brass", "lower")),
+            lambda s: _alike(surface_statistics("wear-steel-brass", "lower"), 760e-9, -1.0, 4.94, 0.15),
+            "Steeper: it has nearly the steel disk's correlation length (3.5 um) at a larger Sq. The soft body's "
+            "roughness does not matter (line below), so it was left.",
         ),
         Check(
             "side of the square at 10 N, four half-widths (um)",
@@ -236,6 +280,21 @@ CHECKS: dict[str, list[Check]] = {
             lambda s: radii(s)[0].mean < radii(s)[1].mean and radii(s)[0].mean < radii(s)[2].mean,
         ),
         Check(
+            "radius by volume over radius by number, steel, 10 N",
+            "wear-steel-steel",
+            "358 / 175 = 2.0 by AFM; one mode, not Gaussian",
+            lambda s: f"{_spread_of_sizes(s):.2f}",
+            lambda s: 2.05 / 1.6 < _spread_of_sizes(s) < 2.05 * 1.6,
+        ),
+        Check(
+            "width over thickness, steel, 10 N",
+            "wear-steel-steel",
+            "model 1.24; AFM 3.7, 4-5 in general",
+            lambda s: f"{_flatness(s):.2f}",
+            lambda s: 1.24 / 1.6 < _flatness(s) < 1.24 * 1.6,
+            "Like the thesis' model, three times thicker than what lies on the AFM's plate.",
+        ),
+        Check(
             "wear of the criterion alone over the measured 350e-7 mm^3/(N m), steel, 10 N",
             "wear-load-one-mesh",
             "orders of magnitude too much: volumes need Archard's law",
@@ -281,6 +340,20 @@ CHECKS: dict[str, list[Check]] = {
             lambda s: s["load_over_hertz"][0] < s["load_over_hertz"][3] < 1,
             "It rises: what the neighbours push down is the plane itself, and depth is measured from it. This is the "
             "datum of the volume condition, and the sign of every comparison with uncoupled asperities hangs on it.",
+        ),
+        Check(
+            "E' of steel on steel, twice the contact modulus (GPa)",
+            "stribeck-mineral-oil",
+            "231",
+            lambda s: f"{2e-9 * steel_modulus():.1f}",
+            lambda s: abs(2e-9 * steel_modulus() / 231 - 1) < 0.005,
+        ),
+        Check(
+            "Hertz pressure at 5.5 N, mean and largest (MPa)",
+            "stribeck-mineral-oil",
+            "102, called nominal, and 130",
+            lambda s: f"{250 * math.pi * hertz_pressure(5.5):.0f} and {1000 * hertz_pressure(5.5):.0f}",
+            lambda s: abs(250 * math.pi * hertz_pressure(5.5) / 102 - 1) < 0.01,
         ),
         Check(
             "friction at 0.001 m/s",

@@ -6,11 +6,18 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
-from bem import Material, contact_modulus
+from bem import Grid, Material, contact_modulus
 from bem.particles import particle_coefficient
+from bem.scenes import PlainContext
+from bem.scenes.build import heights_of
+from bem.scenes.load import load_scene
+from bem.surfaces import SurfaceDescription, describe_surface
 from reports.builder import HERE
+
+if TYPE_CHECKING:
+    from bem.scenes.kinds.wear import WearScene
 
 STORED = HERE / "results" / "validation"
 Summary = dict[str, Any]
@@ -183,6 +190,26 @@ def steel_modulus() -> float:
 def hertz_pressure(newtons: float) -> float:
     """Largest pressure [GPa] of the cylinder, 2 mm by 6 mm, on steel; Johnson (1985), eq. 4.45."""
     return 1e-9 * math.sqrt(newtons / 6e-3 * steel_modulus() / (math.pi * 2e-3))
+
+
+def surface_statistics(scene: str, body: str, cell: float = 101e-9) -> SurfaceDescription:
+    """What the first generated surface of a body of a built-in scene is like, on 240 cells."""
+    model = cast("WearScene", load_scene(scene))
+    grid = Grid((240, 240), (cell, cell), periodic=(False, True))
+    surface = (model.lower if body == "lower" else model.upper).surface
+    heights = heights_of(surface, grid, PlainContext(scene_seed=model.seed).seed(body, 0))
+    return describe_surface(heights, grid.spacing, periodic=grid.periodic)
+
+
+def statistics_line(description: SurfaceDescription) -> str:
+    """Sq, skewness, kurtosis and slope, as the source lists them."""
+    return f"{1e9 * description.Sq:.0f} nm, {description.Ssk:.2f}, {description.Sku:.2f}, {description.Sdq:.2f}"
+
+
+def ratio_of_means(summary: Summary, newtons: float, one: str, other: str) -> float:
+    """Ratio of two means of a summary at a load."""
+    index = load(newtons)(summary)
+    return at(summary, one, index).mean / at(summary, other, index).mean
 
 
 def curve(summary: Summary, **wanted: Any) -> Summary:
