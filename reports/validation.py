@@ -58,8 +58,8 @@ def build() -> Page:
                 "exactly."
             )
             + text(
-                "Verdicts are computed from the kept runs. A remark names a cause only where it was tried, and says what "
-                "was tried and what came out; single runs of such experiments are of one surface unless they say "
+                "Verdicts are computed from the kept runs. A remark names a cause only where it was tried, and says "
+                "what was tried and what came out; single runs of such experiments are of one surface unless they say "
                 "otherwise. Dry contact, subsurface stresses and layers have no numbers in the thesis that could be "
                 "redone: the verification report holds them against closed forms and finite elements."
             ),
