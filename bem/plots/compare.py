@@ -89,7 +89,7 @@ def _series(a: Any, b: Any, name: str) -> tuple[str, str, str, str, list[tuple[A
             return None
         lines.append((x.astype(float), variable.values))
     if dimensions == ["x", "y"]:
-        title += f"\nalong x at y = {1e6 * float(a['y'][row]):.3g} um" if "y" in a.coords else f"\nalong x, row {row}"
+        title += f"\nalong x at y = {1e6 * float(a['y'][row]):.3g} µm" if "y" in a.coords else f"\nalong x, row {row}"
     elif len(dimensions) == 3:
         title = f"largest {title}"
     words = str(a[along].attrs.get("long_name", along)) if along in a.coords else along

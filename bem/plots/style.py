@@ -39,7 +39,11 @@ _RC: dict[str, Any] = {
     "axes.grid": False,
     "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, PINK, ORANGE, SKY, BLACK]),
     "lines.linewidth": 1.4,
-    "legend.frameon": False,
+    "legend.frameon": True,  # lines behind it are dimmed, its words stay readable
+    "legend.facecolor": "white",
+    "legend.edgecolor": "none",
+    "legend.framealpha": 0.8,
+    "legend.fancybox": False,
     "legend.fontsize": 8.0,
     "figure.facecolor": "white",
     "image.cmap": SEQUENTIAL,

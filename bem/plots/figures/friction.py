@@ -161,7 +161,7 @@ def _difference(run: Any, figure: Figure) -> None:
     pressures = run.scene["contact"].get("hertz_pressures")
     loads = sorted({row["load_N"] for row in rows})
     x_of = dict(zip(loads, sorted(pressures), strict=True)) if pressures else {load: load for load in loads}
-    for colour, (variant, model) in zip(_COLOURS, names, strict=False):
+    for number, (colour, (variant, model)) in enumerate(zip(_COLOURS, names, strict=False)):
         own = [row for row in rows if (row["variant"], row["model"]) == (variant, model)]
         x = [x_of[row["load_N"]] * (1e-9 if pressures else 1.0) for row in own]
         text = ", ".join(part for part in (variant, _MODEL_NAMES[model]) if part)
@@ -170,15 +170,17 @@ def _difference(run: Any, figure: Figure) -> None:
             [row["d_percent"] for row in own],
             yerr=[row["d_percent_spread"] for row in own],
             color=colour,
-            marker="o",
-            markersize=4,
+            marker="so^Dv"[number % 5],
+            markersize=6 if number % 5 == 0 else 3.5,  # equal ones stay visible on each other
+            markerfacecolor="none" if number % 5 == 0 else colour,
             capsize=2,
             linestyle="--" if model == "elastic" else "-",
             label=text,
         )
     axes.set_xlabel("maximum Hertz pressure (GPa)" if pressures else "load (N)")
     axes.set_ylabel("largest difference d (%)")
-    axes.set_ylim(0)
+    highest = max(row["d_percent"] + row["d_percent_spread"] for row in rows)
+    axes.set_ylim(0, 1.15 * highest if highest > 0 else 1.0)
     axes.legend()
 
 
@@ -198,14 +200,16 @@ def _by_speed(run: Any, name: str) -> tuple[Array, Array, Array, Array]:
 def _run_in_stribeck(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
     for name, colour, text, how in (
-        ("friction_initial", VERMILION, "initial", "-"),
+        ("friction_initial", VERMILION, "initial", "--"),
         ("friction_run_in", BLUE, "run in", "-"),
         ("boundary_friction_part", "0.45", "run in, of it boundary", ":"),
         ("film_friction_part", "0.45", "run in, of it film", "-."),
     ):
         speed, mean, low, high = _by_speed(run, name)
-        axes.plot(speed, mean, how, color=colour, label=text, marker="o" if how == "-" else None, markersize=3.5)
-        if how == "-" and (high > low).any():
+        marker = {"--": "s", "-": "o"}.get(how)  # the square is seen where both are equal
+        size = 6.0 if marker == "s" else 3.5
+        axes.plot(speed, mean, how, color=colour, label=text, marker=marker, markersize=size, markerfacecolor="none")
+        if marker and (high > low).any():
             axes.fill_between(speed, low, high, color=colour, alpha=0.18, linewidth=0)
     axes.set_ylabel("coefficient of friction")
     _speed_axis(axes, speed)
@@ -230,7 +234,7 @@ def _cycles(name: str, text: str) -> Any:
         for number, (group, rows) in enumerate(groups):
             import matplotlib
 
-            colour = matplotlib.colormaps["viridis"](0.95 * number / max(1, len(groups) - 1))
+            colour = matplotlib.colormaps["viridis"](0.85 * number / max(1, len(groups) - 1))
             axes.plot(cycle, run.dataset[name].values[rows].mean(axis=0), color=colour, linewidth=1.1, label=group)
         axes.set_xlabel("cycle")
         axes.set_ylabel(text)

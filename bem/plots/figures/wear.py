@@ -96,7 +96,7 @@ def _distribution(run: Any, figure: Figure) -> None:
         total = share.sum()
         mean = float((weight * radius).sum() / weight.sum()) * factor if weight.sum() > 0 else 0.0
         axes.stairs(
-            100 * share / (total or 1), edges, color=colour, linewidth=1.4, label=f"{name}, mean {mean:.0f} {unit}"
+            100 * share / (total or 1), edges, color=colour, linewidth=1.4, label=f"{name}, mean {mean:.3g} {unit}"
         )
     axes.set_xlabel(label("equivalent radius", unit))
     axes.set_ylabel("share (%)")
