@@ -6,7 +6,7 @@ import math
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,20 +117,42 @@ def traction_couples(lower: Body, upper: Body | None, friction: float) -> bool:
     return dundurs_beta(lower.material, None if upper is None else upper.material) != 0
 
 
+def check_surfaces(grid: Grid, **surfaces: AnySurface) -> None:
+    """Refuse generated surfaces that cannot be had on the grid, before any work; by the names of their bodies.
+
+    Raises
+    ------
+    InputError : statistics that the generator refuses, each with its body's name.
+    """
+    messages = []
+    for name, surface in surfaces.items():
+        if isinstance(surface, GeneratedSurface):
+            from bem.surfaces.generate import check_statistics
+
+            try:
+                check_statistics(grid, **_statistics(surface))
+            except InputError as error:
+                messages += [f"{name}.surface: {m.removeprefix('generate_surface: ')}" for m in error.messages]
+    if messages:
+        raise InputError(messages)
+
+
+def _statistics(surface: GeneratedSurface) -> dict[str, Any]:
+    return {
+        "rms_height": surface.rms_height,
+        "correlation_length": surface.correlation_length,
+        "hurst": surface.hurst,
+        "rolloff_wavelength": surface.rolloff_wavelength,
+        "cutoff_wavelength": surface.cutoff_wavelength,
+        "skewness": surface.skewness,
+        "kurtosis": surface.kurtosis,
+    }
+
+
 def _generated(surface: GeneratedSurface, grid: Grid, seed: int) -> FloatArray:
     from bem.surfaces import generate_surface
 
-    return generate_surface(
-        grid,
-        rms_height=surface.rms_height,
-        seed=seed if surface.seed is None else surface.seed,
-        correlation_length=surface.correlation_length,
-        hurst=surface.hurst,
-        rolloff_wavelength=surface.rolloff_wavelength,
-        cutoff_wavelength=surface.cutoff_wavelength,
-        skewness=surface.skewness,
-        kurtosis=surface.kurtosis,
-    )
+    return generate_surface(grid, seed=seed if surface.seed is None else surface.seed, **_statistics(surface))
 
 
 def _read(surface: MeasuredSurface) -> Surface:

@@ -109,6 +109,51 @@ def generate_surface(
     return heights * (rms_slope / slope)
 
 
+def check_statistics(
+    grid: Grid,
+    *,
+    rms_height: float | None = None,
+    seed: int = 0,
+    correlation_length: float | tuple[float, float] | None = None,
+    hurst: float | None = None,
+    rolloff_wavelength: float | None = None,
+    cutoff_wavelength: float | None = None,
+    skewness: float = 0.0,
+    kurtosis: float = 3.0,
+    autocorrelation: str = "gaussian",
+    rms_slope: float | None = None,
+) -> None:
+    """Refuse what `generate_surface` refuses of these arguments, without making heights.
+
+    What only the sample can tell - moments that this spectrum of few waves cannot have - it does not find; nor, on more
+    than four million cells, what takes a spectrum to tell.
+
+    Raises
+    ------
+    InputError : as `generate_surface`.
+    """
+    lengths = _check(
+        grid,
+        rms_height,
+        seed,
+        correlation_length,
+        hurst,
+        rolloff_wavelength,
+        cutoff_wavelength,
+        skewness,
+        kurtosis,
+        autocorrelation,
+        rms_slope,
+    )
+    if grid.cells > 1 << 22:
+        return
+    if lengths is not None:
+        _correlated_amplitude(grid, lengths, autocorrelation, cutoff_wavelength)
+    elif cutoff_wavelength is not None:
+        assert hurst is not None
+        _restrict(_self_affine_amplitude(grid, hurst, rolloff_wavelength), grid, cutoff_wavelength)
+
+
 def _check(
     grid: Grid,
     rms_height: float | None,

@@ -5,6 +5,7 @@ import math
 
 import pytest
 
+from bem.errors import InputError
 from bem.runs import plan_scene
 from bem.scenes import PlainContext, build, get_kind, library
 from bem.scenes.kinds import kind_names
@@ -97,3 +98,28 @@ def test_transforms_of_a_run_are_as_many_as_planned_within_a_factor_of_two(name)
     COUNT.reset()
     get_kind(scene.kind).run(scene, PlainContext(scene.seed))
     assert planned / 2 <= COUNT.forward + COUNT.inverse <= 2 * planned
+
+
+@pytest.mark.parametrize(
+    ("name", "settings", "words"),
+    [
+        ("rough-contact", ["lower.surface.skewness=2", "lower.surface.kurtosis=4.5"], "no distribution has"),
+        ("rough-contact", ["lower.surface.cutoff_wavelength=1 nm"], "below two cells"),
+        ("wear-steel-steel", ["lower.surface.correlation_length=1 mm"], "half the grid"),
+        ("wear-steel-steel", ["upper.surface.cutoff_wavelength=60 nm"], "below two cells"),
+        ("stribeck-mineral-oil", ["lower.surface.cutoff_wavelength=0.5 um"], "below two cells"),
+        ("running-in-stribeck", ["lower.surface.cutoff_wavelength=1 nm"], "below two cells"),
+        ("tribofilm-macro", ["upper.surface.cutoff_wavelength=1 nm"], "below two cells"),
+    ],
+)
+def test_a_plan_refuses_surfaces_that_cannot_be_generated(monkeypatch, name, settings, words):
+    def forbidden(*arguments, **keywords):
+        raise AssertionError("heights were made")
+
+    plan_scene(name)  # the scene as it is can be had: the check can fail
+    monkeypatch.setattr("bem.surfaces.generate._impose_moments", forbidden)
+    with pytest.raises(InputError, match=words) as caught:
+        plan_scene(name, settings)
+    body = settings[0].split(".")[0]
+    assert any(body in message for message in caught.value.messages)
+    assert len(caught.value.messages) == len(set(caught.value.messages))

@@ -111,9 +111,10 @@ def plan(scene: ContactScene) -> Plan:
 
     Raises
     ------
-    InfeasibleError : a load beyond hardness x area.
+    InfeasibleError : a load beyond hardness x area. InputError : surfaces that cannot be generated on the grid.
     """
     grid = build.grid_of(scene.grid)
+    build.check_surfaces(grid, lower=scene.lower.surface, upper=scene.upper.surface)
     lower, upper = scene.lower.build(), scene.upper.build()
     load, hardness = _load(scene, grid.area), scene.contact.hardness
     if load is not None and hardness is not None and load > hardness * grid.area:
@@ -219,8 +220,8 @@ def _plan_stresses(scene: ContactScene, grid: Grid, body: Body | None, depths: t
 
 
 def _convolutions(grid: Grid) -> float:
-    """Convolutions of a solve, coarse levels included: about 26 at 256 cells a side, growing with their square root."""
-    return 26.0 * max(1.0, max(grid.shape) / 256) ** 0.5
+    """Convolutions of a solve, coarse levels included: about 18 at 256 cells a side, growing slowly with them."""
+    return 18.0 * max(1.0, max(grid.shape) / 256) ** 0.2
 
 
 def _layered(lower: Body, upper: Body | None) -> str:

@@ -146,8 +146,8 @@ def plan(scene: FrictionScene) -> Plan:
     loads = scene.contact.forces(modulus_of(scene))
     check_patch(grid, scene.film, [half_width(scene, load) for load in loads])
     check_loads(scene, loads)
-    for variant in scene.variants:
-        surface_of(scene, variant)
+    for variant in (*scene.variants,) or (None,):
+        build.check_surfaces(grid, lower=surface_of(scene, variant), upper=scene.upper.surface)
     curves = len(loads) * max(1, len(scene.variants)) * scene.repetitions * len(scene.sharing.models)
     speeds = curves * len(scene.speeds.build())
     coupled = sum(model in _BASELINE for model in scene.sharing.models) / len(scene.sharing.models)

@@ -120,6 +120,7 @@ def plan(scene: RunningInScene) -> Plan:
     from bem.scenes.lubrication import FilmMeshScene
 
     check_patch(grid, FilmMeshScene(), [half_width(scene, load) for load in loads])
+    build.check_surfaces(grid, lower=scene.lower.surface, upper=scene.upper.surface)
     for hardness in _hardnesses(scene):
         check_loads(with_hardness(scene, hardness), loads)
     strengths = [body.build().surface_material.yield_stress for body in (scene.lower, scene.upper)]

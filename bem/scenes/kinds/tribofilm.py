@@ -175,6 +175,7 @@ def plan(scene: TribofilmScene) -> Plan:
     InfeasibleError : a load that the thick film's hardness cannot carry on the grid.
     """
     grid = build.grid_of(scene.grid)
+    build.check_surfaces(grid, lower=scene.lower.surface, upper=scene.upper.surface)
     hardness = property_of(scene.film.hardness)
     for load in scene.rubbing.loads:
         for temperature in scene.rubbing.temperatures:

@@ -247,7 +247,7 @@ def plan(scene: WearScene) -> Plan:
 
     Raises
     ------
-    InfeasibleError : a load beyond hardness times the slice's area.
+    InfeasibleError : a load beyond hardness times the slice's area. InputError : surfaces that cannot be generated.
     """
     hardness = scene.cylinder.hardness
     for load in scene.cylinder.loads:
@@ -259,8 +259,10 @@ def plan(scene: WearScene) -> Plan:
             )
     grid = grid_at(scene, max(scene.cylinder.loads))
     points = padded_points(grid.shape, grid.periodic)
-    for variant in scene.variants:
-        variant_of(scene, variant)
+    for variant in (*scene.variants,) or (None,):
+        own = variant_of(scene, variant)
+        for load in scene.cylinder.loads:
+            build.check_surfaces(grid_at(own, load), lower=own.lower.surface, upper=own.upper.surface)
     runs = len(scene.cylinder.loads) * max(1, len(scene.variants)) * scene.repetitions
     cycles = runs * scene.cycles.count
     depths = min(scene.depths.count, _DEPTHS_NEEDED)
