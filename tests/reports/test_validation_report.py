@@ -1,7 +1,17 @@
 """The validation report: every line has a scene that exists, kept results, and a verdict; the page can be drawn."""
 
+import pytest
+
 from bem.scenes.load import library
 from reports.validation import CHECKS, STORED, build, rows, stored
+from reports.validation_lines import CHOICES
+from reports.validation_values import (
+    clear_minimum,
+    criterion_over_archard,
+    hertz_pressure,
+    particles_per_mm_and_newton,
+    signed_difference,
+)
 
 
 def test_every_line_has_its_scene_and_its_kept_run():
@@ -29,3 +39,38 @@ def test_the_page_is_drawn():
     assert body.count("<img") >= 3
     assert "differs" in body
     assert "agrees" in body
+
+
+def test_chosen_parameters_have_reasons():
+    assert len({what for what, _, _ in CHOICES}) == len(CHOICES)
+    for what, choice, reason in CHOICES:
+        assert choice, what
+        assert reason, what
+
+
+def test_difference_keeps_its_sign_and_is_taken_where_it_is_largest():
+    curves = [
+        {"load_N": 1.0, "variant": "", "model": "elastic", "friction": [0.10, 0.05, 0.02]},
+        {"load_N": 1.0, "variant": "", "model": "uncoupled_elastic", "friction": [0.10, 0.04, 0.021]},
+    ]
+    assert signed_difference({"curves": curves}, curves[0]) == pytest.approx(-25.0)
+
+
+def test_a_minimum_is_clear_when_both_ends_lie_above_it_by_more_than_the_spread():
+    spread = {"friction_run_in_spread": [1e-3, 1e-3, 1e-3]}
+    assert clear_minimum({"friction_run_in": [0.14, 0.13, 0.14], **spread})
+    assert not clear_minimum({"friction_run_in": [0.14, 0.13, 0.1305], **spread})
+    assert not clear_minimum({"friction_run_in": [0.12, 0.13, 0.14], **spread})
+
+
+def test_derived_numbers():
+    assert hertz_pressure(5.5) == pytest.approx(0.1297, abs=1e-4)  # 130 MPa, four digits by hand
+    # one cubic micrometre in ten pieces while 0.04 N slide 0.3 um: 1e-9 mm^3 / 1.2e-8 N m
+    summary = {
+        "load_N": [10.0],
+        "cell_nm": [100.0],
+        "worn_volume_per_cycle_um3": [1.0],
+        "particles_per_cycle": [10.0],
+    }
+    assert criterion_over_archard(summary, 10.0, 350e-7) == pytest.approx(1e-9 / (0.04 * 3e-7) / 350e-7)
+    assert particles_per_mm_and_newton(summary, 10.0, 350e-7) == pytest.approx(350e-7 / 1e-10 * 1e-3)
