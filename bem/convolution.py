@@ -286,6 +286,20 @@ class DisplacementOperator:
         transform = transform_of(self.grid.shape, self.padded, dtype)
         return ScaledConvolution(transform, self._multipliers[key], self.count, self.weight)
 
+    def smooth_part(self, fine: DisplacementOperator, near: float) -> ScaledConvolution | None:
+        """The symmetric part less `near`, where that is positive, in single precision: from sums of a finer operator's
+        pressure over each cell of this grid to displacements in the finer one's unit. None if nothing is left.
+        """
+        key = ("smooth", fine.unit, near)
+        if key not in self._multipliers:
+            rest = np.maximum(self._spectra.even * (self.unit / fine.unit) - near, 0.0)
+            rest *= fine.grid.cell_area / self.grid.cell_area
+            self._multipliers[key] = Multiplier(rest).astype(np.float32)
+        part = self._multipliers[key]
+        if part.real is None or not part.real.any():
+            return None
+        return ScaledConvolution(transform_of(self.grid.shape, self.padded, np.float32), part, self.count, self.weight)
+
     @cached_property
     def _multipliers(self) -> dict[Any, Multiplier]:
         return {}

@@ -2,14 +2,15 @@
 
 The pressure minimises p.Kp/2 + p.(gap - approach) over 0 <= p <= cap, with its sum given under load control. A round
 
-1. applies the operator in double precision, which gives the true gap, its violations and the energy;
+1. applies the operator in double precision, which gives the true gap, its violations and the energy; if the energy
+   rose, goes back to the lowest point on the way, whose displacement follows without another application;
 2. takes in the free cells that overlap and the capped cells that open;
 3. runs preconditioned conjugate gradients on the cells in contact (single precision transforms, the symmetric part of
    the operator), and
 4. sets free what came out below zero, caps what came out above, and restores the load.
 
-Rounds are free to raise the energy while the largest violation falls. Once it has not for a few rounds, a round whose
-energy rose is taken back: to the lowest point on the way, or for a projected gradient step, which always lowers it.
+Where the way leads upwards from its beginning a round is free to raise the energy while the largest violation falls.
+Once it has not for a few rounds, such a round is taken back for a projected gradient step, which always lowers it.
 From there on the energy falls, or the violation is the least so far, until a tenth of it is reached: none can repeat.
 
 Where nearly all cells that touch are at the cap, pressures without bounds say nothing: a projected gradient step with
@@ -31,9 +32,10 @@ from numpy.typing import NDArray
 
 from bem.contact import passes
 from bem.contact.controls import ApproachControl, LoadControl
+from bem.contact.long_waves import LongWaves, long_waves
 from bem.contact.passes import CAPPED, CONTACT, FREE
 from bem.contact.preconditioner import SparseInverse, sparse_inverse
-from bem.convolution import DisplacementOperator, ScaledConvolution
+from bem.convolution import DisplacementOperator
 
 FloatArray = NDArray[np.float64]
 Control = LoadControl | ApproachControl
@@ -44,6 +46,9 @@ _ROUND_OFF = 1e-12
 
 _FEW = 0.1
 """Cells between the bounds over cells at the cap, below which the contact counts as fully plastic."""
+
+_LEAST_SHARE = 0.02
+"""Of the way of a round, below which it is not worth to go at all."""
 
 _RESOLUTION = 4e-16
 """Violations below this share of the lengths they are differences of are round-off."""
@@ -98,7 +103,6 @@ class Tuning:
     iterations_per_round: int = 80
     final: float = 0.8
     squared_radius: int = 5
-    heavy: float = 0.5
     rounds: int = 100
     patience: int = 8
 
@@ -125,13 +129,14 @@ class _Level:
         self.state = np.zeros(gap.size, np.uint8)
         self.pressure = self.exact.transform.zeros_field()
         self.displacement = self.exact.transform.zeros_field()
+        self.before = self.exact.transform.zeros_field()
         self.quick_in = self.quick.transform.zeros_field()
         self.quick_out = self.quick.transform.zeros_field()
-        names = ("pressure", "displacement", "quick_in", "quick_out")
+        names = ("pressure", "displacement", "before", "quick_in", "quick_out")
         self.flat: dict[str, NDArray[Any]] = {name: getattr(self, name).reshape(-1) for name in names}
         self.sparse: SparseInverse | None = None
         self.sparse_cells: Indices | None = None
-        self.inverse: ScaledConvolution | None = None
+        self.smooth: LongWaves | None = None
 
     @property
     def largest_eigenvalue(self) -> float:
@@ -156,27 +161,6 @@ class _Level:
 
     def preconditioner(self, cells: Indices) -> Callable[[FloatArray, FloatArray], float]:
         """Approximate inverse of the kernel on the cells: (residual, out) -> sum of out."""
-        if cells.size > self.tuning.heavy * self.gap.size:
-            if self.inverse is None:
-                self.inverse = self.operator.scaled_inverse(np.float32)
-            inverse = self.inverse
-            # with nearly all cells in contact a uniform pressure costs only what the few others give way
-            free = self.gap.size - cells.size
-            mean_mode = 0.0
-            if self.operator.mean_free and free:
-                mean_mode = 1 / (float(self.operator.near_field(0)[0, 0]) * free)
-
-            def spectral(residual: FloatArray, out: FloatArray) -> float:
-                passes.scatter(self.flat["quick_in"], cells, residual)
-                inverse.apply(self.quick_in, self.quick_out)
-                total = float(passes.gather_dot(self.flat["quick_out"], cells, out, residual)[0])
-                if mean_mode:
-                    uniform = mean_mode * float(residual.sum())
-                    out += uniform
-                    total += uniform * cells.size
-                return total
-
-            return spectral
         if self.sparse is None:
             reach = 2 * math.isqrt(self.tuning.squared_radius)
             self.sparse = sparse_inverse(
@@ -185,9 +169,19 @@ class _Level:
                 self.operator.near_field(reach),
                 self.tuning.squared_radius,
             )
-        on_cells = self.sparse.on(cells, self.sparse_cells)
+            self.smooth = long_waves(self.operator, self.sparse.near)
+        near = self.sparse.on(cells, self.sparse_cells)
         self.sparse_cells = cells
-        return on_cells.apply
+        far = None if self.smooth is None else self.smooth.on(cells, near.row_sums())
+        values = np.empty(cells.size)
+
+        def inverse(residual: FloatArray, out: FloatArray) -> float:
+            near.spread(residual, values)
+            if far is not None:
+                far.apply(values)
+            return near.collect(values, out)
+
+        return inverse
 
 
 def solve_level(
@@ -214,8 +208,11 @@ def solve_level(
     refused = 0
     step = release = 0.0
     rounds = 0
+    before: _Accepted | None = None
     while True:
         level.displace(iterate)
+        if before is not None:
+            iterate = _step_back(level, before, iterate)
         level.mark(iterate)
         rounds += 1
         residual = np.empty(iterate.cells.size)
@@ -236,6 +233,9 @@ def solve_level(
         if waited > 60:
             return _result(level, iterate, approach, violation, False, rounds)
         current = _Accepted(iterate, approach, *_energy(level, iterate))
+        if operator.symmetric:
+            before = current
+            np.copyto(level.flat["before"], level.flat["displacement"])
         improved = violation < 0.9 * best
         unimproved = 0 if improved else unimproved + 1
         best = min(best, violation)
@@ -267,6 +267,7 @@ def solve_level(
             and not (math.isinf(cap) and residual.mean() <= goal)
         ):
             iterate = _lift(level, iterate, float(residual.mean()))
+            before = None
             residual -= residual.mean()
             if iterate.cells.size < gap.size:
                 continue
@@ -316,6 +317,43 @@ def _energy(level: _Level, iterate: _Iterate) -> tuple[float, float, float]:
         more = passes.energy(displacement, level.gap, iterate.capped, values)
         energy, size, force = energy + more[0], size + more[1], force + more[2]
     return energy, size, force
+
+
+def _step_back(level: _Level, before: _Accepted, iterate: _Iterate) -> _Iterate:
+    """Where the energy rose in a round, its least point between the round's ends; the displacement there replaces the
+    one in the buffer, without a convolution.
+
+    Changes of the sets that are each right by themselves can be too many together: without this they swing ever wider.
+    """
+    displacement, approach = level.flat["displacement"], before.approach
+    now = _Accepted(iterate, approach, *_energy(level, iterate))
+    if not now.above(before, approach):
+        return iterate
+    # the energy's slope where the round ended, along the way from its beginning
+    slope = _work(level, iterate) - _work(level, before.iterate) - approach * (now.force - before.force)
+    rise = now.energy - before.energy - approach * (now.force - before.force)
+    curvature = 2 * (slope - rise)
+    share = 1 - slope / curvature if curvature > 0 else 0.0
+    if not _LEAST_SHARE < share < 1:
+        return iterate
+    displacement *= share
+    displacement += (1 - share) * level.flat["before"]
+    full = (1 - share) * _everywhere(level, before.iterate) + share * _everywhere(level, iterate)
+    # a cell at the cap at both ends must stay there whatever the rounding
+    full[np.intersect1d(before.iterate.capped, iterate.capped, assume_unique=True)] = level.cap
+    capped = np.flatnonzero(full >= level.cap)
+    inside = np.flatnonzero((full > 0) & (full < level.cap))
+    return _Iterate(inside, full[inside], capped)
+
+
+def _work(level: _Level, iterate: _Iterate) -> float:
+    """Sum of p (gap + displacement), with the displacement in the buffer."""
+    total = passes.work(level.flat["displacement"], level.gap, iterate.cells, iterate.values)
+    if iterate.capped.size:
+        total += passes.work(
+            level.flat["displacement"], level.gap, iterate.capped, np.full(iterate.capped.size, level.cap)
+        )
+    return total
 
 
 def _first(level: _Level, control: Control, start: FloatArray | None) -> _Iterate:
@@ -393,6 +431,13 @@ def _conjugate_gradients(
         if cells.size == 1:
             return pressure
     precondition = level.preconditioner(cells)
+    # pressures for a rise of the approach: what brings the sum of a direction to zero
+    rise, rise_total = np.empty(cells.size), 1.0
+    if balanced:
+        rise_total = precondition(np.ones(cells.size), rise)
+        if not rise_total > 0:
+            rise[:] = 1.0
+            rise_total = float(cells.size)
     quick_in, quick_out = level.flat["quick_in"], level.flat["quick_out"]
     n = cells.size
     direction, preconditioned, response, previous = np.zeros(n), np.empty(n), np.empty(n), np.zeros(n)
@@ -403,7 +448,7 @@ def _conjugate_gradients(
     last = 1.0
     for iteration in range(min(tuning.iterations_per_round, effort.left)):
         total = precondition(residual, preconditioned)
-        full, change = passes.turn(preconditioned, total / n if balanced else 0.0, residual, previous)
+        full, change = passes.turn(preconditioned, rise, total / rise_total if balanced else 0.0, residual, previous)
         if not full > 0:
             break
         beta = max(0.0, change / last) if iteration else 0.0
@@ -530,7 +575,7 @@ def _best_share(level: _Level, old: _Accepted, new: _Accepted, approach: float) 
     if not curvature > 0:
         return 0.0
     share = 1 - slope / curvature
-    return share if 0.02 < share < 0.98 else 0.0
+    return share if _LEAST_SHARE < share < 0.98 else 0.0
 
 
 def _between(level: _Level, control: Control, old: _Iterate, new: _Iterate, share: float) -> _Iterate:

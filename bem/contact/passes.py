@@ -108,6 +108,19 @@ def _energy(start, stop, result, displacement, gap, cells, values):  # type: ign
     result[2] = force
 
 
+def work(displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], values: FloatArray) -> float:
+    """Sum of p (gap + displacement) over some cells."""
+    return float(in_blocks(cells.size, 1, _work, displacement, gap, cells, values)[:, 0].sum())
+
+
+@_fast
+def _work(start, stop, result, displacement, gap, cells, values):  # type: ignore[no-untyped-def]
+    total = 0.0
+    for k in range(start, stop):
+        total += values[k] * (gap[cells[k]] + displacement[cells[k]])
+    result[0] = total
+
+
 @_fast
 def scatter(field, cells, values):  # type: ignore[no-untyped-def]
     """field[cells] = values."""
@@ -135,18 +148,20 @@ def _squares(start, stop, result, values):  # type: ignore[no-untyped-def]
     result[0] = total
 
 
-def turn(preconditioned: FloatArray, mean: float, residual: FloatArray, previous: FloatArray) -> tuple[float, float]:
-    """Take the mean from z; return z.r and z.(r - r_previous)."""
-    full, change = in_blocks(residual.size, 2, _turn, preconditioned, mean, residual, previous).sum(axis=0)
+def turn(
+    preconditioned: FloatArray, rise: FloatArray, share: float, residual: FloatArray, previous: FloatArray
+) -> tuple[float, float]:
+    """z -= share rise; return z.r and z.(r - r_previous)."""
+    full, change = in_blocks(residual.size, 2, _turn, preconditioned, rise, share, residual, previous).sum(axis=0)
     return float(full), float(change)
 
 
 @_fast
-def _turn(start, stop, result, preconditioned, mean, residual, previous):  # type: ignore[no-untyped-def]
+def _turn(start, stop, result, preconditioned, rise, share, residual, previous):  # type: ignore[no-untyped-def]
     full = 0.0
     change = 0.0
     for k in range(start, stop):
-        z = preconditioned[k] - mean
+        z = preconditioned[k] - share * rise[k] if share else preconditioned[k]
         preconditioned[k] = z
         full += z * residual[k]
         change += z * (residual[k] - previous[k])

@@ -1,5 +1,7 @@
 """Factorised sparse approximate inverse of the kernel on the cells in contact: G^T G, no transform needed.
 
+It sees the near neighbours only; `long_waves` adds the rest, between G and its transpose.
+
 Row k of the sparse triangular G solves the small system of the kernel on cell k and its earlier neighbours that are in
 contact too, scaled to give (G K G^T)_kk = 1 (Kolotilina & Yeremin, SIAM J. Matrix Anal. Appl. 14, 1993). Which
 neighbours are in contact is a bit pattern, and every pattern is solved once per operator.
@@ -47,6 +49,11 @@ class SparseInverse:
     solved: NDArray[np.uint8]
     position: NDArray[np.int32]
 
+    @property
+    def near(self) -> float:
+        """Response to a uniform unit pressure on a cell with all its neighbours, as G has it."""
+        return float(1 / self.table[-1].sum() ** 2)
+
     def on(self, cells: NDArray[Any], previous: NDArray[Any] | None) -> SparseInverseOnCells:
         """The inverse on some cells (ascending flat indices); `previous` are those of the call before."""
         if previous is not None:
@@ -81,8 +88,18 @@ class SparseInverseOnCells:
     table: FloatArray
     distant: NDArray[np.int64]
 
-    def apply(self, residual: FloatArray, out: FloatArray) -> float:
-        """out = G^T G residual; returns its sum.
+    def row_sums(self) -> FloatArray:
+        """G applied to a constant."""
+        out = np.empty(self.pattern.size)
+        self.spread(np.ones(self.pattern.size), out)
+        return out
+
+    def spread(self, residual: FloatArray, out: FloatArray) -> None:
+        """out = G residual."""
+        passes.in_blocks(residual.size, 0, _spread, self.columns, self.pattern, self.table, residual, out)
+
+    def collect(self, values: FloatArray, out: FloatArray) -> float:
+        """out = G^T values; returns its sum.
 
         Each block adds to its own cells at once; what belongs to the cells of other blocks is kept and added at the
         end, in order.
@@ -91,13 +108,13 @@ class SparseInverseOnCells:
         targets = np.empty(starts[-1], np.int32)
         amounts = np.empty(starts[-1])
         partial = passes.in_blocks(
-            residual.size,
+            values.size,
             1,
-            _apply,
+            _collect,
             self.columns,
             self.pattern,
             self.table,
-            residual,
+            values,
             out,
             starts,
             passes.BLOCK,
@@ -118,14 +135,11 @@ def sparse_inverse(
     keep = [not ((short[0] and i != 0) or (short[1] and j != 0)) for i, j in offsets]
     offsets = np.ascontiguousarray(offsets[np.array(keep, dtype=bool)])
     patterns = 1 << offsets.shape[0]
+    table = np.zeros((patterns, offsets.shape[0] + 1))
+    solved = np.zeros(patterns, np.uint8)
+    _solve_patterns(np.array([patterns - 1]), offsets, near_field, table, solved)
     return SparseInverse(
-        shape,
-        periodic,
-        offsets,
-        near_field,
-        np.zeros((patterns, offsets.shape[0] + 1)),
-        np.zeros(patterns, np.uint8),
-        np.full(shape[0] * shape[1], -1, np.int32),
+        shape, periodic, offsets, near_field, table, solved, np.full(shape[0] * shape[1], -1, np.int32)
     )
 
 
@@ -210,11 +224,8 @@ def _solve_patterns(pattern, offsets, near_field, table, solved):  # type: ignor
 
 
 @_fast
-def _apply(start, stop, result, columns, pattern, table, residual, out, starts, block, targets, amounts):  # type: ignore[no-untyped-def]
+def _spread(start, stop, result, columns, pattern, table, residual, out):  # type: ignore[no-untyped-def]
     m = columns.shape[1]
-    place = starts[start // block]
-    for k in range(start, stop):
-        out[k] = 0
     for k in range(start, stop):
         bits = pattern[k]
         s = table[bits, m] * residual[k]
@@ -222,6 +233,18 @@ def _apply(start, stop, result, columns, pattern, table, residual, out, starts, 
             c = columns[k, a]
             if c >= 0:
                 s += table[bits, a] * residual[c]
+        out[k] = s
+
+
+@_fast
+def _collect(start, stop, result, columns, pattern, table, values, out, starts, block, targets, amounts):  # type: ignore[no-untyped-def]
+    m = columns.shape[1]
+    place = starts[start // block]
+    for k in range(start, stop):
+        out[k] = 0
+    for k in range(start, stop):
+        bits = pattern[k]
+        s = values[k]
         out[k] += table[bits, m] * s
         for a in range(m):
             c = columns[k, a]

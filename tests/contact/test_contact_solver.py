@@ -24,25 +24,37 @@ def problem():
     return -0.01 * rough(N, N), operator((N, N), (1 / N, 1 / N), PERIODIC)
 
 
-@pytest.mark.parametrize(("cells", "most"), [(512, 40)])
-def test_convolutions_to_the_tolerance(cells, most):
-    op = operator((cells, cells), (1 / cells, 1 / cells), PERIODIC)
+def _count(cells, periodic, hardness=None):
+    op = operator((cells, cells), (1 / cells, 1 / cells), periodic)
     before = op.count.weighted
-    solution = solve_contact(-notes_surface(cells), op, load=0.0035)
+    solution = solve_contact(-notes_surface(cells), op, load=0.0035, hardness=hardness)
     assert solution.status == "converged"
     assert solution.convolutions == op.count.weighted - before
-    assert solution.convolutions <= most
+    return solution.convolutions
+
+
+# Limits: what was counted over three seeds, and a quarter more, since one round more or less is two or three
+# convolutions. Counts hardly grow with the grid; a set of cells that swings from round to round would double them.
+@pytest.mark.parametrize(
+    ("cells", "periodic", "hardness", "most"),
+    [
+        (256, FREE, None, 24),
+        (512, PERIODIC, None, 24),
+        (512, FREE, None, 25),
+        (512, PERIODIC, 0.05, 35),
+    ],
+)
+def test_convolutions_to_the_tolerance(cells, periodic, hardness, most):
+    assert _count(cells, periodic, hardness) <= most
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("cells", "most"), [(1024, 50), (2048, 65)])
-def test_convolutions_to_the_tolerance_on_large_grids(cells, most):
-    test_convolutions_to_the_tolerance(cells, most)
-
-
-def test_free_grid_takes_no_more_convolutions():
-    op = operator((256, 256), (1 / 256, 1 / 256), FREE)
-    assert solve_contact(-notes_surface(256), op, load=0.0035).convolutions <= 40
+@pytest.mark.parametrize(
+    ("cells", "periodic", "hardness", "most"),
+    [(1024, PERIODIC, None, 24), (1024, FREE, None, 32), (1024, PERIODIC, 0.05, 37), (2048, PERIODIC, None, 30)],
+)
+def test_convolutions_to_the_tolerance_on_large_grids(cells, periodic, hardness, most):
+    assert _count(cells, periodic, hardness) <= most
 
 
 def test_warm_start_skips_the_coarser_grids(problem):

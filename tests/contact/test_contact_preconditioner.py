@@ -1,0 +1,84 @@
+"""The approximate inverse on the cells in contact: exact where it can be, symmetric, positive, blind to the threads."""
+
+import numpy as np
+import pytest
+from contact_oracles import FREE, HALF_Y, PERIODIC, displacement, notes_surface, operator
+
+from bem.contact import passes
+from bem.contact.active_set import Tuning, _Level
+
+N = 96
+
+
+def level(periodic, n=N):
+    op = operator((n, n), (1 / n, 1 / n), periodic)
+    return op, _Level(op, np.zeros(n * n), np.inf, Tuning())
+
+
+def apply(inverse, values):
+    out = np.empty(values.size)
+    total = inverse(values, out)
+    assert total == pytest.approx(out.sum(), rel=1e-9, abs=1e-9 * np.abs(out).sum())  # another order of the sum
+    return out
+
+
+def matrix_product(op, cells, values):
+    field = np.zeros(op.grid.cells)
+    field[cells] = values
+    return displacement(op, field.reshape(op.grid.shape)).ravel()[cells] / op.unit
+
+
+@pytest.mark.parametrize("periodic", [FREE, HALF_Y, PERIODIC])
+@pytest.mark.parametrize("share", [0.05, 0.3, 0.9])
+def test_the_preconditioned_kernel_is_well_conditioned_at_all_wavelengths(periodic, share):
+    """Rayleigh quotients of waves over the whole grid and of short ones; without the long waves they reach 1.4 to 2.9."""
+    op, grid_level = level(periodic)
+    height = notes_surface(N, rolloff=4).ravel()
+    cells = np.flatnonzero(height > np.quantile(height, 1 - share))
+    inverse = grid_level.preconditioner(cells)
+    x, y = np.divmod(cells, N)
+    rng = np.random.default_rng(0)
+    quotients = []
+    for wave in (1, 2, 4, 8, 16):
+        phase = rng.uniform(0, 6, 2)
+        pressure = np.cos(2 * np.pi * wave * x / N + phase[0]) * np.cos(2 * np.pi * wave * y / N + phase[1])
+        back = apply(inverse, matrix_product(op, cells, pressure))
+        quotients.append(float((back * pressure).sum() / (pressure * pressure).sum()))
+    # counted: 0.83 to 1.13
+    assert min(quotients) > 0.75
+    assert max(quotients) < 1.25
+
+
+@pytest.mark.parametrize("share", [0.02, 0.5, 1.0])
+def test_positive_definite_and_nearly_symmetric(share):
+    _, grid_level = level(FREE)
+    rng = np.random.default_rng(1)
+    cells = np.sort(rng.permutation(N * N)[: max(2, int(share * N * N))])
+    inverse = grid_level.preconditioner(cells)
+    vectors = [rng.standard_normal(cells.size), np.ones(cells.size), np.linspace(-1, 1, cells.size)]
+    images = [apply(inverse, v) for v in vectors]
+    for i, v in enumerate(vectors):
+        assert (v * images[i]).sum() > 0
+        for j in range(i):
+            size = np.sqrt((v * images[i]).sum() * (vectors[j] * images[j]).sum())
+            # conjugate gradients inside are stopped at 3 %: linear to about that
+            assert abs((v * images[j]).sum() - (vectors[j] * images[i]).sum()) <= 0.1 * size
+
+
+def test_blocks_do_not_change_it(monkeypatch):
+    rng = np.random.default_rng(2)
+    cells = np.sort(rng.permutation(N * N)[:3000])
+    values = rng.standard_normal(cells.size)
+    whole = apply(level(PERIODIC)[1].preconditioner(cells), values)
+    monkeypatch.setattr(passes, "BLOCK", 101)
+    parts = apply(level(PERIODIC)[1].preconditioner(cells), values)
+    # the transforms in it are in single precision
+    assert np.abs(parts - whole).max() <= 1e-5 * np.abs(whole).max()
+
+
+def test_grids_too_small_for_a_coarser_one_do_without():
+    _, grid_level = level(FREE, 12)
+    cells = np.arange(40)
+    inverse = grid_level.preconditioner(cells)
+    assert grid_level.smooth is None
+    assert (apply(inverse, np.ones(40)) > 0).any()
