@@ -155,19 +155,19 @@ def _hierarchical(operator: LineOperator, e: Equations, right: FloatArray) -> Fl
     # thin factors of every level, deepest first, behind the border's columns
     lefts, rights = [], []
     for level in reversed(operator.levels):
-        clusters, width, rank = level.right.shape
-        shape = (clusters, width, 1)
+        (clusters, width, _), rank = level.right.shape, level.short
+        factor, shape = level.left[:, :, :rank], (clusters, width, 1)
         left = np.empty((clusters, width, rank + 1))
         left[:, :, :-1] = elastic * (
-            before.reshape(shape) * level.left[:, :-2]
-            + here.reshape(shape) * level.left[:, 1:-1]
-            + after.reshape(shape) * level.left[:, 2:]
+            before.reshape(shape) * factor[:, :-2]
+            + here.reshape(shape) * factor[:, 1:-1]
+            + after.reshape(shape) * factor[:, 2:]
         )
         left[:, :, -1] = 0.0
         left[0::2, -1, -1] = 1.0  # its next node lies in the neighbour,
         left[1::2, 0, -1] = 1.0  # its last one too
         right_factor = np.empty((clusters, width, rank + 1))
-        right_factor[:, :, :-1] = level.right
+        right_factor[:, :, :-1] = level.right[:, :, :rank]
         last, first = np.arange(0, clusters, 2) * width + width - 1, np.arange(1, clusters, 2) * width
         right_factor[1::2, :, -1] = elastic * after[last, None] * level.edge[1::2]
         right_factor[1::2, 0, -1] += high[last]

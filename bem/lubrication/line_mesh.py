@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 from scipy.interpolate import PchipInterpolator
 
 from bem.grid import FloatArray
@@ -38,15 +39,21 @@ def cell_sizes(offset: FloatArray, smooth: FloatArray, spike: FloatArray, cells:
     factor = float(np.sum((smooth + spike) * width)) / cells
     for _ in range(6):
         size = np.maximum(factor / (smooth + spike), np.minimum(smallest, factor / smooth))
-        for i in range(1, len(size)):
-            size[i] = min(size[i], size[i - 1] + reach[i - 1])
-        for i in range(len(size) - 2, -1, -1):
-            size[i] = min(size[i], size[i + 1] + reach[i])
+        _limit_growth(size, reach)
         excess = float(np.sum(width / size)) / cells
         factor *= excess
         if abs(excess - 1) < 0.02:
             break
     return size
+
+
+@njit(cache=True)
+def _limit_growth(size: FloatArray, reach: FloatArray) -> None:
+    """No cell is wider than its neighbours' by more than `reach`."""
+    for i in range(1, len(size)):
+        size[i] = min(size[i], size[i - 1] + reach[i - 1])
+    for i in range(len(size) - 2, -1, -1):
+        size[i] = min(size[i], size[i + 1] + reach[i])
 
 
 def redistribute(offset: FloatArray, size: FloatArray, cells: int, kept: int | None) -> FloatArray:

@@ -6,6 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
+import bem.lubrication.line_kernel as line_kernel
 import bem.lubrication.line_linear as line_linear
 import bem.lubrication.line_newton as line_newton
 from bem import solve_line_film
@@ -55,6 +56,7 @@ def test_hierarchical_product_is_the_dense_one(cells):
     np.testing.assert_allclose(operator.stretched(3.7) @ pressure, stretched @ pressure, rtol=1e-9)
 
 
+@pytest.mark.parametrize(("rough", "allowed"), [(1e-11, 1e-7), (1e-6, 1e-3)])
 @pytest.mark.parametrize(
     ("load", "piezo", "density"),
     [
@@ -64,7 +66,7 @@ def test_hierarchical_product_is_the_dense_one(cells):
         (100, 10, "dowson_higginson"),
     ],
 )
-def test_hierarchical_newton_steps_are_the_dense_ones(monkeypatch, load, piezo, density):
+def test_hierarchical_newton_steps_are_the_dense_ones(monkeypatch, load, piezo, density, rough, allowed):
     compared = []
     plain = line_newton.solve
 
@@ -78,13 +80,14 @@ def test_hierarchical_newton_steps_are_the_dense_ones(monkeypatch, load, piezo, 
         return plain(operator, equations)
 
     monkeypatch.setattr(line_newton, "solve", both)
+    monkeypatch.setattr(line_kernel, "ROUGH_TOLERANCE", rough)
     case, _ = similarity_case(load, piezo)
     oil = dataclasses.replace(case["lubricant"])
     oil = type(oil)(oil.viscosity, pressure_viscosity=oil.pressure_viscosity, density_law=density)
     solve_line_film(**{**case, "lubricant": oil}, points=701)
     assert compared
-    # both solve the same equations; 1e-7 is far below what Newton's method notices
-    assert max(compared) < 1e-7
+    # conditioned a few thousand times worse than the cross approximation; Newton's method does not notice 1e-3
+    assert max(compared) < allowed
 
 
 def test_dense_equations_stand_in_where_the_hierarchical_ones_fail(monkeypatch):
