@@ -10,6 +10,7 @@ from typing import Any
 from bem.errors import BemError, InputError
 from bem.plots.figures import FigureKind, all_figures
 from bem.results.atomic import replacing
+from bem.scenes.validate import nearest
 
 FORMATS = ("png", "pdf", "svg")
 
@@ -92,7 +93,9 @@ def figure_kind(run: Any, name: str) -> FigureKind:
     known = all_figures()
     fitting = [kind.name for kind in known.values() if kind.fits(run)]
     if name not in known:
-        raise InputError(f'--figure "{name}": no such figure; allowed for this run: {", ".join(fitting)}')
+        raise InputError(
+            f'--figure "{name}": no such figure{nearest(name, fitting)}; allowed for this run: {", ".join(fitting)}'
+        )
     if name not in fitting:
         raise InputError(f'--figure "{name}": cannot be drawn from this run; allowed: {", ".join(fitting)}')
     return known[name]

@@ -103,8 +103,8 @@ class RunDirectory:
         elif old is not None and resume and not (overwrite and old != scene):
             if old != scene:
                 raise InputError(
-                    f"--resume: the run in {self.path} is of another scene ({_difference(old, scene)} differ); "
-                    "allowed: the same scene, or another --out"
+                    f"--resume: the run in {self.path} is of another scene (they differ in {_difference(old, scene)}); "
+                    "allowed: the same scene, another --out, or --overwrite too, which replaces that run"
                 )
             self.resumed = True
         elif old is not None and not overwrite:

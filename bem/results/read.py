@@ -37,17 +37,23 @@ class FinishedRun:
         return read_dataset(self.path / RESULTS)
 
     def __repr__(self) -> str:
-        figures = {key: value for key, value in self.summary.items() if isinstance(value, int | float | str)}
+        figures = _figures(self.summary)
         lines = [f"  {key} = {value}" for key, value in figures.items()]
         return "\n".join([f"FinishedRun({str(self.path)!r})", *lines])
 
     def _repr_html_(self) -> str:
         from html import escape
 
-        shown = {key: value for key, value in self.summary.items() if isinstance(value, int | float | str)}
-        cells = ((key, value if isinstance(value, str) else f"{value:.6g}") for key, value in shown.items())
+        cells = (
+            (key, value if isinstance(value, str) else f"{value:.6g}") for key, value in _figures(self.summary).items()
+        )
         rows = "".join(f"<tr><td>{escape(key)}</td><td>{escape(text)}</td></tr>" for key, text in cells)
         return f"<p><b>{escape(str(self.path))}</b></p><table>{rows}</table>"
+
+
+def _figures(summary: dict[str, Any]) -> dict[str, int | float | str]:
+    """What of a summary is one value, and not an empty text."""
+    return {key: value for key, value in summary.items() if isinstance(value, int | float | str) and value != ""}
 
 
 def open_run(path: str | os.PathLike[str]) -> FinishedRun:
