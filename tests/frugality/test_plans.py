@@ -123,3 +123,37 @@ def test_a_plan_refuses_surfaces_that_cannot_be_generated(monkeypatch, name, set
     body = settings[0].split(".")[0]
     assert any(body in message for message in caught.value.messages)
     assert len(caught.value.messages) == len(set(caught.value.messages))
+
+
+def test_a_plan_counts_the_process_itself_and_its_start():
+    from bem.scenes.planner import Plan, Step
+
+    nothing = Plan(())
+    assert nothing.memory > 1e8  # the interpreter, numpy and compiled loops: 120 MiB measured
+    assert nothing.seconds(1e9) > 1
+    one = Plan(
+        (Step("a", "b", memory=3e8, kept=1e8, seconds=2), Step("c", "d", memory=2.5e8, transforms=10, points=1e6))
+    )
+    assert one.memory == nothing.memory + 3.5e8
+    assert one.seconds(5e8) - nothing.seconds(5e8) == pytest.approx(2 + 10 * 2.5e6 * math.log2(1e6) / 5e8)
+
+
+def test_kernels_of_a_wear_scene_are_planned_once_for_a_grid_not_for_a_cycle():
+    def seconds(*settings):
+        _, plan = plan_scene("wear-steel-steel", ['cylinder.loads=["10 N"]', *settings])
+        return {step.name: step.seconds for step in plan.steps}
+
+    few, many = seconds("cycles.count=60"), seconds("cycles.count=240")
+    assert many["stresses"] == few["stresses"] > 0
+    assert many["pieces"] == pytest.approx(4 * few["pieces"])
+
+
+def test_depths_of_the_first_cycle_are_within_what_memory_is_planned_for():
+    """The memory of a plan holds spectra of so many depths; the first cycle, of the sharpest asperities, needs most."""
+    from bem.scenes.kinds.wear import _DEPTHS_AT_FIRST
+
+    settings = ["repetitions=1", "cycles.count=1", "cycles.settled=1", 'cylinder.loads=["10 N"]']
+    scene, _ = plan_scene("wear-steel-steel", settings)
+    outcome = get_kind(scene.kind).run(scene, PlainContext(scene.seed))
+    computed = float(outcome.variables["depths_computed"].values.max())
+    assert _DEPTHS_AT_FIRST / 2 <= computed <= 1.25 * _DEPTHS_AT_FIRST

@@ -169,7 +169,7 @@ def plan(scene: ContactScene) -> Plan:
             "figures and report",
             "pictures of the results, and the libraries for them",
             seconds=4.0,
-            memory=3.5e8 + 8.0 * grid.cells * 2,
+            memory=2.2e8 + 8.0 * grid.cells * 2,
         ),
     )
     return Plan(steps)

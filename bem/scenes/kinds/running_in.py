@@ -21,7 +21,7 @@ from bem.scenes.kinds import Kind
 from bem.scenes.kinds.friction import check_loads, check_patch, half_width, modulus_of
 from bem.scenes.kinds.wear import Count, SizesScene, WearDepthsScene, WearScenePart, size_statistics
 from bem.scenes.lubrication import LubricatedScene, OilScene, SpeedsScene
-from bem.scenes.planner import Plan, Step, convolution_memory, padded_points
+from bem.scenes.planner import Plan, Step, convolution_memory, padded_points, stress_kernel_seconds
 from bem.scenes.records import pack_record, unpack_record
 from bem.scenes.units import Ratio
 
@@ -132,6 +132,7 @@ def plan(scene: RunningInScene) -> Plan:
     cycles = runs * scene.cycles.count
     points = padded_points(grid.shape, grid.periodic)
     depths = min(scene.depths.count, _DEPTHS_NEEDED)
+    deepest = min(scene.depths.count, 4 * _DEPTHS_NEEDED)  # in the first cycles
     films = len(scene.speeds.build()) * 20
     return Plan(
         (
@@ -155,7 +156,8 @@ def plan(scene: RunningInScene) -> Plan:
                 "from the surface down to the first depth at which nothing yields",
                 transforms=7.0 * depths * cycles,
                 points=points,
-                memory=8.0 * (points * 1.5 * depths + grid.cells * 8),
+                seconds=stress_kernel_seconds(grid.cells, deepest),
+                memory=8.0 * (points / 4 * 12 * deepest + grid.cells * (deepest + 8)),
             ),
             Step("pieces", "runs of yielded voxels along depth", seconds=0.004 * cycles, memory=8.0 * grid.cells * 8),
             Step("figures and report", "pictures of the results", seconds=5.0, memory=2e8),

@@ -18,13 +18,21 @@ from bem.scenes import build
 from bem.scenes.common import BodyScene, Cells, Force, PositiveLength, PositivePressure, SceneModel, Table, problem
 from bem.scenes.context import Context, Outcome, Variable
 from bem.scenes.kinds import Kind
-from bem.scenes.planner import Plan, Step, convolution_memory, padded_points
+from bem.scenes.planner import (
+    Plan,
+    Step,
+    convolution_memory,
+    layered_kernel_seconds,
+    padded_points,
+    stress_kernel_seconds,
+)
 from bem.scenes.records import pack_record, unpack_record
 from bem.scenes.units import Length, Ratio, WearCoefficient
 
 Count = Annotated[int, Field(strict=True, ge=1)]
 _CONVOLUTIONS = 25  # of one warm-started contact solve, coarse levels included
-_DEPTHS_NEEDED = 8  # before a depth is met at which nothing yields
+_DEPTHS_NEEDED = 8  # before a depth is met at which nothing yields, on average
+_DEPTHS_AT_FIRST = 40  # the same in the first cycle, of sharp asperities
 _CHECKPOINT_EVERY = 10
 
 
@@ -265,7 +273,9 @@ def plan(scene: WearScene) -> Plan:
             build.check_surfaces(grid_at(own, load), lower=own.lower.surface, upper=own.upper.surface)
     runs = len(scene.cylinder.loads) * max(1, len(scene.variants)) * scene.repetitions
     cycles = runs * scene.cycles.count
+    grids = len(scene.cylinder.loads) * max(1, len(scene.variants))
     depths = min(scene.depths.count, _DEPTHS_NEEDED)
+    deepest = min(scene.depths.count, _DEPTHS_AT_FIRST)
     lower, upper = scene.lower.build(), scene.upper.build()
     layered = [name for name, body in (("lower", lower), ("upper", upper)) if body.layer is not None]
     coupled = build.traction_couples(lower, upper, scene.cylinder.friction)
@@ -283,7 +293,7 @@ def plan(scene: WearScene) -> Plan:
                 "layered kernels",
                 f"the {' and '.join(layered)} body is coated" if layered else "no body is coated",
                 skipped=not layered,
-                seconds=(5.0 + 1.0 * scene.depths.count) * len(layered),
+                seconds=grids * len(layered) * layered_kernel_seconds(grid.cells, depths),
                 memory=8.0 * points / 4 * 7 * len(layered),
             ),
             Step(
@@ -308,7 +318,13 @@ def plan(scene: WearScene) -> Plan:
                 "from the surface down to the first depth at which nothing yields",
                 transforms=7.0 * depths * cycles,
                 points=points,
-                memory=8.0 * (points * 1.5 * depths + grid.cells * 8),
+                seconds=grids * stress_kernel_seconds(grid.cells, deepest),
+                memory=8.0 * (points / 4 * 12 * deepest + grid.cells * (deepest + 8)),
+            ),
+            Step(
+                "kernels of an earlier run",
+                "not kept on disk: made once for all cycles, in about the time it would take to read and check them",
+                skipped=True,
             ),
             Step(
                 f"deeper stresses, down to {scene.depths.count} depths",
