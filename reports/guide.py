@@ -32,7 +32,7 @@ bem --install-completion                    # tab completion of commands, option
 """
 SWEEP = """bem sweep rough-contact --over "contact.mean_pressure=log:20 MPa:500 MPa:6" --over seed=1:3 --out pressures
 bem sweep rough-contact --over contact.behaviour=elastic,capped --scheduler tcp://scheduler:8786
-bem sweep wear-mesh-convergence --over "variants[0].cells=40,60" --set "cylinder.loads=[10.0]"
+bem sweep wear-mesh-convergence --over "variants[0].cells=80,100" --set "cylinder.loads=[10.0]"
 """
 OWN_SURFACES = """bem surface read disk.al3d disk.npz --detrend curvature
 bem surface describe disk.npz
