@@ -40,6 +40,8 @@ MAX_SHIFT = 1.0
 """Cells by which a sharp spike may move on its mesh."""
 MAX_IMBALANCE = 5.0
 MIDDLE = 400
+COARSE_TOLERANCE = 1e-4
+"""On the way: a start needs no more, its mesh is off by more than that."""
 START_LOAD = 0.3
 MOES_LOADS = (1e-5, 1e4)
 """Loads M for which a film is looked for; beyond them the equations are not a model of anything."""
@@ -199,7 +201,7 @@ def _from_scratch(
     for coarse, first_step in attempts:
         load = min(problem.load, START_LOAD)
         step = first_step
-        last = newton(replace(problem, load=load), martin_start(load, coarse), 1e-6, limit)
+        last = newton(replace(problem, load=load), martin_start(load, coarse), COARSE_TOLERANCE, limit)
         spent += last.iterations
         while last.converged and load < problem.load and step > 1.002:
             target = min(problem.load, load * step)
@@ -209,7 +211,7 @@ def _from_scratch(
             if mesh_imbalance(at, start) > MAX_IMBALANCE:
                 start = remesh(at, start, coarse, None)
             start = stretched(start, factor, target / load / factor, film_factor)
-            trial = newton(replace(problem, load=target), start, 1e-6, limit)
+            trial = newton(replace(problem, load=target), start, COARSE_TOLERANCE, limit)
             spent += trial.iterations
             if trial.converged:
                 step = min(step * 1.5, 10.0) if trial.iterations < 10 else step
@@ -238,7 +240,7 @@ def _ladder(problem: Problem, state: State, coarse: int, cells: int, tolerance: 
         stages.append((cells, SPIKE_CELLS[-1]))
     spent = 0
     for level, (size, smallest) in enumerate(stages):
-        goal = tolerance if level == len(stages) - 1 else 1e-6
+        goal = tolerance if level == len(stages) - 1 else COARSE_TOLERANCE
         outcome = newton(problem, remesh(problem, state, size, smallest), goal, limit)
         spent += outcome.iterations
         state = outcome.state
