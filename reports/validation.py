@@ -288,7 +288,9 @@ FIGURES: dict[str, list[tuple[str, Callable[[Summary], Any], str]]] = {
     ],
     "Running-in in mixed lubrication (paper D)": [
         ("running-in-stribeck", run_in_stribeck, "Friction before and after 200 cycles, mean and deviation."),
-        ("running-in-stribeck", radius_over_speed, "Radius of the settled particles over speed."),
+        ("particle-size-against-speed", run_in_stribeck, "The same on half the thesis' cell."),
+        ("running-in-stribeck", radius_over_speed, "Radius of the settled particles over speed, thesis' cell."),
+        ("particle-size-against-speed", radius_over_speed, "The same on half the thesis' cell."),
         ("hardness-optimum", friction_over_hardness, "Friction at 0.01 m/s over the disk's hardness."),
     ],
 }
