@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.results.atomic import replacing
-from bem.scenes.context import Variable
+from bem.scenes.context import Variable, release
 
 LARGEST = 200_000
 """Points in a file; larger fields are thinned along x and y by a whole number, which the file's name says."""
@@ -34,7 +34,11 @@ def write_volumes(folder: Path, variables: Mapping[str, Variable], names: Sequen
     mesh = meshio.Mesh(points, [("hexahedron", _hexahedra(len(x), len(y), len(depth)))])
     for name in names:
         for label, values in _scalars(name, variables):
-            mesh.point_data[label] = np.ascontiguousarray(np.moveaxis(values[:, ::stride, ::stride], 0, 2)).ravel()
+            thinned = np.empty((len(x), len(y), len(depth)))
+            for i, plane in enumerate(values):
+                thinned[:, :, i] = plane[::stride, ::stride]
+                release(values)
+            mesh.point_data[label] = thinned.ravel()
     path = folder / ("volume.vtu" if stride == 1 else f"volume-every-{stride}.vtu")
     with replacing(path) as temporary:
         mesh.write(temporary)

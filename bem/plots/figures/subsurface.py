@@ -23,8 +23,11 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
     ix, iy = np.unravel_index(int(np.argmax(stress[iz])), stress[iz].shape)
     highest = float(stress[iz, ix, iy])
     stride = max(1, len(x) // 2000)  # far more than a figure has dots
-    section, across_x = np.array(stress[:, ::stride, iy]), x[::stride]
-    release(stress)
+    across_x = x[::stride]
+    section = np.empty((len(depth), len(across_x)))
+    for i, plane in enumerate(stress):  # a column meets every page of a plane: one plane in memory at a time
+        section[i] = plane[::stride, iy]
+        release(stress)
     factor_x, unit_x = prefix(x, "m")
     factor_z, unit_z = prefix(depth, "m")
     factor, unit = prefix([highest], "Pa")
