@@ -249,6 +249,11 @@ class DisplacementOperator:
         """Whether friction does not couple into normal displacement."""
         return self._spectra.odd is None
 
+    @cached_property
+    def frictionless(self) -> DisplacementOperator:
+        """The same bodies without the coupling of friction; counts on this operator's account."""
+        return DisplacementOperator(self.grid, self.bodies, 0.0, self.count, self.weight)
+
     @property
     def mean_free(self) -> bool:
         """Whether a uniform pressure gives no displacement (doubly periodic grids)."""

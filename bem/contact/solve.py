@@ -27,6 +27,9 @@ _FLAT = 1e-6
 _TIGHTER = 0.9
 """Share of the tolerance that the solver aims at, so that rounding in SI units cannot spoil the certificate."""
 
+_LAGS = 60
+"""Limit on contacts with friction taken from the one before; ten are usual."""
+
 _COARSE_TOLERANCE = 6e-2
 """Violation over roughness that coarse grids are solved to: more is lost in the interpolation anyway."""
 
@@ -168,9 +171,12 @@ def _solve(
         allowed = Tolerance(
             tolerance if problem.scale > 0 else math.inf, tolerance / problem.scale if problem.scale > 0 else tolerance
         )
-        result = solve_level(operator, gap, control, cap, start, allowed, problem.effort, problem.tuning, report)
-        if result.converged or problem.effort.left <= 0 or not operator.symmetric:
+        tuning = problem.tuning if operator.symmetric else replace(problem.tuning, stall=25)
+        result = solve_level(operator, gap, control, cap, start, allowed, problem.effort, tuning, report)
+        if result.converged or problem.effort.left <= 0:
             return result
+        if not operator.symmetric:
+            return _lagged(problem, operator, gap, control, cap, start, allowed, report)
         # once more from there, with every round on the guard
         wary = replace(problem.tuning, patience=0, rounds=300)
         return solve_level(operator, gap, control, cap, result.pressure, allowed, problem.effort, wary, report)
@@ -190,6 +196,51 @@ def _solve(
     if isinstance(control, LoadControl) or result.converged or problem.effort.left <= 0:
         return result
     return approach_by_load(control.approach, cap, None, gap.size, scale, tolerance, directly)
+
+
+def _lagged(
+    problem: _Problem,
+    operator: DisplacementOperator,
+    gap: FloatArray,
+    control: ApproachControl | LoadControl,
+    cap: float,
+    start: FloatArray | None,
+    allowed: Tolerance,
+    report: Report | None,
+) -> LevelResult:
+    """Friction's part of the displacement taken from the last pressure, over and over: each contact is then without it.
+
+    Slower than friction in every round, but it gets there where the rounds swing: what friction adds varies less from
+    one pressure to the next than the sets of cells do.
+    """
+    shape = operator.grid.shape
+    alone = operator.frictionless
+    displacement, part = np.empty(shape), np.empty(shape)
+    pressure = np.zeros(gap.size) if start is None else start
+    last: FloatArray | None = None
+    approach, precision, violation, least = 0.0, math.inf, math.inf, math.inf
+    waited = 0
+    for _ in range(_LAGS):
+        operator.scaled().apply(pressure.reshape(shape), displacement)
+        alone.scaled().apply(pressure.reshape(shape), part)
+        coupling = (displacement - part).reshape(-1)
+        goal = min(allowed.length, allowed.relative * float(np.abs(displacement).max()))
+        if last is not None:
+            change = float(np.abs(coupling - last).max())
+            violation = precision + change
+            waited = 0 if change < 0.9 * least else waited + 1
+            least = min(least, change)
+            if violation <= goal or problem.effort.left <= 0 or waited > 5:
+                break
+            tolerance = Tolerance(max(0.3 * allowed.length, 0.1 * change), 0.3 * allowed.relative)
+        else:
+            tolerance = Tolerance(_COARSE_TOLERANCE * (problem.scale or math.inf), _COARSE_TOLERANCE)
+        result = solve_level(
+            alone, gap + coupling, control, cap, start, tolerance, problem.effort, problem.tuning, report
+        )
+        last, approach, precision = coupling, result.approach, result.violation
+        pressure = start = result.pressure
+    return LevelResult(pressure, displacement.reshape(-1), approach, violation, violation <= goal, 0)
 
 
 def _full_contact(operator: DisplacementOperator, gap: FloatArray) -> LevelResult:

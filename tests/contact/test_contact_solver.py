@@ -33,16 +33,11 @@ def _count(cells, periodic, hardness=None):
     return solution.convolutions
 
 
-# Limits: what was counted over three seeds, and a quarter more, since one round more or less is two or three
-# convolutions. Counts hardly grow with the grid; a set of cells that swings from round to round would double them.
+# Limits: the most that was counted over five seeds (512 and 1024; three at 2048), and a fifth more, since one round
+# more or less is two or three convolutions. A set of cells that swings from round to round would double the count.
 @pytest.mark.parametrize(
     ("cells", "periodic", "hardness", "most"),
-    [
-        (256, FREE, None, 24),
-        (512, PERIODIC, None, 24),
-        (512, FREE, None, 25),
-        (512, PERIODIC, 0.05, 35),
-    ],
+    [(256, FREE, None, 24), (512, PERIODIC, None, 22), (512, FREE, None, 24), (512, PERIODIC, 0.05, 29)],
 )
 def test_convolutions_to_the_tolerance(cells, periodic, hardness, most):
     assert _count(cells, periodic, hardness) <= most
@@ -51,7 +46,13 @@ def test_convolutions_to_the_tolerance(cells, periodic, hardness, most):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("cells", "periodic", "hardness", "most"),
-    [(1024, PERIODIC, None, 24), (1024, FREE, None, 32), (1024, PERIODIC, 0.05, 37), (2048, PERIODIC, None, 30)],
+    [
+        (1024, PERIODIC, None, 24),
+        (1024, FREE, None, 29),
+        (1024, PERIODIC, 0.05, 33),
+        (2048, PERIODIC, None, 31),
+        (2048, FREE, None, 35),
+    ],
 )
 def test_convolutions_to_the_tolerance_on_large_grids(cells, periodic, hardness, most):
     assert _count(cells, periodic, hardness) <= most

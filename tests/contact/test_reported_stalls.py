@@ -41,23 +41,8 @@ def _self_affine(nx, ny, hurst, rolloff, seed):
     return 0.01 * heights / heights.std()
 
 
-@pytest.mark.xfail(strict=True, reason="stalls at a residual of several rms heights; found by a random search")
-@pytest.mark.parametrize(
-    ("shape", "poisson", "friction", "surface", "layer", "load", "hardness"),
-    [
-        ((119, 126), 0.0, 0.0, (0.453, 6.613, 375224), (37.76, 0.05044), 0.477, None),
-        ((71, 30), 0.49, 1.0, (0.474, 5.317, 653512), (5.229, 0.1024), 0.133, None),
-        ((99, 83), 0.49, 0.3, (0.3477, 6.19, 371707), (15.69, 0.132), 0.1158, 0.2908),
-    ],
-    ids=["symmetric", "friction", "friction-capped"],
-)
-def test_stiff_layer_under_a_load_that_sinks_it_far_deeper_than_its_roughness(
-    shape, poisson, friction, surface, layer, load, hardness
-):
-    """Free grids; the operator's symmetric part is positive (checked: smallest over largest eigenvalue 3e-4 and up).
-
-    The first converges at a tenth of the load, the others without friction.
-    """
+def _stiff_layer(shape, poisson, friction, surface, layer, load, hardness):
+    """Free grids; the operator's symmetric part is positive (checked: smallest over largest eigenvalue 3e-4 and up)."""
     film = Material("film", youngs_modulus=layer[0], poissons_ratio=0.3)
     base = Material("base", youngs_modulus=1.0, poissons_ratio=poisson)
     grid = Grid(shape, (1 / max(shape),) * 2)
@@ -65,3 +50,36 @@ def test_stiff_layer_under_a_load_that_sinks_it_far_deeper_than_its_roughness(
     gap = -_self_affine(*shape, *surface)
     solution = solve_contact(gap, operator, load=load, hardness=hardness, tolerance=1e-6)
     assert solution.status == Status.CONVERGED, solution.residual
+    return gap, operator, solution
+
+
+@pytest.mark.parametrize(
+    ("shape", "poisson", "friction", "surface", "layer", "load", "hardness"),
+    [
+        ((71, 30), 0.49, 1.0, (0.474, 5.317, 653512), (5.229, 0.1024), 0.133, None),
+        ((99, 83), 0.49, 0.3, (0.3477, 6.19, 371707), (15.69, 0.132), 0.1158, 0.2908),
+    ],
+    ids=["elastic", "capped"],
+)
+def test_friction_on_a_stiff_layer_under_a_load_that_sinks_it_far_deeper_than_its_roughness(
+    shape, poisson, friction, surface, layer, load, hardness
+):
+    """With friction in every round the cells in contact swing from round to round for ever."""
+    gap, operator, solution = _stiff_layer(shape, poisson, friction, surface, layer, load, hardness)
+    opening = gap + operator(solution.pressure) - solution.approach
+    allowed = 1e-6 * gap.std()
+    pressure = solution.pressure
+    inside = (pressure > 0) & (pressure < (hardness or np.inf))
+    assert np.abs(opening[inside]).max() <= allowed
+    assert opening[pressure == 0].min() >= -allowed
+    if hardness is not None:
+        assert opening[pressure >= hardness].max() <= allowed
+    assert solution.load == pytest.approx(load, rel=1e-12)  # round-off of a sum over the cells
+    # 205 and 156 counted; without a limit on the rounds before the fallback they would be 270
+    assert solution.convolutions <= 240
+
+
+@pytest.mark.xfail(strict=True, reason="stalls at a residual of several rms heights; found by a random search")
+def test_stiff_layer_under_a_load_that_sinks_it_far_deeper_than_its_roughness():
+    """It converges at a tenth of the load."""
+    _stiff_layer((119, 126), 0.0, 0.0, (0.453, 6.613, 375224), (37.76, 0.05044), 0.477, None)
