@@ -184,7 +184,8 @@ def watched() -> Iterator[dict[str, float]]:
     ]
     targets += [
         (preconditioner.SparseInverse, "on", "preconditioner"),
-        (preconditioner.SparseInverseOnCells, "apply", "preconditioner"),
+        (preconditioner.SparseInverseOnCells, "spread", "preconditioner"),
+        (preconditioner.SparseInverseOnCells, "collect", "preconditioner"),
         (bem.stress.sweeps, "_share_rows", "elementwise"),
         (cycle, "segment", "pieces"),
     ]
