@@ -74,28 +74,22 @@ class LongWavesOnCells:
         _subtract(values, self.blocks, self.weights, given)
 
     def _solve(self, given: FloatArray) -> FloatArray:
-        """Conjugate gradients for (1 + D^1/2 F D^1/2) e = given, on the whole coarse grid; sums by numpy, without BLAS,
-        have the same bits for any number of threads.
-        """
+        """Conjugate gradients for (1 + D^1/2 F D^1/2) e = given, on the whole coarse grid."""
         field = self.smooth.field
         flat = field.reshape(-1)
-        solution, residual, direction = np.zeros(given.size), given.copy(), given.copy()
-        squares = float((residual * residual).sum())
+        solution, residual, direction = np.zeros(given.size), given.copy(), np.zeros(given.size)
+        response = np.empty(given.size)
+        squares = float((given * given).sum())
         enough = _REDUCTION**2 * squares
+        share = 0.0
         for _ in range(_ITERATIONS):
             if not squares > enough:
                 break
-            np.multiply(self.root, direction, out=flat, casting="same_kind")
+            _turn(direction, residual, share, self.root, flat)
             self.smooth.convolution.apply(field, field)
-            response = self.root * flat
-            response += direction
-            step = squares / float((direction * response).sum())
-            solution += step * direction
-            response *= step
-            residual -= response
-            last, squares = squares, float((residual * residual).sum())
-            direction *= squares / last
-            direction += residual
+            curvature = _respond(flat, self.root, direction, response)
+            last, squares = squares, _advance(solution, residual, direction, response, squares / curvature)
+            share = squares / last
         return solution
 
 
@@ -139,3 +133,32 @@ def _restrict(values, blocks, weights, out):  # type: ignore[no-untyped-def]
 def _subtract(values, blocks, weights, field):  # type: ignore[no-untyped-def]
     for k in range(values.size):
         values[k] -= weights[k] * field[blocks[k]]
+
+
+@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def _turn(direction, residual, share, root, field):  # type: ignore[no-untyped-def]
+    for k in range(direction.size):
+        d = residual[k] + share * direction[k]
+        direction[k] = d
+        field[k] = root[k] * d
+
+
+@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def _respond(field, root, direction, response):  # type: ignore[no-untyped-def]
+    curvature = 0.0
+    for k in range(direction.size):
+        value = root[k] * field[k] + direction[k]
+        response[k] = value
+        curvature += value * direction[k]
+    return curvature
+
+
+@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def _advance(solution, residual, direction, response, step):  # type: ignore[no-untyped-def]
+    squares = 0.0
+    for k in range(direction.size):
+        solution[k] += step * direction[k]
+        r = residual[k] - step * response[k]
+        residual[k] = r
+        squares += r * r
+    return squares
