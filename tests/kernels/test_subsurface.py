@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from bem import InputError, Material
 from bem.kernels.half_space import rectangle_displacement
-from bem.kernels.loads import STRESS_PARITY, Load
-from bem.kernels.subsurface import rectangle_stress, stress_table
+from bem.kernels.loads import STRESS_PARITY, Load, clear_odd
+from bem.kernels.subsurface import add_rectangle, rectangle_stress, stress_table
 
 NU = 0.3
 
@@ -117,6 +117,26 @@ def test_table_is_the_rectangle_at_offsets(load, depth):
 
 coordinate = st.floats(-30, 30)
 side = st.floats(-3, 3).map(lambda e: 10.0**e)
+
+
+@pytest.mark.parametrize("load", Load)
+@pytest.mark.parametrize("spacing", [(1.0, 1.0), (1.0, 12.0), (12.0, 1.0)])
+@pytest.mark.parametrize("depth", [0.0, 0.7, 90.0])
+def test_cells_side_by_side_have_the_bits_of_single_ones(load, spacing, depth):
+    """Rows longer than a block, with several rules in them."""
+    shape, first = (13, 150), 2
+    table = stress_table(shape, spacing, depth, NU, load, first)
+    scale = max(spacing)
+    pressure, traction = float(load is Load.NORMAL), float(load is Load.TANGENTIAL)
+    single = np.zeros((6, *shape))
+    for i, j in np.ndindex(*shape):
+        stress = np.zeros(6)
+        x, y = i * (spacing[0] / scale), (j + first) * (spacing[1] / scale)
+        sides = 0.5 * spacing[0] / scale, 0.5 * spacing[1] / scale
+        add_rectangle(x, y, depth / scale, *sides, NU, pressure, traction, stress)
+        single[:, i, j] = stress / (2 * np.pi)
+    clear_odd(single, np.arange(13)[:, None], np.arange(first, 152)[None, :], STRESS_PARITY[load])
+    assert np.array_equal(table, single)
 
 
 @settings(max_examples=60, deadline=None)
