@@ -20,8 +20,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
-from scipy import sparse
 from scipy.linalg import lu_factor, lu_solve
 
 from bem.grid import FloatArray
@@ -33,21 +33,17 @@ from bem.lubrication.line_newton import Problem, mean_fluidity
 
 @dataclass(frozen=True)
 class FixedMesh:
-    """Nodes (n+1,), film of undeformed bodies, kernel weights, volumes, quadrature, and the operators from nodes to
-    faces and back; `ahead` and `behind` take the upstream node alone."""
+    """Nodes (n+1,), film of undeformed bodies, kernel weights, volumes, quadrature; cells (n,), and on their faces how
+    much of the difference between the two nodes upstream extrapolates the nearer one, for either direction."""
 
     position: FloatArray
     shape: FloatArray
     weights: FloatArray
     volume: FloatArray
     quadrature: FloatArray
-    gradient: sparse.csr_array
-    average: sparse.csr_array
-    forward: sparse.csr_array
-    backward: sparse.csr_array
-    ahead: sparse.csr_array
-    behind: sparse.csr_array
-    divergence: sparse.csr_array
+    spacing: FloatArray
+    ahead: FloatArray
+    behind: FloatArray
 
 
 @dataclass(frozen=True)
@@ -100,16 +96,6 @@ def mesh_of(position: FloatArray, shape: FloatArray, weights: FloatArray) -> Fix
     quadrature[1:] += 0.5 * spacing
     quadrature[:-1] += 0.5 * spacing
 
-    def faces(*diagonals: tuple[FloatArray, int]) -> sparse.csr_array:
-        return sparse.csr_array(
-            sparse.diags_array(
-                [d[max(0, -k) : n - max(0, k - 1)] for d, k in diagonals],
-                offsets=[k for _, k in diagonals],
-                shape=(n, n + 1),
-            )
-        )
-
-    ones = np.ones(n)
     ahead = np.zeros(n)
     ahead[1:] = 0.5 * spacing[1:] / spacing[:-1]
     behind = np.zeros(n)
@@ -120,13 +106,9 @@ def mesh_of(position: FloatArray, shape: FloatArray, weights: FloatArray) -> Fix
         weights=weights,
         volume=quadrature.copy(),
         quadrature=quadrature,
-        gradient=faces((-1 / spacing, 0), (1 / spacing, 1)),
-        average=faces((0.5 * ones, 0), (0.5 * ones, 1)),
-        forward=faces((1 + ahead, 0), (-ahead, -1)),
-        backward=faces((1 + behind, 1), (-behind, 2)),
-        ahead=faces((ones, 0)),
-        behind=faces((ones, 1)),
-        divergence=sparse.csr_array(sparse.diags_array([ones, -ones], offsets=[0, -1], shape=(n + 1, n))),
+        spacing=spacing,
+        ahead=ahead,
+        behind=behind,
     )
 
 
@@ -154,7 +136,9 @@ def time_step(
     nodes = len(mesh.position)
     conserving = cavitation is Cavitation.MASS_CONSERVING
     loaded = np.isfinite(problem.load)
-    extrapolated, carrier = (mesh.forward, mesh.ahead) if entrainment >= 0 else (mesh.backward, mesh.behind)
+    upstream, farther = _upstream_nodes(mesh, entrainment)
+    extrapolation = mesh.ahead if entrainment >= 0 else mesh.behind
+    spacing = mesh.spacing
     pressure, film, datum = start.pressure.copy(), start.film.copy(), start.datum
     fraction = start.fraction.copy() if conserving else np.ones(nodes)
     inlet = 0 if entrainment >= 0 else -1
@@ -169,17 +153,18 @@ def time_step(
         positive = np.maximum(pressure, 0.0)
         log_viscosity, slope = problem.log_viscosity(positive)
         density, density_slope = problem.density(positive)
-        thickness = mesh.average @ film
-        mean_density = mesh.average @ density
+        thickness = 0.5 * (film[1:] + film[:-1])
+        mean_density = 0.5 * (density[1:] + density[:-1])
         fluid, left, right = mean_fluidity(log_viscosity)
-        gradient = mesh.gradient @ pressure
+        gradient = np.diff(pressure) / spacing
         cubed = thickness**3 / 6
         mass = fraction * density * film
 
-        carried = carrier @ fraction
-        upwind = extrapolated * carried[:, None]
-        flux = entrainment * (upwind @ (density * film)) - cubed * mean_density * fluid * gradient
-        excess = mesh.divergence @ flux + mesh.volume * (leading * mass + history)
+        carried = entrainment * fraction[upstream]
+        held = density * film
+        faced = held[upstream] + extrapolation * (held[upstream] - held[farther])
+        flux = carried * faced - cubed * mean_density * fluid * gradient
+        excess = np.diff(flux, prepend=0.0, append=0.0) + mesh.volume * (leading * mass + history)
         # what is carried through a ruptured gap is as thin as the exit, however wide the gap
         measure = np.minimum(film, 10 * film.min()) if conserving else film
         row = (mesh.volume * leading + abs(entrainment)) * measure
@@ -220,33 +205,32 @@ def time_step(
         index = np.flatnonzero(full)
         rows_at = interior if conserving else index
         empty = interior[~full[1:-1]] if conserving else interior[:0]
-        through_film = mesh.average * (0.5 * thickness**2 * mean_density * fluid * gradient)[:, None]
-        by_film = mesh.divergence @ (entrainment * (upwind * density[None, :]) - through_film)
-        by_film = by_film + sparse.diags_array(mesh.volume * leading * fraction * density)
-        rows = sparse.csr_array(by_film)[rows_at] * (1 / row[rows_at])[:, None]
+        through_film = 0.5 * thickness**2 * mean_density * fluid * gradient
         steep = cubed * gradient * mean_density
-        low = mesh.gradient * (cubed * mean_density * fluid)[:, None]
-        ends = sparse.diags_array(
-            [
-                steep * left * slope[:-1] + 0.5 * cubed * fluid * gradient * density_slope[:-1],
-                steep * right * slope[1:] + 0.5 * cubed * fluid * gradient * density_slope[1:],
-            ],
-            offsets=[0, 1],
-            shape=(nodes - 1, nodes),
-        )
+        mobility = cubed * mean_density * fluid / spacing
+        dense = 0.5 * cubed * fluid * gradient
         stored = film * density_slope
-        by_pressure = mesh.divergence @ (entrainment * (upwind * stored[None, :]) - low - ends)
-        by_pressure = by_pressure + sparse.diags_array(mesh.volume * leading * fraction * stored)
-        by_pressure = sparse.csr_array(by_pressure)[rows_at]
-        by_pressure = sparse.csr_array(by_pressure * (1 / row[rows_at])[:, None])
+        faces = _upwind(carried, density, extrapolation, entrainment)
+        faces[1:3] -= 0.5 * through_film
+        by_film = _bands(faces, mesh.volume * leading * fraction * density / row, row)
+        faces = _upwind(carried, stored, extrapolation, entrainment)
+        faces[1] += mobility - steep * left * slope[:-1] - dense * density_slope[:-1]
+        faces[2] -= mobility + steep * right * slope[1:] + dense * density_slope[1:]
+        by_pressure = _bands(faces, mesh.volume * leading * fraction * stored / row, row)
+        faces = np.zeros_like(faces)
+        faces[1 if entrainment >= 0 else 2] = entrainment * faced
+        by_fraction = _bands(faces, mesh.volume * leading * held / row, row)
 
         size = len(rows_at)
         matrix = np.zeros((size + 1, size + 1))
         unknown = len(index)
-        matrix[:-1, :unknown] = (rows @ mesh.weights[:, index]) * (-DEFLECTION * highest)
-        matrix[:-1, :unknown] += by_pressure[:, index].toarray() * highest
+        place = np.full(nodes, -1)
+        place[index] = np.arange(unknown)
+        place[empty] = unknown + np.arange(len(empty))
+        elastic = -DEFLECTION * highest
+        _assemble(matrix, rows_at, index, place, elastic * by_film, mesh.weights, highest * by_pressure, by_fraction)
         unit = float(film.min())
-        matrix[:-1, -1] = (rows @ np.ones(nodes)) * unit
+        matrix[:-1, -1] = by_film.sum(axis=0)[rows_at] * unit
         if loaded:
             matrix[-1, :unknown] = mesh.quadrature[index] * highest / problem.load
         else:
@@ -254,18 +238,14 @@ def time_step(
         # nodes that leave the film drop their pressure in the same step
         dropped = np.where(full, 0.0, -pressure)
         film_drop = -DEFLECTION * (mesh.weights @ dropped)
-        known = -scaled[rows_at] - rows @ film_drop - by_pressure @ dropped
-        filled = np.zeros(nodes)
+        known = -scaled - _applied(by_film, film_drop) - _applied(by_pressure, dropped)
+        # and those that enter it are filled
+        filled = np.where(full, 1 - fraction, 0.0) if conserving else np.zeros(nodes)
         if conserving:
-            # and those that enter it are filled
-            filled = np.where(full, 1 - fraction, 0.0)
-            held = density * film
-            by_fraction = mesh.divergence @ (entrainment * (carrier * (extrapolated @ held)[:, None]))
-            by_fraction = sparse.csr_array(by_fraction + sparse.diags_array(mesh.volume * leading * held))[rows_at]
-            by_fraction = sparse.csr_array(by_fraction * (1 / row[rows_at])[:, None])
-            matrix[:-1, unknown:-1] = by_fraction[:, empty].toarray()
-            known -= by_fraction @ filled
-        right_side = np.append(known, load_error - (mesh.quadrature @ dropped) / problem.load if loaded else 0.0)
+            known -= _applied(by_fraction, filled)
+        right_side = np.append(
+            known[rows_at], load_error - (mesh.quadrature @ dropped) / problem.load if loaded else 0.0
+        )
         change = lu_solve(lu_factor(matrix, overwrite_a=True, check_finite=False), right_side, check_finite=False)
         if not np.isfinite(change).all():
             break
@@ -293,3 +273,74 @@ def time_step(
         mass[outlet] = fraction[outlet] * density[outlet] * film[outlet]
     outcome = Film(np.maximum(pressure, 0.0), film, datum, mass, full, fraction)
     return StepOutcome(outcome, iterations, residual, converged, imbalance)
+
+
+def _upstream_nodes(mesh: FixedMesh, entrainment: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The node upstream of every face, and the one upstream of that (at the ends the same)."""
+    faces = np.arange(len(mesh.spacing))
+    if entrainment >= 0:
+        return faces, np.maximum(faces - 1, 0)
+    return faces + 1, np.minimum(faces + 2, len(faces))
+
+
+def _upwind(carried: FloatArray, values: FloatArray, extrapolation: FloatArray, entrainment: float) -> FloatArray:
+    """Coefficients (4, n) of face k's Couette flow in the unknowns at nodes k - 1 .. k + 2."""
+    out = np.zeros((4, len(carried)))
+    if entrainment >= 0:
+        out[1] = carried * (1 + extrapolation) * values[:-1]
+        out[0, 1:] = -carried[1:] * extrapolation[1:] * values[:-2]
+    else:
+        out[2] = carried * (1 + extrapolation) * values[1:]
+        out[3, :-1] = -carried[:-1] * extrapolation[:-1] * values[2:]
+    return out
+
+
+def _bands(faces: FloatArray, diagonal: FloatArray, row: FloatArray) -> FloatArray:
+    """Coefficients (5, n+1) of volume i's balance over `row` in the unknowns at nodes i - 2 .. i + 2."""
+    out = np.zeros((5, len(diagonal)))
+    out[1:, :-1] += faces
+    out[:-1, 1:] -= faces
+    out /= row
+    out[2] += diagonal
+    return out
+
+
+def _applied(bands: FloatArray, values: FloatArray) -> FloatArray:
+    """Bands times values at the nodes."""
+    nodes = len(values)
+    padded = np.zeros(nodes + 4)
+    padded[2:-2] = values
+    out = bands[0] * padded[:nodes]
+    for k in range(1, 5):
+        out += bands[k] * padded[k : k + nodes]
+    return out
+
+
+@njit(cache=True)
+def _assemble(
+    matrix: FloatArray,
+    rows: NDArray[np.intp],
+    columns: NDArray[np.intp],
+    place: NDArray[np.intp],
+    by_film: FloatArray,
+    weights: FloatArray,
+    by_pressure: FloatArray,
+    by_fraction: FloatArray,
+) -> None:
+    """Fill in the rows of the balances: through the film that follows pressures at `columns`, and directly."""
+    nodes, pressures = len(place), len(columns)
+    for a in range(len(rows)):
+        i = rows[a]
+        for k in range(5):
+            j = i + k - 2
+            if j < 0 or j >= nodes:
+                continue
+            factor = by_film[k, i]
+            if factor != 0.0:
+                for b in range(pressures):
+                    matrix[a, b] += factor * weights[j, columns[b]]
+            b = place[j]
+            if b >= pressures:
+                matrix[a, b] += by_fraction[k, i]
+            elif b >= 0:
+                matrix[a, b] += by_pressure[k, i]
