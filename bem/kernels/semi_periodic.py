@@ -30,6 +30,7 @@ from bem.kernels import half_space, subsurface
 from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS
 from bem.kernels.half_plane import add_strip, log_strip
 from bem.kernels.loads import STRESS_PARITY, SURFACE_PARITY, Load, clear_odd
+from bem.kernels.subsurface import BLOCK, X_AT, Y_AT
 from bem.materials import Material
 
 _LINE = 6.5  # exp(-2 pi 6.5) = 2e-18
@@ -84,35 +85,27 @@ _STRESS, _PRESSURE_LIFT, _TRACTION_LIFT = 0, 1, 2
 
 @nb.njit(**COMPILE)
 def _add_pair(
-    kind: int,
-    swap: bool,
-    free: float,
-    along: float,
-    z: float,
-    shift: float,
-    nu: float,
-    pressure: float,
-    traction: float,
-    weight: float,
-    out: FloatArray,
-) -> None:
-    """Add `weight` times the point forces at +-`shift` along the periodic axis (x if `swap`)."""
+    kind: int, swap: bool, z: float, shift: float, nu: float, pressure: float, traction: float, weight: float,
+    count: int, room: FloatArray,
+) -> None:  # fmt: skip
+    """Add `weight` times the point forces at +-`shift` along the periodic axis (x if `swap`) to a block of points."""
     if kind == _STRESS:
         for side in (-1.0, 1.0):
-            t = along + side * shift
-            if swap:
-                subsurface.add_point(t, free, z, nu, weight * pressure, weight * traction, out)
-            else:
-                subsurface.add_point(free, t, z, nu, weight * pressure, weight * traction, out)
+            at = -side * shift
+            right, on = (at, 0.0) if swap else (0.0, at)
+            subsurface.add_points(right, on, z, nu, weight * pressure, weight * traction, count, room)
         return
-    plus = (along + shift) ** 2 + free * free
-    minus = (along - shift) ** 2 + free * free
-    if kind == _PRESSURE_LIFT:
-        out[0] += weight * (1.0 / np.sqrt(plus) + 1.0 / np.sqrt(minus))
-    elif swap:
-        out[0] += weight * 2.0 * along * (along * along + free * free - shift * shift) / (plus * minus)
-    else:
-        out[0] += weight * free * (1.0 / plus + 1.0 / minus)
+    for k in range(count):
+        x, y = room[X_AT + k], room[Y_AT + k]
+        free, along = (y, x) if swap else (x, y)
+        plus = (along + shift) ** 2 + free * free
+        minus = (along - shift) ** 2 + free * free
+        if kind == _PRESSURE_LIFT:
+            room[k] += weight * (1.0 / np.sqrt(plus) + 1.0 / np.sqrt(minus))
+        elif swap:
+            room[k] += weight * 2.0 * along * (along * along + free * free - shift * shift) / (plus * minus)
+        else:
+            room[k] += weight * free * (1.0 / plus + 1.0 / minus)
 
 
 @nb.njit(**COMPILE)
@@ -120,7 +113,7 @@ def _add_tail(
     kind: int,
     swap: bool,
     free: float,
-    along: float,
+    along: FloatArray,
     z: float,
     nu: float,
     pressure: float,
@@ -128,27 +121,38 @@ def _add_tail(
     reference: float,
     first: int,
     weight: float,
+    room: FloatArray,
     out: FloatArray,
 ) -> None:
-    """Add all point forces at +-k periods, k >= first; lengths in periods."""
+    """Add all point forces at +-k periods, k >= first, to `out` (parts, points along); lengths in periods."""
+    count = along.size
+    across = np.full(count, free)
+    if swap:
+        subsurface.block_of(along, across, room)
+    else:
+        subsurface.block_of(across, along, room)
     for k in range(first, _EXPLICIT):
-        _add_pair(kind, swap, free, along, z, float(k), nu, pressure, traction, weight, out)
+        _add_pair(kind, swap, z, float(k), nu, pressure, traction, weight, count, room)
     start = _EXPLICIT - 0.5
     for i in range(_EULER_NODES.size):
         t = _EULER_NODES[i]
         w = weight * _EULER_WEIGHTS[i]
-        _add_pair(kind, swap, free, along, z, start + t, nu, pressure, traction, w, out)
-        _add_pair(kind, swap, free, along, z, start - t, nu, pressure, traction, -w, out)
+        _add_pair(kind, swap, z, start + t, nu, pressure, traction, w, count, room)
+        _add_pair(kind, swap, z, start - t, nu, pressure, traction, -w, count, room)
     if kind == _PRESSURE_LIFT:
-        for t in (start + along, start - along):
-            out[0] -= weight * np.log((t + np.sqrt(t * t + free * free)) / reference)
-        return
-    stretch = np.sqrt(start * start + free * free + z * z)
-    for i in range(_TAIL_NODES.size):
-        left = 1.0 - _TAIL_NODES[i]
-        w = weight * _TAIL_WEIGHTS[i] * stretch / (left * left)
-        t = start + stretch * _TAIL_NODES[i] / left
-        _add_pair(kind, swap, free, along, z, t, nu, pressure, traction, w, out)
+        for k in range(count):
+            for t in (start + along[k], start - along[k]):
+                room[k] -= weight * np.log((t + np.sqrt(t * t + free * free)) / reference)
+    else:
+        stretch = np.sqrt(start * start + free * free + z * z)
+        for i in range(_TAIL_NODES.size):
+            left = 1.0 - _TAIL_NODES[i]
+            w = weight * _TAIL_WEIGHTS[i] * stretch / (left * left)
+            t = start + stretch * _TAIL_NODES[i] / left
+            _add_pair(kind, swap, z, t, nu, pressure, traction, w, count, room)
+    for c in range(out.shape[0]):
+        for k in range(count):
+            out[c, k] += room[c * BLOCK + k]
 
 
 @nb.njit(**COMPILE)
@@ -194,27 +198,28 @@ def _add_cell(
     kind: int,
     swap: bool,
     free: float,
-    along: float,
+    along: FloatArray,
     z: float,
     half: float,
     half_along: float,
     nu: float,
     pressure: float,
     traction: float,
+    room: FloatArray,
     out: FloatArray,
-    lift: FloatArray,
 ) -> None:
-    """Add one uniformly loaded cell."""
-    x, y, a, b = free, along, half, half_along
-    if swap:
-        x, y, a, b = along, free, half_along, half
+    """Add one uniformly loaded cell to `out` (parts, points along)."""
+    across = np.full(along.size, free)
+    x, y, a, b = (along, across, half_along, half) if swap else (across, along, half, half_along)
     if kind == _STRESS:
-        subsurface.add_rectangle(x, y, z, a, b, nu, pressure, traction, out)
-    else:
+        subsurface.add_rectangles(x, y, z, a, b, nu, pressure, traction, room, out)
+        return
+    lift = np.zeros(3)
+    for k in range(along.size):
         # at nu = 0: 4 pi G uz = 2 V under pressure, chi_x under traction
         lift[:] = 0.0
-        half_space.add_rectangle(x, y, z, a, b, 0.0, kind == _TRACTION_LIFT, lift)
-        out[0] += 0.5 * lift[2] if kind == _PRESSURE_LIFT else lift[2]
+        half_space.add_rectangle(x[k], y[k], z, a, b, 0.0, kind == _TRACTION_LIFT, lift)
+        out[0, k] += 0.5 * lift[2] if kind == _PRESSURE_LIFT else lift[2]
 
 
 @nb.njit(**COMPILE)
@@ -245,55 +250,58 @@ def _fill(
     parts = out.shape[0]
     half_along = 0.5 * step_along
     samples = np.zeros((parts, nodes.size))
-    local = np.zeros(parts)
+    line = np.zeros(parts)
     strip = np.zeros(6)
-    lift = np.zeros(3)
+    room = np.zeros(8 * BLOCK)
+    row = np.zeros((parts, out.shape[2]))
+    offsets = np.arange(out.shape[2]) * step_along
     reach = np.sqrt(max(_LINE * _LINE - z * z, 0.0))
     for i in range(out.shape[1]):
         free = i * step
         # the part of the cell within reach, and the strips on either side of it
         low = min(max(free - reach, -half), half)
         high = min(max(free + reach, -half), half)
-        local[:] = 0.0
+        line[:] = 0.0
         for start, stop in ((-half, low), (high, half)):
             if stop > start:
                 middle = 0.5 * (start + stop)
                 _add_line(
                     kind, swap, free - middle, z, 0.5 * (stop - start), step_along, nu, pressure, traction, reference,
-                    local, strip,
+                    line, strip,
                 )  # fmt: skip
         for c in range(parts):
-            out[c, i, :] = local[c]
+            out[c, i, :] = line[c]
         if not high > low:
             continue
         if tail.shape[1] > 0:
             samples[:] = tail[:, i, :]
-        pieces = 0 if tail.shape[1] > 0 else int(np.ceil((high - low) / 0.5))
-        width = (high - low) / max(pieces, 1)
-        for n in range(nodes.size if pieces > 0 else 0):
-            local[:] = 0.0
+        else:
+            samples[:] = 0.0
+            pieces = int(np.ceil((high - low) / 0.5))
+            width = (high - low) / pieces
             for piece in range(pieces):
                 centre = low + (piece + 0.5) * width
                 for g in range(points):
                     source = centre + 0.5 * width * NODES[points, g]
                     _add_tail(
-                        kind, swap, free - source, nodes[n], z, nu, pressure, traction, reference, first,
-                        width * WEIGHTS[points, g], local,
+                        kind, swap, free - source, nodes, z, nu, pressure, traction, reference, first,
+                        width * WEIGHTS[points, g], room, samples,
                     )  # fmt: skip
-            samples[:, n] = local
         middle = 0.5 * (low + high)
-        for j in range(out.shape[2]):
-            local[:] = 0.0
-            for k in range(1 - first, first):
-                _add_cell(
-                    kind, swap, free - middle, j * step_along + k, z, 0.5 * (high - low), half_along, nu, pressure,
-                    traction, local, lift,
-                )  # fmt: skip
-            for c in range(parts):
-                total = local[c]
-                for n in range(nodes.size):
-                    total += samples[c, n] * (even[j, n] if parity[c] > 0 else odd[j, n])
-                out[c, i, j] += total
+        row[:] = 0.0
+        for k in range(1 - first, first):
+            _add_cell(
+                kind, swap, free - middle, offsets + k, z, 0.5 * (high - low), half_along, nu, pressure, traction,
+                room, row,
+            )  # fmt: skip
+        for c in range(parts):
+            for n in range(nodes.size):
+                value = samples[c, n]
+                shape = even[n] if parity[c] > 0 else odd[n]
+                for j in range(row.shape[1]):
+                    row[c, j] += value * shape[j]
+            for j in range(row.shape[1]):
+                out[c, i, j] += row[c, j]
 
 
 @nb.njit(**COMPILE)
@@ -314,12 +322,10 @@ def _sample(
     """The tail over each cell along the free axis, (parts, free offsets, nodes), from samples at `free_nodes`."""
     parts = out.shape[0]
     samples = np.zeros((parts, nodes.size))
-    local = np.zeros(parts)
+    room = np.zeros(8 * BLOCK)
     for s in range(free_nodes.size):
-        for n in range(nodes.size):
-            local[:] = 0.0
-            _add_tail(kind, swap, free_nodes[s], nodes[n], z, nu, pressure, traction, reference, first, 1.0, local)
-            samples[:, n] = local
+        samples[:] = 0.0
+        _add_tail(kind, swap, free_nodes[s], nodes, z, nu, pressure, traction, reference, first, 1.0, room, samples)
         for i in range(out.shape[1]):
             w = means[i, s]
             if w != 0.0:
@@ -379,7 +385,7 @@ def _interpolation(cells: int, first: int) -> tuple[FloatArray, FloatArray, Floa
     cardinal = np.cos(orders[:, None] * positive) * scale[:, None]
     even = integrals[:, 0::2] @ cardinal[0::2]
     odd = integrals[:, 1::2] @ cardinal[1::2]
-    return length * np.cos(positive), np.ascontiguousarray(even), np.ascontiguousarray(odd)
+    return length * np.cos(positive), np.ascontiguousarray(even.T), np.ascontiguousarray(odd.T)
 
 
 def _table(

@@ -106,34 +106,54 @@ def add_point(x: float, y: float, z: float, nu: float, pressure: float, traction
         out[5] += traction * xy
 
 
-# Cells of a row that are served by the same rule go through it side by side, in vector registers: the very operations
-# of `add_point`, in the same order for each. A block's sums lie `_BLOCK` apart, which the compiler has to know.
-_BLOCK = 64
-_ACROSS = 6 * _BLOCK
+# Points side by side go through a rule in vector registers: the very operations of `add_point`, in the same order for
+# each. What belongs to a block of points is held in one array: six sums, x and y, each `BLOCK` numbers, a distance that
+# the compiler has to know.
+BLOCK = 64
+X_AT = 6 * BLOCK
+Y_AT = 7 * BLOCK
 
 
 @nb.njit(**COMPILE)
-def _pressure_row(x: float, z: float, nu: float, weight: float, shift: float, count: int, room: FloatArray) -> None:
-    for k in range(count):
-        xx, yy, zz, yz, xz, xy = _pressure_point(x, room[_ACROSS + k] - shift, z, nu)
-        room[k] += weight * xx
-        room[_BLOCK + k] += weight * yy
-        room[2 * _BLOCK + k] += weight * zz
-        room[3 * _BLOCK + k] += weight * yz
-        room[4 * _BLOCK + k] += weight * xz
-        room[5 * _BLOCK + k] += weight * xy
+def block_of(x: FloatArray, y: FloatArray, room: FloatArray) -> None:
+    """Begin a block of at most `BLOCK` points (x, y) in `room` (8 BLOCK,): no sums yet."""
+    room[:X_AT] = 0.0
+    for k in range(x.size):
+        room[X_AT + k] = x[k]
+        room[Y_AT + k] = y[k]
 
 
 @nb.njit(**COMPILE)
-def _traction_row(x: float, z: float, nu: float, weight: float, shift: float, count: int, room: FloatArray) -> None:
-    for k in range(count):
-        xx, yy, zz, yz, xz, xy = _traction_point(x, room[_ACROSS + k] - shift, z, nu)
-        room[k] += weight * xx
-        room[_BLOCK + k] += weight * yy
-        room[2 * _BLOCK + k] += weight * zz
-        room[3 * _BLOCK + k] += weight * yz
-        room[4 * _BLOCK + k] += weight * xz
-        room[5 * _BLOCK + k] += weight * xy
+def add_points(
+    right: float, on: float, z: float, nu: float, pressure: float, traction: float, count: int, room: FloatArray
+) -> None:
+    """`add_point` of point forces at (right, on) to the sums of each of the first `count` points of a block."""
+    if pressure != 0.0:
+        for k in range(count):
+            xx, yy, zz, yz, xz, xy = _pressure_point(room[X_AT + k] - right, room[Y_AT + k] - on, z, nu)
+            room[k] += pressure * xx
+            room[BLOCK + k] += pressure * yy
+            room[2 * BLOCK + k] += pressure * zz
+            room[3 * BLOCK + k] += pressure * yz
+            room[4 * BLOCK + k] += pressure * xz
+            room[5 * BLOCK + k] += pressure * xy
+    if traction != 0.0:
+        for k in range(count):
+            xx, yy, zz, yz, xz, xy = _traction_point(room[X_AT + k] - right, room[Y_AT + k] - on, z, nu)
+            room[k] += traction * xx
+            room[BLOCK + k] += traction * yy
+            room[2 * BLOCK + k] += traction * zz
+            room[3 * BLOCK + k] += traction * yz
+            room[4 * BLOCK + k] += traction * xz
+            room[5 * BLOCK + k] += traction * xy
+
+
+@nb.njit(**COMPILE)
+def end_block(count: int, room: FloatArray, out: FloatArray) -> None:
+    """Add the sums of a block to `out` (6, count)."""
+    for c in range(6):
+        for k in range(count):
+            out[c, k] += room[c * BLOCK + k]
 
 
 @nb.njit(**COMPILE)
@@ -236,6 +256,44 @@ def add_rectangle(
 
 
 @nb.njit(**COMPILE)
+def add_rectangles(
+    x: FloatArray,
+    y: FloatArray,
+    z: float,
+    a: float,
+    b: float,
+    nu: float,
+    pressure: float,
+    traction: float,
+    room: FloatArray,
+    out: FloatArray,
+) -> None:
+    """`add_rectangle` at each of the points (x, y), (n,) each, to `out` (6, n); `room` (8 BLOCK,) is written over.
+
+    Far points in a row that are served by the same rule go through it side by side.
+    """
+    area = 4.0 * a * b
+    start = 0
+    while start < x.size:
+        n = rule(x[start], y[start], z, a, b)
+        stop = start + 1
+        if n <= 0:
+            add_rectangle(x[start], y[start], z, a, b, nu, pressure, traction, out[:, start])
+            start = stop
+            continue
+        while stop < min(x.size, start + BLOCK) and rule(x[stop], y[stop], z, a, b) == n:
+            stop += 1
+        block_of(x[start:stop], y[start:stop], room)
+        for i in range(n):
+            for j in range(n):
+                w = area * WEIGHTS[n, i] * WEIGHTS[n, j]
+                right, on = a * NODES[n, i], b * NODES[n, j]
+                add_points(right, on, z, nu, w * pressure, w * traction, stop - start, room)
+        end_block(stop - start, room, out[:, start:stop])
+        start = stop
+
+
+@nb.njit(**COMPILE)
 def _many(
     x: FloatArray,
     y: FloatArray,
@@ -257,46 +315,21 @@ def _many(
 
 
 @nb.njit(**COMPILE)
-def _table(dx: float, dy: float, depth: float, nu: float, traction: bool, first: int, out: FloatArray) -> None:
+def _table(
+    dx: float, dy: float, z: float, nu: float, pressure: float, traction: float, first: int, out: FloatArray
+) -> None:
     scale = max(dx, dy)
-    a, b, z = 0.5 * dx / scale, 0.5 * dy / scale, depth / scale
-    area = 4.0 * a * b
-    room = np.zeros(_ACROSS + _BLOCK)
-    local = np.zeros(6)
+    room = np.zeros(8 * BLOCK)
+    x = np.zeros(out.shape[2])
+    y = (np.arange(out.shape[2]) + first) * (dy / scale)
+    row = np.zeros((6, out.shape[2]))
     for i in range(out.shape[1]):
-        x = i * (dx / scale)
-        start = 0
-        while start < out.shape[2]:
-            y = (start + first) * (dy / scale)
-            n = rule(x, y, z, a, b)
-            if n <= 0:
-                local[:] = 0.0
-                add_rectangle(x, y, z, a, b, nu, 0.0 if traction else 1.0, 1.0 if traction else 0.0, local)
-                for c in range(6):
-                    out[c, i, start] = local[c] / _TWO_PI
-                start += 1
-                continue
-            room[:] = 0.0
-            room[_ACROSS] = y
-            count = 1
-            while count < _BLOCK and start + count < out.shape[2]:
-                y = (start + count + first) * (dy / scale)
-                if rule(x, y, z, a, b) != n:
-                    break
-                room[_ACROSS + count] = y
-                count += 1
-            for g in range(n):
-                for h in range(n):
-                    weight = area * WEIGHTS[n, g] * WEIGHTS[n, h]
-                    across, shift = x - a * NODES[n, g], b * NODES[n, h]
-                    if traction:
-                        _traction_row(across, z, nu, weight, shift, count, room)
-                    else:
-                        _pressure_row(across, z, nu, weight, shift, count, room)
-            for c in range(6):
-                for k in range(count):
-                    out[c, i, start + k] = room[c * _BLOCK + k] / _TWO_PI
-            start += count
+        x[:] = i * (dx / scale)
+        row[:] = 0.0
+        add_rectangles(x, y, z / scale, 0.5 * dx / scale, 0.5 * dy / scale, nu, pressure, traction, room, row)
+        for c in range(6):
+            for j in range(out.shape[2]):
+                out[c, i, j] = row[c, j] / _TWO_PI
 
 
 def rectangle_stress(
@@ -342,6 +375,7 @@ def stress_table(
 ) -> FloatArray:
     """Six stresses at offsets (i dx, (j + first) dy) and `depth` from the centre of a loaded cell, (6, nx, ny)."""
     out = np.empty((6, *shape))
-    _table(spacing[0], spacing[1], depth, poissons_ratio, load is Load.TANGENTIAL, first, out)
+    normal = load is Load.NORMAL
+    _table(spacing[0], spacing[1], depth, poissons_ratio, float(normal), float(not normal), first, out)
     offsets = np.arange(shape[0])[:, None], np.arange(first, first + shape[1])[None, :]
     return clear_odd(out, *offsets, STRESS_PARITY[load])

@@ -8,8 +8,9 @@ import importlib
 import numpy as np
 import pytest
 
-from bem import convolution, stress
+from bem import convolution
 from bem.kernels.loads import Load
+from bem.stress import bound, spectra
 from bem.verification import registry
 
 FACTORS = {"one per cent": 1.01, "sign": -1.0}
@@ -18,7 +19,7 @@ FACTORS = {"one per cent": 1.01, "sign": -1.0}
 def forget():
     """Spectra of healthy kernels must not serve a broken one, nor the other way round."""
     convolution._CACHE.kept.clear()
-    for cache in (stress._SPECTRA, stress._TABLES):
+    for cache in (spectra.SPECTRA, bound._TABLES):
         cache.kept.clear()
         cache.used = 0
 
