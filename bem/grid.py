@@ -51,7 +51,7 @@ class Grid:
                 f"Grid: shape {shape!r}, spacing {spacing!r} and periodic {periodic!r} must each be a pair"
             ) from None
         messages = []
-        if not all(isinstance(n, Integral) and n > 0 for n in (nx, ny)):
+        if not all(isinstance(n, Integral) and not isinstance(n, bool) and n > 0 for n in (nx, ny)):
             messages.append(f"Grid: shape {shape!r} must be two positive integers")
         try:
             sides = (float(dx), float(dy))

@@ -4,12 +4,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from numbers import Real
 
 from bem.errors import InputError
 from bem.representation import tabled
 
 HARDNESS_TO_YIELD = 2.8
 """Hardness over yield stress in uniaxial tension; Tabor, *The Hardness of Metals* (1951); the thesis' paper C."""
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _is_positive(value: object) -> bool:
+    return _is_number(value) and value > 0  # type: ignore[operator]
 
 
 @tabled
@@ -46,14 +55,14 @@ class Material:
         yield_stress: float | None = None,
     ) -> None:
         messages = []
-        if not (math.isfinite(youngs_modulus) and youngs_modulus > 0):
+        if not _is_positive(youngs_modulus):
             messages.append(f"Material {name!r}: youngs_modulus {youngs_modulus!r} must be positive and finite [Pa]")
-        if not -1 < poissons_ratio < 0.5:
+        if not (_is_number(poissons_ratio) and -1 < poissons_ratio < 0.5):
             messages.append(
                 f"Material {name!r}: poissons_ratio {poissons_ratio!r} must lie between -1 and 0.5, both excluded"
             )
         for key, value in (("hardness", hardness), ("yield_stress", yield_stress)):
-            if value is not None and not (math.isfinite(value) and value > 0):
+            if value is not None and not _is_positive(value):
                 messages.append(f"Material {name!r}: {key} {value!r} must be positive and finite [Pa], or left out")
         if messages:
             raise InputError(messages)
@@ -78,26 +87,48 @@ class Material:
 
 @dataclass(frozen=True)
 class Layer:
-    """A bonded surface layer of uniform thickness [m]."""
+    """A bonded surface layer of uniform thickness [m].
+
+    Raises
+    ------
+    InputError : a material that is none, or a thickness that is not positive and finite.
+    """
 
     material: Material
     thickness: float
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.thickness) and self.thickness > 0):
-            raise InputError(
+        messages = []
+        if not isinstance(self.material, Material):
+            messages.append(f"Layer: material {self.material!r} must be a Material")
+        if not _is_positive(self.thickness):
+            messages.append(
                 f"Layer: thickness {self.thickness!r} must be positive and finite [m]; for none, leave the layer out"
             )
+        if messages:
+            raise InputError(messages)
 
 
 @dataclass(frozen=True)
 class Body:
-    """A half-space, optionally with one bonded layer."""
+    """A half-space, optionally with one bonded layer.
+
+    Raises
+    ------
+    InputError : a material or layer that is none.
+    """
 
     material: Material
     layer: Layer | None = None
 
     def __init__(self, material: Material, *, layer: Layer | None = None) -> None:
+        messages: list[str] = []
+        if not isinstance(material, Material):
+            messages.append(f"Body: material {material!r} must be a Material")
+        if layer is not None and not isinstance(layer, Layer):
+            messages.append(f"Body: layer {layer!r} must be a Layer, or None")
+        if messages:
+            raise InputError(messages)
         object.__setattr__(self, "material", material)
         object.__setattr__(self, "layer", layer)
 
@@ -111,7 +142,12 @@ def contact_modulus(a: Material, b: Material | None = None) -> float:
     """Contact modulus E* [Pa]: 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; `b=None` is rigid.
 
     Johnson, *Contact Mechanics* (1985), eq. 4.2. The thesis' E' is 2 E*.
+
+    Raises
+    ------
+    InputError : anything but materials, such as bodies.
     """
+    _check_materials("contact_modulus", a, b)
     compliance = 1 / a.plane_strain_modulus
     if b is not None:
         compliance += 1 / b.plane_strain_modulus
@@ -123,13 +159,26 @@ def dundurs_beta(a: Material, b: Material | None = None) -> float:
 
     beta = [(1-2 nu1)/G1 - (1-2 nu2)/G2] / [2 (1-nu1)/G1 + 2 (1-nu2)/G2]; Johnson (1985), eq. 5.3-5.4;
     `b=None` is rigid.
+
+    Raises
+    ------
+    InputError : anything but materials, such as bodies.
     """
+    _check_materials("dundurs_beta", a, b)
     numerator = (1 - 2 * a.poissons_ratio) / a.shear_modulus
     denominator = 2 * (1 - a.poissons_ratio) / a.shear_modulus
     if b is not None:
         numerator -= (1 - 2 * b.poissons_ratio) / b.shear_modulus
         denominator += 2 * (1 - b.poissons_ratio) / b.shear_modulus
     return numerator / denominator
+
+
+def _check_materials(name: str, a: object, b: object) -> None:
+    messages = [f"{name}: {value!r} must be a Material" for value in (a, b) if not isinstance(value, Material | None)]
+    if a is None:
+        messages.append(f"{name}: the first material is None; only the second may be rigid")
+    if messages:
+        raise InputError(messages)
 
 
 @dataclass(frozen=True)

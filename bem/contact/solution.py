@@ -31,7 +31,8 @@ class ContactSolution:
     iterations : iterations of conjugate gradients on all grids.
     convolutions : applications of the operator on all grids, each weighed by its share of the cells.
     residual : largest violation of the contact conditions, recomputed from `pressure` alone, over the rms roughness of
-        the undeformed gap (over the largest displacement where the gap is flat in comparison).
+        the undeformed gap (over the largest displacement or a larger prescribed mean gap, where the gap is flat in
+        comparison).
     status : outcome; `residual` is at most the tolerance if it is converged.
     """
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from contact_oracles import operator, violation
+from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, operator, violation
 
 from bem.contact import solve_contact
 
@@ -54,3 +54,28 @@ def test_problems_found_by_chance(seed):
     # the independent product agrees to about 1e-12 of what it is made of
     allowed = 1e-8 * gap.std() + 1e-12 * (reach + np.abs(gap).max())
     assert violation(op, gap, solution, np.inf if cap is None else cap) <= allowed
+
+
+@pytest.mark.parametrize("cells", [(19, 2), (1, 31), (29, 28)])
+@pytest.mark.parametrize("share", [None, 0.3, 1.0])
+def test_flat_gap_pressed_together_periodically(cells, share):
+    # displacements would be rounding only: nothing to iterate on, nothing to measure a residual by
+    op = operator(cells, (1.0, 1.0), PERIODIC, modulus=1e9)
+    load = 1e4 * op.grid.area
+    cap = None if share is None else load / op.grid.area / share
+    solution = solve_contact(np.full(cells, 3e-5), op, load=load, hardness=cap)
+    assert solution.status == "converged"
+    assert solution.iterations == 0
+    assert solution.residual == 0
+    assert (solution.pressure == solution.pressure[0, 0]).all()
+    np.testing.assert_allclose(solution.load, load, rtol=1e-13)  # a sum of equal numbers
+
+
+@pytest.mark.parametrize("periodic", [FREE, PERIODIC, HALF_X, HALF_Y])
+def test_flat_gap_held_apart_by_the_lubricant(periodic):
+    op = operator((13, 7), (1e-6, 1e-6), periodic, modulus=1e11)
+    for hardness in (None, 1e9):
+        solution = solve_contact(np.full((13, 7), 2e-9), op, mean_gap=1.3e-9, hardness=hardness)
+        assert solution.status == "converged"
+        assert solution.load == 0
+        assert solution.approach == pytest.approx(0.7e-9, rel=1e-12)

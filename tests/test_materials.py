@@ -1,0 +1,54 @@
+"""Materials, layers and bodies refuse what they cannot be made of."""
+
+import pytest
+
+from bem import Body, Grid, InputError, Layer, Material, contact_modulus, dundurs_beta
+
+STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("youngs_modulus", "210 GPa"),
+        ("youngs_modulus", None),
+        ("youngs_modulus", True),
+        ("youngs_modulus", float("inf")),
+        ("poissons_ratio", "0.3"),
+        ("poissons_ratio", 0.5),
+        ("hardness", "1 GPa"),
+        ("yield_stress", -1.0),
+    ],
+)
+def test_one_message_names_the_key_and_the_value(key, value):
+    with pytest.raises(InputError) as raised:
+        Material("test", **{"youngs_modulus": 1e9, "poissons_ratio": 0.3} | {key: value})
+    assert len(raised.value.messages) == 1
+    assert f"{key} {value!r}" in raised.value.messages[0]
+
+
+def test_every_mistake_has_its_message():
+    with pytest.raises(InputError) as raised:
+        Material("test", youngs_modulus="stiff", poissons_ratio=0.7, hardness=0)
+    assert len(raised.value.messages) == 3
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: Layer(STEEL, "1 um"),
+        lambda: Layer(STEEL, 0.0),
+        lambda: Layer("steel", 1e-6),
+        lambda: Body("steel"),
+        lambda: Body(STEEL, layer=STEEL),
+        lambda: contact_modulus(Body(STEEL)),
+        lambda: contact_modulus(STEEL, Body(STEEL)),
+        lambda: contact_modulus(None, STEEL),
+        lambda: dundurs_beta(Body(STEEL)),
+        lambda: Grid((True, 3), (1.0, 1.0)),
+    ],
+)
+def test_things_of_another_kind(make):
+    with pytest.raises(InputError) as raised:
+        make()
+    assert len(raised.value.messages) == 1
