@@ -24,7 +24,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -216,8 +216,9 @@ def solve_level(
     before: _Accepted | None = None
     while True:
         level.displace(iterate)
+        current: _Accepted | None = None
         if before is not None:
-            iterate = _step_back(level, before, iterate)
+            iterate, current = _step_back(level, before, iterate)
         level.mark(iterate)
         rounds += 1
         residual = np.empty(iterate.cells.size)
@@ -237,7 +238,10 @@ def solve_level(
         mark = min(mark, violation)
         if waited > tuning.stall:
             return _result(level, iterate, approach, violation, False, rounds)
-        current = _Accepted(iterate, approach, *_energy(level, iterate))
+        if current is None:
+            current = _Accepted(iterate, approach, *_energy(level, iterate))
+        else:
+            current = replace(current, approach=approach)
         if operator.symmetric:
             before = current
             np.copyto(level.flat["before"], level.flat["displacement"])
@@ -300,13 +304,14 @@ def _lift(level: _Level, iterate: _Iterate, mean: float) -> _Iterate:
 
 @dataclass(frozen=True)
 class _Accepted:
-    """A pressure with its energy at approach zero, the size of the terms in it, and its sum."""
+    """A pressure with its energy at approach zero, the size of the terms in it, its sum, and its work on the gap."""
 
     iterate: _Iterate
     approach: float
     energy: float
     size: float
     force: float
+    work: float
 
     def above(self, other: _Accepted, approach: float) -> bool:
         """Whether the energy is higher than the other's by more than round-off."""
@@ -314,19 +319,19 @@ class _Accepted:
         return rise > _ROUND_OFF * max(self.size, other.size)
 
 
-def _energy(level: _Level, iterate: _Iterate) -> tuple[float, float, float]:
+def _energy(level: _Level, iterate: _Iterate) -> tuple[float, float, float, float]:
     displacement = level.flat["displacement"]
-    energy, size, force = passes.energy(displacement, level.gap, iterate.cells, iterate.values)
+    energy, size, force, work = passes.energy(displacement, level.gap, iterate.cells, iterate.values)
     if iterate.capped.size:
         values = np.full(iterate.capped.size, level.cap)
         more = passes.energy(displacement, level.gap, iterate.capped, values)
-        energy, size, force = energy + more[0], size + more[1], force + more[2]
-    return energy, size, force
+        energy, size, force, work = energy + more[0], size + more[1], force + more[2], work + more[3]
+    return energy, size, force, work
 
 
-def _step_back(level: _Level, before: _Accepted, iterate: _Iterate) -> _Iterate:
+def _step_back(level: _Level, before: _Accepted, iterate: _Iterate) -> tuple[_Iterate, _Accepted | None]:
     """The lowest point between a round's ends, if the round went well beyond it; the displacement there replaces the
-    one in the buffer, without a convolution.
+    one in the buffer, without a convolution. Else the round's end, with its energy.
 
     Changes of the sets that are each right by themselves can be too many together: without this they swing ever wider,
     or for long.
@@ -334,14 +339,14 @@ def _step_back(level: _Level, before: _Accepted, iterate: _Iterate) -> _Iterate:
     displacement, approach = level.flat["displacement"], before.approach
     now = _Accepted(iterate, approach, *_energy(level, iterate))
     # the energy's slope where the round ended, along the way from its beginning
-    slope = _work(level, iterate) - _work(level, before.iterate) - approach * (now.force - before.force)
+    slope = now.work - _work(level, before.iterate) - approach * (now.force - before.force)
     rise = now.energy - before.energy - approach * (now.force - before.force)
     curvature = 2 * (slope - rise)
     if not curvature > 10 * _ROUND_OFF * max(now.size, before.size):
-        return iterate
+        return iterate, now
     share = 1 - slope / curvature
     if not _LEAST_SHARE < share < _GREATEST_SHARE:
-        return iterate
+        return iterate, now
     earlier = level.flat["before"]
     earlier *= 1 - share
     displacement *= share
@@ -354,7 +359,7 @@ def _step_back(level: _Level, before: _Accepted, iterate: _Iterate) -> _Iterate:
     full[np.intersect1d(before.iterate.capped, iterate.capped, assume_unique=True)] = level.cap
     capped = np.flatnonzero(full >= level.cap)
     inside = np.flatnonzero((full > 0) & (full < level.cap))
-    return _Iterate(inside, full[inside], capped)
+    return _Iterate(inside, full[inside], capped), None
 
 
 def _work(level: _Level, iterate: _Iterate) -> float:

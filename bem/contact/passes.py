@@ -87,10 +87,10 @@ def _find_violations(start, stop, result, displacement, gap, state, approach, fo
 
 def energy(
     displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], values: FloatArray
-) -> tuple[float, float, float]:
-    """Sum of p (gap + displacement / 2), of its magnitude, and of p over some cells."""
-    energy, size, force = in_blocks(cells.size, 3, _energy, displacement, gap, cells, values).sum(axis=0)
-    return float(energy), float(size), float(force)
+) -> tuple[float, float, float, float]:
+    """Sum of p (gap + displacement / 2), of its magnitude, of p, and of p (gap + displacement) over some cells."""
+    energy, size, force, work = in_blocks(cells.size, 4, _energy, displacement, gap, cells, values).sum(axis=0)
+    return float(energy), float(size), float(force), float(work)
 
 
 @_fast
@@ -98,14 +98,20 @@ def _energy(start, stop, result, displacement, gap, cells, values):  # type: ign
     total = 0.0
     size = 0.0
     force = 0.0
+    work = 0.0
     for k in range(start, stop):
         c = cells[k]
-        total += values[k] * (gap[c] + 0.5 * displacement[c])
-        size += abs(values[k] * gap[c]) + abs(values[k] * displacement[c])
-        force += values[k]
+        p = values[k]
+        by_gap = p * gap[c]
+        by_displacement = p * displacement[c]
+        total += by_gap + 0.5 * by_displacement
+        size += abs(by_gap) + abs(by_displacement)
+        force += p
+        work += by_gap + by_displacement
     result[0] = total
     result[1] = size
     result[2] = force
+    result[3] = work
 
 
 def work(displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], values: FloatArray) -> float:

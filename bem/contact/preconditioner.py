@@ -151,26 +151,44 @@ def _mark(position, cells, numbered):  # type: ignore[no-untyped-def]
 
 @njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
 def _connect(start, stop, result, cells, position, nx, ny, wrap_x, wrap_y, offsets, columns, pattern):  # type: ignore[no-untyped-def]
+    m = offsets.shape[0]
+    reach = 0
+    for a in range(m):
+        reach = max(reach, abs(offsets[a, 0]), abs(offsets[a, 1]))
+    shifts = offsets[:, 0] * ny + offsets[:, 1]
     distant = 0
+    i = cells[start] // ny
     for k in range(start, stop):
-        i = cells[k] // ny
-        j = cells[k] - i * ny
+        cell = cells[k]
+        while cell >= (i + 1) * ny:
+            i += 1
+        j = cell - i * ny
         bits = 0
-        for a in range(offsets.shape[0]):
-            ii = i + offsets[a, 0]
-            jj = j + offsets[a, 1]
-            if ii < 0:
-                ii = ii + nx if wrap_x else -1
-            if jj < 0:
-                jj = jj + ny if wrap_y else -1
-            elif jj >= ny:
-                jj = jj - ny if wrap_y else -1
-            neighbour = position[ii * ny + jj] if ii >= 0 and jj >= 0 else -1
-            columns[k, a] = neighbour
-            if neighbour >= 0 and (neighbour < start or neighbour >= stop):
-                distant += 1
-            if neighbour >= 0:
-                bits |= 1 << a
+        # a missing neighbour is the cell itself, with a zero in the table: no branch where it is used
+        if i >= reach and j >= reach and j < ny - reach:
+            for a in range(m):
+                neighbour = position[cell + shifts[a]]
+                present = neighbour >= 0
+                column = neighbour if present else k
+                columns[k, a] = column
+                bits |= present << a
+                distant += (column < start) | (column >= stop)
+        else:
+            for a in range(m):
+                ii = i + offsets[a, 0]
+                jj = j + offsets[a, 1]
+                if ii < 0:
+                    ii = ii + nx if wrap_x else -1
+                if jj < 0:
+                    jj = jj + ny if wrap_y else -1
+                elif jj >= ny:
+                    jj = jj - ny if wrap_y else -1
+                neighbour = position[ii * ny + jj] if ii >= 0 and jj >= 0 else -1
+                present = neighbour >= 0
+                column = neighbour if present else k
+                columns[k, a] = column
+                bits |= present << a
+                distant += (column < start) | (column >= stop)
         pattern[k] = bits
     result[0] = distant
 
@@ -226,13 +244,19 @@ def _solve_patterns(pattern, offsets, near_field, table, solved):  # type: ignor
 @_fast
 def _spread(start, stop, result, columns, pattern, table, residual, out):  # type: ignore[no-untyped-def]
     m = columns.shape[1]
+    if m == 10:  # the usual stencil, unrolled
+        for k in range(start, stop):
+            bits = pattern[k]
+            s = table[bits, 10] * residual[k]
+            for a in range(10):
+                s += table[bits, a] * residual[columns[k, a]]
+            out[k] = s
+        return
     for k in range(start, stop):
         bits = pattern[k]
         s = table[bits, m] * residual[k]
         for a in range(m):
-            c = columns[k, a]
-            if c >= 0:
-                s += table[bits, a] * residual[c]
+            s += table[bits, a] * residual[columns[k, a]]
         out[k] = s
 
 
@@ -240,20 +264,29 @@ def _spread(start, stop, result, columns, pattern, table, residual, out):  # typ
 def _collect(start, stop, result, columns, pattern, table, values, out, starts, block, targets, amounts):  # type: ignore[no-untyped-def]
     m = columns.shape[1]
     place = starts[start // block]
+    near = starts[start // block + 1] == place
     for k in range(start, stop):
         out[k] = 0
-    for k in range(start, stop):
-        bits = pattern[k]
-        s = values[k]
-        out[k] += table[bits, m] * s
-        for a in range(m):
-            c = columns[k, a]
-            if c >= start and c < stop:
-                out[c] += table[bits, a] * s
-            elif c >= 0:
-                targets[place] = c
-                amounts[place] = table[bits, a] * s
-                place += 1
+    if near and m == 10:  # the usual stencil, unrolled
+        for k in range(start, stop):
+            bits = pattern[k]
+            s = values[k]
+            for a in range(10):
+                out[columns[k, a]] += table[bits, a] * s
+            out[k] += table[bits, 10] * s
+    else:
+        for k in range(start, stop):
+            bits = pattern[k]
+            s = values[k]
+            for a in range(m):
+                c = columns[k, a]
+                if c >= start and c < stop:
+                    out[c] += table[bits, a] * s
+                else:
+                    targets[place] = c
+                    amounts[place] = table[bits, a] * s
+                    place += 1
+            out[k] += table[bits, m] * s
     total = 0.0
     for k in range(start, stop):
         total += out[k]
