@@ -25,7 +25,8 @@ from bem.grid import FloatArray, Grid
 from bem.kernels.cell_rules import COMPILE
 from bem.kernels.coefficients import STRESS_PARITY, SURFACE_PARITY
 from bem.kernels.half_space import Load
-from bem.kernels.layered_hankel import RadialTable, evaluate, radial_table, stress_kernels, surface_kernels
+from bem.kernels.layered_hankel import RadialTable, evaluate, panel_of, radial_table, stress_kernels, surface_kernels
+from bem.kernels.subsurface import Six
 from bem.materials import Body
 
 # points, and the least D over half a side: (R + sqrt(R^2 - 1))^(-2 n) is 1e-15 for the large ones (the order of the
@@ -47,31 +48,143 @@ STRESS = {Load.NORMAL: STRESS_NORMAL, Load.TANGENTIAL: STRESS_TANGENTIAL}
 
 
 @nb.njit(**COMPILE)
+def _along(x: float, y: float, r: float) -> tuple[float, float]:
+    """Cosine and sine of the angle from x; what is multiplied by them vanishes at the origin."""
+    r = max(r, 1e-300)
+    return x / r, y / r
+
+
+@nb.njit(**COMPILE)
+def _pressed(c: float, s: float, g0: float, g1: float, g2: float, g3: float) -> Six:
+    c2, s2 = (c - s) * (c + s), 2.0 * s * c
+    return g2 - c2 * g3, g2 + c2 * g3, g0, -s * g1, -c * g1, -s2 * g3
+
+
+@nb.njit(**COMPILE)
+def _drawn(c: float, s: float, g0: float, g1: float, g2: float, g3: float, g4: float, g5: float) -> Six:
+    c2, s2 = (c - s) * (c + s), 2.0 * s * c
+    c3, s3 = c2 * c - s2 * s, s2 * c + c2 * s
+    xy = s3 * g5 - 0.5 * s * (g3 - g4)
+    return c3 * g5 - c * g3, -(c3 * g5 + c * g4), -c * g0, s2 * g2, g1 + c2 * g2, xy
+
+
+@nb.njit(**COMPILE)
 def _add_point(kind: int, x: float, y: float, r: float, g: FloatArray, weight: float, out: FloatArray) -> None:
     """Add `weight` times the response at (x, y) to `out` (components,)."""
     if kind == SURFACE_NORMAL:
         out[0] += weight * g[0]
         return
-    c, s = (x / r, y / r) if r > 0.0 else (0.0, 0.0)  # what is multiplied by an angle vanishes at the origin
+    c, s = _along(x, y, r)
     if kind == SURFACE_TANGENTIAL:
         out[0] -= weight * c * g[0]
         return
-    c2, s2 = (c - s) * (c + s), 2.0 * s * c
     if kind == STRESS_NORMAL:
-        out[0] += weight * (g[2] - c2 * g[3])
-        out[1] += weight * (g[2] + c2 * g[3])
-        out[2] += weight * g[0]
-        out[3] -= weight * s * g[1]
-        out[4] -= weight * c * g[1]
-        out[5] -= weight * s2 * g[3]
+        stress = _pressed(c, s, g[0], g[1], g[2], g[3])
     else:
-        c3, s3 = c2 * c - s2 * s, s2 * c + c2 * s
-        out[0] += weight * (c3 * g[5] - c * g[3])
-        out[1] -= weight * (c3 * g[5] + c * g[4])
-        out[2] -= weight * c * g[0]
-        out[3] += weight * s2 * g[2]
-        out[4] += weight * (g[1] + c2 * g[2])
-        out[5] += weight * (s3 * g[5] - 0.5 * s * (g[3] - g[4]))
+        stress = _drawn(c, s, g[0], g[1], g[2], g[3], g[4], g[5])
+    for component in range(6):
+        out[component] += weight * stress[component]
+
+
+# Cells of a row under one rule go through it side by side, in vector registers: the operations of `_add_cell`, in the
+# same order for each. One array holds, `_BLOCK` numbers each (a distance that the compiler has to know), the sums of
+# six components, y of the cells, y, r and place in the panel of a point, and six tables there.
+_BLOCK = 64
+_CELL, _Y, _R, _T, _G = 6 * _BLOCK, 7 * _BLOCK, 8 * _BLOCK, 9 * _BLOCK, 10 * _BLOCK
+_SUM = 16 * _BLOCK
+_ROOM = 17 * _BLOCK
+
+
+@nb.njit(**COMPILE)
+def _add_side_by_side(
+    kind: int, x: float, count: int, tables: int, panel: FloatArray, weight: float, room: FloatArray
+) -> None:
+    """Add `weight` times the response at `count` points (x, `_Y`) that share a panel; `panel` (powers, tables)."""
+    highest = panel.shape[0] - 1
+    for table in range(tables):
+        value = panel[highest, table]
+        for k in range(count):
+            room[_SUM + k] = value
+        for power in range(highest - 1, -1, -1):
+            value = panel[power, table]
+            for k in range(count):
+                room[_SUM + k] = room[_SUM + k] * room[_T + k] + value
+        at = _G + table * _BLOCK
+        for k in range(count):
+            room[at + k] = room[_SUM + k]
+    if kind == SURFACE_NORMAL:
+        for k in range(count):
+            room[k] += weight * room[_G + k]
+    elif kind == SURFACE_TANGENTIAL:
+        for k in range(count):
+            c, _ = _along(x, room[_Y + k], room[_R + k])
+            room[k] -= weight * c * room[_G + k]
+    elif kind == STRESS_NORMAL:
+        for k in range(count):
+            c, s = _along(x, room[_Y + k], room[_R + k])
+            xx, yy, zz, yz, xz, xy = _pressed(
+                c, s, room[_G + k], room[_G + _BLOCK + k], room[_G + 2 * _BLOCK + k], room[_G + 3 * _BLOCK + k]
+            )
+            room[k] += weight * xx
+            room[_BLOCK + k] += weight * yy
+            room[2 * _BLOCK + k] += weight * zz
+            room[3 * _BLOCK + k] += weight * yz
+            room[4 * _BLOCK + k] += weight * xz
+            room[5 * _BLOCK + k] += weight * xy
+    else:
+        for k in range(count):
+            c, s = _along(x, room[_Y + k], room[_R + k])
+            xx, yy, zz, yz, xz, xy = _drawn(
+                c, s, room[_G + k], room[_G + _BLOCK + k], room[_G + 2 * _BLOCK + k], room[_G + 3 * _BLOCK + k],
+                room[_G + 4 * _BLOCK + k], room[_G + 5 * _BLOCK + k],
+            )  # fmt: skip
+            room[k] += weight * xx
+            room[_BLOCK + k] += weight * yy
+            room[2 * _BLOCK + k] += weight * zz
+            room[3 * _BLOCK + k] += weight * yz
+            room[4 * _BLOCK + k] += weight * xz
+            room[5 * _BLOCK + k] += weight * xy
+
+
+@nb.njit(**COMPILE)
+def _add_block(
+    kind: int,
+    x: float,
+    a: float,
+    b: float,
+    along_x: int,
+    along_y: int,
+    count: int,
+    edges: FloatArray,
+    coefficients: FloatArray,
+    room: FloatArray,
+) -> None:
+    """Add the integrals over the first `count` cells of a block, all at `x`, to its sums."""
+    end = edges[-1]
+    for i in range(_POINTS[along_x]):
+        px = x + a * _NODES[along_x, i]
+        for j in range(_POINTS[along_y]):
+            shift = b * _NODES[along_y, j]
+            weight = a * b * _WEIGHTS[along_x, i] * _WEIGHTS[along_y, j]
+            for k in range(count):
+                py = room[_CELL + k] + shift
+                room[_Y + k] = py
+                room[_R + k] = np.sqrt(px * px + py * py)
+            start = 0
+            while start < count:
+                r = room[_R + start]
+                stop = start + 1
+                if r < end:
+                    low = panel_of(r, edges)
+                    lower, upper = edges[low], edges[low + 1]
+                    while stop < count and lower <= room[_R + stop] < upper:
+                        stop += 1
+                    part = room[start:]  # counted from zero: what may be negative is not vectorised
+                    for k in range(stop - start):
+                        part[_T + k] = (2.0 * part[_R + k] - lower - upper) / (upper - lower)
+                    tables = coefficients.shape[2]
+                    _add_side_by_side(kind, px, stop - start, tables, coefficients[low], weight, part)
+                start = stop
 
 
 @nb.njit(**COMPILE)
@@ -84,6 +197,20 @@ def _rule_for(reach: float, ripple: float, fall: float) -> int:
         while row < _POINTS.size and ripple * np.exp(-0.5 * fall / _POINTS[row]) > _RIPPLE[row]:
             row += 1
     return row
+
+
+@nb.njit(**COMPILE)
+def _rules(
+    x: float, y: float, a: float, b: float, decay: float, wavenumber: float, width: float, end: float
+) -> tuple[int, int]:
+    """Rules along x and y for a piece of half sides a, b centred at (x, y); (-1, -1) where nothing is left of it."""
+    gap_x, gap_y = max(abs(x) - a, 0.0), max(abs(y) - b, 0.0)
+    if gap_x * gap_x + gap_y * gap_y >= end * end:
+        return -1, -1
+    fall = width * width * (gap_x * gap_x + gap_y * gap_y)
+    along_x = _rule_for(np.sqrt(x * x + gap_y * gap_y + decay * decay) / a, wavenumber * a, fall)
+    along_y = _rule_for(np.sqrt(y * y + gap_x * gap_x + decay * decay) / b, wavenumber * b, fall)
+    return along_x, along_y
 
 
 @nb.njit(**COMPILE)
@@ -109,12 +236,9 @@ def _add_cell(
     while height > 0:
         height -= 1
         x0, y0, a, b = stack[height, 0], stack[height, 1], stack[height, 2], stack[height, 3]
-        gap_x, gap_y = max(abs(x0) - a, 0.0), max(abs(y0) - b, 0.0)
-        if gap_x * gap_x + gap_y * gap_y >= end * end:
+        along_x, along_y = _rules(x0, y0, a, b, decay, wavenumber, width, end)
+        if along_x < 0:
             continue
-        fall = width * width * (gap_x * gap_x + gap_y * gap_y)
-        along_x = _rule_for(np.sqrt(x0 * x0 + gap_y * gap_y + decay * decay) / a, wavenumber * a, fall)
-        along_y = _rule_for(np.sqrt(y0 * y0 + gap_x * gap_x + decay * decay) / b, wavenumber * b, fall)
         split_x, split_y = along_x == _POINTS.size, along_y == _POINTS.size
         if split_x or split_y:  # halve the side that is too long; both where both are
             parts_x, parts_y = (2 if split_x else 1), (2 if split_y else 1)
@@ -152,18 +276,40 @@ def _add_cells(
     components, nx, ny = out.shape
     stack = np.empty((400, 4))
     g = np.empty(coefficients.shape[2])
-    value = np.empty(components)
+    room = np.zeros(_ROOM)
+    row = np.empty((components, ny))
+    a, b = 0.5 * sides[0], 0.5 * sides[1]
     for i in range(nx):
-        for j in range(ny):
-            value[:] = 0.0
-            for p in range(-images[0], images[0] + 1):
-                for q in range(-images[1], images[1] + 1):
-                    x, y = (i + p * period[0]) * sides[0], (j + q * period[1]) * sides[1]
-                    _add_cell(
-                        kind, x, y, 0.5 * sides[0], 0.5 * sides[1], decay, wavenumber, width, edges, coefficients,
-                        stack, g, value,
-                    )  # fmt: skip
-            out[:, i, j] += value
+        row[:] = 0.0
+        for p in range(-images[0], images[0] + 1):
+            x = (i + p * period[0]) * sides[0]
+            for q in range(-images[1], images[1] + 1):
+                start = 0
+                while start < ny:
+                    y = (start + q * period[1]) * sides[1]
+                    rules = _rules(x, y, a, b, decay, wavenumber, width, edges[-1])
+                    if max(rules) == _POINTS.size or max(rules) < 0:
+                        _add_cell(
+                            kind, x, y, a, b, decay, wavenumber, width, edges, coefficients, stack, g, row[:, start]
+                        )
+                        start += 1
+                        continue
+                    count = 0
+                    while count < _BLOCK and start + count < ny:
+                        y = (start + count + q * period[1]) * sides[1]
+                        if _rules(x, y, a, b, decay, wavenumber, width, edges[-1]) != rules:
+                            break
+                        room[_CELL + count] = y
+                        count += 1
+                    for c in range(components):
+                        for k in range(count):
+                            room[c * _BLOCK + k] = row[c, start + k]
+                    _add_block(kind, x, a, b, *rules, count, edges, coefficients, room)
+                    for c in range(components):
+                        for k in range(count):
+                            row[c, start + k] = room[c * _BLOCK + k]
+                    start += count
+        out[:, i] += row
 
 
 def add_cells(out: FloatArray, grid: Grid, table: RadialTable, kind: int, images: tuple[int, int] = (0, 0)) -> None:

@@ -213,16 +213,22 @@ def _far(kernels: Kernels, r: FloatArray, line: bool) -> FloatArray:
 
 
 @nb.njit(**COMPILE)
-def evaluate(r: float, edges: FloatArray, coefficients: FloatArray, out: FloatArray) -> None:
-    """Values of every table at r into `out` (tables,)."""
-    panels = edges.size - 1
-    low, high = 0, panels
+def panel_of(r: float, edges: FloatArray) -> int:
+    """Number of the panel that r lies in, the last one beyond them."""
+    low, high = 0, edges.size - 1
     while high - low > 1:
         middle = (low + high) // 2
         if r >= edges[middle]:
             low = middle
         else:
             high = middle
+    return low
+
+
+@nb.njit(**COMPILE)
+def evaluate(r: float, edges: FloatArray, coefficients: FloatArray, out: FloatArray) -> None:
+    """Values of every table at r into `out` (tables,)."""
+    low = panel_of(r, edges)
     t = (2.0 * r - edges[low] - edges[low + 1]) / (edges[low + 1] - edges[low])
     powers = coefficients.shape[1]
     for table in range(coefficients.shape[2]):

@@ -8,7 +8,7 @@ import pytest
 from scipy import special
 
 from bem import Body, Grid, Layer, Material
-from bem.kernels import layered, layered_hankel
+from bem.kernels import layered, layered_cells, layered_hankel
 from bem.kernels.coefficients import STRESS_PARITY, stress_coefficients, surface_coefficients
 from bem.kernels.half_space import Load
 from bem.kernels.layered_cells import stress_remainder, surface_remainder
@@ -238,3 +238,27 @@ def test_same_bits_again():
     body = coated(5.0, 0.3, 0.2, 0.4)
     for load in Load:
         assert np.array_equal(stress_remainder(grid, body, 0.3, load), stress_remainder(grid, body, 0.3, load))
+
+
+@pytest.mark.parametrize("load", Load)
+@pytest.mark.parametrize("spacing", [(1.0, 1.0), (5.0, 0.3)])
+@pytest.mark.parametrize("depth", [None, 0.0, 0.7, 9.0])
+def test_cells_side_by_side_have_the_bits_of_single_ones(depth, spacing, load):
+    """Rows longer than a block, with several rules and panels in them, and cells that are cut."""
+    grid, body = Grid((7, 150), spacing), coated(5.0, 0.2, 0.35, 1.0)
+    on_surface = depth is None
+    kernels = (
+        layered_hankel.surface_kernels(body, load) if on_surface else layered_hankel.stress_kernels(body, depth, load)
+    )
+    kind = layered_cells.SURFACE[load] if on_surface else layered_cells.STRESS[load]
+    table = layered_hankel.radial_table(kernels, 100.0)  # ends within the grid
+    got = np.zeros((1 if on_surface else 6, *grid.shape))
+    layered_cells.add_cells(got, grid, table, kind, (0, 1))
+    single = np.zeros_like(got)
+    half = 0.5 * spacing[0], 0.5 * spacing[1]
+    for i, j, q in itertools.product(range(7), range(150), (-1, 0, 1)):
+        layered_cells._add_cell(
+            kind, i * spacing[0], (j + 150 * q) * spacing[1], *half, table.decay, 0.0, 0.0, table.edges,
+            table.coefficients, np.empty((400, 4)), np.empty(table.coefficients.shape[2]), single[:, i, j],
+        )  # fmt: skip
+    assert np.array_equal(got, single)
