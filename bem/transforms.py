@@ -321,6 +321,10 @@ class PaddedTransform:
         """A contiguous field of zeros, aligned so that rows of whole cache lines need no copy."""
         return cast(FloatArray, pyfftw.zeros_aligned(self.shape, self.dtype, n=_ALIGNMENT))
 
+    def empty_field(self) -> FloatArray:
+        """The same with values that mean nothing, for results."""
+        return cast(FloatArray, pyfftw.empty_aligned(self.shape, self.dtype, n=_ALIGNMENT))
+
     def forward(self, values: FloatArray, out: ComplexArray | None = None) -> ComplexArray:
         """Spectrum (py // 2 + 1, px) of a field (nx, ny) padded with zeros."""
         out = self.empty_spectrum() if out is None else out
@@ -441,7 +445,7 @@ class PaddedTransform:
             self.padded[1] == self.shape[1]
             and values.dtype == self.dtype
             and values.strides == (self._real_stride * self.dtype.itemsize, self.dtype.itemsize)
-            and values.ctypes.data % _ALIGNMENT == 0
+            and pyfftw.is_byte_aligned(values, n=_ALIGNMENT)
         )
 
     def _share_columns(self, source: ComplexArray | None, out: ComplexArray | None, factor: Multiplier | None) -> None:

@@ -133,10 +133,10 @@ class _Level:
         self.tuning = tuning
         self.state = np.zeros(gap.size, np.uint8)
         self.pressure = self.exact.transform.zeros_field()
-        self.displacement = self.exact.transform.zeros_field()
-        self.before = np.empty(gap.size)
+        self.displacement = self.exact.transform.empty_field()
+        self.before = self.exact.transform.empty_field()
         self.quick_in = self.quick.transform.zeros_field()
-        self.quick_out = self.quick.transform.zeros_field()
+        self.quick_out = self.quick.transform.empty_field()
         names = ("pressure", "displacement", "before", "quick_in", "quick_out")
         self.flat: dict[str, NDArray[Any]] = {name: getattr(self, name).reshape(-1) for name in names}
         self.sparse: SparseInverse | None = None
@@ -158,6 +158,11 @@ class _Level:
         self.exact.apply(self.pressure, self.displacement)
         passes.scatter_value(pressure, iterate.cells, 0.0)
         passes.scatter_value(pressure, iterate.capped, 0.0)
+
+    def keep(self) -> None:
+        """Make the displacement the one before; the next takes the other's buffer."""
+        self.displacement, self.before = self.before, self.displacement
+        self.flat["displacement"], self.flat["before"] = self.flat["before"], self.flat["displacement"]
 
     def mark(self, iterate: _Iterate) -> None:
         self.state[:] = FREE
@@ -214,7 +219,11 @@ def solve_level(
     step = release = 0.0
     rounds = 0
     before: _Accepted | None = None
+    kept = False
     while True:
+        if before is not None and not kept:
+            level.keep()
+        kept = False
         level.displace(iterate)
         current: _Accepted | None = None
         if before is not None:
@@ -244,7 +253,6 @@ def solve_level(
             current = replace(current, approach=approach)
         if operator.symmetric:
             before = current
-            np.copyto(level.flat["before"], level.flat["displacement"])
         improved = violation < 0.9 * best
         unimproved = 0 if improved else unimproved + 1
         best = min(best, violation)
@@ -261,6 +269,8 @@ def solve_level(
                 iterate = _between(level, control, accepted.iterate, iterate, share)
                 continue
             step = step / 4 if refused > 2 else 1 / level.largest_eigenvalue
+            level.keep()
+            kept = True
             level.displace(accepted.iterate)
             iterate = _gradient_step(level, control, accepted.iterate, accepted.approach, step)
             continue
@@ -414,19 +424,18 @@ def _take_in(
     level: _Level, iterate: _Iterate, found: NDArray[np.int32], approach: float
 ) -> tuple[_Iterate, FloatArray]:
     """Add violating cells to those in contact, with the pressure they have."""
-    state = level.state
-    released = found[state[found] == CAPPED]
-    pressure = level.flat["pressure"]
-    passes.scatter(pressure, iterate.cells, iterate.values)
-    passes.scatter_value(pressure, released, level.cap)
-    state[found] = CONTACT
-    cells = np.flatnonzero(state == CONTACT)
-    values = pressure[cells]
-    passes.scatter_value(pressure, cells, 0.0)
-    capped = iterate.capped if released.size == 0 else np.flatnonzero(state == CAPPED)
-    residual = np.empty(cells.size)
-    passes.gather_sum(level.flat["displacement"], level.gap, cells, residual)
-    residual -= approach
+    state, capped = level.state, iterate.capped
+    found_values = np.zeros(found.size)
+    if capped.size:
+        found_values[state[found] == CAPPED] = level.cap
+        state[found] = CONTACT
+        capped = capped[state[capped] == CAPPED]
+    total = iterate.cells.size + found.size
+    cells, values, residual = np.empty(total, np.int64), np.empty(total), np.empty(total)
+    displacement, gap = level.flat["displacement"], level.gap
+    passes.merge(
+        iterate.cells, iterate.values, found, found_values, displacement, gap, approach, cells, values, residual
+    )
     return _Iterate(cells, values, capped), residual
 
 
@@ -496,10 +505,10 @@ def _conjugate_gradients(
 
 def _clip(level: _Level, control: Control, iterate: _Iterate, raw: FloatArray) -> _Iterate:
     """Back into the bounds, with the load restored."""
-    below = raw <= 0
-    above = raw >= level.cap
     if isinstance(control, LoadControl):
         return _restore_load(level, control, iterate, raw)
+    below = raw <= 0
+    above = raw >= level.cap
     if not (below.any() or above.any()):
         return _Iterate(iterate.cells, raw, iterate.capped)
     inside = ~(below | above)

@@ -70,19 +70,45 @@ def find_violations(
 def _find_violations(start, stop, result, displacement, gap, state, approach, found):  # type: ignore[no-untyped-def]
     place = start
     largest = 0.0
-    for c in range(start, stop):
-        if state[c] == 0:
+    # most stretches have none: these are only counted, without branches
+    for first in range(start, stop, 256):
+        last = min(first + 256, stop)
+        count = 0
+        for c in range(first, last):
             value = approach - gap[c] - displacement[c]
-        elif state[c] == 2:
-            value = gap[c] + displacement[c] - approach
-        else:
+            count += ((state[c] == 0) & (value > 0)) | ((state[c] == 2) & (value < 0))
+        if count == 0:
             continue
-        if value > 0:
-            found[place] = c
-            place += 1
-            largest = max(largest, value)
+        for c in range(first, last):
+            if state[c] == 1:
+                continue
+            value = approach - gap[c] - displacement[c]
+            if state[c] == 2:
+                value = -value
+            if value > 0:
+                found[place] = c
+                place += 1
+                largest = max(largest, value)
     result[0] = place - start
     result[1] = largest
+
+
+@_strict
+def merge(cells, values, found, found_values, displacement, gap, approach, all_cells, all_values, residual):  # type: ignore[no-untyped-def]
+    """Two ascending sets of cells with their values as one, and gap + displacement - approach there."""
+    a = 0
+    b = 0
+    for k in range(all_cells.size):
+        if b == found.size or (a < cells.size and cells[a] < found[b]):
+            c = cells[a]
+            all_values[k] = values[a]
+            a += 1
+        else:
+            c = np.int64(found[b])
+            all_values[k] = found_values[b]
+            b += 1
+        all_cells[k] = c
+        residual[k] = gap[c] + displacement[c] - approach
 
 
 def energy(

@@ -76,17 +76,19 @@ class SparseInverse:
             pattern,
         )
         _solve_patterns(pattern, self.offsets, self.near_field, self.table, self.solved)
-        return SparseInverseOnCells(columns, pattern, self.table, distant[:, 0].astype(np.int64))
+        starts = np.zeros(distant.shape[0] + 1, np.int64)
+        np.cumsum(distant[:, 0].astype(np.int64), out=starts[1:])
+        return SparseInverseOnCells(columns, pattern, self.table, starts)
 
 
 @dataclass(frozen=True)
 class SparseInverseOnCells:
-    """G on a given set of cells."""
+    """G on a given set of cells; `starts` numbers the entries of G that lead out of each block of cells."""
 
     columns: NDArray[np.int32]
     pattern: NDArray[np.int32]
     table: FloatArray
-    distant: NDArray[np.int64]
+    starts: NDArray[np.int64]
 
     def row_sums(self) -> FloatArray:
         """G applied to a constant."""
@@ -104,7 +106,7 @@ class SparseInverseOnCells:
         Each block adds to its own cells at once; what belongs to the cells of other blocks is kept and added at the
         end, in order.
         """
-        starts = np.concatenate([[0], np.cumsum(self.distant)])
+        starts = self.starts
         targets = np.empty(starts[-1], np.int32)
         amounts = np.empty(starts[-1])
         partial = passes.in_blocks(
@@ -121,6 +123,8 @@ class SparseInverseOnCells:
             targets,
             amounts,
         )
+        if targets.size == 0:
+            return float(partial[:, 0].sum())
         _add(out, targets, amounts)
         return float(partial[:, 0].sum() + amounts.sum())
 
