@@ -409,14 +409,7 @@ def _approach(level: _Level, control: Control, iterate: _Iterate, total: float) 
     if cells.size > _FEW * capped.size:
         return total / cells.size
     # hardly any cell says what the approach is: take the one that is violated least by all others
-    separation = level.gap + level.flat["displacement"]
-    deepest = float(separation[capped].max())
-    if cells.size:
-        deepest = max(deepest, float(separation[cells].max()))
-    not_capped = level.state != CAPPED
-    if not not_capped.any():
-        return deepest
-    nearest = float(separation[not_capped].min())
+    deepest, nearest = passes.separations(level.flat["displacement"], level.gap, level.state)
     return deepest if deepest <= nearest else 0.5 * (deepest + nearest)
 
 

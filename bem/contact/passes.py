@@ -93,6 +93,24 @@ def _find_violations(start, stop, result, displacement, gap, state, approach, fo
     result[1] = largest
 
 
+def separations(displacement: FloatArray, gap: FloatArray, state: NDArray[np.uint8]) -> tuple[float, float]:
+    """Largest gap + displacement of cells with pressure, and smallest of cells that are not capped (or infinity)."""
+    partial = in_blocks(gap.size, 2, _separations, displacement, gap, state)
+    return float(partial[:, 0].max()), float(partial[:, 1].min())
+
+
+@_strict
+def _separations(start, stop, result, displacement, gap, state):  # type: ignore[no-untyped-def]
+    deepest = -np.inf
+    nearest = np.inf
+    for c in range(start, stop):
+        value = gap[c] + displacement[c]
+        deepest = max(deepest, value if state[c] != 0 else -np.inf)
+        nearest = min(nearest, value if state[c] != 2 else np.inf)
+    result[0] = deepest
+    result[1] = nearest
+
+
 @_strict
 def merge(cells, values, found, found_values, displacement, gap, approach, all_cells, all_values, residual):  # type: ignore[no-untyped-def]
     """Two ascending sets of cells with their values as one, and gap + displacement - approach there."""
