@@ -17,8 +17,9 @@ from scipy.interpolate import PchipInterpolator
 
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
+from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_kernel import LineOperator
-from bem.lubrication.line_newton import Problem, State, newton
+from bem.lubrication.line_newton import State, newton
 from bem.lubrication.steady import lowest_film, scaled_problem
 from bem.reference_solutions.line_film import dowson_higginson_minimum, moes_central
 

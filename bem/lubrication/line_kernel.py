@@ -262,10 +262,14 @@ class LineOperator:
         out = np.zeros((2**self.depth, size + 2, size))
         for k in range(2**self.depth):
             start, stop = 1 + k * size, min(1 + (k + 1) * size, n)
-            part = np.empty((stop - start + 2, stop - start))
-            _fill(part, self.nodes[start - 1 : stop + 1], self.nodes, start)
-            out[k, : stop - start + 2, : stop - start] = part - math.log(self.unit) * self.quadrature[start:stop]
+            out[k, : stop - start + 2, : stop - start] = self.block(start, stop)
         return out
+
+    def block(self, first: int, last: int) -> FloatArray:
+        """Weights of the interior nodes first .. last - 1 at these, one before and one after, before stretching."""
+        out = np.empty((last - first + 2, last - first))
+        _fill(out, self.nodes[first - 1 : last + 1], self.nodes, first)
+        return out - math.log(self.unit) * self.quadrature[first:last]
 
     @cached_property
     def levels(self) -> tuple[Level, ...]:

@@ -17,25 +17,19 @@ reasonable films from the first step on. That, more than anything, makes the ite
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from bem.grid import FloatArray
+from bem.lubrication.line_flow import Flow, Parts, Problem, eased
 from bem.lubrication.line_kernel import LineOperator
 from bem.lubrication.line_linear import DEFLECTION, Change, Equations, solve
 from bem.lubrication.line_mesh import FAR_INLET, cell_densities, cell_sizes, redistribute
 
-
-@dataclass(frozen=True)
-class Problem:
-    """The similarity problem: load M, laws of the scaled pressure, the inlet's abscissa (None: flooded from afar)."""
-
-    load: float
-    log_viscosity: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
-    density: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+SHARP_FROM = 1500
+"""Cells from which a spike is solved for by itself first: a step of them all costs more than ten of those."""
 
 
 @dataclass(frozen=True)
@@ -96,61 +90,29 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
     mismatch = film - (0.5 * (exit_ + offset) ** 2 - DEFLECTION * (operator @ pressure))
     datum, mismatch = float(mismatch[-1]), mismatch - mismatch[-1]
 
-    def residual(pressure: FloatArray, film: FloatArray, inlet: float) -> tuple[FloatArray, tuple[FloatArray, ...]]:
-        positive = np.maximum(pressure, 0.0)
-        log_viscosity, slope = problem.log_viscosity(positive)
-        density, density_slope = problem.density(positive)
-        slope = np.where(pressure > 0, slope, 0.0)
-        density_slope = np.where(pressure > 0, density_slope, 0.0)
-        thickness = 0.5 * (film[1:] + film[:-1])
-        mean_density = 0.5 * (density[1:] + density[:-1])
-        fluid, left, right = mean_fluidity(log_viscosity)
-        fluidity = mean_density * fluid / 6
-        gradient = np.diff(pressure) / width
-        mass = density * film
-        carried = mass[:-1].copy()
-        carried[1:] += extrapolation[1:] * (mass[1:-1] - mass[:-2])
-        carried[0] = 0.5 * (mass[0] + mass[1])
-        out = np.empty(cells + 1)
-        out[:-1] = (thickness**3 * fluidity * gradient - (carried - film[-1])) / scale[:-1]
-        out[-1] = 1 - (quadrature @ pressure + inlet_load(inlet)[0]) / problem.load
-        left, right = left * slope[:-1] * mean_density / 6, right * slope[1:] * mean_density / 6
-        return out, (thickness, fluidity, mean_density, gradient, density, left, right, density_slope)
+    flow = Flow(problem, width, extrapolation, scale[:-1])
 
-    def step(error: FloatArray, parts: tuple[FloatArray, ...], film: FloatArray, pressure: FloatArray) -> Change:
+    def elastic(pressure: FloatArray, datum: float, exit_: float, mismatch: FloatArray) -> FloatArray:
+        film: FloatArray = datum + 0.5 * (exit_ + offset) ** 2 - DEFLECTION * (operator @ pressure) + mismatch
+        return film
+
+    def residual(pressure: FloatArray, film: FloatArray, inlet: float) -> tuple[FloatArray, Parts]:
+        through, parts = flow.residual(pressure, film, float(film[-1]))
+        return np.append(through, 1 - (quadrature @ pressure + inlet_load(inlet)[0]) / problem.load), parts
+
+    def step(error: FloatArray, parts: Parts, film: FloatArray, pressure: FloatArray) -> Change:
         """Newton step in (P_1 .. P_{n-1}, H0, X_e), and the change of film it brings besides the mismatch."""
-        thickness, fluidity, mean_density, gradient, density, left, right, density_slope = parts
         inlet = exit_ + offset[0]
         inlet_slope, load_slope = inlet_pressure(inlet)[1], inlet_load(inlet)[1]
-
-        row = 1 / scale[:-1]
-        through_film = 1.5 * thickness**2 * fluidity * gradient
-        before = np.zeros(cells)
-        before[1:] = extrapolation[1:] * density[:-2]
-        here = through_film - (1 + extrapolation) * density[:-1]
-        after = through_film.copy()
-        here[0] = through_film[0] - 0.5 * density[0]
-        after[0] = through_film[0] - 0.5 * density[1]
-
-        mobility = thickness**3 * fluidity
-        flow = mobility * gradient
-        steep = thickness**3 * gradient
-        from_left = -mobility / width + flow * 0.5 * density_slope[:-1] / mean_density + steep * left
-        from_right = mobility / width + flow * 0.5 * density_slope[1:] / mean_density + steep * right
-        carried = film * density_slope
-        from_left -= (1 + extrapolation) * carried[:-1]
-        from_left[0] += 0.5 * carried[0]
-        from_right[0] -= 0.5 * carried[1]
-        from_before = np.zeros(cells)
-        from_before[1:] = extrapolation[1:] * carried[:-2]
+        before, here, after, low, diagonal, high = flow.derivatives(film, parts)
         equations = Equations(
-            before=before * row,
-            here=here * row,
-            after=after * row,
-            exit=row,
-            low=from_before * row,
-            diagonal=from_left * row,
-            high=from_right * row,
+            before=before,
+            here=here,
+            after=after,
+            exit=1 / scale[:-1],
+            low=low,
+            diagonal=diagonal,
+            high=high,
             load=-quadrature / problem.load,
             load_exit=-(quadrature[0] * inlet_slope + load_slope) / problem.load,
             position=exit_ + offset,
@@ -178,6 +140,7 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
         length = 1.0
         if shrinking.any():
             length = min(1.0, 0.9 * float(np.min(-film[shrinking] / film_change[shrinking])))
+        easing = cells >= SHARP_FROM
         while length > 1e-3:
             new_pressure = pressure.copy()
             new_pressure[1:-1] += length * change.pressure
@@ -187,12 +150,21 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
             if new_inlet < 0:
                 new_pressure[0] = inlet_pressure(new_inlet)[0]
                 new_mismatch = (1 - length) * mismatch
-                new_film = (
-                    new_datum + 0.5 * (new_exit + offset) ** 2 - DEFLECTION * (operator @ new_pressure) + new_mismatch
-                )
+                new_film = elastic(new_pressure, new_datum, new_exit, new_mismatch)
                 if new_film.min() > 0:
                     new_error, new_parts = residual(new_pressure, new_film, new_inlet)
-                    new_size = new_error @ new_error + (new_mismatch / scale) @ (new_mismatch / scale)
+                    off = (new_mismatch / scale) @ (new_mismatch / scale)
+                    new_size = new_error @ new_error + off
+                    better = eased(flow, operator, new_pressure, new_film, new_error[:-1]) if easing else None
+                    if better is not None:
+                        its_film = elastic(better, new_datum, new_exit, new_mismatch)
+                        easing = bool(its_film.min() > 0)
+                        if easing:
+                            its_error, its_parts = residual(better, its_film, new_inlet)
+                            easing = bool(its_error @ its_error + off < new_size)
+                        if easing:
+                            new_pressure, new_film, new_error, new_parts = better, its_film, its_error, its_parts
+                            new_size = new_error @ new_error + off
                     if new_size < (1 - 0.05 * length) ** 2 * size:
                         break
             length *= 0.5
@@ -204,23 +176,6 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
     plain = datum + DEFLECTION * operator.log_unit * float(quadrature @ pressure)
     state = State(offset, operator, pressure, film, plain, exit_)
     return Outcome(state, iterations, largest, converged)
-
-
-def mean_fluidity(log_viscosity: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Mean of exp(-ln m) over the pressures of each cell, ln m linear in between, and its derivatives with ln m at
-    both ends. A mean at the cell's middle would let a spike of one cell block the flow at any pressure behind it."""
-    first, second = log_viscosity[:-1], log_viscosity[1:]
-    half = 0.5 * (second - first)
-    small = np.abs(half) < 0.05
-    safe = np.where(small, 1.0, 2 * half)
-    low, high = np.exp(-first), np.exp(-second)
-    middle = np.exp(-0.5 * (first + second))
-    series = 1 + half**2 / 6 + half**4 / 120
-    mean = np.where(small, middle * series, (low - high) / safe)
-    odd = 0.5 * middle * (half / 3 + half**3 / 30)
-    left = np.where(small, -0.5 * mean - odd, (mean - low) / safe)
-    right = np.where(small, -0.5 * mean + odd, (high - mean) / safe)
-    return mean, left, right
 
 
 def remesh(problem: Problem, state: State, cells: int, smallest: float | None) -> State:

@@ -26,9 +26,9 @@ from scipy.linalg import lu_factor, lu_solve
 
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation
+from bem.lubrication.line_flow import Problem, mean_fluidity
 from bem.lubrication.line_kernel import logarithmic_weights
 from bem.lubrication.line_linear import DEFLECTION
-from bem.lubrication.line_newton import Problem, mean_fluidity
 
 MAX_GROWTH = 32
 """Nodes that an end of the film is moved by at once."""

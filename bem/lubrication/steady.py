@@ -13,11 +13,11 @@ from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation, unknown_cavitation
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_kernel import logarithmic_weights
 from bem.lubrication.line_linear import DEFLECTION
 from bem.lubrication.line_newton import (
     Outcome,
-    Problem,
     State,
     martin_start,
     mesh_imbalance,

@@ -13,7 +13,7 @@ from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation, unknown_cavitation
 from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_newton import Problem
+from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_step import Film, FixedMesh, elastic_film, fixed_mesh, time_step
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.steady import (
