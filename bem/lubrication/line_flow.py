@@ -1,0 +1,171 @@
+"""Reynolds' equation of the steady line contact on cells, its derivatives, and a local solution around a spike."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bem.grid import FloatArray
+from bem.lubrication.line_kernel import LineOperator
+from bem.lubrication.line_linear import DEFLECTION
+
+SPIKE_REACH = 60
+"""Nodes on either side of a spike that are solved for alone."""
+LEAST_SHARE = 0.3
+"""Of the residual at the spike in that of all other cells, from which it is worth while."""
+LOCAL_STEPS = 12
+SHORTEST = 0.2
+
+
+@dataclass(frozen=True)
+class Problem:
+    """The similarity problem: load M, laws of the scaled pressure, the inlet's abscissa (None: flooded from afar)."""
+
+    load: float
+    log_viscosity: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+    density: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What residual and derivatives share, on the cells or (density and its slope) on the nodes."""
+
+    thickness: FloatArray
+    fluidity: FloatArray
+    mean_density: FloatArray
+    gradient: FloatArray
+    density: FloatArray
+    left: FloatArray
+    right: FloatArray
+    density_slope: FloatArray
+
+
+@dataclass(frozen=True)
+class Flow:
+    """The flow through n cells between n+1 nodes, relative to `scale` (n,): widths, and how much of the difference
+    between the two nodes upstream extrapolates the nearer one."""
+
+    problem: Problem
+    width: FloatArray
+    extrapolation: FloatArray
+    scale: FloatArray
+
+    def cut(self, first: int, last: int) -> Flow:
+        """The cells first .. last - 1. The flow through the first of them lacks its second node upstream."""
+        part = slice(first, last)
+        return replace(self, width=self.width[part], extrapolation=self.extrapolation[part], scale=self.scale[part])
+
+    def residual(self, pressure: FloatArray, film: FloatArray, exit_film: float) -> tuple[FloatArray, Parts]:
+        """Pressure flow less Couette flow, plus what leaves at the exit."""
+        positive = np.maximum(pressure, 0.0)
+        log_viscosity, slope = self.problem.log_viscosity(positive)
+        density, density_slope = self.problem.density(positive)
+        slope = np.where(pressure > 0, slope, 0.0)
+        density_slope = np.where(pressure > 0, density_slope, 0.0)
+        thickness = 0.5 * (film[1:] + film[:-1])
+        mean_density = 0.5 * (density[1:] + density[:-1])
+        fluid, left, right = mean_fluidity(log_viscosity)
+        fluidity = mean_density * fluid / 6
+        gradient = np.diff(pressure) / self.width
+        mass = density * film
+        carried = mass[:-1].copy()
+        carried[1:] += self.extrapolation[1:] * (mass[1:-1] - mass[:-2])
+        carried[0] = 0.5 * (mass[0] + mass[1])
+        error = (thickness**3 * fluidity * gradient - (carried - exit_film)) / self.scale
+        left, right = left * slope[:-1] * mean_density / 6, right * slope[1:] * mean_density / 6
+        return error, Parts(thickness, fluidity, mean_density, gradient, density, left, right, density_slope)
+
+    def derivatives(self, film: FloatArray, parts: Parts) -> tuple[FloatArray, ...]:
+        """Of the residual of cell i: with the films at nodes i - 1, i, i + 1, then with the pressures there."""
+        cells, row = len(self.width), 1 / self.scale
+        density, density_slope, extrapolation = parts.density, parts.density_slope, self.extrapolation
+        through_film = 1.5 * parts.thickness**2 * parts.fluidity * parts.gradient
+        before = np.zeros(cells)
+        before[1:] = extrapolation[1:] * density[:-2]
+        here = through_film - (1 + extrapolation) * density[:-1]
+        after = through_film.copy()
+        here[0] = through_film[0] - 0.5 * density[0]
+        after[0] = through_film[0] - 0.5 * density[1]
+
+        mobility = parts.thickness**3 * parts.fluidity
+        flow = mobility * parts.gradient
+        steep = parts.thickness**3 * parts.gradient
+        from_left = -mobility / self.width + flow * 0.5 * density_slope[:-1] / parts.mean_density + steep * parts.left
+        from_right = mobility / self.width + flow * 0.5 * density_slope[1:] / parts.mean_density + steep * parts.right
+        carried = film * density_slope
+        from_left -= (1 + extrapolation) * carried[:-1]
+        from_left[0] += 0.5 * carried[0]
+        from_right[0] -= 0.5 * carried[1]
+        from_before = np.zeros(cells)
+        from_before[1:] = extrapolation[1:] * carried[:-2]
+        return before * row, here * row, after * row, from_before * row, from_left * row, from_right * row
+
+
+def eased(
+    flow: Flow, operator: LineOperator, pressure: FloatArray, film: FloatArray, error: FloatArray
+) -> FloatArray | None:
+    """Pressures with the flow around a spike put right, all else held, where that is what is wrong; else None.
+
+    Newton's method on all cells takes many short steps where a spike lands some cells beside its place: only there
+    are the equations far from linear, and there they are few (nonlinear elimination; Lanzkron, Rose and Wilkes 1996).
+    """
+    cells = len(flow.width)
+    top = int(np.argmin(np.diff(pressure) / flow.width))
+    first, last = max(top - SPIKE_REACH, 1), min(top + SPIKE_REACH, cells)
+    rest = float(np.linalg.norm(error[:first])) + float(np.linalg.norm(error[last:]))
+    start = float(np.linalg.norm(error[first:last]))
+    if start < LEAST_SHARE * rest:
+        return None
+    local, nodes = flow.cut(first - 1, last), slice(first - 1, last + 1)
+    response = -DEFLECTION * operator.factor * operator.block(first, last)
+    exit_film, inner = float(film[-1]), slice(1, -1)
+    p, h = pressure[nodes].copy(), film[nodes]
+    wrong, parts = local.residual(p, h, exit_film)
+    size, index = start, np.arange(last - first)
+    for _ in range(LOCAL_STEPS):
+        before, here, after, low, diagonal, high = (d[1:, None] for d in local.derivatives(h, parts))
+        matrix = before * response[:-2] + here * response[1:-1] + after * response[2:]
+        matrix[index, index] += diagonal[:, 0]
+        matrix[index[:-1], index[1:]] += high[:-1, 0]
+        matrix[index[1:], index[:-1]] += low[1:, 0]
+        change = np.linalg.solve(matrix, -wrong[1:])
+        film_change = response @ change
+        length = 1.0
+        while length > SHORTEST:
+            new_p, new_h = p.copy(), h + length * film_change
+            new_p[inner] += length * change
+            if new_h.min() > 0:
+                new_wrong, new_parts = local.residual(new_p, new_h, exit_film)
+                new_size = float(np.linalg.norm(new_wrong[1:]))
+                if new_size < (1 - 0.05 * length) * size:
+                    break
+            length *= 0.5
+        else:
+            break
+        p, h, wrong, parts, size = new_p, new_h, new_wrong, new_parts, new_size
+        if size < max(0.1 * rest, 1e-3 * start):
+            break
+    if size == start:
+        return None
+    better = pressure.copy()
+    better[first:last] = p[inner]
+    return better
+
+
+def mean_fluidity(log_viscosity: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Mean of exp(-ln m) over the pressures of each cell, ln m linear in between, and its derivatives with ln m at
+    both ends. A mean at the cell's middle would let a spike of one cell block the flow at any pressure behind it."""
+    first, second = log_viscosity[:-1], log_viscosity[1:]
+    half = 0.5 * (second - first)
+    small = np.abs(half) < 0.05
+    safe = np.where(small, 1.0, 2 * half)
+    low, high = np.exp(-first), np.exp(-second)
+    middle = np.exp(-0.5 * (first + second))
+    series = 1 + half**2 / 6 + half**4 / 120
+    mean = np.where(small, middle * series, (low - high) / safe)
+    odd = 0.5 * middle * (half / 3 + half**3 / 30)
+    left = np.where(small, -0.5 * mean - odd, (mean - low) / safe)
+    right = np.where(small, -0.5 * mean + odd, (high - mean) / safe)
+    return mean, left, right
