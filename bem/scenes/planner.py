@@ -74,18 +74,21 @@ def step_seconds(step: Step, rate: float) -> float:
 
 def layered_kernel_seconds(cells: float, depths: float = 0.0) -> float:
     """Time to make the coefficients of a coated body [s]: displacement on all grids of a cascade, and six stresses
-    under pressure and traction at some depths; measured, 1.4 us a cell for each load."""
-    return 1.4e-6 * cells * (4 / 3 + 2 * depths)
+    under pressure and traction at some depths; measured, 0.3 (free) to 0.6 us (one axis periodic) a cell and 5 ms of
+    radial tables for each load."""
+    return 5e-7 * cells * (4 / 3 + 2 * depths) + 5e-3 * (1 + 2 * depths)
 
 
 def stress_kernel_seconds(cells: float, depths: float) -> float:
     """Time to make the spectra of six stresses of a homogeneous body under pressure and traction at some depths [s].
 
-    Measured, 0.45 (periodic along y) to 0.68 us (free) a cell and depth. They are not kept on disk: of 64 depths of 256
-    x 256 cells there are 280 MB, made in 2.7 s and read back and checked in 0.5 s; of the depths of a wear scene 90 MB,
-    made in 0.8 s. Displacement kernels take less than 0.1 s. What is made serves all cycles, loads and runs of a sweep.
+    Measured, 0.20 to 0.24 us a cell and depth, free or periodic along one axis. What is made serves all cycles, loads
+    and runs of a sweep; displacement kernels take less than 0.1 s. None are kept on disk, by measurement: of 64 depths
+    of 256 x 256 cells there are 280 MB, made in 0.9 s; reading them takes 0.2 s with a check sum where the file is
+    still in memory, and longer from a disk. In whole scenes less is at stake: making them is 0.3 s of a wear scene's
+    13 s (one pair, 200 cycles of 240 x 240 cells), 0.4 s of 8 s for the stresses in a coated sphere.
     """
-    return 6e-7 * cells * depths
+    return 2.3e-7 * cells * depths
 
 
 def padded_points(shape: tuple[int, int], periodic: tuple[bool, bool]) -> float:

@@ -211,7 +211,7 @@ def _plan_stresses(scene: ContactScene, grid: Grid, body: Body | None, depths: t
         else "neither stresses nor von Mises are asked for",
         skipped=not depths,
         # Time of the kernels and of six components at one depth, in transforms: measured.
-        transforms=len(depths) * (25.0 if periodic else 80.0) * (2.0 if coated else 1.0),
+        transforms=len(depths) * (25.0 if periodic else 40.0) * (2.5 if coated else 1.0),
         points=points,
         memory=held + spectra + 8 * 8.0 * points,
         kept=held + spectra,

@@ -323,7 +323,7 @@ def plan(scene: WearScene) -> Plan:
             ),
             Step(
                 "kernels of an earlier run",
-                "not kept on disk: made once for all cycles, in about the time it would take to read and check them",
+                "not kept on disk: made once for all cycles, in a few per cent of the run's time",
                 skipped=True,
             ),
             Step(
