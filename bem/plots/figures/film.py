@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, prefix
+from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SEQUENTIAL, SKY, VERMILION, label, prefix
 
 _COLOURS = (BLUE, VERMILION, ORANGE, SKY, GREEN, PINK, BLACK)
 _DASHES = ("-", "--", "-.", ":")
@@ -64,6 +64,31 @@ def _pressure(run: Any, figure: Figure) -> None:
     _profiles(run, figure, "film_pressure", "film pressure", "Pa")
 
 
+def _fraction(run: Any, figure: Figure) -> None:
+    data = run.dataset
+    axes = figure.add_subplot()
+    x, time, pressure = data["film_x"].values, data["time"].values, data["film_pressure"].values
+    loaded = x[np.flatnonzero(pressure.max(axis=0) > 0.02 * pressure.max())]
+    # the oil left behind a rupture lies beside the contact: half its width on either side
+    margin = 0.5 * (loaded[-1] - loaded[0])
+    inside = (x >= loaded[0] - margin) & (x <= loaded[-1] + margin)
+    x_factor, x_unit = prefix(x[inside], "m")
+    t_factor, t_unit = prefix(time, "s")
+    picture = axes.pcolormesh(
+        x[inside] * x_factor,
+        time * t_factor,
+        data["film_fraction"].values[:, inside],
+        vmin=0.0,
+        vmax=1.0,
+        cmap=SEQUENTIAL,
+        shading="nearest",
+        rasterized=True,
+    )
+    axes.set_xlabel(label("x", x_unit))
+    axes.set_ylabel(label("time", t_unit))
+    figure.colorbar(picture, ax=axes, label="share of the gap filled with oil")
+
+
 FIGURES = (
     FigureKind(
         "film-over-time",
@@ -77,5 +102,11 @@ FIGURES = (
     ),
     FigureKind(
         "film-pressures", "Film pressure along sliding, at six times.", ("film_pressure", "film_x", "time"), _pressure
+    ),
+    FigureKind(
+        "film-fraction",
+        "Share of the gap that is filled with oil, along sliding and over time: behind a rupture less than one.",
+        ("film_fraction", "film_pressure", "film_x", "time"),
+        _fraction,
     ),
 )

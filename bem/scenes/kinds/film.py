@@ -196,6 +196,6 @@ KIND = Kind(
     model=FilmScene,
     plan=plan,
     run=run,
-    figures=("film-over-time", "film-profiles", "film-pressures"),
+    figures=("film-over-time", "film-profiles", "film-pressures", "film-fraction"),
     headline=("thinnest_film_nm", "thinnest_film_time_s", "film_at_end_nm", "volume_imbalance"),
 )
