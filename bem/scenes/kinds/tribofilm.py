@@ -32,7 +32,7 @@ from bem.scenes.kinds import Kind
 from bem.scenes.planner import Plan, Step, convolution_memory, layered_kernel_seconds, padded_points
 from bem.scenes.units import Energy, InverseLength, Length, Rate, Ratio, Speed, Temperature, Time, Volume
 
-_CONVOLUTIONS = 40
+_CONVOLUTIONS = 14  # of one warm-started contact, coarse levels included
 _CONTACTS = 50  # solved per film: the table is refined only as far as the film gets
 _ZERO_CELSIUS = 273.15
 

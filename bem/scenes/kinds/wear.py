@@ -30,7 +30,7 @@ from bem.scenes.records import pack_record, unpack_record
 from bem.scenes.units import Length, Ratio, WearCoefficient
 
 Count = Annotated[int, Field(strict=True, ge=1)]
-_CONVOLUTIONS = 25  # of one warm-started contact solve, coarse levels included
+_CONVOLUTIONS = 15  # of one warm-started contact solve, coarse levels included
 _DEPTHS_NEEDED = 8  # before a depth is met at which nothing yields, on average
 _DEPTHS_AT_FIRST = 40  # the same in the first cycle, of sharp asperities
 _CHECKPOINT_EVERY = 10
