@@ -27,6 +27,14 @@ _LARGEST = 600.0
 """Logarithm of a load beyond which there is no use in looking."""
 
 
+def mean_opening(gap: FloatArray, result: LevelResult) -> float:
+    """Mean positive gap; round-off and residual of cells in contact must not count as volume."""
+    opening = gap + result.displacement
+    opening -= result.approach
+    opening[result.pressure > 0] = 0.0
+    return float(np.maximum(opening, 0.0).mean())
+
+
 def mean_gap_by_approach(
     mean_gap: float,
     gap: FloatArray,
@@ -39,30 +47,46 @@ def mean_gap_by_approach(
     """Solution whose mean positive gap is `mean_gap`, to `tolerance`; `guess` an approach to begin with."""
 
     def excess(result: LevelResult) -> float:
-        opening = gap + result.displacement
-        opening -= result.approach
-        # round-off and residual of cells in contact must not count as volume
-        opening[result.pressure > 0] = 0.0
-        return mean_gap - float(np.maximum(opening, 0.0).mean())
+        return mean_gap - mean_opening(gap, result)
 
     # displacements are not negative on average, so this approach is not enough
     least = float(gap.mean()) - mean_gap
     return _search(max(guess, least), least, math.inf, scale, tolerance, start, ApproachControl, excess, solve)
 
 
+def mean_gap_by_load(
+    mean_gap: float, gap: FloatArray, cap: float, scale: float, tolerance: float, solve: Solve
+) -> LevelResult:
+    """Solution whose mean positive gap is `mean_gap`, to `tolerance`, where it fails by the approach.
+
+    Next to full contact that would have to be exact to far less than the mean gap.
+    """
+    return _by_load(lambda result: mean_gap - mean_opening(gap, result), cap, None, gap.size, scale, tolerance, solve)
+
+
 def approach_by_load(
     approach: float, cap: float, start: FloatArray | None, cells: int, scale: float, tolerance: float, solve: Solve
 ) -> LevelResult:
     """Solution whose approach is `approach`, to `tolerance`."""
+    return _by_load(lambda result: result.approach - approach, cap, start, cells, scale, tolerance, solve)
+
+
+def _by_load(
+    excess: Callable[[LevelResult], float],
+    cap: float,
+    start: FloatArray | None,
+    cells: int,
+    scale: float,
+    tolerance: float,
+    solve: Solve,
+) -> LevelResult:
+    """Zero of an excess that rises with the load."""
 
     def control(logarithm: float) -> LoadControl:
         return LoadControl(min(math.exp(min(logarithm, _LARGEST)), cap * cells))
 
     force = float(start.sum()) if start is not None else 0.0
     guess = math.log(force if force > 0 else 1e-3 * cells * scale)
-
-    def excess(result: LevelResult) -> float:
-        return result.approach - approach
 
     highest = math.log(cap * cells) if math.isfinite(cap) else math.inf
     return _search(min(guess, highest), -math.inf, highest, 1.0, tolerance, start, control, excess, solve, scale)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from bem.contact import cascade, passes
 from bem.contact.active_set import Effort, LevelResult, Tolerance, Tuning, solve_level
 from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl, scaled_control
-from bem.contact.search import approach_by_load, mean_gap_by_approach
+from bem.contact.search import approach_by_load, mean_gap_by_approach, mean_gap_by_load, mean_opening
 from bem.contact.solution import ContactSolution
 from bem.convolution import DisplacementOperator
 from bem.errors import InfeasibleError, InputError, Status
@@ -199,7 +199,11 @@ def _solve(
             control = ApproachControl(float(gap.mean()) - control.mean_gap)
     scale = problem.scale or 1.0
     if isinstance(control, MeanGapControl):
-        return mean_gap_by_approach(control.mean_gap, gap, start.pressure, start.approach, scale, tolerance, directly)
+        result = mean_gap_by_approach(control.mean_gap, gap, start.pressure, start.approach, scale, tolerance, directly)
+        missed = not result.converged or abs(mean_opening(gap, result) - control.mean_gap) > tolerance
+        if not (missed and operator.mean_free and problem.effort.left > 0):
+            return result
+        return mean_gap_by_load(control.mean_gap, gap, cap, scale, tolerance, directly)
     result = directly(control, start.pressure, tolerance)
     if isinstance(control, LoadControl) or result.converged or problem.effort.left <= 0:
         return result

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, operator, violation
+from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, operator, rough, violation
 
 from bem.contact import solve_contact
 
@@ -79,3 +79,18 @@ def test_flat_gap_held_apart_by_the_lubricant(periodic):
         assert solution.status == "converged"
         assert solution.load == 0
         assert solution.approach == pytest.approx(0.7e-9, rel=1e-12)
+
+
+# all of these stalled by way of the approach: next to full contact the mean gap hangs on the last few cells
+@pytest.mark.parametrize("share", [0.017, 0.002])
+@pytest.mark.parametrize("seed", [0, 2, 4, 5])
+def test_mean_gap_near_full_contact_below_a_high_cap(seed, share):
+    op = operator((11, 78), (1.0, 3.2), PERIODIC)
+    gap = rough(11, 78, seed=seed, hurst=0.3)
+    capped = solve_contact(gap, op, mean_gap=share, hardness=1e4)
+    assert capped.status == "converged"
+    assert violation(op, gap, capped, 1e4) <= 1e-8 * gap.std() + 1e-12 * np.abs(capped.displacement).max()
+    # no pressure reaches the cap, so it changes nothing; mean gap and pressure are both exact to the residual
+    elastic = solve_contact(gap, op, mean_gap=share)
+    assert capped.plastic_area == 0
+    np.testing.assert_allclose(capped.pressure, elastic.pressure, atol=1e-5 * elastic.pressure.max())
