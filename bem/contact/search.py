@@ -43,15 +43,22 @@ def mean_gap_by_approach(
     scale: float,
     tolerance: float,
     solve: Solve,
+    *,
+    patient: bool = True,
 ) -> LevelResult:
-    """Solution whose mean positive gap is `mean_gap`, to `tolerance`; `guess` an approach to begin with."""
+    """Solution whose mean positive gap is `mean_gap`, to `tolerance`; `guess` an approach to begin with.
+
+    Without patience the search ends at the first contact that does not converge.
+    """
 
     def excess(result: LevelResult) -> float:
         return mean_gap - mean_opening(gap, result)
 
     # displacements are not negative on average, so this approach is not enough
     least = float(gap.mean()) - mean_gap
-    return _search(max(guess, least), least, math.inf, scale, tolerance, start, ApproachControl, excess, solve)
+    return _search(
+        max(guess, least), least, math.inf, scale, tolerance, start, ApproachControl, excess, solve, patient=patient
+    )
 
 
 def mean_gap_by_load(
@@ -103,6 +110,8 @@ def _search(
     excess: Callable[[LevelResult], float],
     solve: Solve,
     scale: float | None = None,
+    *,
+    patient: bool = True,
 ) -> LevelResult:
     """Zero of an excess that rises with x; `step` is a first step, `scale` a length (that step unless given)."""
     length = step if scale is None else scale
@@ -114,7 +123,7 @@ def _search(
         error = excess(result)
         if abs(error) <= tolerance and precision <= tolerance:
             return result
-        if len(points) >= _STEPS:
+        if len(points) >= _STEPS or not (patient or result.converged):
             return result
         if abs(error) <= 2 * precision and precision > tolerance:
             precision = max(tolerance, min(_CLOSE * abs(error), 0.1 * precision))

@@ -199,7 +199,17 @@ def _solve(
             control = ApproachControl(float(gap.mean()) - control.mean_gap)
     scale = problem.scale or 1.0
     if isinstance(control, MeanGapControl):
-        result = mean_gap_by_approach(control.mean_gap, gap, start.pressure, start.approach, scale, tolerance, directly)
+        # with mean-free displacements there is another way
+        result = mean_gap_by_approach(
+            control.mean_gap,
+            gap,
+            start.pressure,
+            start.approach,
+            scale,
+            tolerance,
+            directly,
+            patient=not operator.mean_free,
+        )
         missed = not result.converged or abs(mean_opening(gap, result) - control.mean_gap) > tolerance
         if not (missed and operator.mean_free and problem.effort.left > 0):
             return result
