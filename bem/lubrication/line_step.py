@@ -30,9 +30,6 @@ from bem.lubrication.line_flow import Problem, mean_fluidity
 from bem.lubrication.line_kernel import logarithmic_weights
 from bem.lubrication.line_linear import DEFLECTION
 
-MAX_GROWTH = 32
-"""Nodes that an end of the film is moved by at once."""
-
 
 @dataclass(frozen=True)
 class FixedMesh:
@@ -152,7 +149,6 @@ def time_step(
     # one flux to measure by: what is entrained or squeezed through the contact
     converged, residual, iterations = False, np.inf, 0
     seen: list[bytes] = []
-    grown: _Grown | None = None
     while True:
         positive = np.maximum(pressure, 0.0)
         log_viscosity, slope = problem.log_viscosity(positive)
@@ -204,9 +200,6 @@ def time_step(
                 # the exit hops between two nodes: take the smaller film and let Newton settle
                 new_full &= full
             seen.append(key)
-            grown = None if conserving else _growth(full, new_full, scaled, grown)
-            if grown is not None and grown.ahead:
-                new_full[grown.ahead] = True
             full = new_full
         full[np.flatnonzero(full)[0] if full.any() else nodes // 2] = True
         index = np.flatnonzero(full)
@@ -280,39 +273,6 @@ def time_step(
         mass[outlet] = fraction[outlet] * density[outlet] * film[outlet]
     outcome = Film(np.maximum(pressure, 0.0), film, datum, mass, full, fraction)
     return StepOutcome(outcome, iterations, residual, converged, imbalance)
-
-
-@dataclass(frozen=True)
-class _Grown:
-    """A film that grew at one end: its new last node, by how much mass was missing there, nodes to add besides."""
-
-    node: int
-    outwards: int
-    missing: float
-    ahead: slice | None
-
-
-def _growth(
-    full: NDArray[np.bool_], new: NDArray[np.bool_], scaled: FloatArray, before: _Grown | None
-) -> _Grown | None:
-    """Whether the film grows by one node at one end only, and how far it will: beyond a ruptured end nothing but the
-    next node shows that the film is too short, and what is missing there falls about linearly with every node."""
-    changed = np.flatnonzero(full != new)
-    if len(changed) != 1 or full[changed[0]]:
-        return None
-    node = int(changed[0])
-    outwards = 1 if full[node - 1] else -1
-    if full[node + outwards] or not full[node - outwards]:
-        return None
-    missing = -float(scaled[node])
-    ahead = None
-    if before is not None and before.outwards == outwards and 0 < missing < before.missing:
-        steps = (node - before.node) * outwards
-        more = int(missing / (before.missing - missing) * steps)
-        last = min(max(node + outwards * min(more, MAX_GROWTH), 1), len(full) - 2)
-        if more > 0:
-            ahead = slice(node, last + 1) if outwards > 0 else slice(last, node + 1)
-    return _Grown(node, outwards, missing, ahead)
 
 
 def _upstream_nodes(mesh: FixedMesh, entrainment: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
