@@ -18,10 +18,14 @@ def register(app: typer.Typer) -> None:
         ] = None,
         quick: Annotated[bool, typer.Option("--quick", help="Small sizes, a look in a minute.")] = False,
         size: Annotated[
-            list[float] | None, typer.Option("--size", help="Sizes in place of a case's own; may be repeated.")
+            list[float] | None,
+            typer.Option("--size", help="Sizes in place of a case's own, whatever --limit says; may be repeated."),
         ] = None,
         limit: Annotated[
-            float, typer.Option("--limit", min=1, help="Largest number of cells a side (4096 takes minutes).")
+            float,
+            typer.Option(
+                "--limit", min=1, help="Largest number of cells a side among a case's own sizes (4096 takes minutes)."
+            ),
         ] = 2048,
         threads: Annotated[
             list[int] | None,

@@ -124,7 +124,7 @@ def test_names_and_sizes():
     case = CASES["contact-periodic"]
     assert sizes_of(case, quick=False, sizes=None, limit=512) == (256, 512)
     assert sizes_of(case, quick=True, sizes=None, limit=512) == case.quick
-    assert sizes_of(case, quick=False, sizes=[64], limit=512) == (64,)
+    assert sizes_of(case, quick=False, sizes=[64, 4096], limit=512) == (64, 4096)
 
 
 def test_growth_is_the_exponent_of_a_power_law():
