@@ -277,7 +277,7 @@ def _mixed_case(cells: int, film_points: int, tolerance: float) -> dict[str, Any
     from bem.surfaces import generate_surface
 
     # one surface for every mesh: each coarser grid takes every so many points of the finest
-    finest = 240
+    finest = 480  # twice the finest mesh that is timed: the reference is not one of the points
     whole = Grid((finest, finest), (90e-6 / finest,) * 2, periodic=PERIODIC)
     height = generate_surface(whole, rms_height=100e-9, seed=3, correlation_length=4e-6)[
         :: finest // cells, :: finest // cells
@@ -301,14 +301,14 @@ def _mixed_case(cells: int, film_points: int, tolerance: float) -> dict[str, Any
 def _mixed_reference() -> FloatArray:
     from bem.friction import stribeck_curve
 
-    return np.array([p.friction for p in stribeck_curve(SPEEDS, **_mixed_case(240, 2000, 1e-6))])
+    return np.array([p.friction for p in stribeck_curve(SPEEDS, **_mixed_case(480, 2000, 1e-6))])
 
 
 @functools.cache
 def _point_reference() -> float:
     from bem.friction import solve_mixed
 
-    return solve_mixed(**_mixed_case(240, 2000, 1e-6), speeds=(SPEEDS[2], 0.0)).friction
+    return solve_mixed(**_mixed_case(480, 2000, 1e-6), speeds=(SPEEDS[2], 0.0)).friction
 
 
 def _load_sharing(cells: float) -> Timed:
