@@ -78,7 +78,7 @@ def particle_statistics(
 
     Raises
     ------
-    InputError : an unknown weight, a negative size, edges that do not increase.
+    InputError : an unknown weight, a negative size, edges that do not increase, other things than particles.
     """
     messages = []
     if weight not in WEIGHTS:
@@ -152,11 +152,19 @@ def size_summary(particles: Sequence[Particle] | NDArray[np.void], *, smallest_r
 
 def _sizes(particles: Sequence[Particle] | NDArray[np.void]) -> FloatArray:
     """(4, n): equivalent radius, length, width, thickness."""
-    if isinstance(particles, np.ndarray) and particles.dtype.names:
+    if isinstance(particles, np.ndarray) and {"volume", "length", "width", "thickness"} <= set(
+        particles.dtype.names or ()
+    ):
         columns = [
             np.cbrt(3 * particles["volume"] / (4 * np.pi)),
             *(particles[k] for k in ("length", "width", "thickness")),
         ]
         return np.array(columns, dtype=np.float64).reshape(4, -1)
-    rows = [(p.equivalent_radius, p.length, p.width, p.thickness) for p in particles]
+    try:
+        rows = [(p.equivalent_radius, p.length, p.width, p.thickness) for p in particles]
+    except (AttributeError, TypeError):
+        raise InputError(
+            f"particle_statistics: particles ({type(particles).__name__}) must be Particle objects, or a structured "
+            "array with fields volume, length, width, thickness"
+        ) from None
     return np.array(rows, dtype=np.float64).reshape(-1, 4).T

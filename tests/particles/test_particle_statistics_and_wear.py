@@ -262,3 +262,9 @@ def test_relative_centrifugal_force():
     with pytest.raises(InputError) as caught:
         sedimentation_time(distance=0.0, viscosity=-1.0, liquid_density=1000.0, **PARTICLE)
     assert len(caught.value.messages) == 2
+
+
+@pytest.mark.parametrize("particles", [[1.0, 2.0], 3, np.zeros(4), np.zeros(2, dtype=[("volume", float)])])
+def test_other_things_than_particles_are_refused(particles):
+    with pytest.raises(InputError, match="must be Particle objects"):
+        particle_statistics(particles)
