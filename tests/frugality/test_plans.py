@@ -157,3 +157,14 @@ def test_depths_of_the_first_cycle_are_within_what_memory_is_planned_for():
     outcome = get_kind(scene.kind).run(scene, PlainContext(scene.seed))
     computed = float(outcome.variables["depths_computed"].values.max())
     assert _DEPTHS_AT_FIRST / 2 <= computed <= 1.25 * _DEPTHS_AT_FIRST
+
+
+def test_very_large_transforms_are_slower_than_the_rate_of_smaller_ones():
+    from bem.scenes.planner import Step, step_seconds
+
+    small, large, huge = (
+        step_seconds(Step("a", "b", transforms=1, points=float(n * n)), 1e9) for n in (2048, 4096, 8192)
+    )
+    # to 4096 x 4096 points N log N; four times the points beyond it cost the root of four more
+    assert large / small == pytest.approx(4 * 24 / 22, rel=1e-12)
+    assert huge / large == pytest.approx(4 * 26 / 24 * 2, rel=1e-12)
