@@ -90,12 +90,7 @@ def generate_surface(
         autocorrelation,
         rms_slope,
     )
-    if lengths is not None:
-        amplitude = _correlated_amplitude(grid, lengths, autocorrelation, cutoff_wavelength)
-    else:
-        assert hurst is not None
-        amplitude = _self_affine_amplitude(grid, hurst, rolloff_wavelength)
-        _restrict(amplitude, grid, cutoff_wavelength)
+    amplitude = _amplitude(grid, lengths, autocorrelation, hurst, rolloff_wavelength, cutoff_wavelength)
     heights = _standardise(fft.irfft2(amplitude * _phases(grid.shape, int(seed)), grid.shape))
     heights = _impose_moments(heights, amplitude, float(skewness), float(kurtosis))
     if lengths is not None and (skewness, kurtosis) != (0.0, 3.0):
@@ -145,13 +140,8 @@ def check_statistics(
         autocorrelation,
         rms_slope,
     )
-    if grid.cells > 1 << 22:
-        return
-    if lengths is not None:
-        _correlated_amplitude(grid, lengths, autocorrelation, cutoff_wavelength)
-    elif cutoff_wavelength is not None:
-        assert hurst is not None
-        _restrict(_self_affine_amplitude(grid, hurst, rolloff_wavelength), grid, cutoff_wavelength)
+    if grid.cells <= 1 << 22 and (lengths is not None or cutoff_wavelength is not None):
+        _amplitude(grid, lengths, autocorrelation, hurst, rolloff_wavelength, cutoff_wavelength)
 
 
 def _check(
@@ -260,6 +250,23 @@ def _restrict(amplitude: FloatArray, grid: Grid, cutoff_wavelength: float | None
             f"generate_surface: no wave of the grid, {grid.lengths[0]:.4g} x {grid.lengths[1]:.4g} m, is as long as "
             f"cutoff_wavelength {cutoff_wavelength!r} m; enlarge the grid or lower it"
         )
+
+
+def _amplitude(
+    grid: Grid,
+    lengths: tuple[float, float] | None,
+    autocorrelation: str,
+    hurst: float | None,
+    rolloff_wavelength: float | None,
+    cutoff_wavelength: float | None,
+) -> FloatArray:
+    """Amplitudes of the waves (nx, ny // 2 + 1): of given correlation lengths, or self-affine where there are none."""
+    if lengths is not None:
+        return _correlated_amplitude(grid, lengths, autocorrelation, cutoff_wavelength)
+    assert hurst is not None
+    amplitude = _self_affine_amplitude(grid, hurst, rolloff_wavelength)
+    _restrict(amplitude, grid, cutoff_wavelength)
+    return amplitude
 
 
 def _correlated_amplitude(
