@@ -102,6 +102,18 @@ def _axes(width: float = 6.0, height: float = 3.4) -> tuple[Any, Any]:
     return drawing, axes
 
 
+def _series(axes: Any, x: Any, y: Any, spread: Any, style: str, colour: int, label: str) -> None:
+    """One curve with its spread, where there is one."""
+    axes.errorbar(x, y, yerr=spread, fmt=style, capsize=3, color=COLOURS[colour], label=label)
+
+
+def _from_zero(drawing: Any, axes: Any) -> Any:
+    """The drawing with its ordinate from zero and a legend."""
+    axes.set_ylim(0)
+    axes.legend(frameon=False)
+    return drawing
+
+
 def radius_over_load(summary: Summary) -> Any:
     """Radius over load with the ranges of DLS."""
     drawing, axes = _axes()
@@ -112,19 +124,17 @@ def radius_over_load(summary: Summary) -> Any:
         except FileNotFoundError:
             continue
         found = radii(data)
-        axes.errorbar(
+        _series(
+            axes,
             data["load_N"],
             [v.mean for v in found],
-            yerr=[v.spread or 0 for v in found],
-            marker="o",
-            capsize=3,
-            color=COLOURS[colour],
-            label=name.removeprefix("wear-").replace("-", " "),
+            [v.spread or 0 for v in found],
+            "o-",
+            colour,
+            name.removeprefix("wear-").replace("-", " "),
         )
     axes.set(xlabel="load (N)", ylabel="equivalent radius by volume (nm)", xlim=(0, 11))
-    axes.set_ylim(0)
-    axes.legend(frameon=False)
-    return drawing
+    return _from_zero(drawing, axes)
 
 
 def mesh_convergence(summary: Summary) -> Any:
@@ -133,20 +143,10 @@ def mesh_convergence(summary: Summary) -> Any:
     cells = summary["cell_nm"][:4]
     for weight, colour in (("number", 0), ("area", 4), ("volume", 1)):
         found = [at(summary, f"{weight}_mean_equivalent_radius_nm", i) for i in range(4)]
-        axes.errorbar(
-            cells,
-            [v.mean for v in found],
-            yerr=[v.spread or 0 for v in found],
-            marker="o",
-            capsize=3,
-            color=COLOURS[colour],
-            label=f"by {weight}",
-        )
+        _series(axes, cells, [v.mean for v in found], [v.spread or 0 for v in found], "o-", colour, f"by {weight}")
     axes.set(xlabel="cell (nm)", ylabel="equivalent radius (nm)")
     axes.set_xlim(0)
-    axes.set_ylim(0)
-    axes.legend(frameon=False)
-    return drawing
+    return _from_zero(drawing, axes)
 
 
 def stribeck(summary: Summary) -> Any:
@@ -160,9 +160,7 @@ def stribeck(summary: Summary) -> Any:
     axes.semilogx(speeds, coupled["boundary_friction_part"], ":", color=COLOURS[2], label="boundary part")
     axes.semilogx(speeds, coupled["film_friction_part"], "-.", color=COLOURS[3], label="film part")
     axes.set(xlabel="sliding speed (m/s)", ylabel="friction")
-    axes.set_ylim(0)
-    axes.legend(frameon=False)
-    return drawing
+    return _from_zero(drawing, axes)
 
 
 def array_loads(summary: Summary) -> Any:
@@ -175,9 +173,7 @@ def array_loads(summary: Summary) -> Any:
         axes.plot(summary["spacing_um"], summary[key], "-o", color=COLOURS[colour], label=label)
     axes.axhline(1, color=COLOURS[6], linewidth=0.8, label="Hertz, alone")
     axes.set(xlabel="distance of the spheres (um)", ylabel="load over Hertz' at 100 nm")
-    axes.set_ylim(0)
-    axes.legend(frameon=False)
-    return drawing
+    return _from_zero(drawing, axes)
 
 
 def wavelength_difference(summary: Summary) -> Any:
@@ -200,20 +196,10 @@ def run_in_stribeck(summary: Summary) -> Any:
         ("friction_initial", "--s", 0, "initial"),
         ("friction_run_in", "-o", 1, "run in, 200 cycles"),
     ):
-        axes.errorbar(
-            summary["speed_m_s"],
-            summary[key],
-            yerr=summary.get(f"{key}_spread"),
-            fmt=style,
-            capsize=3,
-            color=COLOURS[colour],
-            label=label,
-        )
+        _series(axes, summary["speed_m_s"], summary[key], summary.get(f"{key}_spread"), style, colour, label)
     axes.set_xscale("log")
     axes.set(xlabel="sliding speed (m/s)", ylabel="friction")
-    axes.set_ylim(0)
-    axes.legend(frameon=False)
-    return drawing
+    return _from_zero(drawing, axes)
 
 
 def radius_over_speed(summary: Summary) -> Any:
@@ -225,21 +211,19 @@ def radius_over_speed(summary: Summary) -> Any:
         ("number_mean_radius_nm", 1, "by number"),
     ):
         spread = summary.get(f"{key}_spread")
-        axes.errorbar(
+        _series(
+            axes,
             [summary["speed_m_s"][i] for i in found],
             [summary[key][i] for i in found],
-            yerr=None if spread is None else [spread[i] for i in found],
-            marker="o",
-            capsize=3,
-            color=COLOURS[colour],
-            label=label,
+            None if spread is None else [spread[i] for i in found],
+            "o-",
+            colour,
+            label,
         )
     axes.axhspan(210, 236, color=COLOURS[5], alpha=0.3, linewidth=0, label="light scattering, 0.01 m/s")
     axes.set_xscale("log")
     axes.set(xlabel="sliding speed (m/s)", ylabel="equivalent radius (nm)")
-    axes.set_ylim(0)
-    axes.legend(frameon=False)
-    return drawing
+    return _from_zero(drawing, axes)
 
 
 def friction_over_hardness(summary: Summary) -> Any:
@@ -250,15 +234,7 @@ def friction_over_hardness(summary: Summary) -> Any:
         ("friction_initial", "--s", 0, "initial"),
         ("friction_run_in", "-o", 1, "run in"),
     ):
-        axes.errorbar(
-            hardness,
-            summary[key],
-            yerr=summary.get(f"{key}_spread"),
-            fmt=style,
-            capsize=3,
-            color=COLOURS[colour],
-            label=label,
-        )
+        _series(axes, hardness, summary[key], summary.get(f"{key}_spread"), style, colour, label)
     axes.set(xlabel="hardness of the disk (GPa)", ylabel="friction at 0.01 m/s")
     axes.legend(frameon=False)
     return drawing
