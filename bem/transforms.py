@@ -155,12 +155,6 @@ class Multiplier:
         )
         return Multiplier(real, imaginary, self.real_parity, self.imaginary_parity)
 
-    def adjoint(self) -> Multiplier:
-        """Complex conjugate: the spectrum of the transposed operator."""
-        return Multiplier(
-            self.real, None if self.imaginary is None else -self.imaginary, self.real_parity, self.imaginary_parity
-        )
-
 
 def multiplier(parts: list[tuple[FloatArray, tuple[int, int], float]]) -> Multiplier:
     """Sum of kernels `(spectrum from kernel_spectrum, parity, factor)` as one multiplier.

@@ -88,18 +88,6 @@ def test_even_and_odd_parts_add_to_one_multiplier():
     assert np.abs(both - apart).max() <= 1e-13 * np.abs(both).max()
 
 
-def test_adjoint_is_the_transposed_operator():
-    rng = np.random.default_rng(4)
-    shape, padded = (6, 5), (12, 10)
-    odd = transforms.kernel_spectrum(rng.standard_normal((7, 6)), padded, (-1, 1))
-    factor = transforms.multiplier([(odd, (-1, 1), 1.0)])
-    transform = transforms.PaddedTransform(shape, padded)
-    a, b = rng.standard_normal((2, *shape))
-    left = np.vdot(transform.convolve(a, factor), b)
-    right = np.vdot(a, transform.convolve(b, factor.adjoint()))
-    assert left == pytest.approx(right, rel=1e-12)  # round-off of a 30-term sum
-
-
 def test_parts_of_different_parity_are_refused():
     quarter = np.ones((3, 3))
     with pytest.raises(InputError, match="parity"):

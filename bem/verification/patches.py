@@ -111,8 +111,3 @@ def _mapped(
     if low <= -radius + 1e-12:
         return low + length * t**2, w * 2 * length * t
     return low + length * t, w * length
-
-
-def disc_load(profile: str) -> float:
-    """Force of the unit profile on the unit disc."""
-    return np.pi if profile == "uniform" else 2 * np.pi / 3
