@@ -6,8 +6,8 @@ Every choice that the source leaves open is a field of `WearModel`, one name awa
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -28,8 +28,8 @@ class WearModel:
     """The named, replaceable parts of the wear model.
 
     criterion : name in `criterion.CRITERIA`; material leaves where the equivalent stress exceeds the yield stress.
-    stress_range : judge half the change of stress since the last cycle instead of the stress (low-cycle fatigue: a
-        range of twice the yield stress is what shakedown can bear).
+    stress_range : judge half the change of stress that each body's material has seen since the last cycle instead of
+        the stress (low-cycle fatigue: a range of twice the yield stress is what shakedown can bear).
     refine, refinement : fine voxels per depth interval and how stress is interpolated between depths; "exact" computes
         the stress at every fine depth and is the check of the others.
     connectivity : 6, 18 or 26 neighbours.
@@ -171,30 +171,60 @@ class Removal:
     segmentation_time: float
 
 
+@dataclass(frozen=True, eq=False)
+class SurfaceLoad:
+    """Pressure (nx, ny) [Pa] on a body, and the friction it slides with: traction over pressure, on the lower body."""
+
+    pressure: FloatArray
+    friction: float
+
+
+def half_the_change(now: SurfaceLoad, before: SurfaceLoad | None) -> tuple[SurfaceLoad, ...]:
+    """Loads whose stresses add up to half the change of stress; nothing acted before the first cycle.
+
+    One load where the friction is the same, since stress is linear in pressure and traction.
+    """
+    if before is None:
+        return (SurfaceLoad(0.5 * now.pressure, now.friction),)
+    if before.friction == now.friction:
+        return (SurfaceLoad(0.5 * (now.pressure - before.pressure), now.friction),)
+    return (SurfaceLoad(0.5 * now.pressure, now.friction), SurfaceLoad(-0.5 * before.pressure, before.friction))
+
+
 def equivalent_stress_planes(
-    pressure: FloatArray, setup: WearSetup, body: int, depths: FloatArray, criterion: str, out: FloatArray
+    loads: Sequence[SurfaceLoad], setup: WearSetup, body: int, depths: FloatArray, criterion: str, out: FloatArray
 ) -> Iterator[FloatArray]:
-    """Equivalent stress in one body, a plane of `out` (nz, nx, ny) [Pa] per depth, each written when it is asked for.
+    """Equivalent stress of all loads together in one body, a plane of `out` (nz, nx, ny) [Pa] per depth, each written
+    when it is asked for.
 
     Traction on the upper body has the other sign.
     """
-    friction = setup.friction if body == LOWER else -setup.friction
-    if criterion == "von_mises":
-        yield from von_mises_planes(pressure, setup.grid, setup.bodies[body], depths, friction=friction, out=out)
+    grid, solid, sign = setup.grid, setup.bodies[body], 1 if body == LOWER else -1
+    if criterion == "von_mises" and len(loads) == 1:
+        (load,) = loads
+        yield from von_mises_planes(load.pressure, grid, solid, depths, friction=sign * load.friction, out=out)
         return
     for index, depth in enumerate(depths):
-        stress = subsurface_stress(pressure, setup.grid, setup.bodies[body], depth[None], friction=friction)
-        out[index] = CRITERIA[criterion].equivalent_stress(stress[:, 0])
+        stress = sum(
+            subsurface_stress(load.pressure, grid, solid, depth[None], friction=sign * load.friction)[:, 0]
+            for load in loads
+        )
+        out[index] = CRITERIA[criterion].equivalent_stress(np.asarray(stress))
         yield out[index]
 
 
-def cannot_yield(pressure: FloatArray, setup: WearSetup, body: int, depth: float, criterion: str) -> bool:
-    """Whether a bound, found without a transform, proves that nothing yields at a depth."""
+def cannot_yield(loads: Sequence[SurfaceLoad], setup: WearSetup, body: int, depth: float, criterion: str) -> bool:
+    """Whether a bound, found without a transform, proves that nothing yields at a depth.
+
+    Von Mises stress is a norm of the deviator: that of several loads together is at most the sum of theirs.
+    """
     factor = CRITERIA[criterion].von_mises_factor
     if factor is None:
         return False
-    friction = setup.friction if body == LOWER else -setup.friction
-    (limit,) = von_mises_limit(pressure, setup.grid, setup.bodies[body], [depth], friction=friction)
+    grid, solid, sign = setup.grid, setup.bodies[body], 1 if body == LOWER else -1
+    limit = sum(
+        von_mises_limit(load.pressure, grid, solid, [depth], friction=sign * load.friction)[0] for load in loads
+    )
     return bool(factor * limit <= setup.yield_stress(body))
 
 
@@ -211,25 +241,28 @@ def depths_for(setup: WearSetup, model: WearModel, body: int) -> FloatArray:
     return depths
 
 
-def yielded_pieces(pressure: FloatArray, setup: WearSetup, model: WearModel, body: int) -> Removal:
-    """The pieces that come off one body under a pressure.
+def yielded_pieces(
+    load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearModel, body: int
+) -> Removal:
+    """The pieces that come off one body under a pressure with the setup's friction, or under loads with their own.
 
     Depths are computed from the surface down, and no further than one below the first depth at which nothing yields: a
     piece reaches the surface, so it would have to pass that depth, and refinement never exceeds the values it lies
     between. The one below is what the slope of the monotone cubic there needs; other refinements do without.
     """
     start = time.perf_counter()
+    loads = (SurfaceLoad(load, setup.friction),) if isinstance(load, np.ndarray) else load
     strength = setup.yield_stress(body)
     depths = depths_for(setup, model, body)
     below = 1 if model.refinement == "monotone_cubic" else 0
     computed = 0
     blocked: int | None = None
-    if cannot_yield(pressure, setup, body, float(depths[0]), model.criterion):
+    if cannot_yield(loads, setup, body, float(depths[0]), model.criterion):
         blocked = 0
     else:
         # pages of planes that are never written are never touched
         stack = np.empty((depths.size, *setup.grid.shape))
-        for plane in equivalent_stress_planes(pressure, setup, body, depths, model.criterion, stack):
+        for plane in equivalent_stress_planes(loads, setup, body, depths, model.criterion, stack):
             computed += 1
             if blocked is None and plane.max() <= strength:
                 blocked = computed - 1
@@ -259,16 +292,21 @@ def wear_cycle(
     setup: WearSetup,
     model: WearModel,
     contact_step: ContactStep,
-    last_pressure: FloatArray | None,
+    start: FloatArray | None,
+    last_loads: tuple[SurfaceLoad | None, SurfaceLoad | None] = (None, None),
 ) -> tuple[ContactOutcome, list[Removal]]:
     """One cycle on the heights (nx, ny) [m] of the lower and upper body, as they face each other now.
 
+    start : pressure (nx, ny) that the contact begins from; it decides nothing but the effort.
+    last_loads : what acted in the last cycle on the material of the lower and of the upper body that is on the grid
+        now, cell by cell; None for nothing. Only a range of stress asks for it.
+
     Returns the contact, and what leaves from which body. Nothing is changed in place.
     """
-    contact = contact_step(heights[LOWER] + heights[UPPER], last_pressure)
-    acting = contact.pressure
-    if model.stress_range:
-        before = np.zeros_like(acting) if last_pressure is None else last_pressure
-        acting = 0.5 * (acting - before)
-    loaded = replace(setup, friction=contact.friction) if contact.friction != setup.friction else setup
-    return contact, [yielded_pieces(acting, loaded, model, body) for body in setup.wearing(model)]
+    contact = contact_step(heights[LOWER] + heights[UPPER], start)
+    acting = SurfaceLoad(contact.pressure, contact.friction)
+    removals = []
+    for body in setup.wearing(model):
+        loads = half_the_change(acting, last_loads[body]) if model.stress_range else (acting,)
+        removals.append(yielded_pieces(loads, setup, model, body))
+    return contact, removals

@@ -24,6 +24,7 @@ from bem.wear.cycle import (
     ContactOutcome,
     ContactStep,
     Removal,
+    SurfaceLoad,
     WearModel,
     WearSetup,
     dry_contact,
@@ -283,8 +284,9 @@ def advance(
     facing = list(state.heights)
     facing[counterface] = _window(state.heights[counterface], offset, rows)
     start = None if state.pressure is None else _slide(state.pressure, offset - state.offset, setup.grid.periodic[0])
+    last = _last_loads(state, counterface, offset) if model.stress_range else (None, None)
     began = time.perf_counter()
-    contact, removals = wear_cycle((facing[LOWER], facing[UPPER]), setup, model, contact_step, start)
+    contact, removals = wear_cycle((facing[LOWER], facing[UPPER]), setup, model, contact_step, start, last)
     if contact.status != Status.CONVERGED:
         raise ConvergenceError(
             f"cycle {cycle}: the contact ended with status {contact.status.value!r} at residual "
@@ -342,6 +344,24 @@ def _remove_from_window(heights: FloatArray, thickness: FloatArray, offset: int)
     worn = heights.copy()
     worn[(np.arange(thickness.shape[0]) - offset) % heights.shape[0]] -= thickness
     return worn
+
+
+def _last_loads(
+    state: RunningInState, counterface: int, offset: int
+) -> tuple[SurfaceLoad | None, SurfaceLoad | None]:
+    """What acted in the last cycle on the material of each body that is on the grid now.
+
+    The body that stands still has it where it was; the counterface took its own along.
+    """
+    if state.pressure is None:
+        return None, None
+    friction = float(state.cycles["friction"][-1])
+    rows = state.pressure.shape[0]
+    carried = np.zeros_like(state.heights[counterface])
+    carried[(np.arange(rows) - state.offset) % carried.shape[0]] = state.pressure
+    loads = [SurfaceLoad(state.pressure, friction)] * 2
+    loads[counterface] = SurfaceLoad(_window(carried, offset, rows), friction)
+    return loads[LOWER], loads[UPPER]
 
 
 def _slide(pressure: FloatArray, cells: int, periodic: bool) -> FloatArray:

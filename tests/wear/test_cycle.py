@@ -1,5 +1,7 @@
 """The wear cycle: what leaves is what the surface loses, nothing that matters is skipped, a stopped run goes on."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -14,6 +16,8 @@ from bem import (
     find_particles,
     generate_surface,
     run_in,
+    subsurface_stress,
+    von_mises,
 )
 from bem.stress import von_mises_field
 from bem.transforms import COUNT
@@ -175,6 +179,49 @@ def test_stress_range_of_a_contact_that_does_not_move_is_zero():
     result = run_in(lower, upper, cycles=3, model=WearModel(stress_range=True, shift=0), **arguments)
     # loading from nothing to p is half a range of p / 2: below yield; then nothing changes any more
     assert result.particles.size == 0
+
+
+@pytest.mark.parametrize("rows", [48, 96], ids=["as long as the grid", "longer"])
+@pytest.mark.parametrize("frictions", [(0.16, 0.16, 0.16), (0.05, 0.25, 0.4)], ids=["steady friction", "changing"])
+def test_stress_range_with_sliding_is_that_of_each_bodys_own_material(frictions, rows):
+    """Against a plain recomputation: stresses of this cycle less those of the last, material point by material point.
+
+    The counterface took its last pressure along, the other body kept it; both wear. Slid by less than the grid, its
+    material that comes in had no pressure, unless it is as long as the grid and left at the other end.
+    """
+    lower, upper = surfaces()
+    if rows == 96:
+        upper = np.concatenate([upper, upper[::-1]])
+    body = Body(Material("soft", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9, yield_stress=0.4e9))
+    arguments = ARGUMENTS | {"bodies": (body, body)}
+    fixed = setup(bodies=(body, body))
+    dry = dry_contact(fixed)
+    used = iter(frictions)
+    model = WearModel(stress_range=True, shift=5, wears="both")
+    states = []
+
+    def contact(heights, start):
+        return replace(dry(heights, start), friction=next(used))
+
+    run_in(lower, upper, cycles=3, model=model, contact_step=contact, callback=states.append, **arguments)
+    before, now = states[1:]
+    stresses = []  # of the lower and the upper body, at rows of their own material
+    for state, friction in zip((before, now), frictions[1:], strict=True):
+        on_lower = subsurface_stress(state.pressure, GRID, body, DEPTHS, friction=friction)
+        # what leaves the grid is unloaded; row k of the counterface faces row k + offset of the grid
+        carried = np.zeros((rows, GRID.shape[1]))
+        carried[: GRID.shape[0]] = state.pressure
+        carried = np.roll(carried, -state.offset, axis=0)
+        facing = np.roll(carried, now.offset, axis=0)[: GRID.shape[0]]
+        on_upper = subsurface_stress(facing, GRID, body, DEPTHS, friction=-friction)
+        stresses.append((on_lower, on_upper))
+    lost = (before.heights[0] - now.heights[0], np.roll(before.heights[1] - now.heights[1], now.offset, axis=0)[:48])
+    for one in (0, 1):
+        change = von_mises(0.5 * (stresses[1][one] - stresses[0][one]))
+        pieces = segment(change, DEPTHS, yield_stress=0.4e9, periodic=GRID.periodic)
+        assert pieces.count > 0
+        # heights of 1e-7 m less thicknesses
+        np.testing.assert_allclose(lost[one], pieces.thickness, rtol=0, atol=1e-20)
 
 
 def test_settled_rule_stops_a_steady_run():
