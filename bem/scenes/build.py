@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from bem.errors import InputError
 from bem.grid import Grid
-from bem.materials import Body, dundurs_beta
+from bem.materials import Body
 from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, ShapeScene, SmoothSurface
 
 if TYPE_CHECKING:
@@ -109,12 +109,10 @@ def softer_hardness(lower: Body, upper: Body | None) -> float:
 
 
 def traction_couples(lower: Body, upper: Body | None, friction: float) -> bool:
-    """Whether traction moves the normal gap: friction between bodies that are coated or elastically dissimilar."""
-    if friction == 0:
-        return False
-    if lower.layer is not None or (upper is not None and upper.layer is not None):
-        return upper is None or lower != upper
-    return dundurs_beta(lower.material, None if upper is None else upper.material) != 0
+    """Whether traction moves the normal gap: friction between elastically different bodies, as the operator has it."""
+    from bem.convolution import couples
+
+    return friction != 0 and couples((lower,) if upper is None else (lower, upper))
 
 
 def check_surfaces(grid: Grid, **surfaces: AnySurface) -> None:

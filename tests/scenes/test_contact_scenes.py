@@ -5,12 +5,15 @@ import copy
 import numpy as np
 import pytest
 
+from bem.convolution import displacement_operator
 from bem.errors import Status
-from bem.materials import contact_modulus
+from bem.grid import Grid
+from bem.materials import Body, Layer, Material, contact_modulus
 from bem.reference_solutions.hertz import cylinder_contact, sphere_contact
 from bem.reference_solutions.westergaard import crossed_full_contact_pressure
 from bem.runs import plan_scene
 from bem.scenes import PlainContext, get_kind
+from bem.scenes.build import traction_couples
 from bem.transforms import COUNT
 
 KIND = get_kind("contact")
@@ -144,6 +147,33 @@ def test_friction_between_equal_bodies_changes_no_pressure_and_builds_no_kernel(
     _, with_friction, _ = run(rough(outputs={"von_mises": False}, contact={"friction": 0.3}))
     assert COUNT.kernels == 0
     np.testing.assert_array_equal(without.variables["pressure"].values, with_friction.variables["pressure"].values)
+
+
+def body(name="a", modulus=210e9, hardness=2e9, film=100e-9):
+    base = Material(name, youngs_modulus=modulus, poissons_ratio=0.3, hardness=hardness)
+    soft = Material("film", youngs_modulus=15e9, poissons_ratio=0.3)
+    return Body(base, layer=Layer(soft, film) if film else None)
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "couples"),
+    [
+        (body(), body(name="b"), False),
+        (body(), body(hardness=6e9), False),
+        (body(), body(film=101e-9), True),
+        (body(), body(film=0), True),
+        (body(), None, True),
+        (body(film=0), body("b", hardness=6e9, film=0), False),
+        # round-off of input: the operator takes such bodies as equal
+        (body(film=0), body(modulus=210e9 * (1 + 3e-16), film=0), False),
+        (body(film=0), None, True),
+    ],
+)
+def test_the_plan_takes_bodies_as_coupled_where_the_operator_does(lower, upper, couples):
+    pair = lower if upper is None else (lower, upper)
+    operator = displacement_operator(Grid((8, 8), (1e-6, 1e-6)), pair, friction=0.3)
+    assert traction_couples(lower, upper, 0.3) == (not operator.symmetric) == couples
+    assert not traction_couples(lower, upper, 0.0)
 
 
 def test_friction_raises_the_stress_at_the_surface_of_either_body():
