@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 import bem
-from bem.errors import InputError, Status
+from bem.errors import ConvergenceError, InputError, Status
 from bem.results.directory import RESULTS, RunDirectory, plain
 from bem.results.read import FinishedRun, open_run
 from bem.scenes.common import SceneModel
@@ -51,10 +51,18 @@ class RunContext:
         self._watcher = watcher
         self.notes: list[str] = []
         self.seconds: dict[str, float] = {}
+        self._open: dict[str, float] = {}
+        self._start = time.perf_counter()
         self._state = directory.load_checkpoint() if directory.resumed else None
         if self._state is not None:
             self.notes = list(self._state.pop("_notes"))
             self.seconds = dict(self._state.pop("_seconds"))
+            self._start -= self._state.pop("_wall_time_s", 0.0)
+
+    @property
+    def wall_time(self) -> float:
+        """Seconds of this session and of those before it, up to their last checkpoint."""
+        return time.perf_counter() - self._start
 
     @property
     def resumed(self) -> bool:
@@ -78,11 +86,14 @@ class RunContext:
     @contextmanager
     def timer(self, stage: str) -> Iterator[None]:
         """See `bem.scenes.Context`."""
-        start = time.perf_counter()
+        if stage in self._open:  # the outer block counts it
+            yield
+            return
+        self._open[stage] = time.perf_counter()
         try:
             yield
         finally:
-            self.seconds[stage] = self.seconds.get(stage, 0.0) + time.perf_counter() - start
+            self.seconds[stage] = self.seconds.get(stage, 0.0) + time.perf_counter() - self._open.pop(stage)
 
     def scratch(self, shape: tuple[int, ...]) -> NDArray[np.float64]:
         """See `bem.scenes.Context`."""
@@ -92,7 +103,13 @@ class RunContext:
 
     def save(self, state: Mapping[str, Any]) -> None:
         """See `bem.scenes.Context`."""
-        self._directory.save_checkpoint({**state, "_notes": self.notes, "_seconds": self.seconds})
+        now = time.perf_counter()
+        seconds = dict(self.seconds)
+        for stage, start in self._open.items():
+            seconds[stage] = seconds.get(stage, 0.0) + now - start
+        self._directory.save_checkpoint(
+            {**state, "_notes": self.notes, "_seconds": seconds, "_wall_time_s": self.wall_time}
+        )
 
     def saved(self) -> dict[str, Any] | None:
         """See `bem.scenes.Context`."""
@@ -144,7 +161,8 @@ def run_scene(
     Raises
     ------
     InputError : a bad scene; nothing is left behind.
-    ConvergenceError : the run could not go on; the checkpoint stays.
+    ConvergenceError : the run could not go on, or found its input bad after something had been computed; the
+        checkpoint stays.
     ResultsError : the results cannot be written.
     KeyboardInterrupt : passed on; the folder can be resumed.
     """
@@ -152,7 +170,6 @@ def run_scene(
     check_memory(plan)
     kind = get_kind(scene.kind)
     watcher = watcher or _Silent()
-    start = time.perf_counter()
     with RunDirectory.start(
         None if out is None else Path(out), scene.name, dump_scene(scene), resume=resume, overwrite=overwrite
     ) as directory:
@@ -161,10 +178,15 @@ def run_scene(
         try:
             context = RunContext(directory, scene, watcher)
             outcome = kind.run(scene, context)
-        except InputError:
+        except InputError as error:
+            if directory.begun:
+                raise ConvergenceError(
+                    f"{'; '.join(error.messages)}. What was computed before is kept in {directory.home}: the same "
+                    "command with --resume goes on from there, a changed scene needs another --out"
+                ) from error
             directory.discard()
             raise
-        _write(directory, kind, scene, outcome, context, figures, start)
+        _write(directory, kind, scene, outcome, context, figures)
     return open_run(directory.path)
 
 
@@ -175,7 +197,6 @@ def _write(
     outcome: Outcome,
     context: RunContext,
     figures: bool,
-    start: float,
 ) -> None:
     """Arrays, volumes, figures, report; the summary last."""
     from bem.results.dataset import to_dataset, write_variables
@@ -209,7 +230,7 @@ def _write(
                 directory.figures,
                 on_failure=lambda name, error: context.note(f"figure {name} could not be drawn: {error!r}"),
             )
-            summary["wall_time_s"] = time.perf_counter() - start
+            summary["wall_time_s"] = context.wall_time
             write_report(run, drawn, kind.headline)
-    summary["wall_time_s"] = time.perf_counter() - start
+    summary["wall_time_s"] = context.wall_time
     directory.finish(summary)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from bem.errors import BemError, InputError
+from bem.errors import InputError, ResultsError
 from bem.plots.figures import FigureKind, all_figures
 from bem.results.atomic import replacing
 from bem.scenes.validate import nearest
@@ -41,7 +41,7 @@ def draw_all(
         try:
             if known[name].fits(run):
                 drawn.append(draw(run, known[name], folder, formats))
-        except BemError:
+        except ResultsError:
             raise
         except Exception as error:
             if on_failure is None:

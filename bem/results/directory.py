@@ -125,6 +125,16 @@ class RunDirectory:
         return (self.path / SUMMARY).is_file()
 
     @property
+    def begun(self) -> bool:
+        """Whether something computed is kept in it, from which a run can go on."""
+        return (self.path / CHECKPOINT).is_file()
+
+    @property
+    def home(self) -> Path:
+        """The folder as it was asked for, also while `path` is beside an older run in it."""
+        return self._home
+
+    @property
     def figures(self) -> Path:
         """Folder of the figures, made when first asked for."""
         folder = self.path / FIGURES
@@ -246,15 +256,16 @@ class RunDirectory:
         self.close()
 
 
-def checksums(folder: Path) -> dict[str, str]:
-    """SHA-256 of every finished file of a run but the summary, by its path in the folder."""
+def names_of_files(folder: Path) -> list[str]:
+    """Every finished file of a run but the summary, by its path in the folder."""
     names = [SCENE, RESULTS, REPORT, *(f"{FIGURES}/{item.name}" for item in (folder / FIGURES).glob("*.*"))]
     names += [item.name for item in folder.glob("volume*.vtu")]
-    found = {}
-    for name in sorted(names):
-        if (folder / name).is_file() and not Path(name).name.startswith("."):
-            found[name] = checksum(folder / name)
-    return found
+    return [name for name in sorted(names) if (folder / name).is_file() and not Path(name).name.startswith(".")]
+
+
+def checksums(folder: Path) -> dict[str, str]:
+    """SHA-256 of every finished file of a run but the summary, by its path in the folder."""
+    return {name: checksum(folder / name) for name in names_of_files(folder)}
 
 
 def checksum(path: Path) -> str:

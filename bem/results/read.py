@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from bem.errors import ResultsError
 from bem.results.atomic import reason
 from bem.results.dataset import read_dataset
-from bem.results.directory import CHECKSUMS, RESULTS, SCENE, SUMMARY, SWAPPING, checksum
+from bem.results.directory import CHECKSUMS, RESULTS, SCENE, SUMMARY, SWAPPING, checksum, names_of_files
 
 if TYPE_CHECKING:
     import xarray
@@ -79,33 +79,66 @@ def open_run(path: str | os.PathLike[str]) -> FinishedRun:
         raise ResultsError(f"{folder}: cannot be read ({reason(error)})") from error
     except (ValueError, RecursionError) as error:
         raise ResultsError(f"{folder}: a file of the run is damaged ({error})") from error
+    wrong = _wrong_form(summary)
+    if wrong:
+        raise ResultsError(f"{folder / SUMMARY}: is not the summary of a run ({wrong}); run the scene again")
     return FinishedRun(folder, scene, summary)
 
 
+def _wrong_form(summary: Any) -> str:
+    """What every summary has and this does not, in words; empty where nothing is amiss."""
+    if not isinstance(summary, dict):
+        return "it is not a table"
+    for key, kind, words in (
+        ("scene", str, "text"),
+        ("kind", str, "text"),
+        ("version", str, "text"),
+        ("status", str, "text"),
+        ("where", str, "text"),
+        ("wall_time_s", int | float, "a number"),
+        ("notes", list, "a list of texts"),
+        ("seconds_by_stage", dict, "a table of numbers"),
+    ):
+        if not isinstance(summary.get(key), kind) or isinstance(summary[key], bool):
+            return f"{key} is missing" if key not in summary else f"{key} is not {words}"
+    if not all(isinstance(note, str) for note in summary["notes"]):
+        return "notes is not a list of texts"
+    if not all(isinstance(value, int | float) for value in summary["seconds_by_stage"].values()):
+        return "seconds_by_stage is not a table of numbers"
+    return ""
+
+
 def damaged_files(folder: Path) -> list[str]:
-    """Files of a run that are missing or do not match their checksum."""
-    return [name for name in _known(folder) if not _sound(folder, name)]
+    """Files of a run that are missing, do not match their checksum, or have none; ResultsError without checksums."""
+    known = _known(folder)
+    names = dict.fromkeys([*known, SCENE, SUMMARY, RESULTS, *names_of_files(folder)])
+    return [name for name in names if not _sound(folder, name, known)]
 
 
 def _check(folder: Path, name: str) -> None:
-    if name in _known(folder) and not _sound(folder, name):
-        raise ResultsError(
-            f"{folder / name}: is damaged or was changed (its checksum does not match); run the scene again"
-        )
+    known = _known(folder)
+    if not _sound(folder, name, known):
+        why = "does not match" if name in known else f"is missing from {CHECKSUMS}"
+        raise ResultsError(f"{folder / name}: is damaged or was changed (its checksum {why}); run the scene again")
 
 
-def _sound(folder: Path, name: str) -> bool:
+def _sound(folder: Path, name: str, known: dict[str, Any]) -> bool:
     try:
-        return checksum(folder / name) == _known(folder)[name]
+        return checksum(folder / name) == known.get(name)
     except OSError:
         return False
 
 
-def _known(folder: Path) -> dict[str, str]:
+def _known(folder: Path) -> dict[str, Any]:
+    """What the files were when the run was finished, which is written with it: a folder without it is damaged."""
     try:
         known = json.loads((folder / CHECKSUMS).read_text("utf-8"))
     except FileNotFoundError:
-        return {}
+        raise ResultsError(
+            f"{folder / CHECKSUMS}: is missing, so nothing says that the run is whole; run the scene again"
+        ) from None
     except (OSError, ValueError, RecursionError) as error:
-        raise ResultsError(f"{folder / CHECKSUMS}: is damaged ({error})") from error
-    return known if isinstance(known, dict) else {}
+        raise ResultsError(f"{folder / CHECKSUMS}: is damaged ({error}); run the scene again") from error
+    if not isinstance(known, dict):
+        raise ResultsError(f"{folder / CHECKSUMS}: is damaged (it is not a table); run the scene again")
+    return known

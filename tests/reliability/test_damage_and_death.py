@@ -1,5 +1,7 @@
 """Processes killed while they write, and files damaged afterwards."""
 
+import hashlib
+import json
 import os
 import signal
 import subprocess
@@ -108,6 +110,74 @@ def test_damaged_checksums_are_said(finished, content):
             open_run(finished)
     finally:
         path.write_bytes(whole)
+
+
+@pytest.fixture
+def plain(tmp_path):
+    """A finished run without figures, to be damaged."""
+    return run_scene(SCENE, tmp_path / "run", figures=False).path
+
+
+@pytest.mark.parametrize("content", [None, "", "{}", "[]", "null", '{"results.nc": 3}'])
+def test_a_run_without_its_checksums_is_damaged(plain, content):
+    """Else any damage would be accepted with them: this opened 25 of 41 damaged runs."""
+    path = plain / "checksums.json"
+    if content is None:
+        path.unlink()
+    else:
+        path.write_text(content)
+    with pytest.raises(ResultsError, match=r"checksums\.json"):
+        open_run(plain)
+
+
+@pytest.mark.parametrize("name", ["summary.json", "scene.toml", "results.nc"])
+def test_a_file_without_a_checksum_is_damaged(plain, name):
+    known = json.loads((plain / "checksums.json").read_text())
+    del known[name]
+    (plain / "checksums.json").write_text(json.dumps(known))
+    assert damaged_files(plain) == [name]
+    with pytest.raises(ResultsError, match=rf"{name}: is damaged.*missing from checksums"):
+        open_run(plain).dataset  # noqa: B018
+
+
+def test_a_file_that_was_put_there_is_named(plain):
+    (plain / "report.html").write_text("not ours")
+    assert damaged_files(plain) == ["report.html"]
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda summary: [summary], "not a table"),
+        (lambda summary: summary | {"notes": "one"}, "notes is not a list"),
+        (lambda summary: summary | {"notes": [1]}, "notes is not a list"),
+        (lambda summary: summary | {"seconds_by_stage": {"contact": "long"}}, "seconds_by_stage is not"),
+        (lambda summary: summary | {"wall_time_s": True}, "wall_time_s is not a number"),
+        (lambda summary: {key: value for key, value in summary.items() if key != "status"}, "status is missing"),
+    ],
+)
+def test_a_summary_of_another_form_is_refused(plain, change, words):
+    """With its right checksum: not damaged, but not ours."""
+    text = json.dumps(change(json.loads((plain / "summary.json").read_text())))
+    (plain / "summary.json").write_text(text)
+    known = json.loads((plain / "checksums.json").read_text())
+    known["summary.json"] = hashlib.sha256(text.encode()).hexdigest()
+    (plain / "checksums.json").write_text(json.dumps(known))
+    with pytest.raises(ResultsError, match=rf"summary\.json: is not the summary of a run.*{words}"):
+        open_run(plain)
+
+
+def test_a_report_does_not_pass_damage_off_as_whole(plain):
+    from typer.testing import CliRunner
+
+    from bem.cli import build
+
+    path = plain / "volume.vtu"
+    path.write_bytes(path.read_bytes() + b" ")
+    done = CliRunner().invoke(build(), ["report", str(plain)])
+    assert isinstance(done.exception, ResultsError)
+    assert "volume.vtu" in str(done.exception)
+    assert damaged_files(plain) == ["volume.vtu"]
 
 
 @given(st.binary(max_size=200), st.integers(0, 400), st.integers(0, 400))

@@ -34,6 +34,14 @@ def files_no_larger_than(size):
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
 
+def summary_of(scene):
+    """The least that is a summary."""
+    return {
+        **{"scene": scene, "kind": "contact", "version": "0", "status": "converged", "where": "", "wall_time_s": 1.0},
+        **{"notes": [], "seconds_by_stage": {}},
+    }
+
+
 def fields(n=24, depths=5):
     rng = np.random.default_rng(7)
     axis = np.arange(n) * 1e-6
@@ -233,7 +241,7 @@ def finished_run(path, scene, figure, **start):
         write_text(run.path / f"volume-{figure}.vtu", scene)
         write_variables(run.path / "results.nc", fields(4, 2), {"scene": scene})
         run.save_checkpoint({"a": 1})
-        run.finish({"scene": scene})
+        run.finish(summary_of(scene))
 
 
 def test_overwriting_removes_the_old_run_and_nothing_else(tmp_path):
@@ -260,9 +268,9 @@ def test_an_older_run_stays_until_the_new_one_is_finished(tmp_path):
         assert run.resumed
         assert not run.finished
         assert run.load_checkpoint() == {"cycle": 7}
-        run.finish({"scene": "new"})
+        run.finish(summary_of("new"))
         assert run.path == tmp_path
-    assert open_run(tmp_path).summary == {"scene": "new"}
+    assert open_run(tmp_path).summary == summary_of("new")
     assert sorted(os.listdir(tmp_path)) == ["checksums.json", "figures", "scene.toml", "summary.json"]
 
 
@@ -307,7 +315,7 @@ def test_a_swap_that_is_cut_short_is_ended_by_the_next(tmp_path, monkeypatch, st
             patch.setattr("os.replace", counted(os.replace))
             patch.setattr("pathlib.Path.unlink", counted(type(tmp_path).unlink))
             try:
-                run.finish({"scene": "new"})
+                run.finish(summary_of("new"))
             except KeyboardInterrupt:
                 assert left == [0]
             else:
@@ -319,9 +327,9 @@ def test_a_swap_that_is_cut_short_is_ended_by_the_next(tmp_path, monkeypatch, st
         assert "--resume ends it" in str(error)  # noqa: PT017
     with RunDirectory.start(tmp_path, "a", "a = 2\n", resume=True, overwrite=True) as run:
         if not run.finished:  # cut before the new run was whole
-            run.finish({"scene": "new"})
+            run.finish(summary_of("new"))
     assert open_run(tmp_path).scene == {"a": 2}
-    assert open_run(tmp_path).summary == {"scene": "new"}
+    assert open_run(tmp_path).summary == summary_of("new")
     assert damaged_files(tmp_path) == []
     assert sorted(os.listdir(tmp_path)) == ["checksums.json", "figures", "results.nc", "scene.toml", "summary.json"]
     assert os.listdir(tmp_path / "figures") == ["new.png"]
@@ -341,7 +349,7 @@ def test_numbered_folders(tmp_path, monkeypatch):
         with RunDirectory.start(None, "name", "a = 1\n") as run:
             paths.append(str(run.path))
             if len(paths) == 2:
-                run.finish({"scene": "name"})
+                run.finish(summary_of("name"))
     assert paths == ["runs/name-001", "runs/name-002", "runs/name-003"]
     with RunDirectory.start(None, "name", "a = 1\n", resume=True) as run:
         assert str(run.path) == "runs/name-003"
@@ -387,7 +395,7 @@ def test_damage_to_a_finished_run_is_found(tmp_path):
     with RunDirectory.start(tmp_path, "a", 'kind = "contact"\n') as run:
         write_variables(tmp_path / "results.nc", fields(4, 2), {})
         run.save_checkpoint({"a": 1})
-        run.finish({"scene": "a", "status": "converged"})
+        run.finish(summary_of("a"))
     assert not (tmp_path / CHECKPOINT).exists()
     assert damaged_files(tmp_path) == []
     assert open_run(tmp_path).dataset["pressure"].shape == (4, 4)

@@ -1,5 +1,6 @@
 """From a scene to a finished folder, and every way in which that can end early."""
 
+import dataclasses
 import json
 import os
 from types import SimpleNamespace
@@ -10,7 +11,7 @@ import pytest
 
 import bem.runs
 from bem.errors import ConvergenceError, InputError, ResultsError, Status
-from bem.results import open_run
+from bem.results import RunDirectory, open_run
 from bem.results.read import damaged_files
 from bem.runs import run_scene
 from bem.scenes import Kind, Outcome, Plan, Step, Variable, get_kind
@@ -159,15 +160,87 @@ def test_a_damaged_checkpoint_is_refused_not_used(tmp_path, counting):
         run_scene({"kind": "contact"}, tmp_path, resume=True)
 
 
-def test_bad_input_found_while_running_leaves_nothing(tmp_path, counting):
+def test_bad_input_found_before_anything_is_computed_leaves_nothing(tmp_path, counting):
     def refuse(cycle):
-        if cycle == 2:
-            raise InputError("lower.surface: no good")
+        raise InputError("lower.surface: no good")
 
     counting.stop = refuse
     with pytest.raises(InputError, match="no good"):
         run_scene({"kind": "contact"}, tmp_path / "a" / "b")
     assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize("older", [False, True])
+def test_bad_input_found_while_running_loses_nothing(tmp_path, counting, older):
+    def refuse(cycle):
+        if cycle == 3:
+            raise InputError(["load 2: no good", "load 3: nor this"])
+
+    folder = tmp_path / "run"
+    if older:
+        run_scene({"kind": "contact", "cycles": 1}, folder)
+    counting.stop = refuse
+    with pytest.raises(ConvergenceError, match="load 2: no good; load 3: nor this") as stopped:
+        run_scene({"kind": "contact"}, folder, overwrite=older)
+    assert stopped.value.exit_code == 3
+    assert f"kept in {folder}" in str(stopped.value)
+    assert "--resume" in str(stopped.value)
+    counting.stop = lambda cycle: None
+    run_scene({"kind": "contact"}, folder, resume=True)
+    assert counting.started[-1] == 3, "what was computed is not computed again"
+    assert damaged_files(folder) == []
+
+
+def test_time_after_a_resume_is_the_sum(tmp_path, counting, monkeypatch):
+    clock = SimpleNamespace(now=100.0)
+    monkeypatch.setattr(bem.runs, "time", SimpleNamespace(perf_counter=lambda: clock.now))
+
+    def slow(last):
+        def step(cycle):
+            clock.now += 7.0
+            if cycle == last:
+                raise KeyboardInterrupt
+
+        return step
+
+    # the seventh and last second of a cut cycle is lost with what it computed
+    counting.stop = slow(4)
+    with pytest.raises(KeyboardInterrupt):
+        run_scene({"kind": "contact"}, tmp_path, figures=False)
+    clock.now += 1000.0
+    counting.stop = slow(5)
+    with pytest.raises(KeyboardInterrupt):
+        run_scene({"kind": "contact"}, tmp_path, resume=True, figures=False)
+    counting.stop = slow(None)
+    run = run_scene({"kind": "contact"}, tmp_path, resume=True, figures=False)
+    assert run.summary["wall_time_s"] == 6 * 7.0
+
+
+def test_a_checkpoint_inside_a_stage_counts_its_time(tmp_path, monkeypatch):
+    clock = SimpleNamespace(now=0.0)
+    monkeypatch.setattr(bem.runs, "time", SimpleNamespace(perf_counter=lambda: clock.now))
+    with RunDirectory.start(tmp_path, "x", "x = 1\n") as directory:
+        context = bem.runs.RunContext(directory, None, None)
+        with context.timer("films"):
+            clock.now += 2.0
+            context.save({})
+            clock.now += 1.0
+        assert context.seconds == {"films": 3.0}
+        assert directory.load_checkpoint()["_seconds"] == {"films": 2.0}
+
+
+def test_a_figure_that_refuses_costs_no_results(tmp_path, monkeypatch):
+    """An InputError of a figure is the figure's own."""
+    from bem.plots.figures import all_figures
+
+    def refuse(run, figure):
+        raise InputError("no such curve")
+
+    broken = dataclasses.replace(all_figures()["pressure-map"], draw=refuse)
+    monkeypatch.setattr("bem.plots.draw.all_figures", lambda: all_figures() | {"pressure-map": broken})
+    run = run_scene(SCENE, tmp_path / "run")
+    assert any("pressure-map could not be drawn" in note and "no such curve" in note for note in run.summary["notes"])
+    assert damaged_files(run.path) == []
 
 
 def test_a_run_that_cannot_go_on_keeps_its_checkpoint(tmp_path, counting):

@@ -55,8 +55,9 @@ writes no file. It returns
         volumes=("von_mises",),             # variables (..., "depth", "x", "y") that go into the VTK file
     )
 
-and raises `InputError` (bad input: the run's folder is removed again) or `ConvergenceError` (it cannot go on: the
-checkpoint stays, exit code 3). For scripts and tests `bem.scenes.PlainContext` needs no disk.
+and raises `InputError` (bad input: the run's folder is removed again, unless something was saved in it) or
+`ConvergenceError` (it cannot go on: the checkpoint stays, exit code 3). For scripts and tests
+`bem.scenes.PlainContext` needs no disk.
 
 *Built-in scenes* are files `bem/scenes/library/NAME.toml` with `kind`, `description` (one line) and `redoes` (item
 of the thesis). *Figures* are functions in `bem/plots/figures/`; its docstring says how to add one."""
