@@ -232,9 +232,11 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
     (
         "Shear of the oil",
         "Newtonian: tau = mu du/h;  Eyring: tau = tau0 asinh(mu du/(h tau0));\n"
-        "Carreau: tau = (mu du/h) [1 + (mu du/(h G))^2]^((n - 1)/2)",
-        "Eyring (1936), Johnson and Tevaarwerk (1977); Bair (2007)",
-        "",
+        "Carreau: tau = (mu du/h) [1 + (mu du/(h G))^2]^((n - 1)/2);\n"
+        "limited (the default): Newtonian;  all but Newtonian by name: abs(tau) <= tau_a + Lambda p",
+        "Eyring (1936), Johnson and Tevaarwerk (1977); Bair (2007);\n"
+        "limit: Bair and Winer (1979), Hoglund and Jacobson (1986)",
+        "The thesis' oil is Newtonian; its conditions stay below 6 % of the limit.",
         "bem/lubrication/shear_thinning.py",
     ),
     (
@@ -355,8 +357,9 @@ LIMITS = (
     ),
     (
         "Isothermal",
-        "No heat: at high sliding speed and pressure the oil is warmer and thinner than here. Non-Newtonian laws limit "
-        "the sliding part of the shear stress only.",
+        "No heat: at high sliding speed and pressure the oil is warmer and thinner than here; notes say where that is "
+        "likely to matter, as they do for pressures, shear stresses and films beyond what the laws describe. Shear laws "
+        "limit the sliding part of the shear stress only, and do not act on the film's thickness.",
     ),
     (
         "Incompressible oil",

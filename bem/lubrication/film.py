@@ -27,8 +27,7 @@ class FilmSolution:
     minimum_thickness : [m].
     central_thickness : thickness at x = 0 [m].
     load : per unit length [N/m], what the pressure carries (the flooded inlet upstream of the mesh included).
-    shear_force : friction force per unit length [N/m], integral of mu (u1 - u2)/h + (h/2) dp/dx over the full film:
-        what the cylinder feels along +x and, by equilibrium, the flat along -x. Positive where the flat moves faster.
+    shear_force : friction force per unit length [N/m], integral of `shear_stress` over the full film: what the cylinder feels along +x and, by equilibrium, the flat along -x. Positive where the flat moves faster.
         The full film ends where the pressure does (Swift-Stieber exit); `striated_shear_force` adds the streamers
         behind it.
     striated_shear_force : the same with the oil behind the exit, which covers the fraction h_exit/h of the surface.
@@ -43,6 +42,7 @@ class FilmSolution:
     film_fraction : (n,) share of the gap that is filled with oil; 1 in the full film. None with Swift and Stieber's
         cavitation, which keeps no account of it.
     volume_imbalance : relative error of the volume balance of a time step; None for a steady film.
+    notes : where the model is outside its validity, a sentence each (`bem.lubrication.validity`).
     """
 
     position: FloatArray
@@ -63,18 +63,21 @@ class FilmSolution:
     time: float | None = None
     volume_imbalance: float | None = None
     film_fraction: FloatArray | None = None
+    notes: tuple[str, ...] = ()
     state: Any = field(default=None, repr=False, compare=False)
 
     def shear_stress(self, position: FloatArray | None = None) -> FloatArray:
-        """Shear stress mu (u1 - u2)/h + (h/2) dp/dx in the full film [Pa], zero in the cavitated exit.
+        """Shear stress tau + (h/2) dp/dx on the flat in the full film [Pa], zero in the cavitated exit.
 
-        It acts along -x on the flat. At the solution's own positions, or interpolated linearly at others [m].
+        tau is what the oil's shear law makes of mu (u1 - u2)/h: the stress in the middle of the film, and the only
+        part that has a limit. The second part follows from equilibrium of the oil across the film whatever its shear
+        law, so it stays; next to a wall the sum may exceed the limit by it. It acts along -x. At the solution's own positions, or interpolated linearly at others [m].
         """
         difference = self.speeds[0] - self.speeds[1]
         full = self.pressure > 0
         gradient = np.gradient(self.pressure, self.position)
         viscosity = self.lubricant.viscosity_at(np.maximum(self.pressure, 0.0))
-        sliding = self.lubricant.shear_stress(viscosity * difference / self.thickness)
+        sliding = self.lubricant.shear_stress(viscosity * difference / self.thickness, np.maximum(self.pressure, 0.0))
         stress = np.where(full, sliding + 0.5 * self.thickness * gradient, 0.0)
         return stress if position is None else np.interp(position, self.position, stress, left=0.0, right=0.0)
 

@@ -10,8 +10,8 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.lubrication.density import DENSITY_LAWS
-from bem.lubrication.shear_thinning import SHEAR_LAWS
-from bem.lubrication.viscosity import ROELANDS_VISCOSITY, VISCOSITY_LAWS
+from bem.lubrication.shear_thinning import AMBIENT_SHEAR_STRENGTH, LIMITING_SHEAR_COEFFICIENT, SHEAR_LAWS
+from bem.lubrication.viscosity import LARGEST_PRESSURES, ROELANDS_VISCOSITY, VISCOSITY_LAWS
 
 _LARGEST_LOGARITHM = 600.0
 
@@ -26,9 +26,15 @@ class Lubricant:
     pressure_viscosity : alpha, slope of ln(viscosity) with pressure at ambient pressure [1/Pa]; 0 is isoviscous.
     viscosity_law : "roelands", "barus" or "isoviscous".
     density_law : "incompressible" or "dowson_higginson".
-    shear_law : "newtonian", "eyring" or "carreau": shear thinning, used for friction and not for the film.
+    shear_law : "limited", "newtonian", "eyring" or "carreau", used for friction and not for the film. All but
+        "newtonian" carry no more than `ambient_shear_strength + limiting_shear_coefficient * pressure`; below that
+        "limited" is Newtonian.
     shear_stress_limit : the Eyring stress or Carreau's critical stress [Pa]; needed by those laws.
     carreau_exponent : n of Carreau's law, between 0 and 1.
+    limiting_shear_coefficient : slope of the limiting shear stress with pressure, positive; measured between 0.04 and
+        0.12, Bair and Winer (1979), Hoglund and Jacobson (1986), Bair, *High-pressure rheology* (2007).
+    ambient_shear_strength : limiting shear stress at ambient pressure [Pa], positive; 1 to 5 MPa, Hoglund and Jacobson
+        (1986).
 
     Raises
     ------
@@ -39,9 +45,11 @@ class Lubricant:
     pressure_viscosity: float = 0.0
     viscosity_law: str = "roelands"
     density_law: str = "incompressible"
-    shear_law: str = "newtonian"
+    shear_law: str = "limited"
     shear_stress_limit: float | None = None
     carreau_exponent: float = 0.5
+    limiting_shear_coefficient: float = LIMITING_SHEAR_COEFFICIENT
+    ambient_shear_strength: float = AMBIENT_SHEAR_STRENGTH
 
     def __init__(
         self,
@@ -50,9 +58,11 @@ class Lubricant:
         pressure_viscosity: float = 0.0,
         viscosity_law: str = "roelands",
         density_law: str = "incompressible",
-        shear_law: str = "newtonian",
+        shear_law: str = "limited",
         shear_stress_limit: float | None = None,
         carreau_exponent: float = 0.5,
+        limiting_shear_coefficient: float = LIMITING_SHEAR_COEFFICIENT,
+        ambient_shear_strength: float = AMBIENT_SHEAR_STRENGTH,
     ) -> None:
         messages = []
         if not (_is_number(viscosity) and viscosity > 0):
@@ -84,6 +94,15 @@ class Lubricant:
             )
         if not (_is_number(carreau_exponent) and 0 < carreau_exponent <= 1):
             messages.append(f"Lubricant: carreau_exponent {carreau_exponent!r} must lie in (0, 1]")
+        for key, value, unit in (
+            ("limiting_shear_coefficient", limiting_shear_coefficient, ""),
+            ("ambient_shear_strength", ambient_shear_strength, " [Pa]"),
+        ):
+            if not (_is_number(value) and value > 0):
+                messages.append(
+                    f"Lubricant: {key} {value!r} must be positive and finite{unit}; "
+                    'shear_law="newtonian" has no limiting shear stress'
+                )
         if messages:
             raise InputError(messages)
         object.__setattr__(self, "viscosity", float(viscosity))
@@ -95,6 +114,8 @@ class Lubricant:
             self, "shear_stress_limit", None if shear_stress_limit is None else float(shear_stress_limit)
         )
         object.__setattr__(self, "carreau_exponent", float(carreau_exponent))
+        object.__setattr__(self, "limiting_shear_coefficient", float(limiting_shear_coefficient))
+        object.__setattr__(self, "ambient_shear_strength", float(ambient_shear_strength))
 
     def log_viscosity_ratio(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
         """ln(mu / mu0) and its derivative [1/Pa] at pressures >= 0 [Pa]."""
@@ -103,7 +124,7 @@ class Lubricant:
     def viscosity_at(self, pressure: FloatArray) -> FloatArray:
         """Viscosity [Pa s] at pressures >= 0 [Pa]; beyond the range of floating point the largest number in it.
 
-        Long before that a Newtonian oil is no model of friction: use the eyring or carreau law.
+        Long before that a Newtonian oil is no model of friction.
         """
         return self.viscosity * np.exp(np.minimum(self.log_viscosity_ratio(pressure)[0], _LARGEST_LOGARITHM))
 
@@ -111,10 +132,24 @@ class Lubricant:
         """Density over that at ambient pressure and its derivative [1/Pa] at pressures >= 0 [Pa]."""
         return DENSITY_LAWS[self.density_law](pressure)
 
-    def shear_stress(self, newtonian_stress: FloatArray) -> FloatArray:
-        """Shear stress [Pa] the oil carries where a Newtonian one would carry `newtonian_stress`; odd in it."""
-        limit = self.shear_stress_limit if self.shear_stress_limit is not None else math.inf
-        return SHEAR_LAWS[self.shear_law](newtonian_stress, limit, self.carreau_exponent)
+    @property
+    def largest_pressure(self) -> float:
+        """Pressure up to which the viscosity law describes oils [Pa]."""
+        return LARGEST_PRESSURES[self.viscosity_law]
+
+    def shear_stress(self, newtonian_stress: FloatArray, pressure: FloatArray | float | None = None) -> FloatArray:
+        """Shear stress [Pa] the oil carries where a Newtonian one would carry `newtonian_stress`; odd in it.
+
+        With the pressures there [Pa] no more than the limiting shear stress: a sharp cut, as measured flow curves have
+        it (Bair and Winer 1979), so that below the limit the law's own values stay to the last bit. Without pressures
+        the law's own values.
+        """
+        scale = self.shear_stress_limit if self.shear_stress_limit is not None else math.inf
+        stress = SHEAR_LAWS[self.shear_law](newtonian_stress, scale, self.carreau_exponent)
+        if pressure is None or self.shear_law == "newtonian":
+            return stress
+        limit = self.ambient_shear_strength + self.limiting_shear_coefficient * pressure
+        return np.clip(stress, -limit, limit)
 
 
 def _is_number(value: object) -> bool:

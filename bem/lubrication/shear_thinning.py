@@ -14,6 +14,13 @@ from bem.grid import FloatArray
 ShearLaw = Callable[[FloatArray, float, float], FloatArray]
 
 
+LIMITING_SHEAR_COEFFICIENT = 0.08
+"""Slope of the limiting shear stress with pressure: the middle of the 0.04 to 0.12 that were measured; Bair and Winer,
+J. Lubr. Technol. 101 (1979) 251, Hoglund and Jacobson, J. Tribol. 108 (1986) 571, Bair (2007)."""
+AMBIENT_SHEAR_STRENGTH = 5e6
+"""Limiting shear stress at ambient pressure [Pa]: the upper end of the 1 to 5 MPa of Hoglund and Jacobson (1986)."""
+
+
 def newtonian(stress: FloatArray, limit: float, exponent: float) -> FloatArray:
     """Stress in proportion to the shear rate."""
     return stress
@@ -29,4 +36,4 @@ def carreau(stress: FloatArray, limit: float, exponent: float) -> FloatArray:
     return stress * (1 + (stress / limit) ** 2) ** (0.5 * (exponent - 1))
 
 
-SHEAR_LAWS: dict[str, ShearLaw] = {"newtonian": newtonian, "eyring": eyring, "carreau": carreau}
+SHEAR_LAWS: dict[str, ShearLaw] = {"limited": newtonian, "newtonian": newtonian, "eyring": eyring, "carreau": carreau}

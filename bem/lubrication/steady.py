@@ -28,6 +28,7 @@ from bem.lubrication.line_newton import (
     stretched,
 )
 from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.validity import Case, notes_on
 
 ATTEMPTS = ((160, 4.0), (240, 2.0), (200, 1.5))
 """Coarse cells and first factor of the load, tried in turn until the continuation arrives."""
@@ -126,7 +127,16 @@ def solve_line_film(
     if outcome is None or not outcome.converged:
         outcome = _from_scratch(problem, scales, lubricant, points - 1, tolerance, max_iterations)
     outcome = replace(outcome, iterations=outcome.iterations + spent)
-    film = _result(outcome, problem, scales, speeds, reversed_, lubricant, position)
+    case = Case(
+        position=outcome.state.position * scales.length,
+        pressure=np.maximum(outcome.state.pressure, 0.0) * scales.pressure,
+        thickness=outcome.state.film * scales.film,
+        speeds=(float(speeds[0]), float(speeds[1])),
+        lubricant=lubricant,
+        radius=radius,
+        contact_modulus=contact_modulus,
+    )
+    film = replace(_result(outcome, problem, scales, speeds, reversed_, lubricant, position), notes=notes_on(case))
     if cavitation is Cavitation.SWIFT_STIEBER:
         return film
     exit_film = outcome.state.film[-1] * scales.film
@@ -462,7 +472,7 @@ def _shear_force(
     tail_2 = 4 / (3 * start**3)
 
     viscosity = lubricant.viscosity_at(pressure * scales.pressure)
-    sliding = lubricant.shear_stress(viscosity * difference / thickness)
+    sliding = lubricant.shear_stress(viscosity * difference / thickness, pressure * scales.pressure)
     couette = float(np.sum(0.5 * np.diff(position) * (sliding[1:] + sliding[:-1])))
     couette += lubricant.viscosity * difference * tail_1 * scales.length / scales.film
     poiseuille = 0.25 * float(np.sum((film[1:] + film[:-1]) * np.diff(pressure)))
@@ -479,6 +489,7 @@ def _shear_force(
         + 0.5 * (state.exit + reach) ** 2
         - DEFLECTION * (logarithmic_weights(reach, state.offset) @ state.pressure)
     )
-    ambient = lubricant.shear_stress(lubricant.viscosity * difference / (behind * scales.film)) * film[-1] / behind
+    ambient = lubricant.shear_stress(lubricant.viscosity * difference / (behind * scales.film), 0.0)
+    ambient = ambient * film[-1] / behind
     streamers = near * ambient[0] + 0.5 * span * float(np.sum(weights * ambient[1:] * reach[1:]))
     return full, full + streamers * scales.length

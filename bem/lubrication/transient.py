@@ -25,6 +25,7 @@ from bem.lubrication.steady import (
     solve_line_film,
     typical_half_width,
 )
+from bem.lubrication.validity import Case, notes_on
 
 FAR = 50.0
 MAX_HALVINGS = 8
@@ -123,7 +124,9 @@ def march_line_film(
     reach = max(typical_half_width(w / max(loads) * scales.load) for w in (min(loads), max(loads)))
     reach = max(reach if highest == 0 else math.sqrt(8 * scales.load / math.pi + 2 * highest), 1e-12)
     mesh = fixed_mesh(2.0 * reach, FAR * reach, 2 * (int(points) // 2))
-    march = _March(mesh, scales, lubricant, radius, max(loads), reference, load, speeds, tolerance, cavitation)
+    march = _March(
+        mesh, scales, lubricant, radius, contact_modulus, max(loads), reference, load, speeds, tolerance, cavitation
+    )
     film = march.start(initial, initial_thickness)
     solutions = [march.solution(film, float(steps[0]), 0, 0.0, 0.0, True)]
     past: tuple[float, Film] | None = None
@@ -146,6 +149,7 @@ class _March:
         scales: Scales,
         lubricant: Lubricant,
         radius: float,
+        contact_modulus: float,
         reference_load: float,
         reference_speed: float,
         load: Callable[[float], float],
@@ -158,6 +162,7 @@ class _March:
         self.scales = scales
         self.lubricant = lubricant
         self.radius = radius
+        self.contact_modulus = contact_modulus
         self.reference_load = reference_load
         self.reference_speed = reference_speed
         self.load = load
@@ -255,9 +260,8 @@ class _March:
         first, second = (float(u) for u in self.speeds(time))
         difference = first - second
         full = film.pressure > 0
-        stress = np.where(
-            full, self.lubricant.shear_stress(self.lubricant.viscosity_at(pressure) * difference / thickness), 0.0
-        )
+        newtonian = self.lubricant.viscosity_at(pressure) * difference / thickness
+        stress = np.where(full, self.lubricant.shear_stress(newtonian, pressure), 0.0)
         force = float(np.sum(0.5 * np.diff(x) * (stress[1:] + stress[:-1])))
         force += 0.25 * float(np.sum((thickness[1:] + thickness[:-1]) * np.diff(pressure)))
         # upstream of the mesh h = x^2/2R: integrals of mu (u1 - u2)/h and, as h p' = 6 mu (u1 + u2)/h there, of h p'/2
@@ -274,7 +278,8 @@ class _March:
             cover = np.where(behind, thickness[last] / thickness, 0.0)
             if self.cavitation is Cavitation.MASS_CONSERVING:
                 cover = np.where(full, 0.0, film.fraction)
-            thin = self.lubricant.shear_stress(self.lubricant.viscosity * difference / thickness) * cover
+            newtonian = self.lubricant.viscosity * difference / thickness
+            thin = self.lubricant.shear_stress(newtonian, 0.0) * cover
             streamers = float(np.sum(0.5 * np.diff(x) * (thin[1:] + thin[:-1])))
         carried = float(np.sum(0.5 * np.diff(x) * (pressure[1:] + pressure[:-1])))
         return FilmSolution(
@@ -296,6 +301,9 @@ class _March:
             time=time,
             volume_imbalance=imbalance,
             film_fraction=film.fraction if self.cavitation is Cavitation.MASS_CONSERVING else None,
+            notes=notes_on(
+                Case(x, pressure, thickness, (first, second), self.lubricant, self.radius, self.contact_modulus)
+            ),
         )
 
 

@@ -43,4 +43,8 @@ def roelands(pressure: FloatArray, viscosity: float, coefficient: float) -> tupl
     return span * (power - 1), coefficient * power / base
 
 
+LARGEST_PRESSURES = {"roelands": 1.0e9, "barus": 0.5e9, "isoviscous": math.inf}
+"""Pressures up to which the laws describe oils [Pa]: Roelands fitted measurements up to 1 GPa (ASME 1953); ln(mu) of
+oils bends away from Barus' line by about 0.5 GPa (Hamrock, *Fundamentals of fluid film lubrication*, 1994)."""
+
 VISCOSITY_LAWS: dict[str, ViscosityLaw] = {"roelands": roelands, "barus": barus, "isoviscous": isoviscous}

@@ -24,15 +24,17 @@ class OilScene(Table):
     pressure_viscosity: Annotated[PressureViscosity, Field(ge=0)] = 0.0
     viscosity_law: Literal["roelands", "barus", "isoviscous"] = "roelands"
     density_law: Literal["incompressible", "dowson_higginson"] = "incompressible"
-    shear_law: Literal["newtonian", "eyring", "carreau"] = "newtonian"
+    shear_law: Literal["limited", "newtonian", "eyring", "carreau"] = "limited"
     shear_stress_limit: PositivePressure | None = None
     carreau_exponent: Annotated[Ratio, Field(gt=0, le=1)] = 0.5
+    limiting_shear_coefficient: Annotated[Ratio, Field(gt=0)] = 0.08
+    ambient_shear_strength: PositivePressure = 5e6
 
     @model_validator(mode="after")
     def _complete(self) -> OilScene:
         if self.viscosity <= 0:
             raise problem(f"viscosity {self.viscosity:g} Pa s", _NO_FILM)
-        if self.shear_law != "newtonian" and self.shear_stress_limit is None:
+        if self.shear_law in ("eyring", "carreau") and self.shear_stress_limit is None:
             raise problem(f"the {self.shear_law} law without shear_stress_limit", "shear_stress_limit with it")
         return self
 

@@ -145,6 +145,10 @@ class FilmTable:
             ),
         )
 
+    def notes(self, load: float) -> tuple[str, ...]:
+        """Where the film's model is outside its validity: of the nearest film solved."""
+        return self.rung(max(round(math.log(self.load / load) / LADDER), 0)).notes
+
     def error(self, load: float) -> float:
         """Largest difference between the interpolated thickness and that of the film solved at this very load,
         relative to the latter. One film solve."""

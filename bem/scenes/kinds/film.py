@@ -143,6 +143,8 @@ def run(scene: FilmScene, context: Context) -> Outcome:
             initial_thickness=march.initial_thickness,
             cavitation=Cavitation(march.cavitation),
         )
+    for note in dict.fromkeys(note for film in films for note in film.notes):
+        context.note(f"film: {note}")
     last = films[-1]
     minimum = np.array([film.minimum_thickness for film in films])
     summary: dict[str, Any] = {

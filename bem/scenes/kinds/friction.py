@@ -242,6 +242,8 @@ def run(scene: FrictionScene, context: Context) -> Outcome:
                         initial=solutions[-1] if solutions else None,
                     )
                 )
+            for note in solutions[-1].film.notes:
+                context.note(f"film: {note}")
             context.progress(
                 index * len(pairs) + number + 1, len(curves) * len(pairs), "speeds", friction=solutions[-1].friction
             )

@@ -271,6 +271,8 @@ def run(scene: RunningInScene, context: Context) -> Outcome:
                 f"speed {speeds[0]:g} m/s: the film was left with exp(-12) of the load, film and contact together miss "
                 f"the load by up to {100 * off:.2g} %"
             )
+        for note in step.table.notes(float(step.rows["film_load"][-1]) / scene.contact.width):
+            context.note(f"film: {note}")
         with context.timer("films"):
             film_error = step.table.error(float(step.rows["film_load"][-1]) / scene.contact.width)
         finished.append(_record(scene, own, speeds, repetition, grid, initial, result, step, frames, film_error))

@@ -1,0 +1,191 @@
+"""Where a film's model is outside its validity: one list of small checks, each a sentence or nothing.
+
+To add one, write a function of a `Case` and enter it in `CHECKS`. The sentences hold no figures of the case, so that a
+curve of many films says each of them once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from bem.grid import FloatArray
+from bem.lubrication.lubricant import Lubricant
+
+LARGEST_SHEAR_COEFFICIENT = 0.12
+"""Largest limiting shear stress over pressure that was measured; Hoglund and Jacobson (1986), Bair (2007)."""
+LARGEST_AMBIENT_STRENGTH = 5e6
+"""Largest shear strength at ambient pressure that was measured [Pa]; Hoglund and Jacobson (1986)."""
+LOAD_AT_THE_LIMIT = 0.1
+"""Share of the load over the places where the limit holds, from which it is the limit that sets the friction."""
+SHARP_SPIKE = 0.7
+"""A spike whose neighbouring node has less than this of its pressure is not resolved: on finer meshes its height then
+changed by 2 % to 30 %, and by less than 1 % where the neighbour had more."""
+LEAST_INLET_FACTOR = 0.9
+LARGEST_HEATING = 10.0
+"""[K]: a mineral oil then has lost a third of its viscosity."""
+THINNEST_FILM = 2e-9
+"""[m]: four or five molecules; oil is layered below about 5 nm, Chan and Horn, J. Chem. Phys. 83 (1985) 5311."""
+OIL_CONDUCTIVITY = 0.13
+"""Of mineral oil [W/(m K)]."""
+OIL_SOFTENING = 0.04
+"""-d ln(viscosity)/dT of mineral oil [1/K]."""
+STEEL_EFFUSIVITY = 1.3e4
+"""sqrt(conductivity x density x heat capacity) of bearing steel [W s^0.5/(m^2 K)]: 46 W/(m K), 7850 kg/m^3,
+470 J/(kg K)."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A film on the mesh that it was solved on.
+
+    position, pressure, thickness : (n,) [m], [Pa], [m]. speeds : of flat and cylinder [m/s]. lubricant : the oil.
+    radius : [m]. contact_modulus : [Pa], infinite for rigid bodies.
+    """
+
+    position: FloatArray
+    pressure: FloatArray
+    thickness: FloatArray
+    speeds: tuple[float, float]
+    lubricant: Lubricant
+    radius: float
+    contact_modulus: float
+
+    @cached_property
+    def newtonian_stress(self) -> FloatArray:
+        """|mu (u1 - u2) / h| in the full film [Pa]."""
+        viscosity = self.lubricant.viscosity_at(self.pressure)
+        stress = viscosity * abs(self.speeds[0] - self.speeds[1]) / self.thickness
+        return np.where(self.pressure > 0, stress, 0.0)
+
+    @cached_property
+    def sliding_stress(self) -> FloatArray:
+        """The same, as the oil carries it [Pa]."""
+        return self.lubricant.shear_stress(self.newtonian_stress, self.pressure)
+
+    def integral(self, values: FloatArray) -> float:
+        """Of values at the nodes over x."""
+        return float(np.trapezoid(values, self.position))
+
+
+def shear_beyond_measurements(case: Case) -> str | None:
+    """The shear stress is larger than any oil was seen to carry."""
+    if (case.sliding_stress <= LARGEST_AMBIENT_STRENGTH + LARGEST_SHEAR_COEFFICIENT * case.pressure).all():
+        return None
+    return (
+        f'the shear stress in the oil (shear_law "{case.lubricant.shear_law}") exceeds '
+        f"{LARGEST_AMBIENT_STRENGTH / 1e6:g} MPa + {LARGEST_SHEAR_COEFFICIENT:g} p, more than any oil was measured to "
+        'carry: the friction is not to be believed (shear_law "limited" cuts it)'
+    )
+
+
+def shear_at_the_limit(case: Case) -> str | None:
+    """The friction is the limit's."""
+    cut = case.sliding_stress < case.lubricant.shear_stress(case.newtonian_stress)
+    share = case.integral(np.where(cut, case.pressure, 0.0)) / max(case.integral(case.pressure), 1e-300)
+    if share < LOAD_AT_THE_LIMIT:
+        return None
+    oil = case.lubricant
+    return (
+        f"the oil is at its limiting shear stress, {oil.ambient_shear_strength / 1e6:g} MPa + "
+        f"{oil.limiting_shear_coefficient:g} p, in much of the contact: the film's friction rests on that coefficient "
+        "(oils have 0.04 to 0.12)"
+    )
+
+
+def viscosity_beyond_range(case: Case) -> str | None:
+    """The viscosity law is used at pressures that it was not made for."""
+    largest = case.lubricant.largest_pressure
+    if case.pressure.max(initial=0.0) <= largest:
+        return None
+    return (
+        f'the pressure exceeds {largest / 1e9:g} GPa, up to which viscosity_law "{case.lubricant.viscosity_law}" '
+        "describes oils: viscosities in the middle of the contact are extrapolated (the film forms in the inlet, where "
+        "pressures are lower)"
+    )
+
+
+def spike_unresolved(case: Case) -> str | None:
+    """The height of the pressure spike is the mesh's."""
+    p = case.pressure
+    inner = p[1:-1]
+    peaks = (inner > p[:-2]) & (inner >= p[2:]) & (inner > 0.2 * p.max(initial=0.0))
+    if not (np.minimum(p[:-2], p[2:])[peaks] < SHARP_SPIKE * inner[peaks]).any():
+        return None
+    remedy = ' (density_law "dowson_higginson" blunts it)' if case.lubricant.density_law == "incompressible" else ""
+    return f"the pressure spike is narrower than the mesh resolves: its height is not to be used{remedy}"
+
+
+def inlet_heating(case: Case) -> str | None:
+    """Shear in the inlet heats the oil, and the film is thinner for it.
+
+    Factor on the isothermal thickness by Gupta, Cheng, Zhu, Forster and Schrand, J. Tribol. 114 (1992) 55, from
+    L = mu0 beta u^2 / k with the mean speed u, slide-to-roll ratio S and Hertz pressure p_h over E' = 2 E*.
+    """
+    mean = 0.5 * abs(sum(case.speeds))
+    if mean == 0:
+        return None
+    number = case.lubricant.viscosity * OIL_SOFTENING * mean**2 / OIL_CONDUCTIVITY
+    slide = abs(case.speeds[0] - case.speeds[1]) / mean
+    hertz = math.sqrt(max(case.integral(case.pressure), 0.0) / (case.contact_modulus * math.pi * case.radius))
+    factor = (1 - 6.6 * hertz * number**0.42) / (1 + 0.213 * (1 + 2.23 * slide**0.83) * number**0.64)
+    if factor >= LEAST_INLET_FACTOR:
+        return None
+    return (
+        "shear heating in the inlet would make the film more than 10 % thinner than this isothermal model says "
+        "(Gupta et al. 1992, for a mineral oil)"
+    )
+
+
+def film_heating(case: Case) -> str | None:
+    """Sliding heats film and surfaces, and the oil in the contact is not at the temperature given.
+
+    Two estimates added: q/8 h/k across the film, for heat q made evenly and led away through both surfaces (Crook,
+    Phil. Trans. A 254 (1961) 237), and 2 q sqrt(l/pi) / (e (sqrt(u1) + sqrt(u2))) at the end of the heated length l of
+    two surfaces of effusivity e and equal temperature (Jaeger 1942), with the mean of q over the loaded length.
+    """
+    loaded = case.pressure > 0.05 * case.pressure.max(initial=0.0)
+    if not loaded.any() or case.pressure.max() == 0:
+        return None
+    length = float(np.ptp(case.position[loaded]))
+    root = math.sqrt(abs(case.speeds[0])) + math.sqrt(abs(case.speeds[1]))
+    if length == 0 or root == 0:
+        return None
+    heat = case.integral(np.where(loaded, case.sliding_stress, 0.0)) / length * abs(case.speeds[0] - case.speeds[1])
+    film = heat * float(np.median(case.thickness[loaded])) / (8 * OIL_CONDUCTIVITY)
+    flash = 2 * heat * math.sqrt(length / math.pi) / (STEEL_EFFUSIVITY * root)
+    if film + flash <= LARGEST_HEATING:
+        return None
+    return (
+        f"sliding would heat the oil in the contact by more than {LARGEST_HEATING:g} K (steel, mineral oil): this "
+        "isothermal model then gives too much friction"
+    )
+
+
+def molecular_film(case: Case) -> str | None:
+    """The film is a few molecules thick."""
+    if case.thickness.min() >= THINNEST_FILM:
+        return None
+    return (
+        f"the film is thinner than {1e9 * THINNEST_FILM:g} nm, a few molecules: Reynolds' equation does not hold there"
+    )
+
+
+CHECKS: list[Callable[[Case], str | None]] = [
+    shear_beyond_measurements,
+    shear_at_the_limit,
+    viscosity_beyond_range,
+    spike_unresolved,
+    inlet_heating,
+    film_heating,
+    molecular_film,
+]
+
+
+def notes_on(case: Case) -> tuple[str, ...]:
+    """What a reader of the film must know, a sentence each, in the order of the checks."""
+    return tuple(note for check in CHECKS if (note := check(case)) is not None)
