@@ -358,8 +358,8 @@ LIMITS = (
     (
         "Isothermal",
         "No heat: at high sliding speed and pressure the oil is warmer and thinner than here; notes say where that is "
-        "likely to matter, as they do for pressures, shear stresses and films beyond what the laws describe. Shear laws "
-        "limit the sliding part of the shear stress only, and do not act on the film's thickness.",
+        "likely to matter, as they do for pressures, shear stresses and films beyond what the laws describe. Shear "
+        "laws limit the sliding part of the shear stress only, and do not act on the film's thickness.",
     ),
     (
         "Incompressible oil",

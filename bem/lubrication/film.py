@@ -27,9 +27,9 @@ class FilmSolution:
     minimum_thickness : [m].
     central_thickness : thickness at x = 0 [m].
     load : per unit length [N/m], what the pressure carries (the flooded inlet upstream of the mesh included).
-    shear_force : friction force per unit length [N/m], integral of `shear_stress` over the full film: what the cylinder feels along +x and, by equilibrium, the flat along -x. Positive where the flat moves faster.
-        The full film ends where the pressure does (Swift-Stieber exit); `striated_shear_force` adds the streamers
-        behind it.
+    shear_force : friction force per unit length [N/m], integral of `shear_stress` over the full film: what the
+        cylinder feels along +x and, by equilibrium, the flat along -x. Positive where the flat moves faster. The full
+        film ends where the pressure does (Swift-Stieber exit); `striated_shear_force` adds the streamers behind it.
     striated_shear_force : the same with the oil behind the exit, which covers the fraction h_exit/h of the surface.
     exit_position : where the film ruptures [m].
     inlet_load_fraction : share of the load that lies upstream of the first position.
@@ -71,7 +71,8 @@ class FilmSolution:
 
         tau is what the oil's shear law makes of mu (u1 - u2)/h: the stress in the middle of the film, and the only
         part that has a limit. The second part follows from equilibrium of the oil across the film whatever its shear
-        law, so it stays; next to a wall the sum may exceed the limit by it. It acts along -x. At the solution's own positions, or interpolated linearly at others [m].
+        law, so it stays; next to a wall the sum may exceed the limit by it. It acts along -x. At the solution's own
+        positions, or interpolated linearly at others [m].
         """
         difference = self.speeds[0] - self.speeds[1]
         full = self.pressure > 0

@@ -94,13 +94,13 @@ class Lubricant:
             )
         if not (_is_number(carreau_exponent) and 0 < carreau_exponent <= 1):
             messages.append(f"Lubricant: carreau_exponent {carreau_exponent!r} must lie in (0, 1]")
-        for key, value, unit in (
+        for name, number, unit in (
             ("limiting_shear_coefficient", limiting_shear_coefficient, ""),
             ("ambient_shear_strength", ambient_shear_strength, " [Pa]"),
         ):
-            if not (_is_number(value) and value > 0):
+            if not (_is_number(number) and number > 0):
                 messages.append(
-                    f"Lubricant: {key} {value!r} must be positive and finite{unit}; "
+                    f"Lubricant: {name} {number!r} must be positive and finite{unit}; "
                     'shear_law="newtonian" has no limiting shear stress'
                 )
         if messages:

@@ -241,9 +241,7 @@ def depths_for(setup: WearSetup, model: WearModel, body: int) -> FloatArray:
     return depths
 
 
-def yielded_pieces(
-    load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearModel, body: int
-) -> Removal:
+def yielded_pieces(load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearModel, body: int) -> Removal:
     """The pieces that come off one body under a pressure with the setup's friction, or under loads with their own.
 
     Depths are computed from the surface down, and no further than one below the first depth at which nothing yields: a

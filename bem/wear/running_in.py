@@ -346,9 +346,7 @@ def _remove_from_window(heights: FloatArray, thickness: FloatArray, offset: int)
     return worn
 
 
-def _last_loads(
-    state: RunningInState, counterface: int, offset: int
-) -> tuple[SurfaceLoad | None, SurfaceLoad | None]:
+def _last_loads(state: RunningInState, counterface: int, offset: int) -> tuple[SurfaceLoad | None, SurfaceLoad | None]:
     """What acted in the last cycle on the material of each body that is on the grid now.
 
     The body that stands still has it where it was; the counterface took its own along.
