@@ -87,7 +87,10 @@ class Tolerance:
 
 @dataclass(frozen=True)
 class LevelResult:
-    """Where a level ended: scaled pressure and displacement (flat), approach, largest violation, and how."""
+    """Where a level ended: scaled pressure and displacement (flat), approach, largest violation, and how.
+
+    `fresh` : the displacement is the operator applied to this very pressure, not put together from others.
+    """
 
     pressure: FloatArray
     displacement: FloatArray
@@ -95,6 +98,7 @@ class LevelResult:
     violation: float
     converged: bool
     rounds: int
+    fresh: bool = True
 
 
 @dataclass(frozen=True)
@@ -226,8 +230,10 @@ def solve_level(
         kept = False
         level.displace(iterate)
         current: _Accepted | None = None
+        fresh = True
         if before is not None:
             iterate, current = _step_back(level, before, iterate)
+            fresh = current is not None
         level.mark(iterate)
         rounds += 1
         residual = np.empty(iterate.cells.size)
@@ -240,13 +246,13 @@ def solve_level(
             report(effort.iterations, violation, iterate.cells.size + iterate.capped.size)
         goal = tolerance.of(approach, level.flat["displacement"], iterate)
         if violation <= goal:
-            return _result(level, iterate, approach, violation, True, rounds)
+            return _result(level, iterate, approach, violation, True, rounds, fresh)
         if effort.left <= 0 or rounds >= tuning.rounds:
-            return _result(level, iterate, approach, violation, False, rounds)
+            return _result(level, iterate, approach, violation, False, rounds, fresh)
         waited = 0 if violation < 0.7 * mark else waited + 1
         mark = min(mark, violation)
         if waited > tuning.stall:
-            return _result(level, iterate, approach, violation, False, rounds)
+            return _result(level, iterate, approach, violation, False, rounds, fresh)
         if current is None:
             current = _Accepted(iterate, approach, *_energy(level, iterate))
         else:
@@ -278,7 +284,7 @@ def solve_level(
         if found.size:
             iterate, residual = _take_in(level, iterate, found, approach)
         if iterate.cells.size == 0:
-            return _result(level, iterate, approach, violation, False, rounds)
+            return _result(level, iterate, approach, violation, False, rounds, fresh)
         if (
             isinstance(control, ApproachControl)
             and operator.mean_free
@@ -531,7 +537,7 @@ def _restore_load(level: _Level, control: LoadControl, iterate: _Iterate, raw: F
             everything = np.zeros(level.gap.size)
             everything[cells] = raw
             cells, raw = np.arange(level.gap.size), everything
-    values = np.clip(raw + _shift(raw, wanted, cap), 0.0, cap)
+    values = _shifted(raw, wanted, cap)
     above = values >= cap
     inside = (values > 0) & ~above
     if above.any():
@@ -540,13 +546,20 @@ def _restore_load(level: _Level, control: LoadControl, iterate: _Iterate, raw: F
     return _Iterate(cells, values, capped)
 
 
-def _shift(raw: FloatArray, wanted: float, cap: float) -> float:
-    """s with sum(clip(raw + s, 0, cap)) = wanted: a safeguarded Newton iteration on a piecewise linear function."""
-    low = -float(raw.max(initial=0.0))
-    high = cap - float(raw.min(initial=0.0))
-    shift = 0.0
+def _shifted(raw: FloatArray, wanted: float, cap: float) -> FloatArray:
+    """clip(raw + s, 0, cap) with the s that makes its sum the one wanted; `wanted` is within what the bounds allow.
+
+    A safeguarded Newton iteration on a piecewise linear function. Counted from the largest number, which takes part
+    whatever the sum, s has all its digits however small the sum is beside the numbers.
+    """
+    if not wanted > 0:
+        return np.zeros(raw.size)
+    top = float(raw.max())
+    below = raw - top
+    low, high = 0.0, cap - float(below.min())
+    shift = max(top, 0.0)
     for _ in range(100):
-        total, inside = passes.shifted_sum(raw, shift, cap)
+        total, inside = passes.shifted_sum(below, shift, cap)
         error = total - wanted
         if abs(error) <= 4e-16 * wanted:
             break
@@ -560,7 +573,8 @@ def _shift(raw: FloatArray, wanted: float, cap: float) -> float:
         if trial == shift:
             break
         shift = trial
-    return shift
+    below += shift
+    return np.clip(below, 0.0, cap, out=below)
 
 
 def _everywhere(level: _Level, iterate: _Iterate) -> FloatArray:
@@ -572,10 +586,10 @@ def _everywhere(level: _Level, iterate: _Iterate) -> FloatArray:
 
 def _project(level: _Level, control: Control, raw: FloatArray) -> _Iterate:
     """The nearest pressure within the bounds that carries the load."""
-    shift = 0.0
     if isinstance(control, LoadControl):
-        shift = _shift(raw, control.force, level.cap if math.isfinite(level.cap) else control.force)
-    values = np.clip(raw + shift, 0.0, level.cap)
+        values = _shifted(raw, control.force, level.cap if math.isfinite(level.cap) else control.force)
+    else:
+        values = np.clip(raw, 0.0, level.cap)
     capped = np.flatnonzero(values >= level.cap)
     inside = np.flatnonzero((values > 0) & (values < level.cap))
     return _Iterate(inside, values[inside], capped)
@@ -608,10 +622,10 @@ def _gradient_step(level: _Level, control: Control, iterate: _Iterate, approach:
 
 
 def _result(
-    level: _Level, iterate: _Iterate, approach: float, violation: float, converged: bool, rounds: int
+    level: _Level, iterate: _Iterate, approach: float, violation: float, converged: bool, rounds: int, fresh: bool
 ) -> LevelResult:
     """Hand over the level's own buffers; it is done with them."""
     pressure = level.flat["pressure"]
     passes.scatter(pressure, iterate.cells, iterate.values)
     passes.scatter_value(pressure, iterate.capped, level.cap)
-    return LevelResult(pressure, level.flat["displacement"], approach, violation, converged, rounds)
+    return LevelResult(pressure, level.flat["displacement"], approach, violation, converged, rounds, fresh)

@@ -371,8 +371,9 @@ def assemble(
 ) -> tuple[float, float, float, int, int, float]:
     """Turn scaled results into SI units in place, and judge them from the pressure's own values.
 
-    Writes the deformed gap and the plastic depth; returns the largest violation of the contact conditions, the largest
-    displacement, the sum of pressures, the numbers of cells in contact and at the cap, and the sum of positive gaps.
+    Writes the deformed gap and the plastic depth; returns the largest violation of the contact conditions (infinite for
+    a pressure beyond its bounds), the largest displacement, the sum of pressures, the numbers of cells in contact and
+    at the cap, and the sum of positive gaps.
     """
     partial = in_blocks(
         gap.size, 6, _assemble, pressure, displacement, gap, to_pressure, length, approach, cap, deformed, depth
@@ -393,7 +394,9 @@ def _assemble(  # type: ignore[no-untyped-def]
     capped = 0
     volume = 0.0
     for c in range(start, stop):
-        p = min(pressure[c] * to_pressure, cap)
+        p = pressure[c] * to_pressure
+        outside = not (p >= 0 and p <= cap * (1 + 1e-14))  # round-off of the units
+        p = min(p, cap)
         u = displacement[c] * length
         pressure[c] = p
         displacement[c] = u
@@ -413,6 +416,8 @@ def _assemble(  # type: ignore[no-untyped-def]
                 depth[c] = max(-opening, 0.0)
             else:
                 violation = abs(opening)
+        if outside:
+            violation = np.inf
         deformed[c] = opening
         if not violation <= largest:
             largest = violation

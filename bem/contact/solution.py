@@ -32,8 +32,10 @@ class ContactSolution:
     convolutions : applications of the operator on all grids, each weighed by its share of the cells.
     residual : largest violation of the contact conditions, recomputed from `pressure` alone, over the rms roughness of
         the undeformed gap (over the largest displacement or a larger prescribed mean gap, where the gap is flat in
-        comparison).
+        comparison); what is missed of a prescribed approach or mean gap counts as such a violation, and what is missed
+        of a prescribed load, relative to it, where that is more.
     status : outcome; `residual` is at most the tolerance if it is converged.
+    notes : sentences on what this contact should not be believed in, such as one that reaches the edge of a free grid.
     """
 
     pressure: FloatArray
@@ -48,3 +50,4 @@ class ContactSolution:
     convolutions: float
     residual: float
     status: Status
+    notes: tuple[str, ...] = ()

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from bem.contact import cascade, passes
 from bem.contact.active_set import Effort, LevelResult, Tolerance, Tuning, solve_level
+from bem.contact.certificate import Request, Units, certify
 from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl, scaled_control
 from bem.contact.search import approach_by_load, mean_gap_by_approach, mean_gap_by_load, mean_opening
 from bem.contact.solution import ContactSolution
@@ -20,9 +21,6 @@ from bem.errors import InfeasibleError, InputError, Status
 FloatArray = NDArray[np.float64]
 Callback = Callable[[int, float, float], object]
 Report = Callable[[int, float, int], None]
-
-_FLAT = 1e-6
-"""A gap whose roughness is below this times the displacement is called flat; the residual is then of the latter."""
 
 _TIGHTER = 0.9
 """Share of the tolerance that the solver aims at, so that rounding in SI units cannot spoil the certificate."""
@@ -104,8 +102,14 @@ def solve_contact(
                 used(iterations, violation / (scale or 1.0), cells / grid.cells)
 
         result = _solve(problem, operator, scaled_gap, control, scaled_cap, start, problem.tolerance, report)
-    return _certify(
-        operator, gap, result, length, to_pressure, datum, cap, roughness, mean_gap, tolerance, effort, before
+    return certify(
+        Request(gap, operator, load, approach, mean_gap, cap, tolerance),
+        Units(length, to_pressure, datum),
+        roughness,
+        result,
+        unmet=Status.MAX_ITERATIONS if effort.left <= 0 else Status.STALLED,
+        iterations=effort.iterations,
+        convolutions_before=before,
     )
 
 
@@ -241,10 +245,12 @@ def _lagged(
     pressure = np.zeros(gap.size) if start is None else start
     last: FloatArray | None = None
     approach, precision, violation, least = 0.0, math.inf, math.inf, math.inf
+    fresh = False
     waited = 0
     for _ in range(_LAGS):
         operator.scaled().apply(pressure.reshape(shape), displacement)
         alone.scaled().apply(pressure.reshape(shape), part)
+        fresh = True
         coupling = (displacement - part).reshape(-1)
         goal = min(allowed.length, allowed.relative * float(np.abs(displacement).max()))
         if last is not None:
@@ -262,7 +268,8 @@ def _lagged(
         )
         last, approach, precision = coupling, result.approach, result.violation
         pressure = start = result.pressure
-    return LevelResult(pressure, displacement.reshape(-1), approach, violation, violation <= goal, 0)
+        fresh = False
+    return LevelResult(pressure, displacement.reshape(-1), approach, violation, violation <= goal, 0, fresh)
 
 
 def _full_contact(operator: DisplacementOperator, gap: FloatArray) -> LevelResult:
@@ -330,63 +337,6 @@ def _length_unit(
     if not (length > 0 and math.isfinite(length)):
         return 1.0
     return 2.0 ** round(math.log2(length))
-
-
-def _certify(
-    operator: DisplacementOperator,
-    gap: FloatArray,
-    result: LevelResult,
-    length: float,
-    to_pressure: float,
-    datum: float,
-    cap: float,
-    roughness: float,
-    mean_gap: float | None,
-    tolerance: float,
-    effort: Effort,
-    before: float,
-) -> ContactSolution:
-    """Judge the pressure by itself, and put everything in SI units."""
-    grid = operator.grid
-    pressure = result.pressure.reshape(grid.shape)
-    displacement = result.displacement.reshape(grid.shape)
-    approach = result.approach * length + datum
-    deformed = np.empty(grid.shape)
-    depth = np.empty(grid.shape)
-    largest, reach, force, contact, capped, volume = passes.assemble(
-        result.pressure,
-        result.displacement,
-        gap.reshape(-1),
-        to_pressure,
-        length,
-        approach,
-        cap,
-        deformed.reshape(-1),
-        depth.reshape(-1),
-    )
-    if mean_gap is not None:
-        largest = max(largest, abs(volume / grid.cells - mean_gap))
-        reach = max(reach, mean_gap)
-    reference = roughness if roughness > _FLAT * reach else reach
-    residual = float(largest / reference) if reference > 0 else (0.0 if largest == 0 else math.inf)
-    if residual <= tolerance:
-        status = Status.CONVERGED
-    else:
-        status = Status.MAX_ITERATIONS if effort.left <= 0 else Status.STALLED
-    return ContactSolution(
-        pressure=pressure,
-        displacement=displacement,
-        gap=deformed,
-        approach=approach,
-        load=force * grid.cell_area,
-        contact_area=contact * grid.cell_area,
-        plastic_area=capped * grid.cell_area,
-        plastic_depth=depth,
-        iterations=effort.iterations,
-        convolutions=operator.count.weighted - before,
-        residual=residual,
-        status=status,
-    )
 
 
 def _check(

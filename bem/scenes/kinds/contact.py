@@ -256,7 +256,10 @@ def run(scene: ContactScene, context: Context) -> Outcome:
     with context.timer("contact"):
         saved = context.saved()
         if saved is not None:
-            solution = ContactSolution(**(saved["solution"] | {"status": Status(saved["solution"]["status"])}))
+            fields = saved["solution"]
+            solution = ContactSolution(
+                **(fields | {"status": Status(fields["status"]), "notes": tuple(fields.get("notes", ()))})
+            )
             history = saved["history"]
         else:
             operator = displacement_operator(
@@ -284,6 +287,8 @@ def run(scene: ContactScene, context: Context) -> Outcome:
             del operator  # and with it its spectra
             context.progress(100, 100, "contact", residual=solution.residual)
             context.save({"solution": _fields(solution), "history": np.array(history).reshape(-1, 2)})
+    for note in solution.notes:
+        context.note(note)
 
     variables = {
         "x": Variable(("x",), grid.x, "m", "x, along sliding"),
@@ -405,7 +410,8 @@ def _contact_state(pressure: FloatArray, hardness: float | None) -> NDArray[np.i
 
 def _fields(solution: Any) -> dict[str, Any]:
     """The parts of a solution for the checkpoint, not copied."""
-    return {field.name: getattr(solution, field.name) for field in dataclasses.fields(solution)}
+    fields = {field.name: getattr(solution, field.name) for field in dataclasses.fields(solution)}
+    return fields | {"notes": list(solution.notes)}
 
 
 def _wants_stresses(scene: ContactScene) -> bool:

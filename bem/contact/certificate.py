@@ -1,0 +1,123 @@
+"""What a contact is judged by: the pressure that is returned, and nothing else that the solver believes.
+
+The displacement is the operator applied to that pressure; load, approach or mean gap, bounds and complementarity are
+formed anew from both. `converged` is said of that.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.contact import passes
+from bem.contact.active_set import LevelResult
+from bem.contact.solution import ContactSolution
+from bem.convolution import DisplacementOperator
+from bem.errors import Status
+from bem.grid import Grid
+
+FloatArray = NDArray[np.float64]
+
+_FLAT = 1e-6
+"""A gap whose roughness is below this times the displacement is called flat; the residual is then of the latter."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """What was asked for, in SI units: gap (nx, ny), one of three quantities, the cap (infinite for none)."""
+
+    gap: FloatArray
+    operator: DisplacementOperator
+    load: float | None
+    approach: float | None
+    mean_gap: float | None
+    cap: float
+    tolerance: float
+
+
+@dataclass(frozen=True)
+class Units:
+    """The solver's units: gaps are `length` [m] above `datum` [m], pressures `pressure` [Pa]."""
+
+    length: float
+    pressure: float
+    datum: float
+
+
+def certify(
+    request: Request,
+    units: Units,
+    roughness: float,
+    result: LevelResult,
+    *,
+    unmet: Status,
+    iterations: int,
+    convolutions_before: float,
+) -> ContactSolution:
+    """Judge the pressure by itself, and put everything in SI units; `unmet` is the status if it does not pass."""
+    operator, grid = request.operator, request.operator.grid
+    pressure = result.pressure.reshape(grid.shape)
+    displacement = result.displacement.reshape(grid.shape)
+    if not result.fresh:
+        operator.scaled().apply(pressure, displacement)
+    approach = result.approach * units.length + units.datum
+    deformed = np.empty(grid.shape)
+    depth = np.empty(grid.shape)
+    largest, reach, force, contact, capped, volume = passes.assemble(
+        pressure.reshape(-1),
+        displacement.reshape(-1),
+        request.gap.reshape(-1),
+        units.pressure,
+        units.length,
+        approach,
+        request.cap,
+        deformed.reshape(-1),
+        depth.reshape(-1),
+    )
+    load = force * grid.cell_area
+    missed = 0.0
+    if request.mean_gap is not None:
+        largest = max(largest, abs(volume / grid.cells - request.mean_gap))
+        reach = max(reach, request.mean_gap)
+    elif request.approach is not None:
+        largest = max(largest, abs(approach - request.approach))
+    elif request.load is not None:
+        missed = _relative(abs(load - request.load), request.load)
+    residual = max(_relative(largest, roughness if roughness > _FLAT * reach else reach), missed)
+    return ContactSolution(
+        pressure=pressure,
+        displacement=displacement,
+        gap=deformed,
+        approach=approach,
+        load=load,
+        contact_area=contact * grid.cell_area,
+        plastic_area=capped * grid.cell_area,
+        plastic_depth=depth,
+        iterations=iterations,
+        convolutions=operator.count.weighted - convolutions_before,
+        residual=residual,
+        status=Status.CONVERGED if residual <= request.tolerance else unmet,
+        notes=_notes(grid, pressure),
+    )
+
+
+def _relative(error: float, reference: float) -> float:
+    if error == 0:
+        return 0.0
+    return error / reference if reference > 0 else math.inf
+
+
+def _notes(grid: Grid, pressure: FloatArray) -> tuple[str, ...]:
+    """What a user should know of a contact whatever its status."""
+    notes = []
+    for axis, name in enumerate("xy"):
+        ends = np.take(pressure, (0, -1), axis)
+        if not grid.periodic[axis] and grid.shape[axis] > 1 and (ends > 0).any():
+            notes.append(
+                f"the contact reaches the edge of the grid along {name}, where the bodies end for this solver: "
+                f"if they do not, make the grid longer or periodic along {name}"
+            )
+    return tuple(notes)
