@@ -14,13 +14,10 @@ thread: equal to 10 % faster from 512 to 4096 cells a side). Blocks are split ov
 
 from __future__ import annotations
 
-import importlib
 import math
-import sys
 import threading
 from collections import OrderedDict
 from dataclasses import dataclass, field
-from types import ModuleType
 from typing import Any, cast
 
 import numpy as np
@@ -29,21 +26,8 @@ from numba import njit
 from numpy.typing import DTypeLike, NDArray
 
 from bem.errors import InputError
+from bem.fftw import pyfftw
 from bem.threads import get_threads, share
-
-
-def _pyfftw() -> ModuleType:
-    """pyfftw without its interface to dask, for which it imports all of dask where that is installed: two seconds."""
-    if "pyfftw" in sys.modules or "dask" in sys.modules:
-        return importlib.import_module("pyfftw")
-    sys.modules["dask"] = None  # type: ignore[assignment]
-    try:
-        return importlib.import_module("pyfftw")
-    finally:
-        del sys.modules["dask"]
-
-
-pyfftw = _pyfftw()
 
 FloatArray = NDArray[Any]
 ComplexArray = NDArray[Any]

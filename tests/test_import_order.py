@@ -9,7 +9,7 @@ ROOT = Path(__file__).resolve().parents[1] / "bem"
 
 ORDER = [
     {"errors", "representation"},
-    {"grid", "materials", "threads"},
+    {"grid", "materials", "threads", "fftw"},
     {"kernels", "reference_solutions"},
     {"transforms"},
     {"convolution"},

@@ -33,7 +33,7 @@ def _fastest(work: Callable[[], object], repeats: int) -> float:
 def transform_pair(cells: int, bits: int, threads: int, *, measured: bool = True) -> float:
     """Wall time [s] of the fastest of a few two-dimensional pairs, real to complex and back, periodic, in place of
     nothing else: no padding, no product."""
-    import pyfftw
+    from bem.fftw import pyfftw
 
     real = pyfftw.empty_aligned((cells, cells), dtype=f"float{bits}")
     spectrum = pyfftw.empty_aligned((cells, cells // 2 + 1), dtype=f"complex{2 * bits}")

@@ -13,6 +13,8 @@ from typing import Annotated, Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
+from bem.scenes.usual_units import usual_unit
+
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*", re.DOTALL)
 # No names with long exponents and nothing but unit algebra reaches pint's parser.
 _UNIT_TEXT = re.compile(r"[A-Za-zµμÅ°Ω%][A-Za-z0-9µμÅ°Ω%*/^ ().-]{0,39}|1\s*/[A-Za-z0-9µμÅ°Ω%*/^ ().-]{1,39}")
@@ -129,6 +131,9 @@ def _unit(text: str) -> tuple[tuple[tuple[str, float], ...], Decimal]:
         text = "kelvin"
     if _UNIT_TEXT.fullmatch(text) is None or _LONG_EXPONENT.search(text):
         raise LookupError(text)
+    known = usual_unit(_BLANK_PRODUCT.sub("*", text.strip()))
+    if known is not None:
+        return known
     registry = _registry()
     product = _BLANK_PRODUCT.sub("*", text.replace("%", "percent"))
     try:

@@ -53,3 +53,45 @@ def test_planning_loads_no_solver_and_no_plots():
 
 def test_a_light_name_does_not_pull_in_a_heavy_one():
     assert not loaded("from bem import Grid, Material, Status") & (HEAVY - {"numpy"})
+
+
+SMALL = (
+    *("hertz-sphere", "--set", "grid.shape=32", "--set", "grid.lengths=256 um", "--set", "outputs.depths=[0.0]"),
+    *("--out", "run", "--no-figures"),
+)
+
+
+def test_a_run_loads_no_scheduler_and_no_units_registry(tmp_path, monkeypatch):
+    """dask came in by two doors, pyfftw's interfaces and pint: two seconds of every run where it is installed."""
+    monkeypatch.chdir(tmp_path)
+    modules = loaded(COMMAND, "run", *SMALL)
+    assert "pyfftw" in modules
+    assert not modules & {"dask", "distributed", "pint", "SurfaceTopography"}
+
+
+@pytest.mark.parametrize("first", ["pint", "pandas"])
+def test_who_imports_first_does_not_matter(first):
+    """The import of pyfftw must not depend on what another library has done to dask before."""
+    code = f"import sys, {first}; before = set(sys.modules); import bem.transforms; "
+    code += "new = set(sys.modules) - before; "
+    code += "assert not [name for name in new if name.startswith(('dask', 'scipy.fftpack'))], new"
+    assert "pyfftw" in loaded(code)
+
+
+def test_interfaces_open_when_asked_for():
+    pytest.importorskip("pyfftw")
+    code = """
+import threading, bem.transforms, pyfftw
+found = []
+def look():
+    found.append(pyfftw.interfaces.numpy_fft.fft([1.0, 2.0])[0])
+threads = [threading.Thread(target=look) for _ in range(4)]
+for thread in threads: thread.start()
+for thread in threads: thread.join()
+assert found == [3.0] * 4, found
+from pyfftw.interfaces import scipy_fft, cache
+assert pyfftw.interfaces.scipy_fft is scipy_fft
+assert not hasattr(pyfftw.interfaces, "nothing_of_this_name")
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stderr

@@ -7,7 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import BaseModel, ValidationError
 
-from bem.scenes import units
+from bem.errors import InputError
+from bem.scenes import library, units
 
 
 class Everything(BaseModel):
@@ -113,3 +114,54 @@ def test_no_text_escapes(text):
     except ValidationError:
         return
     assert math.isfinite(value)
+
+
+def test_usual_units_are_those_of_the_registry(monkeypatch):
+    """Every usual unit, and every product and quotient of two: dimensions and factor to the last of fifteen digits."""
+    from bem.scenes import units, usual_units
+
+    names = list(usual_units._UNITS)
+    texts = names + [f"{a}{sign}{b}" for a in names for sign in "*/" for b in names[::3]]
+    texts += [
+        "1/GPa",
+        "m^2",
+        "mm**2",
+        "m^2/N",
+        "mm^3/(N*m)",
+        "N*s/m^2",
+        "1 / Pa",
+        "eV/nm^3",
+        "kg/m^3",
+        "1/N*m",
+        "m/s/s",
+    ]
+    found = {text: usual_units.usual_unit(text) for text in texts}
+    assert None not in found.values()
+    monkeypatch.setattr(units, "usual_unit", lambda text: None)
+    units._unit.cache_clear()
+    assert {text: units._unit(text) for text in texts} == found
+    units._unit.cache_clear()
+
+
+@pytest.mark.parametrize("text", ["", "1", "m/", "/m", "*m", "1*m", "m m", "furlong", "m^9", "m^-1", "(m)", "m**2**2"])
+def test_other_units_are_left_to_the_registry(text):
+    from bem.scenes.usual_units import usual_unit
+
+    assert usual_unit(text) is None
+
+
+@pytest.mark.parametrize("name", sorted(library()))
+def test_built_in_scenes_need_no_registry(name, monkeypatch):
+    from bem.scenes import units
+    from bem.scenes.load import load_scene
+
+    def refuse():
+        raise AssertionError("pint was asked for")
+
+    units._unit.cache_clear()
+    monkeypatch.setattr(units, "_registry", refuse)
+    if "measured" in name:  # its files are looked for, and not there
+        with pytest.raises(InputError, match="no such file"):
+            load_scene(name)
+    else:
+        load_scene(name)
