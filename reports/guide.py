@@ -26,7 +26,7 @@ bem new contact mine.toml                   # a commented scene with every key
 bem plan mine.toml                          # what would run, what is skipped and why, memory and time
 bem run mine.toml --out first --set contact.load="2 N"
 bem report first                            # the page again; bem plot first --figure pressure-map --format pdf
-bem compare first second                    # scenes, figures and overlaid curves of two runs
+bem compare first second                    # scenes, figures and overlaid curves of two runs or more
 bem schema contact > contact.schema.json    # for completion and checks in an editor
 bem --install-completion                    # tab completion of commands, options and scene names
 """

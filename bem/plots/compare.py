@@ -1,4 +1,4 @@
-"""Overlaid figures of two runs: series, sections of maps, distributions; whatever both have."""
+"""Overlaid figures of runs: curves over speed, time or place, sections of maps, distributions; whatever all have."""
 
 from __future__ import annotations
 
@@ -9,17 +9,21 @@ from typing import Any
 
 import numpy as np
 
-from bem.plots.style import BLUE, VERMILION, label, prefix, style
+from bem.plots.overlay import Panel, cut_at, panel
+from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, prefix, style
 from bem.results.atomic import replacing
 
 _MOST_PANELS = 6
-_FIRST = ("pressure", "gap", "film", "thickness", "von_mises", "friction", "equivalent_radius", "Sq")
+_FIRST = ("friction", "contact_load", "pressure", "von_mises", "thickness", "film", "equivalent_radius", "gap")
+_COLOURS = (BLUE, VERMILION, GREEN, PINK, ORANGE, SKY, BLACK)
+_DASHES, _FEW = ("-", "--", ":", "-."), 12
+_LOGARITHMIC_FROM = 30.0  # largest over least speed
 
 
 def draw_comparison(
-    first: Any, second: Any, names: tuple[str, str], path: Path, formats: Sequence[str] = ("png", "pdf")
+    datasets: Sequence[Any], labels: Sequence[str], path: Path, formats: Sequence[str] = ("png", "pdf")
 ) -> list[Path]:
-    """Draw up to six variables that both runs hold, overlaid: lines as they are, maps along x.
+    """Draw up to six variables that all runs hold, overlaid: a colour for each run, a dash for each case in it.
 
     Maps are cut where the first run's pressure is highest.
 
@@ -30,28 +34,20 @@ def draw_comparison(
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    drawable = [_series(first.dataset, second.dataset, name) for name in _shared(first.dataset, second.dataset)]
-    panels = [item for item in drawable if item is not None][:_MOST_PANELS]
-    if not panels:
+    groups = _groups(datasets)
+    if not groups:
         return []
-    columns = min(2, len(panels))
-    rows = -(-len(panels) // columns)
+    columns = min(2, len(groups))
+    rows = -(-len(groups) // columns)
     written = []
     with style():
         figure = Figure(figsize=(3.6 * columns, 2.5 * rows + 0.3), layout="constrained")
         FigureCanvasAgg(figure)
-        for i, (title, along, x_unit, unit, lines) in enumerate(panels):
-            axes = figure.add_subplot(rows, columns, i + 1)
-            x_factor, x_shown = prefix(np.concatenate([x for x, _ in lines]), x_unit)
-            factor, shown = prefix(np.concatenate([y for _, y in lines]), unit)
-            for (x, y), colour, dashes, name in zip(lines, (BLUE, VERMILION), ("-", "--"), names, strict=True):
-                axes.plot(x * x_factor, y * factor, dashes, color=colour, label=name)
-            axes.set_xlabel(label(along, x_shown))
-            axes.set_ylabel(shown)
-            axes.set_title(
-                "\n".join(line for part in title.splitlines() for line in textwrap.wrap(part, 42)), loc="left"
-            )
-        figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+        cases = dict.fromkeys(line.case for group in groups for item in group for line in item.lines if line.case)
+        dashes = {"": "-"} | {case: _DASHES[i % len(_DASHES)] for i, case in enumerate(cases)}
+        for i, group in enumerate(groups):
+            _draw(figure.add_subplot(rows, columns, i + 1), group, dashes)
+        _legend(figure, labels, dashes)
         for ending in formats:
             target = path.with_name(f"{path.name}.{ending}")
             with replacing(target) as temporary:
@@ -60,45 +56,59 @@ def draw_comparison(
     return written
 
 
-def _shared(a: Any, b: Any) -> list[str]:
-    names = [
-        name
-        for name in a.data_vars
-        if name in b.data_vars and a[name].dims == b[name].dims and a[name].dtype.kind == "f" == b[name].dtype.kind
-    ]
-    return sorted(names, key=lambda name: (min((i for i, p in enumerate(_FIRST) if p in name), default=99), name))
+def _groups(datasets: Sequence[Any]) -> list[list[Panel]]:
+    """For each variable that is drawn, its panel of each run; what varies among cases before sections of one field."""
+    first = datasets[0]
+    row = cut_at(first) if {"x", "y"} <= set(first.sizes) else None
+    found = []
+    for name in first.data_vars:
+        if any(name not in other or other[name].dims != first[name].dims for other in datasets[1:]):
+            continue
+        rows = [row if row is not None and row < dataset.sizes.get("y", 0) else None for dataset in datasets]
+        group = [panel(dataset, str(name), row=at) for dataset, at in zip(datasets, rows, strict=True)]
+        panels = [item for item in group if item is not None]
+        if len(panels) == len(group):
+            section = bool({"x", "film_x", "iteration"} & set(first[name].dims)) and "depth" not in first[name].dims
+            rank = min((i for i, part in enumerate(_FIRST) if part in str(name)), default=len(_FIRST))
+            found.append(((section and name != "pressure", rank), panels))
+    return [panels for _, panels in sorted(found, key=lambda item: item[0])[:_MOST_PANELS]]
 
 
-def _series(a: Any, b: Any, name: str) -> tuple[str, str, str, str, list[tuple[Any, Any]]] | None:
-    """Title, abscissa, units and a line for each run; None where the variable is not a line or a map."""
-    dimensions = [str(d) for d in a[name].dims]
-    along = dimensions[0]
-    title = str(a[name].attrs.get("long_name", name))
-    lines = []
-    row = _row(a) if dimensions == ["x", "y"] else 0
-    for dataset in (a, b):
-        variable = dataset[name]
-        if dimensions == ["x", "y"]:
-            variable = variable.isel(y=row)
-        elif dimensions == ["depth", "x", "y"]:
-            variable = variable.max(["x", "y"])
-        elif len(dimensions) != 1:
-            return None
-        x = dataset[along].values if along in dataset.coords else np.arange(variable.size)
-        if x.dtype.kind in "OUS" or not np.isfinite(variable.values).any():
-            return None
-        lines.append((x.astype(float), variable.values))
-    if dimensions == ["x", "y"]:
-        title += f"\nalong x at y = {1e6 * float(a['y'][row]):.3g} µm" if "y" in a.coords else f"\nalong x, row {row}"
-    elif len(dimensions) == 3:
-        title = f"largest {title}"
-    words = str(a[along].attrs.get("long_name", along)) if along in a.coords else along
-    x_unit = str(a[along].attrs.get("units", "")) if along in a.coords else ""
-    return title, words, "" if x_unit == "1" else x_unit, str(a[name].attrs.get("units", "")), lines
+def _draw(axes: Any, group: Sequence[Panel], dashes: dict[str, str]) -> None:
+    """One variable of all runs; later runs on top and thinner, so that equal ones are both seen."""
+    shown = group[0]
+    lines = [line for item in group for line in item.lines]
+    x_factor, x_unit = prefix(np.concatenate([line.x for line in lines]), shown.along_unit)
+    factor, unit = prefix(np.concatenate([line.y for line in lines]), shown.unit)
+    for i, item in enumerate(group):
+        for line in item.lines:
+            axes.plot(
+                line.x * x_factor,
+                line.y * factor,
+                dashes[line.case],
+                color=_COLOURS[i % len(_COLOURS)],
+                linewidth=max(1.2, 2.8 - 1.4 * i),
+                marker="o" if len(line.x) <= _FEW else None,
+                markersize=max(2.5, 5.0 - 2.0 * i),
+            )
+    x = np.concatenate([line.x for line in lines])
+    if "speed" in shown.along and np.min(x) > 0 and np.max(x) > _LOGARITHMIC_FROM * np.min(x):
+        axes.set_xscale("log")
+    words = shown.along if len(shown.along) < 40 else textwrap.shorten(shown.along, 40, placeholder=" ...")
+    axes.set_xlabel(label(words, x_unit))
+    axes.set_ylabel(unit)
+    axes.set_title("\n".join(textwrap.wrap(shown.title, 42)), loc="left")
 
 
-def _row(dataset: Any) -> int:
-    """Where to cut maps: through the highest pressure, else in the middle."""
-    if "pressure" in dataset and dataset["pressure"].dims == ("x", "y"):
-        return int(np.unravel_index(int(dataset["pressure"].values.argmax()), dataset["pressure"].shape)[1])
-    return int(dataset.sizes["y"] // 2)
+def _legend(figure: Any, labels: Sequence[str], dashes: dict[str, str]) -> None:
+    """Runs by colour, and in grey the cases by dash."""
+    from matplotlib.lines import Line2D
+
+    runs = [Line2D([], [], color=_COLOURS[i % len(_COLOURS)], linewidth=2.0) for i in range(len(labels))]
+    cases = {case: dash for case, dash in dashes.items() if case}
+    if len(cases) < 2:
+        cases = {}
+    handles = [*runs, *(Line2D([], [], color="0.35", ls=dash) for dash in cases.values())]  # type: ignore[arg-type]
+    words = [textwrap.shorten(item, 90, placeholder=" ...") for item in (*labels, *cases)]
+    columns = 1 if max(map(len, words)) > 46 else 2
+    figure.legend(handles, words, loc="outside lower center", ncols=columns)

@@ -1,61 +1,161 @@
-"""Two runs side by side: where their scenes and their figures differ."""
+"""Runs side by side: where their scenes and their figures differ."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
+from bem.results.directory import SCENE
 from bem.results.read import FinishedRun
 
 _NO_FIGURES = ("scene", "kind", "version", "notes", "seconds_by_stage", "wall_time_s", "where")
+_MOST_IN_A_LABEL = 2
 
 
 @dataclass(frozen=True)
 class Difference:
-    """A key with its value in the first and the second run; None where a run does not have it.
-
-    `relative` is second / first - 1 where both are numbers, else not-a-number.
-    """
+    """A key with its value in each run, None where a run does not have it."""
 
     key: str
-    first: Any
-    second: Any
-    relative: float = math.nan
+    values: tuple[Any, ...]
+
+    @property
+    def equal(self) -> bool:
+        """Whether all runs have the same value."""
+        return all(value == self.values[0] for value in self.values)
+
+    def relative(self, run: int) -> tuple[float, float] | None:
+        """Least and largest of this run's value(s) over the first run's, less one; None where that means nothing."""
+        pairs = list(zip(_numbers(self.values[0]), _numbers(self.values[run]), strict=False))
+        if len(_numbers(self.values[0])) != len(_numbers(self.values[run])):
+            return None
+        ratios = [b / a - 1 for a, b in pairs if a != 0]
+        return (min(ratios), max(ratios)) if ratios else None
 
 
-def scene_differences(first: FinishedRun, second: FinishedRun) -> list[Difference]:
+def scene_differences(*runs: FinishedRun) -> list[Difference]:
     """Keys in which the resolved scenes differ, but for the name."""
-    a, b = leaves(first.scene), leaves(second.scene)
+    return [item for item in _union([leaves(run.scene) for run in runs]) if item.key != "name" and not item.equal]
+
+
+def figure_differences(*runs: FinishedRun) -> list[Difference]:
+    """All figures of the summaries, equal or not, in the order of the first; a list of numbers is one figure."""
+    return _union([_figures(run.summary) for run in runs])
+
+
+def headline_differences(found: Sequence[Difference], headline: Sequence[str]) -> list[Difference]:
+    """Those of the figures that are headline figures, of further cases (`curves`) too."""
+    rank = {name: i for i, name in enumerate(headline)}
+    return sorted(
+        (item for item in found if _bare(item.key) in rank), key=lambda d: (" (" in d.key, rank[_bare(d.key)])
+    )
+
+
+def run_labels(runs: Sequence[FinishedRun], names: Sequence[str]) -> list[str]:
+    """Names of the runs with what tells their scenes apart, where that is one or two keys."""
+    found = scene_differences(*runs)
+    if not 0 < len(found) <= _MOST_IN_A_LABEL:
+        return list(names)
+    units = [scene_units(run.path) for run in runs]
     return [
-        Difference(key, a.get(key), b.get(key)) for key in _union(a, b) if key != "name" and a.get(key) != b.get(key)
+        f"{name}: "
+        + ", ".join(
+            f"{_words(item.key)} = {shown(item.values[i], units[i].get(item.key.split('[')[0], ''))}" for item in found
+        )
+        for i, name in enumerate(names)
     ]
 
 
-def figure_differences(first: FinishedRun, second: FinishedRun) -> list[Difference]:
-    """All figures of the summaries, equal or not, in the order of the first."""
-    a, b = (
-        leaves({key: value for key, value in run.summary.items() if key not in _NO_FIGURES}) for run in (first, second)
-    )
-    return [Difference(key, a.get(key), b.get(key), _relative(a.get(key), b.get(key))) for key in _union(a, b)]
+def scene_units(folder: Path) -> dict[str, str]:
+    """Unit of each key of a run's scene file, which says it in a comment behind the number."""
+    units, table = {}, ""
+    for line in (folder / SCENE).read_text("utf-8").splitlines():
+        if head := re.fullmatch(r"\[+([\w.]+)\]+", line):
+            table = head[1] + "."
+        elif entry := re.fullmatch(r"(\w+) = [^#\"]*  # (\S.*)", line):
+            units[table + entry[1]] = entry[2]
+    return units
+
+
+def shown(value: Any, unit: str = "", digits: int = 5) -> str:
+    """A value in few characters: of a list of more than three numbers the least and the largest."""
+    if value is None:
+        return "-"
+    if isinstance(value, list):
+        numbers = _numbers(value)
+        if len(numbers) == len(value) > 3:
+            return f"{shown(min(numbers), '', digits)} to {shown(max(numbers), unit, digits)}"
+        text = ", ".join(shown(item, "", digits) for item in value)
+    elif isinstance(value, float):
+        text = f"{value:.{digits}g}"
+    else:
+        text = str(value)
+    return f"{text} {unit}".rstrip()
 
 
 def leaves(value: Any, key: str = "") -> dict[str, Any]:
-    """The plain values of nested tables and lists by dotted key: `grid.shape[0]`."""
+    """The plain values of nested tables by dotted key; a list of plain values is one, others are `bodies[0].material`.
+
+    >>> leaves({"grid": {"shape": [2, 3]}})
+    {'grid.shape': [2, 3]}
+    """
     if isinstance(value, Mapping):
         parts = [leaves(item, f"{key}.{name}" if key else str(name)) for name, item in value.items()]
-    elif isinstance(value, list):
+    elif isinstance(value, list) and any(isinstance(item, Mapping | list) for item in value):
         parts = [leaves(item, f"{key}[{i}]") for i, item in enumerate(value)]
     else:
         return {key: value}
     return {name: item for part in parts for name, item in part.items()}
 
 
-def _union(a: Mapping[str, Any], b: Mapping[str, Any]) -> list[str]:
-    return list(dict.fromkeys([*a, *b]))
+def _figures(summary: Mapping[str, Any]) -> dict[str, Any]:
+    """A summary's figures; those of a list of cases as `friction (uncoupled, 5.5 N)`, by what tells the cases apart."""
+    found: dict[str, Any] = {}
+    for key, value in summary.items():
+        if key in _NO_FIGURES:
+            continue
+        if isinstance(value, list) and value and all(isinstance(item, Mapping) for item in value):
+            found |= _cases(key, value, summary)
+        else:
+            found |= leaves(value, key)
+    return found
 
 
-def _relative(a: Any, b: Any) -> float:
-    numbers = all(isinstance(item, int | float) and not isinstance(item, bool) for item in (a, b))
-    return float(b / a - 1) if numbers and a != 0 else math.nan
+def _cases(key: str, cases: Sequence[Mapping[str, Any]], summary: Mapping[str, Any]) -> dict[str, Any]:
+    known = [
+        name
+        for name in cases[0]
+        if isinstance(cases[0][name], str) or name in ("load_N", "temperature_C", "hardness_Pa", "speed_m_s")
+    ]
+    telling = [name for name in known if len({str(case.get(name)) for case in cases}) > 1]
+    found: dict[str, Any] = {}
+    for i, case in enumerate(cases):
+        words = ", ".join(shown(case.get(name), name.split("_", 1)[1] if "_" in name else "") for name in telling)
+        for name, value in case.items():
+            if name in known or (i == 0 and summary.get(name) == value):
+                continue
+            found |= leaves(value, f"{name} ({words or (f'{key} {i}' if len(cases) > 1 else key)})")
+    return found
+
+
+def _union(tables: Sequence[Mapping[str, Any]]) -> list[Difference]:
+    keys = dict.fromkeys(key for table in tables for key in table)
+    return [Difference(key, tuple(table.get(key) for table in tables)) for key in keys]
+
+
+def _numbers(value: Any) -> list[float]:
+    items = value if isinstance(value, list) else [value]
+    plain = [item for item in items if isinstance(item, int | float) and not isinstance(item, bool)]
+    return [float(item) for item in plain if math.isfinite(item)]
+
+
+def _bare(key: str) -> str:
+    return key.split(" (")[0]
+
+
+def _words(key: str) -> str:
+    return key.rsplit(".", 1)[-1].replace("_", " ")

@@ -1,13 +1,18 @@
 """Two runs side by side."""
 
-import math
 import subprocess
 import sys
 
+import numpy as np
 import pytest
+from typer.testing import CliRunner
 
-from bem.results.compare import figure_differences, leaves, scene_differences
+from bem.cli import build
+from bem.plots.overlay import panel
+from bem.results.compare import Difference, figure_differences, leaves, run_labels, scene_differences, shown
 from bem.runs import run_scene
+from bem.scenes import kind_names
+from reports.gallery import gallery_scene
 
 SCENE = {
     "kind": "contact",
@@ -31,18 +36,28 @@ def pair(tmp_path_factory):
 
 def test_what_differs(pair):
     (only,) = scene_differences(*pair)
-    assert (only.key, only.first, only.second) == ("contact.mean_pressure", 80e6, 160e6)
+    assert (only.key, only.values) == ("contact.mean_pressure", (80e6, 160e6))
     found = {d.key: d for d in figure_differences(*pair)}
     # the load is the pressure times the area, to round-off of the solver's constraint
-    assert found["load_N"].relative == pytest.approx(1.0, rel=1e-9)
-    assert found["seed"].relative == 0
-    assert math.isnan(found["status"].relative)
+    assert found["load_N"].relative(1) == pytest.approx((1.0, 1.0), rel=1e-9)
+    assert found["seed"].relative(1) == (0, 0)
+    assert found["status"].relative(1) is None
     assert scene_differences(pair[0], pair[0]) == []
-    assert all(d.first == d.second for d in figure_differences(pair[0], pair[0]))
+    assert all(d.equal for d in figure_differences(pair[0], pair[0]))
 
 
-def test_keys_that_one_run_lacks():
-    assert leaves({"a": {"b": [1, {"c": 2}]}, "d": 3}) == {"a.b[0]": 1, "a.b[1].c": 2, "d": 3}
+def test_a_list_of_numbers_is_one_figure():
+    change = Difference("friction", ([0.1, 0.2, 0.0], [0.11, 0.1, 0.3])).relative(1)
+    assert change == pytest.approx((-0.5, 0.1))  # nothing is said of a change from zero
+    assert Difference("friction", ([0.1], [0.1, 0.2])).relative(1) is None
+    assert shown([3.0, 1.0, 2.0, 5.0], "N") == "1 to 5 N"
+    assert shown([3.0, 1.0]) == "3, 1"
+    assert leaves({"a": {"b": [1, {"c": 2}]}, "d": [3, 4]}) == {"a.b[0]": 1, "a.b[1].c": 2, "d": [3, 4]}
+
+
+def test_runs_are_labelled_by_what_differs_with_its_unit(pair):
+    assert run_labels(pair, ["a", "b"]) == ["a: mean pressure = 8e+07 Pa", "b: mean pressure = 1.6e+08 Pa"]
+    assert run_labels([pair[0], pair[0]], ["a", "b"]) == ["a", "b"]
 
 
 def test_command_prints_tables_and_draws_both_in_one_figure(pair, tmp_path):
@@ -64,3 +79,69 @@ def test_command_prints_tables_and_draws_both_in_one_figure(pair, tmp_path):
     )
     assert missing.returncode == 4
     assert "nowhere: no such folder" in missing.stderr
+
+
+# a quick built-in scene of each kind, what is changed in its second run, a variable that must be laid over, its cases
+KINDS = {
+    "asperities": ("uniform-asperities", "seed=2", "asperity_load", 2),
+    "contact": ("hertz-sphere", "contact.load=2 N", "von_mises", 1),
+    "film": ("film-start-stop", "seed=2", "minimum_film", 1),
+    "friction": ("roughness-wavelength", "contact.boundary_friction=0.12", "friction", 4),
+    "particles": ("particles-afm-map", "seed=2", "particle_length", 1),
+    "running-in": ("running-in-stribeck", "contact.boundary_friction=0.12", "friction_over_cycles", 2),
+    "tribofilm": ("tribofilm-macro", "seed=2", "thickness", 2),
+    "wear": ("wear-steel-steel", "seed=2", "particles", 1),
+}
+
+
+def test_every_kind_is_compared():
+    assert set(KINDS) == set(kind_names())
+
+
+def compared(*more):
+    done = CliRunner().invoke(build(), ["compare", "a", "b", *more])
+    assert done.exit_code == 0, done.output
+    return done.output
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+def test_two_runs_of_a_kind_side_by_side(kind, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    name, change, variable, cases = KINDS[kind]
+    scene = gallery_scene(name, tmp_path, reduced=True)
+    runs = [
+        run_scene(scene, tmp_path / "a", figures=False),
+        run_scene(scene, tmp_path / "b", figures=False, settings=[change]),
+    ]
+    text = compared()
+    assert len(text.splitlines()) < 40
+    assert change.split("=")[0] in text
+    assert (tmp_path / "comparison.png").stat().st_size > 5000
+    for run in runs:
+        drawn = panel(run.dataset, variable)
+        assert len(drawn.lines) == cases
+        assert len({line.case for line in drawn.lines}) == cases
+    assert len(compared("--all", "--no-figures").splitlines()) > len(text.splitlines())
+
+
+def test_curves_over_speed_are_averaged_over_repetitions_and_told_apart():
+    xarray = pytest.importorskip("xarray")
+    values = np.array([[1.0, 2.0], [3.0, 4.0], [10.0, 20.0], [30.0, 40.0]])
+    text, whole = np.array(["capped", "capped", "elastic", "elastic"]), np.array([0, 1, 0, 1])
+    flat = xarray.Dataset(
+        {"friction": (("curve", "speed"), values), "model": ("curve", text), "repetition": ("curve", whole)},
+        coords={"speed": ("speed", [0.1, 1.0], {"units": "m/s", "long_name": "speed"})},
+    )
+    cubic = xarray.Dataset(  # the same with dimensions of its own
+        {"friction": (("model", "repetition", "speed"), values.reshape(2, 2, 2))},
+        coords={"speed": flat["speed"], "model": ["capped", "elastic"]},
+    )
+    for dataset in (flat, cubic):
+        found = panel(dataset, "friction")
+        assert (found.along, found.along_unit) == ("speed", "m/s")
+        assert [line.case for line in found.lines] == ["capped", "elastic"]
+        assert [list(line.y) for line in found.lines] == [[2.0, 3.0], [20.0, 30.0]]
+    assert panel(flat.assign(shown_speed=0.1), "shown_speed") is None  # a single number is no line
+    alone = flat.isel(curve=[0])
+    assert [line.case for line in panel(alone, "friction").lines] == [""]
