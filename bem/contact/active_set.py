@@ -44,6 +44,9 @@ Indices = NDArray[np.int64]
 _ROUND_OFF = 1e-12
 """Energies closer than this, relative to the sum of their terms, are taken as equal."""
 
+_FALL = 1e-9
+"""Fall of the energy, relative to the sum of its terms, that counts as progress where no round may raise it."""
+
 _FEW = 0.1
 """Cells between the bounds over cells at the cap, below which the contact counts as fully plastic."""
 
@@ -216,7 +219,7 @@ def solve_level(
     """
     level = _Level(operator, gap, cap, tuning)
     iterate = _first(level, control, start)
-    best = mark = math.inf
+    best = mark = lowest = math.inf
     waited = unimproved = 0
     accepted: _Accepted | None = None
     refused = 0
@@ -249,14 +252,16 @@ def solve_level(
             return _result(level, iterate, approach, violation, True, rounds, fresh)
         if effort.left <= 0 or rounds >= tuning.rounds:
             return _result(level, iterate, approach, violation, False, rounds, fresh)
-        waited = 0 if violation < 0.7 * mark else waited + 1
-        mark = min(mark, violation)
-        if waited > tuning.stall:
-            return _result(level, iterate, approach, violation, False, rounds, fresh)
         if current is None:
             current = _Accepted(iterate, approach, *_energy(level, iterate))
         else:
             current = replace(current, approach=approach)
+        potential = current.energy - (approach * current.force if isinstance(control, ApproachControl) else 0.0)
+        fell = tuning.patience == 0 and potential < lowest - _FALL * current.size
+        waited = 0 if violation < 0.7 * mark or fell else waited + 1
+        mark, lowest = min(mark, violation), min(lowest, potential)
+        if waited > tuning.stall:
+            return _result(level, iterate, approach, violation, False, rounds, fresh)
         if operator.symmetric:
             before = current
         improved = violation < 0.9 * best

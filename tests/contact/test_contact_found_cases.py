@@ -97,12 +97,13 @@ def test_mean_gap_near_full_contact_below_a_high_cap(seed, share):
     np.testing.assert_allclose(capped.pressure, elastic.pressure, atol=1e-5 * elastic.pressure.max())
 
 
-@pytest.mark.xfail(
-    strict=True, reason="the approach of a step next to full contact uses up all iterations; found by a random search"
-)
 @pytest.mark.parametrize("low", [1, 6, 12])
 def test_approach_of_a_step_near_full_contact(low):
+    """On the coarse grids the mean gap of the step is another: the approach was beyond it, where there is no answer."""
     op = operator((13, 61), (1.0, 1.0), PERIODIC)
     gap = np.where(np.arange(13)[:, None] < low, 0.0, 1.0) * np.ones((1, 61))
     solution = solve_contact(gap, op, approach=gap.mean() - 0.1 * gap.std())
     assert solution.status == "converged"
+    assert violation(op, gap, solution) <= 1e-8 * gap.std() + 1e-12 * np.abs(solution.displacement).max()
+    assert np.ptp(solution.pressure, axis=1).max() <= 1e-6 * solution.pressure.max()  # nothing varies along the step
+    assert solution.convolutions < 100  # 76, 21 and 16; all 5000 iterations were used up on a coarse grid

@@ -79,7 +79,11 @@ def test_friction_on_a_stiff_layer_under_a_load_that_sinks_it_far_deeper_than_it
     assert solution.convolutions <= 240
 
 
-@pytest.mark.xfail(strict=True, reason="stalls at a residual of several rms heights; found by a random search")
 def test_stiff_layer_under_a_load_that_sinks_it_far_deeper_than_its_roughness():
-    """It converges at a tenth of the load."""
-    _stiff_layer((119, 126), 0.0, 0.0, (0.453, 6.613, 375224), (37.76, 0.05044), 0.477, None)
+    """The energy falls from round to round long before the largest violation does: no reason to give up."""
+    gap, operator, solution = _stiff_layer((119, 126), 0.0, 0.0, (0.453, 6.613, 375224), (37.76, 0.05044), 0.477, None)
+    opening = gap + operator(solution.pressure) - solution.approach
+    assert np.abs(opening[solution.pressure > 0]).max() <= 1e-6 * gap.std()
+    assert opening.min() >= -1e-6 * gap.std()
+    assert solution.load == pytest.approx(0.477, rel=1e-12)
+    assert solution.convolutions <= 700  # 574 counted
