@@ -258,8 +258,11 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
         "Load sharing",
         "mean(max(gap, 0)) = <h>;  F_film + F_contact = F_total;  f = (f_b F_contact + F_shear)/F_total",
         "thesis, papers A, D; Johnson, Greenwood and Poon (1972)",
-        "The averaging of the search direction printed in the source belongs to load control.",
-        "bem/friction/load_sharing.py",
+        "The averaging of the search direction printed in the source belongs to load control. Full film: the film under "
+        "F_total clears the roughness. Boundary: a film left with a tenth of the balance's tolerance is thinner than what "
+        "the surfaces leave open under the rest, which they then carry. Boundary friction couples into the normal gap "
+        "(the flat is held back: traction -f_b p where u1 > u2) unless both bodies are elastically alike.",
+        "bem/friction/balance.py",
     ),
     (
         "Uncoupled asperities",
@@ -309,7 +312,7 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
         "lambda = h_min / Sq,  h_min/R = 2.65 G^0.54 U^0.7 W^-0.13,\n"
         "U = mu u/(E' R), G = alpha E', W = w/(E' R), E' = 2 E*",
         "Dowson and Higginson (1966); thesis, Paper B",
-        "",
+        "With load sharing h_min is that of the film solved under the whole load, Sq that of both surfaces together.",
         "bem/particles/film_ratio.py",
     ),
     (

@@ -16,6 +16,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import brentq
 
 from bem.grid import FloatArray, Grid
 from bem.representation import readable
@@ -116,21 +117,36 @@ def volume_shift(gap: FloatArray, mean_gap: float) -> float:
     return float(shifts[k])
 
 
+def shift_for_load(
+    separation: FloatArray, summits: Summits, load: float, *, contact_modulus: float, hardness: float | None
+) -> float:
+    """Shift [m] of the mean planes, `separation` apart at each summit [m], at which the summits carry `load` [N]."""
+
+    def excess(shift: float) -> float:
+        depth = summits.height - separation + shift
+        return float(asperity_loads(depth, summits.radius, contact_modulus, hardness)[0].sum()) - load
+
+    touch = float((separation - summits.height).min())
+    # Hertz on the first summit alone takes at least this much more; plastic ones, and more of them, only carry more
+    depth = float((0.75 * load / (contact_modulus * np.sqrt(summits.radius.min()))) ** (2 / 3))
+    while excess(touch + depth) < 0:
+        depth *= 2
+    return float(brentq(excess, touch, touch + depth, xtol=1e-22, rtol=1e-15, maxiter=200))
+
+
 def uncoupled_contact(
-    gap: FloatArray,
-    height: FloatArray,
+    separation: FloatArray,
     summits: Summits,
     grid: Grid,
     *,
-    mean_gap: float | None,
+    shift: float,
     contact_modulus: float,
     hardness: float | None,
 ) -> AsperityContact:
-    """Contact of uncoupled summits; `gap` is film less height, brought together to keep `mean_gap` if that is given."""
-    shift = 0.0 if mean_gap is None else volume_shift(gap, mean_gap)
+    """Contact of uncoupled summits, the mean planes `separation` [m] apart at each of them, less `shift` [m]."""
     ix, iy = summits.index
-    plane = gap[ix, iy] + height[ix, iy] - shift  # separation of the mean planes above each summit
-    load, area, plastic = asperity_loads(summits.height - plane, summits.radius, contact_modulus, hardness)
+    depth = summits.height - separation + shift
+    load, area, plastic = asperity_loads(depth, summits.radius, contact_modulus, hardness)
     pressure = np.zeros(grid.shape)
     nx, ny = grid.shape
     for k in np.flatnonzero(load > 0):

@@ -9,6 +9,7 @@ import numpy as np
 from bem.contact import ContactSolution
 from bem.errors import Status
 from bem.friction.asperities import AsperityContact
+from bem.friction.balance import Regime
 from bem.grid import FloatArray, Grid
 from bem.lubrication import FilmSolution
 from bem.representation import readable
@@ -33,10 +34,13 @@ class MixedSolution:
     minimum_film : minimum thickness [m] of `film`.
     contact_area : real, on the whole width [m^2].
     evaluations : films solved; contact_solves : rough contacts solved.
-    imbalance : (film_load + contact_load - load) / load.
+    imbalance : (film_load + contact_load - load) / load, of these three.
     balance_slope : of ln(film_load + contact_load) with ln(film_load): where the next speed's balance starts from.
-    status : outcome.
+    status : converged where the imbalance is within the tolerance and film and contact are converged themselves;
+        infeasible where film and surfaces cannot carry the load within their models.
     grid, boundary_friction : as given.
+    regime : "full film", "mixed" or "boundary": the end of the balance, if any, that it is at.
+    notes : sentences on what is outside a model's validity, or at an end of the balance.
     """
 
     speeds: tuple[float, float]
@@ -59,6 +63,8 @@ class MixedSolution:
     status: Status
     grid: Grid
     boundary_friction: float
+    regime: Regime = Regime.MIXED
+    notes: tuple[str, ...] = ()
 
     @property
     def full_film(self) -> bool:

@@ -313,12 +313,7 @@ def _check(
             messages.append("position: must be a one-dimensional, ascending array of finite abscissae [m]")
     if messages:
         raise InputError(messages)
-    entrainment = float(speeds[0]) + float(speeds[1])
-    if abs(entrainment) <= 1e-12 * (abs(speeds[0]) + abs(speeds[1])):
-        raise InputError(
-            f"speeds: {tuple(speeds)!r} entrain no oil (their sum is zero), so no steady film exists; give a sum other "
-            "than zero, or use march_line_film for a squeeze film"
-        )
+    entrainment = check_entrainment(speeds)
     scales = line_scales(float(load), float(radius), float(contact_modulus), abs(entrainment), lubricant.viscosity)
     low, high = MOES_LOADS
     if not low <= scales.load <= high:
@@ -330,6 +325,39 @@ def _check(
             f"between {low:g} and {high:g}. {advice}"
         )
     return scales, entrainment < 0
+
+
+def check_entrainment(speeds: Sequence[float]) -> float:
+    """The sum of a pair of speeds [m/s].
+
+    Raises
+    ------
+    InputError : not a pair of finite speeds, or a sum of zero.
+    """
+    messages = check_speeds(speeds)
+    if messages:
+        raise InputError(messages)
+    entrainment = float(speeds[0]) + float(speeds[1])
+    if abs(entrainment) <= 1e-12 * (abs(speeds[0]) + abs(speeds[1])):
+        raise InputError(
+            f"speeds: {tuple(speeds)!r} entrain no oil (their sum is zero), so no steady film exists; give a sum other "
+            "than zero, or use march_line_film for a squeeze film"
+        )
+    return entrainment
+
+
+def load_range(
+    radius: float, contact_modulus: float, speeds: Sequence[float], lubricant: Lubricant
+) -> tuple[float, float]:
+    """Smallest and largest load per unit length [N/m] for which `solve_line_film` looks for a film.
+
+    Below the smallest the same film is that of rigid bodies (contact_modulus = math.inf), for which any load will do.
+    """
+    if math.isinf(contact_modulus):
+        return 0.0, math.inf
+    unit = 1 / line_scales(1.0, radius, contact_modulus, abs(check_entrainment(speeds)), lubricant.viscosity).load
+    # so far inside that rounding does not refuse a load at the very end
+    return MOES_LOADS[0] * unit * (1 + 1e-9), MOES_LOADS[1] * unit * (1 - 1e-9)
 
 
 def check_speeds(speeds: Sequence[float]) -> list[str]:

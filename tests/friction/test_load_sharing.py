@@ -6,10 +6,10 @@ import inspect
 import numpy as np
 import pytest
 
-import bem.friction.load_sharing as load_sharing
 from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_surface, solve_mixed, stribeck_curve
 from bem.convolution import COUNT
 from bem.friction import largest_difference
+from bem.friction.setup import MixedSetup
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 GRID = Grid((100, 100), (0.9e-6, 0.9e-6), periodic=(False, True))
@@ -66,8 +66,8 @@ def test_full_film_solves_no_rough_contact(monkeypatch):
     def forbidden(*arguments, **keywords):
         raise AssertionError("a rough contact was solved in full film")
 
-    monkeypatch.setattr(load_sharing, "solve_contact", forbidden)
-    monkeypatch.setattr(load_sharing, "displacement_operator", forbidden)
+    monkeypatch.setattr("bem.friction.rough_contact.solve_contact", forbidden)
+    monkeypatch.setattr("bem.friction.rough_contact.displacement_operator", forbidden)
     before = COUNT.normal, COUNT.tangential
     point = solve_mixed(**CASE, speeds=(0.3, 0.0))
     assert point.full_film
@@ -198,14 +198,19 @@ def test_uncoupled_baseline(curve):
         largest_difference(curve, curve[:2])
 
 
-def test_options_of_curve_and_point_are_the_same():
+def test_options_of_point_and_setup_are_the_same():
+    """A curve's set-up and that of a point have the same fields with the same defaults."""
+    own = ("height", "speeds", "initial")
     defaults = {
         name: parameter.default
         for name, parameter in inspect.signature(solve_mixed).parameters.items()
-        if parameter.default is not inspect.Parameter.empty and name != "initial"
+        if name not in own
     }
-    assert defaults == load_sharing._DEFAULTS
-    assert all(field.name for field in dataclasses.fields(load_sharing.MixedSolution))
+    fields = {
+        field.name: inspect.Parameter.empty if field.default is dataclasses.MISSING else field.default
+        for field in dataclasses.fields(MixedSetup)
+    }
+    assert defaults == fields
 
 
 @pytest.mark.parametrize(
@@ -236,3 +241,8 @@ def test_refusals(changes, word):
 def test_curve_refusals():
     with pytest.raises(InputError, match="at least one"):
         stribeck_curve([], **CASE)
+    misspelt = {("hardnes" if key == "hardness" else key): value for key, value in CASE.items()}
+    with pytest.raises(InputError, match="stribeck_curve: 'hardnes' is not an argument; did you mean 'hardness'"):
+        stribeck_curve([0.01], **misspelt)
+    with pytest.raises(InputError, match="stribeck_curve: 'load' is missing"):
+        stribeck_curve([0.01], **{key: value for key, value in CASE.items() if key != "load"})

@@ -79,8 +79,8 @@ def test_pressure_map_carries_the_load():
     height = bumps(grid, 30e-6, [(0.0, 0.0, 100e-9), (1.2e-6, -3.9e-6, 90e-9)])
     height -= height.mean()
     summits = find_summits(height, grid)
-    gap = 0.8 * height.max() - height
-    contact = uncoupled_contact(gap, height, summits, grid, mean_gap=None, contact_modulus=115e9, hardness=None)
+    planes = np.full(len(summits.height), 0.8 * height.max())
+    contact = uncoupled_contact(planes, summits, grid, shift=0.0, contact_modulus=115e9, hardness=None)
     assert contact.load > 0
     assert contact.pressure.sum() * grid.cell_area == pytest.approx(contact.load, rel=1e-12)
     assert contact.summit_load.sum() == pytest.approx(contact.load, rel=1e-12)

@@ -10,6 +10,8 @@ import pytest
 from bem.contact import solve_contact
 from bem.errors import InputError, Status
 from bem.friction import solve_mixed
+from bem.friction.film_table import FilmTable
+from bem.friction.setup import LineContact, MixedSetup
 from bem.grid import Grid
 from bem.lubrication import Lubricant
 from bem.materials import CATALOGUE, Body
@@ -17,7 +19,7 @@ from bem.runs import plan_scene
 from bem.scenes import PlainContext, get_kind
 from bem.scenes.kinds.asperities import SQUARE_LATTICE
 from bem.surfaces import generate_surface
-from bem.wear.mixed import FilmTable, MixedContact
+from bem.wear.mixed import MixedContact
 
 OIL = Lubricant(0.36, pressure_viscosity=25e-9)
 PATCH = {
@@ -100,27 +102,23 @@ def test_pressures_give_the_load():
 
 def test_film_table_is_the_film():
     position = (np.arange(64) - 31.5) * 0.8e-6
-    table = FilmTable(
-        position, load=900.0, radius=2e-3, contact_modulus=115e9, speeds=(0.02, 0.0), lubricant=OIL, points=300
-    )
+    table = FilmTable(position, LineContact(2e-3, 1.0, 115e9, OIL), load=900.0, speeds=(0.02, 0.0), points=300)
     # ten times below the 0.3 % asked of the film, but at the exit's constriction, where films are steep
     assert max(table.error(load) for load in (850.0, 300.0, 60.0)) < 4e-3
-    exact = table.solve(300.0, table.rung(8))
-    at = table.at(300.0)
+    exact = table.solve(300.0, table.entry(8))
+    at = table.under(300.0)
     assert at.thickness.mean() == pytest.approx(exact.at(position)[1].mean(), rel=3e-4)
     assert at.shear_force == pytest.approx(exact.shear_force, rel=1e-3)
     with pytest.raises(InputError, match="table"):
-        table.at(901.0)
+        table.under(901.0)
 
 
 def test_film_table_does_not_depend_on_what_was_asked_first():
     position = (np.arange(16) - 7.5) * 2e-6
     values = []
     for loads in ((100.0, 700.0), (700.0, 100.0)):
-        table = FilmTable(
-            position, load=900.0, radius=2e-3, contact_modulus=115e9, speeds=(0.02, 0.0), lubricant=OIL, points=200
-        )
-        found = {load: table.at(load).thickness for load in loads}
+        table = FilmTable(position, LineContact(2e-3, 1.0, 115e9, OIL), load=900.0, speeds=(0.02, 0.0), points=200)
+        found = {load: table.under(load).thickness for load in loads}
         values.append(found)
     for load in (100.0, 700.0):
         assert np.array_equal(values[0][load], values[1][load])
@@ -138,15 +136,14 @@ def test_cycle_contact_is_load_sharing(speed):
         "radius": 2e-3,
         "width": 6e-3,
         "load": 5.5,
-        "speeds": (speed, 0.0),
         "lubricant": OIL,
         "boundary_friction": 0.15,
         "hardness": 1.08e9,
         "film_points": 300,
     }
-    step = MixedContact(**case)
+    step = MixedContact(MixedSetup(**case, tolerance=5e-4, contact_tolerance=1e-4), (speed, 0.0))
     outcome = step(height + 3e-7, None)  # the mean does not matter
-    solution = solve_mixed(height=height, **case)
+    solution = solve_mixed(height=height, speeds=(speed, 0.0), **case)
     row = step.rows[0]
     assert outcome.status is Status.CONVERGED
     assert abs(row["imbalance"]) <= 5e-4
@@ -168,27 +165,29 @@ def test_a_contact_solved_too_coarsely_is_solved_better(monkeypatch):
         "radius": 2e-3,
         "width": 6e-3,
         "load": 5.5,
-        "speeds": (0.05, 0.0),
         "lubricant": OIL,
         "boundary_friction": 0.15,
         "hardness": 1.08e9,
         "film_points": 200,
+        "tolerance": 5e-4,
     }
-    exact = MixedContact(**case)
+    exact = MixedContact(MixedSetup(**case), (0.05, 0.0))
     exact(height, None)
     middle = exact.rows["film_load"][0]
     tolerances = []
 
-    def jumping(gap, operator, *, mean_gap, tolerance, **others):
+    def jumping(gap, operator, *, tolerance, mean_gap=None, **others):
         solution = solve_contact(gap, operator, mean_gap=mean_gap, tolerance=tolerance, **others)
         tolerances.append(tolerance)
-        jump = 50 * tolerance * (1 if mean_gap < balance else -1)
+        if mean_gap is None:
+            return dataclasses.replace(solution, gap=solution.gap * (1 + 50 * tolerance))
+        jump = 100 * (1e-4 if mean_gap < balance else -1e-4)
         return dataclasses.replace(solution, load=solution.load * (1 + jump))
 
-    balance = exact.table.at(middle / 6e-3).thickness.mean()
-    monkeypatch.setattr("bem.wear.mixed.solve_contact", jumping)
-    # a jump of 1 % across the balance, twenty times the tolerance of the balance
-    step = MixedContact(**case, contact_tolerance=1e-4)
+    balance = exact.table.under(middle).thickness.mean()
+    monkeypatch.setattr("bem.friction.rough_contact.solve_contact", jumping)
+    # a jump of 2 % across the balance, forty times its tolerance; under the load the contact leaves 0.5 % too much open
+    step = MixedContact(MixedSetup(**case, contact_tolerance=1e-4), (0.05, 0.0))
     outcome = step(height, None)
     assert outcome.status is Status.CONVERGED
     assert abs(step.rows["imbalance"][0]) <= 5e-4

@@ -152,6 +152,8 @@ def plan(scene: FrictionScene) -> Plan:
     speeds = curves * len(scene.speeds.build())
     coupled = sum(model in _BASELINE for model in scene.sharing.models) / len(scene.sharing.models)
     points = padded_points(grid.shape, grid.periodic)
+    bodies = (scene.lower.build(), scene.upper.build())
+    couples = coupled > 0 and build.traction_couples(*bodies, scene.contact.boundary_friction)
     return Plan(
         (
             Step("surfaces", f"{scene.repetitions} pairs", transforms=40.0 * scene.repetitions, points=grid.cells),
@@ -170,7 +172,14 @@ def plan(scene: FrictionScene) -> Plan:
                 memory=convolution_memory(grid.shape, grid.periodic),
             ),
             Step("stresses", "friction alone needs none", skipped=True),
-            Step("tangential kernels in the normal gap", "boundary friction is not coupled into the gap", skipped=True),
+            Step(
+                "tangential kernels in the normal gap",
+                "boundary friction couples into the gap, by a kernel of its own"
+                if couples
+                else "boundary friction does not move the gap of bodies elastically alike, nor of uncoupled asperities",
+                skipped=not couples,
+                memory=convolution_memory(grid.shape, grid.periodic) if couples else 0.0,
+            ),
             Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8),
         )
     )
@@ -242,8 +251,10 @@ def run(scene: FrictionScene, context: Context) -> Outcome:
                         initial=solutions[-1] if solutions else None,
                     )
                 )
-            for note in solutions[-1].film.notes:
-                context.note(f"film: {note}")
+            own = solutions[-1]
+            for note in own.notes:
+                # the film's model is the same at all speeds: said once
+                context.note(f"film: {note}" if note in own.film.notes else f"speed {speeds[0]:g} m/s, {model}: {note}")
             context.progress(
                 index * len(pairs) + number + 1, len(curves) * len(pairs), "speeds", friction=solutions[-1].friction
             )

@@ -1,0 +1,340 @@
+"""The one balance of load sharing: the film load at which film and rough contact together carry the load.
+
+The sum of both grows with the film load, so its ends are looked at by one rule each:
+
+- *full film*: a film under the whole load that clears the roughness; nothing else is to be done;
+- *boundary*: a film that is left with a negligible share of the load, a tenth of the tolerance, and is even then
+  thinner than what the surfaces leave open when they carry all the rest. It would be left with less still, and the
+  rest is known to within the tolerance: the contact under that load is the answer.
+
+Between them a secant within a bracket, in logarithms: films and contacts follow powers of the load. Where the contact's
+load changes so steeply with the film's that the film's is known before both meet the load, the surfaces are pressed
+together by what it leaves them, and must then hold its oil. Nothing here knows what a film or a contact is made of.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from bem.errors import Status
+from bem.friction.film import Film, PatchFilm
+from bem.friction.rough_contact import Pressed, RoughContact
+from bem.grid import FloatArray
+
+MAX_TRIALS = 60
+NEGLIGIBLE = 0.1
+"""Share of the load, over the tolerance of the balance, below which a film is left with nothing that counts."""
+FINEST_CONTACT = 1e-9
+"""Tolerance of the contact below which it is not tightened any further."""
+FAR = 4.0
+"""A step in ln(film load) larger than that goes to the boundary end at once: there the contact is solved for the load,
+which is easier than pressing surfaces far too close."""
+NEAR = 0.1
+"""Imbalance below which secant steps are exact enough to need no margin for a bracket."""
+
+
+class Regime(StrEnum):
+    """Which end of the balance, or neither, a solution is at."""
+
+    FULL_FILM = "full film"
+    MIXED = "mixed"
+    BOUNDARY = "boundary"
+
+
+@dataclass(frozen=True, eq=False)
+class BalanceStart:
+    """Where to look first: film load [N], slope of ln(carried) with ln(film load), and a pressure [Pa] nearby."""
+
+    film_load: float
+    slope: float = 1.0
+    pressure: FloatArray | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Balance:
+    """Film and contact that carry the load together.
+
+    contact : None in full film. imbalance : (film + contact - load) / load, of these two. slope : of ln(carried) with
+    ln(film load). films, contacts : evaluated on the way; convolutions : of the contacts. status : converged where the
+    imbalance is within the tolerance and film and contact are converged themselves. notes : what to tell the user.
+    """
+
+    film: PatchFilm
+    contact: Pressed | None
+    imbalance: float
+    slope: float
+    regime: Regime
+    films: int
+    contacts: int
+    convolutions: float
+    status: Status
+    notes: tuple[str, ...] = ()
+
+
+def share_load(
+    film: Film, rough: RoughContact, load: float, tolerance: float, whole: PatchFilm, start: BalanceStart
+) -> Balance:
+    """The balance of a load [N] to `tolerance`; `whole` is the film under all of it, or under the largest there is."""
+    effort = _Effort(contact_tolerance=rough.tolerance, film=whole, pressure=start.pressure)
+    if whole.load >= load and rough.clears(whole):
+        trial = _Trial(math.log(load), whole, None, _excess(whole, None, load))
+        return _certified(trial, load, tolerance, Regime.FULL_FILM, effort, start.slope)
+    top = math.log(min(load, film.largest_load))
+    bottom = min(math.log(NEGLIGIBLE * tolerance * load), top)
+    at, slope = min(max(math.log(start.film_load), bottom), top - 1e-3), start.slope
+    for level, error in enumerate(film.errors):
+        search = _Search(film, rough, load, max(tolerance, error), level, bottom, top, effort)
+        trial, slope, regime = search.run(at, slope)
+        at = trial.logarithm
+        if search.too_little(trial):
+            return _certified(trial, load, tolerance, regime, effort, slope, short=True)
+    return _certified(trial, load, tolerance, regime, effort, slope)
+
+
+@dataclass(frozen=True, eq=False)
+class _Trial:
+    """A film load, by its logarithm, its film and contact, and what they carry beyond the load, relative to it."""
+
+    logarithm: float
+    film: PatchFilm
+    contact: Pressed | None
+    excess: float
+
+    @property
+    def value(self) -> float:
+        """What is brought to zero."""
+        return math.log1p(self.excess)
+
+
+@dataclass
+class _Effort:
+    """What all levels share: the last film and pressure as starts, the contact's tolerance, and counts."""
+
+    contact_tolerance: float = 0.0
+    film: PatchFilm | None = None
+    pressure: FloatArray | None = None
+    films: int = 0
+    contacts: int = 0
+    convolutions: float = 0.0
+
+    def count(self, contact: Pressed) -> None:
+        self.contacts += 1
+        self.convolutions += contact.convolutions
+        self.pressure = contact.pressure
+
+
+@dataclass
+class _Bracket:
+    """Film loads, by their logarithms, with too little (low) and too much (high) carried, and those values."""
+
+    low: tuple[float, float] | None = None
+    high: tuple[float, float] | None = None
+    seen: list[_Trial] = field(default_factory=list)
+
+    def take(self, trial: _Trial) -> None:
+        self.seen.append(trial)
+        if trial.value < 0:
+            self.low = (trial.logarithm, trial.value)
+        else:
+            self.high = (trial.logarithm, trial.value)
+
+    @property
+    def width(self) -> float:
+        return math.inf if self.low is None or self.high is None else self.high[0] - self.low[0]
+
+    def slope(self, trial: _Trial, before: float) -> float:
+        """Slope to the nearest trial so far; closer ones than 1e-4 say more about the contact's tolerance."""
+        others = [other for other in self.seen if abs(other.logarithm - trial.logarithm) > 1e-4]
+        if not others:
+            return before
+        other = min(others, key=lambda t: abs(t.logarithm - trial.logarithm))
+        found = (trial.value - other.value) / (trial.logarithm - other.logarithm)
+        return found if found > 0 else before
+
+
+@dataclass
+class _Search:
+    """The balance at one level of the film's accuracy."""
+
+    film: Film
+    rough: RoughContact
+    load: float
+    goal: float
+    level: int
+    bottom: float
+    top: float
+    effort: _Effort
+
+    def run(self, at: float, slope: float) -> tuple[_Trial, float, Regime]:
+        """Best trial, slope there, and regime."""
+        bracket = _Bracket()
+        probe: _Trial | None = None  # the contact at the boundary end
+        best: _Trial | None = None
+        step = 0.0
+        for _ in range(MAX_TRIALS):
+            if at <= self.bottom and bracket.low is None:
+                bracket.low = (self.bottom, -math.inf)
+                at, slope = 0.5 * (self.bottom + self.top), 1.0
+                if self.load - math.exp(self.bottom) <= self.rough.largest_load:
+                    probe = self.under_the_rest()
+                    if self.is_boundary(probe):
+                        return probe, slope, Regime.BOUNDARY
+                    at = min(self.bottom + self.thinner(probe), self.top)
+                continue
+            trial = self.at_volume(at)
+            slope = bracket.slope(trial, slope)
+            bracket.take(trial)
+            if best is None or abs(trial.excess) < abs(best.excess):
+                best = trial
+            if abs(trial.excess) <= self.goal or self.too_little(trial):
+                return trial, slope, Regime.MIXED
+            if bracket.width < max(0.1 * self.goal, 1e-13):
+                if probe is not None and bracket.low is not None and bracket.low[0] <= self.bottom:
+                    return probe, slope, Regime.BOUNDARY
+                # the film's load is known, and the contact's changes with it too steeply to be met by its volume
+                return self.under_what_is_left(best), slope, Regime.MIXED
+            at, step = self.next(trial, slope, bracket, step)
+        assert best is not None
+        return best, slope, Regime.MIXED
+
+    def at_volume(self, logarithm: float) -> _Trial:
+        """Film at a load, and the surfaces holding its oil."""
+        film = self.film_at(logarithm)
+        contact = None
+        if not self.rough.clears(film):
+            contact = self.rough.at_volume(film, self.effort.contact_tolerance, self.effort.pressure)
+            self.effort.count(contact)
+        return self.trial(logarithm, film, contact)
+
+    def under_the_rest(self) -> _Trial:
+        """Film left with a negligible load, and the surfaces under what it leaves them."""
+        return self.at_load(self.bottom, self.film_at(self.bottom))
+
+    def under_what_is_left(self, trial: _Trial) -> _Trial:
+        """The surfaces under what the film of a trial leaves them, if they then hold its oil; else that trial.
+
+        What the contact's tolerance makes of its opening may be too much: it is then solved better.
+        """
+        if not 0 < self.load - trial.film.load <= self.rough.largest_load:
+            return trial
+        while True:
+            found = self.at_load(trial.logarithm, trial.film)
+            assert found.contact is not None
+            if abs(found.contact.opening / float(trial.film.thickness.mean()) - 1) <= self.goal:
+                return found
+            if self.effort.contact_tolerance <= FINEST_CONTACT:
+                return trial
+            self.effort.contact_tolerance *= 0.01
+
+    def at_load(self, logarithm: float, film: PatchFilm) -> _Trial:
+        """A film, and the surfaces under what it leaves them."""
+        rest = self.load - film.load
+        contact = self.rough.at_load(film, rest, self.effort.contact_tolerance, self.effort.pressure)
+        self.effort.count(contact)
+        return self.trial(logarithm, film, contact)
+
+    def film_at(self, logarithm: float) -> PatchFilm:
+        film = self.film.under(math.exp(logarithm), self.level, self.effort.film)
+        self.effort.films += 1
+        self.effort.film = film
+        return film
+
+    def trial(self, logarithm: float, film: PatchFilm, contact: Pressed | None) -> _Trial:
+        return _Trial(logarithm, film, contact, _excess(film, contact, self.load))
+
+    def too_little(self, trial: _Trial) -> bool:
+        """Whether all that the film's model can carry is not enough."""
+        return trial.excess < -self.goal and trial.logarithm >= self.top
+
+    def is_boundary(self, probe: _Trial) -> bool:
+        """Whether the film, negligible as it is, is thinner than the surfaces leave open."""
+        assert probe.contact is not None
+        return probe.contact.opening >= float(probe.film.thickness.mean())
+
+    def thinner(self, probe: _Trial) -> float:
+        """By how much ln(film load) must grow at least: a film's thickness falls as the inverse of its load at most."""
+        assert probe.contact is not None
+        return max(math.log(float(probe.film.thickness.mean()) / max(probe.contact.opening, 1e-300)), 1e-3)
+
+    def next(self, trial: _Trial, slope: float, bracket: _Bracket, before: float) -> tuple[float, float]:
+        """Logarithm to try next, and the step there where it goes down without a bracket."""
+        at, value, low, high = trial.logarithm, trial.value, bracket.low, bracket.high
+        wanted = at - value / slope
+        if low is None:
+            step = value / slope
+            if value > NEAR or len(bracket.seen) > 4:
+                step = max(1.05 * step, 1.5 * before)  # a little beyond, and by more than last time
+            if step > FAR or at - step <= self.bottom:
+                return self.bottom, step
+            return at - step, step
+        if high is None:
+            if self.top < math.log(self.load) and wanted >= self.top:
+                return self.top, 0.0  # the film's model ends there: nothing says that it can carry the rest
+            half = 0.5 * (at + self.top)
+            if wanted >= self.top:
+                return min(max(wanted, at + 1e-3), half), 0.0
+            margin = 0.05 * (wanted - at) if abs(value) > NEAR or len(bracket.seen) > 4 else 0.0
+            return min(wanted + margin, 0.5 * (wanted + self.top)), 0.0
+        width = bracket.width
+        if low[0] + 0.02 * width < wanted < high[0] - 0.02 * width:
+            return wanted, 0.0
+        secant = 0.5 * (low[0] + high[0])
+        if math.isfinite(low[1]):
+            secant = low[0] - low[1] * width / (high[1] - low[1])
+        return min(max(secant, low[0] + 0.1 * width), high[0] - 0.1 * width), 0.0
+
+
+def _excess(film: PatchFilm, contact: Pressed | None, load: float) -> float:
+    return (film.load + (0.0 if contact is None else contact.load) - load) / load
+
+
+def _certified(
+    trial: _Trial,
+    load: float,
+    tolerance: float,
+    regime: Regime,
+    effort: _Effort,
+    slope: float,
+    *,
+    short: bool = False,
+) -> Balance:
+    """Judge film and contact by themselves; `short` where they carry too little at the end of the film's range."""
+    film, contact = trial.film, trial.contact
+    imbalance = _excess(film, contact, load)
+    notes = [*film.notes, *(() if contact is None else contact.notes)]
+    if regime is Regime.BOUNDARY:
+        notes.append(boundary_note(film.load / load))
+    if short:
+        notes.append(
+            f"the film's model ends at a load of {film.load:.3g} N (at this speed and viscosity), and surfaces and "
+            f"film carry {load * (1 + imbalance):.3g} N there; raise speed or viscosity, or lower the load"
+        )
+    status = Status.CONVERGED
+    if film.status is not Status.CONVERGED:
+        status = film.status
+    elif contact is not None and contact.status is not Status.CONVERGED:
+        status = contact.status
+    elif abs(imbalance) > tolerance:
+        status = Status.INFEASIBLE if short else Status.STALLED
+    return Balance(
+        film=film,
+        contact=contact,
+        imbalance=imbalance,
+        slope=slope,
+        regime=regime,
+        films=effort.films,
+        contacts=effort.contacts,
+        convolutions=effort.convolutions,
+        status=status,
+        notes=tuple(notes),
+    )
+
+
+def boundary_note(share: float) -> str:
+    """What to say of the boundary end, the film being left with a share of the load."""
+    return (
+        f"boundary lubrication: the film is left with less than {share:.1g} of the load, so the contact was solved "
+        "under all the rest"
+    )

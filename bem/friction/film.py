@@ -1,0 +1,164 @@
+"""Films over the load they carry: what load sharing asks of a film model, and the film that is solved when asked for.
+
+A film model is anything with the three members of `Film`: line or point contact, solved or tabulated, thermal or not.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from bem.errors import InputError, Status
+from bem.friction.setup import LineContact
+from bem.grid import FloatArray
+from bem.lubrication import FilmSolution, solve_line_film
+from bem.lubrication.steady import check_entrainment, load_range
+
+BALANCE_POINTS = 400
+"""Film nodes while the balance is looked for; the last evaluations use the number asked for."""
+COARSE_FILM = 1e-3
+"""Relative error of films of `BALANCE_POINTS`: the balance is met no better with them."""
+
+
+@dataclass(frozen=True, eq=False)
+class PatchFilm:
+    """A smooth film as the rough patch sees it; arrays (nx, ny), or (nx, 1) where it is the same along y.
+
+    load : it carries [N]. thickness [m], pressure and shear_stress [Pa] : on the patch. shear_force : of the whole
+    film [N], signed like `FilmSolution.shear_force`. minimum_thickness : of the whole film [m]. status : outcome.
+    notes : where the film's model is outside its validity. solution : what it was sampled from, if it was solved.
+    """
+
+    load: float
+    thickness: FloatArray
+    pressure: FloatArray
+    shear_stress: FloatArray
+    shear_force: float
+    minimum_thickness: float
+    status: Status = Status.CONVERGED
+    notes: tuple[str, ...] = ()
+    solution: FilmSolution | None = None
+
+
+class Film(Protocol):
+    """Films of one contact at one pair of speeds."""
+
+    @property
+    def largest_load(self) -> float:
+        """Load [N] up to which there are films; math.inf for any."""
+
+    @property
+    def errors(self) -> tuple[float, ...]:
+        """Relative errors of the levels of accuracy on offer, coarse to fine; the last counts as zero."""
+
+    def under(self, load: float, level: int, start: PatchFilm | None) -> PatchFilm:
+        """The film under any positive load [N] up to the largest, at a level; `start` is one of a similar case."""
+
+
+def solved_line_film(
+    contact: LineContact,
+    speeds: Sequence[float],
+    load: float,
+    points: int,
+    *,
+    initial: FilmSolution | None = None,
+    position: FloatArray | None = None,
+) -> FilmSolution:
+    """The film under a load on the whole width [N] up to the largest.
+
+    Where the load is so small that the elastic film is outside its range, the surfaces are rigid: pressures that small
+    move them by less than 1e-5 of the film.
+    """
+    modulus = contact.contact_modulus
+    lowest, _ = load_range(contact.radius, modulus, speeds, contact.lubricant)
+    return solve_line_film(
+        load=load / contact.width,
+        radius=contact.radius,
+        contact_modulus=math.inf if load / contact.width < lowest else modulus,
+        speeds=speeds,
+        lubricant=contact.lubricant,
+        points=points,
+        initial=initial,
+        position=position,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class SolvedFilm:
+    """Films of a line contact, each solved when it is asked for, on a coarse and on the wanted mesh.
+
+    position : (nx,) abscissae of the patch [m]. speeds : (u1, u2) of flat and cylinder [m/s]. points : of the film's
+    own mesh. striated_exit : whether the oil behind the exit adds to the shear force. initial : a film of a similar
+    case, where the first one starts.
+
+    Raises
+    ------
+    InputError : speeds that are not finite or entrain nothing.
+    """
+
+    contact: LineContact
+    speeds: tuple[float, float]
+    position: FloatArray
+    points: int
+    striated_exit: bool = False
+    initial: FilmSolution | None = None
+
+    def __post_init__(self) -> None:
+        check_entrainment(self.speeds)
+
+    @property
+    def largest_load(self) -> float:
+        """Load [N] up to which a film is looked for."""
+        contact = self.contact
+        return contact.width * load_range(contact.radius, contact.contact_modulus, self.speeds, contact.lubricant)[1]
+
+    @property
+    def errors(self) -> tuple[float, ...]:
+        """As `Film`: a coarse mesh and the one asked for, or that alone if it is no finer."""
+        return (COARSE_FILM, 0.0) if self.points > BALANCE_POINTS else (0.0,)
+
+    def under(self, load: float, level: int, start: PatchFilm | None) -> PatchFilm:
+        """As `Film`."""
+        points = self.points if level == len(self.errors) - 1 else BALANCE_POINTS
+        initial = self.initial if start is None else start.solution
+        film = solved_line_film(self.contact, self.speeds, load, points, initial=initial)
+        return sampled(film, self.position, load, self.contact.width, striated_exit=self.striated_exit)
+
+    def resampled(self, film: PatchFilm, position: FloatArray, *, negligible: bool) -> FilmSolution:
+        """The film at abscissae [m] of the caller's choice; a film that carries next to nothing may reach beyond them.
+
+        Raises
+        ------
+        InputError : a film that counts reaches beyond the positions.
+        """
+        assert film.solution is not None
+        try:
+            return solved_line_film(
+                self.contact, self.speeds, film.load, self.points, initial=film.solution, position=position
+            )
+        except InputError:
+            if not negligible:
+                raise
+        pressure, thickness = film.solution.at(position)
+        return replace(film.solution, position=position, pressure=pressure, thickness=thickness)
+
+
+def sampled(
+    film: FilmSolution, position: FloatArray, load: float, width: float, *, striated_exit: bool = False
+) -> PatchFilm:
+    """A solved film at the abscissae (nx,) [m] of a patch; `load` and the forces are on the whole width [m]."""
+    pressure, thickness = film.at(position)
+    force = film.striated_shear_force if striated_exit else film.shear_force
+    return PatchFilm(
+        load=load,
+        thickness=thickness[:, None],
+        pressure=pressure[:, None],
+        shear_stress=film.shear_stress(position)[:, None],
+        shear_force=force * width,
+        minimum_thickness=film.minimum_thickness,
+        status=film.status,
+        notes=film.notes,
+        solution=film,
+    )

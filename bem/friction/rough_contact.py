@@ -1,0 +1,222 @@
+"""Rough surfaces with a film between them: what load sharing asks of a contact, and the two contacts there are.
+
+The film is as thick as between smooth surfaces. Under *volume* control the rough ones are pressed together until they
+hold the same oil; under *load* control until they carry what they are given, where the film has no say.
+
+Boundary friction couples into the normal gap by one rule. Where the surfaces slide, the flat (the lower body) feels the
+traction f p against its sliding over the cylinder, along -x where u1 > u2, the cylinder the opposite. Normal
+displacements follow it unless the bodies are elastically alike: there the two cancel exactly, and nothing is computed.
+Without sliding there is no traction. Uncoupled asperities are Hertz', without friction.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from bem.contact import ContactSolution, solve_contact
+from bem.convolution import DisplacementOperator, displacement_operator
+from bem.errors import Status
+from bem.friction.asperities import (
+    AsperityContact,
+    Summits,
+    find_summits,
+    shift_for_load,
+    uncoupled_contact,
+    volume_shift,
+)
+from bem.friction.film import PatchFilm
+from bem.friction.setup import MixedSetup
+from bem.grid import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Pressed:
+    """Rough surfaces pressed together.
+
+    load : on the whole contact [N]. opening : mean distance of the surfaces that oil has to fill [m]. pressure : (nx,
+    ny) [Pa]. approach : by how much the mean planes are closer than the film is thick [m]. area : real, on the whole
+    contact [m^2]. convolutions : spent. status : outcome. solution : of the patch. notes : what the solution says of
+    itself.
+    """
+
+    load: float
+    opening: float
+    pressure: FloatArray
+    approach: float
+    area: float
+    convolutions: float
+    status: Status
+    solution: ContactSolution | AsperityContact
+    notes: tuple[str, ...] = ()
+
+
+class RoughContact(Protocol):
+    """A rough patch, its roughness given."""
+
+    @property
+    def tolerance(self) -> float:
+        """What a contact is solved to unless the balance asks for more; 0 where it is exact anyway."""
+
+    @property
+    def largest_load(self) -> float:
+        """Load [N] that the surfaces can carry at all; math.inf where nothing yields."""
+
+    def clears(self, film: PatchFilm) -> bool:
+        """Whether the undeformed roughness does not reach through the film."""
+
+    def at_volume(self, film: PatchFilm, tolerance: float, start: FloatArray | None) -> Pressed:
+        """Pressed together until they hold the film's oil; `start` is a pressure nearby."""
+
+    def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
+        """Pressed together by a load [N] on the whole contact."""
+
+
+def boundary_traction(speeds: Sequence[float], boundary_friction: float) -> float:
+    """Traction on the flat over the contact's pressure, along +x: against its sliding over the cylinder."""
+    return boundary_friction * float(np.sign(speeds[1] - speeds[0]))
+
+
+def rough_contact(setup: MixedSetup, height: FloatArray, speeds: Sequence[float]) -> RoughContact:
+    """The contact of a set-up; `height` (nx, ny) [m] out of the flat, of both surfaces together."""
+    rough = height - height.mean()
+    if setup.contact_model == "uncoupled":
+        return UncoupledAsperities(setup, rough)
+    return CoupledContact(setup, rough, boundary_traction(speeds, setup.boundary_friction))
+
+
+@dataclass(frozen=True, eq=False)
+class CoupledContact:
+    """The rough half-space, elastic or capped at the hardness; `rough` (nx, ny) [m] without mean."""
+
+    setup: MixedSetup
+    rough: FloatArray
+    traction: float
+
+    @property
+    def tolerance(self) -> float:
+        """As `RoughContact`."""
+        return self.setup.contact_tolerance
+
+    @property
+    def largest_load(self) -> float:
+        """As `RoughContact`: hardness times area."""
+        hardness = math.inf if self.setup.hardness is None else self.setup.hardness
+        return hardness * self.setup.grid.area * self.setup.slices
+
+    @cached_property
+    def operator(self) -> DisplacementOperator:
+        """Made when the first contact is solved: full film never needs it."""
+        return displacement_operator(self.setup.grid, self.setup.bodies, friction=self.traction)
+
+    def clears(self, film: PatchFilm) -> bool:
+        """As `RoughContact`."""
+        return bool((film.thickness - self.rough).min() >= 0)
+
+    def at_volume(self, film: PatchFilm, tolerance: float, start: FloatArray | None) -> Pressed:
+        """As `RoughContact`."""
+        return self._solve(film, tolerance, start, mean_gap=float(film.thickness.mean()))
+
+    def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
+        """As `RoughContact`."""
+        return self._solve(film, tolerance, start, load=load / self.setup.slices)
+
+    def _solve(
+        self,
+        film: PatchFilm,
+        tolerance: float,
+        start: FloatArray | None,
+        *,
+        load: float | None = None,
+        mean_gap: float | None = None,
+    ) -> Pressed:
+        solution = solve_contact(
+            film.thickness - self.rough,
+            self.operator,
+            load=load,
+            mean_gap=mean_gap,
+            hardness=self.setup.hardness,
+            tolerance=tolerance,
+            initial_pressure=start if start is not None and start.any() else None,
+        )
+        slices = self.setup.slices
+        return Pressed(
+            load=solution.load * slices,
+            opening=float(np.maximum(solution.gap, 0.0).mean()),
+            pressure=solution.pressure,
+            approach=solution.approach,
+            area=solution.contact_area * slices,
+            convolutions=solution.convolutions,
+            status=solution.status,
+            solution=solution,
+            notes=solution.notes,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class UncoupledAsperities:
+    """Every summit a Hertz sphere; `rough` (nx, ny) [m] without mean. Closed forms: exact."""
+
+    setup: MixedSetup
+    rough: FloatArray
+    tolerance: float = 0.0
+    largest_load: float = math.inf
+
+    @cached_property
+    def _summits(self) -> Summits:
+        return find_summits(self.rough, self.setup.grid)
+
+    def clears(self, film: PatchFilm) -> bool:
+        """As `RoughContact`."""
+        return bool((film.thickness - self.rough).min() >= 0)
+
+    def at_volume(self, film: PatchFilm, tolerance: float, start: FloatArray | None) -> Pressed:
+        """As `RoughContact`; with the separation "film" the mean planes are as far apart as the film is thick."""
+        if self.setup.asperity_separation == "film":
+            return self._shifted(film, 0.0)
+        return self._shifted(film, volume_shift(film.thickness - self.rough, float(film.thickness.mean())))
+
+    def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
+        """As `RoughContact`; infeasible where the patch has no summit."""
+        if not len(self._summits.height):
+            return replace(self._shifted(film, 0.0), status=Status.INFEASIBLE)
+        shift = shift_for_load(
+            self._separation(film),
+            self._summits,
+            load / self.setup.slices,
+            contact_modulus=self.setup.line.contact_modulus,
+            hardness=self.setup.hardness,
+        )
+        return self._shifted(film, shift)
+
+    def _separation(self, film: PatchFilm) -> FloatArray:
+        return np.broadcast_to(film.thickness, self.rough.shape)[self._summits.index]
+
+    def _shifted(self, film: PatchFilm, shift: float) -> Pressed:
+        solution = uncoupled_contact(
+            self._separation(film),
+            self._summits,
+            self.setup.grid,
+            shift=shift,
+            contact_modulus=self.setup.line.contact_modulus,
+            hardness=self.setup.hardness,
+        )
+        if self.setup.asperity_separation == "film":
+            opening = float(film.thickness.mean()) - shift
+        else:
+            opening = float(np.maximum(film.thickness - self.rough - shift, 0.0).mean())
+        return Pressed(
+            load=solution.load * self.setup.slices,
+            opening=opening,
+            pressure=solution.pressure,
+            approach=shift,
+            area=solution.contact_area * self.setup.slices,
+            convolutions=0.0,
+            status=Status.CONVERGED,
+            solution=solution,
+        )

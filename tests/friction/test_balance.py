@@ -1,0 +1,193 @@
+"""One balance for solved and tabulated films: its two ends, coupling, and what it says where there is no answer."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from bem import (
+    Body,
+    Grid,
+    Lubricant,
+    Material,
+    Status,
+    displacement_operator,
+    generate_surface,
+    solve_contact,
+    solve_mixed,
+    stribeck_curve,
+)
+from bem.friction.balance import BalanceStart, Regime, share_load
+from bem.friction.film import PatchFilm
+from bem.friction.rough_contact import boundary_traction, rough_contact
+from bem.friction.setup import MixedSetup
+from bem.wear.mixed import MixedContact
+
+STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
+POLYMER = Body(Material("polymer", youngs_modulus=3e9, poissons_ratio=0.38))
+GRID = Grid((64, 32), (0.8e-6, 0.8e-6), periodic=(False, True))
+HEIGHT = generate_surface(GRID, rms_height=100e-9, correlation_length=2e-6, seed=4)
+CASE = {
+    "grid": GRID,
+    "bodies": (STEEL, STEEL),
+    "radius": 2e-3,
+    "width": 6e-3,
+    "load": 5.5,
+    "lubricant": Lubricant(0.36, pressure_viscosity=25e-9),
+    "boundary_friction": 0.15,
+    "hardness": 1.08e9,
+    "film_points": 200,
+    "tolerance": 5e-4,
+    "contact_tolerance": 1e-4,
+}
+THIN_OIL = Lubricant(0.005, pressure_viscosity=25e-9)
+
+
+def both(height, speeds, **changes):
+    """A row of the wear cycle, and `solve_mixed`, of the same case."""
+    case = CASE | changes
+    step = MixedContact(MixedSetup(**case), speeds)
+    outcome = step(height, None)
+    return step, outcome, solve_mixed(height=height, speeds=speeds, **case)
+
+
+@pytest.mark.parametrize(
+    ("speed", "rms_height", "oil"),
+    [(1e-4, 400e-9, THIN_OIL), (1e-7, 120e-9, CASE["lubricant"]), (1e-9, 120e-9, CASE["lubricant"])],
+)
+def test_boundary_lubrication_is_an_answer(speed, rms_height, oil):
+    """Where the table of films ends, the wear cycle said converged with the load missed by 260 to 4,000 %."""
+    height = rms_height / HEIGHT.std() * HEIGHT
+    step, outcome, point = both(height, (speed, 0.0), lubricant=oil)
+    row = step.rows[0]
+    assert outcome.status is point.status is Status.CONVERGED
+    assert point.regime is Regime.BOUNDARY
+    for contact_load, film_load, friction in (
+        (point.contact_load, point.film_load, point.friction),
+        (row["contact_load"], row["film_load"], row["friction"]),
+    ):
+        assert contact_load + film_load == pytest.approx(5.5, rel=5e-4)  # the tolerance
+        assert friction == pytest.approx(0.15, rel=2e-4)  # boundary friction, but for the film's share
+    # the contact solved by itself for the whole load: a film at the end carries a tenth of the tolerance
+    operator = displacement_operator(GRID, (STEEL, STEEL))
+    parabola = GRID.x[:, None] ** 2 / 4e-3
+    dry = solve_contact(parabola - height, operator, load=5.5 * GRID.lengths[1] / 6e-3, hardness=1.08e9, tolerance=1e-6)
+    # cells touch or not: ten of some hundred may differ between tolerances of 1e-4 and 1e-6 and gaps 1e-4 apart
+    assert point.contact_area == pytest.approx(dry.contact_area * 6e-3 / GRID.lengths[1], rel=0.02)
+    assert any("boundary lubrication" in note for note in point.notes)
+    assert any("1 of 1 cycles: boundary lubrication" in note for note in step.notes)
+    # few trials: the whole load's film, one in between, the end (coarse and fine alike with 200 nodes)
+    assert point.evaluations <= 4
+    assert point.contact_solves <= 3
+
+
+def test_a_cycle_at_the_boundary_end_starts_there():
+    step = MixedContact(MixedSetup(**CASE), (1e-7, 0.0))
+    first = step(HEIGHT, None)
+    step(HEIGHT, first.pressure)
+    assert step.rows["evaluations"][0] <= 3
+    assert step.rows["evaluations"][1] == 1
+
+
+def test_boundary_answer_joins_the_balance():
+    """Speeds across the edge: contact load and friction pass from one rule to the other within the tolerance."""
+    speeds = np.geomspace(1e-7, 1e-5, 5)
+    curve = stribeck_curve(speeds, height=HEIGHT, **(CASE | {"tolerance": 1e-4, "contact_tolerance": 1e-6}))
+    regimes = [point.regime for point in curve]
+    assert {Regime.BOUNDARY, Regime.MIXED} == set(regimes)
+    assert sorted(regimes, key=lambda r: r is Regime.MIXED) == regimes  # one edge
+    assert all(point.status is Status.CONVERGED for point in curve)
+    shares = np.array([point.film_load for point in curve]) / 5.5
+    assert (shares >= 1e-5 * (1 - 1e-12)).all()
+    assert shares[regimes.index(Regime.MIXED)] < 1e-4
+    assert np.ptp([point.friction for point in curve]) < 2e-4 * 0.15
+
+
+@pytest.mark.parametrize("speeds", [(0.002, 0.0), (0.0, 0.002), (0.0012, 0.0008), (0.001, 0.001)])
+def test_friction_couples_into_the_gap_by_one_rule(speeds):
+    """Polymer on steel: pressures of the two load sharings were 8.8 % apart."""
+    # a polymer's contact is wide: a lower load keeps it on the patch
+    changes = {"bodies": (POLYMER, STEEL), "load": 0.2, "boundary_friction": 0.3, "hardness": 150e6}
+    tight = {"tolerance": 1e-5, "contact_tolerance": 1e-7}
+    step, outcome, point = both(HEIGHT, speeds, **changes, **tight)
+    assert outcome.status is point.status is Status.CONVERGED
+    assert 0.2 < point.contact_load / 0.2 < 0.8
+    # far below what the coupling moves, and twenty times what the two films differ by
+    assert step.rows["contact_load"][0] == pytest.approx(point.contact_load, rel=1e-3)
+    mean = point.contact_pressure.mean()
+    assert np.abs(outcome.pressure - point.contact_pressure).mean() < 1e-3 * mean
+    alone = solve_mixed(height=HEIGHT, speeds=speeds, **(CASE | changes | tight | {"boundary_friction": 0.0}))
+    moved = np.abs(alone.contact_pressure - point.contact_pressure).mean() / mean
+    if speeds[0] == speeds[1]:
+        assert moved == 0  # no sliding, no traction
+        assert outcome.friction == 0
+    else:
+        assert moved > 0.02
+    # against the law itself: the operator of the traction gives back the gap
+    operator = displacement_operator(GRID, (POLYMER, STEEL), friction=outcome.friction)
+    displacement = operator(point.contact_pressure)
+    assert np.abs(displacement - point.contact.displacement).max() < 1e-9 * np.abs(displacement).max()
+
+
+def test_the_mirrored_contact_is_the_mirrored_answer():
+    """Everything turned round along x, sliding included: the sign of the coupling follows it."""
+    changes = CASE | {"bodies": (POLYMER, STEEL), "load": 0.2, "boundary_friction": 0.3, "hardness": 150e6}
+    changes |= {"tolerance": 1e-6, "contact_tolerance": 1e-7}
+    one = solve_mixed(height=HEIGHT, speeds=(0.002, 0.0), **changes)
+    other = solve_mixed(height=HEIGHT[::-1], speeds=(-0.002, 0.0), **changes)
+    assert other.friction == pytest.approx(one.friction, rel=1e-4)  # mesh of the film, mirrored but for rounding
+    mean = one.contact_pressure.mean()
+    assert np.abs(other.contact_pressure[::-1] - one.contact_pressure).mean() < 1e-3 * mean
+    assert boundary_traction((0.002, 0.0), 0.3) == -0.3  # the flat is held back
+
+
+def test_lambda_ratio_means_one_thing():
+    for speed in (1e-4, 0.01, 0.5):
+        step, _, point = both(HEIGHT, (speed, 0.0))
+        # films from the table at the whole load are those solved
+        assert step.rows["lambda_ratio"][0] == pytest.approx(point.lambda_ratio, rel=1e-6)
+
+
+@pytest.mark.parametrize("load", [1e-3, 1e-2])
+@pytest.mark.parametrize("speed", [1e-8, 1e-5, 1e-4, 1e-2])
+def test_small_loads_neither_stall_nor_raise(load, speed):
+    point = solve_mixed(height=20 * HEIGHT, speeds=(speed, 0.0), **(CASE | {"load": load}))
+    assert point.status is Status.CONVERGED
+    assert abs(point.contact_load + point.film_load - load) <= 5e-4 * load
+
+
+@dataclasses.dataclass
+class FlatFilm:
+    """A film model that nothing here knows: thickness constant / load, alike over the patch, as of a point contact."""
+
+    constant: float
+    largest_load: float = math.inf
+    errors: tuple[float, ...] = (0.0,)
+
+    def under(self, load, level, start):
+        thickness = np.full(GRID.shape, self.constant / load)
+        zero = np.zeros(GRID.shape)
+        return PatchFilm(load, thickness, zero, zero, 0.01 * load, float(thickness.min()))
+
+
+@pytest.mark.parametrize("model", ["coupled", "uncoupled"])
+@pytest.mark.parametrize("constant", [1e-13, 1e-9, 4e-8, 1e-6, 1e-5])
+def test_the_balance_takes_another_film_model(constant, model):
+    film = FlatFilm(constant)
+    rough = rough_contact(MixedSetup(**CASE, contact_model=model), HEIGHT, (0.1, 0.0))
+    balance = share_load(film, rough, 5.5, 5e-4, film.under(5.5, 0, None), BalanceStart(2.0))
+    assert balance.status is Status.CONVERGED
+    assert abs(balance.imbalance) <= 5e-4
+    expected = {1e-13: Regime.BOUNDARY, 1e-5: Regime.FULL_FILM}.get(constant, balance.regime)
+    assert balance.regime is expected
+    assert balance.contacts <= 14
+
+
+def test_a_film_model_that_ends_too_early_is_infeasible_and_says_so():
+    film = FlatFilm(1e-5, largest_load=1.0)
+    rough = rough_contact(MixedSetup(**CASE), HEIGHT, (0.1, 0.0))
+    balance = share_load(film, rough, 5.5, 5e-4, film.under(1.0, 0, None), BalanceStart(2.0))
+    assert balance.status is Status.INFEASIBLE
+    assert balance.imbalance == pytest.approx(1 / 5.5 - 1, rel=1e-12)
+    assert any("ends at a load of 1 N" in note for note in balance.notes)
