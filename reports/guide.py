@@ -258,10 +258,10 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
         "Load sharing",
         "mean(max(gap, 0)) = <h>;  F_film + F_contact = F_total;  f = (f_b F_contact + F_shear)/F_total",
         "thesis, papers A, D; Johnson, Greenwood and Poon (1972)",
-        "The averaging of the search direction printed in the source belongs to load control. Full film: the film under "
-        "F_total clears the roughness. Boundary: a film left with a tenth of the balance's tolerance is thinner than what "
-        "the surfaces leave open under the rest, which they then carry. Boundary friction couples into the normal gap "
-        "(the flat is held back: traction -f_b p where u1 > u2) unless both bodies are elastically alike.",
+        "The averaging of the search direction printed in the source belongs to load control. Full film: the film "
+        "under F_total clears the roughness. Boundary: a film left with a tenth of the balance's tolerance is thinner "
+        "than what the surfaces leave open under the rest, which they then carry. Boundary friction couples into the "
+        "normal gap (the flat is held back: traction -f_b p where u1 > u2) unless the bodies are elastically alike.",
         "bem/friction/balance.py",
     ),
     (
