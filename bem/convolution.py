@@ -22,6 +22,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from bem.errors import InputError
 from bem.grid import Grid
+from bem.kernels import layered
 from bem.kernels.coefficients import Load, surface_coefficients
 from bem.kernels.spectral import surface_response
 from bem.materials import Body, Material
@@ -243,6 +244,17 @@ class DisplacementOperator:
     def contact_modulus(self) -> float:
         """E* [Pa] of the surface materials."""
         return 1 / sum(1 / body.surface_material.plane_strain_modulus for body in self.bodies)
+
+    def modulus_at(self, wavenumber: float) -> float:
+        """E* [Pa] that a harmonic pressure of that wavenumber [rad/m] sees: of the layers for short waves."""
+        compliance = 0.0
+        for body in self.bodies:
+            if body.layer is None:
+                compliance += 1 / body.material.plane_strain_modulus
+            else:
+                response = layered.surface_response(wavenumber, 0.0, body, tangential=False)
+                compliance += 0.5 * wavenumber * float(response)
+        return 1 / compliance
 
     @property
     def symmetric(self) -> bool:

@@ -7,13 +7,14 @@ formed anew from both. `converged` is said of that.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import passes
 from bem.contact.active_set import LevelResult
+from bem.contact.edge import Region, contact_region, plastic_region
 from bem.contact.solution import ContactSolution
 from bem.convolution import DisplacementOperator
 from bem.errors import Status
@@ -66,7 +67,7 @@ def certify(
     approach = result.approach * units.length + units.datum
     deformed = np.empty(grid.shape)
     depth = np.empty(grid.shape)
-    largest, reach, force, contact, capped, volume = passes.assemble(
+    largest, reach, force, _, _, volume = passes.assemble(
         pressure.reshape(-1),
         displacement.reshape(-1),
         request.gap.reshape(-1),
@@ -86,6 +87,7 @@ def certify(
         largest = max(largest, abs(approach - request.approach))
     elif request.load is not None:
         missed = _relative(abs(load - request.load), request.load)
+    contact, plastic = _regions(request, pressure, deformed, load)
     residual = max(_relative(largest, roughness if roughness > _FLAT * reach else reach), missed)
     return ContactSolution(
         pressure=pressure,
@@ -93,8 +95,10 @@ def certify(
         gap=deformed,
         approach=approach,
         load=load,
-        contact_area=contact * grid.cell_area,
-        plastic_area=capped * grid.cell_area,
+        contact_area=contact.area,
+        plastic_area=plastic.area,
+        counted_area=contact.counted_area,
+        contact_perimeter=contact.perimeter,
         plastic_depth=depth,
         iterations=iterations,
         convolutions=operator.count.weighted - convolutions_before,
@@ -102,6 +106,18 @@ def certify(
         status=Status.CONVERGED if residual <= request.tolerance else unmet,
         notes=_notes(grid, pressure),
     )
+
+
+def _regions(request: Request, pressure: FloatArray, deformed: FloatArray, load: float) -> tuple[Region, Region]:
+    """What touches, and what of that is at the cap."""
+    operator, grid, cap = request.operator, request.operator.grid, request.cap
+    modulus = operator.modulus_at(0.5 * math.pi / math.sqrt(grid.cell_area))
+    contact = contact_region(pressure, deformed, request.gap, grid, modulus)
+    if not (pressure >= cap).any():
+        return contact, Region(0.0, 0.0, 0.0)
+    plastic = plastic_region(pressure, deformed, request.gap, cap, grid, modulus)
+    area = max(contact.area, load / cap)  # no more than the cap on average
+    return replace(contact, area=area), replace(plastic, area=min(plastic.area, area))
 
 
 def _relative(error: float, reference: float) -> float:

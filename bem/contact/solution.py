@@ -26,7 +26,9 @@ class ContactSolution:
         minus `plastic_depth` where the pressure is at the hardness.
     approach : [m], of the datum of the undeformed gap.
     load : [N].
-    contact_area, plastic_area : [m^2], of the cells with pressure, and of those at the hardness.
+    contact_area, plastic_area : [m^2], of second order in the cell (`bem.contact.edge`), not a count of cells.
+    counted_area : [m^2], of the cells with pressure: of first order, and too large.
+    contact_perimeter : length of the contact's edge [m].
     plastic_depth : [m], overlap of the bodies where the pressure is at the hardness, zero elsewhere.
     iterations : iterations of conjugate gradients on all grids.
     convolutions : applications of the operator on all grids, each weighed by its share of the cells.
@@ -45,6 +47,8 @@ class ContactSolution:
     load: float
     contact_area: float
     plastic_area: float
+    counted_area: float
+    contact_perimeter: float
     plastic_depth: FloatArray
     iterations: int
     convolutions: float

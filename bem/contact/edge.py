@@ -1,0 +1,239 @@
+"""The edge of contact inside cells: area and perimeter of second order from a solution on cells.
+
+A count of the cells in contact is of first order: 8 % high on a rough surface at 256 cells a side. Next to an edge
+p = k sqrt(d) at a distance d inside, and gap = 4 k d^(3/2) / (3 E*) outside (k as of a crack's tip: Johnson, *Contact
+Mechanics*, section 5.1), so the pressure of the last cell inside and the gap of its neighbour outside say where the
+edge crosses the link between their centres: k drops out of q = 3 E* gap / (4 p d n), d the link's length, n the cosine
+between link and normal. What the discrete problem makes of that field is linear in the edge's place, so the place is
+(a - b q) / (c + q) of the link, a, b, c depending on n and on how the operator represents a pressure: constant on
+cells, or as waves (`spectral`). The polygon through the crossings, with what chords cut off from a curve, bounds the
+contact.
+
+The same holds with hardness less pressure in place of the pressure, and the overlap in place of the gap, where contact
+turns plastic. At a step of the undeformed gap, as round a punch, the pressure has no root to follow: the edge is then
+half-way between the centres.
+
+The constants are fitted to contacts of known edge, Hertz' (cells) and Westergaard's (waves), as the cell becomes small;
+crossings are met to 0.006 of a cell. `reports/experiments/contact_edge.py` fits them anew.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from bem.grid import FloatArray, Grid
+
+_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
+
+_CELLS = np.array(
+    [
+        [10.94914, -21.2896, 11.98124, -0.71223],
+        [1.38997, -2.21007, 0.69655, 0.26603],
+        [14.22922, -26.58799, 13.72025, -0.27714],
+    ]
+)
+_WAVES = np.array(
+    [
+        [8.82401, -16.91743, 9.3007, -0.32833],
+        [0.62578, -0.50848, -0.52784, 0.56678],
+        [10.0532, -17.62539, 7.73369, 0.87346],
+    ]
+)
+"""a, b and c as polynomials in the cosine n, highest power first; for n from 0.24 to 1."""
+
+_LEAST_COSINE = 0.24
+_BEFORE, _BEYOND = -0.3, 1.0
+"""How far from the cell inside, in links, a crossing may lie: behind the centre of a cell that barely touches."""
+
+_STEP = 5.0
+"""A parabola's steps grow by 3, 5/3, ...: on a smooth surface none is this many times both its neighbours."""
+
+_LEAST_SHARE = 0.1
+"""Of the cells' area: spots that barely touch a single cell have an area that no cell can tell."""
+
+
+@dataclass(frozen=True)
+class Region:
+    """Part of the surface: area [m^2] and perimeter [m], of second order; the area of its cells as counted [m^2]."""
+
+    area: float
+    perimeter: float
+    counted_area: float
+
+
+def contact_region(pressure: FloatArray, gap: FloatArray, undeformed: FloatArray, grid: Grid, modulus: float) -> Region:
+    """The cells in contact.
+
+    Parameters
+    ----------
+    pressure : (nx, ny) [Pa], zero outside contact. gap, undeformed : (nx, ny), deformed and undeformed gap [m].
+    modulus : E* as the length of a cell sees it [Pa].
+    """
+    return _region(pressure > 0, pressure, gap, undeformed, grid, modulus)
+
+
+def plastic_region(
+    pressure: FloatArray, gap: FloatArray, undeformed: FloatArray, hardness: float, grid: Grid, modulus: float
+) -> Region:
+    """The cells at the hardness [Pa], as in `contact_region`; there the gap is minus the overlap. Where plastic contact
+    meets no contact at all, the edge lies half-way between centres."""
+    elastic = pressure < hardness
+    # seen from the elastic part of the contact, contact turns plastic as it opens: with the signs turned
+    strength = np.where(pressure > 0, hardness - pressure, 0.0)
+    rest = _region(elastic, strength, -gap, undeformed, grid, modulus)
+    return Region(grid.area - rest.area, rest.perimeter, grid.area - rest.counted_area)
+
+
+def _region(
+    inside: NDArray[np.bool_],
+    strength: FloatArray,
+    opening: FloatArray,
+    undeformed: FloatArray,
+    grid: Grid,
+    modulus: float,
+) -> Region:
+    constants = _WAVES if all(grid.periodic) else _CELLS
+    count = int(inside.sum())
+    excess, length, squares, turns = _sum_squares(
+        inside, strength, opening, undeformed, *grid.spacing, *grid.periodic, 0.75 * modulus, constants
+    )
+    # chords cut off curvature x chord^3 / 12; the curvature of all edges adds up to 2 pi a piece, less that of holes
+    segments = 2 * math.pi * turns * (squares / length) / 12 if length > 0 else 0.0
+    area = count * grid.cell_area + excess + segments
+    return Region(min(max(area, _LEAST_SHARE * count * grid.cell_area), grid.area), length, count * grid.cell_area)
+
+
+@_strict
+def _sum_squares(  # type: ignore[no-untyped-def]
+    inside, strength, opening, shape, dx, dy, wraps_x, wraps_y, factor, constants
+):
+    """Over the squares between four centres: area within the polygons beyond a quarter of a cell for each centre inside
+    [m^2], length of the edge [m], sum of chord^3 [m^3], Euler's number of the region.
+
+    strength : vanishes like the root of the distance to the edge inside; opening : grows with its power 3/2 outside.
+    shape : the undeformed gap.
+    """
+    nx, ny = inside.shape
+    blurred = _blur(inside, wraps_x, wraps_y)
+    fields = (inside, strength, opening, shape, blurred)
+    area, length, cubes, corners = 0.0, 0.0, 0.0, 0
+    for i in range(nx if wraps_x else nx - 1):
+        k = (i + 1) % nx
+        for j in range(ny if wraps_y else ny - 1):
+            m = (j + 1) % ny
+            a, b, c, d = inside[i, j], inside[k, j], inside[k, m], inside[i, m]
+            number = int(a) + int(b) + int(c) + int(d)
+            if number == 0 or number == 4:
+                continue
+            # where the edge crosses the four sides, from their lower end; 0.5 where it does not
+            low = _cut(fields, i, j, 0, dx, dy, wraps_x, wraps_y, factor, constants)
+            high = _cut(fields, i, m, 0, dx, dy, wraps_x, wraps_y, factor, constants)
+            left = _cut(fields, i, j, 1, dx, dy, wraps_x, wraps_y, factor, constants)
+            right = _cut(fields, k, j, 1, dx, dy, wraps_x, wraps_y, factor, constants)
+            # (u, v): from crossing to crossing, with the region on the left
+            if number == 2 and a == c:
+                # a saddle: the mean of both centres joined and parted
+                first = 0.5 * (low * left + (1 - high) * (1 - right))
+                second = 0.5 * ((1 - low) * right + high * (1 - left))
+                share = 0.5 * (first + 1 - second) if a else 0.5 * (second + 1 - first)
+                u, v = 0.0, 0.0
+            elif number == 2:
+                if a == b:
+                    share, u, v = 0.5 * (left + right), -1.0, left - right
+                else:
+                    share, u, v = 0.5 * (low + high), high - low, 1.0
+                if not a:
+                    share, u, v = 1 - share, -u, -v
+            else:
+                one = number == 1
+                if a == one and b != one and c != one and d != one:
+                    share, u, v = 0.5 * low * left, -low, left
+                elif b == one and a != one and c != one and d != one:
+                    share, u, v = 0.5 * (1 - low) * right, low - 1, -right
+                elif c == one and a != one and b != one and d != one:
+                    share, u, v = 0.5 * (1 - high) * (1 - right), 1 - high, right - 1
+                else:
+                    share, u, v = 0.5 * high * (1 - left), high, 1 - left
+                if not one:
+                    share, u, v = 1 - share, -u, -v
+                corners += 1 if one else -1
+            # along the smoothed edge: where it runs at 45 degrees crossings change places and a chord runs back
+            lower, upper = float(blurred[i, j]), float(blurred[k, m])
+            ahead, aside = float(blurred[k, j]), float(blurred[i, m])
+            along, across = (upper + ahead - lower - aside) / dx, (upper + aside - lower - ahead) / dy
+            norm = np.hypot(along, across)
+            u, v = u * dx, v * dy
+            chord = (u * across - v * along) / norm if norm > 0 else np.hypot(u, v)
+            area += (share - 0.25 * number) * dx * dy
+            length += chord
+            cubes += abs(chord) ** 3
+    return area, length, cubes, 0.25 * corners
+
+
+@_strict
+def _cut(fields, i, j, axis, dx, dy, wraps_x, wraps_y, factor, constants):  # type: ignore[no-untyped-def]
+    """Where the edge crosses the link from (i, j) along `axis`, as a fraction of it; 0.5 where it does not."""
+    inside, strength, opening, shape, blurred = fields
+    k, m = _step(inside, i, j, axis, 1, wraps_x, wraps_y)
+    first = inside[i, j]
+    if first == inside[k, m]:
+        return 0.5
+    held = strength[i, j] if first else strength[k, m]
+    before, behind = _step(inside, i, j, axis, -1, wraps_x, wraps_y), _step(inside, i, j, axis, 2, wraps_x, wraps_y)
+    jump = abs(shape[k, m] - shape[i, j])
+    beside = max(abs(shape[i, j] - shape[before]), abs(shape[behind] - shape[k, m]))
+    if held <= 0.0 or jump > _STEP * beside:
+        return 0.5
+    opened = opening[k, m] if first else opening[i, j]
+    step, side = (dx, dy) if axis == 0 else (dy, dx)
+    along = (float(blurred[behind]) + blurred[k, m] - blurred[i, j] - blurred[before]) / step
+    across = 0.0
+    for u, v in ((i, j), (k, m)):
+        across += float(blurred[_step(inside, u, v, 1 - axis, 1, wraps_x, wraps_y)])
+        across -= float(blurred[_step(inside, u, v, 1 - axis, -1, wraps_x, wraps_y)])
+    across /= side
+    norm = np.hypot(along, across)
+    cosine = max(abs(along) / norm, _LEAST_COSINE) if norm > 0 else 1.0
+    ratio = factor * max(opened, 0.0) / (held * step * cosine)
+    a = ((constants[0, 0] * cosine + constants[0, 1]) * cosine + constants[0, 2]) * cosine + constants[0, 3]
+    b = ((constants[1, 0] * cosine + constants[1, 1]) * cosine + constants[1, 2]) * cosine + constants[1, 3]
+    c = ((constants[2, 0] * cosine + constants[2, 1]) * cosine + constants[2, 2]) * cosine + constants[2, 3]
+    crossing = min(max((a - b * ratio) / (c + ratio), _BEFORE), _BEYOND)
+    return crossing if first else 1 - crossing
+
+
+@_strict
+def _blur(inside, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
+    """256 times the indicator, blurred twice by 1 2 1 along each axis; beyond a free edge that of the last cell."""
+    nx, ny = inside.shape
+    blurred = np.empty((nx, ny), np.uint16)
+    rows = np.empty((nx, ny), np.uint8)
+    for i in range(nx):
+        a, b = _place(i - 2, nx, wraps_x), _place(i - 1, nx, wraps_x)
+        c, d = _place(i + 1, nx, wraps_x), _place(i + 2, nx, wraps_x)
+        for j in range(ny):
+            rows[i, j] = inside[a, j] + 4 * inside[b, j] + 6 * inside[i, j] + 4 * inside[c, j] + inside[d, j]
+    for j in range(ny):
+        a, b = _place(j - 2, ny, wraps_y), _place(j - 1, ny, wraps_y)
+        c, d = _place(j + 1, ny, wraps_y), _place(j + 2, ny, wraps_y)
+        for i in range(nx):
+            blurred[i, j] = rows[i, a] + 4 * rows[i, b] + 6 * rows[i, j] + 4 * rows[i, c] + rows[i, d]
+    return blurred
+
+
+@_strict
+def _step(field, i, j, axis, ahead, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
+    """The cell at an offset along `axis`; beyond a free edge the last one."""
+    nx, ny = field.shape
+    return (_place(i + ahead, nx, wraps_x), j) if axis == 0 else (i, _place(j + ahead, ny, wraps_y))
+
+
+@_strict
+def _place(i, n, wraps):  # type: ignore[no-untyped-def]
+    return i % n if wraps else min(max(i, 0), n - 1)

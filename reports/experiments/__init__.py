@@ -1,0 +1,1 @@
+"""Experiments that a remark or a constant rests on: each a script that prints what it found."""

@@ -1,0 +1,146 @@
+"""Area and perimeter of contact against closed forms and finer grids: order and constant."""
+
+import numpy as np
+import pytest
+
+from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
+from bem.reference_solutions.hertz import sphere_contact
+from tests.contact.test_contact_closed_forms import order
+
+UNIT = Material("unit", youngs_modulus=1.0, poissons_ratio=0.0)
+
+
+def ball(radius_in_cells, seed, stretch=1):
+    """A Hertz ball whose contact is so many cells in radius, off the grid's centre by a random part of a cell."""
+    shift = np.random.default_rng(seed).uniform(-0.5, 0.5, 2)
+    cells = max(16, int(3 * radius_in_cells))
+    grid = Grid((cells, cells // stretch), (1.0, float(stretch)))
+    reference = sphere_contact(
+        radius=1e3 * radius_in_cells, contact_modulus=1.0, load=4 / 3 * 1e-3 * radius_in_cells**2
+    )
+    gap = reference.undeformed_gap(grid.x[:, None] - shift[0], grid.y[None, :] - stretch * shift[1])
+    return solve_contact(gap, displacement_operator(grid, Body(UNIT)), load=reference.load), reference
+
+
+def waves(cells, seed, cutoff=24, slope=0.1):
+    """The same self-affine waves on any grid of unit length."""
+    rng, side = np.random.default_rng(seed), np.arange(-cutoff, cutoff + 1)
+    amplitude = rng.normal(size=(side.size, side.size)) + 1j * rng.normal(size=(side.size, side.size))
+    wavenumber = np.hypot(side[:, None], side[None])
+    inside = (wavenumber >= 1) & (wavenumber <= cutoff)
+    amplitude *= np.where(inside, np.maximum(wavenumber, 4) ** -1.8, 0.0)
+    spectrum = np.zeros((cells, cells), complex)
+    spectrum[np.ix_(side % cells, side % cells)] = amplitude
+    scale = slope / (2 * np.pi * np.sqrt(0.5 * np.sum((np.abs(amplitude) * wavenumber) ** 2)))
+    return np.fft.ifft2(spectrum).real * cells**2 * scale
+
+
+def test_hertz_area_is_of_second_order_where_a_count_is_of_first():
+    radii, errors, counts, perimeters = (4, 8, 16, 32), [], [], []
+    for radius in radii:
+        solved = [ball(radius, seed) for seed in range(6 if radius < 20 else 2)]
+        errors.append(np.sqrt(np.mean([(s.contact_area / r.contact_area - 1) ** 2 for s, r in solved])))
+        counts.append(np.mean([s.counted_area / r.contact_area - 1 for s, r in solved]))
+        perimeters.append(np.mean([s.contact_perimeter / (2 * np.pi * r.semi_axes[0]) - 1 for s, r in solved]))
+    assert counts[-1] > 0.005  # a row of cells along the edge
+    # measured 0.42, 0.11, 0.05 and 0.02 %: what is left at last is 0.006 of a cell in the fitted constants
+    assert errors[0] < 6e-3
+    assert errors[-1] < 3e-4
+    assert order(radii, errors) > 1.3
+    assert abs(perimeters[-1]) < 6e-3
+
+
+@pytest.mark.parametrize("radius", [1.0, 1.5, 2.0])
+def test_spots_of_one_to_a_dozen_cells(radius):
+    solved = [ball(radius, seed) for seed in range(12)]
+    errors = [s.contact_area / r.contact_area - 1 for s, r in solved]
+    counts = [s.counted_area / r.contact_area - 1 for s, r in solved]
+    # measured -3, -2 and 0 % on average, 5, 3 and 2 % from place to place; a count is 33, 23 and 15 % high
+    assert abs(np.mean(errors)) < 0.05
+    assert np.std(errors) < 0.08
+    assert np.mean(counts) > 0.1
+
+
+@pytest.mark.parametrize(("stretch", "tolerance"), [(2, 1e-3), (4, 1e-2)])
+def test_oblong_cells(stretch, tolerance):
+    errors = [s.contact_area / r.contact_area - 1 for s, r in (ball(24, seed, stretch) for seed in range(4))]
+    assert abs(np.mean(errors)) < tolerance
+
+
+@pytest.mark.parametrize("direction", [(1, 0), (0, 1), (2, 1), (3, 2), (1, 1), (1, 4)])
+def test_straight_edges_in_any_direction_on_a_periodic_grid(direction):
+    m, n = direction
+    grid = Grid((128, 128), (1 / 128, 1 / 128), periodic=(True, True))
+    operator = displacement_operator(grid, Body(UNIT))
+    wavelength, amplitude = 1 / np.hypot(m, n), 0.01 / np.hypot(m, n)
+    errors = []
+    for seed in range(4):
+        rng = np.random.default_rng(seed)
+        fraction, phase = rng.uniform(0.3, 0.6), rng.uniform()
+        gap = amplitude * (1 - np.cos(2 * np.pi * (m * grid.x[:, None] + n * grid.y[None, :] + phase)))
+        # Westergaard (1939): mean pressure pi E* amplitude / wavelength sin^2(pi half-width / wavelength)
+        load = np.pi * amplitude / wavelength * np.sin(0.5 * np.pi * fraction) ** 2
+        solution = solve_contact(gap, operator, load=load)
+        errors.append((solution.contact_area - fraction) * 128 / (2 / wavelength))  # place of the edge, in cells
+        assert solution.contact_perimeter == pytest.approx(2 / wavelength, rel=0.02)
+    assert np.abs(errors).max() < 0.06  # half a cell is what a count leaves
+
+
+@pytest.mark.parametrize("mean_pressure", [0.002, 0.008, 0.02])
+@pytest.mark.parametrize("hardness", [None, 0.06])
+def test_rough_contact_converges_with_order_two(mean_pressure, hardness):
+    fine = waves(512, 5)
+    areas, counts, plastic = [], [], []
+    for cells in (128, 256, 512):
+        step = 512 // cells
+        grid = Grid((cells, cells), (1 / cells, 1 / cells), periodic=(True, True))
+        solution = solve_contact(
+            -fine[::step, ::step], displacement_operator(grid, Body(UNIT)), load=mean_pressure, hardness=hardness
+        )
+        areas.append(solution.contact_area)
+        counts.append(solution.counted_area)
+        plastic.append(solution.plastic_area)
+    reference = areas[2] + (areas[2] - areas[1]) / 3
+    errors = np.abs(np.array(areas) / reference - 1)
+    assert counts[0] / reference - 1 > 0.04  # what a count gives
+    # five cells to the shortest wave, and ten
+    assert errors[0] < 0.012
+    assert errors[1] < 0.004
+    if hardness is not None:
+        last = plastic[2] + (plastic[2] - plastic[1]) / 3
+        assert abs(plastic[1] / last - 1) < 0.05
+        assert solution.contact_area >= solution.load / hardness * (1 - 1e-12)
+
+
+def test_a_layer_thinner_and_thicker_than_a_cell():
+    soft = Material("soft", youngs_modulus=0.3, poissons_ratio=0.3)
+    for thickness in (0.003, 0.03):
+        areas, counts = [], []
+        for cells in (64, 128, 256):
+            grid = Grid((cells, cells), (1 / cells, 1 / cells))
+            gap = (grid.x[:, None] ** 2 + grid.y[None, :] ** 2) / 2
+            body = Body(UNIT, layer=Layer(soft, thickness))
+            solution = solve_contact(gap, displacement_operator(grid, body), load=0.02)
+            areas.append(solution.contact_area)
+            counts.append(solution.counted_area)
+        # a layer of a fifth of the coarsest cell follows another law within it: measured 0.6 % there, 0.1 % else
+        assert abs(areas[0] / areas[2] - 1) < 1e-2
+        assert abs(areas[1] / areas[2] - 1) < 2e-3
+        assert counts[0] / areas[2] - 1 > 0.01
+
+
+def test_a_punch_ends_between_cells():
+    grid = Grid((48, 48), (1.0, 1.0))
+    inside = (np.abs(grid.x[:, None]) < 10) & (np.abs(grid.y[None, :]) < 6)
+    solution = solve_contact(np.where(inside, 0.0, 100.0), displacement_operator(grid, Body(UNIT)), load=1.0)
+    assert solution.contact_area == pytest.approx(20 * 12, rel=1e-2)
+    assert solution.counted_area == 20 * 12
+
+
+def test_everywhere_and_nowhere():
+    grid = Grid((8, 8), (1.0, 1.0), periodic=(True, True))
+    operator = displacement_operator(grid, Body(UNIT))
+    full = solve_contact(np.zeros((8, 8)), operator, load=1.0)
+    assert (full.contact_area, full.contact_perimeter) == (64.0, 0.0)
+    none = solve_contact(np.zeros((8, 8)), operator, load=0.0)
+    assert (none.contact_area, none.contact_perimeter) == (0.0, 0.0)
