@@ -14,7 +14,7 @@ turns plastic. At a step of the undeformed gap, as round a punch, the pressure h
 half-way between the centres.
 
 The constants are fitted to contacts of known edge, Hertz' (cells) and Westergaard's (waves), as the cell becomes small;
-crossings are met to 0.006 of a cell. `reports/experiments/contact_edge.py` fits them anew.
+crossings are met to 0.007 of a cell. `reports/experiments/contact_edge.py` fits them anew.
 """
 
 from __future__ import annotations
@@ -40,9 +40,9 @@ _CELLS = np.array(
 )
 _WAVES = np.array(
     [
-        [8.82401, -16.91743, 9.3007, -0.32833],
-        [0.62578, -0.50848, -0.52784, 0.56678],
-        [10.0532, -17.62539, 7.73369, 0.87346],
+        [8.30757, -15.89243, 8.63777, -0.18753],
+        [0.16653, 0.41132, -1.11791, 0.68662],
+        [9.27729, -15.83725, 6.33764, 1.24422],
     ]
 )
 """a, b and c as polynomials in the cosine n, highest power first; for n from 0.24 to 1."""

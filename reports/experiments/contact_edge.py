@@ -16,7 +16,23 @@ from scipy.optimize import least_squares
 from bem import Body, ContactSolution, Grid, Material, displacement_operator, solve_contact
 
 UNIT = Material("unit", youngs_modulus=1.0, poissons_ratio=0.0)
-DIRECTIONS = ((1, 0), (2, 1), (3, 1), (3, 2), (1, 1), (4, 1), (4, 3), (5, 1), (5, 2), (5, 3), (5, 4), (6, 1), (6, 5))
+DIRECTIONS = (
+    (1, 0),
+    (2, 1),
+    (3, 1),
+    (3, 2),
+    (1, 1),
+    (4, 1),
+    (4, 3),
+    (5, 1),
+    (5, 2),
+    (5, 3),
+    (5, 4),
+    (6, 1),
+    (6, 5),
+    (7, 2),
+    (7, 4),
+)
 LEAST = 0.2
 TERMS = 4
 
