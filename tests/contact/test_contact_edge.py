@@ -115,18 +115,16 @@ def test_rough_contact_converges_with_order_two(mean_pressure, hardness):
 def test_a_layer_thinner_and_thicker_than_a_cell():
     soft = Material("soft", youngs_modulus=0.3, poissons_ratio=0.3)
     for thickness in (0.003, 0.03):
-        areas, counts = [], []
+        areas = []
         for cells in (64, 128, 256):
             grid = Grid((cells, cells), (1 / cells, 1 / cells))
             gap = (grid.x[:, None] ** 2 + grid.y[None, :] ** 2) / 2
             body = Body(UNIT, layer=Layer(soft, thickness))
             solution = solve_contact(gap, displacement_operator(grid, body), load=0.02)
             areas.append(solution.contact_area)
-            counts.append(solution.counted_area)
         # a layer of a fifth of the coarsest cell follows another law within it: measured 0.6 and 0.2 %
         assert abs(areas[0] / areas[2] - 1) < 1e-2
         assert abs(areas[1] / areas[2] - 1) < 4e-3
-        assert counts[0] / areas[2] - 1 > 0.01
 
 
 def test_a_punch_ends_between_cells():
