@@ -6,7 +6,6 @@ Everything public is importable from here and loaded only when first used.
 from __future__ import annotations
 
 import importlib
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 _HOMES = {
@@ -41,6 +40,8 @@ __all__ = sorted([*_HOME_OF, "__version__"])
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
+        from importlib.metadata import PackageNotFoundError, version
+
         try:
             return version("bem")
         except PackageNotFoundError:  # run from a source tree that was never installed

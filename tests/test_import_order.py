@@ -8,7 +8,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1] / "bem"
 
 ORDER = [
-    {"errors", "representation"},
+    {"errors", "representation", "small_files"},
     {"grid", "materials", "threads", "fftw"},
     {"kernels", "reference_solutions"},
     {"transforms"},

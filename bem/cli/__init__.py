@@ -5,20 +5,22 @@ A new command is a new file with `def register(app: typer.Typer) -> None`. `ORDE
 
 from __future__ import annotations
 
-import importlib
+import io
 import os
-import pkgutil
 import signal
 import sys
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from bem.errors import BemError
+
+if TYPE_CHECKING:
+    import typer
 
 # Small dense systems only: threads of the linear algebra spin without gain, and bits may depend on their number.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 _INTERRUPTED = 130
+_MOST_LINES = 50
 
 ORDER = (
     "run",
@@ -40,6 +42,11 @@ ORDER = (
 
 def build() -> typer.Typer:
     """The application with all commands."""
+    import importlib
+    import pkgutil
+
+    import typer
+
     app = typer.Typer(
         name="bem",
         help="Friction, wear particles, running-in and tribofilms of rough lubricated contacts.",
@@ -66,13 +73,23 @@ def build() -> typer.Typer:
 
 
 def main() -> None:
-    """Entry point: runs the command; errors made on purpose become one message per line and their exit code."""
+    """Entry point: runs the command; errors made on purpose become one message per line and their exit code.
+
+    Nothing that takes time is imported before the `try`: an interrupt is one from the first moment.
+    """
     try:
         signal.signal(signal.SIGTERM, _interrupt)
+        sys.unraisablehook = _unraisable
+        for stream in (sys.stdout, sys.stderr):  # a name or a unit that the terminal cannot spell is no reason to stop
+            if isinstance(stream, io.TextIOWrapper):
+                stream.reconfigure(errors="backslashreplace")
         build()(standalone_mode=True)
     except BemError as error:
-        for line in getattr(error, "messages", None) or str(error).splitlines():
+        lines = getattr(error, "messages", None) or str(error).splitlines()
+        for line in lines[:_MOST_LINES]:
             print(f"bem: {line}", file=sys.stderr)
+        if len(lines) > _MOST_LINES:
+            print(f"bem: and {len(lines) - _MOST_LINES} more", file=sys.stderr)
         sys.exit(error.exit_code)
     except KeyboardInterrupt:
         print("bem: interrupted", file=sys.stderr)
@@ -99,3 +116,13 @@ def _leave_interrupted() -> None:
 
 def _interrupt(*_: object) -> None:
     raise KeyboardInterrupt
+
+
+def _unraisable(lost: Any) -> None:
+    """An interrupt that fell into a destructor or a callback, where Python only prints it, is repeated a moment later:
+    at once it could fall into this very function."""
+    if isinstance(lost.exc_value, KeyboardInterrupt):
+        signal.signal(signal.SIGALRM, _interrupt)
+        signal.setitimer(signal.ITIMER_REAL, 0.01)
+    else:
+        sys.__unraisablehook__(lost)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
@@ -16,11 +17,13 @@ from pydantic import BaseModel
 from bem.errors import InputError
 from bem.scenes.common import SceneModel
 from bem.scenes.kinds import get_kind, kind_names
-from bem.scenes.paths import Key, parse_key, put, values_in_file
+from bem.scenes.paths import MOST_PARTS, Key, parse_key, put, values_in_file
 from bem.scenes.units import Dimension
-from bem.scenes.validate import is_pair, nearest, show, validate
+from bem.scenes.validate import capped, is_pair, nearest, show, validate
+from bem.small_files import read_small
 
-_LARGEST_FILE = 1_000_000
+_DEEPEST = 20
+_LONG_KEY = re.compile(rf"(?<![\w\"'-])[\w\"'-]++(?:[ \t]*\.[ \t]*[\w\"'-]++){{{MOST_PARTS}}}", re.ASCII)
 
 
 def load_scene(source: str | os.PathLike[str] | Mapping[str, Any], settings: Sequence[str] = ()) -> SceneModel:
@@ -53,6 +56,11 @@ def scene_from_table(data: Any, folder: Path | None = None) -> SceneModel:
         raise InputError(f"kind: missing; allowed: {listed}")
     if kind not in names:
         raise InputError(f"kind = {show(kind)}: not allowed{nearest(str(kind), names)}; allowed: {listed}")
+    not_text = [
+        f"{key} = {show(value)}: holds bytes that are no text; allowed: text in UTF-8" for key, value in _not_text(data)
+    ]
+    if not_text:
+        raise InputError(capped(not_text))
     return validate(_absolute(data, (folder or Path.cwd()).resolve()), get_kind(kind).model)
 
 
@@ -93,6 +101,8 @@ def _read_named(source: str) -> tuple[dict[str, Any], Path]:
             path = path / "scene.toml"
         if path.is_file():
             return _read_file(path), path.parent
+    except InputError:
+        raise
     except (OSError, ValueError) as error:
         raise InputError(f"scene {show(source)}: cannot be read ({error}); allowed: a readable TOML file") from None
     scenes = library()
@@ -106,12 +116,9 @@ def _read_named(source: str) -> tuple[dict[str, Any], Path]:
 
 
 def _read_file(path: Path) -> dict[str, Any]:
-    with open(path, "rb") as file:
-        raw = file.read(_LARGEST_FILE + 1)
-    if len(raw) > _LARGEST_FILE:
-        raise InputError(f"scene {show(str(path))}: larger than {_LARGEST_FILE} bytes; allowed: a TOML scene file")
+    raw = read_small(path)
     try:
-        data = tomllib.loads(raw.decode("utf-8"))
+        data = _from_toml(raw.decode("utf-8"))
     except (ValueError, RecursionError) as error:  # both TOML and UTF-8 errors are ValueErrors
         reason = "nested too deeply" if isinstance(error, RecursionError) else str(error)
         raise InputError(f"scene {show(str(path))}: not valid TOML ({reason}); allowed: a TOML scene file") from None
@@ -139,11 +146,18 @@ def _set(data: dict[str, Any], setting: str) -> None:
     put(data, key, found, pair=_is_pair(data, key))
 
 
+def _from_toml(text: str) -> dict[str, Any]:
+    """As `tomllib.loads`, which takes minutes over a key of very many parts; ValueError for that too."""
+    if _LONG_KEY.search(text):
+        raise ValueError(f"a key of more than {MOST_PARTS} parts")
+    return tomllib.loads(text)
+
+
 def _plain(text: str) -> Any:
     """A value as in TOML; what is none is a plain word or a quantity without quotes."""
     value = text.strip()
     with suppress(ValueError, RecursionError):
-        return tomllib.loads(f"value = {value}")["value"] if "\n" not in value else value
+        return _from_toml(f"value = {value}")["value"] if "\n" not in value else value
     return value
 
 
@@ -156,7 +170,7 @@ def _is_pair(data: Mapping[str, Any], key: Key) -> bool:
 
 def _absolute(value: Any, folder: Path, depth: int = 0) -> Any:
     """A copy of a table with every `path` made absolute."""
-    if depth > 20:
+    if depth > _DEEPEST:
         raise InputError("scene: tables are nested too deeply; allowed: the few levels that scenes have")
     if isinstance(value, Mapping):
         copy = {}
@@ -169,6 +183,24 @@ def _absolute(value: Any, folder: Path, depth: int = 0) -> Any:
     if isinstance(value, list):
         return [_absolute(item, folder, depth + 1) for item in value]
     return value
+
+
+def _not_text(value: Any, key: str = "", depth: int = 0) -> Iterable[tuple[str, Any]]:
+    """Keys and texts that UTF-8 cannot hold, such as what a shell made of a byte that is no character."""
+    if isinstance(value, Mapping) and depth <= _DEEPEST:
+        for name, item in value.items():
+            if not _is_text(name):
+                yield key or "scene", name
+            yield from _not_text(item, f"{key}.{name}" if key else str(name), depth + 1)
+    elif isinstance(value, list | tuple) and depth <= _DEEPEST:
+        for index, item in enumerate(value):
+            yield from _not_text(item, f"{key}[{index}]", depth + 1)
+    elif isinstance(value, str) and not _is_text(value):
+        yield key, value
+
+
+def _is_text(text: Any) -> bool:
+    return not isinstance(text, str) or text.isascii() or not any("\ud800" <= c <= "\udfff" for c in text)
 
 
 def dump_scene(scene: SceneModel) -> str:

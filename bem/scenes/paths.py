@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from bem.errors import InputError
+from bem.small_files import read_small
 
 Key = tuple[str | int, ...]
 
-_LARGEST_FILE = 1_000_000
+MOST_PARTS = 40
+"""A key of more parts is none of a scene; reading it takes the square of their number."""
+
 _INDEXED = re.compile(r"([^\[\]]*)((?:\[[0-9]{1,6}\])*)")
 
 
 def parse_key(text: str) -> Key | None:
     """Parts of a dotted key, indices as numbers; None where it is not one."""
+    if text.count(".") + text.count("[") >= MOST_PARTS:
+        return None
     parts: list[str | int] = []
     for piece in text.split("."):
         match = _INDEXED.fullmatch(piece.strip())
@@ -122,11 +126,7 @@ def values_in_file(name: str, option: str) -> tuple[str, ...]:
     InputError : the file cannot be read or holds no values.
     """
     try:
-        with open(Path(name), "rb") as file:
-            raw = file.read(_LARGEST_FILE + 1)
-        if len(raw) > _LARGEST_FILE:
-            raise ValueError(f"larger than {_LARGEST_FILE} bytes")
-        lines = [line.strip() for line in raw.decode("utf-8").splitlines()]
+        lines = [line.strip() for line in read_small(name).decode("utf-8").splitlines()]
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
         raise InputError(f"{option}: {name} cannot be read ({why}); allowed: a text file, one value a line") from None

@@ -15,6 +15,7 @@ from bem.errors import InputError
 from bem.scenes.units import Dimension
 
 _BARE = re.compile(r"[A-Za-z0-9_-]{1,64}")
+MOST_MESSAGES = 20
 Model = TypeVar("Model", bound=BaseModel)
 
 
@@ -28,10 +29,18 @@ def validate(data: Any, model: type[Model]) -> Model:
     try:
         return model.model_validate(data)
     except ValidationError as error:
-        found = [_message(mistake, data, model) for mistake in error.errors(include_url=False)]
+        mistakes = error.errors(include_url=False)
     except RecursionError:
-        found = ["scene: tables are nested too deeply; allowed: the few levels that scenes have"]
-    raise InputError(list(dict.fromkeys(found)))
+        raise InputError("scene: tables are nested too deeply; allowed: the few levels that scenes have") from None
+    found = [_message(mistake, data, model) for mistake in mistakes[:MOST_MESSAGES]]
+    more = len(mistakes) - len(found)
+    raise InputError([*dict.fromkeys(found), *([f"and {more} more mistakes"] if more else [])])
+
+
+def capped(messages: Sequence[str]) -> list[str]:
+    """The first messages, and how many more there are."""
+    more = len(messages) - MOST_MESSAGES
+    return [*messages[:MOST_MESSAGES], *([f"and {more} more mistakes"] if more > 0 else [])]
 
 
 def nearest(word: str, names: Iterable[str]) -> str:

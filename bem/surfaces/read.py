@@ -15,7 +15,7 @@ import warnings
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 
@@ -30,6 +30,9 @@ METRES = {
 }  # fmt: skip
 MOST_POINTS = 2**28
 """Largest map that is read; a damaged header may claim anything."""
+
+_MOST_NOTES = 10_000_000
+"""Bytes of anything in an archive that is not the heights."""
 
 _TEXT = (".txt", ".csv", ".dat")
 
@@ -139,6 +142,8 @@ def _check_file(file: Path) -> None:
             raise SurfaceFileError(f"{file}: is a folder, not a surface file")
         if not file.exists():
             raise SurfaceFileError(f"{file}: there is no such file")
+        if not file.is_file():
+            raise SurfaceFileError(f"{file}: is not a regular file")
         if file.stat().st_size == 0:
             raise SurfaceFileError(f"{file}: the file is empty")
         with file.open("rb"):
@@ -187,6 +192,9 @@ def _read_npz(file: Path) -> tuple[FloatArray, tuple[float, float] | None, dict[
         with file.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
             if "heights" not in archive:
                 raise SurfaceFileError(f"{file}: has no array 'heights' but {', '.join(archive.files) or 'nothing'}")
+            for name in archive.files:  # what a few megabytes claim to be may fill the memory: ask before unpacking
+                with archive.zip.open(f"{name}.npy") as packed:
+                    _check_header(file, name, packed)
             heights = _as_floats(file, archive["heights"])
             cell = np.asarray(archive["spacing"], dtype=np.float64).ravel() if "spacing" in archive else None
             notes = json.loads(str(archive["metadata"])) if "metadata" in archive else {}
@@ -205,11 +213,26 @@ def _read_npz(file: Path) -> tuple[FloatArray, tuple[float, float] | None, dict[
 def _read_npy(file: Path) -> FloatArray:
     try:
         with file.open("rb") as stream:
+            _check_header(file, "heights", stream, os.fstat(stream.fileno()).st_size)
+            stream.seek(0)
             return _as_floats(file, np.load(stream, allow_pickle=False))
     except SurfaceFileError:
         raise
     except Exception as problem:
         raise _unreadable(file, problem) from problem
+
+
+def _check_header(file: Path, name: str, stream: IO[bytes], size: int | None = None) -> None:
+    """Refuse an array by its header, before any of it is read: not a map, too large, or more than `size` bytes hold."""
+    version = np.lib.format.read_magic(stream)
+    read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+    shape, _, kind = read(stream)
+    if name == "heights":
+        _check_map(file, kind, shape)
+    elif math.prod(shape) * kind.itemsize > _MOST_NOTES:
+        raise SurfaceFileError(f"{file}: its array {name!r} of shape {shape} is larger than {_MOST_NOTES} bytes")
+    if size is not None and math.prod(shape) * kind.itemsize > size:
+        raise SurfaceFileError(f"{file}: claims {shape} points, more than it holds; the file is truncated or damaged")
 
 
 def _read_table(file: Path) -> FloatArray:
@@ -226,9 +249,15 @@ def _read_table(file: Path) -> FloatArray:
 
 
 def _as_floats(file: Path, array: np.ndarray) -> FloatArray:
-    if array.dtype.kind not in "fiu" or array.size > MOST_POINTS:
-        raise SurfaceFileError(f"{file}: holds {array.dtype} of shape {array.shape}, not a map of heights")
+    _check_map(file, array.dtype, array.shape)
     return array.astype(np.float64)
+
+
+def _check_map(file: Path, kind: np.dtype[Any], shape: tuple[int, ...]) -> None:
+    if kind.kind not in "fiu" or math.prod(shape) > MOST_POINTS:
+        raise SurfaceFileError(
+            f"{file}: holds {kind} of shape {shape}, not a map of heights of at most {MOST_POINTS} points"
+        )
 
 
 def _is_text(file: Path) -> bool:

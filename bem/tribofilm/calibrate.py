@@ -24,6 +24,7 @@ from scipy.optimize import least_squares
 
 from bem.errors import InputError
 from bem.grid import FloatArray
+from bem.small_files import read_small
 from bem.tribofilm.evolution import GrowthRate, evolve_film
 from bem.tribofilm.properties import FadingSubstrate
 
@@ -268,8 +269,8 @@ def read_measurements(path: str | Path) -> list[Measurement]:
     InputError : a file that cannot be read, unknown columns or units, cells that are not numbers; one message each.
     """
     try:
-        text = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
+        text = read_small(path).decode("utf-8")
+    except (OSError, ValueError) as error:
         raise InputError(f"{path}: cannot be read ({error})") from None
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if len(lines) < 2:

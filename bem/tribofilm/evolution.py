@@ -28,6 +28,12 @@ GrowthRate = Callable[[float], float]
 _ATOM = 2e-10
 """Height of an atom [m]: thinner films need no relative accuracy."""
 
+MOST_LAGS = 5000
+"""Lags within the time: each is integrated by itself, some tens of evaluations."""
+
+_MOST_EVALUATIONS = 200_000
+"""Of the rates. An ordinary film takes some hundreds, each of its lags some tens."""
+
 _SHORT = 1e-3
 """Wear may take what is there within this part of the lag, never more: it keeps a delayed film from going negative."""
 
@@ -74,7 +80,8 @@ def evolve_film(
 
     Raises
     ------
-    InputError : times that do not increase, negative constants. ConvergenceError : the integrator gave up.
+    InputError : times that do not increase, negative constants, a lag that fits too often into the time.
+    ConvergenceError : the integrator gave up, or took more evaluations than any film should.
     """
     when = np.asarray(times, dtype=np.float64)
     messages = []
@@ -83,6 +90,8 @@ def evolve_film(
     for key, value in (("wear_coefficient", wear_coefficient), ("lag", lag), ("initial_thickness", initial_thickness)):
         if not (math.isfinite(value) and value >= 0):
             messages.append(f"{key} {value!r} must be >= 0 and finite")
+    if not messages and 0 < lag * MOST_LAGS < when[-1] - when[0]:
+        messages.append(f"lag {lag!r} must be 0 or at least {1 / MOST_LAGS:g} of the time, {when[-1] - when[0]:g} s")
     if not concentration_constant > 0:
         messages.append(f"concentration_constant {concentration_constant!r} must be positive [1/m]")
     if not 0 < tolerance < 1:
@@ -97,13 +106,22 @@ def evolve_film(
     evaluations = 0
 
     def rates(t: float, y: FloatArray) -> FloatArray:
-        thickness = max(initial_thickness + float(y[0]) - float(y[1]), 0.0)
+        nonlocal evaluations
+        evaluations += 1
+        if evaluations > _MOST_EVALUATIONS:
+            raise ConvergenceError(
+                f"tribofilm: the time integration came to {t:.6g} s in {_MOST_EVALUATIONS} evaluations: at a wear "
+                f"of {wear_coefficient:g} 1/s after a lag of {lag:g} s the film comes and goes all the time; lower either"
+            )
+        # what rounding takes below zero comes back: cut off there, wear had no slope and Newton's steps diverged
+        balance = initial_thickness + float(y[0]) - float(y[1])
+        thickness = max(balance, 0.0)
         growth = growth_rate(thickness)
         if lag > 0:
             wear = wear_coefficient * history(t - lag)
             wear = min(wear, growth + thickness / (_SHORT * lag))
         else:
-            wear = wear_coefficient * thickness
+            wear = wear_coefficient * balance
         share = math.exp(-concentration_constant * thickness) if math.isfinite(concentration_constant) else 0.0
         return np.array([growth, wear, share * wear])
 
@@ -112,10 +130,20 @@ def evolve_film(
         end = min(begin + step, when[-1])
         if when[-1] - end < 1e-9 * span:
             end = when[-1]
-        solution = solve_ivp(
-            rates, (begin, end), state, method="Radau", dense_output=True, rtol=tolerance, atol=_ATOM * tolerance
-        )
-        evaluations += solution.nfev
+        # a step that overflows or divides by zero within Radau is repeated with a shorter one
+        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
+            try:
+                solution = solve_ivp(
+                    rates,
+                    (begin, end),
+                    state,
+                    method="Radau",
+                    dense_output=True,
+                    rtol=tolerance,
+                    atol=_ATOM * tolerance,
+                )
+            except ValueError as error:  # a step without finite numbers in it
+                raise ConvergenceError(f"tribofilm: the time integration broke off after {begin:.6g} s") from error
         if not solution.success:
             raise ConvergenceError(
                 f"tribofilm: the time integration stopped at {solution.t[-1]:.6g} s: {solution.message}"
@@ -137,7 +165,7 @@ def evolve_film(
         growth_rate=at[:, 0],
         wear_rate=at[:, 1],
         concentration=np.exp(-concentration_constant * thickness) if finite else np.zeros_like(thickness),
-        evaluations=evaluations,
+        evaluations=evaluations - len(when),
     )
 
 

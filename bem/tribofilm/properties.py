@@ -33,6 +33,14 @@ class Constant:
         """Value [Pa]."""
         return self.value
 
+    def lowest(self, thickness: float, temperature: float) -> float:
+        """Lowest value from no film to this thickness [Pa]."""
+        return self.value
+
+    def highest(self, temperature: float) -> float:
+        """Highest value at any thickness [Pa]."""
+        return self.value
+
 
 @dataclass(frozen=True)
 class FadingSubstrate:
@@ -73,6 +81,14 @@ class FadingSubstrate:
         )
         share = math.exp(-max(thickness, 0.0) / self.length)
         return self.substrate * share + self.film * factor * (1 - share)
+
+    def lowest(self, thickness: float, temperature: float) -> float:
+        """Lowest value from no film to this thickness [Pa]: it rises or falls all the way."""
+        return min(self(0.0, temperature), self(thickness, temperature))
+
+    def highest(self, temperature: float) -> float:
+        """Highest value at any thickness [Pa]."""
+        return max(self(0.0, temperature), self(math.inf, temperature))
 
 
 @dataclass(frozen=True)
@@ -118,3 +134,12 @@ class Table:
         return float(
             np.interp(thickness, self.thickness, self.value) * np.interp(temperature, self.temperature, self.factor)
         )
+
+    def lowest(self, thickness: float, temperature: float) -> float:
+        """Lowest value from no film to this thickness [Pa]: at a point of the curve or at either end."""
+        points = [0.0, thickness, *(x for x in self.thickness if 0.0 < x < thickness)]
+        return min(self(point, temperature) for point in points)
+
+    def highest(self, temperature: float) -> float:
+        """Highest value at any thickness [Pa]."""
+        return max(self(point, temperature) for point in (0.0, *self.thickness))
