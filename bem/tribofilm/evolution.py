@@ -14,11 +14,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from bem.errors import ConvergenceError, InputError
+from bem.errors import BemError, ConvergenceError, InputError
 from bem.grid import FloatArray
 from bem.representation import readable
 
@@ -111,7 +112,7 @@ def evolve_film(
         if evaluations > _MOST_EVALUATIONS:
             raise ConvergenceError(
                 f"tribofilm: the time integration came to {t:.6g} s in {_MOST_EVALUATIONS} evaluations: at a wear "
-                f"of {wear_coefficient:g} 1/s after a lag of {lag:g} s the film comes and goes all the time; lower either"
+                f"of {wear_coefficient:g} 1/s after a lag of {lag:g} s the film comes and goes; lower either"
             )
         # what rounding takes below zero comes back: cut off there, wear had no slope and Newton's steps diverged
         balance = initial_thickness + float(y[0]) - float(y[1])
@@ -125,6 +126,7 @@ def evolve_film(
         share = math.exp(-concentration_constant * thickness) if math.isfinite(concentration_constant) else 0.0
         return np.array([growth, wear, share * wear])
 
+    accuracy: dict[str, Any] = {"rtol": tolerance, "atol": _ATOM * tolerance}
     begin = when[0]
     while begin < when[-1]:
         end = min(begin + step, when[-1])
@@ -133,15 +135,9 @@ def evolve_film(
         # a step that overflows or divides by zero within Radau is repeated with a shorter one
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             try:
-                solution = solve_ivp(
-                    rates,
-                    (begin, end),
-                    state,
-                    method="Radau",
-                    dense_output=True,
-                    rtol=tolerance,
-                    atol=_ATOM * tolerance,
-                )
+                solution = solve_ivp(rates, (begin, end), state, method="Radau", dense_output=True, **accuracy)
+            except BemError:
+                raise
             except ValueError as error:  # a step without finite numbers in it
                 raise ConvergenceError(f"tribofilm: the time integration broke off after {begin:.6g} s") from error
         if not solution.success:
@@ -163,7 +159,7 @@ def evolve_film(
         worn=worn,
         substrate_wear=substrate,
         growth_rate=at[:, 0],
-        wear_rate=at[:, 1],
+        wear_rate=np.maximum(at[:, 1], 0.0),
         concentration=np.exp(-concentration_constant * thickness) if finite else np.zeros_like(thickness),
         evaluations=evaluations - len(when),
     )
