@@ -22,6 +22,7 @@ ORDER = [
     {"tribofilm"},
     {"scenes"},
     {"results"},
+    {"campaigns"},
     {"plots"},
     {"runs"},
     {"sweeps"},

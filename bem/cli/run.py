@@ -53,7 +53,14 @@ def register(app: typer.Typer) -> None:
             bool, typer.Option("--figures/--no-figures", help="Draw figures and write the report.")
         ] = True,
         threads: Annotated[
-            int | None, typer.Option(min=1, max=1024, help="Threads; without it BEM_THREADS, or 1.")
+            int | None, typer.Option(min=1, max=1024, help="Threads of each case; without it BEM_THREADS, or 1.")
+        ] = None,
+        workers: Annotated[
+            int | None,
+            typer.Option(min=1, max=1024, help="Processes, where a scene has several cases; without it one per core."),
+        ] = None,
+        scheduler: Annotated[
+            str | None, typer.Option(metavar="ADDRESS", help="Use the Dask cluster of this scheduler for the cases.")
         ] = None,
     ) -> None:
         """Run a scene: results, figures and a report in one folder.
@@ -85,6 +92,8 @@ def register(app: typer.Typer) -> None:
                     resume=resume,
                     overwrite=overwrite,
                     figures=figures,
+                    workers=workers,
+                    scheduler=scheduler,
                     watcher=terminal,
                 )
             except KeyboardInterrupt:

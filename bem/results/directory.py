@@ -20,6 +20,7 @@ from bem.results.checkpoint import load_checkpoint, save_checkpoint
 
 SCENE, SUMMARY, RESULTS, REPORT = "scene.toml", "summary.json", "results.nc", "report.html"
 FIGURES, CHECKPOINT, CHECKSUMS, LOCK = "figures", "checkpoint.bin", "checksums.json", ".lock"
+CASES = "cases"
 BESIDE, SWAPPING = ".replacement", ".replacing"
 _OURS = (SUMMARY, SCENE, RESULTS, REPORT, CHECKPOINT, CHECKSUMS)
 
@@ -127,7 +128,7 @@ class RunDirectory:
     @property
     def begun(self) -> bool:
         """Whether something computed is kept in it, from which a run can go on."""
-        return (self.path / CHECKPOINT).is_file()
+        return (self.path / CHECKPOINT).is_file() or any((self.path / CASES).glob("*.bin"))
 
     @property
     def home(self) -> Path:
@@ -161,6 +162,7 @@ class RunDirectory:
         write_text(self.path / SUMMARY, text)
         with suppress(OSError):
             (self.path / CHECKPOINT).unlink(missing_ok=True)
+        shutil.rmtree(self.path / CASES, ignore_errors=True)
         self._swap()
 
     def _swap(self) -> None:
@@ -187,6 +189,9 @@ class RunDirectory:
             for old in (SUMMARY, CHECKSUMS, CHECKPOINT):
                 if old == CHECKPOINT or (source / old).is_file():  # else the one at home is new already
                     (self._home / old).unlink(missing_ok=True)
+            shutil.rmtree(self._home / CASES, ignore_errors=True)
+            (source / CHECKPOINT).unlink(missing_ok=True)
+            shutil.rmtree(source / CASES, ignore_errors=True)
             new = [item.relative_to(source) for item in source.rglob("*") if item.is_file()]
             if FIGURES in {name.parts[0] for name in new}:
                 (self._home / FIGURES).mkdir(exist_ok=True)
@@ -209,7 +214,7 @@ class RunDirectory:
 
     def remove_leftovers(self) -> None:
         """Delete temporary files that a killed process left."""
-        for folder in (self.path, self.path / FIGURES):
+        for folder in (self.path, self.path / FIGURES, self.path / CASES):
             for leftover in folder.glob(".writing-*"):
                 with suppress(OSError):
                     leftover.unlink()
@@ -239,6 +244,7 @@ class RunDirectory:
             with suppress(OSError):
                 volume.unlink()
         shutil.rmtree(self.path / FIGURES, ignore_errors=True)
+        shutil.rmtree(self.path / CASES, ignore_errors=True)
         if self.path != self._home:
             with suppress(OSError):
                 self.path.rmdir()

@@ -300,13 +300,17 @@ class DepthsScene(Table):
 
 
 class SceneModel(Table):
-    """What every scene has. `redoes` says which figure or table of the thesis, where it is one."""
+    """What every scene has. `redoes` says which figure or table of the thesis, where it is one.
+
+    `repetitions` runs every case so often, with seeds of its own; means and spreads of all figures are then reported.
+    """
 
     kind: str
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,63}$")] = "scene"
     description: str = ""
     redoes: str = ""
     seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] = 1
+    repetitions: Annotated[int, Field(strict=True, ge=1, le=1000)] | None = None
 
 
 __all__ = [

@@ -83,6 +83,7 @@ class Outcome:
     status : worst status of the solvers.
     where : if not converged, where that happened, in words.
     volumes : names of variables with dimensions (..., "depth", "x", "y") that go into the VTK file.
+    axes : dimensions along which the cases lie, the last one running fastest.
     """
 
     summary: Mapping[str, Any]
@@ -90,6 +91,7 @@ class Outcome:
     status: Status = Status.CONVERGED
     where: str = ""
     volumes: tuple[str, ...] = ()
+    axes: tuple[str, ...] = ()
 
 
 def release(values: NDArray[Any]) -> None:

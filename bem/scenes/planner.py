@@ -9,6 +9,7 @@ import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from bem.errors import InputError
 
@@ -31,6 +32,8 @@ class Step:
     memory : bytes held at its peak beyond what the steps before it keep.
     kept : bytes of these that stay when it is over; all of them where not given.
     seconds : further time that is not spent in transforms, on any machine [s].
+    per : of what it is done once, where a scene has several cases: each "case"; each "grid", for all repetitions on it;
+        the whole "run".
     """
 
     name: str
@@ -41,13 +44,15 @@ class Step:
     memory: float = 0.0
     seconds: float = 0.0
     kept: float | None = None
+    per: Literal["case", "grid", "run"] = "case"
 
 
 @dataclass(frozen=True)
 class Plan:
-    """The steps of a run in order."""
+    """The steps of a run in order: the work of all its cases, the memory of one."""
 
     steps: tuple[Step, ...]
+    cases: int = 1
 
     @property
     def memory(self) -> float:

@@ -1,22 +1,173 @@
-"""Records of finished runs: dictionaries that hold tables, packed into plain columns for a checkpoint and back."""
+"""What a case gives: frozen dataclasses whose fields say once what they are.
+
+    @dataclass(frozen=True, eq=False)
+    class WearRecord(Record):
+        particle_length: Annotated[float, Figure("nm", "length of the particles")]
+        radius: Annotated[FloatArray, Series(("cycle",), "m", "mean equivalent radius of the particles")]
+        pressure: Annotated[FloatArray, Series(("x", "y"), "Pa", "contact pressure", of="last")]
+
+Values are in SI units. From the annotations follow the summary (a `Figure` under its name and unit,
+`particle_length_nm`), the dataset (SI, over the axes of the campaign), the labels of tables, sweeps and comparisons.
+None is "not in this case"; a figure that no case has is left out if it is `optional`, and null if not.
+"""
 
 from __future__ import annotations
 
+import dataclasses
+import math
+import typing
 from collections.abc import Mapping
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, Literal
 
 import numpy as np
 
+from bem.errors import Status
 
-def pack_record(record: Mapping[str, Any], tables: Mapping[str, np.dtype[np.void]]) -> dict[str, Any]:
-    """A record with each of its `tables` (name -> fields) as columns."""
-    from bem.wear.running_in import pack_table
+Which = Literal["each", "first", "last"]
 
-    return {**record, **{name: pack_table(record[name]) for name in tables}}
+UNITS: dict[str, tuple[str, float, float, float]] = {
+    "": ("1", 1, 1, 0), "m": ("m", 1, 1, 0), "m2": ("m^2", 1, 1, 0), "m3": ("m^3", 1, 1, 0), "nm": ("m", 1e9, 1, 0),
+    "um": ("m", 1e6, 1, 0), "um3": ("m^3", 1e18, 1, 0), "mm3": ("m^3", 1e9, 1, 0), "N": ("N", 1, 1, 0),
+    "Pa": ("Pa", 1, 1, 0), "K": ("K", 1, 1, 0), "C": ("K", 1, 1, -273.15), "s": ("s", 1, 1, 0), "h": ("s", 1, 3600, 0),
+    "m_s": ("m/s", 1, 1, 0), "nm_s": ("m/s", 1e9, 1, 0), "percent": ("1", 100, 1, 0), "J": ("J", 1, 1, 0),
+    "N_m": ("N/m", 1, 1, 0), "per_m": ("1/m", 1, 1, 0),
+}  # fmt: skip
+"""How units end the names of figures: the SI unit, and factor, divisor and offset from it."""
 
 
-def unpack_record(packed: Mapping[str, Any], tables: Mapping[str, np.dtype[np.void]]) -> dict[str, Any]:
-    """The record that `pack_record` was given."""
-    from bem.wear.running_in import unpack_table
+@dataclass(frozen=True)
+class Figure:
+    """A number of a record, or one for each place along `dimensions`; in the summary and in the dataset.
 
-    return {**packed, **{name: unpack_table(packed[name], fields) for name, fields in tables.items()}}
+    Parameters
+    ----------
+    unit : as the name of the figure ends in the summary, a key of `UNITS`; the record holds SI.
+    text : what it is, for labels.
+    dimensions : of an array, such as ("speed",); the summary then has a list.
+    optional : left out of the summary where no case has it, instead of null.
+    name : in the summary, where it is not that of the field (with the unit behind it).
+    """
+
+    unit: str = ""
+    text: str = ""
+    dimensions: tuple[str, ...] = ()
+    optional: bool = False
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        if self.unit not in UNITS:
+            raise ValueError(f"unit {self.unit!r}: unknown; allowed: {', '.join(UNITS)}")
+
+    @property
+    def si(self) -> str:
+        """The SI unit of the value in the record."""
+        return UNITS[self.unit][0]
+
+    def key(self, name: str) -> str:
+        """Name in the summary: the field's with the unit behind it."""
+        name = self.name or name
+        return f"{name}_{self.unit}" if self.unit else name
+
+    def shown(self, value: Any) -> Any:
+        """A value of the record in the figure's unit, as the summary has it; lists for arrays."""
+        if isinstance(value, np.ndarray):
+            return [self.shown(item) for item in value.tolist()]
+        if value is None or isinstance(value, str | bool):
+            return value
+        value = value.item() if isinstance(value, np.generic) else value
+        _, factor, divisor, offset = UNITS[self.unit]
+        if (factor, divisor, offset) == (1, 1, 0):
+            return value
+        return value * factor / divisor + offset
+
+
+@dataclass(frozen=True)
+class Series:
+    """An array of a record that is in the dataset only.
+
+    Parameters
+    ----------
+    dimensions : one name for each of its axes; an array named like its only dimension is that dimension's coordinate.
+    unit : SI.
+    text : what it is.
+    of : whose is kept where there are several cases: each one's, the first's or the last's.
+    rows : lengths differ from case to case, as of particles; the cases' rows follow one another and the variable
+        `DIMENSION_case` says which case each is of. Otherwise shorter ones are filled up with not-a-number.
+    """
+
+    dimensions: tuple[str, ...]
+    unit: str
+    text: str
+    of: Which = "each"
+    rows: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """What every case gives; kinds add fields.
+
+    status : the worst status of the case's solvers. where : if not converged, where that happened, in words.
+    """
+
+    status: Status = dataclasses.field(default=Status.CONVERGED, kw_only=True)
+    where: str = dataclasses.field(default="", kw_only=True)
+
+
+_DESCRIBED: dict[str, Mapping[str, Figure | Series]] = {}
+
+
+def described(record: type[Record]) -> Mapping[str, Figure | Series]:
+    """The figures and series of a record by the names of its fields, in their order."""
+    name = f"{record.__module__}.{record.__qualname__}.{id(record)}"
+    if name not in _DESCRIBED:
+        hints = typing.get_type_hints(record, include_extras=True)
+        found = {
+            field.name: item
+            for field in dataclasses.fields(record)
+            for item in getattr(hints[field.name], "__metadata__", ())
+            if isinstance(item, Figure | Series)
+        }
+        _DESCRIBED[name] = found
+    return _DESCRIBED[name]
+
+
+def figures(record: type[Record]) -> Mapping[str, Figure]:
+    """The figures of a record by their names in the summary."""
+    return {item.key(name): item for name, item in described(record).items() if isinstance(item, Figure)}
+
+
+def pack(record: Record) -> dict[str, Any]:
+    """A record as plain values and arrays, for a file."""
+    return {field.name: getattr(record, field.name) for field in dataclasses.fields(record)} | {
+        "status": str(record.status.value)
+    }
+
+
+def unpack(packed: Mapping[str, Any], record: type[Record]) -> Record:
+    """The record that `pack` was given."""
+    return record(**{**packed, "status": Status(packed["status"])})
+
+
+def without(record: Record, *, first: bool, last: bool) -> Record:
+    """The record without the arrays that only another case keeps; this one is the first, the last, both or neither."""
+    kept = {"each", *(["first"] if first else []), *(["last"] if last else [])}
+    names = [name for name, item in described(type(record)).items() if isinstance(item, Series) and item.of not in kept]
+    gone: dict[str, Any] = dict.fromkeys(names)
+    return dataclasses.replace(record, **gone) if gone else record
+
+
+def mean(values: list[Any]) -> float | None:
+    """The mean of the numbers among the values; None where there are none."""
+    finite = _finite(values)
+    return float(np.mean(finite)) if finite else None
+
+
+def spread(values: list[Any]) -> float:
+    """Standard deviation of the numbers among the values, 0 of fewer than two."""
+    finite = _finite(values)
+    return float(np.std(finite, ddof=1)) if len(finite) > 1 else 0.0
+
+
+def _finite(values: list[Any]) -> list[float]:
+    return [float(v) for v in values if isinstance(v, int | float) and math.isfinite(v)]

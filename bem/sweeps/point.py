@@ -7,9 +7,9 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from bem.campaigns.context import Watcher
+from bem.campaigns.disk import sees
 from bem.errors import BemError, ResultsError
-
-TOKEN = ".sweep-token"
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Point:
     root : folder of the sweep.
     folder : the point's folder in it.
     threads : threads for the run.
-    token : content of the file `.sweep-token` in `root`, by which a worker elsewhere knows that it sees the same disk.
+    token : by which a worker elsewhere knows that it sees the same disk, see `bem.campaigns.disk`.
     """
 
     index: int
@@ -32,6 +32,14 @@ class Point:
     folder: str
     threads: int = 1
     token: str = ""
+
+    def compute(self, watcher: Watcher) -> Done:
+        """See `compute`."""
+        return compute(self)
+
+    def lost(self, why: str) -> Done:
+        """Its process died."""
+        return Done(self.index, why)
 
 
 @dataclass(frozen=True)
@@ -64,7 +72,7 @@ def compute(point: Point) -> Done:
     set_threads(point.threads)
     root = Path(point.root)
     try:
-        if not point.token or _sees(root, point.token):
+        if not point.token or sees(root, point.token):
             _run(point, root / point.folder)
             return Done(point.index)
         with tempfile.TemporaryDirectory(prefix="bem-sweep-") as elsewhere:
@@ -100,18 +108,4 @@ def _run(point: Point, folder: Path) -> None:
     if is_finished(folder):
         return
     damaged = (folder / SUMMARY).exists()  # finished once, but what is there now cannot be trusted
-    run_scene(tomllib.loads(point.scene), folder, resume=not damaged, overwrite=damaged, figures=False)
-
-
-def _sees(root: Path, token: str) -> bool:
-    try:
-        return (root / TOKEN).read_text() == token
-    except OSError:
-        return False
-
-
-def bem_version() -> str:
-    """The version of `bem` where this is called, for comparing workers."""
-    import bem
-
-    return str(bem.__version__)
+    run_scene(tomllib.loads(point.scene), folder, resume=not damaged, overwrite=damaged, figures=False, workers=1)

@@ -6,30 +6,31 @@ import hashlib
 import json
 import math
 import os
-import secrets
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bem
+from bem.campaigns.context import Silent, Watcher
+from bem.campaigns.disk import marked
+from bem.campaigns.engine import staff
+from bem.campaigns.ranges import Axis, parse_axes
 from bem.errors import InputError, ResultsError
 from bem.plots.sweep import draw_sweep
 from bem.results import RunDirectory, open_run
 from bem.results.atomic import reason, write_text
 from bem.results.dataset import read_dataset, write_variables
 from bem.results.directory import SCENE
-from bem.runs import Watcher, plan_scene
+from bem.runs import plan_scene
 from bem.scenes import get_kind
 from bem.scenes.common import SceneModel
 from bem.scenes.load import _unit_of, dump_scene, load_scene, scene_table
 from bem.scenes.paths import parse_key, value_at
-from bem.scenes.planner import available_memory, check_memory
-from bem.sweeps.axes import Axis, parse_axes
+from bem.scenes.planner import check_memory
 from bem.sweeps.collect import Coordinate, dataset_variables, table_text
-from bem.sweeps.point import TOKEN, Done, Point, is_finished, store
+from bem.sweeps.point import Done, Point, is_finished, store
 
 if TYPE_CHECKING:
     import xarray
@@ -115,9 +116,7 @@ def run_sweep(
         held.discard()
         raise
     with held:
-        token = secrets.token_hex(16)
-        write_text(folder / TOKEN, token)
-        try:
+        with marked(folder) as token:
             distinct = {name: i for i, name in reversed(list(enumerate(names)))}
             missing = [
                 Point(i, texts[i], str(folder.resolve()), name, threads, token)
@@ -125,9 +124,6 @@ def run_sweep(
                 if not is_finished(folder / name)
             ]
             errors = _compute(missing, folder, len(distinct), peak, workers, scheduler, watcher)
-        finally:
-            with suppress(OSError):
-                (folder / TOKEN).unlink()
         return _collect(
             folder, scenes[0], coordinates, names, {names[i]: words for i, words in errors.items()}, missing
         )
@@ -218,43 +214,30 @@ def _compute(
     if not missing:
         return errors
     done = total - len(missing)
-    if watcher is not None:
-        watcher.progress(done, total, "points", {})
-    results: Iterator[Done]
+    told = watcher or Silent()
+    told.progress(done, total, "points", {})
+    results: Iterator[tuple[int, Done]]
     if scheduler is not None:
-        from bem.sweeps.cluster import compute_on_cluster
+        from bem.campaigns.cluster import compute_on_cluster
 
         results = compute_on_cluster(missing, scheduler)
     else:
-        from bem.sweeps.local import compute_locally
+        from bem.campaigns.local import compute_locally
 
-        results = compute_locally(missing, _staff(workers, len(missing), peak, watcher))
+        results = compute_locally(missing, staff(workers, len(missing), peak, told.note), lambda index: Silent())
     names = {point.index: point.folder for point in missing}
     try:
-        for result in results:
+        for _, result in results:
             done += 1
             if result.files:
                 store(result, folder / names[result.index])
             if result.error:
                 errors[result.index] = result.error
-                if watcher is not None:
-                    watcher.note(f"{names[result.index]}: {result.error}")
-            if watcher is not None:
-                watcher.progress(done, total, "points", {"failed": float(len(errors))} if errors else {})
+                told.note(f"{names[result.index]}: {result.error}")
+            told.progress(done, total, "points", {"failed": float(len(errors))} if errors else {})
     finally:
         results.close()  # type: ignore[attr-defined]  # ends the processes, or frees the cluster, at once
     return errors
-
-
-def _staff(workers: int | None, points: int, peak: float, watcher: Watcher | None) -> int:
-    """How many processes: as asked, or one per core as far as their memory goes."""
-    if workers is not None:
-        return min(workers, points)
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1)
-    fitting = max(1, int(available_memory() // max(peak, 1.0)))
-    if fitting < min(cores, points) and watcher is not None:
-        watcher.note(f"{fitting} processes instead of {min(cores, points)}: more would not fit into memory")
-    return min(cores, fitting, points)
 
 
 def _collect(

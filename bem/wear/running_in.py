@@ -159,6 +159,7 @@ class RunningIn:
     lower_heights, upper_heights : surfaces at the end [m]. pressure : of the last cycle [Pa].
     cycles : table of `CYCLE_FIELDS`; particles : table of `PARTICLE_FIELDS`; times : of `TIME_FIELDS` [s] per cycle.
     settled : whether the stop rule ended the run. state : to go on from.
+    wearing : the bodies that wear, LOWER or UPPER or both; the counterface is not in it.
     """
 
     lower_heights: FloatArray
@@ -170,6 +171,11 @@ class RunningIn:
     settled: bool
     state: RunningInState
     status: Status
+    wearing: tuple[int, ...] = (LOWER,)
+
+    def worn_heights(self) -> FloatArray:
+        """Heights of the (first) wearing body at the end [m]."""
+        return (self.lower_heights, self.upper_heights)[self.wearing[0]]
 
     def settled_particles(self, last_cycles: int) -> NDArray[np.void]:
         """Particles of the last so many cycles."""
@@ -271,6 +277,7 @@ def run_in(
         settled=settled,
         state=state,
         status=Status.CONVERGED,
+        wearing=wearing,
     )
 
 

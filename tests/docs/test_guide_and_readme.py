@@ -14,12 +14,12 @@ import pytest
 import typer
 
 from bem import Grid
+from bem.campaigns.ranges import parse_axes
 from bem.cli import build as build_cli
 from bem.lubrication.viscosity import VISCOSITY_LAWS
 from bem.runs import plan_scene
 from bem.scenes import get_kind, kind_names, library
 from bem.scenes.load import load_scene
-from bem.sweeps.axes import parse_axes
 from bem.wear.criterion import CRITERIA
 from reports import guide
 from reports.builder import render

@@ -5,6 +5,7 @@ import math
 
 import pytest
 
+from bem.campaigns import campaign_of, compute
 from bem.errors import InputError
 from bem.runs import plan_scene
 from bem.scenes import PlainContext, build, get_kind, library
@@ -96,7 +97,7 @@ def test_transforms_of_a_run_are_as_many_as_planned_within_a_factor_of_two(name)
     scene, plan = plan_scene(name, SMALL[name])
     planned = sum(step.transforms for step in plan.steps if not step.skipped)
     COUNT.reset()
-    get_kind(scene.kind).run(scene, PlainContext(scene.seed))
+    compute(campaign_of(scene))
     assert planned / 2 <= COUNT.forward + COUNT.inverse <= 2 * planned
 
 
@@ -154,7 +155,7 @@ def test_depths_of_the_first_cycle_are_within_what_memory_is_planned_for():
 
     settings = ["repetitions=1", "cycles.count=1", "cycles.settled=1", 'cylinder.loads=["10 N"]']
     scene, _ = plan_scene("wear-steel-steel", settings)
-    outcome = get_kind(scene.kind).run(scene, PlainContext(scene.seed))
+    outcome = compute(campaign_of(scene)).outcome
     computed = float(outcome.variables["depths_computed"].values.max())
     assert _DEPTHS_AT_FIRST / 2 <= computed <= 1.25 * _DEPTHS_AT_FIRST
 

@@ -1,6 +1,8 @@
 """Every built-in scene runs to its end, at reduced size."""
 
+import json
 import math
+from pathlib import Path
 
 import pytest
 
@@ -10,6 +12,8 @@ from bem.scenes import get_kind, kind_names, library
 from reports.gallery import gallery_scene
 
 NAMES = sorted(library())
+# the keys that each summary had before cases became records; scripts of users read them by name
+KEYS = {name: set(keys) for name, keys in json.loads(Path(__file__).with_name("summary_keys.json").read_text()).items()}
 # what `summary.json` promises by kind, in every run of that kind
 PROMISED = {
     "contact": "contact_area_fraction plastic_area_fraction mean_contact_pressure_Pa approach_m residual convolutions",
@@ -35,6 +39,8 @@ def test_reduced_scene_runs(folder, name):
     scene = gallery_scene(name, folder, reduced=True)
     run = run_scene(scene, folder / name)
     assert run.summary["status"] == "converged", run.summary["where"]
+    statistics = {key for key in run.summary if key.endswith(("_spread", "_each"))}
+    assert set(run.summary) - statistics == KEYS[name]
     kind = get_kind(scene["kind"])
     for key in ("scene", "kind", "version", "seed", "wall_time_s", "status", *PROMISED.get(scene["kind"], "").split()):
         assert key in run.summary, key

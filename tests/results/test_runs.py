@@ -9,9 +9,11 @@ from typing import Literal
 import numpy as np
 import pytest
 
-import bem.runs
+from bem.campaigns.cases import Case
+from bem.campaigns.context import CaseContext, Silent
 from bem.errors import ConvergenceError, InputError, ResultsError, Status
-from bem.results import RunDirectory, open_run
+from bem.results import open_run
+from bem.results.checkpoint import load_checkpoint
 from bem.results.read import damaged_files
 from bem.runs import run_scene
 from bem.scenes import Kind, Outcome, Plan, Step, Variable, get_kind
@@ -60,9 +62,17 @@ def counting(monkeypatch):
         )
 
     kind = Kind("contact", "counting", CountingScene, lambda scene: Plan((Step("adding", "it is all there is"),)), run)
-    monkeypatch.setattr(bem.runs, "get_kind", lambda name: kind)
-    monkeypatch.setattr("bem.scenes.load.get_kind", lambda name: kind)
+    for module in ("bem.runs", "bem.scenes.load", "bem.campaigns.cases", "bem.campaigns.engine"):
+        monkeypatch.setattr(f"{module}.get_kind", lambda name: kind)
     return control
+
+
+def set_clock(monkeypatch, now):
+    """A clock that the test turns."""
+    clock = SimpleNamespace(now=now)
+    for module in ("bem.runs", "bem.campaigns.engine", "bem.campaigns.context"):
+        monkeypatch.setattr(f"{module}.time", SimpleNamespace(time=lambda: clock.now, perf_counter=lambda: clock.now))
+    return clock
 
 
 def everything(folder):
@@ -192,8 +202,7 @@ def test_bad_input_found_while_running_loses_nothing(tmp_path, counting, older):
 
 
 def test_time_after_a_resume_is_the_sum(tmp_path, counting, monkeypatch):
-    clock = SimpleNamespace(now=100.0)
-    monkeypatch.setattr(bem.runs, "time", SimpleNamespace(perf_counter=lambda: clock.now))
+    clock = set_clock(monkeypatch, 100.0)
 
     def slow(last):
         def step(cycle):
@@ -217,16 +226,15 @@ def test_time_after_a_resume_is_the_sum(tmp_path, counting, monkeypatch):
 
 
 def test_a_checkpoint_inside_a_stage_counts_its_time(tmp_path, monkeypatch):
-    clock = SimpleNamespace(now=0.0)
-    monkeypatch.setattr(bem.runs, "time", SimpleNamespace(perf_counter=lambda: clock.now))
-    with RunDirectory.start(tmp_path, "x", "x = 1\n") as directory:
-        context = bem.runs.RunContext(directory, None, None)
-        with context.timer("films"):
-            clock.now += 2.0
-            context.save({})
-            clock.now += 1.0
-        assert context.seconds == {"films": 3.0}
-        assert directory.load_checkpoint()["_seconds"] == {"films": 2.0}
+    clock = set_clock(monkeypatch, 0.0)
+    file = tmp_path / "checkpoint.bin"
+    context = CaseContext(Case(0, None, 0, False, ""), file, None, Silent(), 0.0)
+    with context.timer("films"):
+        clock.now += 2.0
+        context.save({})
+        clock.now += 1.0
+    assert context.seconds == {"films": 3.0}
+    assert load_checkpoint(file)["_seconds"] == {"films": 2.0}
 
 
 def test_a_figure_that_refuses_costs_no_results(tmp_path, monkeypatch):

@@ -1,12 +1,14 @@
 """Kind tribofilm: figures of the summary, variants, what is refused, what is skipped, and a run that goes on."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
+from bem.campaigns import campaign_of, compute, plan
 from bem.errors import InfeasibleError, InputError
 from bem.scenes import load_scene
-from bem.scenes.context import PlainContext
-from bem.scenes.kinds import get_kind
+from bem.scenes.kinds import get_kind, tribofilm
 
 SMALL = """
 kind = "tribofilm"
@@ -40,13 +42,12 @@ KEYS = {"temperature_C", "film_thickness_nm", "film_wear_rate_nm_s", "wear_depth
 def prepared(tmp_path, text):
     path = tmp_path / "scene.toml"
     path.write_text(text)
-    kind = get_kind("tribofilm")
-    return kind, kind.resolve(load_scene(path))
+    return campaign_of(get_kind("tribofilm").resolve(load_scene(path)))
 
 
 def test_summary_lists_run_over_temperatures(tmp_path):
-    kind, scene = prepared(tmp_path, SMALL)
-    outcome = kind.run(scene, PlainContext(1))
+    campaign = prepared(tmp_path, SMALL)
+    outcome = compute(campaign).outcome
     assert outcome.summary.keys() >= KEYS
     assert outcome.summary["temperature_C"] == pytest.approx([90, 100])
     thickness, worn = outcome.summary["film_thickness_nm"], outcome.summary["wear_depth_nm"]
@@ -56,14 +57,14 @@ def test_summary_lists_run_over_temperatures(tmp_path):
         expected = 1e-3 * h * np.exp(-1.24e7 * 1e-9 * h) * 3000
         assert depth == pytest.approx(expected, rel=0.05)  # 3 e-foldings after the start the film is 95 % there
     history = outcome.variables["thickness"].values
-    assert history.shape == (2, len(outcome.variables["time"].values))
+    assert history.shape == (1, 2, 1, 1, len(outcome.variables["time"].values))
 
 
 def test_loads_and_variants_come_in_the_order_of_the_scene(tmp_path):
     text = SMALL.replace('["600 nN"]', '["600 nN", "340 nN"]').replace('["90 degC", "100 degC"]', '["100 degC"]')
     text += '[[variants]]\nname = "worn"\n[[variants]]\nname = "unworn"\nwear_coefficient = "0 1/s"\n'
-    kind, scene = prepared(tmp_path, text)
-    summary = kind.run(scene, PlainContext(1)).summary
+    campaign = prepared(tmp_path, text)
+    summary = compute(campaign).outcome.summary
     assert summary["variant"] == ["worn", "unworn", "worn", "unworn"]
     assert summary["load_N"] == pytest.approx([600e-9, 600e-9, 340e-9, 340e-9])
     thickness = summary["film_thickness_nm"]
@@ -72,34 +73,36 @@ def test_loads_and_variants_come_in_the_order_of_the_scene(tmp_path):
     assert thickness[0] > thickness[2]
 
 
-def test_a_finished_film_is_not_grown_again(tmp_path):
-    kind, scene = prepared(tmp_path, SMALL)
-    context = PlainContext(1)
-    whole = kind.run(scene, context)
-    stopped = PlainContext(1, resumed=True)
-    stopped.state = {"finished": context.state["finished"][:1]}
-    rest = kind.run(scene, stopped)
-    assert np.array_equal(whole.variables["thickness"].values, rest.variables["thickness"].values)
-    assert stopped.seconds["films"] < context.seconds["films"] or len(stopped.state["finished"]) == 2
+def test_a_finished_film_is_not_grown_again(tmp_path, monkeypatch):
+    campaign = prepared(tmp_path, SMALL)
+    whole = compute(campaign, tmp_path)
+    (tmp_path / "cases" / "00001.bin").unlink()
+    grown = []
+    run = tribofilm.run
+    counting = dataclasses.replace(tribofilm.KIND, run=lambda *given: grown.append(given) or run(*given))
+    monkeypatch.setattr("bem.campaigns.engine.get_kind", lambda name: counting)
+    rest = compute(campaign, tmp_path)
+    assert len(grown) == 1
+    assert np.array_equal(whole.outcome.variables["thickness"].values, rest.outcome.variables["thickness"].values)
 
 
 def test_local_feedback_runs_and_refuses_a_lag(tmp_path):
     text = SMALL.replace('["90 degC", "100 degC"]', '["100 degC"]') + 'feedback = "local"\nlocal_tolerance = 0.05\n'
-    kind, scene = prepared(tmp_path, text)
-    outcome = kind.run(scene, PlainContext(1))
+    campaign = prepared(tmp_path, text)
+    outcome = compute(campaign).outcome
     assert outcome.summary["film_thickness_nm"] > 0
     with pytest.raises(InputError, match="lag"):
         prepared(tmp_path, text + 'lag = "10 s"\n')
 
 
 def test_plan_refuses_what_the_film_cannot_carry_and_says_what_is_reused(tmp_path):
-    kind, scene = prepared(tmp_path, SMALL)
-    steps = {step.name: step for step in kind.plan(scene).steps}
+    campaign = prepared(tmp_path, SMALL)
+    steps = {step.name: step for step in plan(campaign).steps}
     assert steps["contacts at other times"].skipped
     assert steps["tangential kernels"].skipped
-    kind, scene = prepared(tmp_path, SMALL.replace("600 nN", "1 N"))
+    campaign = prepared(tmp_path, SMALL.replace("600 nN", "1 N"))
     with pytest.raises(InfeasibleError, match="loads"):
-        kind.plan(scene)
+        plan(campaign)
     with pytest.raises(InputError, match="report"):
         prepared(tmp_path, SMALL.replace('"6000 s"]', '"9000 s"]'))
     table = 'hardness = { kind = "table", thickness = ["1 nm", "0 nm"], value = ["1 GPa", "2 GPa"] }'

@@ -7,9 +7,9 @@ import sys
 import numpy as np
 import pytest
 
+from bem.campaigns import campaign_of, compute, plan
 from bem.errors import InfeasibleError, InputError
 from bem.scenes import load_scene
-from bem.scenes.context import PlainContext
 from bem.scenes.kinds import get_kind
 
 SMALL = """
@@ -70,12 +70,15 @@ def scene_file(tmp_path):
     return write
 
 
-def run(path):
+def campaign(path):
     scene = load_scene(path)
-    kind = get_kind("wear")
-    scene = kind.resolve(scene)
-    kind.plan(scene)
-    return kind.run(scene, PlainContext(scene.seed))
+    return campaign_of(get_kind("wear").resolve(scene))
+
+
+def run(path):
+    found = campaign(path)
+    plan(found)
+    return compute(found).outcome
 
 
 def test_summary_has_its_figures_and_the_balance_holds(scene_file):
@@ -86,7 +89,7 @@ def test_summary_has_its_figures_and_the_balance_holds(scene_file):
     volume = outcome.variables["particle_volume"].values
     cell = outcome.summary["cell_nm"] ** 2 * 1e-18
     assert volume.sum() == pytest.approx(worn.sum() * cell, rel=1e-10)  # round-off of sums of a thousand heights
-    assert outcome.variables["radius"].values.shape == (1, 12)
+    assert outcome.variables["radius"].values.shape == (1, 1, 1, 12)  # load, variant, repetition, cycle
 
 
 def test_loads_variants_and_repetitions_make_lists_in_the_order_of_the_scene(scene_file):
@@ -102,19 +105,17 @@ def test_loads_variants_and_repetitions_make_lists_in_the_order_of_the_scene(sce
 
 
 def test_a_load_beyond_the_hardness_and_wrong_variants_are_refused_by_the_plan(scene_file):
-    kind = get_kind("wear")
     with pytest.raises(InfeasibleError, match=r"cylinder\.loads"):
-        kind.plan(kind.resolve(load_scene(scene_file(loads='["1 MN"]'))))
+        plan(campaign(scene_file(loads='["1 MN"]')))
     text = SMALL + '[[variants]]\nname = "film"\nlayer_thickness = "50 nm"\n'
     with pytest.raises(InputError, match="layer_thickness"):
-        kind.plan(kind.resolve(load_scene(scene_file(text))))
+        plan(campaign(scene_file(text)))
     with pytest.raises(InputError, match="settled"):
         load_scene(scene_file(settled="99"))
 
 
 def test_the_plan_says_what_is_skipped(scene_file):
-    kind = get_kind("wear")
-    steps = {step.name: step for step in kind.plan(kind.resolve(load_scene(scene_file()))).steps}
+    steps = {step.name: step for step in plan(campaign(scene_file())).steps}
     assert steps["layered kernels"].skipped
     assert steps["tangential kernels in the normal gap"].skipped  # steel on steel: Dundurs' beta is zero
     assert any(step.skipped and "deeper" in name for name, step in steps.items())

@@ -7,23 +7,11 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from bem.plots.cases import grouped, rows_of
 from bem.plots.figures import FigureKind
 from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, map_of, prefix
 
 _COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PINK, SKY, BLACK)
-
-
-def _films(run: Any) -> list[tuple[str, list[int]]]:
-    """Label and indices of the repetitions of each film; the label says only what differs between films."""
-    data = run.dataset
-    columns = [
-        [f"{value:g} N" if value > 1e-3 else f"{1e9 * value:g} nN" for value in data["load"].values],
-        [f"{value - 273.15:.0f} °C" for value in data["temperature"].values],
-        [value.decode() if isinstance(value, bytes) else str(value) for value in data["variant"].values],
-    ]
-    differ = [column for column in columns if len(set(column)) > 1]
-    names = [", ".join(parts) for parts in zip(*differ, strict=True)] if differ else [""] * len(columns[0])
-    return [(name, [i for i, other in enumerate(names) if other == name]) for name in dict.fromkeys(names)]
 
 
 def _time(run: Any) -> tuple[Any, str]:
@@ -36,18 +24,18 @@ def _time(run: Any) -> tuple[Any, str]:
 def _over_time(run: Any, figure: Figure, name: str, text: str, unit: str) -> None:
     axes = figure.add_subplot()
     time, axis = _time(run)
-    values = run.dataset[name].values
-    factor, shown = prefix(values, unit)
-    for colour, (film, rows) in zip(_COLOURS * 9, _films(run), strict=False):
-        own = values[rows] * factor
+    factor, shown = prefix(run.dataset[name].values, unit)
+    films = grouped(run, name)
+    for colour, (film, values) in zip(_COLOURS * 9, films, strict=False):
+        own = values * factor
         axes.plot(time, own.mean(axis=0), color=colour, label=film)
-        if len(rows) > 1:
+        if len(own) > 1:
             axes.fill_between(time, own.min(axis=0), own.max(axis=0), color=colour, alpha=0.2, linewidth=0)
     axes.set_xlabel(axis)
     axes.set_ylabel(label(text, shown))
     axes.set_xlim(0, time[-1])
     axes.set_ylim(0)
-    if len(_films(run)) > 1:
+    if len(films) > 1:
         axes.legend()
 
 
@@ -73,14 +61,14 @@ def _pressure(run: Any, figure: Figure) -> None:
     factor_h, unit_h = prefix(data["sample_thickness"].values, "m")
     factor_p, unit_p = prefix(data["sample_hardness"].values, "Pa")
     axes = figure.add_subplot()
-    for colour, (film, rows) in zip(_COLOURS * 9, _films(run), strict=False):
-        own = np.isin(data["sample_film"].values, rows)
-        order = np.argsort(data["sample_thickness"].values[own])
-        thickness = data["sample_thickness"].values[own][order] * factor_h
-        pressure = data["sample_mean_pressure"].values[own][order] * factor_p
-        axes.plot(thickness, pressure, "o-", markersize=2.5, linewidth=1.0, color=colour, label=film)
-        hardness = data["sample_hardness"].values[own][order] * factor_p
-        axes.plot(thickness, hardness, linestyle="--", linewidth=0.9, color=colour)
+    names = ("sample_thickness", "sample_mean_pressure", "sample_hardness")
+    for colour, (one, two, three) in zip(
+        _COLOURS * 9, zip(*(rows_of(run, n) for n in names), strict=True), strict=False
+    ):
+        order = np.argsort(one[1])
+        thickness = one[1][order] * factor_h
+        axes.plot(thickness, two[1][order] * factor_p, "o-", markersize=2.5, linewidth=1.0, color=colour, label=one[0])
+        axes.plot(thickness, three[1][order] * factor_p, linestyle="--", linewidth=0.9, color=colour)
     axes.plot([], [], linestyle="--", linewidth=0.9, color="0.4", label="hardness")
     axes.set_xlabel(label("mean film thickness", unit_h))
     axes.set_ylabel(label("mean contact pressure", unit_p))
@@ -90,13 +78,12 @@ def _pressure(run: Any, figure: Figure) -> None:
 
 
 def _maps(run: Any, figure: Figure, name: str, text: str, unit: str) -> None:
-    chosen = [(film, rows[0]) for film, rows in _films(run)][:4]
-    values = run.dataset[name].values
-    shown = np.where(values > 0, values, np.nan)
-    limit = float(np.nanmax(shown[[row for _, row in chosen]])) if np.isfinite(shown).any() else 1.0
+    chosen = [(film, np.where(maps[0] > 0, maps[0], np.nan)) for film, maps in grouped(run, name)][:4]
+    values = np.array([shown for _, shown in chosen])
+    limit = float(np.nanmax(values)) if np.isfinite(values).any() else 1.0
     x, y = run.dataset["x"].values, run.dataset["y"].values
-    for axes, (film, row) in zip(np.atleast_1d(figure.subplots(1, len(chosen))), chosen, strict=True):
-        picture = shown[row] if np.isfinite(shown[row]).any() else np.zeros_like(shown[row])
+    for axes, (film, shown) in zip(np.atleast_1d(figure.subplots(1, len(chosen))), chosen, strict=True):
+        picture = shown if np.isfinite(shown).any() else np.zeros_like(shown)
         own_factor, _ = prefix(picture, unit)
         map_of(figure, axes, x, y, picture, text, unit, vmin=0, vmax=limit * own_factor)
         axes.set_title(film)

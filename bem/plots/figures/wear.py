@@ -9,20 +9,20 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
+from bem.plots.cases import Array, grouped
 from bem.plots.figures import FigureKind
 from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, map_of, prefix
 
 _DLS_STEEL = (110e-9, 175e-9)  # dynamic light scattering, both materials; thesis, papers B and C
 
 
-def _over_cycles(axes: Axes, run: Any, values: NDArray[np.float64], text: str, unit: str) -> float:
-    """Mean over repetitions of each load as a line, their range as a band; returns the factor to the shown unit."""
-    cycle, groups = run.dataset["cycle"].values, _groups(run)
-    factor, shown = prefix(values, unit)
-    for colour, (name, rows) in zip((BLUE, VERMILION, ORANGE, SKY, GREEN, PINK, BLACK) * 9, groups, strict=False):
-        own = values[rows] * factor
+def _over_cycles(axes: Axes, run: Any, found: list[tuple[str, Array]], text: str, unit: str) -> float:
+    """Mean over repetitions of each case as a line, their range as a band; returns the factor to the shown unit."""
+    cycle = run.dataset["cycle"].values
+    factor, shown = prefix(np.concatenate([values.ravel() for _, values in found]), unit)
+    for colour, (name, values) in zip((BLUE, VERMILION, ORANGE, SKY, GREEN, PINK, BLACK) * 9, found, strict=False):
+        own = values * factor
         with np.errstate(all="ignore"):
             import warnings
 
@@ -37,39 +37,28 @@ def _over_cycles(axes: Axes, run: Any, values: NDArray[np.float64], text: str, u
     axes.set_xlim(1, max(2, cycle[-1]))
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.set_ylim(0)
-    if len(groups) > 1:
-        axes.legend(ncols=min(len(groups), 3))
+    if len(found) > 1:
+        axes.legend(ncols=min(len(found), 3))
     return factor
 
 
-def _groups(run: Any) -> list[tuple[str, list[int]]]:
-    """Label and rows of each load and variant; the label says only what differs."""
-    loads = [f"{value:g} N" for value in run.dataset["load"].values]
-    variants = (
-        [str(value) for value in run.dataset["variant"].values] if "variant" in run.dataset else [""] * len(loads)
-    )
-    differ = [column for column in (loads, variants) if len(set(column)) > 1]
-    names = [", ".join(parts) for parts in zip(*differ, strict=True)] if differ else [""] * len(loads)
-    return [(name, [i for i, other in enumerate(names) if other == name]) for name in dict.fromkeys(names)]
-
-
 def _radius(run: Any, figure: Figure) -> None:
-    axes = figure.add_subplot()
-    _over_cycles(axes, run, run.dataset["radius"].values, "equivalent radius, volume mean", "m")
+    _over_cycles(figure.add_subplot(), run, grouped(run, "radius"), "equivalent radius, volume mean", "m")
 
 
 def _volume(run: Any, figure: Figure) -> None:
-    axes = figure.add_subplot()
-    values = run.dataset["volume"].values * 1e18
-    _over_cycles(axes, run, values, "volume per cycle (µm³)", "1")
+    found = [(name, values * 1e18) for name, values in grouped(run, "volume")]
+    _over_cycles(figure.add_subplot(), run, found, "volume per cycle (µm³)", "1")
 
 
 def _pressure(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
-    area = run.dataset["contact_area"].values
     with np.errstate(divide="ignore", invalid="ignore"):
-        pressure = run.dataset["contact_load"].values / area
-    factor = _over_cycles(axes, run, pressure, "mean contact pressure", "Pa")
+        found = [
+            (name, load / area)
+            for (name, load), (_, area) in zip(grouped(run, "contact_load"), grouped(run, "contact_area"), strict=True)
+        ]
+    factor = _over_cycles(axes, run, found, "mean contact pressure", "Pa")
     hardness = run.scene.get("cylinder", {}).get("hardness")
     if isinstance(hardness, int | float):
         axes.axhline(hardness * factor, color="0.3", linestyle="--", linewidth=1.0)
@@ -77,8 +66,7 @@ def _pressure(run: Any, figure: Figure) -> None:
 
 
 def _roughness(run: Any, figure: Figure) -> None:
-    axes = figure.add_subplot()
-    _over_cycles(axes, run, run.dataset["rms_height"].values, "Sq in the contact strip", "m")
+    _over_cycles(figure.add_subplot(), run, grouped(run, "rms_height"), "Sq in the contact strip", "m")
 
 
 def _distribution(run: Any, figure: Figure) -> None:
@@ -107,16 +95,16 @@ def _distribution(run: Any, figure: Figure) -> None:
 
 def _over_load(run: Any, figure: Figure) -> None:
     """Settled volume-mean radius of every run over its load, beside what dynamic light scattering saw."""
-    load = run.dataset["load"].values
     settled = run.scene.get("cycles", {}).get("settled", 50)
     with np.errstate(invalid="ignore"):
-        radius = np.nanmean(run.dataset["radius"].values[:, -settled:], axis=1)
+        radius = np.nanmean(run.dataset["radius"].values[..., -settled:], axis=-1)
+    load = np.broadcast_to(run.dataset["load"].values.reshape(-1, *[1] * (radius.ndim - 1)), radius.shape)
     factor, unit = prefix(radius, "m")
     axes = figure.add_subplot()
     axes.axhspan(
         _DLS_STEEL[0] * factor, _DLS_STEEL[1] * factor, color=SKY, alpha=0.3, linewidth=0, label="light scattering"
     )
-    axes.plot(load, radius * factor, "o", color=BLUE, markersize=4, label="each repetition")
+    axes.plot(load.ravel(), radius.ravel() * factor, "o", color=BLUE, markersize=4, label="each repetition")
     means = [radius[load == each].mean() * factor for each in np.unique(load)]
     axes.plot(np.unique(load), means, color=BLUE, linewidth=1.0)
     axes.set_xlabel("load (N)")

@@ -66,17 +66,31 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
-from bem.scenes.context import Context, Outcome
+from bem.scenes.context import Context
 from bem.scenes.planner import Plan
+from bem.scenes.records import Record
 
 
 def _unchanged(scene: Any) -> Any:
     return scene
+
+
+def _no_axes(scene: Any) -> tuple[Axis, ...]:
+    return ()
+
+
+def _nothing_more(scene: Any, axes: Sequence[Axis], records: Sequence[Any]) -> dict[str, Any]:
+    return {}
+
+
+def _no_volumes(scene: Any) -> tuple[str, ...]:
+    return ()
 
 
 @dataclass(frozen=True)
@@ -87,10 +101,15 @@ class Kind:
     title: str
     model: type[SceneModel]
     plan: Callable[[Any], Plan]
-    run: Callable[[Any, Context], Outcome]
+    run: Callable[[Any, Context], Any]
+    record: type[Record] | None = None
     figures: tuple[str, ...] = ()
     headline: tuple[str, ...] = ()
     resolve: Callable[[Any], Any] = field(default=_unchanged)
+    axes: Callable[[Any], tuple[Axis, ...]] = field(default=_no_axes)
+    summarise: Callable[[Any, Sequence[Axis], Sequence[Any]], dict[str, Any]] = field(default=_nothing_more)
+    volumes: Callable[[Any], tuple[str, ...]] = field(default=_no_volumes)
+    always_lists: bool = False
 
 
 def kind_names() -> tuple[str, ...]:

@@ -19,11 +19,25 @@ from bem.scenes.common import BodyScene, GridScene, PositivePressure, SceneModel
 from bem.scenes.context import Context, Outcome, Variable
 from bem.scenes.kinds import Kind
 from bem.scenes.kinds.friction import check_loads, check_patch, half_width, modulus_of
-from bem.scenes.kinds.wear import Count, SizesScene, WearDepthsScene, WearScenePart, size_statistics
 from bem.scenes.lubrication import LubricatedScene, OilScene, SpeedsScene
 from bem.scenes.planner import Plan, Step, convolution_memory, padded_points, stress_kernel_seconds
-from bem.scenes.records import pack_record, unpack_record
 from bem.scenes.units import Ratio
+from bem.scenes.wearing import Count, SizesScene, WearDepthsScene, WearScenePart, size_statistics
+
+
+def pack_record(record: Any, tables: Any) -> dict[str, Any]:
+    """A record with each of its `tables` (name -> fields) as columns."""
+    from bem.wear.running_in import pack_table
+
+    return {**record, **{name: pack_table(record[name]) for name in tables}}
+
+
+def unpack_record(packed: Any, tables: Any) -> dict[str, Any]:
+    """The record that `pack_record` was given."""
+    from bem.wear.running_in import unpack_table
+
+    return {**packed, **{name: unpack_table(packed[name], fields) for name, fields in tables.items()}}
+
 
 _CONVOLUTIONS = 80  # of the two or three contacts of a cycle
 _DEPTHS_NEEDED = 6

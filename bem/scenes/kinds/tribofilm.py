@@ -1,22 +1,23 @@
 """Kind `tribofilm`: a film that grows under stress and heat, wears, and takes substrate with it (thesis, paper E).
 
-One scene runs over its loads, temperatures and variants; each is one film.
+A case is one film: one load, one temperature, one variant, one pair of surfaces.
 """
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError
-from bem.grid import Grid
+from bem.grid import FloatArray, Grid
 from bem.materials import contact_modulus
 from bem.scenes import build
+from bem.scenes.axes import Axis, changed, listed, variants
 from bem.scenes.common import (
     BodyScene,
     Force,
@@ -28,13 +29,18 @@ from bem.scenes.common import (
     Table,
     problem,
 )
-from bem.scenes.context import Context, Outcome, Variable
+from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.planner import Plan, Step, convolution_memory, layered_kernel_seconds, padded_points
+from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Energy, InverseLength, Length, Rate, Ratio, Speed, Temperature, Time, Volume
+
+if TYPE_CHECKING:
+    from bem.tribofilm import FilmContact
 
 _CONVOLUTIONS = 14  # of one warm-started contact, coarse levels included
 _CONTACTS = 50  # solved per film: the table is refined only as far as the film gets
+
 _ZERO_CELSIUS = 273.15
 
 
@@ -156,20 +162,25 @@ def resolve(scene: TribofilmScene) -> TribofilmScene:
     return scene.model_copy(update={"grid": grid})
 
 
-def films(scene: TribofilmScene) -> list[dict[str, Any]]:
-    """What is run, in the order of the summary: loads, then temperatures, then variants, then repetitions."""
-    variants = scene.variants or [VariantScene(name="film")]
-    return [
-        {"load": load, "temperature": temperature, "variant": variant, "repetition": repetition}
-        for load in scene.rubbing.loads
-        for temperature in scene.rubbing.temperatures
-        for variant in variants
-        for repetition in range(scene.repetitions)
-    ]
+def variant_of(scene: TribofilmScene, variant: VariantScene) -> TribofilmScene:
+    """The scene with a variant's changes in it."""
+    for key in ("wear_coefficient", "lag", "activation_volume", "activation_energy"):
+        if getattr(variant, key) is not None:
+            scene = changed(scene, f"film.{key}", getattr(variant, key))
+    return scene
+
+
+def axes(scene: TribofilmScene) -> tuple[Axis, ...]:
+    """Loads, then temperatures, then variants."""
+    return (
+        listed(scene, "rubbing.loads", "load", Figure("N", "load")),
+        listed(scene, "rubbing.temperatures", "temperature", Figure("C", "temperature")),
+        variants(scene, variant_of, unnamed="film"),
+    )
 
 
 def plan(scene: TribofilmScene) -> Plan:
-    """What will be computed.
+    """What will be computed for one film.
 
     Raises
     ------
@@ -177,10 +188,10 @@ def plan(scene: TribofilmScene) -> Plan:
     """
     grid = build.grid_of(scene.grid)
     build.check_surfaces(grid, lower=scene.lower.surface, upper=scene.upper.surface)
-    _check_loads(scene, grid)
-    count = len(films(scene))
+    _check_load(scene, grid)
     points = padded_points(grid.shape, grid.periodic)
     stiff = scene.film.youngs_modulus
+    lags = scene.rubbing.duration / scene.film.lag if scene.film.lag > 0 else 0.0  # integrated one by one
     same = isinstance(stiff, ConstantProperty) and stiff.value == scene.lower.build().material.youngs_modulus
     return Plan(
         (
@@ -189,13 +200,13 @@ def plan(scene: TribofilmScene) -> Plan:
                 "layered kernels",
                 "one thickness per contact that is solved" if not same else "the film is as stiff as what it grows on",
                 # closed forms where the grid is doubly periodic; elsewhere a quarter of the first one, as measured
-                seconds=0.0 if all(grid.periodic) else 0.25 * layered_kernel_seconds(grid.cells) * _CONTACTS * count,
+                seconds=0.0 if all(grid.periodic) else 0.25 * layered_kernel_seconds(grid.cells) * _CONTACTS,
                 memory=8.0 * points / 4,
             ),
             Step(
                 "contact",
-                f"about {_CONTACTS} for each of {count} films, from the last pressure",
-                transforms=2.0 * _CONVOLUTIONS * _CONTACTS * count,
+                f"about {_CONTACTS} for each film, from the last pressure",
+                transforms=2.0 * _CONVOLUTIONS * _CONTACTS,
                 points=points,
                 memory=convolution_memory(grid.shape, grid.periodic) + 16.0 * grid.cells * _CONTACTS,
             ),
@@ -208,54 +219,38 @@ def plan(scene: TribofilmScene) -> Plan:
             Step(
                 "balance of growth and wear",
                 "implicit integration with error control, lag by lag",
-                seconds=0.25 * count + 3e-3 * _lags(scene),
+                seconds=0.25 + 3e-3 * lags,
             ),
-            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8),
+            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8, per="run"),
         )
     )
 
 
-def _lags(scene: TribofilmScene) -> float:
-    """Lags in all films together, which are integrated one by one."""
-    return sum(scene.rubbing.duration / lag for film in films(scene) if (lag := _chosen(scene, film, "lag")) > 0)
-
-
-def _chosen(scene: TribofilmScene, film: dict[str, Any], key: str) -> Any:
-    """What the film's variant says, or else the scene."""
-    value = getattr(film["variant"], key)
-    return getattr(scene.film, key) if value is None else value
-
-
-def _check_loads(scene: TribofilmScene, grid: Grid) -> None:
-    """Refuse loads beyond the softest hardness that a film can get times the grid's area, before any work.
+def _check_load(scene: TribofilmScene, grid: Grid) -> None:
+    """Refuse a load beyond the softest hardness that the film can get times the grid's area, before any work.
 
     A film is never thicker than it would be at its fastest growth: initial thickness + growth x time, and without a lag
     no thicker than where wear balances that. Contacts are solved up to twice as thick.
     """
     from bem.tribofilm import StressActivatedGrowth
 
-    hardness = property_of(scene.film.hardness)
+    film, (load,), (temperature,) = scene.film, scene.rubbing.loads, scene.rubbing.temperatures
+    hardness = property_of(film.hardness)
     other = None if scene.upper.material is None else scene.upper.material.hardness
-    messages = []
-    for film in films(scene):
-        temperature, load = film["temperature"], film["load"]
-        energy, volume = _chosen(scene, film, "activation_energy"), _chosen(scene, film, "activation_volume")
-        # at any thickness the pressure is at most the hardest that the film ever is
-        stress = scene.rubbing.friction * hardness.highest(temperature)
-        fastest = float(StressActivatedGrowth(scene.film.prefactor, energy, volume).rate(stress, temperature))
-        thickest = scene.film.initial_thickness + fastest * scene.rubbing.duration
-        wear = _chosen(scene, film, "wear_coefficient")
-        if wear > 0 and not _chosen(scene, film, "lag") > 0:
-            thickest = min(thickest, max(scene.film.initial_thickness, fastest / wear))
-        softest = hardness.lowest(2 * thickest, temperature)
-        limit = (softest if other is None else min(softest, other)) * grid.area
-        if load > limit:
-            messages.append(
-                f"rubbing.loads: {load:g} N is beyond the softest film's hardness x area of the grid, {limit:.4g} N at "
-                f"{temperature - _ZERO_CELSIUS:.4g} degC; allowed: a smaller load, a larger grid or a harder film"
-            )
-    if messages:
-        raise InfeasibleError(list(dict.fromkeys(messages)))
+    # at any thickness the pressure is at most the hardest that the film ever is
+    stress = scene.rubbing.friction * hardness.highest(temperature)
+    growth = StressActivatedGrowth(film.prefactor, film.activation_energy, film.activation_volume)
+    fastest = float(growth.rate(stress, temperature))
+    thickest = film.initial_thickness + fastest * scene.rubbing.duration
+    if film.wear_coefficient > 0 and not film.lag > 0:
+        thickest = min(thickest, max(film.initial_thickness, fastest / film.wear_coefficient))
+    softest = hardness.lowest(2 * thickest, temperature)
+    limit = (softest if other is None else min(softest, other)) * grid.area
+    if load > limit:
+        raise InfeasibleError(
+            f"rubbing.loads: {load:g} N is beyond the softest film's hardness x area of the grid, {limit:.4g} N at "
+            f"{temperature - _ZERO_CELSIUS:.4g} degC; allowed: a smaller load, a larger grid or a harder film"
+        )
 
 
 def property_of(scene: Any) -> Any:
@@ -272,75 +267,88 @@ def property_of(scene: Any) -> Any:
     return Curve.from_lists(scene.thickness, scene.value, scene.temperature, scene.factor)
 
 
-def run(scene: TribofilmScene, context: Context) -> Outcome:
-    """All films, one after the other; a finished one is never computed again."""
-    from bem.tribofilm import FilmContact, StressActivatedGrowth, grow_tribofilm
+def _over_time(unit: str, text: str) -> Series:
+    return Series(("time",), unit, text)
 
+
+def _sample(unit: str, text: str) -> Series:
+    return Series(("sample",), unit, f"{text} of a solved contact", rows=True)
+
+
+@dataclass(frozen=True, eq=False)
+class FilmRecord(Record):
+    """What a film gives: its end, its history, the contacts that were solved for it, maps at the end."""
+
+    film_thickness: Annotated[float, Figure("nm", "mean film thickness at the end")]
+    largest_thickness: Annotated[float, Figure("nm", "largest mean film thickness")]
+    film_wear_rate: Annotated[float, Figure("nm_s", "wear rate of the film at the end")]
+    wear_depth: Annotated[float | None, Figure("nm", "depth of substrate worn between the two reporting times")]
+    total_wear_depth: Annotated[float, Figure("nm", "depth of substrate worn")]
+    final_concentration: Annotated[
+        float, Figure("", "concentration of substrate at the surface, at the end", name="concentration")
+    ]
+    steady_thickness: Annotated[float | None, Figure("nm", "thickness at which growth and wear are equal")]
+    contacts_solved: Annotated[int, Figure("", "contacts that were solved")]
+    time: Annotated[FloatArray, _over_time("s", "time of rubbing")]
+    thickness: Annotated[FloatArray, _over_time("m", "mean film thickness")]
+    grown: Annotated[FloatArray, _over_time("m", "film grown so far")]
+    worn: Annotated[FloatArray, _over_time("m", "film worn so far")]
+    substrate_wear: Annotated[FloatArray, _over_time("m", "depth of substrate worn")]
+    growth_rate: Annotated[FloatArray, _over_time("m/s", "growth rate of the film")]
+    wear_rate: Annotated[FloatArray, _over_time("m/s", "wear rate of the film")]
+    concentration: Annotated[FloatArray, _over_time("1", "concentration of substrate at the surface of the film")]
+    sample_thickness: Annotated[FloatArray, _sample("m", "film thickness")]
+    sample_mean_pressure: Annotated[FloatArray, _sample("Pa", "mean contact pressure")]
+    sample_hardness: Annotated[FloatArray, _sample("Pa", "hardness")]
+    sample_growth: Annotated[FloatArray, _sample("m/s", "growth rate")]
+    sample_contact_area: Annotated[FloatArray, _sample("m^2", "contact area")]
+    x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding")]
+    y: Annotated[FloatArray, Series(("y",), "m", "y")]
+    film_map: Annotated[FloatArray, Series(("x", "y"), "m", "local film thickness at the end")]
+    film_pressure: Annotated[FloatArray, Series(("x", "y"), "Pa", "contact pressure at the end")]
+
+
+def run(scene: TribofilmScene, context: Context) -> FilmRecord:
+    """Grow one film."""
     grid = build.grid_of(scene.grid)
-    wanted = films(scene)
-    saved = context.saved()
-    finished: list[dict[str, Any]] = list(saved["finished"]) if saved is not None else []
     times = np.linspace(0.0, scene.rubbing.duration, scene.rubbing.points)
     if scene.rubbing.report is not None:
         times = np.unique(np.concatenate([times, scene.rubbing.report]))
-    shape = build.shape_of(scene.shape, grid)
-    for index, film in enumerate(wanted):
-        if index < len(finished):
-            continue
-        with context.timer("surfaces"):
-            heights = sum(
-                build.heights_of(body.surface, grid, context.seed(name, film["repetition"]), context.note)
-                for name, body in (("lower", scene.lower), ("upper", scene.upper))
-            )
-        own, chosen = scene.film, partial(_chosen, scene, film)
-        contact = FilmContact(
-            gap=shape - heights,
-            grid=grid,
-            substrate=scene.lower.build().material,
-            counterface=scene.upper.build().material,
-            load=film["load"],
-            growth=StressActivatedGrowth(own.prefactor, chosen("activation_energy"), chosen("activation_volume")),
-            hardness=property_of(own.hardness),
-            modulus=property_of(own.youngs_modulus),
-            temperature=film["temperature"],
-            poissons_ratio=own.poissons_ratio,
-            friction=scene.rubbing.friction,
-            average=own.average,
-            nominal_area=_nominal_area(scene, grid, film["load"]),
+    contact = _contact(scene, grid, context)
+    with context.timer("films"):
+        if scene.film.feedback == "local":
+            return _local_film(scene, contact, times)
+        return _mean_film(scene, contact, times, context)
+
+
+def _contact(scene: TribofilmScene, grid: Grid, context: Context) -> FilmContact:
+    """The rough contact under the film."""
+    from bem.tribofilm import FilmContact, StressActivatedGrowth
+
+    film, (load,), (temperature,) = scene.film, scene.rubbing.loads, scene.rubbing.temperatures
+    with context.timer("surfaces"):
+        heights = sum(
+            build.heights_of(body.surface, grid, context.seed(name), context.note)
+            for name, body in (("lower", scene.lower), ("upper", scene.upper))
         )
-        if own.feedback == "local":
-            finished.append(_local_record(scene, film, contact, times, chosen, context))
-            context.save({"finished": finished})
-            context.progress(1000 * (index + 1), 1000 * len(wanted), "films")
-            continue
-        solved = 0
-
-        def watch(sample: Any, index: int = index) -> None:
-            nonlocal solved
-            solved += 1
-            part = min(solved / _CONTACTS, 0.95)
-            context.progress(
-                round(1000 * (index + part)), 1000 * len(wanted), "films", thickness_nm=1e9 * sample.thickness
-            )
-
-        with context.timer("films"):
-            grown = grow_tribofilm(
-                times,
-                contact,
-                wear_coefficient=chosen("wear_coefficient"),
-                lag=chosen("lag"),
-                concentration_constant=own.concentration_constant or np.inf,
-                initial_thickness=own.initial_thickness,
-                reuse_tolerance=scene.reuse_tolerance,
-                callback=watch,
-            )
-        finished.append(_record(scene, film, grown))
-        context.save({"finished": finished})
-        context.progress(1000 * (index + 1), 1000 * len(wanted), "films")
-    return _outcome(scene, grid, times, finished)
+    return FilmContact(
+        gap=build.shape_of(scene.shape, grid) - heights,
+        grid=grid,
+        substrate=scene.lower.build().material,
+        counterface=scene.upper.build().material,
+        load=load,
+        growth=StressActivatedGrowth(film.prefactor, film.activation_energy, film.activation_volume),
+        hardness=property_of(film.hardness),
+        modulus=property_of(film.youngs_modulus),
+        temperature=temperature,
+        poissons_ratio=film.poissons_ratio,
+        friction=scene.rubbing.friction,
+        average=film.average,
+        nominal_area=_nominal_area(scene, grid, load),
+    )
 
 
-def _nominal_area(scene: TribofilmScene, grid: Grid, load: float) -> NDArray[np.float64] | None:
+def _nominal_area(scene: TribofilmScene, grid: Grid, load: float) -> FloatArray | None:
     """Cells inside the smooth Hertz contact of a ball; the whole grid for other shapes."""
     if scene.film.average != "nominal" or scene.shape.kind != "sphere" or scene.shape.radius is None:
         return None
@@ -349,171 +357,111 @@ def _nominal_area(scene: TribofilmScene, grid: Grid, load: float) -> NDArray[np.
     return (np.hypot(grid.x[:, None], grid.y[None, :]) <= radius).astype(np.float64)
 
 
-def _record(scene: TribofilmScene, film: dict[str, Any], grown: Any) -> dict[str, Any]:
-    history = grown.history
+def _mean_film(scene: TribofilmScene, contact: FilmContact, times: FloatArray, context: Context) -> FilmRecord:
+    """A film whose growth follows its mean thickness."""
+    from bem.tribofilm import grow_tribofilm
+
+    solved = 0
+
+    def watch(sample: Any) -> None:
+        nonlocal solved
+        solved += 1
+        part = min(solved / _CONTACTS, 0.95)
+        context.progress(round(1000 * part), 1000, "films", thickness_nm=1e9 * sample.thickness)
+
+    grown = grow_tribofilm(
+        times,
+        contact,
+        wear_coefficient=scene.film.wear_coefficient,
+        lag=scene.film.lag,
+        concentration_constant=scene.film.concentration_constant or np.inf,
+        initial_thickness=scene.film.initial_thickness,
+        reuse_tolerance=scene.reuse_tolerance,
+        callback=watch,
+    )
+    history, report = grown.history, scene.rubbing.report
     last = min(grown.contacts, key=lambda s: abs(s.thickness - history.thickness[-1]))
-    report = scene.rubbing.report
-    return {
-        "load": film["load"],
-        "temperature": film["temperature"],
-        "variant": film["variant"].name,
-        "repetition": film["repetition"],
-        "thickness": history.thickness,
-        "grown": history.grown,
-        "worn": history.worn,
-        "substrate_wear": history.substrate_wear,
-        "growth_rate": history.growth_rate,
-        "wear_rate": history.wear_rate,
-        "concentration": history.concentration,
-        "wear_depth": None if report is None else grown.wear_depth(*report),
-        "steady": None if np.isinf(grown.steady) else grown.steady,
-        "contacts": len(grown.contacts),
-        "sample_thickness": np.array([s.thickness for s in grown.contacts]),
-        "sample_mean_pressure": np.array([s.mean_pressure for s in grown.contacts]),
-        "sample_hardness": np.array([s.hardness for s in grown.contacts]),
-        "sample_growth": np.array([s.growth for s in grown.contacts]),
-        "sample_contact_area": np.array([s.contact_area for s in grown.contacts]),
-        "film_map": grown.film_map,
-        "pressure": last.pressure,
-    }
+    return _record(
+        contact.grid,
+        times,
+        history,
+        grown.contacts,
+        wear_depth=None if report is None else grown.wear_depth(*report),
+        steady_thickness=None if np.isinf(grown.steady) else grown.steady,
+        contacts_solved=len(grown.contacts),
+        growth_rate=history.growth_rate,
+        wear_rate=history.wear_rate,
+        concentration=history.concentration,
+        film_map=grown.film_map,
+        film_pressure=last.pressure,
+    )
 
 
-def _local_record(
-    scene: TribofilmScene,
-    film: dict[str, Any],
-    contact: Any,
-    times: NDArray[np.float64],
-    chosen: Any,
-    context: Context,
-) -> dict[str, Any]:
-    """A film with local feedback, in the shape of `_record`."""
+def _local_film(scene: TribofilmScene, contact: FilmContact, times: FloatArray) -> FilmRecord:
+    """A film that grows at each point by its own thickness."""
     from bem.tribofilm import grow_local_film
 
     samples: list[Any] = []
-    with context.timer("films"):
-        grown = grow_local_film(
-            times,
-            contact,
-            wear_coefficient=chosen("wear_coefficient"),
-            concentration_constant=scene.film.concentration_constant or np.inf,
-            initial_thickness=scene.film.initial_thickness,
-            tolerance=scene.film.local_tolerance,
-            callback=lambda now, sample: samples.append(sample),
-        )
-    constant = scene.film.concentration_constant
-    report = scene.rubbing.report
-    depth = None if report is None else float(np.diff(np.interp(report, times, grown.substrate_wear))[0])
-    return {
-        "load": film["load"],
-        "temperature": film["temperature"],
-        "variant": film["variant"].name,
-        "repetition": film["repetition"],
-        "thickness": grown.thickness,
-        "grown": grown.grown,
-        "worn": grown.worn,
-        "substrate_wear": grown.substrate_wear,
-        "growth_rate": np.gradient(grown.grown, times),
-        "wear_rate": chosen("wear_coefficient") * grown.thickness,
-        "concentration": np.zeros_like(times) if constant is None else np.exp(-constant * grown.thickness),
-        "wear_depth": depth,
-        "steady": None,
-        "contacts": grown.contacts,
-        "sample_thickness": np.array([s.thickness for s in samples]),
-        "sample_mean_pressure": np.array([s.mean_pressure for s in samples]),
-        "sample_hardness": np.array([s.hardness for s in samples]),
-        "sample_growth": np.array([s.growth for s in samples]),
-        "sample_contact_area": np.array([s.contact_area for s in samples]),
-        "film_map": grown.film_map,
-        "pressure": grown.pressure,
-    }
-
-
-def _outcome(scene: TribofilmScene, grid: Grid, times: NDArray[np.float64], finished: list[dict[str, Any]]) -> Outcome:
-    groups: list[list[dict[str, Any]]] = [
-        finished[start : start + scene.repetitions] for start in range(0, len(finished), scene.repetitions)
-    ]
-
-    def over(figure: Any) -> Any:
-        """One value per load, temperature and variant: the mean over repetitions; a list where there are several."""
-        values = []
-        for group in groups:
-            found = [figure(record) for record in group]
-            values.append(None if any(v is None for v in found) else float(np.mean(found)))
-        return values[0] if len(values) == 1 else values
-
-    first = [group[0] for group in groups]
-    several = len(groups) > 1
-    summary: dict[str, Any] = {
-        "temperature_C": [r["temperature"] - _ZERO_CELSIUS for r in first]
-        if several
-        else first[0]["temperature"] - _ZERO_CELSIUS,
-        "load_N": [r["load"] for r in first] if several else first[0]["load"],
-        "variant": [r["variant"] for r in first] if several else first[0]["variant"],
-        "film_thickness_nm": over(lambda r: 1e9 * r["thickness"][-1]),
-        "largest_thickness_nm": over(lambda r: 1e9 * r["thickness"].max()),
-        "film_wear_rate_nm_s": over(lambda r: 1e9 * r["wear_rate"][-1]),
-        "wear_depth_nm": over(lambda r: None if r["wear_depth"] is None else 1e9 * r["wear_depth"]),
-        "total_wear_depth_nm": over(lambda r: 1e9 * r["substrate_wear"][-1]),
-        "concentration": over(lambda r: r["concentration"][-1]),
-        "steady_thickness_nm": over(lambda r: None if r["steady"] is None else 1e9 * r["steady"]),
-        "contacts_solved": over(lambda r: r["contacts"]),
-        "repetitions": scene.repetitions,
-        "cycle_s": scene.rubbing.cycle,
-    }
-    if scene.repetitions > 1:
-        for key, quantity in (("film_thickness_nm", "thickness"), ("wear_depth_nm", "wear_depth")):
-            spreads = []
-            for group in groups:
-                found = [r[quantity] if quantity == "wear_depth" else r[quantity][-1] for r in group]
-                spreads.append(None if any(v is None for v in found) else 1e9 * float(np.std(found, ddof=1)))
-            summary[f"{key}_spread"] = spreads if several else spreads[0]
-
-    def stacked(name: str) -> NDArray[np.float64]:
-        return np.stack([record[name] for record in finished])
-
-    variables = {
-        "time": Variable(("time",), times, "s", "time of rubbing"),
-        "load": Variable(("film",), np.array([r["load"] for r in finished]), "N", "load"),
-        "temperature": Variable(("film",), np.array([r["temperature"] for r in finished]), "K", "temperature"),
-        "variant": Variable(("film",), np.array([r["variant"] for r in finished]), "1", "variant"),
-        "repetition": Variable(("film",), np.array([r["repetition"] for r in finished]), "1", "repetition"),
-        "x": Variable(("x",), grid.x, "m", "x, along sliding"),
-        "y": Variable(("y",), grid.y, "m", "y"),
-        "film_map": Variable(("film", "x", "y"), stacked("film_map"), "m", "local film thickness at the end"),
-        "film_pressure": Variable(("film", "x", "y"), stacked("pressure"), "Pa", "contact pressure at the end"),
-    }
-    for name, unit, text in (
-        ("thickness", "m", "mean film thickness"),
-        ("grown", "m", "film grown so far"),
-        ("worn", "m", "film worn so far"),
-        ("substrate_wear", "m", "depth of substrate worn"),
-        ("growth_rate", "m/s", "growth rate of the film"),
-        ("wear_rate", "m/s", "wear rate of the film"),
-        ("concentration", "1", "concentration of substrate at the surface of the film"),
-    ):
-        variables[name] = Variable(("film", "time"), stacked(name), unit, text)
-    counts = [record["contacts"] for record in finished]
-    variables["sample_film"] = Variable(
-        ("sample",), np.repeat(np.arange(len(finished)), counts), "1", "film that a solved contact belongs to"
+    grown = grow_local_film(
+        times,
+        contact,
+        wear_coefficient=scene.film.wear_coefficient,
+        concentration_constant=scene.film.concentration_constant or np.inf,
+        initial_thickness=scene.film.initial_thickness,
+        tolerance=scene.film.local_tolerance,
+        callback=lambda now, sample: samples.append(sample),
     )
-    for name, unit, text in (
-        ("thickness", "m", "film thickness"),
-        ("mean_pressure", "Pa", "mean contact pressure"),
-        ("hardness", "Pa", "hardness"),
-        ("growth", "m/s", "growth rate"),
-        ("contact_area", "m^2", "contact area"),
-    ):
-        values = np.concatenate([record[f"sample_{name}"] for record in finished])
-        variables[f"sample_{name}"] = Variable(("sample",), values, unit, f"{text} of a solved contact")
-    return Outcome(summary, variables)
+    constant, report = scene.film.concentration_constant, scene.rubbing.report
+    return _record(
+        contact.grid,
+        times,
+        grown,
+        samples,
+        wear_depth=None if report is None else float(np.diff(np.interp(report, times, grown.substrate_wear))[0]),
+        steady_thickness=None,
+        contacts_solved=grown.contacts,
+        growth_rate=np.gradient(grown.grown, times),
+        wear_rate=scene.film.wear_coefficient * grown.thickness,
+        concentration=np.zeros_like(times) if constant is None else np.exp(-constant * grown.thickness),
+        film_map=grown.film_map,
+        film_pressure=grown.pressure,
+    )
+
+
+def _record(grid: Grid, times: FloatArray, grown: Any, samples: Sequence[Any], **own: Any) -> FilmRecord:
+    """The record of a film with either feedback."""
+    own |= {name: getattr(grown, name) for name in ("thickness", "grown", "worn", "substrate_wear")}
+    own |= {f"sample_{name}": np.array([getattr(s, name) for s in samples]) for name in _SAMPLED}
+    return FilmRecord(
+        film_thickness=float(grown.thickness[-1]),
+        largest_thickness=float(grown.thickness.max()),
+        film_wear_rate=float(own["wear_rate"][-1]),
+        total_wear_depth=float(grown.substrate_wear[-1]),
+        final_concentration=float(own["concentration"][-1]),
+        time=times,
+        x=grid.x,
+        y=grid.y,
+        **own,
+    )
+
+
+_SAMPLED = ("thickness", "mean_pressure", "hardness", "growth", "contact_area")
+
+
+def summarise(scene: TribofilmScene, axes: Any, records: Any) -> dict[str, Any]:
+    """Seconds of a cycle, for figures over cycles."""
+    return {"cycle_s": scene.rubbing.cycle}
 
 
 KIND = Kind(
     name="tribofilm",
     title="a tribofilm that grows under stress and heat, wears, and takes substrate with it",
     model=TribofilmScene,
+    axes=axes,
     plan=plan,
     run=run,
+    record=FilmRecord,
+    summarise=summarise,
     resolve=resolve,
     figures=(
         "film-thickness",

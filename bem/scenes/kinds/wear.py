@@ -1,22 +1,24 @@
 """Kind `wear`: wear particles and running-in of a cylinder on a flat in boundary lubrication (thesis, paper C).
 
-One scene runs over its loads and over repetitions with surfaces of their own; sizes are means over the settled cycles.
+A case is one load, one variant and one pair of surfaces; sizes are means over the settled cycles.
 """
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError, InputError
-from bem.grid import Grid
+from bem.grid import FloatArray, Grid
 from bem.materials import contact_modulus
 from bem.scenes import build
+from bem.scenes.axes import Axis, changed, listed, variants
 from bem.scenes.common import BodyScene, Cells, Force, PositiveLength, PositivePressure, SceneModel, Table, problem
-from bem.scenes.context import Context, Outcome, Variable
+from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.planner import (
     Plan,
@@ -26,10 +28,23 @@ from bem.scenes.planner import (
     padded_points,
     stress_kernel_seconds,
 )
-from bem.scenes.records import pack_record, unpack_record
+from bem.scenes.records import Figure, Series
 from bem.scenes.units import Length, Ratio, WearCoefficient
+from bem.scenes.wearing import (
+    Count,
+    IntArray,
+    MeanSizes,
+    SizesScene,
+    WearDepthsScene,
+    WearScenePart,
+    mean_sizes,
+    particle_rows,
+    volume_mean_radius,
+)
 
-Count = Annotated[int, Field(strict=True, ge=1)]
+if TYPE_CHECKING:
+    from bem.wear import RunningIn
+
 _CONVOLUTIONS = 15  # of one warm-started contact solve, coarse levels included
 _DEPTHS_NEEDED = 8  # before a depth is met at which nothing yields, on average
 _DEPTHS_AT_FIRST = 40  # the same in the first cycle, of sharp asperities
@@ -76,44 +91,6 @@ class DomainScene(Table):
         if self.half_widths is None and self.half_widths_at is not None:
             raise problem("half_widths_at without half_widths", "half_widths with half_widths_at, or lengths alone")
         return self
-
-
-class WearDepthsScene(Table):
-    """Equally spaced depths: `first`, `first + spacing`, ..."""
-
-    count: Annotated[int, Field(strict=True, ge=2, le=1024)] = 64
-    spacing: PositiveLength
-    first: Annotated[Length, Field(ge=0)] = 0.0
-
-    def build(self) -> NDArray[np.float64]:
-        """Depths [m]."""
-        return self.first + self.spacing * np.arange(self.count, dtype=np.float64)
-
-
-class WearScenePart(Table):
-    """The replaceable parts of the wear model; see `bem.wear.WearModel`."""
-
-    criterion: Literal["von_mises", "tresca", "maximum_tension"] = "von_mises"
-    stress_range: bool = Field(default=False, strict=True)
-    refine: Annotated[int, Field(strict=True, ge=1, le=100)] = 10
-    refinement: Literal["monotone_cubic", "linear", "exact"] = "monotone_cubic"
-    connectivity: Literal[6, 18, 26] = 6
-    removal: Literal["cap", "top_run"] = "cap"
-    wears: Literal["softer", "lower", "upper", "both"] = "softer"
-    shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] = 3
-    within_layer: bool = Field(default=True, strict=True)
-
-
-class SizesScene(Table):
-    """How particle sizes are reported.
-
-    `report` names the mean that stands as `particle_equivalent_radius_nm`; `smallest` is the equivalent radius under
-    which particles are left out of the means "above".
-    """
-
-    report: Literal["number", "area", "volume", "number_above"] = "volume"
-    smallest: Annotated[Length, Field(ge=0)] = 25e-9
-    particles_of: Literal["wearing", "lower", "upper"] = "wearing"
 
 
 class CyclesScene(Table):
@@ -177,42 +154,41 @@ class WearScene(SceneModel):
         return self
 
 
-def variant_of(scene: WearScene, variant: WearVariantScene | None) -> WearScene:
+def variant_of(scene: WearScene, variant: WearVariantScene) -> WearScene:
     """The scene with a variant's changes in it.
 
     Raises
     ------
     InputError : a roughness for a surface that is not generated, a film thickness without a film.
     """
-    if variant is None:
-        return scene
-    update: dict[str, Any] = {}
     if variant.cells is not None:
-        update["domain"] = scene.domain.model_copy(update={"cells": (variant.cells, variant.cells)})
+        scene = changed(scene, "domain.cells", (variant.cells, variant.cells))
     if variant.depths is not None:
-        update["depths"] = variant.depths
-    parts = {
-        key: getattr(variant, key)
-        for key in ("shift", "connectivity", "refinement", "criterion", "removal")
-        if getattr(variant, key) is not None
-    }
-    update["wear"] = scene.wear.model_copy(update=parts)
-    for name, rms_height in (("lower", variant.lower_rms_height), ("upper", variant.upper_rms_height)):
+        scene = changed(scene, "depths", variant.depths)
+    for key in ("shift", "connectivity", "refinement", "criterion", "removal"):
+        if getattr(variant, key) is not None:
+            scene = changed(scene, f"wear.{key}", getattr(variant, key))
+    for name in ("lower", "upper"):
+        rms_height = getattr(variant, f"{name}_rms_height")
         if rms_height is not None:
-            body = getattr(scene, name)
-            if body.surface.kind == "smooth":
+            if getattr(scene, name).surface.kind == "smooth":
                 raise InputError(f"variants.{name}_rms_height: the {name} surface is smooth; allowed: a rough one")
-            surface = body.surface.model_copy(update={"rms_height": rms_height})
-            update[name] = body.model_copy(update={"surface": surface})
+            scene = changed(scene, f"{name}.surface.rms_height", rms_height)
     if variant.layer_thickness is not None:
         coated = [name for name in ("lower", "upper") if getattr(scene, name).layer is not None]
         if not coated:
             raise InputError("variants.layer_thickness: neither body is coated; allowed: a scene with a layer")
         for name in coated:
-            body = update.get(name, getattr(scene, name))
-            layer = body.layer.model_copy(update={"thickness": variant.layer_thickness})
-            update[name] = body.model_copy(update={"layer": layer})
-    return scene.model_copy(update=update)
+            scene = changed(scene, f"{name}.layer.thickness", variant.layer_thickness)
+    return scene
+
+
+def axes(scene: WearScene) -> tuple[Axis, ...]:
+    """Loads, then variants."""
+    return (
+        listed(scene, "cylinder.loads", "load", Figure("N", "load on the full width")),
+        variants(scene, variant_of),
+    )
 
 
 def hertz_half_width(scene: WearScene, load: float) -> float:
@@ -251,29 +227,22 @@ def resolve(scene: WearScene) -> WearScene:
 
 
 def plan(scene: WearScene) -> Plan:
-    """What will be computed.
+    """What will be computed for one case.
 
     Raises
     ------
     InfeasibleError : a load beyond hardness times the slice's area. InputError : surfaces that cannot be generated.
     """
-    hardness = scene.cylinder.hardness
-    for load in scene.cylinder.loads:
-        grid = grid_at(scene, load)
-        if hardness is not None and load_on(scene, grid, load) > hardness * grid.area:
-            raise InfeasibleError(
-                f"cylinder.loads: {load:g} N is beyond hardness x area of the domain; allowed: a smaller load, "
-                "a larger domain or a higher hardness"
-            )
-    grid = grid_at(scene, max(scene.cylinder.loads))
+    (load,) = scene.cylinder.loads
+    hardness, cycles = scene.cylinder.hardness, scene.cycles.count
+    grid = grid_at(scene, load)
+    if hardness is not None and load_on(scene, grid, load) > hardness * grid.area:
+        raise InfeasibleError(
+            f"cylinder.loads: {load:g} N is beyond hardness x area of the domain; allowed: a smaller load, "
+            "a larger domain or a higher hardness"
+        )
+    build.check_surfaces(grid, lower=scene.lower.surface, upper=scene.upper.surface)
     points = padded_points(grid.shape, grid.periodic)
-    for variant in (*scene.variants,) or (None,):
-        own = variant_of(scene, variant)
-        for load in scene.cylinder.loads:
-            build.check_surfaces(grid_at(own, load), lower=own.lower.surface, upper=own.upper.surface)
-    runs = len(scene.cylinder.loads) * max(1, len(scene.variants)) * scene.repetitions
-    cycles = runs * scene.cycles.count
-    grids = len(scene.cylinder.loads) * max(1, len(scene.variants))
     depths = min(scene.depths.count, _DEPTHS_NEEDED)
     deepest = min(scene.depths.count, _DEPTHS_AT_FIRST)
     lower, upper = scene.lower.build(), scene.upper.build()
@@ -283,9 +252,8 @@ def plan(scene: WearScene) -> Plan:
         (
             Step(
                 "surfaces",
-                f"{runs} pairs: {len(scene.cylinder.loads)} loads, {max(1, len(scene.variants))} variants, "
-                f"{scene.repetitions} repetitions",
-                transforms=40.0 * runs,
+                "a pair for each case",
+                transforms=40.0,
                 points=grid.cells,
                 memory=8.0 * grid.cells * 8,
             ),
@@ -293,8 +261,9 @@ def plan(scene: WearScene) -> Plan:
                 "layered kernels",
                 f"the {' and '.join(layered)} body is coated" if layered else "no body is coated",
                 skipped=not layered,
-                seconds=grids * len(layered) * layered_kernel_seconds(grid.cells, depths),
+                seconds=len(layered) * layered_kernel_seconds(grid.cells, depths),
                 memory=8.0 * points / 4 * 7 * len(layered),
+                per="grid",
             ),
             Step(
                 "tangential kernels in the normal gap",
@@ -308,7 +277,7 @@ def plan(scene: WearScene) -> Plan:
             ),
             Step(
                 "contact",
-                f"{cycles} cycles, each from the last pressure",
+                f"{cycles} cycles a case, each from the last pressure",
                 transforms=2.0 * _CONVOLUTIONS * cycles,
                 points=points,
                 memory=convolution_memory(grid.shape, grid.periodic),
@@ -318,7 +287,7 @@ def plan(scene: WearScene) -> Plan:
                 "from the surface down to the first depth at which nothing yields",
                 transforms=7.0 * depths * cycles,
                 points=points,
-                seconds=grids * stress_kernel_seconds(grid.cells, deepest),
+                seconds=stress_kernel_seconds(grid.cells, deepest),
                 memory=8.0 * (points / 4 * 12 * deepest + grid.cells * (deepest + 8)),
             ),
             Step(
@@ -332,283 +301,191 @@ def plan(scene: WearScene) -> Plan:
                 skipped=True,
             ),
             Step("pieces", "runs of yielded voxels along depth", seconds=0.004 * cycles, memory=8.0 * grid.cells * 8),
-            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8),
+            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8, per="run"),
         )
     )
 
 
-def run(scene: WearScene, context: Context) -> Outcome:
-    """All loads and repetitions, one wear loop each."""
+@dataclass(frozen=True, eq=False)
+class WearRecord(MeanSizes):
+    """What a wear loop gives: means over its settled cycles, tables over cycles and particles, the worn surface."""
+
+    particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled")]
+    Sq_initial: Annotated[float, Figure("nm", "Sq in the contact strip, unworn")]
+    Sq_final: Annotated[float, Figure("nm", "Sq in the contact strip, run in")]
+    contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the slice")]
+    mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
+    worn_volume_per_cycle: Annotated[float, Figure("um3", "volume worn per cycle")]
+    first_cycles_radius: Annotated[float, Figure("nm", "volume-mean radius of the particles of the first five cycles")]
+    cycles: Annotated[int, Figure("", "cycles")]
+    truncated_particles: Annotated[int, Figure("", "particles cut off by the deepest depth")]
+    cell: Annotated[float, Figure("nm", "root of the cell's area")]
+    contact_seconds: Annotated[float, Figure("", "seconds in contacts")]
+    stress_seconds: Annotated[float, Figure("", "seconds in stresses")]
+    particles_seconds: Annotated[float, Figure("", "seconds in pieces")]
+    depths_computed_per_cycle: Annotated[float, Figure("", "depths at which stress was computed, per cycle")]
+    convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle")]
+    wear_volume: Annotated[float | None, Figure("mm3", "worn volume by Archard's law", optional=True)]
+    particle_number: Annotated[float | None, Figure("", "number of particles in it", optional=True)]
+    particles_per_mm_and_N: Annotated[float | None, Figure("", "particles per mm and N", optional=True)]
+    cycle: Annotated[IntArray, Series(("cycle",), "1", "cycle")]
+    radius: Annotated[FloatArray, Series(("cycle",), "m", "volume-mean equivalent radius of the particles")]
+    particles: Annotated[FloatArray, Series(("cycle",), "1", "particles per cycle")]
+    volume: Annotated[FloatArray, Series(("cycle",), "m^3", "volume worn per cycle")]
+    contact_area: Annotated[FloatArray, Series(("cycle",), "m^2", "contact area")]
+    plastic_area: Annotated[FloatArray, Series(("cycle",), "m^2", "area at the hardness")]
+    contact_load: Annotated[FloatArray, Series(("cycle",), "N", "load carried by contact")]
+    rms_height: Annotated[FloatArray, Series(("cycle",), "m", "rms height Sq of the worn surface in the contact strip")]
+    depths_computed: Annotated[FloatArray, Series(("cycle",), "1", "depths at which stress was computed")]
+    convolutions: Annotated[FloatArray, Series(("cycle",), "1", "convolutions of the contact solve")]
+    particle_cycle: Annotated[IntArray, particle_rows("1", "cycle in which a particle came off")]
+    particle_volume: Annotated[FloatArray, particle_rows("m^3", "volume of a particle")]
+    particle_length: Annotated[FloatArray, particle_rows("m", "length of a particle's bounding rectangle")]
+    particle_width: Annotated[FloatArray, particle_rows("m", "width of a particle's bounding rectangle")]
+    particle_thickness: Annotated[FloatArray, particle_rows("m", "deepest point of a particle")]
+    particle_x: Annotated[FloatArray, particle_rows("m", "x of a particle's centre")]
+    particle_y: Annotated[FloatArray, particle_rows("m", "y of a particle's centre")]
+    x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding", of="last")]
+    y: Annotated[FloatArray, Series(("y",), "m", "y", of="last")]
+    height_before: Annotated[FloatArray, Series(("x", "y"), "m", "height of the wearing surface, unworn", of="last")]
+    height_after: Annotated[FloatArray, Series(("x", "y"), "m", "height of the wearing surface, run in", of="last")]
+    pressure: Annotated[FloatArray, Series(("x", "y"), "Pa", "contact pressure in the last cycle", of="last")]
+    removed: Annotated[FloatArray | None, Series(("x", "y"), "m", "what left the body in the last cycle", of="last")]
+
+
+def run(scene: WearScene, context: Context) -> WearRecord:
+    """One wear loop."""
     from bem.wear import RunningInState, Settled, WearModel, pack_state, run_in, unpack_state
-    from bem.wear.running_in import CYCLE_FIELDS, PARTICLE_FIELDS, TIME_FIELDS
 
-    tables = {"cycles": CYCLE_FIELDS, "particles": PARTICLE_FIELDS, "times": TIME_FIELDS}
+    (load,) = scene.cylinder.loads
+    grid = grid_at(scene, load)
+    with context.timer("surfaces"):
+        initial = [
+            build.heights_of(body.surface, grid, context.seed(name), context.note)
+            for name, body in (("lower", scene.lower), ("upper", scene.upper))
+        ]
+    saved = context.saved()
 
-    stop = Settled(tolerance=scene.cycles.tolerance) if scene.cycles.stop_when_settled else None
-    runs = [
-        (load, variant, repetition)
-        for load in scene.cylinder.loads
-        for variant in (*scene.variants,) or (None,)
-        for repetition in range(scene.repetitions)
-    ]
-    saved = context.saved() or {"finished": [], "current": None}
-    finished: list[dict[str, Any]] = [unpack_record(record, tables) for record in saved["finished"]]
-    current = saved["current"]
-    for index, (load, variant, repetition) in enumerate(runs):
-        if index < len(finished):
-            continue
-        own = variant_of(scene, variant)
-        grid = grid_at(own, load)
-        with context.timer("surfaces"):
-            initial = [
-                build.heights_of(body.surface, grid, context.seed(name, repetition), context.note)
-                for name, body in (("lower", own.lower), ("upper", own.upper))
-            ]
-        state = None if current is None else unpack_state(current)
-        current = None
+    def watch(now: RunningInState) -> None:
+        if now.cycle % _CHECKPOINT_EVERY == 0 or now.cycle == scene.cycles.count:
+            context.save(pack_state(now))
+        last = now.particles[now.particles["cycle"] == now.cycle]
+        context.progress(
+            now.cycle,
+            scene.cycles.count,
+            "cycles",
+            radius_nm=1e9 * volume_mean_radius(last["volume"]),
+            contact_fraction=float(now.cycles[-1]["contact_area"]) / grid.area,
+        )
 
-        def watch(now: RunningInState, index: int = index, area: float = grid.area) -> None:
-            if now.cycle % _CHECKPOINT_EVERY == 0 or now.cycle == scene.cycles.count:
-                context.save({"finished": [pack_record(r, tables) for r in finished], "current": pack_state(now)})
-            row = now.cycles[-1]
-            last = now.particles[now.particles["cycle"] == now.cycle]
-            context.progress(
-                index * scene.cycles.count + now.cycle,
-                len(runs) * scene.cycles.count,
-                "cycles",
-                radius_nm=1e9 * _volume_mean_radius(last["volume"]),
-                contact_fraction=float(row["contact_area"]) / area,
-            )
-
-        with context.timer("cycles"):
-            result = run_in(
-                initial[0],
-                initial[1],
-                grid=grid,
-                bodies=(own.lower.build(), own.upper.build()),
-                load=load_on(own, grid, load),
-                depths=own.depths.build(),
-                gap=_cylinder(own, grid),
-                friction=scene.cylinder.friction,
-                hardness=scene.cylinder.hardness,
-                cycles=scene.cycles.count,
-                model=WearModel(**own.wear.model_dump()),
-                stop=stop,
-                state=state,
-                callback=watch,
-            )
-        finished.append(_record(scene, load, variant, repetition, grid, initial, result))
-        context.save({"finished": [pack_record(r, tables) for r in finished], "current": None})
-    return _outcome(scene, finished)
+    with context.timer("cycles"):
+        result = run_in(
+            initial[0],
+            initial[1],
+            grid=grid,
+            bodies=(scene.lower.build(), scene.upper.build()),
+            load=load_on(scene, grid, load),
+            depths=scene.depths.build(),
+            gap=_cylinder(scene, grid),
+            friction=scene.cylinder.friction,
+            hardness=scene.cylinder.hardness,
+            cycles=scene.cycles.count,
+            model=WearModel(**scene.wear.model_dump()),
+            stop=Settled(tolerance=scene.cycles.tolerance) if scene.cycles.stop_when_settled else None,
+            state=None if saved is None else unpack_state(saved),
+            callback=watch,
+        )
+    return _record(scene, load, grid, initial, result)
 
 
-def _cylinder(scene: WearScene, grid: Grid) -> NDArray[np.float64]:
+def _cylinder(scene: WearScene, grid: Grid) -> FloatArray:
     if scene.cylinder.radius == 0:
         return np.zeros(grid.shape)
     return np.ascontiguousarray(np.broadcast_to(grid.x[:, None] ** 2 / (2 * scene.cylinder.radius), grid.shape))
 
 
-def _record(
-    scene: WearScene,
-    load: float,
-    variant: WearVariantScene | None,
-    repetition: int,
-    grid: Grid,
-    initial: list[NDArray[np.float64]],
-    result: Any,
-) -> dict[str, Any]:
-    """What is kept of a finished run: tables and the worn surface, no more."""
-    wears_lower = bool((result.lower_heights != initial[0]).any()) or not bool(
-        (result.upper_heights != initial[1]).any()
-    )
-    body = 0 if wears_lower else 1
-    pick = {"wearing": body, "lower": 0, "upper": 1}[scene.sizes.particles_of]
-    return {
-        "load": load,
-        "variant": "" if variant is None else variant.name,
-        "repetition": repetition,
-        "area": grid.area,
-        "cell_area": grid.cell_area,
-        "x": grid.x,
-        "y": grid.y,
-        "cycles": result.cycles,
-        "particles": result.particles[result.particles["body"] == pick],
-        "times": result.times,
-        "before": initial[body],
-        "after": (result.lower_heights, result.upper_heights)[body][: grid.shape[0]],
-        "pressure": result.pressure,
-        "removed": result.state.removed,
-        "body": "lower" if body == 0 else "upper",
-    }
-
-
-def size_statistics(particles: NDArray[np.void], smallest: float) -> dict[str, dict[str, float]]:
-    """Means of radius, length, width and thickness [m] by number, area and volume, and by number above a size."""
-    from bem.particles import particle_statistics
-
-    statistics = {weight: particle_statistics(particles, weight=weight) for weight in ("number", "area", "volume")}
-    statistics["number_above"] = particle_statistics(particles, smallest_radius=smallest)
-    return {
-        name: {
-            quantity: getattr(each, f"mean_{quantity}")
-            for quantity in ("equivalent_radius", "length", "width", "thickness")
-        }
-        for name, each in statistics.items()
-    }
-
-
-def _volume_mean_radius(volume: NDArray[np.float64]) -> float:
-    total = float(volume.sum())
-    return float((volume * np.cbrt(3 * volume / (4 * np.pi))).sum() / total) if total > 0 else 0.0
-
-
-def _outcome(scene: WearScene, finished: list[dict[str, Any]]) -> Outcome:
-    each = scene.repetitions
-    rows = [_figures(scene, record) for record in finished]
-    groups = [rows[start : start + each] for start in range(0, len(rows), each)]  # one per load and variant
-
-    def listed(values: list[Any]) -> Any:
-        return values[0] if len(groups) == 1 else values
-
-    summary: dict[str, Any] = {"load_N": listed([group[0]["load"] for group in groups]), "repetitions": each}
-    if scene.variants:
-        summary["variant"] = listed([group[0]["variant"] for group in groups])
-    for key in (key for key in rows[0] if key not in ("load", "variant", "repetition")):
-        by_group = [[row[key] for row in group] for group in groups]
-        summary[key] = listed([_mean(values) if each > 1 else values[0] for values in by_group])
-        if each > 1:
-            summary[f"{key}_spread"] = listed([_spread(values) for values in by_group])
-            summary[f"{key}_each"] = listed(by_group)
-    summary["reported_mean"] = scene.sizes.report
-    summary["smallest_radius_nm"] = 1e9 * scene.sizes.smallest
-    return Outcome(summary, _variables(scene, finished))
-
-
-def _mean(values: list[Any]) -> float:
-    finite = [float(v) for v in values if v is not None and np.isfinite(v)]
-    return float(np.mean(finite)) if finite else float("nan")
-
-
-def _spread(values: list[Any]) -> float:
-    finite = [float(v) for v in values if v is not None and np.isfinite(v)]
-    return float(np.std(finite, ddof=1)) if len(finite) > 1 else 0.0
-
-
-def _figures(scene: WearScene, record: dict[str, Any]) -> dict[str, Any]:
-    """The summary's figures of one run."""
-    cycles, particles = record["cycles"], record["particles"]
+def _record(scene: WearScene, load: float, grid: Grid, initial: list[FloatArray], result: RunningIn) -> WearRecord:
+    """The figures of a wear loop, means over its settled cycles, and its tables."""
+    body = result.wearing[0]
+    before, after = initial[body], result.worn_heights()[: grid.shape[0]]
+    cycles, pressure = result.cycles, result.pressure
+    assert pressure is not None
+    particles = result.particles[result.particles["body"] == scene.sizes.body(body)]
     settled = cycles[-scene.cycles.settled :]
     late = particles[particles["cycle"] > cycles["cycle"][-1] - scene.cycles.settled]
-    sizes = size_statistics(late, scene.sizes.smallest)
-    figures: dict[str, Any] = {key: record[key] for key in ("load", "variant", "repetition")}
-    for quantity in ("equivalent_radius", "length", "width", "thickness"):
-        figures[f"particle_{quantity}_nm"] = 1e9 * sizes[scene.sizes.report][quantity]
-    for weight, values in sizes.items():
-        for quantity, value in values.items():
-            figures[f"{weight}_mean_{quantity}_nm"] = 1e9 * value
-    contact_area = settled["contact_area"].mean()
-    strip = record["pressure"].any(axis=1)
+    strip = pressure.any(axis=1)
     strip = strip if strip.any() else np.ones_like(strip)
-    figures |= {
-        "particles_per_cycle": float(late.size / len(settled)),
-        "Sq_initial_nm": 1e9 * float(record["before"][strip].std()),
-        "Sq_final_nm": 1e9 * float(record["after"][strip].std()),
-        "contact_area_fraction": float(contact_area / record["area"]),
-        "mean_contact_pressure_Pa": float((settled["contact_load"] / settled["contact_area"]).mean()),
-        "worn_volume_per_cycle_um3": 1e18 * float(settled["volume"].mean()),
-        "first_cycles_radius_nm": 1e9 * _volume_mean_radius(particles[particles["cycle"] <= 5]["volume"]),
-        "cycles": int(cycles["cycle"][-1]),
-        "truncated_particles": int(late["truncated"].sum()),
-        "cell_nm": 1e9 * float(np.sqrt(record["cell_area"])),
-        "contact_seconds": float(record["times"]["contact"].sum()),
-        "stress_seconds": float(record["times"]["stress"].sum()),
-        "particles_seconds": float(record["times"]["particles"].sum()),
-        "depths_computed_per_cycle": float(cycles["depths_computed"].mean()),
-        "convolutions_per_cycle": float(cycles["convolutions"].mean()),
-    }
-    if scene.archard is not None and late.size:
-        from bem.particles import archard_volume, particle_coefficient, particle_number
-
-        rate, mean = scene.archard.specific_wear_rate, float(late["volume"].mean())
-        volume = archard_volume(rate, record["load"], scene.archard.distance)
-        figures["wear_volume_mm3"] = 1e9 * volume
-        figures["particle_number"] = particle_number(volume, mean)
-        figures["particles_per_mm_and_N"] = 1e-3 * particle_coefficient(rate, mean)
-    return figures
-
-
-def _variables(scene: WearScene, finished: list[dict[str, Any]]) -> dict[str, Variable]:
-    """Tables over runs and cycles; surfaces and pressure of the last run (others have grids of their own)."""
-    longest = max(len(record["cycles"]) for record in finished)
-
-    def over_cycles(values: list[NDArray[np.float64]]) -> NDArray[np.float64]:
-        table = np.full((len(values), longest), np.nan)
-        for row, series in zip(table, values, strict=True):
-            row[: len(series)] = series
-        return table
-
-    radius, number = [], []
-    for record in finished:
-        series, counts = [], []
-        for cycle in record["cycles"]["cycle"]:
-            volume = record["particles"]["volume"][record["particles"]["cycle"] == cycle]
-            series.append(_volume_mean_radius(volume) or np.nan)
-            counts.append(float(volume.size))
-        radius.append(np.array(series))
-        number.append(np.array(counts))
-    last = finished[-1]
-    variables = {
-        "load": Variable(("run",), np.array([r["load"] for r in finished]), "N", "load on the full width"),
-        "variant": Variable(("run",), np.array([r["variant"] for r in finished]), "1", "variant"),
-        "repetition": Variable(("run",), np.array([r["repetition"] for r in finished]), "1", "repetition"),
-        "cycle": Variable(("cycle",), np.arange(1, longest + 1), "1", "cycle"),
-        "radius": Variable(
-            ("run", "cycle"), over_cycles(radius), "m", "volume-mean equivalent radius of the particles"
-        ),
-        "particles": Variable(("run", "cycle"), over_cycles(number), "1", "particles per cycle"),
-        "x": Variable(("x",), last["x"], "m", "x, along sliding"),
-        "y": Variable(("y",), last["y"], "m", "y"),
-        "height_before": Variable(("x", "y"), last["before"], "m", f"height of the {last['body']} surface, unworn"),
-        "height_after": Variable(("x", "y"), last["after"], "m", f"height of the {last['body']} surface, run in"),
-        "pressure": Variable(("x", "y"), last["pressure"], "Pa", "contact pressure in the last cycle"),
-        "removed": Variable(("x", "y"), last["removed"], "m", f"what left the {last['body']} body in the last cycle"),
-    }
-    for name, unit, text in (
-        ("volume", "m^3", "volume worn per cycle"),
-        ("contact_area", "m^2", "contact area"),
-        ("plastic_area", "m^2", "area at the hardness"),
-        ("contact_load", "N", "load carried by contact"),
-        ("rms_height", "m", "rms height Sq of the worn surface in the contact strip"),
-        ("depths_computed", "1", "depths at which stress was computed"),
-        ("convolutions", "1", "convolutions of the contact solve"),
-    ):
-        variables[name] = Variable(
-            ("run", "cycle"), over_cycles([r["cycles"][name].astype(np.float64) for r in finished]), unit, text
-        )
-    rows = [(index, record["particles"]) for index, record in enumerate(finished)]
-    variables["particle_run"] = Variable(
-        ("particle",), np.concatenate([np.full(p.size, i) for i, p in rows]), "1", "run that the particle came from"
+    radius, number = _per_cycle(cycles["cycle"], particles)
+    tables: dict[str, Any] = {name: cycles[name].astype(np.float64) for name in _PER_CYCLE}
+    tables |= {f"particle_{name}": np.ascontiguousarray(particles[name]) for name in _PER_PARTICLE}
+    tables |= {f"{part}_seconds": float(result.times[part].sum()) for part in ("contact", "stress", "particles")}
+    return WearRecord(
+        **mean_sizes(late, scene.sizes),
+        particles_per_cycle=float(late.size / len(settled)),
+        Sq_initial=float(before[strip].std()),
+        Sq_final=float(after[strip].std()),
+        contact_area_fraction=float(settled["contact_area"].mean() / grid.area),
+        mean_contact_pressure=float((settled["contact_load"] / settled["contact_area"]).mean()),
+        worn_volume_per_cycle=float(settled["volume"].mean()),
+        first_cycles_radius=volume_mean_radius(particles[particles["cycle"] <= 5]["volume"]),
+        cycles=int(cycles["cycle"][-1]),
+        truncated_particles=int(late["truncated"].sum()),
+        cell=float(np.sqrt(grid.cell_area)),
+        depths_computed_per_cycle=float(cycles["depths_computed"].mean()),
+        convolutions_per_cycle=float(cycles["convolutions"].mean()),
+        **_archard(scene, load, late),
+        cycle=np.arange(1, len(cycles) + 1),
+        radius=radius,
+        particles=number,
+        **tables,
+        x=grid.x,
+        y=grid.y,
+        height_before=before,
+        height_after=after,
+        pressure=pressure,
+        removed=result.state.removed,
     )
-    for name, unit, text in (
-        ("cycle", "1", "cycle in which it came off"),
-        ("volume", "m^3", "volume"),
-        ("length", "m", "length of the bounding rectangle"),
-        ("width", "m", "width of the bounding rectangle"),
-        ("thickness", "m", "deepest point"),
-        ("x", "m", "x of its centre"),
-        ("y", "m", "y of its centre"),
-    ):
-        values = np.concatenate([p[name] for _, p in rows])
-        variables[f"particle_{name}"] = Variable(("particle",), values, unit, f"{text} of a particle")
-    return variables
+
+
+_PER_CYCLE = ("volume", "contact_area", "plastic_area", "contact_load", "rms_height", "depths_computed", "convolutions")
+_PER_PARTICLE = ("cycle", "volume", "length", "width", "thickness", "x", "y")
+
+
+def _per_cycle(cycles: IntArray, particles: NDArray[np.void]) -> tuple[FloatArray, FloatArray]:
+    """Volume-mean radius [m] (not-a-number where nothing came off) and number of the particles of each cycle."""
+    volumes = [particles["volume"][particles["cycle"] == cycle] for cycle in cycles]
+    radius = np.array([volume_mean_radius(volume) or np.nan for volume in volumes])
+    return radius, np.array([float(volume.size) for volume in volumes])
+
+
+def _archard(scene: WearScene, load: float, particles: NDArray[np.void]) -> dict[str, Any]:
+    """Worn volume and number of particles by Archard's law, where a wear rate is given and there are particles."""
+    names = ("wear_volume", "particle_number", "particles_per_mm_and_N")
+    if scene.archard is None or not particles.size:
+        return dict.fromkeys(names)
+    from bem.particles import archard_volume, particle_coefficient, particle_number
+
+    rate, mean = scene.archard.specific_wear_rate, float(particles["volume"].mean())
+    volume = archard_volume(rate, load, scene.archard.distance)
+    return dict(
+        zip(names, (volume, particle_number(volume, mean), 1e-3 * particle_coefficient(rate, mean)), strict=True)
+    )
+
+
+def summarise(scene: WearScene, axes: Any, records: Any) -> dict[str, Any]:
+    """What the means are of."""
+    return {"reported_mean": scene.sizes.report, "smallest_radius_nm": 1e9 * scene.sizes.smallest}
 
 
 KIND = Kind(
     name="wear",
     title="wear particles and running-in of a cylinder on a flat in boundary lubrication",
     model=WearScene,
+    axes=axes,
     plan=plan,
     run=run,
+    record=WearRecord,
+    summarise=summarise,
     resolve=resolve,
     figures=(
         "particle-radius-over-cycles",

@@ -1,19 +1,21 @@
-"""Points on a Dask cluster; needs the extra `bem[dask]`."""
+"""Jobs on a Dask cluster; needs the extra `bem[dask]`."""
 
 from __future__ import annotations
 
+import secrets
 from collections.abc import Iterable, Iterator
 from typing import Any
 
+from bem.campaigns.context import Silent
+from bem.campaigns.local import Job
 from bem.errors import InputError, ResultsError
-from bem.sweeps.point import Done, Point, bem_version, compute
 
 
-def compute_on_cluster(points: Iterable[Point], scheduler: str) -> Iterator[Done]:
-    """Compute points on the workers of a scheduler such as `tcp://10.0.0.1:8786`, yielding each as it ends.
+def compute_on_cluster(jobs: Iterable[Job], scheduler: str) -> Iterator[tuple[int, Any]]:
+    """Do jobs on the workers of a scheduler such as `tcp://10.0.0.1:8786`, yielding index and result of each.
 
-    A point whose worker dies goes to another one, and on from its checkpoint where both see the same disk; where a
-    worker does not see the sweep's folder, it computes in a temporary one and sends the files.
+    A job whose worker dies goes to another one, and on from its checkpoint where both see the same disk. Progress is
+    that of whole jobs; notes come with the results.
 
     Raises
     ------
@@ -33,20 +35,32 @@ def compute_on_cluster(points: Iterable[Point], scheduler: str) -> Iterator[Done
         ) from None
     with client:
         _check_versions(client)
+        token = secrets.token_hex(8)
         futures = {
-            client.submit(compute, point, key=f"bem-{point.token}-{point.index}", pure=False, retries=2): point
-            for point in points
+            client.submit(_compute, job, key=f"bem-{token}-{job.index}", pure=False, retries=2): job for job in jobs
         }
         try:
             for future in distributed.as_completed(futures, loop=client.loop):
-                point = futures[future]
+                job = futures[future]
                 failure = future.exception()
                 if future.status == "cancelled":
                     raise ResultsError("--scheduler: the scheduler is gone; the same command with --resume goes on")
-                yield future.result() if failure is None else Done(point.index, f"{type(failure).__name__}: {failure}")
+                lost = None if failure is None else job.lost(f"{type(failure).__name__}: {failure}")
+                yield job.index, future.result() if failure is None else lost
                 future.release()
         finally:
             client.cancel(list(futures), force=True)
+
+
+def _compute(job: Job) -> Any:
+    return job.compute(Silent())
+
+
+def bem_version() -> str:
+    """The version of `bem` where this is called, for comparing workers."""
+    import bem
+
+    return str(bem.__version__)
 
 
 def _check_versions(client: Any) -> None:

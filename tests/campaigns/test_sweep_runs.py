@@ -2,17 +2,18 @@
 
 import csv
 import json
-import multiprocessing
 import os
 import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-import bem.sweeps.run
+from bem.campaigns import engine
 from bem.errors import InputError, ResultsError
 from bem.results import RunDirectory, open_run
 from bem.results.dataset import read_dataset
@@ -33,17 +34,28 @@ SCENE = {
 OVER = ["contact.mean_pressure=log:20 MPa:80 MPa:3", "seed=1:2"]
 
 
+def workers_of(parent):
+    """Process ids of the workers that a process has started."""
+    found = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):
+            mine = int(stat.read_text().rsplit(")", 1)[1].split()[1]) == parent
+            if mine and b"bem.campaigns.local" in (stat.parent / "cmdline").read_bytes():
+                found.append(int(stat.parent.name))
+    return found
+
+
 @pytest.fixture
 def here(monkeypatch):
     """Points computed in this process, and counted."""
     counted = []
 
-    def locally(points, workers):
+    def locally(points, workers, tell):
         for point in points:
             counted.append(point.folder)
-            yield compute(point)
+            yield point.index, compute(point)
 
-    monkeypatch.setattr("bem.sweeps.local.compute_locally", locally)
+    monkeypatch.setattr("bem.campaigns.local.compute_locally", locally)
     return counted
 
 
@@ -80,7 +92,7 @@ def test_dataset_table_and_figure(tmp_path, here):
         assert float(at["contact_area_fraction"]) == own.summary["contact_area_fraction"]
     for name in ("sweep.png", "sweep.pdf"):
         assert (tmp_path / "s" / name).stat().st_size > 5000
-    assert not (tmp_path / "s" / ".sweep-token").exists()
+    assert not (tmp_path / "s" / ".campaign-token").exists()
 
 
 def test_keys_reach_into_lists(tmp_path, here):
@@ -180,14 +192,14 @@ def test_two_sweeps_in_one_folder_refuse_each_other(tmp_path, here):
 def test_a_worker_that_does_not_see_the_folder_sends_its_files(tmp_path, monkeypatch):
     import dataclasses
 
-    def elsewhere(points, workers):
+    def elsewhere(points, workers, tell):
         for point in points:
             hidden = dataclasses.replace(point, root="/nonexistent")
             done = compute(hidden)
             assert done.files
-            yield done
+            yield point.index, done
 
-    monkeypatch.setattr("bem.sweeps.local.compute_locally", elsewhere)
+    monkeypatch.setattr("bem.campaigns.local.compute_locally", elsewhere)
     done = run_sweep(SCENE, ["seed=1:2"], tmp_path / "s")
     assert done.computed == 2
     assert np.isfinite(done.dataset["load_N"]).all()
@@ -206,10 +218,10 @@ def test_killed_workers_are_replaced(tmp_path):
     killed = []
 
     def kill(done):
-        children = multiprocessing.active_children()
+        children = workers_of(os.getpid())
         if children and len(killed) < 2:
-            killed.append(children[0].pid)
-            children[0].kill()
+            killed.append(children[0])
+            os.kill(children[0], signal.SIGKILL)
 
     done = run_sweep(SCENE, ["seed=1:6"], tmp_path / "s", workers=2, watcher=Telling(kill))
     assert len(killed) == 2
@@ -219,7 +231,7 @@ def test_killed_workers_are_replaced(tmp_path):
     for name, item in single.dataset.variables.items():
         if name != "wall_time_s":
             np.testing.assert_array_equal(item.values, done.dataset[name].values)
-    assert multiprocessing.active_children() == []
+    assert workers_of(os.getpid()) == []
 
 
 @pytest.mark.slow
@@ -253,11 +265,11 @@ def test_interrupted_command_resumes(tmp_path):
 
 
 def test_fewer_processes_where_memory_is_short(monkeypatch):
-    monkeypatch.setattr(bem.sweeps.run, "available_memory", lambda: 10.0)
+    monkeypatch.setattr(engine, "available_memory", lambda: 10.0)
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: range(8), raising=False)
     watcher = Telling()
-    assert bem.sweeps.run._staff(None, 100, 4.0, watcher) == 2
+    assert engine.staff(None, 100, 4.0, watcher.note) == 2
     assert "memory" in watcher.notes[0]
-    assert bem.sweeps.run._staff(None, 100, 1.0, watcher) == 8
-    assert bem.sweeps.run._staff(None, 3, 1.0, watcher) == 3
-    assert bem.sweeps.run._staff(5, 100, 1e9, watcher) == 5
+    assert engine.staff(None, 100, 1.0, watcher.note) == 8
+    assert engine.staff(None, 3, 1.0, watcher.note) == 3
+    assert engine.staff(5, 100, 1e9, watcher.note) == 5

@@ -1,0 +1,320 @@
+"""Cases computed: those that are there are kept, the others run, each with a checkpoint file of its own.
+
+A case that fails (its solver cannot go on, its input cannot be used) is named and does not stop the others. A mistake
+in the program does. Every finished case is on disk before the next begins on its worker, and a case that was begun goes
+on from its own state, so a campaign killed at any moment ends, resumed, in the same bits.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import nullcontext
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from bem.campaigns.cases import Campaign, Case
+from bem.campaigns.collect import Given, collect
+from bem.campaigns.context import CaseContext, Silent, Watcher
+from bem.campaigns.disk import marked, sees
+from bem.campaigns.local import compute_locally
+from bem.errors import BemError, ConvergenceError, InputError, ResultsError, Status
+from bem.results.checkpoint import load_checkpoint, save_checkpoint
+from bem.results.directory import CASES, CHECKPOINT
+from bem.scenes.context import Outcome
+from bem.scenes.kinds import get_kind
+from bem.scenes.planner import Plan, available_memory, machine_rate
+from bem.scenes.records import pack, unpack, without
+from bem.threads import get_threads, set_threads
+
+_RECORD = "_record"
+_WORTH_A_PROCESS = 4.0
+"""Seconds of work that pay for starting a process, which takes two."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """What came of a case: its record, packed, or what went wrong."""
+
+    record: dict[str, Any] | None
+    notes: list[str] = field(default_factory=list)
+    seconds: dict[str, float] = field(default_factory=dict)
+    error: str = ""
+    status: Status = Status.CONVERGED
+    exception: type[BemError] = BemError
+
+
+@dataclass(frozen=True)
+class CaseJob:
+    """A case to be computed anywhere.
+
+    Parameters
+    ----------
+    file : of its checkpoint, None where there is none.
+    first, last : whether it is the first, the last of its campaign.
+    epoch : clock time [s] at which the run would have begun had it not been interrupted.
+    threads : for its run; None leaves them as they are.
+    token : of the run's folder where the worker may not see it, see `disk`.
+    """
+
+    index: int
+    case: Case
+    file: Path | None
+    first: bool
+    last: bool
+    epoch: float
+    threads: int | None = None
+    token: str = ""
+
+    def compute(self, watcher: Watcher) -> Result:
+        """Run the case, going on from its checkpoint; errors that a scene can cause come back as words."""
+        if self.threads is not None:
+            set_threads(self.threads)
+        file = self.file if not self.token or (self.file and sees(self.file.parent.parent, self.token)) else None
+        state = None if file is None else load_checkpoint(file)
+        context = CaseContext(self.case, file, state, watcher, self.epoch)
+        try:
+            record = get_kind(self.case.scene.kind).run(self.case.scene, context)
+        except ResultsError:
+            raise  # no case can be kept on a disk that is full
+        except (BemError, MemoryError) as error:
+            return _failed(error, context.notes, context.seconds)
+        if isinstance(record, Outcome):
+            return Result({"outcome": record}, context.notes, context.seconds)
+        return Result(pack(without(record, first=self.first, last=self.last)), context.notes, context.seconds)
+
+    def lost(self, why: str) -> Result:
+        """Its process died."""
+        return Result(None, error=why, status=Status.STALLED, exception=ConvergenceError)
+
+
+def _failed(error: BemError | MemoryError, notes: list[str], seconds: dict[str, float]) -> Result:
+    if isinstance(error, MemoryError):
+        words = "out of memory; fewer --workers or a smaller grid"
+        return Result(None, notes, seconds, words, Status.STALLED, ConvergenceError)
+    words = " | ".join(getattr(error, "messages", None) or [str(error)])
+    status = Status.INFEASIBLE if isinstance(error, InputError) else Status.STALLED
+    return Result(None, notes, seconds, words, status, type(error))
+
+
+@dataclass(frozen=True)
+class Computed:
+    """A campaign that is over: its outcome, what the reader must know, seconds by stage, summed over cases, and the
+    clock time [s] at which it would have begun had it not been interrupted."""
+
+    outcome: Outcome
+    notes: list[str]
+    seconds: dict[str, float]
+    epoch: float
+
+
+def compute(
+    campaign: Campaign,
+    folder: Path | None = None,
+    *,
+    plan: Plan | None = None,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    watcher: Watcher | None = None,
+) -> Computed:
+    """Compute what is missing of a campaign and put all of it together.
+
+    Parameters
+    ----------
+    campaign : the cases.
+    folder : of the run, where checkpoints are kept and looked for; None keeps none.
+    plan : of the campaign, for how many processes fit into memory and are worth starting; None computes here.
+    workers : processes; as many as cores, memory and work allow where not given. One case is computed here.
+    scheduler : address of a Dask scheduler, instead of processes on this machine.
+    watcher : told of progress and notes of all cases together.
+
+    Raises
+    ------
+    BemError : no case gave a result: what the first of them said.
+    ResultsError : checkpoints cannot be written.
+    """
+    board = Board(watcher or Silent(), campaign)
+    files = [_file(folder, campaign, case) for case in campaign.cases]
+    states = [None if file is None else load_checkpoint(file) for file in files]
+    epoch = time.time() - max((state["_wall_time_s"] for state in states if state is not None), default=0.0)
+    results: dict[int, Result] = {}
+    missing = []
+    for case, state in zip(campaign.cases, states, strict=True):
+        if state is not None and _RECORD in state:
+            results[case.index] = Result(state[_RECORD], state["_notes"], state["_seconds"])
+            board.over(case.index)
+        else:
+            missing.append(case)
+    del states
+    last = len(files) - 1
+    jobs = [
+        CaseJob(case.index, case, files[case.index], case.index == 0, case.index == last, epoch) for case in missing
+    ]
+    for index, result in _results(jobs, campaign, plan, workers, scheduler, board):
+        file = files[index]
+        if file is not None and len(files) > 1 and result.record is not None:
+            about = {"_notes": result.notes, "_seconds": result.seconds, "_wall_time_s": time.time() - epoch}
+            save_checkpoint(file, {_RECORD: result.record, **about})
+        if result.error and len(files) > 1:
+            board.watching(index).note(f"failed: {result.error}")
+        results[index] = result
+        board.over(index)
+    return _together(campaign, [results[case.index] for case in campaign.cases], epoch)
+
+
+def _file(folder: Path | None, campaign: Campaign, case: Case) -> Path | None:
+    if folder is None:
+        return None
+    if len(campaign.cases) == 1:
+        return folder / CHECKPOINT
+    (folder / CASES).mkdir(exist_ok=True)
+    return folder / CASES / f"{case.index:05d}.bin"
+
+
+def _results(
+    jobs: Sequence[CaseJob],
+    campaign: Campaign,
+    plan: Plan | None,
+    workers: int | None,
+    scheduler: str | None,
+    board: Board,
+) -> Iterator[tuple[int, Result]]:
+    """Results of the jobs in the order in which they end."""
+    if scheduler is not None and jobs:
+        from bem.campaigns.cluster import compute_on_cluster
+
+        folder = jobs[0].file.parent.parent if jobs[0].file and len(campaign.cases) > 1 else None
+        with nullcontext("none") if folder is None else marked(folder) as token:
+            yield from compute_on_cluster([dataclasses.replace(job, token=token) for job in jobs], scheduler)
+        return
+    memory = 0.0 if plan is None else plan.memory
+    count = staff(workers, len(jobs) if workers else _worth(len(jobs), plan), memory, board.note) if jobs else 0
+    if count > 1 and type(campaign.scene).__module__ != "__main__":  # else no other process could know the kind
+        sent = [dataclasses.replace(job, threads=get_threads()) for job in jobs]
+        yield from compute_locally(sent, count, board.watching)
+        return
+    for job in jobs:
+        yield job.index, job.compute(board.watching(job.index))
+
+
+def _worth(jobs: int, plan: Plan | None) -> int:
+    """How many processes the work is worth, at most one a job."""
+    if plan is None or jobs < 2:
+        return 1
+    seconds = plan.seconds(machine_rate(get_threads())) * jobs / plan.cases
+    return max(1, min(jobs, int(seconds / _WORTH_A_PROCESS)))
+
+
+def staff(workers: int | None, jobs: int, memory: float, note: Callable[[str], None]) -> int:
+    """How many processes: as asked, or one per core as far as the memory [bytes] that each needs allows."""
+    if workers is not None:
+        return min(workers, jobs)
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1)
+    wanted = min(max(1, cores // get_threads()), jobs)
+    fitting = max(1, int(available_memory() // max(memory, 1.0)))
+    if fitting < wanted:
+        note(f"{fitting} processes instead of {wanted}: more would not fit into memory")
+    return min(wanted, fitting)
+
+
+def _together(campaign: Campaign, results: Sequence[Result], epoch: float) -> Computed:
+    """All results as one; what went wrong in all of them is raised."""
+    broken = [result for result in results if result.record is None]
+    if len(broken) == len(results):
+        words = list(dict.fromkeys(message for result in broken for message in result.error.split(" | ")))
+        raise broken[0].exception(words if issubclass(broken[0].exception, InputError) else "; ".join(words))
+    kind = campaign.kind
+    if kind.record is None:
+        assert results[0].record is not None
+        return Computed(results[0].record["outcome"], results[0].notes, results[0].seconds, epoch)
+    records = [None if result.record is None else unpack(result.record, kind.record) for result in results]
+    given = [
+        Given(case, record, result.error, result.status)
+        for case, record, result in zip(campaign.cases, records, results, strict=True)
+    ]
+    seconds: dict[str, float] = {}
+    for result in results:
+        for stage, spent in result.seconds.items():
+            seconds[stage] = seconds.get(stage, 0.0) + spent
+    notes = notes_of([(case.label, result.notes) for case, result in zip(campaign.cases, results, strict=True)])
+    return Computed(collect(campaign, given), notes, seconds, epoch)
+
+
+def notes_of(by_case: Sequence[tuple[str, Sequence[str]]], named: int = 3) -> list[str]:
+    """The notes of all cases, each once: as it is where all have it, else with the cases it applies to."""
+    places: dict[str, list[str]] = {}
+    for label, notes in by_case:
+        for note in notes:
+            places.setdefault(note, []).append(label)
+    found = []
+    for note, labels in places.items():
+        if len(labels) == len(by_case):
+            found.append(note)
+        else:
+            more = f" and {len(labels) - named} more" if len(labels) > named else ""
+            found.append(f"{'; '.join(labels[:named])}{more}: {note}")
+    return found
+
+
+class Board:
+    """Progress of all cases as one, and their notes with the case in front."""
+
+    def __init__(self, watcher: Watcher, campaign: Campaign) -> None:
+        self._watcher = watcher
+        self._cases = campaign.cases
+        self._steps: dict[str, dict[int, int]] = {}
+        self._totals: dict[str, int] = {}
+        self._finished: set[int] = set()
+        self._said: set[str] = set()
+
+    def watching(self, index: int) -> Watcher:
+        """The watcher of one case."""
+        return self._watcher if len(self._cases) == 1 else _Watching(self, index)
+
+    def note(self, text: str) -> None:
+        """A note about all of it."""
+        self._watcher.note(text)
+
+    def over(self, index: int) -> None:
+        """A case is finished, now or before."""
+        if len(self._cases) > 1:
+            self._finished.add(index)
+            for what in self._totals:
+                self._show(what, {})
+            self._watcher.progress(len(self._finished), len(self._cases), "cases", {})
+
+    def step(self, index: int, done: int, total: int, what: str, figures: Mapping[str, float]) -> None:
+        """One case is that far."""
+        self._steps.setdefault(what, {})[index] = done
+        self._totals[what] = total
+        self._show(what, figures)
+
+    def remark(self, index: int, text: str) -> None:
+        """One case has something to say; what another said already is not repeated."""
+        if text not in self._said:
+            self._said.add(text)
+            self._watcher.note(f"{self._cases[index].label}: {text}")
+
+    def _show(self, what: str, figures: Mapping[str, float]) -> None:
+        total = self._totals[what]
+        running = sum(done for index, done in self._steps[what].items() if index not in self._finished)
+        done = len(self._finished) * total + running
+        self._watcher.progress(min(done, len(self._cases) * total), len(self._cases) * total, what, figures)
+
+
+class _Watching:
+    """The watcher of one of several cases."""
+
+    def __init__(self, board: Board, index: int) -> None:
+        self._board, self._index = board, index
+
+    def progress(self, done: int, total: int, what: str, figures: Mapping[str, float]) -> None:
+        """See `Watcher`."""
+        self._board.step(self._index, done, total, what, figures)
+
+    def note(self, text: str) -> None:
+        """See `Watcher`."""
+        self._board.remark(self._index, text)

@@ -1,0 +1,70 @@
+"""The plan of a scene with many cases: that of one case, for all of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+from bem.campaigns.cases import REPETITION, Campaign
+from bem.errors import InputError
+from bem.scenes.planner import Plan, Step
+
+_CASES_NAMED = 10
+
+
+def plan(campaign: Campaign) -> Plan:
+    """What will be computed for all cases.
+
+    Work adds up over the cases; memory is that of the most demanding one, as every worker holds one case.
+
+    Raises
+    ------
+    InputError : what the plan of a case refuses, each mistake once; InfeasibleError where it is
+        nothing else.
+    """
+    plans: list[Plan] = []
+    refused: list[InputError] = []
+    distinct = [case for case in campaign.cases if case.repetition == 0]
+    for case in distinct:
+        try:
+            plans.append(campaign.kind.plan(case.scene))
+        except InputError as error:
+            refused.append(error)
+    if refused:
+        messages = list(dict.fromkeys(message for error in refused for message in error.messages))
+        kind = type(refused[0]) if len({type(error) for error in refused}) == 1 else InputError
+        more = [f"and {len(messages) - _CASES_NAMED} more"] if len(messages) > _CASES_NAMED else []
+        raise kind([*messages[:_CASES_NAMED], *more])
+    repetitions = next((len(axis) for axis in campaign.axes if axis.name == REPETITION), 1)
+    names = dict.fromkeys(step.name for one in plans for step in one.steps)
+    steps = [_together([s for one in plans for s in one.steps if s.name == name], repetitions) for name in names]
+    return Plan(tuple(steps), cases=len(campaign.cases))
+
+
+def _together(steps: Sequence[Step], repetitions: int) -> Step:
+    """The steps of one name of all cases as one."""
+    if len(steps) == 1 and repetitions == 1:
+        return steps[0]
+    done = [step for step in steps if not step.skipped]
+    if not done:
+        return steps[0]
+    first = done[0]
+    times = 1 if first.per == "grid" else repetitions
+    largest = max(done, key=lambda step: step.points)
+    work = math.fsum(step.transforms * _cost(step.points) for step in done) / max(_cost(largest.points), 1.0)
+    kept = None if any(step.kept is None for step in done) else max(step.kept or 0.0 for step in done)
+    if first.per == "run":
+        return replace(first, seconds=max(step.seconds for step in done), memory=max(step.memory for step in done))
+    return replace(
+        first,
+        transforms=times * work,
+        points=largest.points,
+        memory=max(step.memory for step in done),
+        seconds=times * math.fsum(step.seconds for step in done),
+        kept=kept,
+    )
+
+
+def _cost(points: float) -> float:
+    return points * math.log2(max(points, 2.0))

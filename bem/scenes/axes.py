@@ -1,0 +1,70 @@
+"""What a scene runs over, as its kind declares it: loads, variants, temperatures, speeds, ...
+
+A kind knows one case. `Kind.axes(scene)` says in which keys a scene holds several, and how to make the scene of one:
+
+    def axes(scene):
+        return (listed(scene, "cylinder.loads", "load", Figure("N", "load on the full width")),)
+
+`bem.campaigns` takes all combinations, the last axis running fastest, and the repetitions of each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+from pydantic import BaseModel
+
+from bem.scenes.records import Figure
+
+Model = TypeVar("Model", bound=BaseModel)
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One thing that runs.
+
+    Parameters
+    ----------
+    name : the dimension in the dataset, and with the figure's unit the key of the summary.
+    values : of each place: numbers in SI units, or texts.
+    figure : unit and label of the values.
+    pick : pick(scene, i) -> the scene with only the i-th.
+    always : whether the summary has lists even where there is one value, and the key where there is nothing to tell.
+    """
+
+    name: str
+    values: tuple[Any, ...]
+    figure: Figure
+    pick: Callable[[Any, int], Any] = field(compare=False)
+    always: bool = True
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+
+def listed(scene: Any, key: str, name: str, figure: Figure) -> Axis:
+    """The axis of a list of numbers at a dotted key of the scene."""
+    place = scene
+    for part in key.split("."):
+        place = getattr(place, part)
+    values = tuple(place)
+    return Axis(name, values, figure, lambda scene, i: changed(scene, key, [values[i]]))
+
+
+def variants(scene: Any, change: Callable[[Any, Any], Any], key: str = "variants", unnamed: str = "") -> Axis:
+    """The axis of the named variants in a list of tables; `change(scene, variant)` makes the scene of one."""
+    found: Sequence[Any] = getattr(scene, key)
+
+    def pick(scene: Any, i: int) -> Any:
+        return changed(change(scene, found[i]), key, []) if found else scene
+
+    names = tuple(item.name for item in found) or (unnamed,)
+    return Axis("variant", names, Figure("", "variant"), pick, always=bool(found) or bool(unnamed))
+
+
+def changed(table: Model, key: str, value: Any) -> Model:
+    """A table of a scene with another value at a dotted key."""
+    name, _, rest = key.partition(".")
+    return table.model_copy(update={name: changed(getattr(table, name), rest, value) if rest else value})
