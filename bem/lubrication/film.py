@@ -37,11 +37,11 @@ class FilmSolution:
     residual : largest residual of the equations, relative to the local film.
     status : outcome.
     speeds, lubricant : as given.
-    rate : dh/dt [m/s] at the positions; None for a steady film.
     time : [s]; None for a steady film.
     film_fraction : (n,) share of the gap that is filled with oil; 1 in the full film. None with Swift and Stieber's
         cavitation, which keeps no account of it.
     volume_imbalance : relative error of the volume balance of a time step; None for a steady film.
+    state : the discrete solution as its solver left it, to start the next one from; None where none is kept.
     notes : where the model is outside its validity, a sentence each (`bem.lubrication.validity`).
     """
 

@@ -35,7 +35,7 @@ def dataset_variables(
     """Variables over the swept keys from the summaries in the order of the points; None is a point without a result.
 
     Numbers become arrays over the swept keys (not-a-number where there is no result), lists of numbers of one length
-    get a further dimension `entry_LENGTH`, texts stay texts.
+    get a further dimension "entry_LENGTH", texts stay texts.
     """
     keys = tuple(item.axis.key for item in coordinates)
     shape = tuple(len(item.values) for item in coordinates)

@@ -149,6 +149,7 @@ class GrowthTable:
     Parameters
     ----------
     sample : thickness, last sample or None -> ContactSample. tolerance : relative. first_interval : [m].
+    narrowest : relative width of an interval that is trusted in any case. samples : solved so far, ascending.
     """
 
     sample: Callable[[float, ContactSample | None], ContactSample]

@@ -52,7 +52,7 @@ class FadingSubstrate:
     substrate, film : [Pa] at the reference temperature. length : decay length [m].
     temperature_slope : fall of the factor per kelvin [1/K]; the factor acts on the film's own value only, because the
         substrate (steel) does not soften below 200 degrees Celsius.
-    reference_temperature : [K].
+    reference_temperature : [K]. lowest_factor : what is left of the film's own value at any temperature.
     """
 
     substrate: float

@@ -236,7 +236,7 @@ def run_in(
     friction : traction over pressure, along +x on the lower body.
     hardness : cap of the contact pressure [Pa]; None takes the softer surface's.
     cycles : how many, counted from the start of the run. model : the replaceable parts. stop : rule to end sooner.
-    contact_step : the contact of one cycle; None is the dry contact of these arguments, `friction.mixed_contact` gives
+    contact_step : the contact of one cycle; None is the dry contact of these arguments, `wear.mixed.MixedContact` is
         that of a lubricated one. state : to go on from; the heights given are then ignored.
     callback : called with the state after every cycle (checkpoints, progress).
 
