@@ -18,32 +18,8 @@ from bem.verification.rows import DISPLACEMENT_LIMIT, STRESS_LIMIT, Curve, Gate,
 from fem_reference import results as fem_results
 from reports import line_film, sketches
 from reports.builder import COLOURS, Page, Section, picture, table, text
+from reports.prose import prose
 
-FAMILIES = {
-    "disc": "Discs of pressure and traction",
-    "strip": "Strips, plane strain",
-    "harmonic": "Harmonic loads: the frequency response",
-    "rectangle": "Rectangles in three dimensions",
-    "contact": "Single asperities in contact",
-    "closed_forms": "Closed forms",
-    "refinement": "Refinement and images",
-}
-INTRODUCTIONS = {
-    "disc": "bem sees a disc as square cells that carry the mean of the pressure over each; the displacement operator "
-    "and the subsurface stresses are those of every simulation. Tangential displacements come from the kernel of a "
-    "rectangle, summed; for coated bodies bem does not compute them, and they are not compared. Left out are, under a "
-    "uniform load, points on the load's edge in displacements across the load, and stresses nearer to the surface than "
-    "the smallest cell.",
-    "strip": "Grids that are periodic along the strip carry the load; on bare bodies the kernels of the half-plane are "
-    "compared too. Traction along the strip is a strip along x on the other kind of grid.",
-    "harmonic": "One wavelength, eight cells: on a doubly periodic grid a harmonic is exact.",
-    "rectangle": "The kernel at the points, and cells through operator and stresses.",
-    "contact": "solve_contact on the same undeformed gap, without friction; lengths and pressures are Hertz' of the "
-    "uncoated contact at load 1 (the row: wavelength and p*).",
-    "closed_forms": "Solutions on paper, and what production makes of the same problem.",
-    "refinement": "The difference to the reference falls with the size of bem's cells as theory says it should (second "
-    "order for smooth loads). And a periodic axis must be the sum of its images on a free one.",
-}
 STYLES = ("o", "s", "^", "D", "v", "P", "X", "*")
 
 
@@ -68,12 +44,10 @@ def build() -> Page:
         curves = list(gate.curves())
         done.append(_Done(gate, curves, judge(gate.name, curves)))
     sections = [_verdict(done), _reading()]
-    for family, title in FAMILIES.items():
-        members = [d for d in done if d.gate.family == family]
-        if members:
-            links = ", ".join(f'<a href="#{Section(d.gate.name, "").anchor}">{d.gate.name}</a>' for d in members)
-            sections.append(Section(title, text(INTRODUCTIONS[family]) + f"<p>{links}</p>"))
-            sections += [Section(d.gate.name, _case(d), level=3) for d in members]
+    for title, introduction, members in _families(done):
+        links = ", ".join(f'<a href="#{Section(d.gate.name, "").anchor}">{d.gate.name}</a>' for d in members)
+        sections.append(Section(title, (text(introduction) if introduction else "") + f"<p>{links}</p>"))
+        sections += [Section(d.gate.name, _case(d), level=3) for d in members]
     sections.append(Section("Line-contact film", line_film.body()))
     sections.append(Section("Elastic-plastic indentation (reported, not gated)", _plasticity()))
     versions = next((c.document["versions"] for c in stored.cases()), {})
@@ -90,12 +64,23 @@ def build() -> Page:
     )
 
 
+def _families(done: Sequence[_Done]) -> list[tuple[str, str, list[_Done]]]:
+    """Title, introduction and gates of every family that the registry has; those with words in their order first."""
+    words = prose("verification")["families"]
+    known = [*words, *(d.gate.family for d in done)]
+    found = []
+    for family in dict.fromkeys(known):
+        members = [d for d in done if d.gate.family == family]
+        entry = words.get(family, {"title": family.replace("_", " "), "introduction": ""})
+        if members:
+            found.append((entry["title"], entry["introduction"], members))
+    return found
+
+
 def _verdict(done: Sequence[_Done]) -> Section:
     lines = []
-    for family, title in FAMILIES.items():
-        rows = [row for d in done if d.gate.family == family for row in d.rows]
-        if not rows:
-            continue
+    for title, _, members in _families(done):
+        rows = [row for d in members for row in d.rows]
         worst = max(rows, key=lambda row: row.difference / row.tolerance)
         median = float(np.median([row.difference for row in rows]))
         lines.append(

@@ -8,6 +8,7 @@ import pytest
 
 from bem.verification import registry
 from reports import builder, verification
+from reports.prose import prose
 
 FEW = ("disc-hertz-soft", "harmonic-antiplane-soft", "contact-row-plain", "oblique-wave", "refinement-strip-normal")
 
@@ -56,6 +57,25 @@ def test_rows_that_fail_are_said_first(few_gates, monkeypatch):
     assert "NOT within tolerance" in page.lead
     assert page.sections[0].title == "Verdict"
     assert "FAILED" in page.sections[0].body
+
+
+def test_every_family_of_gates_is_in_the_report_with_a_title():
+    done = [verification._Done(gate, [], []) for gate in registry.gates()]
+    shown = [member.gate.name for _, _, members in verification._families(done) for member in members]
+    assert sorted(shown) == sorted(gate.name for gate in registry.gates())
+    assert {gate.family for gate in registry.gates()} == set(prose("verification")["families"])
+
+
+def test_a_family_that_nobody_wrote_words_for_is_shown_and_counted(few_gates, monkeypatch):
+    import dataclasses
+
+    (gate,) = [g for g in few_gates if g.name == "oblique-wave"]
+    monkeypatch.setattr(registry, "gates", lambda: [dataclasses.replace(gate, family="brand_new")])
+    monkeypatch.setattr(verification, "set_spectra_memory", lambda limit: None)
+    monkeypatch.setattr(verification, "set_stress_memory", lambda limit: None)
+    page = verification.build()
+    assert "brand new" in page.sections[0].body
+    assert [section.title for section in page.sections if section.title == "oblique-wave"]
 
 
 def look(browser, html_page, tmp_path):

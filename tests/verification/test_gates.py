@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from bem.cli import build
 from bem.errors import InputError, ResultsError
-from bem.verification import patches, registry, rows, stored
+from bem.verification import patches, refinement, registry, rows, stored
 from bem.verification.rows import Curve, Gate
 
 KEYS = {"case", "quantity", "bem", "reference", "error_bar", "difference", "tolerance", "passed"}
@@ -57,6 +57,21 @@ def test_error_bars_widen_a_tolerance_but_not_without_end():
 def test_a_figure_that_is_not_a_number_fails():
     (row,) = rows.judge("c", [a_curve([1.0, math.nan], [1.0, 1.0])])
     assert not row.passed
+
+
+ORDERS = [gate.name for gate in registry.gates() if gate.name.startswith("refinement-")]
+
+
+@pytest.mark.parametrize("name", ORDERS)
+@pytest.mark.parametrize(("power", "passed"), [(1.0, False), (1.75, False), (2.0, True), (2.25, False), (3.0, False)])
+def test_gates_of_order_pass_the_second_order_and_nothing_else(monkeypatch, name, power, passed):
+    """The nearest orders that theory knows for a broken kernel or load are one lower and one higher."""
+    monkeypatch.setattr(refinement, "errors", lambda solve, reference, steps: [step**power for step in steps])
+    monkeypatch.setattr(refinement, "ball", lambda cells: (cells**-power, cells**-power))
+    (gate,) = registry.select([name])
+    found = gate.run()
+    assert found
+    assert all(row.passed is passed for row in found)
 
 
 @pytest.mark.parametrize("profile", ["uniform", "hertz"])
