@@ -13,13 +13,10 @@ from pathlib import Path
 from typing import Any
 
 from bem.plots.draw import Drawn
+from bem.plots.tables import figure_tables, is_list, name_and_unit
 from bem.results.atomic import write_text
 from bem.results.directory import REPORT
 
-_UNITS = {
-    "m": "m", "m2": "m²", "nm": "nm", "um": "µm", "Pa": "Pa", "N": "N", "s": "s", "C": "°C", "K": "K",
-    "nm_s": "nm/s", "m_s": "m/s", "N_m": "N/m", "J": "J", "um3": "µm³", "m3": "m³", "per_m": "1/m",
-}  # fmt: skip
 _HIDDEN = ("notes", "seconds_by_stage", "scene", "kind", "version", "seed", "status", "where", "wall_time_s")
 
 
@@ -39,8 +36,10 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
         summary=summary,
         scene=run.scene,
         converged=summary["status"] == "converged",
-        headline=[spelled(name, summary[name]) for name in first],
-        figures=summary_rows(summary, rest),
+        headline=[spelled(name, summary[name]) for name in first if not is_list(summary[name])],
+        headline_tables=figure_tables(summary, first),
+        figures=summary_rows(summary, [name for name in rest if not is_list(summary[name])]),
+        figure_tables=figure_tables(summary, rest),
         pictures=[(item.kind, _embedded(item.paths)) for item in drawn],
         stages=sorted(summary.get("seconds_by_stage", {}).items(), key=lambda item: -item[1]),
         scene_text=scene_text,
@@ -59,13 +58,8 @@ def summary_rows(summary: dict[str, Any], names: Sequence[str]) -> list[tuple[st
 
 def spelled(name: str, value: Any) -> tuple[str, str]:
     """`mean_contact_pressure_Pa`, 1.2e9 -> `mean contact pressure`, `1.2 GPa`."""
-    words, unit = name, ""
-    for ending in sorted(_UNITS, key=len, reverse=True):
-        if name.endswith("_" + ending):
-            words, unit = name[: -len(ending) - 1], _UNITS[ending]
-            break
-    text = " ".join(words.split("_")).replace("von mises", "von Mises")
-    if words.endswith("_fraction") and isinstance(value, float):
+    text, unit = name_and_unit(name)
+    if text.endswith(" fraction") and isinstance(value, float):
         return text, f"{value:.4%}"
     return text, _with_unit(value, unit)
 

@@ -136,6 +136,8 @@ def label(mutant):
 
 def check_caught(monkeypatch, mutant, factor):
     function, component, load, gate = mutant
+    if function.endswith("contact_modulus") and factor < 0:
+        factor = 0.99  # a modulus below zero has no contact at all, so no number either
     break_kernel(monkeypatch, function, factor, component=component, load=load)
     found = rows_of(gate)
     failed = [row for row in found if not row.passed]

@@ -1,0 +1,145 @@
+"""Figures of a run as tables: lists over speeds, loads or cases become rows, texts and single numbers stay apart."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from bem.plots.style import label, prefix
+
+UNITS = {
+    "m": "m", "m2": "m²", "nm": "nm", "um": "µm", "Pa": "Pa", "N": "N", "s": "s", "C": "°C", "K": "K",
+    "nm_s": "nm/s", "m_s": "m/s", "N_m": "N/m", "J": "J", "um3": "µm³", "m3": "m³", "per_m": "1/m",
+}  # fmt: skip
+_PREFIXED = ("m", "Pa", "N", "s")
+_SPREAD = "_spread"
+_TELLING = ("speed_m_s", "time_s", "load_N", "temperature_C", "hardness_Pa", "spacing_um")
+"""Figures that say which row it is; texts (a variant's name) do so too."""
+_MOST_COLUMNS, _MOST_ROWS = 7, 200
+_ROUND_OFF = 1e-6  # a spread below this share of its mean is none
+
+
+@dataclass(frozen=True)
+class FigureTable:
+    """A table of the report: a title (empty for none), heads of the columns, rows of texts."""
+
+    title: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+def name_and_unit(name: str) -> tuple[str, str]:
+    """`mean_contact_pressure_Pa` -> `mean contact pressure`, `Pa`."""
+    words, unit = name, ""
+    for ending in sorted(UNITS, key=len, reverse=True):
+        if name.endswith("_" + ending):
+            words, unit = name[: -len(ending) - 1], UNITS[ending]
+            break
+    return " ".join(words.split("_")).replace("von mises", "von Mises"), unit
+
+
+def is_list(value: Any) -> bool:
+    """Whether a figure is a list that wants a table: of several values, or of cases."""
+    return isinstance(value, list) and (len(value) > 1 or any(isinstance(item, Mapping) for item in value))
+
+
+def figure_tables(summary: Mapping[str, Any], names: Sequence[str], title: str = "") -> list[FigureTable]:
+    """Tables of those of the named figures that are lists.
+
+    Lists of one length share a table, a row for each entry, its first columns those that say which it is (speed, load,
+    variant); a spread stands beside its mean. A list of cases (tables of their own) becomes one table of its plain
+    values, and one for each case that holds lists.
+    """
+    found = []
+    plain = [n for n in names if is_list(summary.get(n)) and not any(isinstance(v, Mapping | list) for v in summary[n])]
+    for length in dict.fromkeys(len(summary[name]) for name in plain):
+        found += _columns(summary, [name for name in plain if len(summary[name]) == length], title)
+    for name in names:
+        value = summary.get(name)
+        if isinstance(value, list) and value and all(isinstance(item, Mapping) for item in value):
+            known = {n: summary[n] for n in _TELLING if is_list(summary.get(n))}
+            further = [case for case in value if any(summary.get(key) != case[key] for key in case)]
+            found += _cases(name_and_unit(name)[0], further, known)
+    return found
+
+
+def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str) -> list[FigureTable]:
+    """Lists of one length side by side, in tables of a few columns that repeat the first."""
+    names = [name for name in names if not _is_spread(name, summary)]
+    if not names:
+        return []
+    length = len(summary[names[0]])
+    step = -(-length // _MOST_ROWS)
+    leading = _leading(summary, length) or list(names[:1])
+    rest = [_column(name, summary[name], summary.get(name + _SPREAD)) for name in names if name not in leading]
+    first = [_column(name, summary[name], None) for name in leading]
+    wide = max(1, _MOST_COLUMNS - len(first))
+    found = []
+    for start in range(0, max(1, len(rest)), wide):
+        part = [*first, *rest[start : start + wide]]
+        rows = tuple(zip(*(cells[::step] for _, cells in part), strict=True))
+        words = f"{title} (one row in {step})".strip() if step > 1 else title
+        found.append(FigureTable(words if start == 0 else "", tuple(head for head, _ in part), rows))
+    return found
+
+
+def _leading(summary: Mapping[str, Any], length: int) -> list[str]:
+    """Lists of this length that say which row it is: what varies along it, each once."""
+    lists = [name for name, value in summary.items() if isinstance(value, list) and len(value) == length > 1]
+    telling = [n for n in lists if n in _TELLING or all(isinstance(item, str) for item in summary[n])]
+    return [n for n in telling if len(set(summary[n])) > 1]
+
+
+def _column(name: str, values: Sequence[Any], spread: Any) -> tuple[str, list[str]]:
+    """Head with its unit, and the values in it; not-a-number and nothing are a dash."""
+    words, unit = name_and_unit(name)
+    numbers = [v for v in values if isinstance(v, int | float) and not isinstance(v, bool)]
+    factor = 1.0
+    if unit in _PREFIXED and numbers:
+        factor, unit = prefix(numbers, unit)
+    if words.endswith(" fraction"):
+        factor, unit = 100.0, "%"
+    cells = [_cell(value, factor) for value in values]
+    if isinstance(spread, list) and len(spread) == len(values):
+        cells = [
+            cell if cell == "–" or not s or s < _ROUND_OFF * abs(value) else f"{cell} ± {s * factor:.2g}"
+            for cell, s, value in zip(cells, spread, values, strict=True)
+        ]
+    return label(words, unit), cells
+
+
+def _cell(value: Any, factor: float = 1.0) -> str:
+    if isinstance(value, bool | str):
+        return str(value).replace("_", " ")
+    if value is None or not np.isfinite(value):
+        return "–"
+    return str(value) if isinstance(value, int) and factor == 1.0 else f"{value * factor:.4g}"
+
+
+def _cases(title: str, cases: Sequence[Mapping[str, Any]], known: Mapping[str, Any]) -> list[FigureTable]:
+    """Cases in one table where their values are plain; a table for each, over the `known` lists, where they are not."""
+    keys = list(dict.fromkeys(key for case in cases for key in case))
+    plain = [key for key in keys if not any(isinstance(case.get(key), list | Mapping) for case in cases)]
+    plain = [key for key in plain if any(case.get(key) not in ("", None) for case in cases)]
+    found = []
+    if any(isinstance(value, list | Mapping) for case in cases for value in case.values()):
+        for case in cases:
+            words = ", ".join(_with_unit(key, case[key]) for key in plain if case.get(key) not in ("", None))
+            found += figure_tables({**known, **case}, list({**known, **case}), f"{title}: {words}" if words else title)
+    elif plain:
+        table = {key: [case.get(key) for case in cases] for key in plain}
+        columns = [_column(k, v, table.get(k + _SPREAD)) for k, v in table.items() if not _is_spread(k, table)]
+        rows = tuple(zip(*(cells for _, cells in columns), strict=True))
+        found.append(FigureTable(title, tuple(head for head, _ in columns), rows))
+    return found
+
+
+def _is_spread(name: str, among: Mapping[str, Any]) -> bool:
+    return name.endswith(_SPREAD) and name.removesuffix(_SPREAD) in among
+
+
+def _with_unit(name: str, value: Any) -> str:
+    return f"{_cell(value)} {name_and_unit(name)[1]}".rstrip()
