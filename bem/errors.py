@@ -24,7 +24,9 @@ _MESSAGES = {
     Status.CONVERGED: "converged to the requested tolerance",
     Status.MAX_ITERATIONS: "stopped at the iteration limit before the tolerance was met; raise either of them",
     Status.STALLED: "no further progress is possible in double precision; the residual says how far it came",
-    Status.INFEASIBLE: "no solution exists within the bounds; lower the load or raise the hardness",
+    Status.INFEASIBLE: (
+        "no solution exists within the bounds; lower the load, raise the hardness or ask for a larger mean gap"
+    ),
 }
 
 

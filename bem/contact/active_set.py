@@ -93,6 +93,7 @@ class LevelResult:
     """Where a level ended: scaled pressure and displacement (flat), approach, largest violation, and how.
 
     `fresh` : the displacement is the operator applied to this very pressure, not put together from others.
+    `least_mean_gap` : where less was asked for, a bound below which no mean gap exists.
     """
 
     pressure: FloatArray
@@ -102,6 +103,7 @@ class LevelResult:
     converged: bool
     rounds: int
     fresh: bool = True
+    least_mean_gap: float | None = None
 
 
 @dataclass(frozen=True)

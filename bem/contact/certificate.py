@@ -104,7 +104,7 @@ def certify(
         convolutions=operator.count.weighted - convolutions_before,
         residual=residual,
         status=Status.CONVERGED if residual <= request.tolerance else unmet,
-        notes=_notes(grid, pressure),
+        notes=_notes(grid, pressure) + _why(request, units, result),
     )
 
 
@@ -137,3 +137,12 @@ def _notes(grid: Grid, pressure: FloatArray) -> tuple[str, ...]:
                 f"if they do not, make the grid longer or periodic along {name}"
             )
     return tuple(notes)
+
+
+def _why(request: Request, units: Units, result: LevelResult) -> tuple[str, ...]:
+    if result.least_mean_gap is None or request.mean_gap is None:
+        return ()
+    return (
+        f"no approach gives a mean gap of {request.mean_gap:.4g} m: the bodies cannot be pressed flat, and "
+        f"{result.least_mean_gap * units.length:.4g} m is a lower bound on every mean gap",
+    )

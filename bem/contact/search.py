@@ -1,7 +1,8 @@
 """Prescribed quantities reached by way of another: the mean gap by the approach, a hard approach by the load.
 
-Both pairs depend on one another monotonically. A safeguarded secant iteration starts each solution from the pressure of
-the one before and asks of it no more precision than the next step can use.
+Both pairs depend on one another monotonically, but for the mean gap below stiff layers (see `least_gap`). A safeguarded
+secant iteration starts each solution from the pressure of the one before and asks of it no more precision than the next
+step can use.
 """
 
 from __future__ import annotations
@@ -39,26 +40,28 @@ def mean_gap_by_approach(
     mean_gap: float,
     gap: FloatArray,
     start: FloatArray | None,
-    guess: float,
     scale: float,
     tolerance: float,
     solve: Solve,
     *,
+    bracket: tuple[float, float],
+    guess: float | None = None,
     patient: bool = True,
 ) -> LevelResult:
-    """Solution whose mean positive gap is `mean_gap`, to `tolerance`; `guess` an approach to begin with.
+    """Solution whose mean positive gap is `mean_gap`, to `tolerance`, between two approaches, the first not enough.
 
-    Without patience the search ends at the first contact that does not converge.
+    Without patience the search ends at the first contact that does not converge; in any case where the mean gap grows
+    with the approach.
     """
 
     def excess(result: LevelResult) -> float:
         return mean_gap - mean_opening(gap, result)
 
-    # displacements are not negative on average, so this approach is not enough
-    least = float(gap.mean()) - mean_gap
+    low, high = bracket
     return _search(
-        max(guess, least), least, math.inf, scale, tolerance, start, ApproachControl, excess, solve, patient=patient
-    )
+        guess if guess is not None else 0.5 * (low + high),
+        low, high, scale, tolerance, start, ApproachControl, excess, solve, patient=patient,
+    )  # fmt: skip
 
 
 def mean_gap_by_load(
@@ -125,6 +128,8 @@ def _search(
             return result
         if len(points) >= _STEPS or not (patient or result.converged):
             return result
+        if error < 0 and any(x > other and error < less - 2 * precision for other, less in points):
+            return result  # it falls: there is no zero beyond
         if abs(error) <= 2 * precision and precision > tolerance:
             precision = max(tolerance, min(_CLOSE * abs(error), 0.1 * precision))
             points = points[-1:]

@@ -13,7 +13,8 @@ from bem.contact import cascade, passes
 from bem.contact.active_set import Effort, LevelResult, Tolerance, Tuning, solve_level
 from bem.contact.certificate import Request, Units, certify
 from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl, scaled_control
-from bem.contact.search import approach_by_load, mean_gap_by_approach, mean_gap_by_load, mean_opening
+from bem.contact.least_gap import least_gap
+from bem.contact.search import Solve, approach_by_load, mean_gap_by_approach, mean_gap_by_load, mean_opening
 from bem.contact.solution import ContactSolution
 from bem.convolution import DisplacementOperator
 from bem.errors import InfeasibleError, InputError, Status
@@ -63,6 +64,10 @@ def solve_contact(
     max_iterations : limit on iterations of conjugate gradients over all grids.
     callback : called with iterations, residual and fraction of cells in contact after each round on the grid itself.
 
+    An elastic contact on a free axis may have no answer for a `mean_gap`: a layer much stiffer than its base bends and
+    stands off somewhere, however hard it is pressed. Where that is proved the status is "infeasible", and `notes` has a
+    bound on the mean gaps there are.
+
     Raises
     ------
     InputError : arguments out of range, one message for each.
@@ -110,7 +115,11 @@ def solve_contact(
         Units(length, to_pressure, datum),
         roughness,
         result,
-        unmet=Status.MAX_ITERATIONS if effort.left <= 0 else Status.STALLED,
+        unmet=Status.INFEASIBLE
+        if result.least_mean_gap is not None
+        else Status.MAX_ITERATIONS
+        if effort.left <= 0
+        else Status.STALLED,
         iterations=effort.iterations,
         convolutions_before=before,
     )
@@ -212,24 +221,56 @@ def _solve(
     scale = problem.scale or 1.0
     if isinstance(control, MeanGapControl):
         # with mean-free displacements there is another way
+        # displacements are not negative on average, so the first of these approaches is not enough
+        least = float(gap.mean()) - control.mean_gap
         result = mean_gap_by_approach(
             control.mean_gap,
             gap,
             start.pressure,
-            start.approach,
             scale,
             tolerance,
             directly,
+            bracket=(least, math.inf),
+            guess=max(start.approach, least),
             patient=not operator.mean_free,
         )
         missed = not result.converged or abs(mean_opening(gap, result) - control.mean_gap) > tolerance
-        if not (missed and operator.mean_free and problem.effort.left > 0):
+        if not missed or problem.effort.left <= 0:
             return result
-        return mean_gap_by_load(control.mean_gap, gap, cap, scale, tolerance, directly)
+        if operator.mean_free:
+            return mean_gap_by_load(control.mean_gap, gap, cap, scale, tolerance, directly)
+        return result if math.isfinite(cap) else _least_gap(control, operator, gap, result, scale, tolerance, directly)
     result = directly(control, start.pressure, tolerance)
     if isinstance(control, LoadControl) or result.converged or problem.effort.left <= 0:
         return result
     return approach_by_load(control.approach, cap, None, gap.size, scale, tolerance, directly)
+
+
+def _least_gap(
+    control: MeanGapControl,
+    operator: DisplacementOperator,
+    gap: FloatArray,
+    missed: LevelResult,
+    scale: float,
+    tolerance: float,
+    solve: Solve,
+) -> LevelResult:
+    """A mean gap that the search did not find: below the least there is, or on the way down to it."""
+
+    def at(approach: float, start: FloatArray | None) -> LevelResult:
+        return solve(ApproachControl(approach), start, tolerance)
+
+    first = at(float(gap.mean()), None)
+    if not first.converged:
+        return missed
+    found = least_gap(control.mean_gap, operator, gap, first, scale, tolerance, at)
+    if found is None:
+        return missed
+    if found.bracket is None:
+        return replace(found.result, converged=False, least_mean_gap=found.bound)
+    return mean_gap_by_approach(
+        control.mean_gap, gap, found.result.pressure, scale, tolerance, solve, bracket=found.bracket
+    )
 
 
 def _lagged(

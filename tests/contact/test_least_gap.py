@@ -1,0 +1,76 @@
+"""Mean gaps that do not exist: proved, and checked against a linear programme over all pressures and approaches."""
+
+import numpy as np
+import pytest
+import scipy.optimize
+from contact_oracles import FREE, rough
+
+from bem import Body, Grid, Layer, Material, Status, displacement_operator, solve_contact
+
+
+def stiff_layer(periodic, friction, ratio=63.0, shape=(15, 8)):
+    film = Material("film", youngs_modulus=ratio, poissons_ratio=0.3)
+    base = Material("base", youngs_modulus=1.0, poissons_ratio=0.3)
+    grid = Grid(shape, (1 / max(shape),) * 2, periodic=periodic)
+    return displacement_operator(grid, Body(base, layer=Layer(film, 0.3)), friction=friction)
+
+
+def columns(operator):
+    cells = operator.grid.cells
+    units = np.eye(cells).reshape(cells, *operator.grid.shape)
+    return np.stack([operator(unit).ravel() for unit in units], axis=1)
+
+
+def least_mean_gap(operator, gap):
+    """Least of mean(gap + K p - d) over p >= 0 and d with gap + K p - d >= 0: no contact can have less."""
+    cells = gap.size
+    matrix = np.hstack([columns(operator), -np.ones((cells, 1))])
+    found = scipy.optimize.linprog(
+        matrix.mean(axis=0), -matrix, gap.ravel(), bounds=[(0, None)] * cells + [(None, None)], method="highs"
+    )
+    assert found.status == 0
+    return found.fun + gap.mean()
+
+
+@pytest.mark.parametrize("periodic", [FREE, (False, True)])
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_mean_gaps_below_the_least_are_infeasible_and_those_above_are_reached(periodic, friction):
+    operator = stiff_layer(periodic, friction)
+    gap = 2.5e-3 * rough(15, 8, seed=34)
+    least = least_mean_gap(operator, gap)
+    assert 0.1 * gap.std() < least < gap.mean() - gap.min()
+    below = solve_contact(gap, operator, mean_gap=0.97 * least, tolerance=1e-6)
+    assert below.status == Status.INFEASIBLE
+    (why,) = [note for note in below.notes if "no approach" in note]
+    # a bound, and a near one: the search ends at the first that is above what was asked for
+    assert 0.97 * least < float(why.split("and ")[1].split(" m")[0]) <= least * (1 + 1e-3)  # four digits are printed
+    assert np.maximum(below.gap, 0).mean() >= least * (1 - 1e-6)
+    above = solve_contact(gap, operator, mean_gap=1.03 * least, tolerance=1e-6)
+    assert above.status == Status.CONVERGED
+    assert np.maximum(above.gap, 0)[above.pressure == 0].sum() / gap.size == pytest.approx(1.03 * least, rel=1e-4)
+
+
+def test_less_than_a_moderate_layer_needs_is_said_without_running_off():
+    """The search for ever larger approaches went to 1e27 m, and ended "stalled"."""
+    operator = stiff_layer(FREE, 0.0, ratio=30.0, shape=(40, 33))
+    gap = 2e-3 * rough(40, 33, seed=3)
+    solution = solve_contact(gap, operator, mean_gap=1e-6, tolerance=1e-6)
+    assert solution.status == Status.INFEASIBLE
+    assert solution.approach < 1.0
+    assert solution.convolutions < 2000
+    # the contact that is returned is one, of another mean gap
+    opening = gap + operator(solution.pressure) - solution.approach
+    assert np.abs(opening[solution.pressure > 0]).max() <= 1e-6 * gap.std()
+    assert opening.min() >= -1e-6 * gap.std()
+    elastic = solve_contact(gap, operator, approach=solution.approach, tolerance=1e-6)
+    np.testing.assert_allclose(elastic.load, solution.load, rtol=1e-4)
+
+
+def test_every_mean_gap_exists_below_a_hardness():
+    """Bodies that overlap where they yield close any gap: what is infeasible for elastic ones is not for these."""
+    operator = stiff_layer(FREE, 0.0)
+    gap = 2.5e-3 * rough(15, 8, seed=34)
+    least = least_mean_gap(operator, gap)
+    solution = solve_contact(gap, operator, mean_gap=0.5 * least, hardness=0.05, tolerance=1e-6)
+    assert solution.status == Status.CONVERGED
+    assert solution.plastic_area > 0
