@@ -5,7 +5,8 @@ The sum of both grows with the film load, so its ends are looked at by one rule 
 - *full film*: a film under the whole load that clears the roughness; nothing else is to be done;
 - *boundary*: a film that is left with a negligible share of the load, a tenth of the tolerance, and is even then
   thinner than what the surfaces leave open when they carry all the rest. It would be left with less still, and the
-  rest is known to within the tolerance: the contact under that load is the answer.
+  rest is known to within the tolerance: the contact under that load is the answer. So it is where the film's model
+  ends before film and contact carry the load, the film there being thinner than a few molecules: it is none.
 
 Between them a secant within a bracket, in logarithms: films and contacts follow powers of the load. Where the contact's
 load changes so steeply with the film's that the film's is known before both meet the load, the surfaces are pressed
@@ -15,13 +16,14 @@ together by what it leaves them, and must then hold its oil. Nothing here knows 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 from bem.errors import Status
 from bem.friction.film import Film, PatchFilm
 from bem.friction.rough_contact import Pressed, RoughContact
 from bem.grid import FloatArray
+from bem.lubrication.validity import THINNEST_FILM
 
 MAX_TRIALS = 60
 NEGLIGIBLE = 0.1
@@ -89,7 +91,10 @@ def share_load(
         trial, slope, regime = search.run(at, slope)
         at = trial.logarithm
         if search.too_little(trial):
-            return _certified(trial, load, tolerance, regime, effort, slope, short=True)
+            if not search.is_no_film(trial):
+                return _certified(trial, load, tolerance, regime, effort, slope, short=True)
+            trial = replace(search, level=len(film.errors) - 1).under_the_rest()
+            return _certified(trial, load, tolerance, Regime.BOUNDARY, effort, slope)
     return _certified(trial, load, tolerance, regime, effort, slope)
 
 
@@ -247,6 +252,10 @@ class _Search:
     def too_little(self, trial: _Trial) -> bool:
         """Whether all that the film's model can carry is not enough."""
         return trial.excess < -self.goal and trial.logarithm >= self.top
+
+    def is_no_film(self, trial: _Trial) -> bool:
+        """Whether a film is so thin that the surfaces carry the load without it, and can."""
+        return trial.film.minimum_thickness < THINNEST_FILM and self.load <= self.rough.largest_load
 
     def is_boundary(self, probe: _Trial) -> bool:
         """Whether the film, negligible as it is, is thinner than the surfaces leave open."""

@@ -172,8 +172,10 @@ class UncoupledAsperities:
         return find_summits(self.rough, self.setup.grid)
 
     def clears(self, film: PatchFilm) -> bool:
-        """As `RoughContact`."""
-        return bool((film.thickness - self.rough).min() >= 0)
+        """As `RoughContact`; the tops of summits, between cells, count as well."""
+        if (film.thickness - self.rough).min() < 0:
+            return False
+        return bool((self._separation(film) - self._summits.height >= 0).all())
 
     def at_volume(self, film: PatchFilm, tolerance: float, start: FloatArray | None) -> Pressed:
         """As `RoughContact`; with the separation "film" the mean planes are as far apart as the film is thick."""

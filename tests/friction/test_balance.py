@@ -184,8 +184,34 @@ def test_the_balance_takes_another_film_model(constant, model):
     assert balance.contacts <= 14
 
 
+def test_boundary_where_the_films_model_ends_in_a_film_thinner_than_molecules():
+    """A creeping roller of 1.3 kN in thin oil: no film is known under more than 0.5 kN, and that one is no film."""
+    grid = Grid((64, 16), (9e-6, 9e-6), periodic=(False, True))
+    height = generate_surface(grid, rms_height=180e-9, correlation_length=27e-6, seed=34)
+    case = {"grid": grid, "radius": 5e-3, "width": 10e-3, "load": 1300.0, "hardness": 6e9}
+    case["lubricant"] = Lubricant(0.086, pressure_viscosity=20e-9)
+    step, outcome, point = both(height, (2.7e-7, 0.0), **case)
+    assert outcome.status is point.status is Status.CONVERGED
+    assert point.regime is Regime.BOUNDARY
+    assert point.contact_load + point.film_load == pytest.approx(1300, rel=5e-4)  # the tolerance
+    assert point.friction == pytest.approx(0.15, rel=1e-3)  # a tenth of the tolerance is the film's
+    assert any("outside its model" in note for note in point.notes)
+    assert any("outside its model" in note for note in step.notes)
+
+
+def test_uncoupled_summits_carry_nothing_where_their_film_begins():
+    """Tops between the cells count where the film clears the roughness, or the load would jump from nothing."""
+    rough = rough_contact(MixedSetup(**CASE, contact_model="uncoupled"), HEIGHT, (0.1, 0.0))
+    top = max(rough._summits.height.max(), rough.rough.max())
+    for share, clear in ((1 + 1e-9, True), (1 - 1e-6, False)):
+        film = FlatFilm(share * top).under(1.0, 0, None)
+        assert rough.clears(film) is clear
+        # a summit of 1e-6 x 400 nm carries E* sqrt(R) d^1.5: below 1e-7 N
+        assert rough.at_volume(film, 0.0, None).load < (0 if clear else 1e-6) + 1e-300
+
+
 def test_a_film_model_that_ends_too_early_is_infeasible_and_says_so():
-    film = FlatFilm(1e-5, largest_load=1.0)
+    film = FlatFilm(1e-5, largest_load=1.0)  # as thick as that, it is a film
     rough = rough_contact(MixedSetup(**CASE), HEIGHT, (0.1, 0.0))
     balance = share_load(film, rough, 5.5, 5e-4, film.under(1.0, 0, None), BalanceStart(2.0))
     assert balance.status is Status.INFEASIBLE
