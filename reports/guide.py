@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from bem.errors import InputError
+from bem.laws import FAMILIES, laws_of
 from bem.scenes import get_kind, kind_names, library
 from bem.scenes.template import _about, _default, scene_template
 from bem.scenes.validate import _fields, _literals, _unwrap, _without_none
@@ -62,39 +63,66 @@ open_run("out").scene["contact"]
 """
 
 LAW = '''
-# bem/lubrication/viscosity.py: the law, and its entry in the table at the end of the file
+# my_laws.py, a file of your own: a law is one class; its parameters have units and bounds, its formula is a method
+from dataclasses import dataclass
+from typing import ClassVar
 import numpy as np
-from bem.lubrication.viscosity import VISCOSITY_LAWS
+import bem
+from bem.laws import parameter
+from bem.lubrication.viscosity import ViscosityLaw
 
-def power(pressure, viscosity, coefficient):
-    """mu = mu0 (1 + alpha p / 16)^16; gives ln(mu / mu0) and its derivative with pressure."""
-    base = 1 + coefficient * pressure / 16
-    return 16 * np.log(base), coefficient / base
+@bem.register
+@dataclass(frozen=True)
+class Power(ViscosityLaw):
+    """mu = mu0 (1 + alpha p / n)^n."""
+    name: ClassVar[str] = "power"
+    exponent: float = parameter("n: Barus' law where it is large", default=16.0, above=0)
 
-VISCOSITY_LAWS["power"] = power
+    def log_viscosity_ratio(self, pressure, viscosity, pressure_viscosity):
+        """ln(mu / mu0) and its derivative with pressure, which is alpha at zero pressure for every law."""
+        base = 1 + pressure_viscosity * pressure / self.exponent
+        return self.exponent * np.log(base), pressure_viscosity / base
 
-# then a scene may not say so yet: add "power" to the choices of `viscosity_law` in bem/scenes/lubrication.py,
-# and its values to tests/lubrication/: at zero pressure the slope is alpha for every law
-from bem import Lubricant
-oil = Lubricant(0.1, pressure_viscosity=20e-9, viscosity_law="power")
+oil = bem.Lubricant(0.1, pressure_viscosity=20e-9, viscosity_law="power", exponent=12)
 assert oil.viscosity_at(np.array([0.0]))[0] == 0.1
+assert bem.Lubricant(0.1, pressure_viscosity=20e-9, viscosity_law=Power(exponent=12)) == oil
+'''
+LAW_SCENE = '''
+[oil]
+viscosity = "0.1 Pa*s"
+pressure_viscosity = "20 1/GPa"
+viscosity_law = "power"
+exponent = 12           # or, in one line: viscosity_law = { kind = "power", exponent = 12 }
+'''
+LAW_LOAD = '''
+BEM_LAWS=my_laws.py bem run my-scene.toml
 '''
 CRITERION = '''
-# bem/wear/criterion.py: the equivalent stress, and its entry in CRITERIA
+# the same for a wear criterion: material leaves where the equivalent stress exceeds the yield stress
+from dataclasses import dataclass
+from typing import ClassVar
 import numpy as np
-from bem.wear.criterion import CRITERIA, Criterion
+import bem
+from bem.laws import parameter
+from bem.wear.criterion import WearCriterion
 
-def octahedral_shear(stress):
-    """Octahedral shear stress, sqrt(2)/3 of the von Mises stress [Pa]."""
-    from bem import von_mises
-    return np.sqrt(2) / 3 * von_mises(stress)
+@bem.register
+@dataclass(frozen=True)
+class OverStress(WearCriterion):
+    """Von Mises stress above a threshold."""
+    name: ClassVar[str] = "over_stress"
+    threshold: float = parameter("stress that does no harm", "Pa", at_least=0)
 
-# the last number lets depths be skipped by the bound on von Mises: the largest ratio of the two
-CRITERIA["octahedral_shear"] = Criterion("octahedral_shear", octahedral_shear, np.sqrt(2) / 3)
+    # lets depths be skipped by the bound on von Mises: the largest ratio of the two (leave it out if there is none)
+    von_mises_factor = 1.0
 
-# then "octahedral_shear" among the choices of `criterion` in bem/scenes/kinds/wear.py, and a known state in tests/wear/
-tension = np.array([1.0, 0, 0, 0, 0, 0])
-assert np.isclose(CRITERIA["octahedral_shear"].equivalent_stress(tension), np.sqrt(2) / 3)
+    def equivalent_stress(self, stress):
+        """(...) of stresses (6, ...) [Pa]."""
+        return np.maximum(bem.von_mises(stress) - self.threshold, 0.0)
+
+# in a scene: wear.criterion = { kind = "over_stress", threshold = "0.2 GPa" }
+tension = np.array([3e8, 0, 0, 0, 0, 0])
+assert np.isclose(OverStress(threshold=2e8).equivalent_stress(tension), 1e8)
 '''
 READER = '''
 # Most instruments are read by SurfaceTopography already. What it cannot read comes in as heights [m] and spacing [m]:
@@ -237,7 +265,7 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
         "Eyring (1936), Johnson and Tevaarwerk (1977); Bair (2007);\n"
         "limit: Bair and Winer (1979), Hoglund and Jacobson (1986)",
         "The thesis' oil is Newtonian; its conditions stay below 6 % of the limit.",
-        "bem/lubrication/shear_thinning.py",
+        "bem/lubrication/shear.py",
     ),
     (
         "Viscosity",
@@ -545,14 +573,45 @@ def _theory() -> list[Section]:
     )
     return [
         Section("Theory", conventions + body),
+        Section(
+            "Laws",
+            text("All that have a name, with their parameters.")
+            + table(("key", "name", "what it is", "parameters"), list(_laws())),
+        ),
         Section("Limits of validity", table(("assumption", "what it means"), LIMITS)),
     ]
 
 
+def _laws() -> Iterator[tuple[str, str, str, str]]:
+    """Rows of the registry of laws."""
+    for family in FAMILIES:
+        for name, law in laws_of(family).items():
+            words = []
+            for key, about in law.parameters().items():
+                default = "required" if key in law.required() else f"default {law.__dataclass_fields__[key].default}"
+                unit = f" [{about.unit}]" if about.unit else ""
+                source = f"; {about.source}" if about.source else ""
+                words.append(f"{key}{unit}: {about.meaning} ({default}, {about.allowed}{source})")
+            yield family, name, " ".join((law.__doc__ or "").split()), ". ".join(words)
+
+
 def _contributing() -> list[Section]:
     parts = (
-        ("A viscosity law", "Two files and a test.", LAW),
-        ("A wear criterion", "Two files and a test.", CRITERION),
+        (
+            "A viscosity law",
+            "One file, of the package or your own: messages, scenes, bem schema and the table of laws know it once it "
+            "is registered.",
+            LAW,
+        ),
+        ("The same in a scene", "A parameter takes any unit of its dimension, in quotes.", LAW_SCENE),
+        (
+            "Your file and the command line",
+            "BEM_LAWS names files or modules (several are separated as in PATH). A package of yours that is installed "
+            "needs no more than an entry point of group bem.laws that names the module. A script registers, then calls "
+            "bem.run_scene.",
+            LAW_LOAD,
+        ),
+        ("A wear criterion", "One file likewise.", CRITERION),
         ("A reader", "One file and a test.", READER),
         ("A kernel and its gate", "The kernel, its gate, and an entry in the registry.", KERNEL),
     )

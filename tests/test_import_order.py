@@ -8,8 +8,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1] / "bem"
 
 ORDER = [
-    {"errors", "representation", "small_files"},
-    {"grid", "materials", "threads", "fftw"},
+    {"errors", "lazy", "representation", "small_files"},
+    {"grid", "materials", "threads", "fftw", "laws"},
     {"kernels", "reference_solutions"},
     {"transforms"},
     {"convolution"},

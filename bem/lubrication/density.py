@@ -1,29 +1,51 @@
 """Density laws: density over that at ambient pressure, and its derivative with pressure.
 
-To add a law, write one function here and enter it in `DENSITY_LAWS`; pressures are never negative.
+To add a law, derive from `DensityLaw` and register it, here or in a file of your own; pressures are never negative.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from bem.grid import FloatArray
-
-DensityLaw = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
-
-
-def incompressible(pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The same at every pressure."""
-    return np.ones_like(pressure), np.zeros_like(pressure)
+from bem.laws import Law, register
 
 
-def dowson_higginson(pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """rho/rho0 = 1 + 0.6e-9 p / (1 + 1.7e-9 p), p in Pa; Dowson and Higginson, *Elasto-hydrodynamic
-    lubrication* (1966)."""
-    denominator = 1 + 1.7e-9 * pressure
-    return 1 + 0.6e-9 * pressure / denominator, 0.6e-9 / denominator**2
+@dataclass(frozen=True)
+class DensityLaw(Law):
+    """Density over pressure."""
+
+    family: ClassVar[str] = "density_law"
+
+    def density_ratio(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """rho/rho0 and its derivative [1/Pa] at pressures >= 0 [Pa]."""
+        raise NotImplementedError
 
 
-DENSITY_LAWS: dict[str, DensityLaw] = {"incompressible": incompressible, "dowson_higginson": dowson_higginson}
+@register
+@dataclass(frozen=True)
+class Incompressible(DensityLaw):
+    """The same density at every pressure."""
+
+    name: ClassVar[str] = "incompressible"
+
+    def density_ratio(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """One."""
+        return np.ones_like(pressure), np.zeros_like(pressure)
+
+
+@register
+@dataclass(frozen=True)
+class DowsonHigginson(DensityLaw):
+    """rho/rho0 = 1 + 0.6e-9 p / (1 + 1.7e-9 p), p in Pa; Dowson and Higginson, *Elasto-hydrodynamic lubrication*
+    (1966)."""
+
+    name: ClassVar[str] = "dowson_higginson"
+
+    def density_ratio(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The ratio above."""
+        denominator = 1 + 1.7e-9 * pressure
+        return 1 + 0.6e-9 * pressure / denominator, 0.6e-9 / denominator**2

@@ -15,6 +15,7 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.shear import LimitedShear
 
 LARGEST_SHEAR_COEFFICIENT = 0.12
 """Largest limiting shear stress over pressure that was measured; Hoglund and Jacobson (1986), Bair (2007)."""
@@ -77,7 +78,7 @@ def shear_beyond_measurements(case: Case) -> str | None:
     if (case.sliding_stress <= LARGEST_AMBIENT_STRENGTH + LARGEST_SHEAR_COEFFICIENT * case.pressure).all():
         return None
     return (
-        f'the shear stress in the oil (shear_law "{case.lubricant.shear_law}") exceeds '
+        f'the shear stress in the oil (shear_law "{case.lubricant.shear_law.name}") exceeds '
         f"{LARGEST_AMBIENT_STRENGTH / 1e6:g} MPa + {LARGEST_SHEAR_COEFFICIENT:g} p, more than any oil was measured to "
         'carry: the friction is not to be believed (shear_law "limited" cuts it)'
     )
@@ -89,21 +90,25 @@ def shear_at_the_limit(case: Case) -> str | None:
     share = case.integral(np.where(cut, case.pressure, 0.0)) / max(case.integral(case.pressure), 1e-300)
     if share < LOAD_AT_THE_LIMIT:
         return None
-    oil = case.lubricant
+    law = case.lubricant.shear_law
+    limit = (
+        f", {law.ambient_shear_strength / 1e6:g} MPa + {law.limiting_shear_coefficient:g} p,"
+        if isinstance(law, LimitedShear)
+        else ""
+    )
     return (
-        f"the oil is at its limiting shear stress, {oil.ambient_shear_strength / 1e6:g} MPa + "
-        f"{oil.limiting_shear_coefficient:g} p, in much of the contact: the film's friction rests on that coefficient "
-        "(oils have 0.04 to 0.12)"
+        f"the oil is at its limiting shear stress{limit} in much of the contact: the film's friction rests on that "
+        "limit (the coefficient of oils is 0.04 to 0.12)"
     )
 
 
 def viscosity_beyond_range(case: Case) -> str | None:
     """The viscosity law is used at pressures that it was not made for."""
-    largest = case.lubricant.largest_pressure
+    largest = case.lubricant.viscosity_law.largest_pressure
     if case.pressure.max(initial=0.0) <= largest:
         return None
     return (
-        f'the pressure exceeds {largest / 1e9:g} GPa, up to which viscosity_law "{case.lubricant.viscosity_law}" '
+        f'the pressure exceeds {largest / 1e9:g} GPa, up to which viscosity_law "{case.lubricant.viscosity_law.name}" '
         "describes oils: viscosities in the middle of the contact are extrapolated (the film forms in the inlet, where "
         "pressures are lower)"
     )
@@ -116,7 +121,9 @@ def spike_unresolved(case: Case) -> str | None:
     peaks = (inner > p[:-2]) & (inner >= p[2:]) & (inner > 0.2 * p.max(initial=0.0))
     if not (np.minimum(p[:-2], p[2:])[peaks] < SHARP_SPIKE * inner[peaks]).any():
         return None
-    remedy = ' (density_law "dowson_higginson" blunts it)' if case.lubricant.density_law == "incompressible" else ""
+    remedy = (
+        ' (density_law "dowson_higginson" blunts it)' if case.lubricant.density_law.name == "incompressible" else ""
+    )
     return f"the pressure spike is narrower than the mesh resolves: its height is not to be used{remedy}"
 
 

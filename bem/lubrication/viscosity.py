@@ -1,18 +1,19 @@
 """Viscosity laws: ln(viscosity / viscosity at ambient pressure) and its derivative with pressure.
 
-To add a law, write one function here and enter it in `VISCOSITY_LAWS`; pressures are never negative.
+To add a law, derive from `ViscosityLaw` and register it, here or in a file of your own; pressures are never negative.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from bem.grid import FloatArray
-
-ViscosityLaw = Callable[[FloatArray, float, float], tuple[FloatArray, FloatArray]]
+from bem.laws import Law, register
 
 ROELANDS_PRESSURE = 1.962e8
 """Pole of Roelands' law [Pa]; Roelands, *Correlational aspects of the viscosity-temperature-pressure
@@ -21,30 +22,81 @@ ROELANDS_VISCOSITY = 6.315e-5
 """Viscosity that all oils share at the pole [Pa s]: exp(-9.67)."""
 
 
-def isoviscous(pressure: FloatArray, viscosity: float, coefficient: float) -> tuple[FloatArray, FloatArray]:
-    """The same at every pressure."""
-    return np.zeros_like(pressure), np.zeros_like(pressure)
+@dataclass(frozen=True)
+class ViscosityLaw(Law):
+    """Viscosity over pressure of an oil with the viscosity mu0 [Pa s] at ambient pressure and the slope alpha [1/Pa] of
+    ln(mu) there, whatever the law.
 
-
-def barus(pressure: FloatArray, viscosity: float, coefficient: float) -> tuple[FloatArray, FloatArray]:
-    """mu = mu0 exp(alpha p); Barus (1893)."""
-    return coefficient * pressure, np.full_like(pressure, coefficient)
-
-
-def roelands(pressure: FloatArray, viscosity: float, coefficient: float) -> tuple[FloatArray, FloatArray]:
-    """mu = mu0 exp{ln(mu0 / mu_r) [(1 + p/p_r)^z - 1]}, z = alpha p_r / ln(mu0 / mu_r); Roelands (1966).
-
-    The slope at ambient pressure is alpha, as for Barus' law.
+    `largest_pressure`: up to which the law describes oils [Pa].
     """
-    span = math.log(viscosity / ROELANDS_VISCOSITY)
-    exponent = coefficient * ROELANDS_PRESSURE / span
-    base = 1 + pressure / ROELANDS_PRESSURE
-    power = base**exponent
-    return span * (power - 1), coefficient * power / base
+
+    family: ClassVar[str] = "viscosity_law"
+    largest_pressure: ClassVar[float] = math.inf
+
+    def log_viscosity_ratio(
+        self, pressure: FloatArray, viscosity: float, pressure_viscosity: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """ln(mu / mu0) and its derivative [1/Pa] at pressures >= 0 [Pa]."""
+        raise NotImplementedError
+
+    def refusals(self, viscosity: float, pressure_viscosity: float) -> Iterable[str]:
+        """Messages about an oil that the law does not hold for; none by default."""
+        return ()
 
 
-LARGEST_PRESSURES = {"roelands": 1.0e9, "barus": 0.5e9, "isoviscous": math.inf}
-"""Pressures up to which the laws describe oils [Pa]: Roelands fitted measurements up to 1 GPa (ASME 1953); ln(mu) of
-oils bends away from Barus' line by about 0.5 GPa (Hamrock, *Fundamentals of fluid film lubrication*, 1994)."""
+@register
+@dataclass(frozen=True)
+class Isoviscous(ViscosityLaw):
+    """The same viscosity at every pressure."""
 
-VISCOSITY_LAWS: dict[str, ViscosityLaw] = {"roelands": roelands, "barus": barus, "isoviscous": isoviscous}
+    name: ClassVar[str] = "isoviscous"
+
+    def log_viscosity_ratio(
+        self, pressure: FloatArray, viscosity: float, pressure_viscosity: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Zero."""
+        return np.zeros_like(pressure), np.zeros_like(pressure)
+
+
+@register
+@dataclass(frozen=True)
+class Barus(ViscosityLaw):
+    """mu = mu0 exp(alpha p); Barus (1893). ln(mu) of oils bends away from this line by about 0.5 GPa (Hamrock,
+    *Fundamentals of fluid film lubrication*, 1994)."""
+
+    name: ClassVar[str] = "barus"
+    largest_pressure: ClassVar[float] = 0.5e9
+
+    def log_viscosity_ratio(
+        self, pressure: FloatArray, viscosity: float, pressure_viscosity: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """alpha p."""
+        return pressure_viscosity * pressure, np.full_like(pressure, pressure_viscosity)
+
+
+@register
+@dataclass(frozen=True)
+class Roelands(ViscosityLaw):
+    """mu = mu0 exp{ln(mu0 / mu_r) [(1 + p/p_r)^z - 1]}, z = alpha p_r / ln(mu0 / mu_r); Roelands (1966), fitted to
+    measurements up to 1 GPa (ASME 1953)."""
+
+    name: ClassVar[str] = "roelands"
+    largest_pressure: ClassVar[float] = 1.0e9
+
+    def log_viscosity_ratio(
+        self, pressure: FloatArray, viscosity: float, pressure_viscosity: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """The exponent above."""
+        span = math.log(viscosity / ROELANDS_VISCOSITY)
+        exponent = pressure_viscosity * ROELANDS_PRESSURE / span
+        base = 1 + pressure / ROELANDS_PRESSURE
+        power = base**exponent
+        return span * (power - 1), pressure_viscosity * power / base
+
+    def refusals(self, viscosity: float, pressure_viscosity: float) -> Iterable[str]:
+        """The oil must be more viscous than the pole."""
+        if viscosity <= 1.01 * ROELANDS_VISCOSITY:
+            yield (
+                f"Roelands' law needs a viscosity above {ROELANDS_VISCOSITY:g} Pa s, not {viscosity!r}; "
+                'use viscosity_law="barus" or "isoviscous"'
+            )

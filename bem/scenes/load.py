@@ -15,8 +15,10 @@ from typing import Any
 from pydantic import BaseModel
 
 from bem.errors import InputError
+from bem.laws import Law
 from bem.scenes.common import SceneModel
 from bem.scenes.kinds import get_kind, kind_names
+from bem.scenes.laws import plain
 from bem.scenes.paths import MOST_PARTS, Key, parse_key, put, values_in_file
 from bem.scenes.units import Dimension
 from bem.scenes.validate import capped, is_pair, nearest, show, validate
@@ -242,6 +244,8 @@ def _dump_value(value: Any) -> str:
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, list | tuple):
         return "[" + ", ".join(_dump_value(item) for item in value) + "]"
+    if isinstance(value, Law):
+        return _dump_value(plain(value))
     if isinstance(value, BaseModel):
         value = value.model_dump(mode="python", exclude_none=True)
     if isinstance(value, Mapping):

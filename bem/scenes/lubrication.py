@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from pydantic import Field, model_validator
 
+from bem.lubrication.density import DensityLaw, Incompressible
+from bem.lubrication.shear import LimitedShear, ShearLaw
+from bem.lubrication.viscosity import Roelands, ViscosityLaw
 from bem.scenes.common import Force, PositiveLength, PositivePressure, Table, problem
+from bem.scenes.laws import LawKey, LawTable
 from bem.scenes.units import Pressure, PressureViscosity, Ratio, Speed, Viscosity
 
 if TYPE_CHECKING:
@@ -17,33 +21,32 @@ if TYPE_CHECKING:
 _NO_FILM = "a positive viscosity; an oil without viscosity makes no film (a dry contact is kind contact or wear)"
 
 
-class OilScene(Table):
-    """The oil at the temperature of the contact; see `bem.Lubricant`."""
+class OilScene(LawTable):
+    """The oil at the temperature of the contact; see `bem.Lubricant`. The laws' parameters stand beside them."""
 
     viscosity: Viscosity
     pressure_viscosity: Annotated[PressureViscosity, Field(ge=0)] = 0.0
-    viscosity_law: Literal["roelands", "barus", "isoviscous"] = "roelands"
-    density_law: Literal["incompressible", "dowson_higginson"] = "incompressible"
-    shear_law: Literal["limited", "newtonian", "eyring", "carreau"] = "limited"
-    shear_stress_limit: PositivePressure | None = None
-    carreau_exponent: Annotated[Ratio, Field(gt=0, le=1)] = 0.5
-    limiting_shear_coefficient: Annotated[Ratio, Field(gt=0)] = 0.08
-    ambient_shear_strength: PositivePressure = 5e6
+    viscosity_law: Annotated[ViscosityLaw, LawKey("viscosity_law", beside=True)] = Roelands()
+    density_law: Annotated[DensityLaw, LawKey("density_law", beside=True)] = Incompressible()
+    shear_law: Annotated[ShearLaw, LawKey("shear_law", beside=True)] = LimitedShear()
 
     @model_validator(mode="after")
     def _complete(self) -> OilScene:
         if self.viscosity <= 0:
             raise problem(f"viscosity {self.viscosity:g} Pa s", _NO_FILM)
-        if self.shear_law in ("eyring", "carreau") and self.shear_stress_limit is None:
-            raise problem(f"the {self.shear_law} law without shear_stress_limit", "shear_stress_limit with it")
         return self
 
     def build(self) -> Lubricant:
         """As `bem.Lubricant`."""
         from bem.lubrication import Lubricant
 
-        constants = self.model_dump()
-        return Lubricant(constants.pop("viscosity"), **constants)
+        return Lubricant(
+            self.viscosity,
+            pressure_viscosity=self.pressure_viscosity,
+            viscosity_law=self.viscosity_law,
+            density_law=self.density_law,
+            shear_law=self.shear_law,
+        )
 
 
 class SpeedsScene(Table):

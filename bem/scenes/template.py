@@ -11,10 +11,11 @@ from pydantic import BaseModel
 from pydantic_core import PydanticUndefined
 
 from bem.errors import InputError
+from bem.laws import Law
 from bem.scenes.kinds import get_kind, kind_names
 from bem.scenes.load import _dump_value, library
 from bem.scenes.units import Dimension
-from bem.scenes.validate import _fields, _literals, _member, _unwrap, _without_none, nearest, show
+from bem.scenes.validate import _fields, _law, _literals, _member, _unwrap, _without_none, nearest, show
 
 _NOT_SHOWN = ("kind", "redoes", "name")
 
@@ -92,7 +93,7 @@ def _inner(key: str, field: Any, value: Any, path: tuple[str, ...], commented: b
             yield from (f"# {line}" for line in _about_table(item))
         return
     if isinstance(value, Mapping):
-        model = _member(annotation, value.get("kind")) or annotation
+        model = _law(annotation, value) or _member(annotation, value.get("kind")) or annotation
         yield from (f"# {line}" for line in _about_table(model))
         yield f"[{'.'.join(path)}]" if not commented else f"# [{'.'.join(path)}]"
         yield from _table(model, value, path, commented=commented)
@@ -152,7 +153,7 @@ def _about(field: Any) -> str:
 
 def _about_table(model: Any) -> list[str]:
     """The first paragraph of a table's docstring."""
-    if not (isinstance(model, type) and issubclass(model, BaseModel)) or not model.__doc__:
+    if not (isinstance(model, type) and issubclass(model, BaseModel | Law)) or not model.__doc__:
         return []
     return [line.strip() for line in model.__doc__.strip().split("\n\n")[0].splitlines()]
 
@@ -161,6 +162,8 @@ def _default(field: Any) -> str:
     if field.default is PydanticUndefined or field.default is None:
         return "..." if field.default is PydanticUndefined else "(not set)"
     try:
+        if isinstance(field.default, Law):
+            return _dump_value(field.default.name)
         return _dump_value(field.default)
     except TypeError:
         return "..."

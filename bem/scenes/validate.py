@@ -12,6 +12,8 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from bem.errors import InputError
+from bem.laws import Law, laws_of
+from bem.scenes.laws import LawTable, fields_of
 from bem.scenes.units import Dimension
 
 _BARE = re.compile(r"[A-Za-z0-9_-]{1,64}")
@@ -76,7 +78,7 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
     allowed = f"; allowed: {dimension.allowed}" if dimension else ""
     if kind == "extra_forbidden":
         parent, _, last = key.rpartition(".")
-        names = sorted(_fields(_locate(mistake["loc"][:-1], data, model)[1]))
+        names = sorted(_names_at(mistake["loc"][:-1], data, model))
         place = f"in {parent}" if parent else "at the top of the scene"
         return f"{key}: unknown key{nearest(last, names)}; allowed {place}: {', '.join(names)}"
     if kind == "missing":
@@ -106,6 +108,16 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
     return f"{where}: {text}{allowed}"
 
 
+def _names_at(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> Iterable[str]:
+    """Keys of the table there."""
+    annotation = _locate(loc, data, model)[1]
+    raw = data
+    for part in loc:
+        raw = raw[part] if isinstance(raw, dict | list) and (isinstance(part, int) or part in raw) else None
+    law = _law(_without_none(annotation), raw)
+    return _fields(annotation) if law is None else ["kind", *_fields(law)]
+
+
 def _scalar(value: Any) -> str:
     return f" = {show(value)}" if isinstance(value, bool | int | float | str) else ""
 
@@ -133,7 +145,8 @@ def _locate(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> tuple[str,
             continue
         shown = part if _BARE.fullmatch(str(part)) else show(part)
         key = f"{key}.{shown}" if key else str(shown)
-        field = _fields(annotation).get(part)
+        law = _law(annotation, raw)
+        field = _fields(law or annotation).get(part)
         if field is not None:
             annotation, metadata = field.annotation, tuple(field.metadata)
             bare, inner = _unwrap(_without_none(annotation))
@@ -142,6 +155,13 @@ def _locate(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> tuple[str,
             annotation, metadata = None, ()
         raw = raw.get(part) if isinstance(raw, dict) else None
     return key, annotation, metadata
+
+
+def _law(annotation: Any, raw: Any) -> type[Law] | None:
+    """The law that a table of a scene means, where laws of that family may stand."""
+    if not (isinstance(annotation, type) and issubclass(annotation, Law) and isinstance(raw, dict)):
+        return None
+    return laws_of(annotation.family).get(str(raw.get("kind")))
 
 
 def is_pair(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> bool:
@@ -193,14 +213,21 @@ def _tags(annotation: Any) -> list[str]:
 
 
 def _fields(annotation: Any) -> dict[str, Any]:
+    """Fields of a table, or of a law that has a name; a family of laws has none of its own."""
     annotation = _without_none(annotation)
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+    if not isinstance(annotation, type):
+        return {}
+    if issubclass(annotation, LawTable):
+        return {**annotation.model_fields, **annotation.fields_beside()}
+    if issubclass(annotation, BaseModel):
         return dict(annotation.model_fields)
-    return {}
+    return fields_of(annotation) if issubclass(annotation, Law) and annotation.name else {}
 
 
 def _literals(annotation: Any) -> list[str]:
     annotation = _without_none(annotation)
+    if isinstance(annotation, type) and issubclass(annotation, Law) and not annotation.name:
+        return list(laws_of(annotation.family))
     return (
         [str(item) for item in typing.get_args(annotation)] if typing.get_origin(annotation) is typing.Literal else []
     )

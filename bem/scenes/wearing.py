@@ -11,8 +11,10 @@ from pydantic import Field
 
 from bem.grid import FloatArray
 from bem.scenes.common import PositiveLength, Table
+from bem.scenes.laws import LawKey
 from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Length
+from bem.wear.criterion import VonMises, WearCriterion
 
 Count = Annotated[int, Field(strict=True, ge=1)]
 IntArray = NDArray[np.int_]
@@ -34,7 +36,7 @@ class WearDepthsScene(Table):
 class WearScenePart(Table):
     """The replaceable parts of the wear model; see `bem.wear.WearModel`."""
 
-    criterion: Literal["von_mises", "tresca", "maximum_tension"] = "von_mises"
+    criterion: Annotated[WearCriterion, LawKey("criterion")] = VonMises()
     stress_range: bool = Field(default=False, strict=True)
     refine: Annotated[int, Field(strict=True, ge=1, le=100)] = 10
     refinement: Literal["monotone_cubic", "linear", "exact"] = "monotone_cubic"

@@ -1,18 +1,32 @@
-"""Wear: which pieces come off, how large, what shape, and how the surface settles (thesis, papers B and C)."""
+"""Wear: which pieces come off, how large, what shape, and how the surface settles (thesis, papers B and C). Names are
+loaded when they are first used, so that the criteria alone cost no solver."""
 
-from bem.wear.cycle import ContactOutcome, ContactStep, WearModel, WearSetup, dry_contact, wear_cycle, yielded_pieces
-from bem.wear.running_in import (
-    RunningIn,
-    RunningInState,
-    Settled,
-    advance,
-    equivalent_radius,
-    initial_state,
-    pack_state,
-    run_in,
-    unpack_state,
-)
-from bem.wear.segmentation import Segmentation, describe_pieces, find_particles, refine_depths, segment
+from typing import TYPE_CHECKING
+
+from bem.lazy import loader
+
+if TYPE_CHECKING:
+    from bem.wear.cycle import (
+        ContactOutcome,
+        ContactStep,
+        WearModel,
+        WearSetup,
+        dry_contact,
+        wear_cycle,
+        yielded_pieces,
+    )
+    from bem.wear.running_in import (
+        RunningIn,
+        RunningInState,
+        Settled,
+        advance,
+        equivalent_radius,
+        initial_state,
+        pack_state,
+        run_in,
+        unpack_state,
+    )
+    from bem.wear.segmentation import Segmentation, describe_pieces, find_particles, refine_depths, segment
 
 __all__ = [
     "ContactOutcome",
@@ -37,3 +51,18 @@ __all__ = [
     "wear_cycle",
     "yielded_pieces",
 ]
+
+__getattr__ = loader(
+    __name__,
+    {
+        "cycle": [
+            *("ContactOutcome", "ContactStep", "WearModel", "WearSetup"),
+            *("dry_contact", "wear_cycle", "yielded_pieces"),
+        ],
+        "running_in": [
+            *("RunningIn", "RunningInState", "Settled", "advance", "equivalent_radius"),
+            *("initial_state", "pack_state", "run_in", "unpack_state"),
+        ],
+        "segmentation": ["Segmentation", "describe_pieces", "find_particles", "refine_depths", "segment"],
+    },
+)

@@ -1,31 +1,35 @@
 """Wear criteria: one scalar from the six stresses, compared with one strength.
 
-A criterion is a function `(stress (6, ...)) -> (...)` in pascal, entered in `CRITERIA` under its name; material yields
-where it exceeds the yield stress. Add one by writing the function and its entry.
+To add one, derive from `WearCriterion` and register it, here or in a file of your own; material yields where the
+equivalent stress exceeds the yield stress.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.stress import von_mises
+from bem.laws import Law, register
 
 
 @dataclass(frozen=True)
-class Criterion:
-    """A named equivalent stress.
+class WearCriterion(Law):
+    """An equivalent stress."""
 
-    `von_mises_factor` is the largest ratio of this equivalent stress to the von Mises stress of the same state, so that
-    a bound on von Mises bounds it too; None where there is none and nothing may be skipped by that bound.
-    """
+    family: ClassVar[str] = "criterion"
 
-    name: str
-    equivalent_stress: Callable[[FloatArray], FloatArray]
-    von_mises_factor: float | None
+    @property
+    def von_mises_factor(self) -> float | None:
+        """The largest ratio of this equivalent stress to the von Mises stress of the same state, so that a bound on
+        von Mises bounds it too; None where there is none and nothing may be skipped by that bound."""
+        return None
+
+    def equivalent_stress(self, stress: FloatArray) -> FloatArray:
+        """Shape (...) of stresses (6, ...) in the order xx, yy, zz, yz, xz, xy, both [Pa]."""
+        raise NotImplementedError
 
 
 def principal_stresses(stress: FloatArray) -> FloatArray:
@@ -47,23 +51,50 @@ def principal_stresses(stress: FloatArray) -> FloatArray:
     return np.stack([smallest, 3 * mean - largest - smallest, largest])
 
 
-def tresca(stress: FloatArray) -> FloatArray:
-    """Tresca's equivalent stress, largest minus smallest principal stress [Pa]; equals the yield stress at yield."""
-    principal = principal_stresses(stress)
-    return np.asarray(principal[2] - principal[0])
+@register
+@dataclass(frozen=True)
+class VonMises(WearCriterion):
+    """Von Mises stress; equals the yield stress at yield."""
+
+    name: ClassVar[str] = "von_mises"
+
+    @property
+    def von_mises_factor(self) -> float:
+        """One."""
+        return 1.0
+
+    def equivalent_stress(self, stress: FloatArray) -> FloatArray:
+        """Of the deviator."""
+        from bem.stress import von_mises  # kernels and transforms are not loaded for a name
+
+        return von_mises(stress)
 
 
-def maximum_tension(stress: FloatArray) -> FloatArray:
-    """Largest principal stress [Pa], zero where all are compressive: brittle detachment."""
-    return np.asarray(np.maximum(principal_stresses(stress)[2], 0.0))
+@register
+@dataclass(frozen=True)
+class Tresca(WearCriterion):
+    """Largest minus smallest principal stress; equals the yield stress at yield."""
+
+    name: ClassVar[str] = "tresca"
+
+    @property
+    def von_mises_factor(self) -> float:
+        """Tresca's hexagon touches von Mises' circle at pure tension and leaves it by 2/sqrt(3) at pure shear."""
+        return float(2 / np.sqrt(3))
+
+    def equivalent_stress(self, stress: FloatArray) -> FloatArray:
+        """The difference."""
+        principal = principal_stresses(stress)
+        return np.asarray(principal[2] - principal[0])
 
 
-CRITERIA = {
-    criterion.name: criterion
-    for criterion in (
-        Criterion("von_mises", von_mises, 1.0),
-        # Tresca's hexagon touches von Mises' circle at pure tension and leaves it by 2/sqrt(3) at pure shear
-        Criterion("tresca", tresca, 2 / np.sqrt(3)),
-        Criterion("maximum_tension", maximum_tension, None),
-    )
-}
+@register
+@dataclass(frozen=True)
+class MaximumTension(WearCriterion):
+    """Largest principal stress, zero where all are compressive: brittle detachment."""
+
+    name: ClassVar[str] = "maximum_tension"
+
+    def equivalent_stress(self, stress: FloatArray) -> FloatArray:
+        """The largest."""
+        return np.asarray(np.maximum(principal_stresses(stress)[2], 0.0))

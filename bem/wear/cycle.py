@@ -15,9 +15,10 @@ from bem.contact import solve_contact
 from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
+from bem.laws import make_laws
 from bem.materials import Body
 from bem.stress import subsurface_stress, von_mises_limit, von_mises_planes
-from bem.wear.criterion import CRITERIA
+from bem.wear.criterion import VonMises, WearCriterion
 from bem.wear.segmentation import CONNECTIVITIES, REFINEMENTS, REMOVALS, Segmentation, refine_depths, segment
 
 LOWER, UPPER = 0, 1
@@ -27,7 +28,8 @@ LOWER, UPPER = 0, 1
 class WearModel:
     """The named, replaceable parts of the wear model.
 
-    criterion : name in `criterion.CRITERIA`; material leaves where the equivalent stress exceeds the yield stress.
+    criterion : "von_mises", "tresca", "maximum_tension", the name of one of your own, or a `WearCriterion`; material
+        leaves where the equivalent stress exceeds the yield stress.
     stress_range : judge half the change of stress that each body's material has seen since the last cycle instead of
         the stress (low-cycle fatigue: a range of twice the yield stress is what shakedown can bear).
     refine, refinement : fine voxels per depth interval and how stress is interpolated between depths; "exact" computes
@@ -39,7 +41,7 @@ class WearModel:
     within_layer : pieces of a coated body end at the interface at the latest; the film is taken as replenished.
     """
 
-    criterion: str = "von_mises"
+    criterion: str | WearCriterion = "von_mises"
     stress_range: bool = False
     refine: int = 10
     refinement: str = "monotone_cubic"
@@ -52,7 +54,6 @@ class WearModel:
     def __post_init__(self) -> None:
         messages = []
         for key, allowed in (
-            ("criterion", list(CRITERIA)),
             ("refinement", [*REFINEMENTS, "exact"]),
             ("connectivity", list(CONNECTIVITIES)),
             ("removal", list(REMOVALS)),
@@ -64,8 +65,19 @@ class WearModel:
             messages.append(f"WearModel: refine {self.refine!r} must be an integer >= 1")
         if self.shift != int(self.shift):
             messages.append(f"WearModel: shift {self.shift!r} must be a whole number of cells")
+        try:
+            made = make_laws("WearModel", {"criterion": self.criterion}, {})["criterion"]
+        except InputError as error:
+            raise InputError([*messages, *error.messages]) from None
         if messages:
             raise InputError(messages)
+        object.__setattr__(self, "criterion", made)
+
+    @property
+    def law(self) -> WearCriterion:
+        """The criterion, also where it was named."""
+        assert isinstance(self.criterion, WearCriterion)
+        return self.criterion
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,7 +204,12 @@ def half_the_change(now: SurfaceLoad, before: SurfaceLoad | None) -> tuple[Surfa
 
 
 def equivalent_stress_planes(
-    loads: Sequence[SurfaceLoad], setup: WearSetup, body: int, depths: FloatArray, criterion: str, out: FloatArray
+    loads: Sequence[SurfaceLoad],
+    setup: WearSetup,
+    body: int,
+    depths: FloatArray,
+    criterion: WearCriterion,
+    out: FloatArray,
 ) -> Iterator[FloatArray]:
     """Equivalent stress of all loads together in one body, a plane of `out` (nz, nx, ny) [Pa] per depth, each written
     when it is asked for.
@@ -200,7 +217,7 @@ def equivalent_stress_planes(
     Traction on the upper body has the other sign.
     """
     grid, solid, sign = setup.grid, setup.bodies[body], 1 if body == LOWER else -1
-    if criterion == "von_mises" and len(loads) == 1:
+    if isinstance(criterion, VonMises) and len(loads) == 1:
         (load,) = loads
         yield from von_mises_planes(load.pressure, grid, solid, depths, friction=sign * load.friction, out=out)
         return
@@ -209,16 +226,18 @@ def equivalent_stress_planes(
             subsurface_stress(load.pressure, grid, solid, depth[None], friction=sign * load.friction)[:, 0]
             for load in loads
         )
-        out[index] = CRITERIA[criterion].equivalent_stress(np.asarray(stress))
+        out[index] = criterion.equivalent_stress(np.asarray(stress))
         yield out[index]
 
 
-def cannot_yield(loads: Sequence[SurfaceLoad], setup: WearSetup, body: int, depth: float, criterion: str) -> bool:
+def cannot_yield(
+    loads: Sequence[SurfaceLoad], setup: WearSetup, body: int, depth: float, criterion: WearCriterion
+) -> bool:
     """Whether a bound, found without a transform, proves that nothing yields at a depth.
 
     Von Mises stress is a norm of the deviator: that of several loads together is at most the sum of theirs.
     """
-    factor = CRITERIA[criterion].von_mises_factor
+    factor = criterion.von_mises_factor
     if factor is None:
         return False
     grid, solid, sign = setup.grid, setup.bodies[body], 1 if body == LOWER else -1
@@ -255,12 +274,12 @@ def yielded_pieces(load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, m
     below = 1 if model.refinement == "monotone_cubic" else 0
     computed = 0
     blocked: int | None = None
-    if cannot_yield(loads, setup, body, float(depths[0]), model.criterion):
+    if cannot_yield(loads, setup, body, float(depths[0]), model.law):
         blocked = 0
     else:
         # pages of planes that are never written are never touched
         stack = np.empty((depths.size, *setup.grid.shape))
-        for plane in equivalent_stress_planes(loads, setup, body, depths, model.criterion, stack):
+        for plane in equivalent_stress_planes(loads, setup, body, depths, model.law, stack):
             computed += 1
             if blocked is None and plane.max() <= strength:
                 blocked = computed - 1

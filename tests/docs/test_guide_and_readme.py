@@ -13,14 +13,12 @@ import numpy as np
 import pytest
 import typer
 
-from bem import Grid
+from bem import Grid, laws
 from bem.campaigns.ranges import parse_axes
 from bem.cli import build as build_cli
-from bem.lubrication.viscosity import VISCOSITY_LAWS
 from bem.runs import plan_scene
 from bem.scenes import get_kind, kind_names, library
 from bem.scenes.load import load_scene
-from bem.wear.criterion import CRITERIA
 from reports import guide
 from reports.builder import render
 from reports.guide_options import EFFECTS
@@ -130,32 +128,43 @@ def test_first_steps_lead_somewhere(tmp_path, monkeypatch, surface):
 @pytest.mark.parametrize("name", sorted(guide.SNIPPETS))
 def test_python_examples_run(tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
-    laws, criteria = dict(VISCOSITY_LAWS), dict(CRITERIA)
     printed = io.StringIO()
-    try:
-        with contextlib.redirect_stdout(printed):
-            exec(compile(guide.SNIPPETS[name], name, "exec"), {"__name__": name})
-    finally:
-        for table, before in ((VISCOSITY_LAWS, laws), (CRITERIA, criteria)):
-            table.clear()
-            table.update(before)
+    with own_laws(), contextlib.redirect_stdout(printed):
+        exec(compile(guide.SNIPPETS[name], name, "exec"), {"__name__": name})
     if name == "python":
         assert "converged" in printed.getvalue()
 
 
-def test_slope_of_the_example_law_is_its_derivative():
-    scope = {}
-    laws = dict(VISCOSITY_LAWS)
+@contextlib.contextmanager
+def own_laws():
+    """Laws registered inside are gone afterwards."""
+    before = {family: dict(laws.laws_of(family)) for family in laws.FAMILIES}
     try:
-        exec(guide.LAW, scope)
+        yield
     finally:
-        VISCOSITY_LAWS.clear()
-        VISCOSITY_LAWS.update(laws)
+        for family, kept in before.items():
+            for law in set(laws.laws_of(family).values()) - set(kept.values()):
+                laws.unregister(law)
+
+
+def test_slope_of_the_example_law_is_its_derivative():
+    scope = {"__name__": "example"}
+    with own_laws():
+        exec(guide.LAW, scope)
+    law = scope["Power"](exponent=12)
     pressure = np.array([0.0, 1e8, 1e9])
     step = 1e3
-    high, low = scope["power"](pressure + step, 0.1, 2e-8)[0], scope["power"](pressure - step, 0.1, 2e-8)[0]
+    high, low = (law.log_viscosity_ratio(pressure + one, 0.1, 2e-8)[0] for one in (step, -step))
     # central difference: round-off of ln mu (1e-15 x 50) over 2 kPa
-    np.testing.assert_allclose((high - low) / (2 * step), scope["power"](pressure, 0.1, 2e-8)[1], rtol=1e-5)
+    np.testing.assert_allclose((high - low) / (2 * step), law.log_viscosity_ratio(pressure, 0.1, 2e-8)[1], rtol=1e-5)
+
+
+def test_the_example_of_a_law_in_a_scene_is_one():
+    scene = {key: value for key, value in library()["film-start-stop"].items() if key != "oil"}
+    with own_laws():
+        exec(guide.LAW, {"__name__": "example"})
+        loaded = load_scene(scene | tomllib.loads(guide.LAW_SCENE))
+        assert loaded.oil.build().exponent == 12
 
 
 @pytest.mark.parametrize("kind", kind_names())

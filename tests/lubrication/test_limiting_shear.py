@@ -128,7 +128,7 @@ def test_each_note_where_it_belongs_and_not_beside(speeds, oil, words):
 
 
 @pytest.mark.parametrize("key", ["limiting_shear_coefficient", "ambient_shear_strength"])
-@pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf, None])
+@pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf, "5 MPa"])
 def test_refusals(key, value):
     with pytest.raises(InputError, match=key):
         Lubricant(0.1, **{key: value})

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bem.wear.criterion import CRITERIA, maximum_tension, principal_stresses, tresca
+from bem.wear.criterion import MaximumTension, Tresca, VonMises, principal_stresses
 
 
 def matrices(stress):
@@ -34,15 +34,15 @@ def test_principal_stresses_are_the_eigenvalues(seed, scale):
 )
 def test_known_states(stress, von_mises, shear, tension):
     state = np.array(stress, dtype=float)[:, None]
-    assert CRITERIA["von_mises"].equivalent_stress(state)[0] == pytest.approx(von_mises, abs=1e-12)
-    assert tresca(state)[0] == pytest.approx(shear, abs=1e-7)
-    assert maximum_tension(state)[0] == pytest.approx(tension, abs=1e-7)
+    assert VonMises().equivalent_stress(state)[0] == pytest.approx(von_mises, abs=1e-12)
+    assert Tresca().equivalent_stress(state)[0] == pytest.approx(shear, abs=1e-7)
+    assert MaximumTension().equivalent_stress(state)[0] == pytest.approx(tension, abs=1e-7)
 
 
 def test_tresca_is_within_its_factor_of_von_mises():
     """The factor decides what may be skipped: it must be an upper bound, and one that is attained."""
     stress = np.random.default_rng(1).standard_normal((6, 5000))
-    ratio = tresca(stress) / CRITERIA["von_mises"].equivalent_stress(stress)
-    factor = CRITERIA["tresca"].von_mises_factor
+    ratio = Tresca().equivalent_stress(stress) / VonMises().equivalent_stress(stress)
+    factor = Tresca().von_mises_factor
     assert ratio.max() <= factor * (1 + 1e-9)
     assert ratio.max() > 0.999 * factor

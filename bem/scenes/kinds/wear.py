@@ -20,6 +20,7 @@ from bem.scenes.axes import Axis, changed, listed, variants
 from bem.scenes.common import BodyScene, Cells, Force, PositiveLength, PositivePressure, SceneModel, Table, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
+from bem.scenes.laws import LawKey
 from bem.scenes.planner import (
     Plan,
     Step,
@@ -41,6 +42,7 @@ from bem.scenes.wearing import (
     particle_rows,
     volume_mean_radius,
 )
+from bem.wear.criterion import WearCriterion
 
 if TYPE_CHECKING:
     from bem.wear import RunningIn
@@ -127,7 +129,7 @@ class WearVariantScene(Table):
     layer_thickness: PositiveLength | None = None
     connectivity: Literal[6, 18, 26] | None = None
     refinement: Literal["monotone_cubic", "linear", "exact"] | None = None
-    criterion: Literal["von_mises", "tresca", "maximum_tension"] | None = None
+    criterion: Annotated[WearCriterion, LawKey("criterion")] | None = None
     removal: Literal["cap", "top_run"] | None = None
 
 
