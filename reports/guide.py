@@ -87,16 +87,16 @@ oil = bem.Lubricant(0.1, pressure_viscosity=20e-9, viscosity_law="power", expone
 assert oil.viscosity_at(np.array([0.0]))[0] == 0.1
 assert bem.Lubricant(0.1, pressure_viscosity=20e-9, viscosity_law=Power(exponent=12)) == oil
 '''
-LAW_SCENE = '''
+LAW_SCENE = """
 [oil]
 viscosity = "0.1 Pa*s"
 pressure_viscosity = "20 1/GPa"
 viscosity_law = "power"
 exponent = 12           # or, in one line: viscosity_law = { kind = "power", exponent = 12 }
-'''
-LAW_LOAD = '''
+"""
+LAW_LOAD = """
 BEM_LAWS=my_laws.py bem run my-scene.toml
-'''
+"""
 CRITERION = '''
 # the same for a wear criterion: material leaves where the equivalent stress exceeds the yield stress
 from dataclasses import dataclass
