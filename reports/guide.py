@@ -9,8 +9,9 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from bem.errors import InputError
-from bem.laws import FAMILIES, laws_of
+from bem.laws import FAMILIES, Law, laws_of
 from bem.scenes import get_kind, kind_names, library
+from bem.scenes.laws import LawKey
 from bem.scenes.template import _about, _default, scene_template
 from bem.scenes.validate import _fields, _literals, _unwrap, _without_none
 from reports.builder import Page, Section, table, text
@@ -523,7 +524,7 @@ def _keys(model: Any, prefix: str) -> Iterator[tuple[str, str, str, str]]:
     """Rows of a table of keys, those of inner tables below their own."""
     shown: set[str] = set()
     for key, field in _fields(model).items():
-        tables = _tables(field.annotation)
+        tables = _tables(field.annotation) or _laws_at(field)
         name = f"{prefix}{key}"
         if key == "kind" and not prefix:
             continue
@@ -532,7 +533,7 @@ def _keys(model: Any, prefix: str) -> Iterator[tuple[str, str, str, str]]:
         if key in ("material", "layer", "surface") and prefix not in ("lower.", "layer."):
             continue  # said once, for the lower body
         if len(tables) > 1:
-            tags = [tag for inner in tables for tag in _literals(_fields(inner)["kind"].annotation)]
+            tags = [tag for inner in tables for tag in _tags(inner)]
             shown.add(f"{name}.kind")
             yield f"{name}.kind", "", "one of " + ", ".join(tags), effect_of(f"{name}.kind")
         for inner in tables:
@@ -540,6 +541,16 @@ def _keys(model: Any, prefix: str) -> Iterator[tuple[str, str, str, str]]:
                 if row[0] not in shown:
                     shown.add(row[0])
                     yield row
+
+
+def _laws_at(field: Any) -> list[Any]:
+    """Laws with parameters that may stand at a key, where these do not stand beside it."""
+    keys = [item for item in field.metadata if isinstance(item, LawKey) and not item.beside]
+    return [law for key in keys for law in laws_of(key.family).values() if law.parameters()]
+
+
+def _tags(table: Any) -> list[str]:
+    return [table.name] if issubclass(table, Law) else list(_literals(_fields(table)["kind"].annotation))
 
 
 def effect_of(name: str) -> str:

@@ -204,6 +204,8 @@ EFFECTS = {
     "cycle": "Duration of a cycle, where rates are given per cycle.",
     "prefactor": "G0 of the growth law.",
     "activation_energy": "Barrier of the reaction.",
+    "growth": "Another law of growth, instead of prefactor, activation_energy and activation_volume.",
+    "lowest_factor": "What is left of the film's own value at any temperature.",
     "activation_volume": "How strongly shear stress lowers the barrier.",
     "wear_coefficient": "Alpha: film wear rate over film thickness.",
     "lag": "Delay after which wear follows thickness; gives an overshoot.",

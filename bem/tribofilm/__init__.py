@@ -1,11 +1,17 @@
-"""Tribofilms: stress-activated growth, wear, and the substrate worn with them (thesis, paper E)."""
+"""Tribofilms: stress-activated growth, wear, and the substrate worn with them (thesis, paper E). Names are loaded when
+they are first used, so that the laws alone cost no solver."""
 
-from bem.tribofilm.contact_growth import ContactSample, FilmContact, GrowthTable, solve_film_contact
-from bem.tribofilm.evolution import FilmHistory, evolve_film, steady_thickness
-from bem.tribofilm.grow import TribofilmGrowth, grow_tribofilm
-from bem.tribofilm.growth import StressActivatedGrowth
-from bem.tribofilm.local import LocalFilm, grow_local_film
-from bem.tribofilm.properties import Constant, FadingSubstrate, FilmProperty, Table
+from typing import TYPE_CHECKING
+
+from bem.lazy import loader
+
+if TYPE_CHECKING:
+    from bem.tribofilm.contact_growth import ContactSample, FilmContact, GrowthTable, solve_film_contact
+    from bem.tribofilm.evolution import FilmHistory, evolve_film, steady_thickness
+    from bem.tribofilm.grow import TribofilmGrowth, grow_tribofilm
+    from bem.tribofilm.growth import GrowthLaw, StressActivatedGrowth
+    from bem.tribofilm.local import LocalFilm, grow_local_film
+    from bem.tribofilm.properties import Constant, FadingSubstrate, FilmProperty, PropertyLaw, Table
 
 __all__ = [
     "Constant",
@@ -14,8 +20,10 @@ __all__ = [
     "FilmContact",
     "FilmHistory",
     "FilmProperty",
+    "GrowthLaw",
     "GrowthTable",
     "LocalFilm",
+    "PropertyLaw",
     "StressActivatedGrowth",
     "Table",
     "TribofilmGrowth",
@@ -25,3 +33,15 @@ __all__ = [
     "solve_film_contact",
     "steady_thickness",
 ]
+
+__getattr__ = loader(
+    __name__,
+    {
+        "contact_growth": ["ContactSample", "FilmContact", "GrowthTable", "solve_film_contact"],
+        "evolution": ["FilmHistory", "evolve_film", "steady_thickness"],
+        "grow": ["TribofilmGrowth", "grow_tribofilm"],
+        "growth": ["GrowthLaw", "StressActivatedGrowth"],
+        "local": ["LocalFilm", "grow_local_film"],
+        "properties": ["Constant", "FadingSubstrate", "FilmProperty", "PropertyLaw", "Table"],
+    },
+)

@@ -18,7 +18,7 @@ from bem.convolution import displacement_operator
 from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body, Layer, Material
-from bem.tribofilm.growth import StressActivatedGrowth
+from bem.tribofilm.growth import GrowthLaw
 from bem.tribofilm.properties import FilmProperty
 
 AVERAGES = ("contact", "nominal")
@@ -43,7 +43,7 @@ class FilmContact:
     substrate: Material
     counterface: Material | None
     load: float
-    growth: StressActivatedGrowth
+    growth: GrowthLaw
     hardness: FilmProperty
     modulus: FilmProperty
     temperature: float

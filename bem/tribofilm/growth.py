@@ -1,21 +1,35 @@
-"""How fast a tribofilm grows: stress-activated Arrhenius kinetics."""
+"""How fast a tribofilm grows: laws of growth, and stress-activated Arrhenius kinetics."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from scipy.constants import Boltzmann, electron_volt
 
 from bem.errors import InputError
 from bem.grid import FloatArray
+from bem.laws import Law, parameter, register
 
 ZERO_CELSIUS = 273.15
 
 
 @dataclass(frozen=True)
-class StressActivatedGrowth:
+class GrowthLaw(Law):
+    """How fast a film grows; to add one, derive from this and register it, here or in a file of your own."""
+
+    family: ClassVar[str] = "growth"
+
+    def rate(self, shear_stress: FloatArray, temperature: float) -> FloatArray:
+        """Growth rate [m/s] under a shear stress [Pa] at an absolute temperature [K], never falling with the stress."""
+        raise NotImplementedError
+
+
+@register
+@dataclass(frozen=True)
+class StressActivatedGrowth(GrowthLaw):
     """Growth rate `prefactor * exp(-(activation_energy - shear_stress * activation_volume) / (k_B T))` [m/s].
 
     Gosvami et al., Science 348 (2015) 102; thesis, paper E, eq. 3 (its prefactor is 1e-2 m/s, not nm/s).
@@ -26,22 +40,10 @@ class StressActivatedGrowth:
     off and leaves plain Arrhenius growth.
     """
 
-    prefactor: float
-    activation_energy: float
-    activation_volume: float
-
-    def __post_init__(self) -> None:
-        messages = []
-        for key in ("prefactor", "activation_energy"):
-            value = getattr(self, key)
-            if not (math.isfinite(value) and value > 0):
-                messages.append(f"StressActivatedGrowth: {key} {value!r} must be positive and finite")
-        if not (math.isfinite(self.activation_volume) and self.activation_volume >= 0):
-            messages.append(
-                f"StressActivatedGrowth: activation_volume {self.activation_volume!r} must be >= 0 and finite [m^3]"
-            )
-        if messages:
-            raise InputError(messages)
+    name: ClassVar[str] = "stress_activated"
+    prefactor: float = parameter("growth rate without a barrier", "m/s", above=0)
+    activation_energy: float = parameter("barrier without stress", "J", above=0)
+    activation_volume: float = parameter("by which stress lowers the barrier; 0 is plain Arrhenius", "m^3", at_least=0)
 
     @classmethod
     def from_electron_volts(

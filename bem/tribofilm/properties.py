@@ -8,26 +8,45 @@ substrate, Bosman and Schipper 2011 for the factor with temperature), so they ar
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import ClassVar
 
 import numpy as np
 
-from bem.errors import InputError
+from bem.laws import Law, parameter, register
 
 FilmProperty = Callable[[float, float], float]
 """(thickness [m], temperature [K]) -> [Pa]"""
 
 
 @dataclass(frozen=True)
-class Constant:
+class PropertyLaw(Law):
+    """A property that a scene can name; to add one, derive from this and register it, here or in a file of your own."""
+
+    family: ClassVar[str] = "film_property"
+
+    def __call__(self, thickness: float, temperature: float) -> float:
+        """Value [Pa] of a film of a thickness [m] at a temperature [K]."""
+        raise NotImplementedError
+
+    def lowest(self, thickness: float, temperature: float) -> float:
+        """Lowest value from no film to this thickness [Pa]; by default of 400 thicknesses."""
+        return min(self(share * thickness, temperature) for share in (0.0, *np.geomspace(1e-6, 1.0, 399)))
+
+    def highest(self, temperature: float) -> float:
+        """Highest value at any thickness [Pa]; by default of 400 thicknesses up to 1 mm."""
+        return max(self(float(h), temperature) for h in (0.0, *np.geomspace(1e-11, 1e-3, 399)))
+
+
+@register
+@dataclass(frozen=True)
+class Constant(PropertyLaw):
     """The same value [Pa] at every thickness and temperature."""
 
-    value: float
-
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.value) and self.value > 0):
-            raise InputError(f"Constant: value {self.value!r} must be positive and finite [Pa]")
+    name: ClassVar[str] = "constant"
+    value: float = parameter("of the film", "Pa", above=0)
 
     def __call__(self, thickness: float, temperature: float) -> float:
         """Value [Pa]."""
@@ -42,8 +61,9 @@ class Constant:
         return self.value
 
 
+@register
 @dataclass(frozen=True)
-class FadingSubstrate:
+class FadingSubstrate(PropertyLaw):
     """From the substrate's value at zero thickness to the film's own, `film + (substrate - film) exp(-h / length)`,
     times a factor that falls linearly with temperature above the reference, and never below `lowest_factor`.
 
@@ -55,23 +75,13 @@ class FadingSubstrate:
     reference_temperature : [K]. lowest_factor : what is left of the film's own value at any temperature.
     """
 
-    substrate: float
-    film: float
-    length: float
-    temperature_slope: float = 0.0
-    reference_temperature: float = 298.15
-    lowest_factor: float = 0.1
-
-    def __post_init__(self) -> None:
-        messages = []
-        for key in ("substrate", "film", "length", "reference_temperature", "lowest_factor"):
-            value = getattr(self, key)
-            if not (math.isfinite(value) and value > 0):
-                messages.append(f"FadingSubstrate: {key} {value!r} must be positive and finite")
-        if not math.isfinite(self.temperature_slope):
-            messages.append(f"FadingSubstrate: temperature_slope {self.temperature_slope!r} must be finite [1/K]")
-        if messages:
-            raise InputError(messages)
+    name: ClassVar[str] = "fading_substrate"
+    substrate: float = parameter("at zero thickness", "Pa", above=0)
+    film: float = parameter("of a thick film at the reference temperature", "Pa", above=0)
+    length: float = parameter("thickness over which the substrate fades by 1/e", "m", above=0)
+    temperature_slope: float = parameter("fall of the film's own factor per kelvin", "1/K", default=0.0)
+    reference_temperature: float = parameter("where that factor is one", "K", default=298.15, above=0)
+    lowest_factor: float = parameter("what is left of it at any temperature", default=0.1, above=0)
 
     def __call__(self, thickness: float, temperature: float) -> float:
         """Value [Pa]."""
@@ -91,8 +101,9 @@ class FadingSubstrate:
         return max(self(0.0, temperature), self(math.inf, temperature))
 
 
+@register
 @dataclass(frozen=True)
-class Table:
+class Table(PropertyLaw):
     """Linear interpolation in thickness, times a factor linear in temperature; constant beyond both ends.
 
     Parameters
@@ -100,23 +111,18 @@ class Table:
     thickness : increasing [m]. value : [Pa] at each. temperature : increasing [K]. factor : at each.
     """
 
-    thickness: tuple[float, ...]
-    value: tuple[float, ...]
-    temperature: tuple[float, ...] = (298.15,)
-    factor: tuple[float, ...] = (1.0,)
+    name: ClassVar[str] = "table"
+    thickness: tuple[float, ...] = parameter("increasing", "m", at_least=0, several=True)
+    value: tuple[float, ...] = parameter("at each thickness", "Pa", above=0, several=True)
+    temperature: tuple[float, ...] = parameter("increasing", "K", default=(298.15,), above=0, several=True)
+    factor: tuple[float, ...] = parameter("at each temperature", default=(1.0,), above=0, several=True)
 
-    def __post_init__(self) -> None:
-        messages = []
+    def rules(self) -> Iterator[str]:
+        """Each pair of lists is a curve."""
         for abscissa, ordinate in (("thickness", "value"), ("temperature", "factor")):
-            x, y = np.asarray(getattr(self, abscissa)), np.asarray(getattr(self, ordinate))
-            if x.ndim != 1 or x.size == 0 or x.shape != y.shape:
-                messages.append(f"Table: {abscissa} and {ordinate} must be lists of the same length, at least one")
-            elif not ((np.diff(x) > 0).all() and np.isfinite(x).all()):
-                messages.append(f"Table: {abscissa} must increase")
-            elif not ((y > 0).all() and np.isfinite(y).all()):
-                messages.append(f"Table: {ordinate} must be positive")
-        if messages:
-            raise InputError(messages)
+            x, y = getattr(self, abscissa), getattr(self, ordinate)
+            if not x or len(x) != len(y) or any(b <= a for a, b in pairwise(x)):
+                yield f"{abscissa} and {ordinate} do not make a curve: as many of both, {abscissa} must increase"
 
     @classmethod
     def from_lists(

@@ -203,6 +203,58 @@ def test_a_wear_criterion_in_python(outside):
         WearModel(criterion="over_stres")
 
 
+def test_a_law_of_growth_and_a_hardness_in_a_scene():
+    """Built as tables with units; the plan asks the laws for bounds that they do not give themselves."""
+    from bem.scenes import library
+    from bem.scenes.kinds import get_kind
+    from bem.tribofilm import GrowthLaw, PropertyLaw
+
+    @dataclass(frozen=True)
+    class Steady(GrowthLaw):
+        """The same at any stress."""
+
+        name: ClassVar[str] = "steady"
+        speed: float = parameter("of growth", "m/s", above=0)
+
+        def rate(self, shear_stress, temperature):
+            return np.full_like(shear_stress, self.speed)
+
+    @dataclass(frozen=True)
+    class Ramp(PropertyLaw):
+        """Linear in thickness up to an end."""
+
+        name: ClassVar[str] = "ramp"
+        start: float = parameter("without a film", "Pa", above=0)
+        end: float = parameter("of a thick film", "Pa", above=0)
+        length: float = parameter("from which it is thick", "m", above=0)
+
+        def __call__(self, thickness, temperature):
+            return self.start + (self.end - self.start) * min(thickness / self.length, 1.0)
+
+    data = library()["tribofilm-afm-tip"]
+    film = {key: value for key, value in data["film"].items() if not key.startswith(("activation", "prefactor"))}
+    film |= {
+        "growth": {"kind": "steady", "speed": "2 nm/min"},
+        "hardness": {"kind": "ramp", "start": "6 GPa", "end": "2 GPa", "length": "20 nm"},
+    }
+    change = {"variants": []}
+    try:
+        bem.register(Steady)
+        bem.register(Ramp)
+        scene = load_scene(data | change | {"film": film})
+        assert scene.film.kinetics().speed == pytest.approx(2e-9 / 60)
+        assert scene.film.hardness.lowest(5e-8, 300.0) == 2e9
+        assert scene.film.hardness.highest(300.0) == 6e9
+        assert get_kind("tribofilm").model.model_validate(scene.model_dump()) == scene
+        with pytest.raises(InputError, match="growth with activation_energy"):
+            load_scene(data | change | {"film": film | {"activation_energy": "0.8 eV"}})
+        with pytest.raises(InputError, match="no activation_energy and activation_volume"):
+            load_scene(data | change | {"film": {key: value for key, value in film.items() if key != "growth"}})
+    finally:
+        laws.unregister(Steady)
+        laws.unregister(Ramp)
+
+
 def test_an_installed_package_registers_by_its_entry_point(tmp_path):
     (tmp_path / "my_laws.py").write_text(OUTSIDE)
     (tmp_path / "my_laws-1.0.dist-info").mkdir()

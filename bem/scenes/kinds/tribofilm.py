@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
@@ -22,8 +21,6 @@ from bem.scenes.common import (
     BodyScene,
     Force,
     GridScene,
-    PositiveLength,
-    PositivePressure,
     SceneModel,
     ShapeScene,
     Table,
@@ -31,9 +28,12 @@ from bem.scenes.common import (
 )
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
+from bem.scenes.laws import LawKey
 from bem.scenes.planner import Plan, Step, convolution_memory, layered_kernel_seconds, padded_points
 from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Energy, InverseLength, Length, Rate, Ratio, Speed, Temperature, Time, Volume
+from bem.tribofilm.growth import GrowthLaw, StressActivatedGrowth
+from bem.tribofilm.properties import Constant, PropertyLaw
 
 if TYPE_CHECKING:
     from bem.tribofilm import FilmContact
@@ -44,53 +44,18 @@ _CONTACTS = 50  # solved per film: the table is refined only as far as the film 
 _ZERO_CELSIUS = 273.15
 
 
-class ConstantProperty(Table):
-    """The same at every thickness and temperature."""
-
-    kind: Literal["constant"] = "constant"
-    value: PositivePressure
-
-
-class FadingProperty(Table):
-    """Falls from the substrate's value to the film's own with thickness; see `bem.tribofilm.FadingSubstrate`."""
-
-    kind: Literal["fading_substrate"] = "fading_substrate"
-    substrate: PositivePressure
-    film: PositivePressure
-    length: PositiveLength
-    temperature_slope: Ratio = 0.0  # per kelvin
-    reference_temperature: Annotated[Temperature, Field(gt=0)] = 298.15
-
-
-class TableProperty(Table):
-    """Points of a curve over thickness, and of a factor over temperature."""
-
-    kind: Literal["table"] = "table"
-    thickness: Annotated[list[Annotated[Length, Field(ge=0)]], Field(min_length=1, max_length=1000)]
-    value: Annotated[list[PositivePressure], Field(min_length=1, max_length=1000)]
-    temperature: list[Annotated[Temperature, Field(gt=0)]] = [298.15]  # noqa: RUF012
-    factor: list[Annotated[Ratio, Field(gt=0)]] = [1.0]  # noqa: RUF012
-
-    @model_validator(mode="after")
-    def _rising(self) -> TableProperty:
-        for name, other in (("thickness", "value"), ("temperature", "factor")):
-            x, y = getattr(self, name), getattr(self, other)
-            if len(x) != len(y) or any(b <= a for a, b in pairwise(x)):
-                raise problem(f"{name} and {other} do not make a curve", f"as many of both, {name} rising")
-        return self
-
-
-PropertyScene = Annotated[ConstantProperty | FadingProperty | TableProperty, Field(discriminator="kind")]
-
-
 class FilmScene(Table):
-    """The film: kinetics, properties, wear."""
+    """The film: kinetics, properties, wear.
 
+    Growth is stress-activated, of the energy, volume and prefactor given, or that of another law, `growth`.
+    """
+
+    growth: Annotated[GrowthLaw, LawKey("growth")] | None = None
     prefactor: Annotated[Speed, Field(gt=0)] = 1e-2
-    activation_energy: Annotated[Energy, Field(gt=0)]
-    activation_volume: Annotated[Volume, Field(ge=0)]
-    hardness: PropertyScene
-    youngs_modulus: PropertyScene
+    activation_energy: Annotated[Energy, Field(gt=0)] | None = None
+    activation_volume: Annotated[Volume, Field(ge=0)] | None = None
+    hardness: Annotated[PropertyLaw, LawKey("film_property")]
+    youngs_modulus: Annotated[PropertyLaw, LawKey("film_property")]
     poissons_ratio: Annotated[Ratio, Field(gt=-1, lt=0.5)] = 0.3
     wear_coefficient: Annotated[Rate, Field(ge=0)]
     lag: Annotated[Time, Field(ge=0)] = 0.0
@@ -99,6 +64,24 @@ class FilmScene(Table):
     average: Literal["contact", "nominal"] = "contact"
     feedback: Literal["mean", "local"] = "mean"
     local_tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = 1e-2
+
+    @model_validator(mode="after")
+    def _one_kinetics(self) -> FilmScene:
+        own = {key: getattr(self, key) for key in ("activation_energy", "activation_volume")}
+        if self.growth is not None and any(value is not None for value in own.values()):
+            raise problem(f"growth with {' and '.join(k for k, v in own.items() if v is not None)}", "one of them")
+        if self.growth is None and None in own.values():
+            missing = " and ".join(key for key, value in own.items() if value is None)
+            raise problem(f"no {missing}", "activation_energy with activation_volume, or growth, another law")
+        return self
+
+    def kinetics(self) -> GrowthLaw:
+        """The law of growth."""
+        if self.growth is not None:
+            return self.growth
+        assert self.activation_energy is not None
+        assert self.activation_volume is not None
+        return StressActivatedGrowth(self.prefactor, self.activation_energy, self.activation_volume)
 
 
 class VariantScene(Table):
@@ -192,7 +175,7 @@ def plan(scene: TribofilmScene) -> Plan:
     points = padded_points(grid.shape, grid.periodic)
     stiff = scene.film.youngs_modulus
     lags = scene.rubbing.duration / scene.film.lag if scene.film.lag > 0 else 0.0  # integrated one by one
-    same = isinstance(stiff, ConstantProperty) and stiff.value == scene.lower.build().material.youngs_modulus
+    same = isinstance(stiff, Constant) and stiff.value == scene.lower.build().material.youngs_modulus
     return Plan(
         (
             Step("surfaces", "heights of both bodies", transforms=40, points=grid.cells, memory=8.0 * grid.cells * 8),
@@ -232,15 +215,12 @@ def _check_load(scene: TribofilmScene, grid: Grid) -> None:
     A film is never thicker than it would be at its fastest growth: initial thickness + growth x time, and without a lag
     no thicker than where wear balances that. Contacts are solved up to twice as thick.
     """
-    from bem.tribofilm import StressActivatedGrowth
-
     film, (load,), (temperature,) = scene.film, scene.rubbing.loads, scene.rubbing.temperatures
-    hardness = property_of(film.hardness)
+    hardness = film.hardness
     other = None if scene.upper.material is None else scene.upper.material.hardness
     # at any thickness the pressure is at most the hardest that the film ever is
     stress = scene.rubbing.friction * hardness.highest(temperature)
-    growth = StressActivatedGrowth(film.prefactor, film.activation_energy, film.activation_volume)
-    fastest = float(growth.rate(stress, temperature))
+    fastest = float(film.kinetics().rate(np.array(stress), temperature))
     thickest = film.initial_thickness + fastest * scene.rubbing.duration
     if film.wear_coefficient > 0 and not film.lag > 0:
         thickest = min(thickest, max(film.initial_thickness, fastest / film.wear_coefficient))
@@ -251,20 +231,6 @@ def _check_load(scene: TribofilmScene, grid: Grid) -> None:
             f"rubbing.loads: {load:g} N is beyond the softest film's hardness x area of the grid, {limit:.4g} N at "
             f"{temperature - _ZERO_CELSIUS:.4g} degC; allowed: a smaller load, a larger grid or a harder film"
         )
-
-
-def property_of(scene: Any) -> Any:
-    """As a callable of `bem.tribofilm.properties`."""
-    from bem.tribofilm import Constant, FadingSubstrate
-    from bem.tribofilm import Table as Curve
-
-    if isinstance(scene, ConstantProperty):
-        return Constant(scene.value)
-    if isinstance(scene, FadingProperty):
-        return FadingSubstrate(
-            scene.substrate, scene.film, scene.length, scene.temperature_slope, scene.reference_temperature
-        )
-    return Curve.from_lists(scene.thickness, scene.value, scene.temperature, scene.factor)
 
 
 def _over_time(unit: str, text: str) -> Series:
@@ -323,7 +289,7 @@ def run(scene: TribofilmScene, context: Context) -> FilmRecord:
 
 def _contact(scene: TribofilmScene, grid: Grid, context: Context) -> FilmContact:
     """The rough contact under the film."""
-    from bem.tribofilm import FilmContact, StressActivatedGrowth
+    from bem.tribofilm import FilmContact
 
     film, (load,), (temperature,) = scene.film, scene.rubbing.loads, scene.rubbing.temperatures
     with context.timer("surfaces"):
@@ -337,9 +303,9 @@ def _contact(scene: TribofilmScene, grid: Grid, context: Context) -> FilmContact
         substrate=scene.lower.build().material,
         counterface=scene.upper.build().material,
         load=load,
-        growth=StressActivatedGrowth(film.prefactor, film.activation_energy, film.activation_volume),
-        hardness=property_of(film.hardness),
-        modulus=property_of(film.youngs_modulus),
+        growth=film.kinetics(),
+        hardness=film.hardness,
+        modulus=film.youngs_modulus,
         temperature=temperature,
         poissons_ratio=film.poissons_ratio,
         friction=scene.rubbing.friction,
