@@ -70,7 +70,7 @@ def heights_of(
         return np.zeros(grid.shape)
     if isinstance(surface, GeneratedSurface):
         return _generated(surface, grid, seed)
-    return _measured(surface, grid, note)
+    return fitted(surface, read_map(surface), grid, note)
 
 
 def shape_of(scene: ShapeScene, grid: Grid) -> FloatArray:
@@ -153,7 +153,7 @@ def _generated(surface: GeneratedSurface, grid: Grid, seed: int) -> FloatArray:
     return generate_surface(grid, seed=seed if surface.seed is None else surface.seed, **_statistics(surface))
 
 
-def _read(surface: MeasuredSurface) -> Surface:
+def read_map(surface: MeasuredSurface) -> Surface:
     """The measured map: read, levelled, filled and cropped."""
     from bem.surfaces import crop, read_surface
 
@@ -170,17 +170,16 @@ def _read(surface: MeasuredSurface) -> Surface:
 
 def _map_size(surface: MeasuredSurface) -> tuple[tuple[int, int], tuple[float, float]]:
     """Cells that the surface can cover, mirrored where asked for, and their spacing [m]."""
-    found = _read(surface)
+    found = read_map(surface)
     nx, ny = found.shape
     return (nx * (1 + (surface.mirror in ("x", "both"))), ny * (1 + (surface.mirror in ("y", "both")))), found.spacing
 
 
-def _measured(surface: MeasuredSurface, grid: Grid, note: Callable[[str], None]) -> FloatArray:
-    """A measured surface on the grid; what had to be done to it is noted."""
+def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[[str], None]) -> FloatArray:
+    """A measured surface, as `read_map` gives it, on the grid; what had to be done to it is noted."""
     from bem.surfaces import MirrorWarning, detrend, high_pass, low_pass, mirror_to_periodic, resample, scale_to_rms
 
     name = Path(surface.path).name
-    found = _read(surface)
     missing = int(found.metadata.get("missing_points", 0) or 0)
     if missing:
         note(f"{name}: {missing} points were missing and are filled from their neighbours")

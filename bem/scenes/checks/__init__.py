@@ -1,0 +1,70 @@
+"""What an expert would warn of, before a scene is run and after: one list of small checks.
+
+To add one, write into the file of its subject (`materials.py`, `contact.py`, `mesh.py`, `surfaces.py`, `operation.py`
+before; `outcome.py` after; or a new file, named below)
+
+    @scene_check
+    def friction_above_one(facts: Facts) -> Iterator[str]:
+        \"\"\"Why it matters, from where the limit is.\"\"\"
+        for case in facts.cases:
+            if case.friction > 1:
+                yield f"friction {case.friction:g}: what is wrong, how much; what to do"
+
+`facts.scene` is the resolved scene, `facts.cases` its contacts in one form for all kinds, `facts.surfaces` what became of
+the rough surfaces, `facts.materials` the materials by key. A check of the results takes the `Outcome` besides. Each has
+two tests in `tests/scenes/test_checks.py`: a scene that fires it, and one next to it that does not; and no built-in scene
+may fire it without a reason that stands there.
+
+`bem plan` shows what `scene_warnings` finds; `bem run` notes that and what `outcome_warnings` finds, so that it stands on
+the terminal, in the summary's `notes` and in the report. A warning never changes a result nor an exit code.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+from bem.errors import InputError
+from bem.scenes.checks import contact, materials, mesh, operation, outcome, surfaces
+from bem.scenes.checks.facts import Case, Facts, examine
+from bem.scenes.checks.registry import OUTCOME_CHECKS, SCENE_CHECKS
+from bem.scenes.context import Outcome
+
+
+def scene_warnings(facts: Facts) -> list[str]:
+    """What can be warned of before any work."""
+    return _sentences(SCENE_CHECKS, facts)
+
+
+def outcome_warnings(facts: Facts, result: Outcome) -> list[str]:
+    """What the results give reason to warn of."""
+    return _sentences(OUTCOME_CHECKS, facts, result)
+
+
+def _sentences(checks: Mapping[str, Callable[..., Iterator[str]]], *subject: Any) -> list[str]:
+    found: list[str] = []
+    for name, check in checks.items():
+        try:
+            found += check(*subject)
+        except InputError:  # such as a measured map that is smaller than the grid: refused before any work
+            raise
+        except Exception as error:  # advice must not cost anybody a run; the tests see to it that none of these is met
+            found.append(f"the check {name} could not be made: {error!r}")
+    return list(dict.fromkeys(found))
+
+
+__all__ = [
+    "OUTCOME_CHECKS",
+    "SCENE_CHECKS",
+    "Case",
+    "Facts",
+    "contact",
+    "examine",
+    "materials",
+    "mesh",
+    "operation",
+    "outcome",
+    "outcome_warnings",
+    "scene_warnings",
+    "surfaces",
+]

@@ -1,0 +1,166 @@
+"""Checks of the contact as a whole: whether half-spaces, small strains and the grid's edges can be believed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from bem.scenes.checks.facts import Facts, worst
+from bem.scenes.checks.registry import scene_check
+from bem.scenes.checks.words import percent, si
+
+_SLOPE_AT_EDGE = 0.2
+
+
+@scene_check
+def contact_large_for_its_radius(facts: Facts) -> Iterator[str]:
+    """Half-spaces and parabolas need a << R (Johnson 1985, section 4.1).
+
+    At a/R the surface meets the contact's edge at that slope: a parabola misses a sphere by (a/R)^2 / 4 and cosines by
+    (a/R)^2 / 2, 2 % at 0.2; Tabor's representative strain is 0.2 a/R, 4 %.
+    """
+    found = worst((case.smooth.ratio, case) for case in facts.cases if case.smooth is not None)
+    if found is not None and found[0] > _SLOPE_AT_EDGE:
+        ratio, case = found
+        yield (
+            f"contact radius {ratio:.2g} of the body's{case.at}: half-spaces and small strains hold below about 0.2; strains "
+            f"are of order {percent(min(0.2 * ratio, 1.0))}: "
+            + (
+                "no part of the result can be believed; lower the load, or check the units of load, modulus and radius"
+                if ratio > 1
+                else "expect errors of several per cent, or use finite elements with large deformations"
+            )
+        )
+
+
+@scene_check
+def hertz_pressure_above_hardness(facts: Facts) -> Iterator[str]:
+    """An elastic contact has no limit; a real one flows. Only where no cap is set."""
+    values = (
+        (case.smooth.maximum_pressure / case.softest, case)
+        for case in facts.cases
+        if case.smooth is not None and case.cap is None and case.softest is not None and facts.of_kind("contact", "film")
+    )
+    found = worst(values)
+    if found is not None and found[0] > 1:
+        ratio, case = found
+        assert case.smooth is not None
+        how = 'take behaviour = "capped" or a smaller load' if facts.of_kind("contact") else "take a smaller load"
+        yield (
+            f"Hertz pressure {si(case.smooth.maximum_pressure, 'Pa')} is {ratio:.2g} times the softer hardness"
+            f"{case.at}, and the contact is elastic: a real one would flow; {how}"
+        )
+
+
+@scene_check
+def yield_below_the_surface(facts: Facts) -> Iterator[str]:
+    """A sphere yields below the surface from p0 = 1.60 Y, a cylinder from 1.79 Y (von Mises, nu = 0.3; Johnson 1985, 6.1).
+
+    The inverse of the largest von Mises stress, 0.620 and 0.558 p0. Only where the pressure stays below the hardness, so
+    that one sentence says it.
+    """
+    for case in facts.cases:
+        strengths = [body.material.yield_stress for body in case.bodies.values() if body.layer is None]
+        known = [value for value in strengths if value is not None]
+        if case.smooth is None or case.cap is not None or not known or not facts.of_kind("contact", "film"):
+            continue
+        onset = (1.79 if case.smooth.line else 1.60) * min(known)
+        if onset < case.smooth.maximum_pressure <= (case.softest or 0.0):
+            yield (
+                f"Hertz pressure {si(case.smooth.maximum_pressure, 'Pa')} is {case.smooth.maximum_pressure / onset:.2g} times "
+                f"that at which the softer body begins to yield below its surface, {si(onset, 'Pa')}{case.at}: elastic stresses "
+                "there are too high, and the first loadings leave residual stresses; lower the load or allow for it"
+            )
+
+
+@scene_check
+def mean_pressure_near_hardness(facts: Facts) -> Iterator[str]:
+    """With half the hardness over the whole grid, half of it touches at the cap; what flows has nowhere to go."""
+    limits = ((case.mean_pressure or 0.0, case.cap or case.softest, case) for case in facts.cases)
+    found = worst((pressure / limit, case) for pressure, limit, case in limits if limit)
+    if found is not None and found[0] > 0.5:
+        ratio, case = found
+        yield (
+            f"the load is {ratio:.2g} of hardness x area of the grid{case.at}: most of it would be at the hardness; take a "
+            "smaller load or a larger grid"
+        )
+
+
+@scene_check
+def grid_smaller_than_hertz(facts: Facts) -> Iterator[str]:
+    """A free grid must hold the contact; a tenth beyond Hertz' edge is where the gap opens to see it end."""
+    for case in facts.cases:
+        if case.grid is None or case.smooth is None or facts.of_kind("asperities"):
+            continue
+        for axis, name in enumerate("xy"):
+            size, length = 2 * case.smooth.semi_axes[axis], case.grid.lengths[axis]
+            if not case.grid.periodic[axis] and math.isfinite(size) and length < 1.1 * size:
+                yield (
+                    f"grid: {si(length, 'm')} along {name} for a Hertz contact of {si(size, 'm')}{case.at}: the contact would "
+                    f"reach the grid's edge and end there; take grid.lengths of {si(1.5 * size, 'm')} or more"
+                )
+
+
+@scene_check
+def flat_patch_with_free_edges(facts: Facts) -> Iterator[str]:
+    """A flat on a free grid is a punch as large as the grid: pressures rise without bound towards its edges (Johnson 2.8)."""
+    for case in facts.cases:
+        free = [name for name, wraps in zip("xy", case.grid.periodic, strict=True) if not wraps] if case.grid else []
+        if case.shape == "flat" and free and case.load is not None:
+            yield (
+                f"grid: nominally flat and free along {' and '.join(free)}: the patch is a punch of its own, with the highest "
+                "pressures along its edges; grid.periodic = true makes it part of a larger contact"
+            )
+            return
+
+
+@scene_check
+def curved_body_repeats(facts: Facts) -> Iterator[str]:
+    """On a periodic axis a sphere is a row of spheres, each carried by what its neighbours push down.
+
+    The neighbours' displacement relative to the contact's own is about a / L times four (the lattice sum of 1/r); 0.1 of
+    it from L = 40 a on is far too strict for pressures, which see its variation over the contact: (a/L)^3, 1 % at L = 5 a.
+    """
+    if facts.of_kind("asperities"):
+        return
+    for case in facts.cases:
+        if case.grid is None or case.smooth is None:
+            continue
+        for axis, name in enumerate("xy"):
+            size, length = case.smooth.semi_axes[axis], case.grid.lengths[axis]
+            if case.grid.periodic[axis] and math.isfinite(size):
+                near = f", {length / size:.2g} contact radii apart" if length < 5 * size else ""
+                yield (
+                    f"grid: periodic along {name}, so the {case.shape} repeats every {si(length, 'm')}{near}{case.at}; for one "
+                    f"body make that axis free"
+                )
+
+
+@scene_check
+def wave_does_not_fit_the_period(facts: Facts) -> Iterator[str]:
+    """A sinusoid that does not close over a periodic grid has a step at the seam, with the highest pressures in it."""
+    for case in facts.cases:
+        if case.wavelength is None or case.grid is None or not case.grid.periodic[0]:
+            continue
+        waves = case.grid.lengths[0] / case.wavelength
+        if abs(waves - round(waves)) > 1e-6 * waves or round(waves) == 0:
+            yield (
+                f"shape.wavelength: {waves:.4g} waves on a periodic grid of {si(case.grid.lengths[0], 'm')} leave a kink at the "
+                "seam; take a whole number of waves"
+            )
+
+
+@scene_check
+def cylinder_too_narrow_for_a_line(facts: Facts) -> Iterator[str]:
+    """Plane strain needs an axis much longer than the contact is wide; its ends take a share of about 2a / width."""
+    found = worst(
+        (2 * case.smooth.semi_axes[0] / case.width, case)
+        for case in facts.cases
+        if case.smooth is not None and case.width is not None and case.smooth.line
+    )
+    if found is not None and found[0] > 0.2:
+        share, case = found
+        yield (
+            f"the cylinder is {1 / share:.2g} times as wide as its contact is long{case.at}: a line contact in plane strain is "
+            "no model of it below about five; check width, or take an ellipsoid in kind contact"
+        )

@@ -1,0 +1,313 @@
+"""What a scene presses together, in one form for all kinds: what plans show and checks look at."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from bem.grid import Grid
+from bem.materials import Body, Material
+from bem.scenes import build
+from bem.scenes.checks.hertz import SmoothContact, smooth_contact
+from bem.scenes.checks.surfaces_of import RoughSurface, rough_surface
+from bem.scenes.checks.words import si
+from bem.scenes.common import SceneModel, SmoothSurface
+
+_MOST_SURFACES = 24
+"""Surfaces that are looked at; a sweep of variants beyond that shows no more."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """One contact of a scene; a scene with several loads, variants or spacings has several.
+
+    Parameters
+    ----------
+    label : which of the scene's contacts, such as "10 N"; empty where there is but one.
+    grid : None where the kind has no cells over an area.
+    load : on the grid [N]; None where it is not known beforehand.
+    smooth : Hertz contact of the substrates, None for a flat.
+    cap : highest pressure a cell takes [Pa]; None where elastic.
+    friction : coefficient of (boundary) friction.
+    depths : where stresses are wanted [m].
+    width : of the cylinder along its axis [m].
+    slide : how far the lower surface is moved on in a cycle [m]; None where nothing is.
+    shape : "flat", "sphere", "cylinder", "ellipsoid" or "sinusoid".
+    wavelength : of a sinusoid [m].
+    """
+
+    label: str
+    lower: Body
+    upper: Body | None
+    grid: Grid | None = None
+    load: float | None = None
+    smooth: SmoothContact | None = None
+    cap: float | None = None
+    friction: float = 0.0
+    depths: tuple[float, ...] = ()
+    width: float | None = None
+    slide: float | None = None
+    shape: str = "flat"
+    wavelength: float | None = None
+    surfaces: dict[str, build.AnySurface] = field(default_factory=dict)
+
+    @property
+    def at(self) -> str:
+        """For the end of a sentence: " (10 N)", or nothing."""
+        return f" ({self.label})" if self.label else ""
+
+    @property
+    def mean_pressure(self) -> float | None:
+        """Load over the grid's area [Pa]."""
+        return None if self.load is None or self.grid is None else self.load / self.grid.area
+
+    @property
+    def bodies(self) -> dict[str, Body]:
+        """Those that are elastic, by name."""
+        return {name: body for name, body in (("lower", self.lower), ("upper", self.upper)) if body is not None}
+
+    @property
+    def softest(self) -> float | None:
+        """The smaller hardness of the touching materials [Pa]."""
+        known = [body.surface_material.hardness for body in self.bodies.values()]
+        return min((value for value in known if value is not None), default=None)
+
+
+@dataclass(frozen=True)
+class Facts:
+    """A scene as its checks see it."""
+
+    scene: Any
+    cases: tuple[Case, ...]
+
+    @cached_property
+    def surfaces(self) -> tuple[tuple[Case, RoughSurface], ...]:
+        """The rough surfaces, each once, with the first contact that has it."""
+        found: dict[Any, tuple[Case, RoughSurface]] = {}
+        for case in self.cases:
+            for name, table in case.surfaces.items():
+                key = (name, table, case.grid)
+                if case.grid is None or key in found or isinstance(table, SmoothSurface):
+                    continue
+                if len(found) == _MOST_SURFACES:
+                    break
+                rough = rough_surface(name, table, case.grid, self.scene.seed)
+                if rough is not None:
+                    found[key] = (case, rough)
+        return tuple(found.values())
+
+    @cached_property
+    def materials(self) -> dict[str, Material]:
+        """Every material of the scene, by its key."""
+        found: dict[str, Material] = {}
+        for name in ("lower", "upper"):
+            table = getattr(self.scene, name, None)
+            if getattr(table, "material", None) is not None:
+                body = table.build()
+                found[f"{name}.material"] = body.material
+                if body.layer is not None:
+                    found[f"{name}.layer.material"] = body.layer.material
+        return found
+
+    def worst_surfaces(
+        self, measure: Callable[[RoughSurface], float]
+    ) -> Iterator[tuple[float, Case, RoughSurface]]:
+        """For each body the surface, with its contact, whose measure is largest; none where it is not a number."""
+        for name in ("lower", "upper"):
+            values = [(measure(rough), case, rough) for case, rough in self.surfaces if rough.body == name]
+            values = [found for found in values if not math.isnan(found[0])]
+            if values:
+                yield max(values, key=lambda found: found[0])
+
+    def of_kind(self, *kinds: str) -> bool:
+        """Whether the scene is of one of these kinds."""
+        return self.scene.kind in kinds
+
+
+def worst(values: Iterable[tuple[float, Case]]) -> tuple[float, Case] | None:
+    """The largest value with its contact."""
+    return max(values, key=lambda pair: pair[0], default=None)
+
+
+def examine(scene: SceneModel) -> Facts:
+    """The facts of a resolved scene. Surfaces are read, generated and described when they are first asked for.
+
+    A kind that is not known here has those of its materials alone.
+    """
+    make = _CASES.get(scene.kind)
+    cases = [] if make is None else make(scene)
+    labelled = len(cases) > 1
+    return Facts(scene, tuple(case if labelled else _unlabelled(case) for case in cases))
+
+
+def _unlabelled(case: Case) -> Case:
+    return Case(**{**case.__dict__, "label": ""})
+
+
+def _bodies(scene: Any) -> dict[str, Any]:
+    upper = None if scene.upper.material is None else scene.upper.build()
+    surfaces = {"lower": scene.lower.surface, "upper": scene.upper.surface}
+    return {"lower": scene.lower.build(), "upper": upper, "surfaces": surfaces}
+
+
+def _shape(shape: Any) -> tuple[float, float]:
+    """Radii of the upper body's shape [m]."""
+    if shape.kind == "sphere":
+        return shape.radius, shape.radius
+    if shape.kind == "ellipsoid":
+        return shape.radius, shape.radius_y
+    return (shape.radius, math.inf) if shape.kind == "cylinder" else (math.inf, math.inf)
+
+
+def _contact(scene: Any) -> list[Case]:
+    grid, bodies, control = build.grid_of(scene.grid), _bodies(scene), scene.contact
+    load = control.load if control.mean_pressure is None else control.mean_pressure * grid.area
+    radii = _shape(scene.shape)
+    line = math.isinf(radii[1])
+    smooth = smooth_contact(
+        bodies["lower"],
+        bodies["upper"],
+        radii,
+        load=load / grid.lengths[1] if line and load is not None else load,
+        approach=None if line or load is not None else control.approach,
+    )
+    outputs = scene.outputs
+    wanted = (outputs.von_mises or outputs.stresses) and outputs.depths is not None
+    return [
+        Case(
+            "",
+            grid=grid,
+            load=load,
+            smooth=smooth,
+            cap=control.hardness,
+            friction=control.friction,
+            depths=outputs.depths.build() if wanted else (),
+            shape=scene.shape.kind,
+            wavelength=scene.shape.wavelength,
+            **bodies,
+        )
+    ]
+
+
+def _lubricated(scene: Any) -> list[Case]:
+    """Kinds `friction` and `running-in`: a cylinder on a flat, a rough patch under it."""
+    from bem.materials import contact_modulus
+
+    grid, bodies, contact = build.grid_of(scene.grid), _bodies(scene), scene.contact
+    modulus = contact_modulus(bodies["lower"].material, bodies["upper"].material)
+    depths = getattr(scene, "depths", None)
+    slide = scene.wear.shift * grid.spacing[0] if hasattr(scene, "wear") else None
+    cases = []
+    for load in contact.forces(modulus):
+        for variant in getattr(scene, "variants", None) or [None]:
+            label, surfaces = si(load, "N"), dict(bodies["surfaces"])
+            if variant is not None:
+                changes = {k: v for k, v in variant.model_dump(exclude={"name"}).items() if v is not None}
+                surfaces["lower"] = surfaces["lower"].model_copy(update=changes)
+                label += f", {variant.name}"
+            per_length = load / contact.width
+            cases.append(
+                Case(
+                    label,
+                    grid=grid,
+                    load=per_length * grid.lengths[1],
+                    smooth=smooth_contact(
+                        bodies["lower"], bodies["upper"], (contact.radius, math.inf), load=per_length
+                    ),
+                    cap=contact.hardness or min(getattr(scene, "hardnesses", None) or [0.0]) or None,
+                    friction=contact.boundary_friction,
+                    depths=() if depths is None else tuple(float(d) for d in depths.build()),
+                    width=contact.width,
+                    slide=slide,
+                    shape="cylinder",
+                    **{**bodies, "surfaces": surfaces},
+                )
+            )
+    return cases
+
+
+def _wear(scene: Any) -> list[Case]:
+    from bem.scenes.kinds.wear import grid_at, load_on, variant_of
+
+    cases = []
+    for load in scene.cylinder.loads:
+        for variant in scene.variants or [None]:
+            own = variant_of(scene, variant)
+            grid, bodies = grid_at(own, load), _bodies(own)
+            radii = (own.cylinder.radius or math.inf, math.inf)
+            cases.append(
+                Case(
+                    si(load, "N") + ("" if variant is None else f", {variant.name}"),
+                    grid=grid,
+                    load=load_on(own, grid, load),
+                    smooth=smooth_contact(bodies["lower"], bodies["upper"], radii, load=load / own.cylinder.width),
+                    cap=own.cylinder.hardness,
+                    friction=own.cylinder.friction,
+                    depths=tuple(float(d) for d in own.depths.build()),
+                    width=own.cylinder.width,
+                    slide=own.wear.shift * grid.spacing[0],
+                    shape="cylinder" if own.cylinder.radius else "flat",
+                    **bodies,
+                )
+            )
+    return cases
+
+
+def _tribofilm(scene: Any) -> list[Case]:
+    grid, bodies, radii = build.grid_of(scene.grid), _bodies(scene), _shape(scene.shape)
+    line = math.isinf(radii[1])
+    return [
+        Case(
+            si(load, "N"),
+            grid=grid,
+            load=load,
+            smooth=smooth_contact(
+                bodies["lower"], bodies["upper"], radii, load=load / grid.lengths[1] if line else load
+            ),
+            cap=getattr(scene.film.hardness, "value", None) if scene.film.hardness.kind == "constant" else None,
+            friction=scene.rubbing.friction,
+            shape=scene.shape.kind,
+            wavelength=scene.shape.wavelength,
+            **bodies,
+        )
+        for load in scene.rubbing.loads
+    ]
+
+
+def _film(scene: Any) -> list[Case]:
+    bodies, cylinder = _bodies(scene), scene.cylinder
+    load = max(cylinder.load, cylinder.load_end or 0.0)
+    radii = (cylinder.radius, math.inf)
+    smooth = smooth_contact(bodies["lower"], bodies["upper"], radii, load=load / cylinder.width)
+    return [Case("", smooth=smooth, width=cylinder.width, shape="cylinder", **bodies)]
+
+
+def _asperities(scene: Any) -> list[Case]:
+    from bem.scenes.kinds.asperities import grid_at
+
+    bodies, array = _bodies(scene), scene.array
+    return [
+        Case(
+            f"{si(spacing, 'm')} apart, {si(depth, 'm')} deep",
+            grid=grid_at(scene, spacing),
+            smooth=smooth_contact(bodies["lower"], bodies["upper"], (array.radius, array.radius), approach=depth),
+            shape="sphere",
+            **bodies,
+        )
+        for spacing in array.spacings
+        for depth in sorted({min(array.interferences), max(array.interferences)})
+    ]
+
+
+_CASES: dict[str, Callable[[Any], list[Case]]] = {
+    "asperities": _asperities,
+    "contact": _contact,
+    "film": _film,
+    "friction": _lubricated,
+    "running-in": _lubricated,
+    "tribofilm": _tribofilm,
+    "wear": _wear,
+}

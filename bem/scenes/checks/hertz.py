@@ -1,0 +1,79 @@
+"""The smooth contact that a scene would have without roughness, layers and oil."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from bem.materials import Body, contact_modulus
+from bem.scenes.checks.words import si
+
+
+@dataclass(frozen=True)
+class SmoothContact:
+    """Hertz contact of the two substrates.
+
+    Parameters
+    ----------
+    radii : (Rx, Ry) of the relative curvature [m]; infinite along a cylinder's axis.
+    semi_axes : (ax, ay) of the contact [m]; infinite along a cylinder's axis.
+    maximum_pressure : p0 [Pa]. approach : of distant points [m]; None for a line contact, which has none.
+    contact_modulus : E* of the substrates [Pa].
+    """
+
+    radii: tuple[float, float]
+    semi_axes: tuple[float, float]
+    maximum_pressure: float
+    approach: float | None
+    contact_modulus: float
+
+    @property
+    def line(self) -> bool:
+        """Whether it is the contact of a cylinder."""
+        return math.isinf(self.semi_axes[1])
+
+    @property
+    def ratio(self) -> float:
+        """The largest of semi-axis over radius, which is the slope at the edge of the contact."""
+        return max(a / r for a, r in zip(self.semi_axes, self.radii, strict=True) if math.isfinite(r))
+
+    @property
+    def depth_of_largest_stress(self) -> float:
+        """Depth of the largest von Mises stress without friction [m].
+
+        0.48 a below a sphere, 0.70 a below a cylinder at nu = 0.3 (Johnson 1985, sections 3.4 and 4.2; 0.78 a, often
+        quoted for the cylinder, is where the largest shear stress lies). An ellipse lies between, by its shorter axis.
+        """
+        short, long = min(self.semi_axes), max(self.semi_axes)
+        return short * (0.70 - 0.22 * short / long)
+
+    def describe(self) -> str:
+        """Size, pressure and approach in words."""
+        size = " x ".join(si(a, "m") for a in dict.fromkeys(self.semi_axes) if math.isfinite(a))
+        name = "half-width" if self.line else "semi-axes" if len(set(self.semi_axes)) > 1 else "radius"
+        approach = "" if self.approach is None else f", approach {si(self.approach, 'm')}"
+        return f"{name} {size}, pressure up to {si(self.maximum_pressure, 'Pa')}{approach}"
+
+
+def smooth_contact(
+    lower: Body,
+    upper: Body | None,
+    radii: tuple[float, float],
+    *,
+    load: float | None = None,
+    approach: float | None = None,
+) -> SmoothContact | None:
+    """Hertz contact under a load [N], per length [N/m] where Ry is infinite, or at an approach [m]; None for a flat, and
+    for a cylinder at an approach."""
+    from bem.reference_solutions.hertz import cylinder_contact, ellipse_contact
+
+    modulus = contact_modulus(lower.material, None if upper is None else upper.material)
+    if math.isinf(radii[0]) or (load is None and approach is None) or (approach is not None and approach <= 0):
+        return None
+    if math.isinf(radii[1]):
+        if load is None:
+            return None
+        line = cylinder_contact(radius=radii[0], contact_modulus=modulus, load=load)
+        return SmoothContact(radii, (line.half_width, math.inf), line.maximum_pressure, None, modulus)
+    point = ellipse_contact(radii=radii, contact_modulus=modulus, load=load, approach=approach)
+    return SmoothContact(radii, point.semi_axes, point.maximum_pressure, point.approach, modulus)

@@ -1,0 +1,101 @@
+"""Checks of elastic constants, hardness and yield stress."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from bem.scenes.checks.facts import Facts
+from bem.scenes.checks.registry import scene_check
+from bem.scenes.checks.words import si
+
+_MODULI = (1e5, 2e12)
+_POLYMER = 5e9
+
+
+@scene_check
+def implausible_modulus(facts: Facts) -> Iterator[str]:
+    """From soft gels (0.1 MPa) to beyond diamond (1.1 TPa); Ashby, Materials Selection in Mechanical Design, chart of E.
+
+    A number without a unit is pascal: E = 115 was meant to be GPa. A stand-in for a rigid body that is called so is meant.
+    """
+    for key, material in facts.materials.items():
+        value = material.youngs_modulus
+        if value < _MODULI[0]:
+            yield (
+                f"{key}: Young's modulus {si(value, 'Pa')} is softer than a gel; a number without a unit is in Pa: write "
+                f'youngs_modulus = "{value:g} GPa" if that is meant'
+            )
+        elif value > _MODULI[1] and "rigid" not in material.name.lower():
+            yield (
+                f"{key}: Young's modulus {si(value, 'Pa')} is above that of any solid (diamond 1.1 TPa); check its unit, or "
+                'leave upper.material out (or name it "rigid") for a rigid body'
+            )
+
+
+@scene_check
+def viscoelastic_material(facts: Facts) -> Iterator[str]:
+    """Below some 5 GPa a solid is a polymer or rubber: its modulus depends on rate, temperature and time under load.
+
+    Creep and frequency change E of polymers near room temperature by 2 to 10 times; J. D. Ferry, Viscoelastic Properties of
+    Polymers (1980), chapter 2.
+    """
+    for key, material in facts.materials.items():
+        if _MODULI[0] <= material.youngs_modulus < _POLYMER:
+            yield (
+                f"{key}: E = {si(material.youngs_modulus, 'Pa')} is that of a polymer or rubber, which creeps and relaxes; "
+                "the solids here have no time dependence: take the modulus at the rate and temperature of the contact, "
+                "and run a second one to see how much it matters"
+            )
+
+
+@scene_check
+def incompressible_layer(facts: Facts) -> Iterator[str]:
+    """A bonded layer gives way by shear alone as nu goes to 0.5: it is as stiff as E (1-nu) / ((1+nu)(1-2nu)) says.
+
+    Confined modulus; Johnson (1985), section 5.8. From 0.48 to 0.49 it doubles, from 0.49 to 0.499 it grows tenfold, so
+    the last digit of nu decides; on half-spaces, where only 1 - nu^2 counts, it does not.
+    """
+    for key, material in facts.materials.items():
+        nu = material.poissons_ratio
+        if "layer" in key and nu >= 0.48:
+            confined = (1 - nu) / ((1 + nu) * (1 - 2 * nu))
+            yield (
+                f"{key}: Poisson's ratio {nu:g} makes the bonded layer {confined:.0f} times as stiff in compression as its "
+                "modulus; the result hangs on the last digit: measure it, or bracket it with two runs"
+            )
+
+
+@scene_check
+def hardness_against_modulus(facts: Facts) -> Iterator[str]:
+    """H/E lies between 5e-4 (annealed metals) and 0.2 (2.8 times the shear limit of a perfect solid, about E / 15).
+
+    Tabor (1951), Hardness of Metals; the limit of a perfect crystal: Kelly, Strong Solids (1966).
+    """
+    for key, material in facts.materials.items():
+        if material.hardness is None:
+            continue
+        ratio = material.hardness / material.youngs_modulus
+        if not 5e-4 <= ratio <= 0.2:
+            word = "below that of annealed metals" if ratio < 5e-4 else "above that of a perfect solid"
+            yield (
+                f"{key}: hardness {si(material.hardness, 'Pa')} is {ratio:.2g} of Young's modulus, {word} (5e-4 to 0.2); "
+                "check both units"
+            )
+
+
+@scene_check
+def yield_against_hardness(facts: Facts) -> Iterator[str]:
+    """Hardness over yield stress is 2.6 to 3 for metals and 1.5 to 2 for glass and polymers.
+
+    Tabor (1951); Johnson (1985), section 6.3: it falls with E / yield stress towards 1.1, where yield only begins. Above 4
+    the yield stress is not that of the material under the indenter.
+    """
+    for key, material in facts.materials.items():
+        if material.hardness is None or material.yield_stress is None:
+            continue
+        ratio = material.hardness / material.yield_stress
+        if not 1.95 <= ratio <= 4.0:
+            yield (
+                f"{key}: yield stress {si(material.yield_stress, 'Pa')} is hardness / {ratio:.2g}; metals have hardness / "
+                "2.6 to / 3, brittle solids down to / 1.5: leave it out for / 2.8, or check both"
+            )

@@ -1,0 +1,208 @@
+"""Checks of the results: what only the solution tells."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.scenes.checks.contact import grid_smaller_than_hertz, hertz_pressure_above_hardness, yield_below_the_surface
+from bem.scenes.checks.facts import Case, Facts
+from bem.scenes.checks.registry import outcome_check
+from bem.scenes.checks.words import joined, percent, si
+from bem.scenes.context import Outcome
+
+_AT_EDGE = 1e-4
+_AT_CAP = 0.1
+_CONTACT = 0.5
+
+
+def _pressures(outcome: Outcome) -> list[NDArray[np.float64]]:
+    """The maps of contact pressure that a run kept."""
+    found = []
+    for name in ("pressure", "film_pressure"):
+        variable = outcome.variables.get(name)
+        if variable is not None and variable.dimensions[-2:] == ("x", "y"):
+            found.append(np.asarray(variable.values, dtype=np.float64).reshape(-1, *variable.values.shape[-2:]))
+    return found
+
+
+def _capped(facts: Facts, outcome: Outcome) -> Case | None:
+    """The contact whose pressures are shown, where it has a cap and one only."""
+    caps = {case.cap for case in facts.cases}
+    return facts.cases[0] if len(caps) == 1 and None not in caps else None
+
+
+@outcome_check
+def contact_at_free_edges(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """A contact that reaches a free edge of its grid ends there because the grid does."""
+    grids = {case.grid.periodic for case in facts.cases if case.grid is not None}
+    if len(grids) != 1:
+        return
+    free = [axis for axis, wraps in enumerate(grids.pop()) if not wraps]
+    for maps in _pressures(outcome):
+        for plane in maps:
+            total = float(plane.sum())
+            shares = {
+                "xy"[axis]: float((plane.take([0, -1], axis=axis)).sum()) / total
+                for axis in free
+                if total > 0 and plane.shape[axis] > 2
+            }
+            touched = [name for name, share in shares.items() if share > _AT_EDGE]
+            if touched:
+                share = max(shares.values())
+                known = " (as the plan foretold)" if list(grid_smaller_than_hertz(facts)) else ""
+                yield (
+                    f"the contact reaches the free edge of the grid along {joined(touched)}{known}: the outermost cells carry "
+                    f"{percent(share)} of the load, and the contact ends where the grid does; take a larger grid, or a periodic one "
+                    "for a part of a larger contact"
+                )
+                return
+
+
+@outcome_check
+def elastic_pressure_above_hardness(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """Elastic summits carry any pressure; real ones flow at the hardness of the softer body."""
+    if not facts.of_kind("contact") or facts.cases[0].cap is not None or facts.cases[0].softest is None:
+        return
+    pressure, hardness = outcome.variables["pressure"].values, facts.cases[0].softest
+    highest = float(pressure.max())
+    if highest > hardness and not list(hertz_pressure_above_hardness(facts)):
+        share = float(pressure[pressure > hardness].sum() / pressure.sum())
+        yield (
+            f"elastic pressures reach {si(highest, 'Pa')}, {highest / hardness:.2g} times the softer hardness, and {percent(share)} "
+            'of the load is carried above it: real summits would flow; take behaviour = "capped"'
+        )
+
+
+@outcome_check
+def pressure_beyond_linear_elasticity(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """Strain under a contact is about p (1 - nu^2) / E of each body: 0.2 of the contact modulus is no small strain."""
+    if not facts.of_kind("contact"):
+        return
+    from bem.materials import contact_modulus
+
+    case = facts.cases[0]
+    modulus = contact_modulus(case.lower.material, None if case.upper is None else case.upper.material)
+    highest = float(outcome.variables["pressure"].values.max())
+    if highest > 0.2 * modulus and not (case.smooth is not None and case.smooth.ratio > 0.2):
+        yield (
+            f"pressures reach {si(highest, 'Pa')}, {highest / modulus:.2g} of the contact modulus: strains are of that order, where "
+            "linear elasticity ends at about 0.1; check units, smooth the surface, or cap the pressure at a hardness"
+        )
+
+
+@outcome_check
+def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """Where the pressure is the cap, it is an input and no result; said from a tenth of the contact on."""
+    case = _capped(facts, outcome)
+    if case is None or case.cap is None or not facts.of_kind("contact", "wear", "running-in"):
+        return
+    for maps in _pressures(outcome):
+        plane = maps[-1]
+        touching, capped = np.count_nonzero(plane > 0), plane >= case.cap * (1 - 1e-9)
+        if touching and np.count_nonzero(capped) > _AT_CAP * touching:
+            yield (
+                f"{percent(np.count_nonzero(capped) / touching)} of the contact area, with {percent(float(plane[capped].sum() / plane.sum()))} of the "
+                f"load, is at the hardness, {si(case.cap, 'Pa')}: there the pressure is what was put in, and nothing hardens"
+            )
+        return
+
+
+@outcome_check
+def capped_contact_nearly_full(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """Flow at a constant pressure needs room beside the spots; real roughness persists beyond half contact (Johnson 13.4)."""
+    fraction = outcome.summary.get("contact_area_fraction")
+    if not facts.of_kind("contact", "wear", "running-in", "friction") or fraction is None:
+        return
+    largest = max(_numbers(fraction), default=0.0)
+    capped = max(_numbers(outcome.summary.get("plastic_area_fraction", 0.0)), default=0.0) > 0
+    if largest > _CONTACT and (capped or not facts.of_kind("contact")) and all(case.cap for case in facts.cases):
+        yield (
+            f"{percent(largest)} of the patch is in contact under a capped pressure: above about half the valleys resist, which a cap "
+            "leaves out; take a smaller load or a larger patch"
+        )
+
+
+@outcome_check
+def largest_stress_at_the_deepest_depth(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """A largest stress in the last row of depths is not the largest."""
+    depth = outcome.variables.get("depth")
+    found = outcome.summary.get("max_von_mises_depth_m")
+    if depth is not None and found is not None and len(depth.values) > 1 and found >= float(depth.values[-1]):
+        yield (
+            f"the largest von Mises stress lies in the deepest depth, {si(found, 'm')}: it may grow further down; take deeper "
+            "outputs.depths"
+        )
+
+
+@outcome_check
+def elastic_stress_above_yield(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """Without a cap stresses are elastic throughout; where they exceed the yield stress they are too high."""
+    volume, highest = outcome.summary.get("yielded_volume_m3"), outcome.summary.get("max_von_mises_Pa")
+    if not volume or highest is None or facts.cases[0].cap is not None:
+        return
+    if not (list(yield_below_the_surface(facts)) or list(hertz_pressure_above_hardness(facts))):
+        yield (
+            f"von Mises stresses reach {si(highest, 'Pa')}, above the yield stress, in {volume * 1e18:.3g} um^3: they are elastic, and "
+            "too high there; lower the load, or read them as where yield begins"
+        )
+
+
+@outcome_check
+def particles_of_one_cell(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """A particle cannot be smaller than a cell: where most are one, their mean size is the mesh's."""
+    if "particle_length" in outcome.variables:
+        yield from _counted(facts, outcome)
+        return
+    radius = outcome.summary.get("number_mean_radius_nm")
+    if radius is None or not facts.of_kind("running-in") or facts.cases[0].grid is None:
+        return
+    cell = 1e9 * max(facts.cases[0].grid.spacing)
+    # two cells as deep as wide have an equivalent radius of 0.78 of a cell
+    small = [value for value in _numbers(radius) if 0 < value < 0.78 * cell]
+    if small:
+        yield (
+            f"the mean particle, by number, is smaller than two cells of {cell:.3g} nm in {len(small)} of {len(_numbers(radius))} runs "
+            f"(radius {min(small):.3g} nm): most are one cell, and their size is the mesh's; take a finer grid, or the mean by volume"
+        )
+
+
+def _counted(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    length, width, volume = (outcome.variables[f"particle_{name}"].values for name in ("length", "width", "volume"))
+    number = outcome.variables["particle_run"].values
+    cells = np.array(_numbers(outcome.summary.get("cell_nm", []))) * 1e-9
+    if not length.size or not cells.size:
+        return
+    each = int(outcome.summary.get("repetitions", 1))
+    cell = cells[np.minimum(number // each, cells.size - 1)]
+    one = np.maximum(length, width) < 1.5 * cell
+    if one.mean() > 0.5:
+        yield (
+            f"{percent(float(one.mean()))} of the particles, with {percent(float(volume[one].sum() / volume.sum()))} of their volume, are one "
+            f"cell wide ({si(float(cell.min()), 'm')}): their number and means by number are the mesh's; take a finer grid, or means "
+            "by volume where their share is small"
+        )
+
+
+@outcome_check
+def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """A piece that reaches the last depth goes on below it."""
+    cut, number = outcome.summary.get("truncated_particles"), outcome.summary.get("particles_per_cycle")
+    if cut is None or number is None or not facts.of_kind("wear"):
+        return
+    settled = facts.scene.cycles.settled
+    shares = [c / (n * settled) for c, n in zip(_numbers(cut), _numbers(number), strict=False) if n > 0]
+    if shares and max(shares) > 0.02:
+        yield (
+            f"{percent(max(shares))} of the settled particles reach the deepest depth and go on below it: their volume is too "
+            "small; take more or wider depths"
+        )
+
+
+def _numbers(value: Any) -> list[float]:
+    """A figure of the summary, or a list of them, as numbers that are finite."""
+    values = value if isinstance(value, list | tuple) else [value]
+    return [float(v) for v in values if isinstance(v, int | float | np.number) and np.isfinite(v)]

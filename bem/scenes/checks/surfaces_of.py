@@ -1,0 +1,165 @@
+"""What the surfaces of a scene are, and what was done to them to get them onto the grid."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bem.grid import Grid
+from bem.scenes import build
+from bem.scenes.checks.words import percent, si, times
+from bem.scenes.common import GeneratedSurface, MeasuredSurface
+from bem.scenes.context import derive_seed
+
+if TYPE_CHECKING:
+    from bem.surfaces import Surface
+
+_CELLS = 1 << 18
+"""Larger grids are described by a patch of as many cells: statistics of a plan need no more."""
+
+
+@dataclass(frozen=True)
+class RoughSurface:
+    """A rough surface on a scene's grid.
+
+    Parameters
+    ----------
+    body : "lower" or "upper".
+    table : what the scene says.
+    made : what it is and what was done to it, in short sentences.
+    rms_height, rms_slope, correlation_length : of the heights on the grid [m, 1, m]; the length is where the
+        autocorrelation falls to 1/e, nan where it does not within the grid.
+    filled : share of a measured map's points that were missing.
+    source_points : points of the measured map under the grid along x and y; None where generated.
+    source_spacing : their distance [m]. scaled : what heights were multiplied by to meet `rms_height`.
+    """
+
+    body: str
+    table: GeneratedSurface | MeasuredSurface
+    grid: Grid
+    made: tuple[str, ...]
+    rms_height: float
+    rms_slope: float
+    correlation_length: float
+    filled: float = 0.0
+    source_points: tuple[float, float] | None = None
+    source_spacing: tuple[float, float] | None = None
+    scaled: float | None = None
+
+    @property
+    def shortest_wave(self) -> float | None:
+        """The shortest wave that the scene asks of a generated surface [m]; None where it leaves it to the mesh."""
+        return self.table.cutoff_wavelength if isinstance(self.table, GeneratedSurface) else None
+
+    def describe(self) -> str:
+        """Rms height, slope and correlation length in words."""
+        length = self.correlation_length
+        found = "" if math.isnan(length) else f", correlation length {si(length, 'm')}"
+        return f"Sq {si(self.rms_height, 'm')}, rms slope {self.rms_slope:.2g}{found}"
+
+
+def rough_surface(body: str, table: build.AnySurface, grid: Grid, seed: int) -> RoughSurface | None:
+    """What a table of a surface becomes on a grid; None for a smooth one.
+
+    A generated surface is looked at as if its heights were Gaussian: the slope and the correlation length follow from
+    the spectrum, and the moments take many times as long to impose.
+    """
+    if isinstance(table, GeneratedSurface):
+        return _generated(body, table, grid, seed)
+    if isinstance(table, MeasuredSurface):
+        return _measured(body, table, grid)
+    return None
+
+
+def _described(heights: build.FloatArray, grid: Grid) -> tuple[float, float, float]:
+    from bem.surfaces import describe_surface
+
+    found = describe_surface(heights, grid.spacing, periodic=grid.periodic)
+    return found.Sq, found.Sdq, found.autocorrelation_length
+
+
+def _patch(grid: Grid) -> Grid:
+    if grid.cells <= _CELLS:
+        return grid
+    shrink = math.sqrt(_CELLS / grid.cells)
+    nx, ny = (max(min(n, 16), round(n * shrink)) for n in grid.shape)
+    return Grid((nx, ny), grid.spacing, periodic=grid.periodic)
+
+
+def _generated(body: str, table: GeneratedSurface, grid: Grid, seed: int) -> RoughSurface:
+    if table.hurst is not None:
+        cutoff = "two cells" if table.cutoff_wavelength is None else si(table.cutoff_wavelength, "m")
+        flat = "" if table.rolloff_wavelength is None else f", flat above {si(table.rolloff_wavelength, 'm')}"
+        made = f"generated, self-affine with H {table.hurst:g} down to {cutoff}{flat}"
+    else:
+        assert table.correlation_length is not None
+        made = f"generated with correlation length {si(table.correlation_length, 'm')}"
+    if (table.skewness, table.kurtosis) != (0.0, 3.0):
+        made += f", skewness {table.skewness:g}, kurtosis {table.kurtosis:g}"
+    patch = _patch(grid)
+    plain = table.model_copy(update={"skewness": 0.0, "kurtosis": 3.0})
+    if patch != grid and table.correlation_length is not None:
+        # the patch may be too small for it; exp(-(r/l)^2) has the slope 2 Sq / l
+        length = table.correlation_length
+        return RoughSurface(body, table, grid, (made,), table.rms_height, 2 * table.rms_height / length, length)
+    heights = build.heights_of(plain, patch, derive_seed(seed, body))
+    return RoughSurface(body, table, grid, (made,), *_described(heights, patch))
+
+
+def _measured(body: str, table: MeasuredSurface, grid: Grid) -> RoughSurface:
+    found = build.read_map(table)
+    done: list[str] = []
+    mirrored = (table.mirror in ("x", "both"), table.mirror in ("y", "both"))
+    under = [n / (1 + m) * d for n, d, m in zip(grid.shape, grid.spacing, mirrored, strict=True)]
+    points = (under[0] / found.spacing[0], under[1] / found.spacing[1])
+    scaled = None
+    if grid.cells <= 4 * _CELLS:
+        if table.rms_height is not None:
+            plain = table.model_copy(update={"rms_height": None})
+            scaled = table.rms_height / float(build.fitted(plain, found, grid, _unheard).std() or math.nan)
+        description = _described(build.fitted(table, found, grid, done.append), grid)
+    else:
+        description = _described(found.heights, found.grid())
+        done.append("Sq, slope and correlation length are those of the map as it was measured")
+    missing, whole = _missing(found)
+    return RoughSurface(
+        body,
+        table,
+        grid,
+        (_origin(table, found), *(line.removeprefix(f"{Path(table.path).name}: ") for line in done)),
+        *description,
+        filled=missing / whole,
+        source_points=points,
+        source_spacing=found.spacing,
+        scaled=scaled,
+    )
+
+
+def _unheard(text: str) -> None:
+    """Notes that are told elsewhere."""
+
+
+def _missing(found: Surface) -> tuple[float, float]:
+    missing = float(found.metadata.get("missing_points", 0) or 0)
+    return missing, max(float(found.shape[0] * found.shape[1]), missing, 1.0)
+
+
+def _origin(table: MeasuredSurface, found: Surface) -> str:
+    """File, instrument, size, and what happened to the map before it met the grid."""
+    instrument = found.metadata.get("instrument") or {}
+    name = instrument.get("name") if isinstance(instrument, dict) else None
+    words = [Path(table.path).name]
+    format_name = found.metadata.get("format")
+    words.append(f"format {format_name}" if format_name else "")
+    words.append(f"instrument {name}" if name else "")
+    words.append(f"{found.shape[0]} x {found.shape[1]} points at {times(found.spacing, 'm')}")
+    words.append("" if table.detrend == "none" else f"levelled by {table.detrend}")
+    missing, whole = _missing(found)
+    words.append(f"{percent(missing / whole)} filled" if missing else "")
+    words.append("" if table.crop is None else f"cropped to {times(table.crop, 'm')}")
+    words.append("" if table.low_pass is None else f"waves under {si(table.low_pass, 'm')} removed")
+    words.append("" if table.high_pass is None else f"waves over {si(table.high_pass, 'm')} removed")
+    words.append("" if table.rms_height is None else f"scaled to Sq {si(table.rms_height, 'm')}")
+    return ", ".join(word for word in words if word)
