@@ -15,6 +15,7 @@ from bem.campaigns.context import Silent, Watcher
 from bem.errors import ConvergenceError, InputError, Status
 from bem.results.directory import RESULTS, RunDirectory, plain
 from bem.results.read import FinishedRun, open_run
+from bem.scenes.checks import examine, outcome_warnings, scene_warnings
 from bem.scenes.common import SceneModel
 from bem.scenes.kinds import get_kind
 from bem.scenes.load import dump_scene, load_scene, scene_table
@@ -85,6 +86,10 @@ def run_scene(
         if directory.resumed and directory.finished:
             return open_run(directory.path)
         try:
+            facts = examine(scene)
+            notes = scene_warnings(facts)
+            for text in notes:
+                watcher.note(text)
             computed = compute(
                 campaign_of(scene),
                 directory.path,
@@ -101,6 +106,10 @@ def run_scene(
                 ) from error
             directory.discard()
             raise
+        computed.notes[:0] = [text for text in notes if text not in computed.notes]
+        for text in outcome_warnings(facts, computed.outcome):
+            computed.notes.append(text)
+            watcher.note(text)
         _write(directory, scene, computed, figures, watcher)
     return open_run(directory.path)
 

@@ -82,7 +82,10 @@ def table(
     right: Sequence[int] = (),
     wide_only: Sequence[int] = (),
 ) -> None:
-    """A table: ruled on a terminal, without the columns `wide_only` if it is narrow; aligned columns when piped."""
+    """A table: ruled on a terminal, without the columns `wide_only` if it is narrow; aligned columns when piped.
+
+    Columns without names have no line of names above them.
+    """
     if sys.stdout.isatty():
         from rich import box
         from rich.console import Console
@@ -92,7 +95,12 @@ def table(
         console = Console()
         kept = [i for i in range(len(head)) if console.width >= 130 or i not in wide_only]
         shown = Table(
-            title=title or None, box=box.SIMPLE_HEAD, title_justify="left", title_style="bold", padding=(0, 1)
+            title=title or None,
+            box=box.SIMPLE_HEAD,
+            title_justify="left",
+            title_style="bold",
+            padding=(0, 1),
+            show_header=any(head),
         )
         for i in kept:
             short = max((len(str(row[i])) for row in rows), default=0) <= 24
@@ -104,11 +112,31 @@ def table(
     if title:
         print(title)
     widths = [max(len(str(row[i])) for row in [head, *rows]) for i in range(len(head))]
-    for row in [head, *rows]:
+    for row in [head, *rows] if any(head) else rows:
         cells = [
             str(c).rjust(w) if i in right else str(c).ljust(w) for i, (c, w) in enumerate(zip(row, widths, strict=True))
         ]
         print("  ".join(cells).rstrip())
+
+
+def show_warnings(warnings: Sequence[str]) -> None:
+    """Sentences one below the other, wrapped and coloured on a terminal, a line each when piped."""
+    if not warnings:
+        return
+    head = f"{len(warnings)} warning{'s' if len(warnings) > 1 else ''}"
+    if not sys.stdout.isatty():
+        print(head)
+        for text in warnings:
+            print(f"  {text}")
+        return
+    from rich.console import Console
+    from rich.padding import Padding
+    from rich.text import Text
+
+    console = Console()
+    console.print(Text(head, style="bold yellow"))
+    for text in warnings:
+        console.print(Padding(Text(f"- {text}"), (0, 0, 0, 2)))
 
 
 def print_summary(run: Any, headline: Sequence[str]) -> None:

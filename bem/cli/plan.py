@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import typer
 
 from bem.cli.run import SceneArgument, SetOption
@@ -10,35 +12,32 @@ from bem.cli.run import SceneArgument, SetOption
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
-    @app.command(short_help="Show what would be computed, what is skipped, memory, time.")
+    @app.command(short_help="Show what would be computed and warned of, what is skipped, memory, time.")
     def plan(scene: SceneArgument, set_: SetOption = None) -> None:
-        """Show what a scene would compute, what it skips and why, with estimated memory and time.
+        """Show what a scene would compute: bodies, surfaces and what is done to them, grid, Hertz contact, steps with
+        estimated memory and time, what is skipped and why, and what an expert would warn of.
 
-        Exit code 2 where it would not fit into the memory that is free now.
+        Exit code 2 where it would not fit into the memory that is free now; warnings change no exit code.
 
         \b
         Examples:
           bem plan rough-contact
           bem plan rough-contact --set grid.shape=8192
         """
-        from bem.cli._terminal import table
+        from bem.cli._terminal import show_warnings
         from bem.runs import plan_scene
-        from bem.scenes.planner import available_memory, machine_rate, show_bytes, show_seconds, step_seconds
-        from bem.threads import get_threads
+        from bem.scenes.checks import examine, scene_warnings
+        from bem.scenes.planner import available_memory, show_bytes
 
         resolved, planned = plan_scene(scene, set_ or ())
-        rate = machine_rate(get_threads())
-        rows = [
-            (
-                step.name,
-                "" if step.skipped else show_bytes(step.memory),
-                "skipped" if step.skipped else show_seconds(step_seconds(step, rate)),
-                step.why,
-            )
-            for step in planned.steps
-        ]
-        rows.append(("peak, total", show_bytes(planned.memory), show_seconds(planned.seconds(rate)), ""))
-        table(("step", "memory", "time", "why"), rows, title=f"{resolved.name}: kind {resolved.kind}", right=(1, 2))
+        facts = examine(resolved)
+        warnings = scene_warnings(facts)
+        typer.echo(
+            f"{resolved.name}: kind {resolved.kind}" + (f". {resolved.description}" * bool(resolved.description))
+        )
+        _show_contacts(facts)
+        _show_steps(planned)
+        show_warnings(warnings)
         free = available_memory()
         if planned.memory > free:
             typer.echo(
@@ -46,3 +45,35 @@ def register(app: typer.Typer) -> None:
                 err=True,
             )
             raise typer.Exit(2)
+
+
+def _show_contacts(facts: Any) -> None:
+    """Bodies and surfaces, what all contacts have in common, then a row for each contact that differs."""
+    from bem.cli._terminal import table
+    from bem.scenes.checks.overview import bodies, common, differing
+
+    for rows, title in ((bodies(facts), "bodies"), (common(facts), "grid and smooth contact")):
+        if rows:
+            table(("", ""), rows, title=title)
+    names, contacts = differing(facts)
+    if contacts:
+        table(names, contacts, title="contacts that are computed")
+
+
+def _show_steps(planned: Any) -> None:
+    from bem.cli._terminal import table
+    from bem.scenes.planner import machine_rate, show_bytes, show_seconds, step_seconds
+    from bem.threads import get_threads
+
+    rate = machine_rate(get_threads())
+    rows = [
+        (
+            step.name,
+            "" if step.skipped else show_bytes(step.memory),
+            "skipped" if step.skipped else show_seconds(step_seconds(step, rate)),
+            step.why,
+        )
+        for step in planned.steps
+    ]
+    rows.append(("peak, total", show_bytes(planned.memory), show_seconds(planned.seconds(rate)), ""))
+    table(("step", "memory", "time", "why"), rows, title="steps", right=(1, 2))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from bem.scenes.checks.facts import Facts, worst
+from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.words import percent, si
 
@@ -23,7 +23,8 @@ def contact_large_for_its_radius(facts: Facts) -> Iterator[str]:
     if found is not None and found[0] > _SLOPE_AT_EDGE:
         ratio, case = found
         yield (
-            f"contact radius {ratio:.2g} of the body's{case.at}: half-spaces and small strains hold below about 0.2; strains "
+            f"contact radius {ratio:.2g} of the body's{case.at}: half-spaces and small strains hold below about 0.2; "
+            "strains "
             f"are of order {percent(min(0.2 * ratio, 1.0))}: "
             + (
                 "no part of the result can be believed; lower the load, or check the units of load, modulus and radius"
@@ -39,7 +40,10 @@ def hertz_pressure_above_hardness(facts: Facts) -> Iterator[str]:
     values = (
         (case.smooth.maximum_pressure / case.softest, case)
         for case in facts.cases
-        if case.smooth is not None and case.cap is None and case.softest is not None and facts.of_kind("contact", "film")
+        if case.smooth is not None
+        and case.cap is None
+        and case.softest is not None
+        and facts.of_kind("contact", "film")
     )
     found = worst(values)
     if found is not None and found[0] > 1:
@@ -54,10 +58,10 @@ def hertz_pressure_above_hardness(facts: Facts) -> Iterator[str]:
 
 @scene_check
 def yield_below_the_surface(facts: Facts) -> Iterator[str]:
-    """A sphere yields below the surface from p0 = 1.60 Y, a cylinder from 1.79 Y (von Mises, nu = 0.3; Johnson 1985, 6.1).
+    """A sphere yields below its surface from p0 = 1.60 Y, a cylinder from 1.79 Y; von Mises, nu = 0.3.
 
-    The inverse of the largest von Mises stress, 0.620 and 0.558 p0. Only where the pressure stays below the hardness, so
-    that one sentence says it.
+    Johnson (1985), section 6.1. The inverse of the largest von Mises stress, 0.620 and 0.558 p0. Only where the
+    pressure stays below the hardness, so that one sentence says it.
     """
     for case in facts.cases:
         strengths = [body.material.yield_stress for body in case.bodies.values() if body.layer is None]
@@ -67,8 +71,10 @@ def yield_below_the_surface(facts: Facts) -> Iterator[str]:
         onset = (1.79 if case.smooth.line else 1.60) * min(known)
         if onset < case.smooth.maximum_pressure <= (case.softest or 0.0):
             yield (
-                f"Hertz pressure {si(case.smooth.maximum_pressure, 'Pa')} is {case.smooth.maximum_pressure / onset:.2g} times "
-                f"that at which the softer body begins to yield below its surface, {si(onset, 'Pa')}{case.at}: elastic stresses "
+                f"Hertz pressure {si(case.smooth.maximum_pressure, 'Pa')} is "
+                f"{case.smooth.maximum_pressure / onset:.2g} times "
+                f"that at which the softer body begins to yield below its surface, {si(onset, 'Pa')}{case.at}: "
+                "elastic stresses "
                 "there are too high, and the first loadings leave residual stresses; lower the load or allow for it"
             )
 
@@ -81,7 +87,8 @@ def mean_pressure_near_hardness(facts: Facts) -> Iterator[str]:
     if found is not None and found[0] > 0.5:
         ratio, case = found
         yield (
-            f"the load is {ratio:.2g} of hardness x area of the grid{case.at}: most of it would be at the hardness; take a "
+            f"the load is {ratio:.2g} of hardness x area of the grid{case.at}: most of it would be at the hardness; "
+            "take a "
             "smaller load or a larger grid"
         )
 
@@ -89,26 +96,46 @@ def mean_pressure_near_hardness(facts: Facts) -> Iterator[str]:
 @scene_check
 def grid_smaller_than_hertz(facts: Facts) -> Iterator[str]:
     """A free grid must hold the contact; a tenth beyond Hertz' edge is where the gap opens to see it end."""
-    for case in facts.cases:
-        if case.grid is None or case.smooth is None or facts.of_kind("asperities"):
-            continue
-        for axis, name in enumerate("xy"):
-            size, length = 2 * case.smooth.semi_axes[axis], case.grid.lengths[axis]
-            if not case.grid.periodic[axis] and math.isfinite(size) and length < 1.1 * size:
-                yield (
-                    f"grid: {si(length, 'm')} along {name} for a Hertz contact of {si(size, 'm')}{case.at}: the contact would "
-                    f"reach the grid's edge and end there; take grid.lengths of {si(1.5 * size, 'm')} or more"
-                )
+    if facts.of_kind("asperities"):
+        return
+    found = worst((_lengths_across(case, axis), case) for case in facts.cases for axis in _free_axes(case))
+    if found is not None and 2.2 * found[0] > 1:
+        case = found[1]
+        axis = max(_free_axes(case), key=lambda axis: _lengths_across(case, axis))
+        assert case.smooth is not None
+        assert case.grid is not None
+        size = 2 * case.smooth.semi_axes[axis]
+        yield (
+            f"grid: {si(case.grid.lengths[axis], 'm')} along {'xy'[axis]} for a Hertz contact of {si(size, 'm')}"
+            f"{case.at}: the contact would reach the grid's edge and end there; take {si(1.5 * size, 'm')} or more"
+        )
+
+
+def _lengths_across(case: Case, axis: int) -> float:
+    assert case.smooth is not None
+    assert case.grid is not None
+    return case.smooth.semi_axes[axis] / case.grid.lengths[axis]
+
+
+def _free_axes(case: Case) -> list[int]:
+    """Axes along which the grid ends and the smooth contact too."""
+    if case.grid is None or case.smooth is None:
+        return []
+    return [axis for axis in (0, 1) if not case.grid.periodic[axis] and math.isfinite(case.smooth.semi_axes[axis])]
 
 
 @scene_check
 def flat_patch_with_free_edges(facts: Facts) -> Iterator[str]:
-    """A flat on a free grid is a punch as large as the grid: pressures rise without bound towards its edges (Johnson 2.8)."""
+    """A flat on a free grid is a punch as large as the grid: pressures rise without bound towards its edges.
+
+    Johnson (1985), section 2.8.
+    """
     for case in facts.cases:
         free = [name for name, wraps in zip("xy", case.grid.periodic, strict=True) if not wraps] if case.grid else []
         if case.shape == "flat" and free and case.load is not None:
             yield (
-                f"grid: nominally flat and free along {' and '.join(free)}: the patch is a punch of its own, with the highest "
+                f"grid: nominally flat and free along {' and '.join(free)}: the patch is a punch of its own, with "
+                "the highest "
                 "pressures along its edges; grid.periodic = true makes it part of a larger contact"
             )
             return
@@ -118,8 +145,9 @@ def flat_patch_with_free_edges(facts: Facts) -> Iterator[str]:
 def curved_body_repeats(facts: Facts) -> Iterator[str]:
     """On a periodic axis a sphere is a row of spheres, each carried by what its neighbours push down.
 
-    The neighbours' displacement relative to the contact's own is about a / L times four (the lattice sum of 1/r); 0.1 of
-    it from L = 40 a on is far too strict for pressures, which see its variation over the contact: (a/L)^3, 1 % at L = 5 a.
+    The neighbours' displacement relative to the contact's own is about a / L times four (the lattice sum of 1/r); 0.1
+    of it from L = 40 a on is far too strict for pressures, which see its variation over the contact: (a/L)^3, 1 % at L
+    = 5 a.
     """
     if facts.of_kind("asperities"):
         return
@@ -131,7 +159,8 @@ def curved_body_repeats(facts: Facts) -> Iterator[str]:
             if case.grid.periodic[axis] and math.isfinite(size):
                 near = f", {length / size:.2g} contact radii apart" if length < 5 * size else ""
                 yield (
-                    f"grid: periodic along {name}, so the {case.shape} repeats every {si(length, 'm')}{near}{case.at}; for one "
+                    f"grid: periodic along {name}, so the {case.shape} repeats every "
+                    f"{si(length, 'm')}{near}{case.at}; for one "
                     f"body make that axis free"
                 )
 
@@ -145,7 +174,8 @@ def wave_does_not_fit_the_period(facts: Facts) -> Iterator[str]:
         waves = case.grid.lengths[0] / case.wavelength
         if abs(waves - round(waves)) > 1e-6 * waves or round(waves) == 0:
             yield (
-                f"shape.wavelength: {waves:.4g} waves on a periodic grid of {si(case.grid.lengths[0], 'm')} leave a kink at the "
+                f"shape.wavelength: {waves:.4g} waves on a periodic grid of {si(case.grid.lengths[0], 'm')} leave a "
+                "kink at the "
                 "seam; take a whole number of waves"
             )
 
@@ -161,6 +191,7 @@ def cylinder_too_narrow_for_a_line(facts: Facts) -> Iterator[str]:
     if found is not None and found[0] > 0.2:
         share, case = found
         yield (
-            f"the cylinder is {1 / share:.2g} times as wide as its contact is long{case.at}: a line contact in plane strain is "
+            f"the cylinder is {1 / share:.2g} times as wide as its contact is long{case.at}: a line contact in plane "
+            "strain is "
             "no model of it below about five; check width, or take an ellipsoid in kind contact"
         )

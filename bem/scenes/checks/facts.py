@@ -105,16 +105,14 @@ class Facts:
         found: dict[str, Material] = {}
         for name in ("lower", "upper"):
             table = getattr(self.scene, name, None)
-            if getattr(table, "material", None) is not None:
+            if table is not None and table.material is not None:
                 body = table.build()
                 found[f"{name}.material"] = body.material
                 if body.layer is not None:
                     found[f"{name}.layer.material"] = body.layer.material
         return found
 
-    def worst_surfaces(
-        self, measure: Callable[[RoughSurface], float]
-    ) -> Iterator[tuple[float, Case, RoughSurface]]:
+    def worst_surfaces(self, measure: Callable[[RoughSurface], float]) -> Iterator[tuple[float, Case, RoughSurface]]:
         """For each body the surface, with its contact, whose measure is largest; none where it is not a number."""
         for name in ("lower", "upper"):
             values = [(measure(rough), case, rough) for case, rough in self.surfaces if rough.body == name]

@@ -63,8 +63,8 @@ def smooth_contact(
     load: float | None = None,
     approach: float | None = None,
 ) -> SmoothContact | None:
-    """Hertz contact under a load [N], per length [N/m] where Ry is infinite, or at an approach [m]; None for a flat, and
-    for a cylinder at an approach."""
+    """Hertz contact under a load [N], per length [N/m] where Ry is infinite, or at an approach [m]; None for a flat,
+    and for a cylinder at an approach."""
     from bem.reference_solutions.hertz import cylinder_contact, ellipse_contact
 
     modulus = contact_modulus(lower.material, None if upper is None else upper.material)

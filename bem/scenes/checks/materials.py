@@ -14,20 +14,24 @@ _POLYMER = 5e9
 
 @scene_check
 def implausible_modulus(facts: Facts) -> Iterator[str]:
-    """From soft gels (0.1 MPa) to beyond diamond (1.1 TPa); Ashby, Materials Selection in Mechanical Design, chart of E.
+    """From soft gels (0.1 MPa) to beyond diamond (1.1 TPa); Ashby, Materials Selection in Mechanical Design, chart of
+    E.
 
-    A number without a unit is pascal: E = 115 was meant to be GPa. A stand-in for a rigid body that is called so is meant.
+    A number without a unit is pascal: E = 115 was meant to be GPa. A stand-in for a rigid body that is called so is
+    meant.
     """
     for key, material in facts.materials.items():
         value = material.youngs_modulus
         if value < _MODULI[0]:
             yield (
-                f"{key}: Young's modulus {si(value, 'Pa')} is softer than a gel; a number without a unit is in Pa: write "
+                f"{key}: Young's modulus {si(value, 'Pa')} is softer than a gel; a number without a unit is in Pa: "
+                "write "
                 f'youngs_modulus = "{value:g} GPa" if that is meant'
             )
         elif value > _MODULI[1] and "rigid" not in material.name.lower():
             yield (
-                f"{key}: Young's modulus {si(value, 'Pa')} is above that of any solid (diamond 1.1 TPa); check its unit, or "
+                f"{key}: Young's modulus {si(value, 'Pa')} is above that of any solid (diamond 1.1 TPa); check its "
+                "unit, or "
                 'leave upper.material out (or name it "rigid") for a rigid body'
             )
 
@@ -36,13 +40,14 @@ def implausible_modulus(facts: Facts) -> Iterator[str]:
 def viscoelastic_material(facts: Facts) -> Iterator[str]:
     """Below some 5 GPa a solid is a polymer or rubber: its modulus depends on rate, temperature and time under load.
 
-    Creep and frequency change E of polymers near room temperature by 2 to 10 times; J. D. Ferry, Viscoelastic Properties of
-    Polymers (1980), chapter 2.
+    Creep and frequency change E of polymers near room temperature by 2 to 10 times; J. D. Ferry, Viscoelastic
+    Properties of Polymers (1980), chapter 2.
     """
     for key, material in facts.materials.items():
         if _MODULI[0] <= material.youngs_modulus < _POLYMER:
             yield (
-                f"{key}: E = {si(material.youngs_modulus, 'Pa')} is that of a polymer or rubber, which creeps and relaxes; "
+                f"{key}: E = {si(material.youngs_modulus, 'Pa')} is that of a polymer or rubber, which creeps and "
+                "relaxes; "
                 "the solids here have no time dependence: take the modulus at the rate and temperature of the contact, "
                 "and run a second one to see how much it matters"
             )
@@ -60,7 +65,8 @@ def incompressible_layer(facts: Facts) -> Iterator[str]:
         if "layer" in key and nu >= 0.48:
             confined = (1 - nu) / ((1 + nu) * (1 - 2 * nu))
             yield (
-                f"{key}: Poisson's ratio {nu:g} makes the bonded layer {confined:.0f} times as stiff in compression as its "
+                f"{key}: Poisson's ratio {nu:g} makes the bonded layer {confined:.0f} times as stiff in compression "
+                "as its "
                 "modulus; the result hangs on the last digit: measure it, or bracket it with two runs"
             )
 
@@ -78,7 +84,8 @@ def hardness_against_modulus(facts: Facts) -> Iterator[str]:
         if not 5e-4 <= ratio <= 0.2:
             word = "below that of annealed metals" if ratio < 5e-4 else "above that of a perfect solid"
             yield (
-                f"{key}: hardness {si(material.hardness, 'Pa')} is {ratio:.2g} of Young's modulus, {word} (5e-4 to 0.2); "
+                f"{key}: hardness {si(material.hardness, 'Pa')} is {ratio:.2g} of Young's modulus, {word} (5e-4 to "
+                "0.2); "
                 "check both units"
             )
 
@@ -87,8 +94,8 @@ def hardness_against_modulus(facts: Facts) -> Iterator[str]:
 def yield_against_hardness(facts: Facts) -> Iterator[str]:
     """Hardness over yield stress is 2.6 to 3 for metals and 1.5 to 2 for glass and polymers.
 
-    Tabor (1951); Johnson (1985), section 6.3: it falls with E / yield stress towards 1.1, where yield only begins. Above 4
-    the yield stress is not that of the material under the indenter.
+    Tabor (1951); Johnson (1985), section 6.3: it falls with E / yield stress towards 1.1, where yield only begins.
+    Above 4 the yield stress is not that of the material under the indenter.
     """
     for key, material in facts.materials.items():
         if material.hardness is None or material.yield_stress is None:
@@ -96,6 +103,7 @@ def yield_against_hardness(facts: Facts) -> Iterator[str]:
         ratio = material.hardness / material.yield_stress
         if not 1.95 <= ratio <= 4.0:
             yield (
-                f"{key}: yield stress {si(material.yield_stress, 'Pa')} is hardness / {ratio:.2g}; metals have hardness / "
+                f"{key}: yield stress {si(material.yield_stress, 'Pa')} is hardness / {ratio:.2g}; metals have "
+                "hardness / "
                 "2.6 to / 3, brittle solids down to / 1.5: leave it out for / 2.8, or check both"
             )

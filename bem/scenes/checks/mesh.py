@@ -8,16 +8,17 @@ from collections.abc import Iterator
 from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.words import si
+from bem.scenes.common import GeneratedSurface
 
 _CELLS_ACROSS = 8
 _CELLS_PER_WAVE = 3
-_LENGTHS_PER_GRID = 3.8
+_LENGTHS_PER_GRID = 6
 
 
 @scene_check
 def few_cells_across_the_contact(facts: Facts) -> Iterator[str]:
-    """With 8 cells across, the largest pressure is met within 1.5 % and the area within 13 %; with 4, within 4 % and 5 %
-    by luck of the sampling. Measured against Hertz' sphere, centred on a cell and on a corner."""
+    """With 8 cells across, the largest pressure is met within 1.5 % and the area within 13 %; with 4, within 4 % and 5
+    % by luck of the sampling. Measured against Hertz' sphere, centred on a cell and on a corner."""
     values = (
         (max(d / (2 * a) for d, a in zip(case.grid.spacing, case.smooth.semi_axes, strict=True)), case)
         for case in facts.cases
@@ -28,7 +29,8 @@ def few_cells_across_the_contact(facts: Facts) -> Iterator[str]:
         across, case = 1 / found[0], found[1]
         assert case.grid is not None
         yield (
-            f"grid: {across:.2g} cells across the Hertz contact{case.at}; take {_CELLS_ACROSS} or more (pressure within 1.5 %, area "
+            f"grid: {across:.2g} cells across the Hertz contact{case.at}; take {_CELLS_ACROSS} or more (pressure "
+            "within 1.5 %, area "
             f"within 13 %), 40 for maps: spacing {si(min(case.grid.spacing) * across / 20, 'm')} gives 20"
         )
 
@@ -37,20 +39,23 @@ def few_cells_across_the_contact(facts: Facts) -> Iterator[str]:
 def few_cells_per_wave(facts: Facts) -> Iterator[str]:
     """A crest sampled with n cells a wave is met within 1 - cos(pi / n): 50 % with 3 cells, 29 % with 4, 8 % with 8.
 
-    Below 3 cells every contact spot is one cell. Contact areas settle from 8 on (Yastrebov, Anciaux & Molinari, Phys. Rev. E
-    86 (2012) 035601). A generated surface without cutoff has waves of two cells whatever the mesh.
+    Below 3 cells every contact spot is one cell. Contact areas settle from 8 on (Yastrebov, Anciaux & Molinari, Phys.
+    Rev. E 86 (2012) 035601). A generated surface without cutoff has waves of two cells whatever the mesh.
     """
     for _, case, surface in facts.worst_surfaces(lambda s: max(s.grid.spacing) / (s.shortest_wave or 1.0)):
         spacing = max(surface.grid.spacing)
         if getattr(surface.table, "hurst", None) is not None and surface.shortest_wave is None:
             yield (
-                f"{surface.body}.surface: without cutoff_wavelength its waves go down to two cells, {si(2 * spacing, 'm')}, so slope, "
-                f"contact area and pressures change with every mesh{case.at}; give cutoff_wavelength, 4 to 8 cells or more"
+                f"{surface.body}.surface: without cutoff_wavelength its waves go down to two cells, "
+                f"{si(2 * spacing, 'm')}, so slope, "
+                f"contact area and pressures change with every mesh{case.at}; give cutoff_wavelength, 4 to 8 cells "
+                "or more"
             )
         elif surface.shortest_wave is not None and surface.shortest_wave / spacing < _CELLS_PER_WAVE:
             yield (
                 f"grid: {surface.shortest_wave / spacing:.2g} cells to the shortest wave of the {surface.body} surface "
-                f"({si(surface.shortest_wave, 'm')}){case.at}: contact spots come down to single cells; take a spacing of "
+                f"({si(surface.shortest_wave, 'm')}){case.at}: contact spots come down to single cells; take a "
+                "spacing of "
                 f"{si(surface.shortest_wave / 8, 'm')}, or {si(surface.shortest_wave / 4, 'm')} for averages"
             )
 
@@ -64,29 +69,44 @@ def few_cells_per_correlation_length(facts: Facts) -> Iterator[str]:
         wave = surface.shortest_wave
         if cells < _CELLS_PER_WAVE and (wave is None or wave >= _CELLS_PER_WAVE * max(surface.grid.spacing)):
             yield (
-                f"grid: the correlation length of the {surface.body} surface, {si(surface.correlation_length, 'm')}, is {cells:.2g} "
-                f"cells{case.at}: asperities are hardly resolved; take a spacing of {si(surface.correlation_length / 6, 'm')} or less"
+                f"grid: the correlation length of the {surface.body} surface, {si(surface.correlation_length, 'm')}, "
+                f"is {cells:.2g} "
+                f"cells{case.at}: asperities are hardly resolved; take a spacing of "
+                f"{si(surface.correlation_length / 6, 'm')} or less"
             )
 
 
 @scene_check
 def patch_of_few_correlation_lengths(facts: Facts) -> Iterator[str]:
-    """A patch of L x L holds (L / l)^2 independent pieces of roughness; its means scatter by l / L."""
+    """A patch of L x L holds (L / l)^2 independent pieces of roughness; its means scatter by l / L.
+
+    A single wave over the patch, which is form and not roughness, has L / l = 5.3. Repetitions with surfaces of their own
+    average and show the scatter.
+    """
+    repeated = getattr(facts.scene, "repetitions", 1) > 1
     for case, surface in facts.surfaces:
-        count = min(surface.grid.lengths) / surface.correlation_length
-        unknown = math.isnan(surface.correlation_length) and min(surface.grid.shape) > 8
-        if unknown or count < _LENGTHS_PER_GRID:
-            found = "its correlation length is beyond" if unknown else f"it is {count:.2g} correlation lengths long:"
-            yield (
-                f"grid: too short for the {surface.body} surface{case.at}: {found} "
-                f"{'half the grid: ' if unknown else ''}a handful of summits decides; take a larger patch, or several "
-                "repetitions, or remove form with detrend or high_pass"
+        if repeated and isinstance(surface.table, GeneratedSurface):
+            continue
+        length = surface.correlation_length
+        unknown = math.isnan(length) and min(surface.grid.shape) > 8
+        if unknown or min(surface.grid.lengths) < _LENGTHS_PER_GRID * length:
+            found = (
+                "its autocorrelation does not fall to 1/e within half of it"
+                if unknown
+                else f"it is {min(surface.grid.lengths) / length:.2g} correlation lengths long"
             )
+            yield (
+                f"grid: short for the {surface.body} surface{case.at}: {found}, so a handful of summits decides; "
+                "take a "
+                "larger patch or several repetitions, or remove form with detrend or high_pass"
+            )
+            return
 
 
 @scene_check
 def layer_against_the_mesh(facts: Facts) -> Iterator[str]:
-    """A layer thinner than half a cell deforms within the cell alone; one much thicker than the grid is a half-space."""
+    """A layer thinner than half a cell deforms within the cell alone; one much thicker than the grid is a
+    half-space."""
     seen = set()
     for case in facts.cases:
         for name, body in case.bodies.items():
@@ -96,13 +116,15 @@ def layer_against_the_mesh(facts: Facts) -> Iterator[str]:
             if thickness < 0.5 * spacing and (name, "thin") not in seen:
                 seen.add((name, "thin"))
                 yield (
-                    f"{name}.layer: {si(thickness, 'm')} thick on cells of {si(spacing, 'm')}{case.at}: its bending and stresses "
+                    f"{name}.layer: {si(thickness, 'm')} thick on cells of {si(spacing, 'm')}{case.at}: its bending "
+                    "and stresses "
                     "are not resolved, only its compliance; take cells of its thickness, or leave it out"
                 )
             if thickness > 2 * max(case.grid.lengths) and not all(case.grid.periodic) and (name, "thick") not in seen:
                 seen.add((name, "thick"))
                 yield (
-                    f"{name}.layer: {si(thickness, 'm')} thick over a grid of {si(max(case.grid.lengths), 'm')}{case.at}: the "
+                    f"{name}.layer: {si(thickness, 'm')} thick over a grid of "
+                    f"{si(max(case.grid.lengths), 'm')}{case.at}: the "
                     "substrate is hardly felt; make the layer the body's material, which is faster"
                 )
 
@@ -123,7 +145,8 @@ def depths_miss_the_largest_stress(facts: Facts) -> Iterator[str]:
         nearest = min(case.depths, key=lambda depth: abs(depth - at))
         if abs(nearest - at) > 0.2 * size and not rough:
             yield (
-                f"outputs.depths: the largest von Mises stress lies {si(at, 'm')} below the surface, the nearest depth is "
+                f"outputs.depths: the largest von Mises stress lies {si(at, 'm')} below the surface, the nearest "
+                "depth is "
                 f"{si(nearest, 'm')}: it is missed by several per cent; take depths every {si(0.1 * size, 'm')} there"
             )
 
@@ -150,9 +173,14 @@ def layer_of_one_depth(facts: Facts) -> Iterator[str]:
         return
     for case in facts.cases:
         for name, body in case.bodies.items():
-            if body.layer is not None and len(case.depths) > 1 and case.depths[1] - case.depths[0] > body.layer.thickness:
+            if (
+                body.layer is not None
+                and len(case.depths) > 1
+                and case.depths[1] - case.depths[0] > body.layer.thickness
+            ):
                 yield (
-                    f"depths.spacing {si(case.depths[1] - case.depths[0], 'm')} is more than the {name} layer's thickness, "
+                    f"depths.spacing {si(case.depths[1] - case.depths[0], 'm')} is more than the {name} layer's "
+                    "thickness, "
                     f"{si(body.layer.thickness, 'm')}{case.at}: its particles are one depth thick; take a third of it"
                 )
                 return
@@ -162,7 +190,7 @@ def layer_of_one_depth(facts: Facts) -> Iterator[str]:
 def nothing_slides(facts: Facts) -> Iterator[str]:
     """Wear cycles between which the surfaces stay where they are meet the same asperities each time."""
     if facts.of_kind("wear", "running-in") and facts.cases and all(case.slide == 0 for case in facts.cases):
-        yield "wear.shift = 0: the surfaces do not slide on, every cycle meets the same asperities; take a shift of 1 or more"
+        yield "wear.shift = 0: the surfaces do not slide on, every cycle meets the same asperities; take 1 or more"
 
 
 @scene_check
@@ -178,7 +206,8 @@ def slides_differ(facts: Facts) -> Iterator[str]:
         shortest, longest = min(cases, key=_slide), max(cases, key=_slide)
         if len(meshes) > 1 and _slide(longest) > 1.02 * _slide(shortest):
             yield (
-                f"variants slide {si(_slide(shortest), 'm')}{shortest.at} to {si(_slide(longest), 'm')}{longest.at} in a cycle: "
+                f"variants slide {si(_slide(shortest), 'm')}{shortest.at} to {si(_slide(longest), 'm')}{longest.at} "
+                "in a cycle: "
                 "meshes are compared at different sliding; take shifts in proportion to the cells"
             )
             return

@@ -25,7 +25,8 @@ def friction_above_one(facts: Facts) -> Iterator[str]:
     largest = max((abs(case.friction) for case in facts.cases), default=0.0)
     if largest > 1:
         yield (
-            f"friction {largest:g}: only clean metals in vacuum and rubber have more than 1; boundary lubrication has 0.05 to "
+            f"friction {largest:g}: only clean metals in vacuum and rubber have more than 1; boundary lubrication "
+            "has 0.05 to "
             "0.2, dry metals 0.3 to 0.6"
         )
 
@@ -53,7 +54,8 @@ def implausible_viscosity(facts: Facts) -> Iterator[str]:
     if oil is not None and not _VISCOSITIES[0] <= oil.viscosity <= _VISCOSITIES[1]:
         thick = oil.viscosity > _VISCOSITIES[1]
         yield (
-            f"oil.viscosity {si(oil.viscosity, 'Pa s')} is that of {'pitch' if thick else 'a gas'}, not of an oil; a number "
+            f"oil.viscosity {si(oil.viscosity, 'Pa s')} is that of {'pitch' if thick else 'a gas'}, not of an oil; a "
+            "number "
             "without a unit is in Pa s"
             + (f': write viscosity = "{oil.viscosity:g} mPa*s" if cP or mPa s are meant' if thick else "")
         )
@@ -70,7 +72,8 @@ def implausible_pressure_viscosity(facts: Facts) -> Iterator[str]:
     if value and not _PRESSURE_VISCOSITIES[0] <= value <= _PRESSURE_VISCOSITIES[1]:
         hint = f' ("{value:g} 1/GPa"?)' if value > 1e-3 else ""
         yield (
-            f"oil.pressure_viscosity {value:g} 1/Pa is {value * 1e9:.3g} 1/GPa; mineral oils have 15 to 35 1/GPa, water 0.5"
+            f"oil.pressure_viscosity {value:g} 1/Pa is {value * 1e9:.3g} 1/GPa; mineral oils have 15 to 35 1/GPa, "
+            "water 0.5"
             f"{hint}"
         )
 
@@ -82,15 +85,16 @@ def implausible_temperature(facts: Facts) -> Iterator[str]:
     for temperature in getattr(rubbing, "temperatures", ()):
         if not _TEMPERATURES[0] <= temperature <= _TEMPERATURES[1]:
             yield (
-                f"rubbing.temperatures: {temperature:g} K is {temperature - 273.15:.0f} degrees Celsius, outside -40 to 300; a "
+                f"rubbing.temperatures: {temperature:g} K is {temperature - 273.15:.0f} degrees Celsius, outside -40 "
+                "to 300; a "
                 f'number without a unit is in K: write "{temperature:g} degC" if that is meant'
             )
 
 
 @scene_check
 def tribofilm_constants(facts: Facts) -> Iterator[str]:
-    """Barriers of tribochemical growth are 0.3 to 1.5 eV, activation volumes 3 to 200 cubic angstrom (Gosvami et al., Science
-    348 (2015) 102; Spikes, Lubricants 6 (2018) 31); wear above 0.1 1/s takes a film off within ten seconds."""
+    """Barriers of tribochemical growth are 0.3 to 1.5 eV, activation volumes 3 to 200 cubic angstrom (Gosvami et al.,
+    Science 348 (2015) 102; Spikes, Lubricants 6 (2018) 31); wear above 0.1 1/s takes a film off within ten seconds."""
     if not facts.of_kind("tribofilm"):
         return
     film = facts.scene.film
@@ -100,24 +104,28 @@ def tribofilm_constants(facts: Facts) -> Iterator[str]:
     for barrier in sorted(barriers):
         if not 0.1 <= barrier / _ELECTRON_VOLT <= 3:
             yield (
-                f"film.activation_energy {barrier / _ELECTRON_VOLT:.3g} eV is outside 0.1 to 3 eV; growth goes with its "
+                f"film.activation_energy {barrier / _ELECTRON_VOLT:.3g} eV is outside 0.1 to 3 eV; growth goes with "
+                "its "
                 "exponential: check the unit (1 kJ/mol is 0.0104 eV)"
             )
     if max(volumes) > 1e-27:
         yield (
-            f"film.activation_volume {max(volumes) * 1e30:.3g} cubic angstrom is a thousand molecules' bonds; 3 to 200 have been "
+            f"film.activation_volume {max(volumes) * 1e30:.3g} cubic angstrom is a thousand molecules' bonds; 3 to "
+            "200 have been "
             "found: check the unit"
         )
     if max(rates) > 0.1:
         yield (
-            f"film.wear_coefficient {max(rates):g} 1/s takes a film off within {1 / max(rates):.2g} s; 1e-5 to 1e-2 1/s have been "
+            f"film.wear_coefficient {max(rates):g} 1/s takes a film off within {1 / max(rates):.2g} s; 1e-5 to 1e-2 "
+            "1/s have been "
             "found: check the unit"
         )
 
 
 @scene_check
 def growth_without_a_barrier(facts: Facts) -> Iterator[str]:
-    """Where friction x pressure x activation volume reaches the barrier, growth runs at its prefactor whatever the heat."""
+    """Where friction x pressure x activation volume reaches the barrier, growth runs at its prefactor whatever the
+    heat."""
     if not facts.of_kind("tribofilm"):
         return
     film = facts.scene.film
@@ -126,8 +134,10 @@ def growth_without_a_barrier(facts: Facts) -> Iterator[str]:
         lowered = case.friction * pressure * film.activation_volume
         if lowered > film.activation_energy and math.isfinite(lowered):
             yield (
-                f"film: shear stress {si(case.friction * pressure, 'Pa')} x activation volume is {lowered / _ELECTRON_VOLT:.2g} eV, "
-                f"above the barrier of {film.activation_energy / _ELECTRON_VOLT:.2g} eV{case.at}: growth runs at its prefactor, "
+                f"film: shear stress {si(case.friction * pressure, 'Pa')} x activation volume is "
+                f"{lowered / _ELECTRON_VOLT:.2g} eV, "
+                f"above the barrier of {film.activation_energy / _ELECTRON_VOLT:.2g} eV{case.at}: growth runs at its "
+                "prefactor, "
                 "without temperature; check activation_volume and its unit"
             )
             return

@@ -55,8 +55,10 @@ def contact_at_free_edges(facts: Facts, outcome: Outcome) -> Iterator[str]:
                 share = max(shares.values())
                 known = " (as the plan foretold)" if list(grid_smaller_than_hertz(facts)) else ""
                 yield (
-                    f"the contact reaches the free edge of the grid along {joined(touched)}{known}: the outermost cells carry "
-                    f"{percent(share)} of the load, and the contact ends where the grid does; take a larger grid, or a periodic one "
+                    f"the contact reaches the free edge of the grid along {joined(touched)}{known}: the outermost "
+                    "cells carry "
+                    f"{percent(share)} of the load, and the contact ends where the grid does; take a larger grid, or "
+                    "a periodic one "
                     "for a part of a larger contact"
                 )
                 return
@@ -72,7 +74,8 @@ def elastic_pressure_above_hardness(facts: Facts, outcome: Outcome) -> Iterator[
     if highest > hardness and not list(hertz_pressure_above_hardness(facts)):
         share = float(pressure[pressure > hardness].sum() / pressure.sum())
         yield (
-            f"elastic pressures reach {si(highest, 'Pa')}, {highest / hardness:.2g} times the softer hardness, and {percent(share)} "
+            f"elastic pressures reach {si(highest, 'Pa')}, {highest / hardness:.2g} times the softer hardness, and "
+            f"{percent(share)} "
             'of the load is carried above it: real summits would flow; take behaviour = "capped"'
         )
 
@@ -89,7 +92,8 @@ def pressure_beyond_linear_elasticity(facts: Facts, outcome: Outcome) -> Iterato
     highest = float(outcome.variables["pressure"].values.max())
     if highest > 0.2 * modulus and not (case.smooth is not None and case.smooth.ratio > 0.2):
         yield (
-            f"pressures reach {si(highest, 'Pa')}, {highest / modulus:.2g} of the contact modulus: strains are of that order, where "
+            f"pressures reach {si(highest, 'Pa')}, {highest / modulus:.2g} of the contact modulus: strains are of "
+            "that order, where "
             "linear elasticity ends at about 0.1; check units, smooth the surface, or cap the pressure at a hardness"
         )
 
@@ -105,15 +109,18 @@ def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[str]:
         touching, capped = np.count_nonzero(plane > 0), plane >= case.cap * (1 - 1e-9)
         if touching and np.count_nonzero(capped) > _AT_CAP * touching:
             yield (
-                f"{percent(np.count_nonzero(capped) / touching)} of the contact area, with {percent(float(plane[capped].sum() / plane.sum()))} of the "
-                f"load, is at the hardness, {si(case.cap, 'Pa')}: there the pressure is what was put in, and nothing hardens"
+                f"{percent(np.count_nonzero(capped) / touching)} of the contact area, with "
+                f"{percent(float(plane[capped].sum() / plane.sum()))} of the "
+                f"load, is at the hardness, {si(case.cap, 'Pa')}: there the pressure is what was put in, and nothing "
+                "hardens"
             )
         return
 
 
 @outcome_check
 def capped_contact_nearly_full(facts: Facts, outcome: Outcome) -> Iterator[str]:
-    """Flow at a constant pressure needs room beside the spots; real roughness persists beyond half contact (Johnson 13.4)."""
+    """Flow at a constant pressure needs room beside the spots; real roughness persists beyond half contact (Johnson
+    13.4)."""
     fraction = outcome.summary.get("contact_area_fraction")
     if not facts.of_kind("contact", "wear", "running-in", "friction") or fraction is None:
         return
@@ -121,7 +128,8 @@ def capped_contact_nearly_full(facts: Facts, outcome: Outcome) -> Iterator[str]:
     capped = max(_numbers(outcome.summary.get("plastic_area_fraction", 0.0)), default=0.0) > 0
     if largest > _CONTACT and (capped or not facts.of_kind("contact")) and all(case.cap for case in facts.cases):
         yield (
-            f"{percent(largest)} of the patch is in contact under a capped pressure: above about half the valleys resist, which a cap "
+            f"{percent(largest)} of the patch is in contact under a capped pressure: above about half the valleys "
+            "resist, which a cap "
             "leaves out; take a smaller load or a larger patch"
         )
 
@@ -133,7 +141,8 @@ def largest_stress_at_the_deepest_depth(facts: Facts, outcome: Outcome) -> Itera
     found = outcome.summary.get("max_von_mises_depth_m")
     if depth is not None and found is not None and len(depth.values) > 1 and found >= float(depth.values[-1]):
         yield (
-            f"the largest von Mises stress lies in the deepest depth, {si(found, 'm')}: it may grow further down; take deeper "
+            f"the largest von Mises stress lies in the deepest depth, {si(found, 'm')}: it may grow further down; "
+            "take deeper "
             "outputs.depths"
         )
 
@@ -146,7 +155,8 @@ def elastic_stress_above_yield(facts: Facts, outcome: Outcome) -> Iterator[str]:
         return
     if not (list(yield_below_the_surface(facts)) or list(hertz_pressure_above_hardness(facts))):
         yield (
-            f"von Mises stresses reach {si(highest, 'Pa')}, above the yield stress, in {volume * 1e18:.3g} um^3: they are elastic, and "
+            f"von Mises stresses reach {si(highest, 'Pa')}, above the yield stress, in {volume * 1e18:.3g} um^3: "
+            "they are elastic, and "
             "too high there; lower the load, or read them as where yield begins"
         )
 
@@ -165,8 +175,10 @@ def particles_of_one_cell(facts: Facts, outcome: Outcome) -> Iterator[str]:
     small = [value for value in _numbers(radius) if 0 < value < 0.78 * cell]
     if small:
         yield (
-            f"the mean particle, by number, is smaller than two cells of {cell:.3g} nm in {len(small)} of {len(_numbers(radius))} runs "
-            f"(radius {min(small):.3g} nm): most are one cell, and their size is the mesh's; take a finer grid, or the mean by volume"
+            f"the mean particle, by number, is smaller than two cells of {cell:.3g} nm in {len(small)} of "
+            f"{len(_numbers(radius))} runs "
+            f"(radius {min(small):.3g} nm): most are one cell, and their size is the mesh's; take a finer grid, or "
+            "the mean by volume"
         )
 
 
@@ -181,8 +193,10 @@ def _counted(facts: Facts, outcome: Outcome) -> Iterator[str]:
     one = np.maximum(length, width) < 1.5 * cell
     if one.mean() > 0.5:
         yield (
-            f"{percent(float(one.mean()))} of the particles, with {percent(float(volume[one].sum() / volume.sum()))} of their volume, are one "
-            f"cell wide ({si(float(cell.min()), 'm')}): their number and means by number are the mesh's; take a finer grid, or means "
+            f"{percent(float(one.mean()))} of the particles, with {percent(float(volume[one].sum() / volume.sum()))} "
+            "of their volume, are one "
+            f"cell wide ({si(float(cell.min()), 'm')}): their number and means by number are the mesh's; take a "
+            "finer grid, or means "
             "by volume where their share is small"
         )
 
@@ -197,7 +211,8 @@ def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[str]
     shares = [c / (n * settled) for c, n in zip(_numbers(cut), _numbers(number), strict=False) if n > 0]
     if shares and max(shares) > 0.02:
         yield (
-            f"{percent(max(shares))} of the settled particles reach the deepest depth and go on below it: their volume is too "
+            f"{percent(max(shares))} of the settled particles reach the deepest depth and go on below it: their "
+            "volume is too "
             "small; take more or wider depths"
         )
 

@@ -22,8 +22,10 @@ def steep_roughness(facts: Facts) -> Iterator[str]:
     for slope, case, surface in facts.worst_surfaces(lambda surface: surface.rms_slope):
         if slope > _SLOPE:
             yield (
-                f"{surface.body}.surface: rms slope {slope:.2g}{case.at}; a half-space stands for slopes well below one, and "
-                "pressures grow with them: filter the surface (low_pass, cutoff_wavelength), or read the result as a trend"
+                f"{surface.body}.surface: rms slope {slope:.2g}{case.at}; a half-space stands for slopes well below "
+                "one, and "
+                "pressures grow with them: filter the surface (low_pass, cutoff_wavelength), or read the result as a "
+                "trend"
             )
 
 
@@ -33,7 +35,8 @@ def roughness_as_large_as_the_patch(facts: Facts) -> Iterator[str]:
     for share, case, surface in facts.worst_surfaces(lambda surface: surface.rms_height / min(surface.grid.lengths)):
         if share > 0.1:
             yield (
-                f"{surface.body}.surface: Sq {si(surface.rms_height, 'm')} is {percent(share)} of the patch's side{case.at}: that is form, "
+                f"{surface.body}.surface: Sq {si(surface.rms_height, 'm')} is {percent(share)} of the patch's "
+                f"side{case.at}: that is form, "
                 "or a wrong unit (height_unit, rms_height), not roughness"
             )
 
@@ -44,7 +47,8 @@ def much_of_the_map_is_filled(facts: Facts) -> Iterator[str]:
     for filled, _, surface in facts.worst_surfaces(lambda surface: surface.filled):
         if filled > _FILLED:
             yield (
-                f"{surface.body}.surface: {percent(filled)} of the points were missing and are filled smoothly; instruments "
+                f"{surface.body}.surface: {percent(filled)} of the points were missing and are filled smoothly; "
+                "instruments "
                 "lose the steep ones, so the real surface is rougher: crop to a whole part, or measure again"
             )
 
@@ -59,13 +63,16 @@ def surface_interpolated_from_few_points(facts: Facts) -> Iterator[str]:
         finer = max(d / h for d, h in zip(surface.source_spacing, surface.grid.spacing, strict=True))
         if min(points) < _POINTS:
             yield (
-                f"{surface.body}.surface: the grid lies on {points[0]} x {points[1]} measured points {times(surface.source_spacing, 'm')} "
+                f"{surface.body}.surface: the grid lies on {points[0]} x {points[1]} measured points "
+                f"{times(surface.source_spacing, 'm')} "
                 f"apart{case.at}: what touches is interpolated, not measured; take a larger grid, or a finer map"
             )
         elif finer > 2:
             yield (
-                f"{surface.body}.surface: cells are {finer:.2g} times finer than the measured points ({times(surface.source_spacing, 'm')})"
-                f"{case.at}: below two of these there is no roughness; contact area and pressures are those of a smoothed surface"
+                f"{surface.body}.surface: cells are {finer:.2g} times finer than the measured points "
+                f"({times(surface.source_spacing, 'm')})"
+                f"{case.at}: below two of these there is no roughness; contact area and pressures are those of a "
+                "smoothed surface"
             )
 
 
@@ -80,5 +87,6 @@ def scaled_out_of_proportion(facts: Facts) -> Iterator[str]:
         if change > math.log(3):
             yield (
                 f"{surface.body}.surface: measured heights are multiplied by {surface.scaled:.2g} to have Sq "
-                f"{si(surface.rms_height, 'm')}, and slopes with them; leave rms_height out, or use a map of such a surface"
+                f"{si(surface.rms_height, 'm')}, and slopes with them; leave rms_height out, or use a map of such a "
+                "surface"
             )

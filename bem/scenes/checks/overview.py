@@ -1,0 +1,127 @@
+"""A scene in words, for `bem plan`: bodies, surfaces and what was done to them, grid, Hertz contact."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from bem.materials import Body, Material
+from bem.scenes.checks.facts import Case, Facts
+from bem.scenes.checks.words import percent, si, times
+
+_MOST_CASES = 12
+_CASE = "case"
+_PERIODIC = {(True, True): "periodic", (False, False): "free", (True, False): "periodic along x, free along y"}
+
+Rows = list[tuple[str, str]]
+
+
+def bodies(facts: Facts) -> Rows:
+    """What is pressed together: materials, layers, and the surfaces with what was done to them."""
+    rows: Rows = []
+    if not facts.cases:
+        return rows
+    first = facts.cases[0]
+    for name in ("lower", "upper"):
+        body = first.bodies.get(name)
+        rows.append((name, "rigid" if body is None else _body(body)))
+        found = [rough for _, rough in facts.surfaces if rough.body == name]
+        if found:
+            rough = found[0]
+            rows.append((f"{name} surface", rough.made[0]))
+            rows += [("", text) for text in (*rough.made[1:], f"on the grid: {rough.describe()}")]
+            others = found[1:]
+            if others:
+                steep, high = (
+                    _range([getattr(r, key) for r in found], unit)
+                    for key, unit in (("rms_slope", ""), ("rms_height", "m"))
+                )
+                rows.append(("", f"over the {len(found)} grids and variants: Sq {high}, rms slope {steep}"))
+        elif name in first.surfaces:
+            rows.append((f"{name} surface", "smooth"))
+    rows.append(("upper shape", _shape(first)))
+    return rows
+
+
+def common(facts: Facts) -> Rows:
+    """What all contacts have in common: grid, Hertz contact, depths."""
+    columns = [_column(case) for case in facts.cases]
+    return [
+        (name, columns[0][name])
+        for name in _names(columns)
+        if name != _CASE and columns[0].get(name) and len({column.get(name, "") for column in columns}) == 1
+    ]
+
+
+def differing(facts: Facts) -> tuple[list[str], list[list[str]]]:
+    """Names of what differs between the contacts, and a row for each contact, at most twelve; nothing for one
+    contact."""
+    columns = [_column(case) for case in facts.cases]
+    names = [name for name in _names(columns) if len({column.get(name, "") for column in columns}) > 1]
+    rows = [[column.get(name, "") for name in names] for column in columns]
+    if len(rows) > _MOST_CASES:
+        rows = [*rows[: _MOST_CASES - 1], [f"and {len(rows) - _MOST_CASES + 1} more", *[""] * (len(names) - 1)]]
+    return names, rows if names else []
+
+
+def _names(columns: list[dict[str, str]]) -> list[str]:
+    return list(dict.fromkeys(name for column in columns for name in column))
+
+
+def _column(case: Case) -> dict[str, str]:
+    found: dict[str, str] = {_CASE: case.label}
+    grid, smooth = case.grid, case.smooth
+    if grid is not None:
+        found["cells"] = f"{grid.shape[0]} x {grid.shape[1]}"
+        found["edges"] = _PERIODIC.get(grid.periodic, "free along x, periodic along y")
+        found["spacing"] = times(grid.spacing, "m")
+        found["lengths"] = times(grid.lengths, "m")
+    if case.load is not None:
+        found["load on the grid"] = si(case.load, "N")
+        found["mean pressure"] = "" if case.mean_pressure is None else si(case.mean_pressure, "Pa")
+    found["highest pressure"] = "" if case.cap is None else f"{si(case.cap, 'Pa')} (hardness)"
+    if smooth is not None:
+        name = "half-width" if smooth.line else "semi-axes" if len(set(smooth.semi_axes)) > 1 else "radius"
+        sizes = tuple(a for a in smooth.semi_axes if math.isfinite(a))
+        found[f"Hertz {name}"] = " x ".join(si(a, "m") for a in dict.fromkeys(sizes))
+        found["Hertz pressure"] = si(smooth.maximum_pressure, "Pa")
+        found["Hertz approach"] = "" if smooth.approach is None else si(smooth.approach, "m")
+        if grid is not None:
+            across = [2 * a / d for a, d in zip(smooth.semi_axes, grid.spacing, strict=True) if math.isfinite(a)]
+            found["cells across it"] = f"{min(across):.3g}"
+            share = max(2 * a / n for a, n in zip(smooth.semi_axes, grid.lengths, strict=True) if math.isfinite(a))
+            found["of the grid"] = percent(share) if share <= 1 else f"{share:.2g} times its length"
+    if case.depths:
+        deepest = f"{len(case.depths)} down to {si(case.depths[-1], 'm')}"
+        steps = [b - a for a, b in zip(case.depths, case.depths[1:], strict=False)]
+        found["depths"] = deepest + (f", steps {_range(steps, 'm')}" if steps else "")
+    return found
+
+
+def _body(body: Body) -> str:
+    below = _material(body.material)
+    if body.layer is None:
+        return below
+    return f"{si(body.layer.thickness, 'm')} of {_material(body.layer.material)}, on {below}"
+
+
+def _material(material: Material) -> str:
+    words = [f"E {si(material.youngs_modulus, 'Pa')}, nu {material.poissons_ratio:g}"]
+    if material.hardness is not None:
+        words.append(f"hardness {si(material.hardness, 'Pa')}")
+    if material.yield_stress is not None:
+        words.append(f"yield stress {si(material.yield_stress, 'Pa')}")
+    return f"{material.name} ({', '.join(words)})"
+
+
+def _shape(case: Case) -> str:
+    if case.smooth is not None:
+        radii = [si(r, "m") for r in dict.fromkeys(case.smooth.radii) if math.isfinite(r)]
+        return f"{case.shape}, radius {' x '.join(radii)}"
+    return case.shape if case.wavelength is None else f"{case.shape}, wavelength {si(case.wavelength, 'm')}"
+
+
+def _range(values: list[float], unit: str) -> str:
+    low, high = min(values), max(values)
+    shown: list[Any] = [si(v, unit) if unit else f"{v:.2g}" for v in (low, high)]
+    return shown[0] if shown[0] == shown[1] else f"{shown[0]} to {shown[1]}"

@@ -1,0 +1,433 @@
+"""What is warned of before and after a run: every check fires where it should, and not next to it."""
+
+import numpy as np
+import pytest
+
+from bem.errors import InputError
+from bem.runs import plan_scene, run_scene
+from bem.scenes import library
+from bem.scenes.checks import OUTCOME_CHECKS, SCENE_CHECKS, examine, scene_warnings
+from bem.scenes.checks.overview import bodies, common, differing
+from bem.scenes.checks.words import percent, si, times
+from bem.scenes.context import Outcome, Variable
+from bem.surfaces import write_surface
+from bem.surfaces.surface import Surface
+
+STEEL = "steel-52100"
+BALL = {
+    "kind": "contact",
+    "grid": {"shape": 32, "lengths": "400 um"},
+    "lower": {"material": STEEL},
+    "upper": {"material": STEEL},
+    "shape": {"kind": "sphere", "radius": "10 mm"},
+    "contact": {"load": "19 N"},
+}
+ROUGH = {
+    "kind": "contact",
+    "grid": {"shape": 64, "lengths": "40 um", "periodic": True},
+    "lower": {
+        "material": STEEL,
+        "surface": {"kind": "generated", "rms_height": "50 nm", "correlation_length": "4 um"},
+    },
+    "contact": {"mean_pressure": "50 MPa", "behaviour": "capped"},
+}
+SINE = {
+    "kind": "contact",
+    "grid": {"shape": [64, 4], "spacing": "1 um", "periodic": True},
+    "lower": {"material": STEEL},
+    "shape": {"kind": "sinusoid", "amplitude": "50 nm", "wavelength": "32 um"},
+    "contact": {"mean_pressure": "10 MPa"},
+}
+
+
+def with_(base, **settings):
+    """A copy of a scene with `a__b=value` for key a.b; a value of None removes the key."""
+    scene = {key: dict(value) if isinstance(value, dict) else value for key, value in base.items()}
+    for path, value in settings.items():
+        *tables, key = path.split("__")
+        table = scene
+        for name in tables:
+            table[name] = dict(table.get(name, {}))
+            table = table[name]
+        if value is None:
+            table.pop(key)
+        else:
+            table[key] = value
+    return scene
+
+
+def facts_of(source, *settings):
+    return examine(plan_scene(source, settings)[0])
+
+
+def material(modulus, nu=0.3, **constants):
+    return {"youngs_modulus": modulus, "poissons_ratio": nu, **constants}
+
+
+def self_affine(**more):
+    return {"kind": "generated", "rms_height": "50 nm", "hurst": 0.8, **more}
+
+
+def random(rms_height, correlation_length):
+    return {"kind": "generated", "rms_height": rms_height, "correlation_length": correlation_length}
+
+
+def wear(*settings):
+    return ("wear-steel-steel", *settings)
+
+
+CASES = {
+    "implausible_modulus": (
+        (with_(BALL, lower__material=material(115.0)), 'youngs_modulus = "115 GPa"'),
+        with_(BALL, lower__material=material("115 GPa")),
+    ),
+    "viscoelastic_material": (
+        (with_(BALL, lower__material="ptfe", contact__load="10 mN"), "500 MPa"),
+        with_(BALL, lower__material="aluminium"),
+    ),
+    "incompressible_layer": (
+        (with_(BALL, lower__layer={"material": material("1 GPa", 0.49), "thickness": "20 um"}), "17 times"),
+        with_(BALL, lower__layer={"material": material("1 GPa", 0.45), "thickness": "20 um"}),
+    ),
+    "hardness_against_modulus": (
+        (with_(BALL, lower__material=material("200 GPa", hardness="70 GPa")), "perfect solid"),
+        with_(BALL, lower__material=material("200 GPa", hardness="20 GPa")),
+    ),
+    "yield_against_hardness": (
+        (with_(BALL, lower__material=material("200 GPa", hardness="7 GPa", yield_stress="5 GPa")), "hardness / 1.4"),
+        with_(BALL, lower__material=material("200 GPa", hardness="7 GPa", yield_stress="2.5 GPa")),
+    ),
+    "contact_large_for_its_radius": (
+        (with_(BALL, shape__radius="100 um", contact__load="25 N", grid__lengths="200 um"), "of the body's"),
+        with_(BALL, shape__radius="1 mm", contact__load="25 N"),
+    ),
+    "hertz_pressure_above_hardness": (
+        (with_(BALL, contact__load="20 kN", grid__lengths="4 mm"), "times the softer hardness"),
+        with_(BALL, contact__load="20 kN", grid__lengths="4 mm", contact__behaviour="capped"),
+    ),
+    "yield_below_the_surface": (
+        (with_(BALL, lower__material="steel-disk", contact__load="60 N"), "begins to yield"),
+        with_(BALL, contact__load="100 N"),
+    ),
+    "mean_pressure_near_hardness": (
+        (with_(ROUGH, contact__mean_pressure="4 GPa"), "0.57 of hardness x area"),
+        with_(ROUGH, contact__mean_pressure="1 GPa"),
+    ),
+    "grid_smaller_than_hertz": (
+        (with_(BALL, grid__lengths="100 um"), "for a Hertz contact of 216 um"),
+        with_(BALL, grid__lengths="240 um"),
+    ),
+    "flat_patch_with_free_edges": (
+        (with_(ROUGH, grid__periodic=[True, False]), "free along y"),
+        ROUGH,
+    ),
+    "curved_body_repeats": (
+        (with_(BALL, grid__periodic=True), "3.7 contact radii apart"),
+        "hertz-cylinder",
+    ),
+    "wave_does_not_fit_the_period": (
+        (with_(SINE, shape__wavelength="30 um"), "2.133 waves"),
+        SINE,
+    ),
+    "cylinder_too_narrow_for_a_line": (
+        (wear('cylinder.width="20 um"', 'cylinder.loads=["0.03 N"]'), "line contact in plane strain"),
+        "wear-steel-steel",
+    ),
+    "few_cells_across_the_contact": (
+        (with_(BALL, contact__load="0.1 N"), "3 cells across"),
+        BALL,
+    ),
+    "few_cells_per_wave": (
+        (with_(ROUGH, lower__surface=self_affine(cutoff_wavelength="1.5 um")), "2.4 cells to the shortest wave"),
+        with_(ROUGH, lower__surface=self_affine(cutoff_wavelength="2.5 um")),
+    ),
+    "few_cells_per_correlation_length": (
+        (with_(ROUGH, grid__shape=20), "is 2 cells"),
+        with_(ROUGH, grid__shape=40),
+    ),
+    "layer_against_the_mesh": (
+        (with_(BALL, lower__layer={"material": "dlc", "thickness": "2 um"}), "2 um thick on cells of 12.5 um"),
+        with_(BALL, lower__layer={"material": "dlc", "thickness": "20 um"}),
+    ),
+    "depths_miss_the_largest_stress": (
+        (with_(BALL, outputs__von_mises=True, outputs__depths=["0 um", "10 um", "100 um"]), "51.7 um below"),
+        with_(BALL, outputs__von_mises=True, outputs__depths=["0 um", "50 um", "100 um"]),
+    ),
+    "depths_coarser_than_cells": (
+        (wear('depths.spacing="500 nm"'), "9.9 cells (2.5 N)"),
+        "wear-steel-steel",
+    ),
+    "layer_of_one_depth": (
+        (("wear-brass-transfer-film", 'depths.spacing="150 nm"'), "100 nm"),
+        "wear-brass-transfer-film",
+    ),
+    "nothing_slides": ((wear("wear.shift=0"), "wear.shift = 0"), wear("wear.shift=1")),
+    "slides_differ": (
+        (("wear-mesh-convergence", "variants[0].shift=3"), "in proportion to the cells"),
+        "wear-mesh-convergence",
+    ),
+    "steep_roughness": (
+        (with_(ROUGH, lower__surface=random("2 um", "4 um")), "slope 0.97"),
+        ROUGH,
+    ),
+    "roughness_as_large_as_the_patch": (
+        (with_(ROUGH, lower__surface=random("50 um", "4 um")), "Sq 50 um"),
+        ROUGH,
+    ),
+    "friction_above_one": ((with_(BALL, contact__friction=2.0), "friction 2"), with_(BALL, contact__friction=0.9)),
+    "speed_beyond_machines": (
+        (("stribeck-mineral-oil", 'speeds.last="400 m/s"'), "speed 400 m/s"),
+        "stribeck-mineral-oil",
+    ),
+    "implausible_viscosity": (
+        (("film-start-stop", "oil.viscosity=360"), "360 mPa*s"),
+        ("film-start-stop", 'oil.viscosity="360 cP"'),
+    ),
+    "implausible_pressure_viscosity": (
+        (("film-start-stop", 'oil.pressure_viscosity="25 1/MPa"'), "2.5e+04 1/GPa"),
+        "film-start-stop",
+    ),
+    "implausible_temperature": (
+        (("tribofilm-macro", "rubbing.temperatures=[60]"), '"60 degC"'),
+        ("tribofilm-macro", "rubbing.temperatures=[333]"),
+    ),
+    "tribofilm_constants": (
+        (("tribofilm-macro", 'film.wear_coefficient="3e5 1/s"'), "3.3e-06 s"),
+        "tribofilm-macro",
+    ),
+    "growth_without_a_barrier": (
+        (("tribofilm-afm-tip", 'film.activation_volume="900 angstrom^3"'), "above the barrier of 0.8 eV"),
+        "tribofilm-afm-tip",
+    ),
+}  # fmt: skip
+
+
+def fired(name, source):
+    settings = source[1:] if isinstance(source, tuple) else ()
+    return list(SCENE_CHECKS[name](facts_of(source[0] if isinstance(source, tuple) else source, *settings)))
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_check_of_scenes_fires_where_it_should_and_not_next_to_it(name):
+    (bad, words), good = CASES[name]
+    found = fired(name, bad)
+    assert found, "nothing is said"
+    assert words in " ".join(found)
+    assert fired(name, good) == []
+
+
+@pytest.fixture
+def maps(tmp_path):
+    """Maps of few points, with a quarter of them missing, with nothing but form, and one as it should be."""
+    rng = np.random.default_rng(3)
+    few, gaps = rng.normal(0, 1e-7, (12, 9)), rng.normal(0, 1e-7, (64, 64))
+    np.savez(tmp_path / "few.npz", heights=few, spacing=np.array([1e-5, 1e-5]))
+    gaps[:16] = np.nan
+    form = np.cos(np.pi * (np.arange(64) + 0.5) / 64)[:, None] * np.ones(64) * 1e-6
+    np.savez(tmp_path / "form.npz", heights=form, spacing=np.array([1e-6, 1e-6]))
+    np.savez(tmp_path / "gaps.npz", heights=gaps, spacing=np.array([1e-6, 1e-6]))
+    write_surface(tmp_path / "whole.npz", Surface(rng.normal(0, 1e-7, (64, 64)), (1e-6, 1e-6)))
+    return tmp_path
+
+
+def on_map(path, lengths, **surface):
+    table = {"kind": "measured", "path": str(path), "mirror": "both", **surface}
+    return with_(ROUGH, grid__lengths=lengths, lower__surface=table)
+
+
+MAPS = {
+    "patch_of_few_correlation_lengths": (("form.npz", {"detrend": "none"}, "5.3 correlation lengths long"), ("whole.npz", {})),
+    "surface_interpolated_from_few_points": (("few.npz", {}, "6 x 6 measured points"), ("whole.npz", {})),
+    "much_of_the_map_is_filled": (("gaps.npz", {}, "25 %"), ("whole.npz", {})),
+    "scaled_out_of_proportion": (
+        ("whole.npz", {"rms_height": "1 um"}, "multiplied by"),
+        ("whole.npz", {"rms_height": "150 nm"}),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_a_check_of_measured_surfaces_fires_where_it_should_and_not_next_to_it(name, maps):
+    (bad, keys, words), (good, good_keys) = MAPS[name]
+    lengths = "128 um"  # the whole map, mirrored
+    found = list(SCENE_CHECKS[name](facts_of(on_map(maps / bad, lengths, **keys))))
+    assert words in " ".join(found)
+    assert list(SCENE_CHECKS[name](facts_of(on_map(maps / good, lengths, **good_keys)))) == []
+
+
+def contact_outcome(pressure, **more):
+    variables = {"pressure": Variable(("x", "y"), np.asarray(pressure, dtype=float), "Pa", "contact pressure")}
+    for name in ("depth",):
+        if name in more:
+            variables[name] = Variable((name,), np.array(more.pop(name)), "m", name)
+    return Outcome(more, variables)
+
+
+def spot(value, size=32, at=16, width=2):
+    """A square of contact under one pressure."""
+    pressure = np.zeros((size, size))
+    pressure[at - width : at + width, at - width : at + width] = value
+    return pressure
+
+
+def wear_outcome(lengths, cells=50.5, **more):
+    count = len(lengths)
+    variables = {
+        "particle_run": Variable(("particle",), np.zeros(count, dtype=int), "1", "run"),
+        "particle_volume": Variable(("particle",), np.array(lengths) ** 3, "m^3", "volume"),
+        "particle_length": Variable(("particle",), np.array(lengths), "m", "length"),
+        "particle_width": Variable(("particle",), np.array(lengths), "m", "width"),
+    }
+    return Outcome({"cell_nm": cells, "repetitions": 5, **more}, variables)
+
+
+CELL = 50.5e-9
+OUTCOMES = {
+    "contact_at_free_edges": (
+        BALL,
+        (contact_outcome(spot(1e9, at=2)), "along x and y"),
+        contact_outcome(spot(1e9)),
+    ),
+    "elastic_pressure_above_hardness": (
+        BALL,
+        (contact_outcome(spot(98e9)), "98 GPa, 14 times the softer hardness, and 100 % of the load"),
+        contact_outcome(spot(6.9e9)),
+    ),
+    "pressure_beyond_linear_elasticity": (
+        BALL,
+        (contact_outcome(spot(40e9)), "0.35 of the contact modulus"),
+        contact_outcome(spot(10e9)),
+    ),
+    "contact_at_the_cap": (
+        with_(BALL, contact__behaviour="capped"),
+        (contact_outcome(spot(7e9)), "100 % of the contact area, with 100 % of the load"),
+        contact_outcome(spot(6.9e9)),
+    ),
+    "capped_contact_nearly_full": (
+        with_(BALL, contact__behaviour="capped"),
+        (contact_outcome(spot(7e9), contact_area_fraction=0.7, plastic_area_fraction=0.6), "70 % of the patch"),
+        contact_outcome(spot(7e9), contact_area_fraction=0.4, plastic_area_fraction=0.3),
+    ),
+    "largest_stress_at_the_deepest_depth": (
+        BALL,
+        (contact_outcome(spot(1e9), depth=[0.0, 1e-5, 2e-5], max_von_mises_depth_m=2e-5), "20 um"),
+        contact_outcome(spot(1e9), depth=[0.0, 1e-5, 2e-5], max_von_mises_depth_m=1e-5),
+    ),
+    "elastic_stress_above_yield": (
+        BALL,
+        (contact_outcome(spot(6e9), yielded_volume_m3=1e-15, max_von_mises_Pa=3e9), "1e+03 um^3"),
+        contact_outcome(spot(6e9), yielded_volume_m3=0.0, max_von_mises_Pa=2e9),
+    ),
+    "particles_of_one_cell": (
+        "wear-steel-steel",
+        (wear_outcome([CELL] * 3 + [4 * CELL]), "75 % of the particles, with 4.5 % of their volume"),
+        wear_outcome([CELL] + [4 * CELL] * 3),
+    ),
+    "particles_cut_by_the_depths": (
+        "wear-steel-steel",
+        (wear_outcome([CELL], truncated_particles=30, particles_per_cycle=10.0), "6 % of the settled particles"),
+        wear_outcome([CELL], truncated_particles=5, particles_per_cycle=10.0),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", OUTCOMES)
+def test_a_check_of_results_fires_where_it_should_and_not_next_to_it(name):
+    scene, (bad, words), good = OUTCOMES[name]
+    facts = facts_of(scene)
+    assert words in " ".join(OUTCOME_CHECKS[name](facts, bad))
+    assert list(OUTCOME_CHECKS[name](facts, good)) == []
+
+
+def test_running_in_tells_of_particles_of_one_cell_by_their_mean():
+    facts, check = facts_of("running-in-stribeck"), OUTCOME_CHECKS["particles_of_one_cell"]
+    found = list(check(facts, Outcome({"number_mean_radius_nm": [300.0, 500.0, 0.0]}, {})))
+    assert "450 nm in 1 of 3 runs" in " ".join(found)
+    assert list(check(facts, Outcome({"number_mean_radius_nm": [400.0]}, {}))) == []
+
+
+def test_every_check_has_its_two_tests():
+    assert set(SCENE_CHECKS) == set(CASES) | set(MAPS)
+    assert set(OUTCOME_CHECKS) == set(OUTCOMES)
+    for check in (*SCENE_CHECKS.values(), *OUTCOME_CHECKS.values()):
+        assert check.__doc__, f"{check.__name__} does not say why"
+
+
+def test_a_map_smaller_than_the_grid_is_refused_by_the_plan(maps):
+    with pytest.raises(InputError, match="the map only"):
+        scene_warnings(facts_of(on_map(maps / "whole.npz", "1 mm")))
+
+
+GOOD_REASONS = {
+    "hardness-optimum": {"few_cells_per_wave"},  # the thesis' cell, two to the shortest wave
+    "running-in-stribeck": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise
+    "tribofilm-macro": {"few_cells_per_wave"},  # 430 um on 256 cells hold waves of 4 um with 2.4 cells
+    "wear-hard-roughness": {"steep_roughness"},  # Sq 1500 nm is the variant's point; its slope is 5
+    "wear-soft-roughness": {"steep_roughness"},  # likewise, slope 1
+    "wear-mesh-convergence": {"few_cells_per_wave", "depths_coarser_than_cells"},  # coarse meshes are its point
+    "wear-mesh-rigid-flat": {"depths_coarser_than_cells"},  # likewise
+}
+
+
+@pytest.mark.parametrize("name", [name for name in library() if "measured" not in name])
+def test_built_in_scenes_warn_for_good_reasons_alone(name):
+    facts = facts_of(name)
+    warned = {check for check in SCENE_CHECKS if list(SCENE_CHECKS[check](facts))}
+    assert warned == GOOD_REASONS.get(name, set())
+
+
+def test_one_warning_is_said_once_and_a_check_that_fails_says_so(monkeypatch):
+    def broken(facts):
+        raise ZeroDivisionError("nothing to divide by")
+        yield
+
+    monkeypatch.setitem(SCENE_CHECKS, "broken", broken)
+    found = scene_warnings(facts_of(BALL))
+    assert found == ["the check broken could not be made: ZeroDivisionError('nothing to divide by')"]
+
+
+def test_a_run_notes_what_was_warned_of_before_and_after(tmp_path):
+    class Listener:
+        def __init__(self):
+            self.notes = []
+
+        def progress(self, *_):
+            pass
+
+        def note(self, text):
+            self.notes.append(text)
+
+    watcher = Listener()
+    run = run_scene(with_(BALL, grid__lengths="100 um"), tmp_path / "out", watcher=watcher)
+    assert run.summary["contact_area_fraction"] == 1
+    assert run.summary["notes"] == watcher.notes
+    text = " ".join(watcher.notes)
+    assert "for a Hertz contact of 216 um" in text
+    assert "the contact reaches the free edge of the grid along x and y" in text
+    assert "reaches the free edge" in (tmp_path / "out" / "report.html").read_text()
+
+
+def test_the_overview_shows_what_is_pressed_together():
+    facts = facts_of(with_(BALL, lower__layer={"material": "dlc", "thickness": "20 um"}))
+    shown = dict(common(facts))
+    assert shown["cells"] == "32 x 32"
+    assert shown["edges"] == "free"
+    assert shown["Hertz radius"] == "108 um"
+    assert shown["Hertz pressure"] == "781 MPa"
+    assert "20 um of dlc" in dict(bodies(facts))["lower"]
+    assert differing(facts) == ([], [])
+    names, rows = differing(facts_of("wear-steel-steel"))
+    assert names[0] == "case"
+    assert [row[0] for row in rows] == ["2.5 N", "5 N", "10 N"]
+
+
+def test_numbers_in_words():
+    assert si(45e-9, "m") == "45 nm"
+    assert si(0.9996e-6, "m") == "1 um"
+    assert si(1.2e9, "Pa") == "1.2 GPa"
+    assert si(3.2e-13, "m") == "3.2e-13 m"
+    assert si(0.0, "N") == "0 N"
+    assert times((1e-6, 1e-6), "m") == "1 um"
+    assert times((1e-6, 2e-6), "m") == "1 um x 2 um"
+    assert percent(0.004) == "0.4 %"
+    assert percent(0.9999) == "100 %"
