@@ -25,7 +25,7 @@ LEAD = (
 FIRST_STEPS = """bem scenes                                  # what is built in
 bem run rough-contact                       # figures, report.html, results.nc under runs/
 bem new contact mine.toml                   # a commented scene with every key
-bem plan mine.toml                          # what would run, what is skipped and why, memory and time
+bem plan mine.toml                          # grid, Hertz size, surfaces, steps, memory, time, warnings
 bem run mine.toml --out first --set contact.load="2 N"
 bem report first                            # the page again; bem plot first --figure pressure-map --format pdf
 bem compare first second                    # scenes, figures and overlaid curves of two runs or more

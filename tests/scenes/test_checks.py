@@ -218,7 +218,7 @@ def test_a_check_of_scenes_fires_where_it_should_and_not_next_to_it(name):
 
 @pytest.fixture
 def maps(tmp_path):
-    """Maps of few points, with a quarter of them missing, with nothing but form, and one as it should be."""
+    """Maps of few points, with missing points, with nothing but form, and one as it should be."""
     rng = np.random.default_rng(3)
     few, gaps = rng.normal(0, 1e-7, (12, 9)), rng.normal(0, 1e-7, (64, 64))
     np.savez(tmp_path / "few.npz", heights=few, spacing=np.array([1e-5, 1e-5]))
@@ -236,7 +236,10 @@ def on_map(path, lengths, **surface):
 
 
 MAPS = {
-    "patch_of_few_correlation_lengths": (("form.npz", {"detrend": "none"}, "5.3 correlation lengths long"), ("whole.npz", {})),
+    "patch_of_few_correlation_lengths": (
+        ("form.npz", {"detrend": "none"}, "5.3 correlation lengths long"),
+        ("whole.npz", {}),
+    ),
     "surface_interpolated_from_few_points": (("few.npz", {}, "6 x 6 measured points"), ("whole.npz", {})),
     "much_of_the_map_is_filled": (("gaps.npz", {}, "25 %"), ("whole.npz", {})),
     "scaled_out_of_proportion": (

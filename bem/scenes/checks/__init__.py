@@ -1,7 +1,7 @@
 """What an expert would warn of, before a scene is run and after: one list of small checks.
 
 To add one, write into the file of its subject (`materials.py`, `contact.py`, `mesh.py`, `surfaces.py`, `operation.py`
-before; `outcome.py` after; or a new file, named below)
+before; `outcome.py` after; or a new file, named in `_ORDER`)
 
     @scene_check
     def friction_above_one(facts: Facts) -> Iterator[str]:
@@ -30,6 +30,9 @@ from bem.scenes.checks.facts import Case, Facts, examine
 from bem.scenes.checks.registry import OUTCOME_CHECKS, SCENE_CHECKS
 from bem.scenes.context import Outcome
 
+_ORDER = [module.__name__ for module in (materials, operation, surfaces, contact, mesh, outcome)]
+"""Units first: the others follow from them."""
+
 
 def scene_warnings(facts: Facts) -> list[str]:
     """What can be warned of before any work."""
@@ -43,7 +46,11 @@ def outcome_warnings(facts: Facts, result: Outcome) -> list[str]:
 
 def _sentences(checks: Mapping[str, Callable[..., Iterator[str]]], *subject: Any) -> list[str]:
     found: list[str] = []
-    for name, check in checks.items():
+    in_order = sorted(
+        checks.items(),
+        key=lambda item: _ORDER.index(item[1].__module__) if item[1].__module__ in _ORDER else len(_ORDER),
+    )
+    for name, check in in_order:
         try:
             found += check(*subject)
         except InputError:  # such as a measured map that is smaller than the grid: refused before any work

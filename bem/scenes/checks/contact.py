@@ -24,8 +24,7 @@ def contact_large_for_its_radius(facts: Facts) -> Iterator[str]:
         ratio, case = found
         yield (
             f"contact radius {ratio:.2g} of the body's{case.at}: half-spaces and small strains hold below about 0.2; "
-            "strains "
-            f"are of order {percent(min(0.2 * ratio, 1.0))}: "
+            f"strains are of order {percent(min(0.2 * ratio, 1.0))}: "
             + (
                 "no part of the result can be believed; lower the load, or check the units of load, modulus and radius"
                 if ratio > 1
@@ -51,8 +50,8 @@ def hertz_pressure_above_hardness(facts: Facts) -> Iterator[str]:
         assert case.smooth is not None
         how = 'take behaviour = "capped" or a smaller load' if facts.of_kind("contact") else "take a smaller load"
         yield (
-            f"Hertz pressure {si(case.smooth.maximum_pressure, 'Pa')} is {ratio:.2g} times the softer hardness"
-            f"{case.at}, and the contact is elastic: a real one would flow; {how}"
+            f"Hertz pressure {si(case.smooth.maximum_pressure, 'Pa')} is {ratio:.2g} times the softer "
+            f"hardness{case.at}, and the contact is elastic: a real one would flow; {how}"
         )
 
 
@@ -72,10 +71,9 @@ def yield_below_the_surface(facts: Facts) -> Iterator[str]:
         if onset < case.smooth.maximum_pressure <= (case.softest or 0.0):
             yield (
                 f"Hertz pressure {si(case.smooth.maximum_pressure, 'Pa')} is "
-                f"{case.smooth.maximum_pressure / onset:.2g} times "
-                f"that at which the softer body begins to yield below its surface, {si(onset, 'Pa')}{case.at}: "
-                "elastic stresses "
-                "there are too high, and the first loadings leave residual stresses; lower the load or allow for it"
+                f"{case.smooth.maximum_pressure / onset:.2g} times that at which the softer body begins to yield below "
+                f"its surface, {si(onset, 'Pa')}{case.at}: elastic stresses there are too high, and the first loadings "
+                "leave residual stresses; lower the load or allow for it"
             )
 
 
@@ -88,8 +86,7 @@ def mean_pressure_near_hardness(facts: Facts) -> Iterator[str]:
         ratio, case = found
         yield (
             f"the load is {ratio:.2g} of hardness x area of the grid{case.at}: most of it would be at the hardness; "
-            "take a "
-            "smaller load or a larger grid"
+            "take a smaller load or a larger grid"
         )
 
 
@@ -106,8 +103,9 @@ def grid_smaller_than_hertz(facts: Facts) -> Iterator[str]:
         assert case.grid is not None
         size = 2 * case.smooth.semi_axes[axis]
         yield (
-            f"grid: {si(case.grid.lengths[axis], 'm')} along {'xy'[axis]} for a Hertz contact of {si(size, 'm')}"
-            f"{case.at}: the contact would reach the grid's edge and end there; take {si(1.5 * size, 'm')} or more"
+            f"grid: {si(case.grid.lengths[axis], 'm')} along {'xy'[axis]} for a Hertz contact of "
+            f"{si(size, 'm')}{case.at}: the contact would reach the grid's edge and end there; take "
+            f"{si(1.5 * size, 'm')} or more"
         )
 
 
@@ -134,9 +132,8 @@ def flat_patch_with_free_edges(facts: Facts) -> Iterator[str]:
         free = [name for name, wraps in zip("xy", case.grid.periodic, strict=True) if not wraps] if case.grid else []
         if case.shape == "flat" and free and case.load is not None:
             yield (
-                f"grid: nominally flat and free along {' and '.join(free)}: the patch is a punch of its own, with "
-                "the highest "
-                "pressures along its edges; grid.periodic = true makes it part of a larger contact"
+                f"grid: nominally flat and free along {' and '.join(free)}: the patch is a punch of its own, with the "
+                "highest pressures along its edges; grid.periodic = true makes it part of a larger contact"
             )
             return
 
@@ -159,9 +156,8 @@ def curved_body_repeats(facts: Facts) -> Iterator[str]:
             if case.grid.periodic[axis] and math.isfinite(size):
                 near = f", {length / size:.2g} contact radii apart" if length < 5 * size else ""
                 yield (
-                    f"grid: periodic along {name}, so the {case.shape} repeats every "
-                    f"{si(length, 'm')}{near}{case.at}; for one "
-                    f"body make that axis free"
+                    f"grid: periodic along {name}, so the {case.shape} repeats every {si(length, 'm')}{near}{case.at}; "
+                    "for one body make that axis free"
                 )
 
 
@@ -175,8 +171,7 @@ def wave_does_not_fit_the_period(facts: Facts) -> Iterator[str]:
         if abs(waves - round(waves)) > 1e-6 * waves or round(waves) == 0:
             yield (
                 f"shape.wavelength: {waves:.4g} waves on a periodic grid of {si(case.grid.lengths[0], 'm')} leave a "
-                "kink at the "
-                "seam; take a whole number of waves"
+                "kink at the seam; take a whole number of waves"
             )
 
 
@@ -192,6 +187,5 @@ def cylinder_too_narrow_for_a_line(facts: Facts) -> Iterator[str]:
         share, case = found
         yield (
             f"the cylinder is {1 / share:.2g} times as wide as its contact is long{case.at}: a line contact in plane "
-            "strain is "
-            "no model of it below about five; check width, or take an ellipsoid in kind contact"
+            "strain is no model of it below about five; check width, or take an ellipsoid in kind contact"
         )

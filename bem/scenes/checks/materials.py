@@ -47,9 +47,8 @@ def viscoelastic_material(facts: Facts) -> Iterator[str]:
         if _MODULI[0] <= material.youngs_modulus < _POLYMER:
             yield (
                 f"{key}: E = {si(material.youngs_modulus, 'Pa')} is that of a polymer or rubber, which creeps and "
-                "relaxes; "
-                "the solids here have no time dependence: take the modulus at the rate and temperature of the contact, "
-                "and run a second one to see how much it matters"
+                "relaxes; the solids here have no time dependence: take the modulus at the rate and temperature of "
+                "the contact, and run a second one to see how much it matters"
             )
 
 
@@ -65,9 +64,8 @@ def incompressible_layer(facts: Facts) -> Iterator[str]:
         if "layer" in key and nu >= 0.48:
             confined = (1 - nu) / ((1 + nu) * (1 - 2 * nu))
             yield (
-                f"{key}: Poisson's ratio {nu:g} makes the bonded layer {confined:.0f} times as stiff in compression "
-                "as its "
-                "modulus; the result hangs on the last digit: measure it, or bracket it with two runs"
+                f"{key}: Poisson's ratio {nu:g} makes the bonded layer {confined:.0f} times as stiff in compression as "
+                "its modulus; the result hangs on the last digit: measure it, or bracket it with two runs"
             )
 
 
@@ -85,8 +83,7 @@ def hardness_against_modulus(facts: Facts) -> Iterator[str]:
             word = "below that of annealed metals" if ratio < 5e-4 else "above that of a perfect solid"
             yield (
                 f"{key}: hardness {si(material.hardness, 'Pa')} is {ratio:.2g} of Young's modulus, {word} (5e-4 to "
-                "0.2); "
-                "check both units"
+                "0.2); check both units"
             )
 
 
@@ -104,6 +101,5 @@ def yield_against_hardness(facts: Facts) -> Iterator[str]:
         if not 1.95 <= ratio <= 4.0:
             yield (
                 f"{key}: yield stress {si(material.yield_stress, 'Pa')} is hardness / {ratio:.2g}; metals have "
-                "hardness / "
-                "2.6 to / 3, brittle solids down to / 1.5: leave it out for / 2.8, or check both"
+                "hardness / 2.6 to / 3, brittle solids down to / 1.5: leave it out for / 2.8, or check both"
             )

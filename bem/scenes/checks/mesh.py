@@ -30,8 +30,8 @@ def few_cells_across_the_contact(facts: Facts) -> Iterator[str]:
         assert case.grid is not None
         yield (
             f"grid: {across:.2g} cells across the Hertz contact{case.at}; take {_CELLS_ACROSS} or more (pressure "
-            "within 1.5 %, area "
-            f"within 13 %), 40 for maps: spacing {si(min(case.grid.spacing) * across / 20, 'm')} gives 20"
+            f"within 1.5 %, area within 13 %), 40 for maps: spacing {si(min(case.grid.spacing) * across / 20, 'm')} "
+            "gives 20"
         )
 
 
@@ -47,16 +47,14 @@ def few_cells_per_wave(facts: Facts) -> Iterator[str]:
         if getattr(surface.table, "hurst", None) is not None and surface.shortest_wave is None:
             yield (
                 f"{surface.body}.surface: without cutoff_wavelength its waves go down to two cells, "
-                f"{si(2 * spacing, 'm')}, so slope, "
-                f"contact area and pressures change with every mesh{case.at}; give cutoff_wavelength, 4 to 8 cells "
-                "or more"
+                f"{si(2 * spacing, 'm')}, so slope, contact area and pressures change with every mesh{case.at}; give "
+                "cutoff_wavelength, 4 to 8 cells or more"
             )
         elif surface.shortest_wave is not None and surface.shortest_wave / spacing < _CELLS_PER_WAVE:
             yield (
                 f"grid: {surface.shortest_wave / spacing:.2g} cells to the shortest wave of the {surface.body} surface "
-                f"({si(surface.shortest_wave, 'm')}){case.at}: contact spots come down to single cells; take a "
-                "spacing of "
-                f"{si(surface.shortest_wave / 8, 'm')}, or {si(surface.shortest_wave / 4, 'm')} for averages"
+                f"({si(surface.shortest_wave, 'm')}){case.at}: contact spots come down to single cells; take a spacing "
+                f"of {si(surface.shortest_wave / 8, 'm')}, or {si(surface.shortest_wave / 4, 'm')} for averages"
             )
 
 
@@ -70,8 +68,7 @@ def few_cells_per_correlation_length(facts: Facts) -> Iterator[str]:
         if cells < _CELLS_PER_WAVE and (wave is None or wave >= _CELLS_PER_WAVE * max(surface.grid.spacing)):
             yield (
                 f"grid: the correlation length of the {surface.body} surface, {si(surface.correlation_length, 'm')}, "
-                f"is {cells:.2g} "
-                f"cells{case.at}: asperities are hardly resolved; take a spacing of "
+                f"is {cells:.2g} cells{case.at}: asperities are hardly resolved; take a spacing of "
                 f"{si(surface.correlation_length / 6, 'm')} or less"
             )
 
@@ -80,8 +77,8 @@ def few_cells_per_correlation_length(facts: Facts) -> Iterator[str]:
 def patch_of_few_correlation_lengths(facts: Facts) -> Iterator[str]:
     """A patch of L x L holds (L / l)^2 independent pieces of roughness; its means scatter by l / L.
 
-    A single wave over the patch, which is form and not roughness, has L / l = 5.3. Repetitions with surfaces of their own
-    average and show the scatter.
+    A single wave over the patch, which is form and not roughness, has L / l = 5.3. Repetitions with surfaces of their
+    own average and show the scatter.
     """
     repeated = getattr(facts.scene, "repetitions", 1) > 1
     for case, surface in facts.surfaces:
@@ -96,9 +93,8 @@ def patch_of_few_correlation_lengths(facts: Facts) -> Iterator[str]:
                 else f"it is {min(surface.grid.lengths) / length:.2g} correlation lengths long"
             )
             yield (
-                f"grid: short for the {surface.body} surface{case.at}: {found}, so a handful of summits decides; "
-                "take a "
-                "larger patch or several repetitions, or remove form with detrend or high_pass"
+                f"grid: short for the {surface.body} surface{case.at}: {found}, so a handful of summits decides; take "
+                "a larger patch or several repetitions, or remove form with detrend or high_pass"
             )
             return
 
@@ -117,15 +113,14 @@ def layer_against_the_mesh(facts: Facts) -> Iterator[str]:
                 seen.add((name, "thin"))
                 yield (
                     f"{name}.layer: {si(thickness, 'm')} thick on cells of {si(spacing, 'm')}{case.at}: its bending "
-                    "and stresses "
-                    "are not resolved, only its compliance; take cells of its thickness, or leave it out"
+                    "and stresses are not resolved, only its compliance; take cells of its thickness, or leave it out"
                 )
             if thickness > 2 * max(case.grid.lengths) and not all(case.grid.periodic) and (name, "thick") not in seen:
                 seen.add((name, "thick"))
                 yield (
                     f"{name}.layer: {si(thickness, 'm')} thick over a grid of "
-                    f"{si(max(case.grid.lengths), 'm')}{case.at}: the "
-                    "substrate is hardly felt; make the layer the body's material, which is faster"
+                    f"{si(max(case.grid.lengths), 'm')}{case.at}: the substrate is hardly felt; make the layer the "
+                    "body's material, which is faster"
                 )
 
 
@@ -145,9 +140,9 @@ def depths_miss_the_largest_stress(facts: Facts) -> Iterator[str]:
         nearest = min(case.depths, key=lambda depth: abs(depth - at))
         if abs(nearest - at) > 0.2 * size and not rough:
             yield (
-                f"outputs.depths: the largest von Mises stress lies {si(at, 'm')} below the surface, the nearest "
-                "depth is "
-                f"{si(nearest, 'm')}: it is missed by several per cent; take depths every {si(0.1 * size, 'm')} there"
+                f"outputs.depths: the largest von Mises stress lies {si(at, 'm')} below the surface, the nearest depth "
+                f"is {si(nearest, 'm')}: it is missed by several per cent; take depths every {si(0.1 * size, 'm')} "
+                "there"
             )
 
 
@@ -180,8 +175,8 @@ def layer_of_one_depth(facts: Facts) -> Iterator[str]:
             ):
                 yield (
                     f"depths.spacing {si(case.depths[1] - case.depths[0], 'm')} is more than the {name} layer's "
-                    "thickness, "
-                    f"{si(body.layer.thickness, 'm')}{case.at}: its particles are one depth thick; take a third of it"
+                    f"thickness, {si(body.layer.thickness, 'm')}{case.at}: its particles are one depth thick; take a "
+                    "third of it"
                 )
                 return
 
@@ -206,9 +201,8 @@ def slides_differ(facts: Facts) -> Iterator[str]:
         shortest, longest = min(cases, key=_slide), max(cases, key=_slide)
         if len(meshes) > 1 and _slide(longest) > 1.02 * _slide(shortest):
             yield (
-                f"variants slide {si(_slide(shortest), 'm')}{shortest.at} to {si(_slide(longest), 'm')}{longest.at} "
-                "in a cycle: "
-                "meshes are compared at different sliding; take shifts in proportion to the cells"
+                f"variants slide {si(_slide(shortest), 'm')}{shortest.at} to {si(_slide(longest), 'm')}{longest.at} in "
+                "a cycle: meshes are compared at different sliding; take shifts in proportion to the cells"
             )
             return
 

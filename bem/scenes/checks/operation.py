@@ -25,9 +25,8 @@ def friction_above_one(facts: Facts) -> Iterator[str]:
     largest = max((abs(case.friction) for case in facts.cases), default=0.0)
     if largest > 1:
         yield (
-            f"friction {largest:g}: only clean metals in vacuum and rubber have more than 1; boundary lubrication "
-            "has 0.05 to "
-            "0.2, dry metals 0.3 to 0.6"
+            f"friction {largest:g}: only clean metals in vacuum and rubber have more than 1; boundary lubrication has "
+            "0.05 to 0.2, dry metals 0.3 to 0.6"
         )
 
 
@@ -55,8 +54,7 @@ def implausible_viscosity(facts: Facts) -> Iterator[str]:
         thick = oil.viscosity > _VISCOSITIES[1]
         yield (
             f"oil.viscosity {si(oil.viscosity, 'Pa s')} is that of {'pitch' if thick else 'a gas'}, not of an oil; a "
-            "number "
-            "without a unit is in Pa s"
+            "number without a unit is in Pa s"
             + (f': write viscosity = "{oil.viscosity:g} mPa*s" if cP or mPa s are meant' if thick else "")
         )
 
@@ -73,8 +71,7 @@ def implausible_pressure_viscosity(facts: Facts) -> Iterator[str]:
         hint = f' ("{value:g} 1/GPa"?)' if value > 1e-3 else ""
         yield (
             f"oil.pressure_viscosity {value:g} 1/Pa is {value * 1e9:.3g} 1/GPa; mineral oils have 15 to 35 1/GPa, "
-            "water 0.5"
-            f"{hint}"
+            f"water 0.5{hint}"
         )
 
 
@@ -105,20 +102,17 @@ def tribofilm_constants(facts: Facts) -> Iterator[str]:
         if not 0.1 <= barrier / _ELECTRON_VOLT <= 3:
             yield (
                 f"film.activation_energy {barrier / _ELECTRON_VOLT:.3g} eV is outside 0.1 to 3 eV; growth goes with "
-                "its "
-                "exponential: check the unit (1 kJ/mol is 0.0104 eV)"
+                "its exponential: check the unit (1 kJ/mol is 0.0104 eV)"
             )
     if max(volumes) > 1e-27:
         yield (
-            f"film.activation_volume {max(volumes) * 1e30:.3g} cubic angstrom is a thousand molecules' bonds; 3 to "
-            "200 have been "
-            "found: check the unit"
+            f"film.activation_volume {max(volumes) * 1e30:.3g} cubic angstrom is a thousand molecules' bonds; 3 to 200 "
+            "have been found: check the unit"
         )
     if max(rates) > 0.1:
         yield (
             f"film.wear_coefficient {max(rates):g} 1/s takes a film off within {1 / max(rates):.2g} s; 1e-5 to 1e-2 "
-            "1/s have been "
-            "found: check the unit"
+            "1/s have been found: check the unit"
         )
 
 
@@ -135,9 +129,8 @@ def growth_without_a_barrier(facts: Facts) -> Iterator[str]:
         if lowered > film.activation_energy and math.isfinite(lowered):
             yield (
                 f"film: shear stress {si(case.friction * pressure, 'Pa')} x activation volume is "
-                f"{lowered / _ELECTRON_VOLT:.2g} eV, "
-                f"above the barrier of {film.activation_energy / _ELECTRON_VOLT:.2g} eV{case.at}: growth runs at its "
-                "prefactor, "
-                "without temperature; check activation_volume and its unit"
+                f"{lowered / _ELECTRON_VOLT:.2g} eV, above the barrier of "
+                f"{film.activation_energy / _ELECTRON_VOLT:.2g} eV{case.at}: growth runs at its prefactor, without "
+                "temperature; check activation_volume and its unit"
             )
             return

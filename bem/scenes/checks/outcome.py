@@ -56,10 +56,8 @@ def contact_at_free_edges(facts: Facts, outcome: Outcome) -> Iterator[str]:
                 known = " (as the plan foretold)" if list(grid_smaller_than_hertz(facts)) else ""
                 yield (
                     f"the contact reaches the free edge of the grid along {joined(touched)}{known}: the outermost "
-                    "cells carry "
-                    f"{percent(share)} of the load, and the contact ends where the grid does; take a larger grid, or "
-                    "a periodic one "
-                    "for a part of a larger contact"
+                    f"cells carry {percent(share)} of the load, and the contact ends where the grid does; take a "
+                    "larger grid, or a periodic one for a part of a larger contact"
                 )
                 return
 
@@ -92,9 +90,9 @@ def pressure_beyond_linear_elasticity(facts: Facts, outcome: Outcome) -> Iterato
     highest = float(outcome.variables["pressure"].values.max())
     if highest > 0.2 * modulus and not (case.smooth is not None and case.smooth.ratio > 0.2):
         yield (
-            f"pressures reach {si(highest, 'Pa')}, {highest / modulus:.2g} of the contact modulus: strains are of "
-            "that order, where "
-            "linear elasticity ends at about 0.1; check units, smooth the surface, or cap the pressure at a hardness"
+            f"pressures reach {si(highest, 'Pa')}, {highest / modulus:.2g} of the contact modulus: strains are of that "
+            "order, where linear elasticity ends at about 0.1; check units, smooth the surface, or cap the pressure "
+            "at a hardness"
         )
 
 
@@ -110,9 +108,8 @@ def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[str]:
         if touching and np.count_nonzero(capped) > _AT_CAP * touching:
             yield (
                 f"{percent(np.count_nonzero(capped) / touching)} of the contact area, with "
-                f"{percent(float(plane[capped].sum() / plane.sum()))} of the "
-                f"load, is at the hardness, {si(case.cap, 'Pa')}: there the pressure is what was put in, and nothing "
-                "hardens"
+                f"{percent(float(plane[capped].sum() / plane.sum()))} of the load, is at the hardness, "
+                f"{si(case.cap, 'Pa')}: there the pressure is what was put in, and nothing hardens"
             )
         return
 
@@ -129,8 +126,7 @@ def capped_contact_nearly_full(facts: Facts, outcome: Outcome) -> Iterator[str]:
     if largest > _CONTACT and (capped or not facts.of_kind("contact")) and all(case.cap for case in facts.cases):
         yield (
             f"{percent(largest)} of the patch is in contact under a capped pressure: above about half the valleys "
-            "resist, which a cap "
-            "leaves out; take a smaller load or a larger patch"
+            "resist, which a cap leaves out; take a smaller load or a larger patch"
         )
 
 
@@ -141,9 +137,8 @@ def largest_stress_at_the_deepest_depth(facts: Facts, outcome: Outcome) -> Itera
     found = outcome.summary.get("max_von_mises_depth_m")
     if depth is not None and found is not None and len(depth.values) > 1 and found >= float(depth.values[-1]):
         yield (
-            f"the largest von Mises stress lies in the deepest depth, {si(found, 'm')}: it may grow further down; "
-            "take deeper "
-            "outputs.depths"
+            f"the largest von Mises stress lies in the deepest depth, {si(found, 'm')}: it may grow further down; take "
+            "deeper outputs.depths"
         )
 
 
@@ -155,9 +150,8 @@ def elastic_stress_above_yield(facts: Facts, outcome: Outcome) -> Iterator[str]:
         return
     if not (list(yield_below_the_surface(facts)) or list(hertz_pressure_above_hardness(facts))):
         yield (
-            f"von Mises stresses reach {si(highest, 'Pa')}, above the yield stress, in {volume * 1e18:.3g} um^3: "
-            "they are elastic, and "
-            "too high there; lower the load, or read them as where yield begins"
+            f"von Mises stresses reach {si(highest, 'Pa')}, above the yield stress, in {volume * 1e18:.3g} um^3: they "
+            "are elastic, and too high there; lower the load, or read them as where yield begins"
         )
 
 
@@ -176,9 +170,8 @@ def particles_of_one_cell(facts: Facts, outcome: Outcome) -> Iterator[str]:
     if small:
         yield (
             f"the mean particle, by number, is smaller than two cells of {cell:.3g} nm in {len(small)} of "
-            f"{len(_numbers(radius))} runs "
-            f"(radius {min(small):.3g} nm): most are one cell, and their size is the mesh's; take a finer grid, or "
-            "the mean by volume"
+            f"{len(_numbers(radius))} runs (radius {min(small):.3g} nm): most are one cell, and their size is the "
+            "mesh's; take a finer grid, or the mean by volume"
         )
 
 
@@ -194,10 +187,8 @@ def _counted(facts: Facts, outcome: Outcome) -> Iterator[str]:
     if one.mean() > 0.5:
         yield (
             f"{percent(float(one.mean()))} of the particles, with {percent(float(volume[one].sum() / volume.sum()))} "
-            "of their volume, are one "
-            f"cell wide ({si(float(cell.min()), 'm')}): their number and means by number are the mesh's; take a "
-            "finer grid, or means "
-            "by volume where their share is small"
+            f"of their volume, are one cell wide ({si(float(cell.min()), 'm')}): their number and means by number are "
+            "the mesh's; take a finer grid, or means by volume where their share is small"
         )
 
 
@@ -211,9 +202,8 @@ def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[str]
     shares = [c / (n * settled) for c, n in zip(_numbers(cut), _numbers(number), strict=False) if n > 0]
     if shares and max(shares) > 0.02:
         yield (
-            f"{percent(max(shares))} of the settled particles reach the deepest depth and go on below it: their "
-            "volume is too "
-            "small; take more or wider depths"
+            f"{percent(max(shares))} of the settled particles reach the deepest depth and go on below it: their volume "
+            "is too small; take more or wider depths"
         )
 
 

@@ -23,9 +23,8 @@ def steep_roughness(facts: Facts) -> Iterator[str]:
         if slope > _SLOPE:
             yield (
                 f"{surface.body}.surface: rms slope {slope:.2g}{case.at}; a half-space stands for slopes well below "
-                "one, and "
-                "pressures grow with them: filter the surface (low_pass, cutoff_wavelength), or read the result as a "
-                "trend"
+                "one, and pressures grow with them: filter the surface (low_pass, cutoff_wavelength), or read the "
+                "result as a trend"
             )
 
 
@@ -36,8 +35,7 @@ def roughness_as_large_as_the_patch(facts: Facts) -> Iterator[str]:
         if share > 0.1:
             yield (
                 f"{surface.body}.surface: Sq {si(surface.rms_height, 'm')} is {percent(share)} of the patch's "
-                f"side{case.at}: that is form, "
-                "or a wrong unit (height_unit, rms_height), not roughness"
+                f"side{case.at}: that is form, or a wrong unit (height_unit, rms_height), not roughness"
             )
 
 
@@ -48,8 +46,8 @@ def much_of_the_map_is_filled(facts: Facts) -> Iterator[str]:
         if filled > _FILLED:
             yield (
                 f"{surface.body}.surface: {percent(filled)} of the points were missing and are filled smoothly; "
-                "instruments "
-                "lose the steep ones, so the real surface is rougher: crop to a whole part, or measure again"
+                "instruments lose the steep ones, so the real surface is rougher: crop to a whole part, or measure "
+                "again"
             )
 
 
@@ -64,15 +62,14 @@ def surface_interpolated_from_few_points(facts: Facts) -> Iterator[str]:
         if min(points) < _POINTS:
             yield (
                 f"{surface.body}.surface: the grid lies on {points[0]} x {points[1]} measured points "
-                f"{times(surface.source_spacing, 'm')} "
-                f"apart{case.at}: what touches is interpolated, not measured; take a larger grid, or a finer map"
+                f"{times(surface.source_spacing, 'm')} apart{case.at}: what touches is interpolated, not measured; "
+                "take a larger grid, or a finer map"
             )
         elif finer > 2:
             yield (
                 f"{surface.body}.surface: cells are {finer:.2g} times finer than the measured points "
-                f"({times(surface.source_spacing, 'm')})"
-                f"{case.at}: below two of these there is no roughness; contact area and pressures are those of a "
-                "smoothed surface"
+                f"({times(surface.source_spacing, 'm')}){case.at}: below two of these there is no roughness; contact "
+                "area and pressures are those of a smoothed surface"
             )
 
 
