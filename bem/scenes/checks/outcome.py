@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.scenes.checks.contact import grid_smaller_than_hertz, hertz_pressure_above_hardness, yield_below_the_surface
+from bem.scenes.checks.contact import hertz_pressure_above_hardness, yield_below_the_surface
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import outcome_check
 from bem.scenes.checks.words import joined, percent, si
@@ -37,7 +37,12 @@ def _capped(facts: Facts, outcome: Outcome) -> Case | None:
 
 @outcome_check
 def contact_at_free_edges(facts: Facts, outcome: Outcome) -> Iterator[str]:
-    """A contact that reaches a free edge of its grid ends there because the grid does."""
+    """A contact that reaches a free edge of its grid ends there because the grid does.
+
+    Of kind `contact` the solver says so itself; here it is read off the maps that the other kinds keep.
+    """
+    if facts.of_kind("contact"):
+        return
     grids = {case.grid.periodic for case in facts.cases if case.grid is not None}
     if len(grids) != 1:
         return
@@ -53,9 +58,8 @@ def contact_at_free_edges(facts: Facts, outcome: Outcome) -> Iterator[str]:
             touched = [name for name, share in shares.items() if share > _AT_EDGE]
             if touched:
                 share = max(shares.values())
-                known = " (as the plan foretold)" if list(grid_smaller_than_hertz(facts)) else ""
                 yield (
-                    f"the contact reaches the free edge of the grid along {joined(touched)}{known}: the outermost "
+                    f"the contact reaches the free edge of the grid along {joined(touched)}: the outermost "
                     f"cells carry {percent(share)} of the load, and the contact ends where the grid does; take a "
                     "larger grid, or a periodic one for a part of a larger contact"
                 )
