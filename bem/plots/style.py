@@ -99,6 +99,15 @@ def thinned(values: NDArray[Any]) -> NDArray[Any]:
     return values[strides[0] // 2 :: strides[0], strides[1] // 2 :: strides[1]]
 
 
+def height_limit(heights: NDArray[np.float64]) -> float:
+    """Where the colours of a map of heights end, up and down [m]: lone spikes of an instrument would take them all.
+
+    The 99.8th percentile of the absolute heights, or the largest where that is zero.
+    """
+    limit = float(np.percentile(np.abs(thinned(heights)), 99.8))
+    return limit if limit > 0 else largest_of(heights)
+
+
 def label(text: str, unit: str) -> str:
     """Text for an axis: `x (µm)`."""
     return f"{text} ({unit})" if unit else text
@@ -149,5 +158,28 @@ def map_of(
     image = axes.imshow(drawn.T * factor, extent=extent, origin="lower", aspect=axes.get_aspect(), **more)
     bar = figure.colorbar(image, ax=axes, shrink=0.9, pad=0.03)
     bar.set_label(label(text, shown))
+    bar.outline.set_linewidth(0.6)
+    return image
+
+
+def map_of_heights(
+    figure: Figure, axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], heights: NDArray[np.float64]
+) -> Any:
+    """A colour map of heights about zero [m], one look for all surfaces; see `height_limit`."""
+    limit = height_limit(heights)
+    factor, unit = prefix([limit], "m")
+    beyond = limit < largest_of(heights)
+    extent = field_axes(axes, x, y)
+    image = axes.imshow(
+        thinned(heights).T * factor,
+        extent=extent,
+        origin="lower",
+        aspect=axes.get_aspect(),
+        cmap="cividis",
+        vmin=-limit * factor if limit else None,
+        vmax=limit * factor if limit else None,
+    )
+    bar = figure.colorbar(image, ax=axes, shrink=0.9, pad=0.03, extend="both" if beyond else "neither")
+    bar.set_label(label("height", unit))
     bar.outline.set_linewidth(0.6)
     return image

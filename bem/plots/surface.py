@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bem.plots.style import BLACK, BLUE, VERMILION, label, map_of, prefix, style
+from bem.plots.style import BLACK, BLUE, VERMILION, label, map_of_heights, prefix, style
 from bem.results.atomic import replacing
 from bem.surfaces import Surface, autocorrelation, describe_surface, radial_spectrum
 
@@ -28,7 +28,7 @@ def draw_surface(surface: Surface, path: Path, *, periodic: tuple[bool, bool] = 
         figure = Figure(figsize=(8.0, 6.0), layout="constrained")
         FigureCanvasAgg(figure)
         map_axes, height_axes, correlation_axes, spectrum_axes = figure.subplots(2, 2).ravel()
-        map_of(figure, map_axes, grid.x, grid.y, heights, "height", "m", cmap="cividis")
+        map_of_heights(figure, map_axes, grid.x, grid.y, heights)
         map_axes.set_title(str(surface.metadata.get("file", "")))
 
         factor, unit = prefix(heights, "m")

@@ -9,9 +9,25 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
 
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLACK, BLUE, OPEN, ORANGE, VERMILION, field_axes, label, map_of, prefix, thinned
+from bem.plots.style import (
+    BLACK,
+    BLUE,
+    OPEN,
+    ORANGE,
+    VERMILION,
+    field_axes,
+    label,
+    map_of,
+    map_of_heights,
+    prefix,
+    thinned,
+)
+
+_AT_ONE_PRESSURE = 0.1
+"""From this share of the contact on, that it is at one pressure is written over the map."""
 
 
 def _array(run: Any, name: str) -> Any:
@@ -27,6 +43,21 @@ def _pressure_map(run: Any, figure: Figure) -> None:
         figure, axes, _array(run, "x"), _array(run, "y"), np.where(shown > 0, shown, np.nan), "contact pressure", "Pa",
         vmin=0, vmax=float(pressure.max()) * factor,
     )  # fmt: skip
+    axes.set_title(_one_colour(pressure), loc="right")
+
+
+def _one_colour(pressure: NDArray[np.float64]) -> str:
+    """What a map says in its darkest colour alone; nothing where less than a tenth of the contact is at one pressure.
+
+    Only a cap, or full contact of smooth bodies, makes so many cells alike.
+    """
+    highest, touching = float(pressure.max()), int(np.count_nonzero(pressure > 0))
+    factor, unit = prefix([highest], "Pa")
+    share = float(np.count_nonzero(pressure >= highest * (1 - 1e-6))) / max(touching, 1)
+    if touching < 2 or share < _AT_ONE_PRESSURE:
+        return ""
+    part = "all" if share > 0.999 else f"{100 * share:.0f} %"
+    return f"{part} of the contact is at one pressure, {highest * factor:.3g} {unit}"
 
 
 def _contact_map(run: Any, figure: Figure) -> None:
@@ -118,12 +149,7 @@ def _surfaces(run: Any, figure: Figure) -> None:
     names = [name for name in ("lower_height", "upper_height") if name in run.dataset]
     for axes, name in zip(np.atleast_1d(figure.subplots(1, len(names))), names, strict=True):
         values = _array(run, name)
-        limit = float(np.percentile(np.abs(thinned(values)), 99.8))
-        factor, _ = prefix(values, "m")
-        map_of(
-            figure, axes, _array(run, "x"), _array(run, "y"), values, "height", "m",
-            cmap="cividis", vmin=-limit * factor, vmax=limit * factor,
-        )  # fmt: skip
+        map_of_heights(figure, axes, _array(run, "x"), _array(run, "y"), values)
         axes.set_title(f"{name.split('_')[0]} surface, Sq = {_length(values.std())}")
 
 

@@ -12,6 +12,8 @@ from bem.plots.figures import FigureKind
 from bem.plots.style import SKY, label, prefix
 from bem.scenes.context import release
 
+_DRAWN_DEPTHS = 240
+
 
 def _von_mises_section(run: Any, figure: Figure) -> None:
     """The plane along x and depth that holds the largest von Mises stress."""
@@ -28,6 +30,7 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
     for i, plane in enumerate(stress):  # a column meets every page of a plane: one plane in memory at a time
         section[i] = plane[::stride, iy]
         release(stress)
+    computed, (depth, section) = depth, _drawn_over_depth(depth, section)
     factor_x, unit_x = prefix(x, "m")
     factor_z, unit_z = prefix(depth, "m")
     factor, unit = prefix([highest], "Pa")
@@ -51,7 +54,7 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
         axes.plot([], [], color="0.6", linewidth=1.0, label=f"yield, {yield_stress * factor:.3g} {unit}")
     axes.plot(
         x[ix] * factor_x,
-        depth[iz] * factor_z,
+        computed[iz] * factor_z,
         marker="+",
         color=SKY,
         markersize=9,
@@ -62,6 +65,8 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
     axes.set_ylim(depth[-1] * factor_z, depth[0] * factor_z)
     axes.set_xlabel(label("x, sliding" if across == "y" else "y", unit_x))
     axes.set_ylabel(label("depth", unit_z))
+    axes.set_yticks(computed * factor_z, minor=True)
+    axes.tick_params(axis="y", which="minor", length=2.0, direction="in", color="0.6")
     position = run.dataset[across].values[iy]
     factor_y, unit_y = prefix([position], "m")
     axes.set_title(f"{across} = {position * factor_y:.3g} {unit_y}", loc="right")
@@ -84,6 +89,19 @@ def _depth_profile(run: Any, figure: Figure) -> None:
     axes.set_xlim(0)
     axes.set_ylim(0)
     axes.legend()
+
+
+def _drawn_over_depth(
+    depth: NDArray[np.float64], section: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Depths and stresses for drawing: by monotone cubics between the computed depths, which overshoot nowhere.
+
+    Colours that are linear between depths far apart show bands that are not in the stress.
+    """
+    from scipy.interpolate import PchipInterpolator
+
+    finer = np.unique(np.concatenate([depth, np.linspace(depth[0], depth[-1], _DRAWN_DEPTHS)]))
+    return finer, np.asarray(PchipInterpolator(depth, section, axis=0)(finer))
 
 
 def _by_depth(stress: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -115,7 +133,8 @@ def _has_section(run: Any) -> bool:
 FIGURES = (
     FigureKind(
         "von-mises-section",
-        "Von Mises stress in the plane of its maximum; the line is the yield stress where it is exceeded.",
+        "Von Mises stress in the plane of its maximum, by monotone cubics between the depths that were computed (ticks "
+        "inside); the line is the yield stress where it is exceeded.",
         ("x", "y", "depth", "von_mises"),
         _von_mises_section,
         (6.5, 3.4),

@@ -1,0 +1,52 @@
+"""Colours that say what is there: percentiles for heights, a word on maps of one colour, no bands between depths."""
+
+import numpy as np
+import pytest
+
+from bem.plots.figures.contact import _one_colour
+from bem.plots.figures.subsurface import _drawn_over_depth
+from bem.plots.style import height_limit, map_of_heights
+
+
+def test_a_spike_does_not_take_the_colours_of_a_surface():
+    from matplotlib.figure import Figure
+
+    heights = np.random.default_rng(5).normal(0, 1e-8, (64, 64))
+    calm = height_limit(heights)
+    heights[3, 4] = 1e-5
+    assert height_limit(heights) == pytest.approx(
+        calm, rel=0.05
+    )  # one of 4096 heights moves the 99.8th percentile little
+    assert height_limit(np.zeros((4, 4))) == 0.0
+    spike = np.zeros((64, 64))
+    spike[0, 0] = -2e-9
+    assert height_limit(spike) == 2e-9
+    figure = Figure()
+    image = map_of_heights(figure, figure.add_subplot(), np.arange(64) * 1e-6, np.arange(64) * 1e-6, heights)
+    low, high = image.get_clim()
+    assert high == -low == pytest.approx(1e9 * height_limit(heights))
+    assert image.colorbar.extend == "both"
+
+
+def test_a_pressure_map_of_one_colour_says_so():
+    pressure = np.zeros((8, 8))
+    pressure[2:6, 2:6] = 2e9
+    assert _one_colour(pressure) == "all of the contact is at one pressure, 2 GPa"
+    pressure[2:4] *= np.linspace(0.1, 0.9, 8)
+    assert _one_colour(pressure) == "50 % of the contact is at one pressure, 2 GPa"
+    x = np.linspace(-1, 1, 41)
+    assert _one_colour(1e9 * np.sqrt(np.maximum(0.8 - x[:, None] ** 2 - x**2, 0))) == ""
+    assert _one_colour(np.zeros((4, 4))) == ""
+
+
+def test_stress_between_depths_is_smooth_and_never_beyond_what_was_computed():
+    depth = np.array([0.0, 0.5, 1.0, 3.0, 10.0])
+    column = 1 / (1 + (depth - 0.8) ** 2)
+    finer, drawn = _drawn_over_depth(depth, np.stack([column, 2 * column], axis=1))
+    assert drawn.shape == (finer.size, 2)
+    np.testing.assert_allclose(drawn[np.searchsorted(finer, depth), 0], column, rtol=1e-14)  # round-off of the cubics
+    assert drawn.max() <= 2 * column.max() * (1 + 1e-14)
+    # slopes of straight lines would jump by half of themselves at a computed depth
+    slope = np.diff(drawn[:, 0]) / np.diff(finer)
+    deep = finer[:-1] > 3
+    assert np.abs(np.diff(slope[deep])).max() < 0.1 * np.abs(slope[deep]).max()
