@@ -41,7 +41,7 @@ def scene_warnings(facts: Facts) -> list[str]:
 
 def outcome_warnings(facts: Facts, result: Outcome) -> list[str]:
     """What the results give reason to warn of."""
-    return _sentences(OUTCOME_CHECKS, facts, result)
+    return _sentences(OUTCOME_CHECKS, facts, result) if facts.cases else []
 
 
 def _sentences(checks: Mapping[str, Callable[..., Iterator[str]]], *subject: Any) -> list[str]:

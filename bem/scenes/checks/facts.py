@@ -133,10 +133,10 @@ def worst(values: Iterable[tuple[float, Case]]) -> tuple[float, Case] | None:
 def examine(scene: SceneModel) -> Facts:
     """The facts of a resolved scene. Surfaces are read, generated and described when they are first asked for.
 
-    A kind that is not known here has those of its materials alone.
+    A scene of a kind that is not known here, or without bodies, has those of its materials alone.
     """
     make = _CASES.get(scene.kind)
-    cases = [] if make is None else make(scene)
+    cases = [] if make is None or not hasattr(scene, "lower") else make(scene)
     labelled = len(cases) > 1
     return Facts(scene, tuple(case if labelled else _unlabelled(case) for case in cases))
 

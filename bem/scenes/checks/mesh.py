@@ -128,11 +128,11 @@ def layer_against_the_mesh(facts: Facts) -> Iterator[str]:
 def depths_miss_the_largest_stress(facts: Facts) -> Iterator[str]:
     """Von Mises stress is largest 0.48 a below a sphere, 0.70 a below a cylinder; 0.2 a off costs 4 to 7 % of it.
 
-    From friction 0.3 on it is largest at the surface (Hamilton 1983; Smith & Liu 1953).
+    From friction 0.3 on it is largest at the surface (Hamilton 1983; Smith & Liu 1953). One depth alone is meant.
     """
     for case in facts.cases:
         bare = all(body.layer is None for body in case.bodies.values())
-        if not (case.depths and case.smooth is not None and bare and facts.of_kind("contact")):
+        if not (len(case.depths) > 1 and case.smooth is not None and bare and facts.of_kind("contact")):
             continue
         rough = any(surface.kind != "smooth" for surface in case.surfaces.values())
         at, size = case.smooth.depth_of_largest_stress, min(case.smooth.semi_axes)
@@ -141,8 +141,7 @@ def depths_miss_the_largest_stress(facts: Facts) -> Iterator[str]:
         if abs(nearest - at) > 0.2 * size and not rough:
             yield (
                 f"outputs.depths: the largest von Mises stress lies {si(at, 'm')} below the surface, the nearest depth "
-                f"is {si(nearest, 'm')}: it is missed by several per cent; take depths every {si(0.1 * size, 'm')} "
-                "there"
+                f"is {si(nearest, 'm')}: it is missed; take depths every {si(0.1 * size, 'm')} there"
             )
 
 
