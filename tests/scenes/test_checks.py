@@ -273,15 +273,16 @@ def spot(value, size=32, at=16, width=2):
     return pressure
 
 
-def wear_outcome(lengths, cells=50.5, **more):
-    count = len(lengths)
+def wear_outcome(lengths, **more):
+    """Particles of the second of two cases, on cells of 50.5 nm; the first had other cells."""
     variables = {
-        "particle_run": Variable(("particle",), np.zeros(count, dtype=int), "1", "run"),
+        "cell": Variable(("load",), np.array([1e-6, 50.5e-9]), "m", "cell"),
+        "particle_case": Variable(("particle",), np.ones(len(lengths), dtype=int), "1", "case"),
         "particle_volume": Variable(("particle",), np.array(lengths) ** 3, "m^3", "volume"),
         "particle_length": Variable(("particle",), np.array(lengths), "m", "length"),
         "particle_width": Variable(("particle",), np.array(lengths), "m", "width"),
     }
-    return Outcome({"cell_nm": cells, "repetitions": 5, **more}, variables)
+    return Outcome(more, variables)
 
 
 CELL = 50.5e-9

@@ -233,7 +233,7 @@ def _wear(scene: Any) -> list[Case]:
     cases = []
     for load in scene.cylinder.loads:
         for variant in scene.variants or [None]:
-            own = variant_of(scene, variant)
+            own = scene if variant is None else variant_of(scene, variant)
             grid, bodies = grid_at(own, load), _bodies(own)
             radii = (own.cylinder.radius or math.inf, math.inf)
             cases.append(

@@ -80,7 +80,7 @@ def patch_of_few_correlation_lengths(facts: Facts) -> Iterator[str]:
     A single wave over the patch, which is form and not roughness, has L / l = 5.3. Repetitions with surfaces of their
     own average and show the scatter.
     """
-    repeated = getattr(facts.scene, "repetitions", 1) > 1
+    repeated = (facts.scene.repetitions or 1) > 1
     for case, surface in facts.surfaces:
         if repeated and isinstance(surface.table, GeneratedSurface):
             continue

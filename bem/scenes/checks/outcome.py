@@ -181,12 +181,11 @@ def particles_of_one_cell(facts: Facts, outcome: Outcome) -> Iterator[str]:
 
 def _counted(facts: Facts, outcome: Outcome) -> Iterator[str]:
     length, width, volume = (outcome.variables[f"particle_{name}"].values for name in ("length", "width", "volume"))
-    number = outcome.variables["particle_run"].values
-    cells = np.array(_numbers(outcome.summary.get("cell_nm", []))) * 1e-9
-    if not length.size or not cells.size:
+    if not length.size or "cell" not in outcome.variables:
         return
-    each = int(outcome.summary.get("repetitions", 1))
-    cell = cells[np.minimum(number // each, cells.size - 1)]
+    cells = np.asarray(outcome.variables["cell"].values, dtype=np.float64).ravel()  # of every case, in their order
+    of = outcome.variables.get("particle_case")
+    cell = cells[np.zeros(length.size, dtype=int) if of is None else np.asarray(of.values, dtype=int)]
     one = np.maximum(length, width) < 1.5 * cell
     if one.mean() > 0.5:
         yield (
@@ -212,6 +211,7 @@ def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[str]
 
 
 def _numbers(value: Any) -> list[float]:
-    """A figure of the summary, or a list of them, as numbers that are finite."""
-    values = value if isinstance(value, list | tuple) else [value]
-    return [float(v) for v in values if isinstance(v, int | float | np.number) and np.isfinite(v)]
+    """A figure of the summary, or lists of them, as numbers that are finite."""
+    if isinstance(value, list | tuple):
+        return [number for item in value for number in _numbers(item)]
+    return [float(value)] if isinstance(value, int | float | np.number) and np.isfinite(value) else []
