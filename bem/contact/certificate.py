@@ -7,16 +7,16 @@ formed anew from both. `converged` is said of that.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import passes
-from bem.contact.active_set import LevelResult
 from bem.contact.edge import Region, contact_region, plastic_region
+from bem.contact.level import LevelResult
+from bem.contact.request import Request, Units
 from bem.contact.solution import ContactSolution
-from bem.convolution import DisplacementOperator
 from bem.errors import Status
 from bem.grid import Grid
 
@@ -24,28 +24,6 @@ FloatArray = NDArray[np.float64]
 
 _FLAT = 1e-6
 """A gap whose roughness is below this times the displacement is called flat; the residual is then of the latter."""
-
-
-@dataclass(frozen=True)
-class Request:
-    """What was asked for, in SI units: gap (nx, ny), one of three quantities, the cap (infinite for none)."""
-
-    gap: FloatArray
-    operator: DisplacementOperator
-    load: float | None
-    approach: float | None
-    mean_gap: float | None
-    cap: float
-    tolerance: float
-
-
-@dataclass(frozen=True)
-class Units:
-    """The solver's units: gaps are `length` [m] above `datum` [m], pressures `pressure` [Pa]."""
-
-    length: float
-    pressure: float
-    datum: float
 
 
 def certify(

@@ -29,7 +29,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact.active_set import LevelResult
+from bem.contact.level import LevelResult
 from bem.contact.search import mean_opening
 from bem.convolution import DisplacementOperator
 

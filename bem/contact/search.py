@@ -13,8 +13,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact.active_set import LevelResult
 from bem.contact.controls import ApproachControl, LoadControl
+from bem.contact.level import LevelResult
 
 FloatArray = NDArray[np.float64]
 Solve = Callable[[ApproachControl | LoadControl, FloatArray | None, float], LevelResult]

@@ -8,8 +8,9 @@ import pytest
 from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, body, operator, rough
 
 from bem import Body, Grid, Layer, Material, Status, displacement_operator, solve_contact
-from bem.contact.active_set import LevelResult
-from bem.contact.certificate import Request, Units, certify
+from bem.contact.certificate import certify
+from bem.contact.level import LevelResult
+from bem.contact.request import Request, Units
 from bem.convolution import DisplacementOperator
 
 
@@ -120,7 +121,7 @@ def judged(pressure, *, displacement=0.0, at=-1.0, cap=math.inf, fresh=True, **a
     request = Request(
         gap, op, cap=cap / op.unit, tolerance=1e-6, **({"load": None, "approach": None, "mean_gap": None} | asked)
     )
-    level = LevelResult(np.full(24, pressure), np.full(24, displacement), at, 0.0, True, 1, fresh)
+    level = LevelResult(np.full(24, pressure), np.full(24, displacement), at, 0.0, True, fresh)
     return certify(
         request,
         Units(1.0, 1 / op.unit, 0.0),

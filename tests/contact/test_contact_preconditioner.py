@@ -5,14 +5,14 @@ import pytest
 from contact_oracles import FREE, HALF_Y, PERIODIC, displacement, notes_surface, operator
 
 from bem.contact import passes
-from bem.contact.active_set import Tuning, _Level
+from bem.contact.level import Level, Tuning
 
 N = 96
 
 
 def level(periodic, n=N):
     op = operator((n, n), (1 / n, 1 / n), periodic)
-    return op, _Level(op, np.zeros(n * n), np.inf, Tuning())
+    return op, Level(op, np.zeros(n * n), np.inf, Tuning())
 
 
 def apply(inverse, values):

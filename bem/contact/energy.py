@@ -1,0 +1,122 @@
+"""The energy of a pressure, and the lowest point on the way from one pressure to another.
+
+The energy is p.Kp/2 + p.gap; at an approach d it is less by d times the sum of p.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.contact import passes
+from bem.contact.controls import ApproachControl, LoadControl
+from bem.contact.feasible import everywhere
+from bem.contact.level import Iterate, Level
+
+FloatArray = NDArray[np.float64]
+
+_ROUND_OFF = 1e-12
+"""Energies closer than this, relative to the sum of their terms, are taken as equal."""
+
+_LEAST_SHARE = 0.02
+"""Of the way of a round, below which it is not worth to go at all."""
+
+_GREATEST_SHARE = 0.75
+"""Of the way of a round to its lowest point, above which its end is taken. 0.5, where the energy just rises, lets the
+sets swing for long on some capped and free contacts; at 0.8 rounds that only lack precision are spoiled."""
+
+
+@dataclass(frozen=True)
+class Accepted:
+    """A pressure with its energy at approach zero, the size of the terms in it, its sum, and its work on the gap."""
+
+    iterate: Iterate
+    approach: float
+    energy: float
+    size: float
+    force: float
+    work: float
+
+    def potential(self, control: LoadControl | ApproachControl) -> float:
+        """The energy that falls under a control: at the approach where that is given."""
+        return self.energy - (control.approach * self.force if isinstance(control, ApproachControl) else 0.0)
+
+    def above(self, other: Accepted, approach: float) -> bool:
+        """Whether the energy is higher than the other's by more than round-off."""
+        rise = self.energy - other.energy - approach * (self.force - other.force)
+        return rise > _ROUND_OFF * max(self.size, other.size)
+
+
+def accepted(level: Level, iterate: Iterate, approach: float) -> Accepted:
+    """A pressure with its energy, from the displacement in the buffer."""
+    return Accepted(iterate, approach, *_energy(level, iterate))
+
+
+def _energy(level: Level, iterate: Iterate) -> tuple[float, float, float, float]:
+    displacement = level.flat["displacement"]
+    energy, size, force, work = passes.energy(displacement, level.gap, iterate.cells, iterate.values)
+    if iterate.capped.size:
+        values = np.full(iterate.capped.size, level.cap)
+        more = passes.energy(displacement, level.gap, iterate.capped, values)
+        energy, size, force, work = energy + more[0], size + more[1], force + more[2], work + more[3]
+    return energy, size, force, work
+
+
+def step_back(level: Level, before: Accepted, iterate: Iterate) -> tuple[Iterate, Accepted | None]:
+    """The lowest point between a round's ends, if the round went well beyond it; the displacement there replaces the
+    one in the buffer, without a convolution. Else the round's end, with its energy.
+
+    Changes of the sets that are each right by themselves can be too many together: without this they swing ever wider,
+    or for long.
+    """
+    displacement, approach = level.flat["displacement"], before.approach
+    now = accepted(level, iterate, approach)
+    # the energy's slope where the round ended, along the way from its beginning
+    slope = now.work - _work(level, before.iterate) - approach * (now.force - before.force)
+    rise = now.energy - before.energy - approach * (now.force - before.force)
+    curvature = 2 * (slope - rise)
+    if not curvature > 10 * _ROUND_OFF * max(now.size, before.size):
+        return iterate, now
+    share = 1 - slope / curvature
+    if not _LEAST_SHARE < share < _GREATEST_SHARE:
+        return iterate, now
+    earlier = level.flat["before"]
+    earlier *= 1 - share
+    displacement *= share
+    displacement += earlier
+    full = everywhere(level, before.iterate)
+    full *= 1 - share
+    full[iterate.cells] += share * iterate.values
+    full[iterate.capped] += share * level.cap
+    # a cell at the cap at both ends must stay there whatever the rounding
+    full[np.intersect1d(before.iterate.capped, iterate.capped, assume_unique=True)] = level.cap
+    capped = np.flatnonzero(full >= level.cap)
+    inside = np.flatnonzero((full > 0) & (full < level.cap))
+    return Iterate(inside, full[inside], capped), None
+
+
+def _work(level: Level, iterate: Iterate) -> float:
+    """Sum of p (gap + displacement), with the displacement in the buffer."""
+    total = passes.work(level.flat["displacement"], level.gap, iterate.cells, iterate.values)
+    if iterate.capped.size:
+        total += passes.work(
+            level.flat["displacement"], level.gap, iterate.capped, np.full(iterate.capped.size, level.cap)
+        )
+    return total
+
+
+def best_share(level: Level, old: Accepted, new: Accepted, approach: float) -> float:
+    """Where on the way from one pressure to the next the energy is least, from both energies and the slope at the end.
+
+    The displacement of the new pressure is in the buffer. 0 if the energy rises from the start.
+    """
+    change = everywhere(level, new.iterate) - everywhere(level, old.iterate)
+    slope = float((change * (level.gap + level.flat["displacement"] - approach)).sum())
+    rise = new.energy - old.energy - approach * (new.force - old.force)
+    curvature = 2 * (slope - rise)
+    if not curvature > 0:
+        return 0.0
+    share = 1 - slope / curvature
+    return share if _LEAST_SHARE < share < 0.98 else 0.0

@@ -1,0 +1,110 @@
+"""The pressures that close the gap on a given set of cells: conjugate gradients, bounds left aside."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.contact import passes
+from bem.contact.controls import ApproachControl, LoadControl
+from bem.contact.level import Effort, Indices, Iterate, Level
+from bem.contact.passes import CAPPED, CONTACT
+
+FloatArray = NDArray[np.float64]
+Control = LoadControl | ApproachControl
+
+
+def take_in(level: Level, iterate: Iterate, found: NDArray[np.int32], approach: float) -> tuple[Iterate, FloatArray]:
+    """Add violating cells to those in contact, with the pressure they have."""
+    state, capped = level.state, iterate.capped
+    found_values = np.zeros(found.size)
+    if capped.size:
+        found_values[state[found] == CAPPED] = level.cap
+        state[found] = CONTACT
+        capped = capped[state[capped] == CAPPED]
+    total = iterate.cells.size + found.size
+    cells, values, residual = np.empty(total, np.int64), np.empty(total), np.empty(total)
+    displacement, gap = level.flat["displacement"], level.gap
+    passes.merge(
+        iterate.cells, iterate.values, found, found_values, displacement, gap, approach, cells, values, residual
+    )
+    return Iterate(cells, values, capped), residual
+
+
+def solve_on_cells(
+    level: Level, iterate: Iterate, residual: FloatArray, control: Control, tolerance: float, effort: Effort
+) -> FloatArray:
+    """Unbounded pressures on the iterate's cells that bring the gap there, `residual` (overwritten), nearer to zero."""
+    cells, pressure = iterate.cells, iterate.values.copy()
+    balance = _Balance.of(level, cells, residual, control)
+    if balance is None:
+        return pressure
+    tuning = level.tuning
+    quick_in, quick_out = level.flat["quick_in"], level.flat["quick_out"]
+    n = cells.size
+    direction, preconditioned, response, previous = np.zeros(n), np.empty(n), np.empty(n), np.zeros(n)
+    squares = passes.squares(residual)
+    lowest, enough = squares * tuning.reduction**2, squares * tuning.least_reduction**2
+    self_response = float(level.operator.near_field(0)[0, 0])
+    last = 1.0
+    for iteration in range(min(tuning.iterations_per_round, effort.left)):
+        full, change = balance.precondition(residual, preconditioned, previous)
+        if not full > 0:
+            break
+        beta = max(0.0, change / last) if iteration else 0.0
+        last = full
+        slope = passes.new_direction(direction, preconditioned, beta, cells, quick_in, residual)
+        level.quick.apply(level.quick_in, level.quick_out)
+        effort.iterations += 1
+        mean, curvature = passes.gather_dot(quick_out, cells, response, direction)
+        if not curvature > 0:
+            break
+        shift, step = mean / n if balance.kept else 0.0, slope / curvature
+        squares, largest, outside = passes.advance(
+            pressure, residual, previous, direction, response, shift, step, level.cap
+        )
+        if squares <= lowest or largest <= tuning.final * tolerance:
+            break
+        # clipping will bring back a residual of about this size: no use in going far below it
+        if squares <= enough and largest <= tuning.clipping * self_response * outside:
+            break
+    passes.scatter_value(quick_in, cells, 0.0)
+    return pressure
+
+
+@dataclass(frozen=True)
+class _Balance:
+    """The preconditioner; under load control with directions whose sum is zero.
+
+    `rise` : the pressures for a rise of the approach, what brings the sum of a direction to zero; `total` is its sum.
+    """
+
+    inverse: Callable[[FloatArray, FloatArray], float]
+    kept: bool
+    rise: FloatArray
+    total: float
+
+    @classmethod
+    def of(cls, level: Level, cells: Indices, residual: FloatArray, control: Control) -> _Balance | None:
+        """For these cells; frees the residual of its mean under load control. None if a load leaves nothing to do."""
+        kept = isinstance(control, LoadControl)
+        if kept:
+            residual -= residual.mean()
+            if cells.size == 1:
+                return None
+        inverse = level.preconditioner(cells)
+        rise, total = np.empty(cells.size), 1.0
+        if kept:
+            total = inverse(np.ones(cells.size), rise)
+            if not total > 0:
+                rise[:] = 1.0
+                total = float(cells.size)
+        return cls(inverse, kept, rise, total)
+
+    def precondition(self, residual: FloatArray, out: FloatArray, previous: FloatArray) -> tuple[float, float]:
+        """Write the preconditioned residual z; returns z.r and z.(r - r_previous)."""
+        total = self.inverse(residual, out)
+        return passes.turn(out, self.rise, total / self.total if self.kept else 0.0, residual, previous)

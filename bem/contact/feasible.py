@@ -1,0 +1,151 @@
+"""Pressures within their bounds that carry the load: the first one, and what brings others back there."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.contact import passes
+from bem.contact.controls import ApproachControl, LoadControl
+from bem.contact.level import Iterate, Level
+
+FloatArray = NDArray[np.float64]
+Control = LoadControl | ApproachControl
+
+
+def first_pressure(level: Level, control: Control, start: FloatArray | None) -> Iterate:
+    """A feasible pressure to begin with."""
+    cells = level.gap.size
+    nothing = np.empty(0, np.int64)
+    if start is None:
+        if isinstance(control, LoadControl):
+            return Iterate(np.arange(cells), np.full(cells, control.force / cells), nothing)
+        overlapping = np.flatnonzero(level.gap < control.approach)
+        return Iterate(overlapping, np.zeros(overlapping.size), nothing)
+    capped = np.flatnonzero(start >= level.cap)
+    inside = np.flatnonzero((start > 0) & (start < level.cap))
+    iterate = Iterate(inside, start[inside].copy(), capped)
+    if isinstance(control, LoadControl):
+        if inside.size == 0 and capped.size == 0:
+            return first_pressure(level, control, None)
+        return restore_load(level, control, iterate, iterate.values)
+    return iterate
+
+
+def clip(level: Level, control: Control, iterate: Iterate, raw: FloatArray) -> Iterate:
+    """Back into the bounds, with the load restored."""
+    if isinstance(control, LoadControl):
+        return restore_load(level, control, iterate, raw)
+    below = raw <= 0
+    above = raw >= level.cap
+    if not (below.any() or above.any()):
+        return Iterate(iterate.cells, raw, iterate.capped)
+    inside = ~(below | above)
+    capped = np.sort(np.concatenate([iterate.capped, iterate.cells[above]])) if above.any() else iterate.capped
+    return Iterate(iterate.cells[inside], raw[inside], capped)
+
+
+def restore_load(level: Level, control: LoadControl, iterate: Iterate, raw: FloatArray) -> Iterate:
+    """Clip, and bring the sum to the given force."""
+    cap = level.cap
+    cells, capped = iterate.cells, iterate.capped
+    if math.isinf(cap):
+        inside = raw > 0
+        if not inside.all():
+            cells, raw = cells[inside], raw[inside]
+        return Iterate(cells, raw * (control.force / raw.sum()), capped)
+    wanted = control.force - cap * capped.size
+    if not 0 <= wanted <= cap * cells.size:
+        # the cells at the cap alone are too many, or not enough with all others: let them take part in the shift
+        raw = np.concatenate([raw, np.full(capped.size, cap)])
+        cells = np.concatenate([cells, capped])
+        order = np.argsort(cells, kind="stable")
+        cells, raw = cells[order], raw[order]
+        capped = np.empty(0, np.int64)
+        wanted = control.force
+        if wanted > cap * cells.size:
+            everything = np.zeros(level.gap.size)
+            everything[cells] = raw
+            cells, raw = np.arange(level.gap.size), everything
+    values = shifted(raw, wanted, cap)
+    above = values >= cap
+    inside = (values > 0) & ~above
+    if above.any():
+        capped = np.sort(np.concatenate([capped, cells[above]]))
+    cells, values = cells[inside], values[inside]
+    return Iterate(cells, values, capped)
+
+
+def shifted(raw: FloatArray, wanted: float, cap: float) -> FloatArray:
+    """clip(raw + s, 0, cap) with the s that makes its sum the one wanted; `wanted` is within what the bounds allow.
+
+    A safeguarded Newton iteration on a piecewise linear function. Counted from the largest number, which takes part
+    whatever the sum, s has all its digits however small the sum is beside the numbers.
+    """
+    if not wanted > 0:
+        return np.zeros(raw.size)
+    top = float(raw.max())
+    below = raw - top
+    low, high = 0.0, cap - float(below.min())
+    shift = max(top, 0.0)
+    for _ in range(100):
+        total, inside = passes.shifted_sum(below, shift, cap)
+        error = total - wanted
+        if abs(error) <= 4e-16 * wanted:
+            break
+        if error > 0:
+            high = shift
+        else:
+            low = shift
+        trial = shift - error / inside if inside else math.nan
+        if not low < trial < high:
+            trial = 0.5 * (low + high)
+        if trial == shift:
+            break
+        shift = trial
+    below += shift
+    return np.clip(below, 0.0, cap, out=below)
+
+
+def everywhere(level: Level, iterate: Iterate) -> FloatArray:
+    """A pressure as a field."""
+    full = np.zeros(level.gap.size)
+    full[iterate.cells] = iterate.values
+    full[iterate.capped] = level.cap
+    return full
+
+
+def project(level: Level, control: Control, raw: FloatArray) -> Iterate:
+    """The nearest pressure within the bounds that carries the load."""
+    if isinstance(control, LoadControl):
+        values = shifted(raw, control.force, level.cap if math.isfinite(level.cap) else control.force)
+    else:
+        values = np.clip(raw, 0.0, level.cap)
+    capped = np.flatnonzero(values >= level.cap)
+    inside = np.flatnonzero((values > 0) & (values < level.cap))
+    return Iterate(inside, values[inside], capped)
+
+
+def between(level: Level, control: Control, old: Iterate, new: Iterate, share: float) -> Iterate:
+    """Part of the way from one pressure to another; feasible because the bounds and the load are convex."""
+    return project(level, control, (1 - share) * everywhere(level, old) + share * everywhere(level, new))
+
+
+def gradient_step(level: Level, control: Control, iterate: Iterate, approach: float, step: float) -> Iterate:
+    """A projected gradient step; one over the largest eigenvalue cannot raise the energy."""
+    gradient = level.gap + level.flat["displacement"] - approach
+    return project(level, control, everywhere(level, iterate) - step * gradient)
+
+
+def lift(level: Level, iterate: Iterate, mean: float) -> Iterate:
+    """Change the pressure of doubly periodic full contact uniformly until a cell reaches a bound.
+
+    This leaves the displacement as it is, so it is the only way out of a mean gap that is not the wanted one.
+    """
+    values = iterate.values
+    values = values - values.min() if mean > 0 else values + (level.cap - values.max())
+    inside = (values > 0) & (values < level.cap)
+    capped = iterate.cells[values >= level.cap]
+    return Iterate(iterate.cells[inside], values[inside], capped)

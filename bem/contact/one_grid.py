@@ -1,0 +1,243 @@
+"""A contact on one grid under any control, and what is done where the plain way fails.
+
+The load and the approach are solved for directly (`active_set`). If that fails: with every round on the guard of the
+energy; with friction's part of the displacement taken from the contact before (`_lagged`); an approach by way of the
+load. A mean gap is reached by way of the approach, or the load; where it is not, `least_gap` says whether it exists.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.contact.active_set import solve_level
+from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl
+from bem.contact.least_gap import least_gap
+from bem.contact.level import Effort, LevelResult, Tolerance, Tuning
+from bem.contact.search import approach_by_load, mean_gap_by_approach, mean_gap_by_load, mean_opening
+from bem.convolution import DisplacementOperator
+
+FloatArray = NDArray[np.float64]
+Report = Callable[[int, float, int], None]
+Direct = ApproachControl | LoadControl
+
+_WARY_ROUNDS = 400
+"""Limit on rounds that may not raise the energy; a hundred were counted under a layer 38 times as stiff."""
+
+_LAGS = 60
+"""Limit on contacts with friction taken from the one before; ten are usual."""
+
+COARSE_TOLERANCE = 6e-2
+"""Violation over roughness that coarse grids are solved to: more is lost in the interpolation anyway."""
+
+
+@dataclass(frozen=True)
+class Shared:
+    """What all grids of one problem share: tolerance and roughness in the solver's length, effort, tuning."""
+
+    tolerance: float
+    roughness: float
+    effort: Effort
+    tuning: Tuning = field(default_factory=Tuning)
+
+    @property
+    def scale(self) -> float:
+        """The roughness, or one where the gap is flat."""
+        return self.roughness or 1.0
+
+    def allowed(self, tolerance: float) -> Tolerance:
+        """A violation as the rounds judge it: of flat gaps relative to the displacement alone."""
+        if not self.roughness > 0:
+            return Tolerance(math.inf, tolerance)
+        return Tolerance(tolerance, tolerance / self.roughness)
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One grid's: operator, gap (flat, lowest value zero), cap; `report` is called after each round."""
+
+    shared: Shared
+    operator: DisplacementOperator
+    gap: FloatArray
+    cap: float
+    report: Report | None = None
+
+    def level(self, control: Direct, start: FloatArray | None, allowed: Tolerance, tuning: Tuning) -> LevelResult:
+        """Rounds on this grid."""
+        effort = self.shared.effort
+        return solve_level(self.operator, self.gap, control, self.cap, start, allowed, effort, tuning, self.report)
+
+    def direct(self, control: Direct, start: FloatArray | None, tolerance: float) -> LevelResult:
+        """Load or approach, from a start; see `search.Solve`."""
+        shared, allowed = self.shared, self.shared.allowed(tolerance)
+        tuning = shared.tuning if self.operator.symmetric else replace(shared.tuning, stall=25)
+        result = self.level(control, start, allowed, tuning)
+        if result.converged or shared.effort.left <= 0:
+            return result
+        if not self.operator.symmetric:
+            return _lagged(self, control, start, allowed)
+        # once more from there, with every round on the guard: the energy falls even where the violation long does not;
+        # and at last with all pressures of a round exact, which is dear but swings least
+        for clipping in (shared.tuning.clipping, 0.0):
+            wary = replace(shared.tuning, patience=0, rounds=_WARY_ROUNDS, clipping=clipping)
+            result = self.level(control, result.pressure, allowed, wary)
+            if result.converged or shared.effort.left <= 0:
+                break
+        return result
+
+
+@dataclass(frozen=True)
+class Start:
+    """Pressure (flat) and approach to begin with."""
+
+    pressure: FloatArray | None
+    approach: float
+
+
+def solve_on_grid(problem: Problem, control: Control, start: Start, tolerance: float) -> LevelResult:
+    """One grid, any control."""
+    if isinstance(control, MeanGapControl) and problem.operator.mean_free:
+        if control.mean_gap <= tolerance:
+            closed = _full_contact(problem.operator, problem.gap)
+            if closed.pressure.max() < problem.cap:
+                return closed
+        if math.isinf(problem.cap):
+            # displacements have no mean: the mean gap fixes the approach
+            control = ApproachControl(float(problem.gap.mean()) - control.mean_gap)
+    if isinstance(control, MeanGapControl):
+        return _with_mean_gap(problem, control.mean_gap, start, tolerance)
+    result = problem.direct(control, start.pressure, tolerance)
+    if isinstance(control, LoadControl) or result.converged or problem.shared.effort.left <= 0:
+        return result
+    cells = problem.gap.size
+    return approach_by_load(control.approach, problem.cap, None, cells, problem.shared.scale, tolerance, problem.direct)
+
+
+def _with_mean_gap(problem: Problem, mean_gap: float, start: Start, tolerance: float) -> LevelResult:
+    """The mean gap by way of the approach; else by way of the load, or by looking for the least there is."""
+    gap, cap, scale = problem.gap, problem.cap, problem.shared.scale
+    # displacements are not negative on average, so this approach is not enough
+    least = float(gap.mean()) - mean_gap
+    result = mean_gap_by_approach(
+        mean_gap,
+        gap,
+        start.pressure,
+        scale,
+        tolerance,
+        problem.direct,
+        bracket=(least, math.inf),
+        guess=max(start.approach, least),
+        patient=not problem.operator.mean_free,
+    )
+    missed = not result.converged or abs(mean_opening(gap, result) - mean_gap) > tolerance
+    if not missed or problem.shared.effort.left <= 0:
+        return result
+    if problem.operator.mean_free:
+        return mean_gap_by_load(mean_gap, gap, cap, scale, tolerance, problem.direct)
+    return result if math.isfinite(cap) else _least_gap(problem, mean_gap, result, tolerance)
+
+
+def _least_gap(problem: Problem, mean_gap: float, missed: LevelResult, tolerance: float) -> LevelResult:
+    """A mean gap that the search did not find: below the least there is, or on the way down to it."""
+    gap, scale = problem.gap, problem.shared.scale
+
+    def at(approach: float, start: FloatArray | None) -> LevelResult:
+        return problem.direct(ApproachControl(approach), start, tolerance)
+
+    first = at(float(gap.mean()), None)
+    if not first.converged:
+        return missed
+    found = least_gap(mean_gap, problem.operator, gap, first, scale, tolerance, at)
+    if found is None:
+        return missed
+    if found.bracket is None:
+        return replace(found.result, converged=False, least_mean_gap=found.bound)
+    start = found.result.pressure
+    return mean_gap_by_approach(mean_gap, gap, start, scale, tolerance, problem.direct, bracket=found.bracket)
+
+
+@dataclass(slots=True)
+class _Change:
+    """How friction's part of the displacement changes from one contact to the next."""
+
+    last: FloatArray | None = None
+    size: float = math.inf
+    least: float = math.inf
+    waited: int = 0
+
+    def by(self, coupling: FloatArray) -> None:
+        """Take in the next."""
+        if self.last is not None:
+            self.size = float(np.abs(coupling - self.last).max())
+            self.waited = 0 if self.size < 0.9 * self.least else self.waited + 1
+            self.least = min(self.least, self.size)
+        self.last = coupling
+
+
+def _lagged(problem: Problem, control: Direct, start: FloatArray | None, allowed: Tolerance) -> LevelResult:
+    """Friction's part of the displacement taken from the last pressure, over and over: each contact is then without it.
+
+    Slower than friction in every round, but it gets there where the rounds swing: what friction adds varies less from
+    one pressure to the next than the sets of cells do.
+    """
+    operator, alone, shape = problem.operator, problem.operator.frictionless, problem.operator.grid.shape
+    displacement, part = np.empty(shape), np.empty(shape)
+    pressure = np.zeros(problem.gap.size) if start is None else start
+    change = _Change()
+    result: LevelResult | None = None
+    for _ in range(_LAGS):
+        operator.scaled().apply(pressure.reshape(shape), displacement)
+        alone.scaled().apply(pressure.reshape(shape), part)
+        coupling = (displacement - part).reshape(-1)
+        goal = min(allowed.length, allowed.relative * float(np.abs(displacement).max()))
+        change.by(coupling)
+        if result is None:
+            roughness = problem.shared.roughness or math.inf
+            tolerance = Tolerance(COARSE_TOLERANCE * roughness, COARSE_TOLERANCE)
+        else:
+            violation = result.violation + change.size
+            if violation <= goal or problem.shared.effort.left <= 0 or change.waited > 5:
+                # of this very pressure: its contact, with the displacement that friction gives it
+                return replace(
+                    result, displacement=displacement.reshape(-1), violation=violation, converged=violation <= goal
+                )
+            tolerance = Tolerance(max(0.3 * allowed.length, 0.1 * change.size), 0.3 * allowed.relative)
+        without = replace(problem, operator=alone, gap=problem.gap + coupling)
+        result = without.level(control, start, tolerance, problem.shared.tuning)
+        pressure = start = result.pressure
+    assert result is not None
+    return replace(result, converged=False, fresh=False)
+
+
+def without_contact(control: Control, gap: FloatArray) -> LevelResult | None:
+    """The result where the bodies do not press on each other at all. The lowest gap is zero."""
+    if isinstance(control, LoadControl):
+        approach = 0.0 if control.force == 0 else math.inf
+    elif isinstance(control, ApproachControl):
+        approach = control.approach
+    else:
+        approach = float(gap.mean()) - control.mean_gap
+    if approach > 0:
+        return None
+    return LevelResult(np.zeros(gap.size), np.zeros(gap.size), approach, 0.0, converged=True)
+
+
+def pressed_flat(operator: DisplacementOperator, gap: FloatArray, control: Control, cap: float) -> LevelResult | None:
+    """A uniform pressure where a doubly periodic gap is flat: it moves nothing, and iterations see rounding only."""
+    if not (isinstance(control, LoadControl) and operator.mean_free and gap.max() == 0):
+        return None
+    pressure = min(control.force / gap.size, cap)
+    return LevelResult(np.full(gap.size, pressure), np.zeros(gap.size), 0.0, 0.0, converged=True)
+
+
+def _full_contact(operator: DisplacementOperator, gap: FloatArray) -> LevelResult:
+    """The least pressure that closes a doubly periodic gap everywhere."""
+    shape = operator.grid.shape
+    pressure = operator.scaled_inverse().apply(-gap.reshape(shape), np.empty(shape)).reshape(-1)
+    pressure -= pressure.min()
+    displacement = operator.scaled().apply(pressure.reshape(shape), np.empty(shape)).reshape(-1)
+    return LevelResult(pressure, displacement, float((gap + displacement).mean()), 0.0, converged=True)
