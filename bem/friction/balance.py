@@ -9,8 +9,9 @@ The sum of both grows with the film load, so its ends are looked at by one rule 
   ends before film and contact carry the load, the film there being thinner than a few molecules: it is none.
 
 Between them a secant within a bracket, in logarithms: films and contacts follow powers of the load. Where the contact's
-load changes so steeply with the film's that the film's is known before both meet the load, the surfaces are pressed
-together by what it leaves them, and must then hold its oil. Nothing here knows what a film or a contact is made of.
+load changes steeply with the film's (rough surfaces under small loads) the surfaces are pressed together by what a film
+leaves them instead, and the film load is found for which they hold its oil. Nothing here knows what a film or a contact
+is made of.
 """
 
 from __future__ import annotations
@@ -33,6 +34,10 @@ FINEST_CONTACT = 1e-9
 FAR = 4.0
 """A step in ln(film load) larger than that goes to the boundary end at once: there the contact is solved for the load,
 which is easier than pressing surfaces far too close."""
+STEEP = 10.0
+"""Slope of the balance from which it is looked for by the opening: there the contact's load changes so steeply with the
+film's, and the opening so little with the contact's load, that the film's thickness alone decides."""
+OPENING_TRIALS = 8
 NEAR = 0.1
 """Imbalance below which secant steps are exact enough to need no margin for a bracket."""
 
@@ -175,19 +180,26 @@ class _Search:
     def run(self, at: float, slope: float) -> tuple[_Trial, float, Regime]:
         """Best trial, slope there, and regime."""
         bracket = _Bracket()
-        probe: _Trial | None = None  # the contact at the boundary end
         best: _Trial | None = None
         step = 0.0
+        steep_tried = False
         for _ in range(MAX_TRIALS):
             if at <= self.bottom and bracket.low is None:
                 bracket.low = (self.bottom, -math.inf)
-                at, slope = 0.5 * (self.bottom + self.top), 1.0
+                short = self.top < math.log(self.load)
+                at, slope = self.top if short else 0.5 * (self.bottom + self.top), 1.0
                 if self.load - math.exp(self.bottom) <= self.rough.largest_load:
                     probe = self.under_the_rest()
                     if self.is_boundary(probe):
                         return probe, slope, Regime.BOUNDARY
-                    at = min(self.bottom + self.thinner(probe), self.top)
-                continue
+                    if not short:
+                        at, slope = min(self.bottom + self.mismatch(probe), self.top), STEEP
+            if slope >= STEEP and not steep_tried:
+                steep_tried = True
+                found = self.by_opening(at)
+                if found is not None:
+                    return found, STEEP, Regime.MIXED
+                slope = 1.0
             trial = self.at_volume(at)
             slope = bracket.slope(trial, slope)
             bracket.take(trial)
@@ -195,14 +207,33 @@ class _Search:
                 best = trial
             if abs(trial.excess) <= self.goal or self.too_little(trial):
                 return trial, slope, Regime.MIXED
-            if bracket.width < max(0.1 * self.goal, 1e-13):
-                if probe is not None and bracket.low is not None and bracket.low[0] <= self.bottom:
-                    return probe, slope, Regime.BOUNDARY
-                # the film's load is known, and the contact's changes with it too steeply to be met by its volume
-                return self.under_what_is_left(best), slope, Regime.MIXED
+            if bracket.width < 1e-13:
+                break
             at, step = self.next(trial, slope, bracket, step)
         assert best is not None
         return best, slope, Regime.MIXED
+
+    def by_opening(self, at: float) -> _Trial | None:
+        """Film load at which the surfaces, under what the film leaves them, hold its oil: secant in logarithms.
+
+        What the contact's tolerance makes of its opening may be too much: it is then solved better.
+        """
+        while True:
+            slope, before = -1.0, None
+            for _ in range(OPENING_TRIALS):
+                if not self.bottom <= at < self.top or self.load - math.exp(at) > self.rough.largest_load:
+                    return None
+                trial = self.under_the_rest(at)
+                mismatch = self.mismatch(trial)
+                if abs(mismatch) <= self.goal:
+                    return trial
+                if before is not None and abs(at - before[0]) > 1e-9:
+                    slope = min((mismatch - before[1]) / (at - before[0]), -0.1)
+                before = (at, mismatch)
+                at = min(at - mismatch / slope, 0.5 * (at + self.top))
+            if self.effort.contact_tolerance <= FINEST_CONTACT:
+                return None
+            self.effort.contact_tolerance *= 0.01
 
     def at_volume(self, logarithm: float) -> _Trial:
         """Film at a load, and the surfaces holding its oil."""
@@ -213,28 +244,10 @@ class _Search:
             self.effort.count(contact)
         return self.trial(logarithm, film, contact)
 
-    def under_the_rest(self) -> _Trial:
-        """Film left with a negligible load, and the surfaces under what it leaves them."""
-        return self.at_load(self.bottom, self.film_at(self.bottom))
-
-    def under_what_is_left(self, trial: _Trial) -> _Trial:
-        """The surfaces under what the film of a trial leaves them, if they then hold its oil; else that trial.
-
-        What the contact's tolerance makes of its opening may be too much: it is then solved better.
-        """
-        if not 0 < self.load - trial.film.load <= self.rough.largest_load:
-            return trial
-        while True:
-            found = self.at_load(trial.logarithm, trial.film)
-            assert found.contact is not None
-            if abs(found.contact.opening / float(trial.film.thickness.mean()) - 1) <= self.goal:
-                return found
-            if self.effort.contact_tolerance <= FINEST_CONTACT:
-                return trial
-            self.effort.contact_tolerance *= 0.01
-
-    def at_load(self, logarithm: float, film: PatchFilm) -> _Trial:
-        """A film, and the surfaces under what it leaves them."""
+    def under_the_rest(self, logarithm: float | None = None) -> _Trial:
+        """A film, by default one with a negligible load, and the surfaces under what it leaves them."""
+        logarithm = self.bottom if logarithm is None else logarithm
+        film = self.film_at(logarithm)
         rest = self.load - film.load
         contact = self.rough.at_load(film, rest, self.effort.contact_tolerance, self.effort.pressure)
         self.effort.count(contact)
@@ -259,13 +272,13 @@ class _Search:
 
     def is_boundary(self, probe: _Trial) -> bool:
         """Whether the film, negligible as it is, is thinner than the surfaces leave open."""
-        assert probe.contact is not None
-        return probe.contact.opening >= float(probe.film.thickness.mean())
+        return self.mismatch(probe) <= 0
 
-    def thinner(self, probe: _Trial) -> float:
-        """By how much ln(film load) must grow at least: a film's thickness falls as the inverse of its load at most."""
-        assert probe.contact is not None
-        return max(math.log(float(probe.film.thickness.mean()) / max(probe.contact.opening, 1e-300)), 1e-3)
+    def mismatch(self, trial: _Trial) -> float:
+        """ln(film thickness / opening of the surfaces). Thin films go like the inverse of their load: that much is
+        about what ln(film load) lacks."""
+        assert trial.contact is not None
+        return math.log(float(trial.film.thickness.mean()) / max(trial.contact.opening, 1e-300))
 
     def next(self, trial: _Trial, slope: float, bracket: _Bracket, before: float) -> tuple[float, float]:
         """Logarithm to try next, and the step there where it goes down without a bracket."""

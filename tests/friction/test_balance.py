@@ -217,3 +217,14 @@ def test_a_film_model_that_ends_too_early_is_infeasible_and_says_so():
     assert balance.status is Status.INFEASIBLE
     assert balance.imbalance == pytest.approx(1 / 5.5 - 1, rel=1e-12)
     assert any("ends at a load of 1 N" in note for note in balance.notes)
+
+
+def test_steep_balances_take_few_evaluations():
+    """Rough surfaces under a small load: contact loads change a thousand times faster than the film's. It took 78."""
+    for load, speed in ((1e-3, 1e-5), (1e-2, 1e-4)):
+        point = solve_mixed(height=20 * HEIGHT, speeds=(speed, 0.0), **(CASE | {"load": load, "film_points": 600}))
+        assert point.regime is Regime.MIXED
+        assert point.evaluations <= 10
+        # by the volume of the returned film, as the balance by loads would have it
+        thickness = point.film.at(GRID.x)[1].mean()
+        assert np.maximum(point.contact.gap, 0).mean() == pytest.approx(thickness, rel=5e-4)

@@ -180,13 +180,14 @@ def test_a_contact_solved_too_coarsely_is_solved_better(monkeypatch):
         solution = solve_contact(gap, operator, mean_gap=mean_gap, tolerance=tolerance, **others)
         tolerances.append(tolerance)
         if mean_gap is None:
-            return dataclasses.replace(solution, gap=solution.gap * (1 + 50 * tolerance))
+            noise = 50 * tolerance * (-1) ** len(tolerances)
+            return dataclasses.replace(solution, gap=solution.gap * (1 + noise))
         jump = 100 * (1e-4 if mean_gap < balance else -1e-4)
         return dataclasses.replace(solution, load=solution.load * (1 + jump))
 
     balance = exact.table.under(middle).thickness.mean()
     monkeypatch.setattr("bem.friction.rough_contact.solve_contact", jumping)
-    # a jump of 2 % across the balance, forty times its tolerance; under the load the contact leaves 0.5 % too much open
+    # a jump of 2 % across the balance, forty times its tolerance; under the load openings are 0.5 % off
     step = MixedContact(MixedSetup(**case, contact_tolerance=1e-4), (0.05, 0.0))
     outcome = step(height, None)
     assert outcome.status is Status.CONVERGED
@@ -303,3 +304,18 @@ def test_one_asperity_is_the_whole_array():
         solution = solve_contact(np.tile(gap, (copies, copies)), operator, load=0.01 * copies**2)
         approaches.append(solution.approach)
     assert approaches[0] == pytest.approx(approaches[1], rel=1e-7)  # the solver's 1e-8 of the roughness
+
+
+def test_boundary_lubrication_is_said_and_lambda_ratio_is_one_in_both_kinds():
+    """Creeping: both kinds converge with the load met, say that it is boundary, and mean the same by lambda."""
+    speeds = {"speeds": ["1e-7 m/s"]}
+    _, sharing, said = run(scene_with(FRICTION, film={"points": 200}, **speeds))
+    _, cycles, told = run(scene_with(RUNNING_IN, cycles={"count": 2, "averaged": 2, "settled": 2}, **speeds))
+    for outcome, context in ((sharing, said), (cycles, told)):
+        summary = outcome.summary
+        assert outcome.status is Status.CONVERGED
+        assert summary["contact_load_N"][0] + summary["film_load_N"][0] == pytest.approx(5.5, rel=5e-4)
+        assert summary["friction"][0] == pytest.approx(0.15, rel=1e-3)  # the tolerance's tenth is the film's
+        assert any("boundary lubrication" in note for note in context.notes)
+    # wear of two cycles changes the roughness by less than that
+    assert cycles.summary["lambda_ratio"][0] == pytest.approx(sharing.summary["lambda_ratio"][0], rel=0.05)
