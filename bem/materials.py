@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import bisect
+import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Real
 
@@ -111,31 +114,77 @@ class Layer:
 
 @dataclass(frozen=True)
 class Body:
-    """A half-space, optionally with one bonded layer.
+    """A half-space under a stack of bonded layers, outermost first; without any it is homogeneous.
+
+    Parameters
+    ----------
+    material : of the half-space.
+    layer : one layer, the same as `layers=(layer,)`.
+    layers : any number of layers, outermost first.
 
     Raises
     ------
-    InputError : a material or layer that is none.
+    InputError : a material or layer that is none, `layer` beside `layers`; one message per mistake.
     """
 
     material: Material
-    layer: Layer | None = None
+    layers: tuple[Layer, ...] = ()
 
-    def __init__(self, material: Material, *, layer: Layer | None = None) -> None:
+    def __init__(self, material: Material, *, layer: Layer | None = None, layers: Sequence[Layer] = ()) -> None:
         messages: list[str] = []
         if not isinstance(material, Material):
             messages.append(f"Body: material {material!r} must be a Material")
         if layer is not None and not isinstance(layer, Layer):
             messages.append(f"Body: layer {layer!r} must be a Layer, or None")
+        stack: tuple[object, ...] = ()
+        if isinstance(layers, Sequence) and not isinstance(layers, str):
+            stack = tuple(layers)
+            messages += [
+                f"Body: layers[{number}] {item!r} must be a Layer"
+                for number, item in enumerate(stack)
+                if not isinstance(item, Layer)
+            ]
+        else:
+            messages.append(f"Body: layers {layers!r} must be a sequence of Layer, outermost first")
+        if layer is not None and stack:
+            messages.append("Body: layer and layers are both given; layer=L is layers=(L,)")
         if messages:
             raise InputError(messages)
         object.__setattr__(self, "material", material)
-        object.__setattr__(self, "layer", layer)
+        object.__setattr__(self, "layers", stack if layer is None else (layer,))
+
+    @property
+    def layer(self) -> Layer | None:
+        """The outermost layer; None if the body is homogeneous."""
+        return self.layers[0] if self.layers else None
+
+    @property
+    def homogeneous(self) -> bool:
+        """Whether the body is of one material throughout, without layers."""
+        return not self.layers
 
     @property
     def surface_material(self) -> Material:
         """The material that the other body touches."""
-        return self.material if self.layer is None else self.layer.material
+        return self.material_at(0.0)
+
+    @property
+    def interfaces(self) -> tuple[float, ...]:
+        """Depths [m] at which materials meet, from the surface down."""
+        return tuple(itertools.accumulate(layer.thickness for layer in self.layers))
+
+    def material_at(self, depth: float) -> Material:
+        """The material at a depth [m]; an interface belongs to the layer above it."""
+        return self.media[self.medium_at(depth)]
+
+    @property
+    def media(self) -> tuple[Material, ...]:
+        """The materials from the surface down, that of the half-space last."""
+        return (*(layer.material for layer in self.layers), self.material)
+
+    def medium_at(self, depth: float) -> int:
+        """Number of the material at a depth [m], 0 outermost; an interface belongs to the layer above it."""
+        return bisect.bisect_left(self.interfaces, depth)
 
 
 def contact_modulus(a: Material, b: Material | None = None) -> float:

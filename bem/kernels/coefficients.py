@@ -1,4 +1,4 @@
-"""Influence coefficients on a grid: one door to all kernels, chosen by the grid's periodicity and the body's layer.
+"""Influence coefficients on a grid: one door to all kernels, chosen by the grid's periodicity and the body.
 
 A coefficient belongs to an offset of (i dx, j dy) between a loaded cell and the centre of another one. Free axes are
 bare; along a periodic axis the images of the loaded cell are summed. Doubly periodic grids have no coefficients: their
@@ -32,13 +32,13 @@ def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
     InputError : a doubly periodic grid.
     """
     _refuse_doubly_periodic(grid)
-    if body.layer is not None:
-        table = surface_coefficients(grid, Body(body.layer.material), load)
-        table += _layered(grid).surface_remainder(grid, body, load)
-        return table
     if grid.periodic == (False, False):
-        return half_space.surface_table(grid.shape, grid.spacing, body.material, load)
-    return semi_periodic.surface_table(grid, body.material, load)
+        table = half_space.surface_table(grid.shape, grid.spacing, body.surface_material, load)
+    else:
+        table = semi_periodic.surface_table(grid, body.surface_material, load)
+    if not body.homogeneous:
+        table += _layered(grid).surface_remainder(grid, body, load)
+    return table
 
 
 def stress_coefficients(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
@@ -53,19 +53,21 @@ def stress_coefficients(grid: Grid, body: Body, depth: float, load: Load) -> Flo
     _refuse_doubly_periodic(grid)
     if not (np.isfinite(depth) and depth >= 0):
         raise InputError(f"depth: {depth!r} must be finite and not negative [m]")
-    if body.layer is not None:
-        table = _layered(grid).stress_remainder(grid, body, float(depth), load)
-        if depth <= body.layer.thickness:  # below the layer the remainder is the whole
-            table += stress_coefficients(grid, Body(body.layer.material), depth, load)
-        return table
-    nu = body.material.poissons_ratio
+    if body.medium_at(depth) > 0:  # below the outermost layer what layers add is the whole
+        whole: FloatArray = _layered(grid).stress_remainder(grid, body, float(depth), load)
+        return whole
+    nu = body.surface_material.poissons_ratio
     if grid.periodic == (False, False):
-        return subsurface.stress_table(grid.shape, grid.spacing, float(depth), nu, load)
-    return semi_periodic.stress_table(grid, float(depth), nu, load)
+        table = subsurface.stress_table(grid.shape, grid.spacing, float(depth), nu, load)
+    else:
+        table = semi_periodic.stress_table(grid, float(depth), nu, load)
+    if not body.homogeneous:
+        table += _layered(grid).stress_remainder(grid, body, float(depth), load)
+    return table
 
 
 def _layered(grid: Grid) -> Any:
-    """The room that knows what a layer adds; imported only when there is one."""
+    """What layers add; imported only when there are any."""
     return importlib.import_module("bem.kernels.layered_semi" if any(grid.periodic) else "bem.kernels.layered_cells")
 
 

@@ -1,4 +1,4 @@
-"""Frequency response of a bonded layer on a half-space: three displacements and six stresses at any depth.
+"""Frequency response of a stack of bonded layers on a half-space: three displacements, six stresses, at any depth.
 
 Derivation. With fields proportional to exp(i k.x), q = |k|, e along k, t across it and z into the body, write
 u_e = i u, u_z = w, sigma_ez = i tau, sigma_zz = sigma. In the plane (e, z) Hooke's law and equilibrium are
@@ -11,229 +11,141 @@ The in-plane direct stresses follow from the state: sigma_ee = -c u + (c-1) sigm
 units of 2 G q. In the sums and differences p = u + w, n = u - w, P = tau + sigma, N = tau - sigma (kappa = 3 - 4 nu):
 
 - waves that decay downwards, at distance s (times q): p, n - 2 s p / kappa, P = -p / kappa, N = -n, all times exp(-s);
-- waves that decay upwards: n, p - 2 s n / kappa, P = p, N = n / kappa, all times exp(-s);
-- the interface reflects p and n independently, with factors l / kappa1 and kappa1 k,
-  l = (m kappa2 - kappa1)/(m kappa2 + 1), k = (m - 1)/(m + kappa1), m = G1/G2.
+- waves that decay upwards: n, p - 2 s n / kappa, P = p, N = n / kappa, all times exp(-s).
 
-With x = q h and E = exp(-2 x) the surface condition is a 2 x 2 system of determinant
-(1 - l E)(1 - k E) - 4 x^2 k E: the closed form of the literature for the normal displacement comes out of it. Only
-decaying exponentials occur, so nothing overflows. For x < 1 that system cancels when the moduli differ much (by eps m^2
-as x -> 0), and the waves do near the interface of a soft layer; there the state is carried up from the interface by
-exp(-M s) instead, which keeps its relative accuracy for any ratio. Across the plane (anti-plane shear) there is one
-reflection r = (m - 1)/(m + 1).
+So the impedances (tau, sigma) = Z (u, w) of the two kinds, Zd = -diag(1/kappa, 1) and Zu = diag(1, 1/kappa) in (p, n),
+differ by the same number in both. From the half-space, whose impedance is Zd, the impedance Z of what lies below is
+carried up through layer after layer: through one of q h >= 1 by what its lower interface reflects,
+R = (Zu - Z)^-1 (Z - Zd), which comes back on top as R' = P^T R P with P = exp(-q h) [[1, 0], [-2 q h / kappa, 1]];
+through a thinner one by exp(-M q h), because there the waves of different moduli cancel. Then displacements are
+carried down from the load. Only decaying exponentials occur and nothing overflows. With one layer the closed form of
+the literature for the normal displacement comes out of it. Across the plane (anti-plane shear) all is positive sums of
+the kind Z = G (Z + G tanh q h)/(G + Z tanh q h). This room and `layer_waves` alone know how many layers there are.
 
 Everything here is analytic in q, and the core takes complex q: the free-space coefficients turn the path of integration
-into the complex plane. The largest stress and displacement are right to some 1e-13 (`tests/kernels/test_layered.py`).
+into the complex plane. The largest stress and displacement are right to some 1e-13 (`tests/kernels/test_layered.py`,
+`tests/kernels/test_stacks.py`).
 """
 
 from __future__ import annotations
 
-import math
+from dataclasses import dataclass
 
-import numba
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bem.errors import InputError
+from bem.kernels import layer_waves
+from bem.kernels.layer_waves import (
+    ACROSS_ET,
+    ACROSS_TZ,
+    ACROSS_U,
+    NORMAL_EE,
+    NORMAL_SIGMA,
+    NORMAL_TAU,
+    NORMAL_TT,
+    NORMAL_U,
+    NORMAL_W,
+    ROWS,
+    TANGENTIAL_EE,
+    TANGENTIAL_SIGMA,
+    TANGENTIAL_TAU,
+    TANGENTIAL_TT,
+    TANGENTIAL_U,
+    TANGENTIAL_W,
+)
 from bem.materials import Body
+
+__all__ = [
+    "ACROSS_ET", "ACROSS_TZ", "ACROSS_U", "NORMAL_EE", "NORMAL_SIGMA", "NORMAL_TAU", "NORMAL_TT", "NORMAL_U",
+    "NORMAL_W", "ROWS", "TANGENTIAL_EE", "TANGENTIAL_SIGMA", "TANGENTIAL_TAU", "TANGENTIAL_TT", "TANGENTIAL_U",
+    "TANGENTIAL_W", "Features", "features", "stress_response", "surface_response", "wave_functions",
+]  # fmt: skip
 
 FloatArray = NDArray[np.float64]
 
-# Rows of `wave_functions`: under unit pressure, then under unit traction along k, then under unit traction across k.
-NORMAL_U, NORMAL_W, NORMAL_TAU, NORMAL_SIGMA, NORMAL_EE, NORMAL_TT = range(6)
-TANGENTIAL_U, TANGENTIAL_W, TANGENTIAL_TAU, TANGENTIAL_SIGMA, TANGENTIAL_EE, TANGENTIAL_TT = range(6, 12)
-ACROSS_U, ACROSS_ET, ACROSS_TZ = range(12, 15)
-ROWS = 15
+
+@dataclass(frozen=True)
+class Features:
+    """What an integral over a response has to resolve.
+
+    Attributes
+    ----------
+    remainder : whether the response is that less the half-space of the outermost material's, as it is at depths there.
+    decay : d, it falls like exp(-q d) [m].
+    smallest : wavenumber below which it is smooth [1/m].
+    angle : no pole lies within this angle of the real axis of q [rad].
+    """
+
+    remainder: bool
+    decay: float
+    smallest: float
+    angle: float
 
 
-_SERIES = tuple(
-    2 * j / math.factorial(2 * j + 1) for j in range(10, 0, -1)
-)  # the last term is 1e-18 of the sum at s = 1
+def features(body: Body, depth: float) -> Features:
+    """Features of the response of a layered body at a depth [m].
+
+    A stiff layer varies the response down to q = G_below / (G h), the stretch that it shares with the softest medium
+    below it. Poles: 52 degrees from the real axis or more for every ratio of moduli with one layer (a stiff plate on a
+    half-space has them at 60). In the limit of thin layers the energy of a stack is a sum of powers of q from -2 (a
+    soft, incompressible film between stiff media) to 4 (bending) with positive coefficients, which cannot vanish within
+    180 / (4 + 2) = 30 degrees; a stiff plate on such a film on a stiff base comes near that.
+    """
+    outermost = body.medium_at(depth) == 0
+    moduli = [solid.shear_modulus for solid in body.media]
+    below = [min(moduli[number + 1 :]) for number in range(len(body.layers))]
+    stretch = sum(
+        layer.thickness * max(1.0, modulus / softest)
+        for layer, modulus, softest in zip(body.layers, moduli, below, strict=False)
+    )
+    decay = 2 * body.interfaces[0] - depth if outermost else depth
+    return Features(outermost, decay, 1 / (8 * stretch), np.deg2rad(52.0 if len(body.layers) == 1 else 30.0))
 
 
-@numba.njit(cache=True, error_model="numpy")
-def _s_cosh_less_sinh(s):  # type: ignore[no-untyped-def]
-    """s cosh s - sinh s for |s| <= 1 by its series, free of cancellation."""
-    s2 = s * s
-    total = s2 * 0.0
-    for coefficient in _SERIES:
-        total = total * s2 + coefficient
-    return total * s2 * s
-
-
-@numba.njit(cache=True, error_model="numpy")
-def _wave(q, z, h, g1, nu1, g2, nu2, remainder, out):  # type: ignore[no-untyped-def]
-    """Fill `out` (ROWS,) for one wavenumber; see `wave_functions`."""
-    m = g1 / g2
-    g = g2 / g1
-    kappa1 = 3.0 - 4.0 * nu1
-    kappa2 = 3.0 - 4.0 * nu2
-    c1 = 1.0 / (1.0 - nu1)
-    c2 = 1.0 / (1.0 - nu2)
-    x = q * h
-    in_layer = z <= h
-    small = abs(x) < 1.0
-    sinh_x, cosh_x = np.sinh(x) if small else x * 0.0, np.cosh(x) if small else x * 0.0
-    decay = np.exp(-x)
-    decay_z = np.exp(-q * z)
-    zeta = (2.0 - 2.0 * nu2) / kappa2  # the substrate's impedance is [[-zeta, eta], [eta, -zeta]] (times 2 G2 q)
-    eta = (1.0 - 2.0 * nu2) / kappa2
-    k = (m - 1.0) / (m + kappa1)  # reflected parts of n and p (over and times kappa1), and the parts that pass
-    ell = (m * kappa2 - kappa1) / (m * kappa2 + 1.0)
-    through_n = (1.0 + kappa1) * m / (m + kappa1)
-    through_p = (1.0 + kappa1) / kappa1 * m * kappa2 / (m * kappa2 + 1.0)
-
-    # by waves far above the interface, else carried up from it: the waves cancel where the layer is soft
-    carried = small or (abs(q * (h - z)) < 1.0 and not remainder)
-    for load in range(2):
-        tau0 = float(load)  # traction along k
-        sigma0 = load - 1.0  # pressure
-        total0 = tau0 + sigma0
-        difference0 = tau0 - sigma0
-        p0, n0 = -kappa1 * total0, -difference0  # the half-space of the layer's material
-        dp, dn, p_interface, n_interface = x * 0.0, x * 0.0, x * 0.0, x * 0.0
-        if small:
-            gamma = 0.5 * c1 * x * sinh_x
-            delta = 0.5 * c1 * _s_cosh_less_sinh(x)
-            tt, ts = cosh_x + gamma, (c1 - 1.0) * sinh_x + delta
-            st, ss = -sinh_x - delta, cosh_x - gamma
-            a11 = -c1 * sinh_x - delta + g * (-tt * zeta + ts * eta)
-            a12 = -gamma + g * (tt * eta - ts * zeta)
-            a21 = gamma + g * (-st * zeta + ss * eta)
-            a22 = delta + g * (st * eta - ss * zeta)
-            determinant = a11 * a22 - a12 * a21
-            u = (a22 * tau0 - a12 * sigma0) / determinant
-            w = (a11 * sigma0 - a21 * tau0) / determinant
-        else:
-            square = decay * decay
-            a11 = 1.0 - (ell + 4.0 * x * x * k) * square
-            a12 = 2.0 * x * k * kappa1 * square
-            a21 = 2.0 * x * k * square / kappa1
-            a22 = 1.0 - k * square
-            determinant = a11 * a22 - a12 * a21
-            r1 = (1.0 - a11) * p0 - a12 * n0
-            r2 = (1.0 - a22) * n0 - a21 * p0
-            dp = (a22 * r1 - a12 * r2) / determinant
-            dn = (a11 * r2 - a21 * r1) / determinant
-            p_interface = (p0 + dp) * decay
-            n_interface = (n0 + dn - 2.0 * x * (p0 + dp) / kappa1) * decay
-            p = through_p * p_interface
-            n = through_n * n_interface
-            u, w = 0.5 * (p + n), 0.5 * (p - n)
-        tau = g * (-zeta * u + eta * w)
-        sigma = g * (eta * u - zeta * w)
-        if in_layer and carried:
-            s = q * (h - z)
-            sinh_s, cosh_s = np.sinh(s), np.cosh(s)
-            gamma = 0.5 * c1 * s * sinh_s
-            delta = 0.5 * c1 * _s_cosh_less_sinh(s)
-            u, w, tau, sigma = (
-                (cosh_s + gamma) * u + (sinh_s + delta) * w - (2.0 * sinh_s + delta) * tau - gamma * sigma,
-                -((c1 - 1.0) * sinh_s + delta) * u
-                + (cosh_s - gamma) * w
-                + gamma * tau
-                + (delta - (2.0 - c1) * sinh_s) * sigma,
-                -(c1 * sinh_s + delta) * u - gamma * w + (cosh_s + gamma) * tau + ((c1 - 1.0) * sinh_s + delta) * sigma,
-                gamma * u + delta * w - (sinh_s + delta) * tau + (cosh_s - gamma) * sigma,
-            )
-            if remainder:
-                p, n = p0 * decay_z, (n0 - 2.0 * q * z * p0 / kappa1) * decay_z
-                u -= 0.5 * (p + n)
-                w -= 0.5 * (p - n)
-                tau -= 0.5 * (-p / kappa1 - n)
-                sigma -= 0.5 * (-p / kappa1 + n)
-        elif in_layer:
-            s = q * (h - z)
-            back = np.exp(-s)
-            p_up, n_up = ell / kappa1 * p_interface, kappa1 * k * n_interface
-            p_up, n_up = (p_up - 2.0 * s * n_up / kappa1) * back, n_up * back
-            p_down, n_down = (dp, dn) if remainder else (p0 + dp, n0 + dn)
-            p_down, n_down = p_down * decay_z, (n_down - 2.0 * q * z * p_down / kappa1) * decay_z
-            total = -p_down / kappa1 + p_up
-            difference = -n_down + n_up / kappa1
-            u, w = 0.5 * (p_down + p_up + n_down + n_up), 0.5 * (p_down + p_up - n_down - n_up)
-            tau, sigma = 0.5 * (total + difference), 0.5 * (total - difference)
-        c, ratio = c1, 1.0
-        if not in_layer:
-            c, ratio = c2, g
-            s = q * (z - h)
-            rho = -(u + w) / kappa2 * s
-            fall = np.exp(-s)
-            u, w = (u + rho) * fall, (w - rho) * fall
-            tau, sigma = (tau - g * rho) * fall, (sigma + g * rho) * fall
-        row = 6 * load
-        out[row] = u
-        out[row + 1] = w
-        out[row + 2] = tau
-        out[row + 3] = sigma
-        out[row + 4] = -c * ratio * u + (c - 1.0) * sigma
-        out[row + 5] = (c - 1.0) * (sigma - ratio * u)
-
-    r = (m - 1.0) / (m + 1.0)
-    if small:
-        denominator = 2.0 / (m + 1.0) + 2.0 * r * decay * sinh_x
-    else:
-        denominator = 1.0 - r * decay * decay
-    if in_layer:
-        s = q * (h - z)
-        back = np.exp(-s)
-        towards = decay_z * (r * decay * decay) if remainder else decay_z
-        away = r * decay * back
-        if carried and not remainder:  # the sums below, free of cancellation as r -> 1 or -1
-            rise = 2.0 * r * back * np.sinh(s)
-            out[13] = decay_z * (2.0 * m / (m + 1.0) - rise) / denominator
-            out[14] = -decay_z * (2.0 / (m + 1.0) + rise) / denominator
-        else:
-            out[13] = (towards + away) / denominator
-            out[14] = -(towards - away) / denominator
-        out[12] = 2.0 * out[13]
-    else:
-        out[12] = 4.0 * m / (m + 1.0) * decay_z / denominator
-        out[13] = 2.0 / (m + 1.0) * decay_z / denominator
-        out[14] = -out[13]
-
-
-@numba.njit(cache=True, error_model="numpy")
-def _waves(q, z, h, g1, nu1, g2, nu2, remainder, out):  # type: ignore[no-untyped-def]
-    column = np.empty(15, out.dtype)
-    for i in range(q.size):
-        _wave(q[i], z, h, g1, nu1, g2, nu2, remainder, column)
-        out[:, i] = column
+def _media(body: Body) -> FloatArray:
+    """Thickness, modulus over the outermost one's, kappa: (layers + 1, 3)."""
+    thicknesses = [*(layer.thickness for layer in body.layers), 0.0]
+    first = body.surface_material.shear_modulus
+    return np.array(
+        [
+            (thickness, solid.shear_modulus / first, 3 - 4 * solid.poissons_ratio)
+            for thickness, solid in zip(thicknesses, body.media, strict=True)
+        ]
+    )
 
 
 def wave_functions(wavenumber: NDArray, body: Body, depth: float, *, remainder: bool = False) -> NDArray:
-    """Response of a coated body to unit tractions exp(i k.x) on its surface, in the frame of the wavevector.
+    """Response of a body to unit tractions exp(i k.x) on its surface, in the frame of the wavevector.
 
     Parameters
     ----------
     wavenumber : (n,) q [rad/m], real and not negative, or complex with a positive real part.
-    body : with a layer.
-    depth : z [m], not negative; the interface itself counts as layer.
-    remainder : leave out the half-space of the layer's material (only for depths in the layer). What is left decays
-        like exp(-q (2 h - z)), is computed without cancellation, and vanishes for identical materials.
+    body : with any number of layers.
+    depth : z [m], not negative; an interface itself counts as the layer above it.
+    remainder : leave out the half-space of the outermost material (only for depths in it). What is left decays like
+        exp(-q (2 h - z)), is computed without cancellation, and vanishes for identical materials.
 
     Returns
     -------
-    (15, n) of the type of `wavenumber`; the names of the rows stand in this module. Rows 0-5 are u, w, tau, sigma,
+    (15, n) of the type of `wavenumber`; the names of the rows stand in `layer_waves`. Rows 0-5 are u, w, tau, sigma,
     sigma_ee, sigma_tt under a unit pressure; rows 6-11 the same under tau = 1 on the surface; rows 12-14 are V,
-    sigma_et / i and sigma_tz under sigma_tz = -1. Displacements are multiplied by 2 G1 q.
+    sigma_et / i and sigma_tz under sigma_tz = -1. Displacements are multiplied by 2 G1 q, G1 of the surface.
+
+    Raises
+    ------
+    InputError : the remainder below the outermost layer.
     """
-    layer = _layer(body)
-    if remainder and depth > layer.thickness:
-        raise InputError(f"depth {depth!r}: the remainder is defined in the layer only (0 to {layer.thickness!r} m)")
+    medium = body.medium_at(depth)
+    if remainder and (medium > 0 or body.homogeneous):
+        outermost = body.interfaces[0] if body.interfaces else 0.0
+        raise InputError(
+            f"depth {depth!r}: the remainder is defined in the outermost layer only (0 to {outermost!r} m)"
+        )
+    above = depth - (body.interfaces[medium - 1] if medium else 0.0)
     q = np.ascontiguousarray(wavenumber).ravel()
     out = np.empty((ROWS, q.size), dtype=q.dtype)
-    _waves(
-        q,
-        float(depth),
-        layer.thickness,
-        layer.material.shear_modulus,
-        layer.material.poissons_ratio,
-        body.material.shear_modulus,
-        body.material.poissons_ratio,
-        remainder,
-        out,
-    )
+    layer_waves.fill(q, float(above), medium, _media(body), remainder, out)
     return out
 
 
@@ -248,7 +160,7 @@ def surface_response(
     cosine, _, q = _directions(kx, ky)
     functions = wave_functions(q, body, 0.0, remainder=remainder)
     with np.errstate(divide="ignore", invalid="ignore"):
-        scale = np.where(q > 0, 0.5 / (_layer(body).material.shear_modulus * q), 0.0)
+        scale = np.where(q > 0, 0.5 / (body.surface_material.shear_modulus * q), 0.0)
     if tangential:
         return scale * cosine * functions[TANGENTIAL_W].reshape(q.shape)
     return scale * functions[NORMAL_W].reshape(q.shape)
@@ -284,20 +196,13 @@ def stress_response(
         stress[3] = sine * tau
         stress[4] = cosine * tau
         stress[5] = sine * cosine * (ee - tt)
-        layer = _layer(body)
-        nu = (layer.material if depth <= layer.thickness else body.material).poissons_ratio
+        nu = body.material_at(depth).poissons_ratio
         lateral = -nu / (1 - nu)
         uniform = (lateral, lateral, -1.0, 0.0, 0.0, 0.0)
     at_rest = q == 0
     for component in range(6):
         stress[component][at_rest] = 0.0 if remainder else uniform[component]
     return stress
-
-
-def _layer(body: Body):  # type: ignore[no-untyped-def]
-    if body.layer is None:
-        raise InputError(f"body of {body.material.name!r}: has no layer; the homogeneous kernels serve it")
-    return body.layer
 
 
 def _directions(kx: ArrayLike, ky: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:

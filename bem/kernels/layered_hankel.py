@@ -1,13 +1,13 @@
 """Radial tables: Hankel transforms of layered responses, g(r) = 1/(2 pi) integral of f(q) J_n(q r) q dq.
 
-The spectrum f decays like exp(-q d) and is analytic to the right of the imaginary axis except for poles far from the
-real axis (at angles above 52 degrees for every ratio of moduli; a stiff plate on a foundation has them at 60). Near
-q = 0 it varies on scales down to (G2/G1)/h. So:
+The spectrum f decays like exp(-q d) and is analytic to the right of the imaginary axis except for poles at some angle
+from the real axis; `layered.features` says which, and on what scale it varies near q = 0. So:
 
 - g is smooth on the scale of hypot(r, d): panels of doubling width from d/8 on, a polynomial on each;
 - for r > d/8, J_n is integrated on the real axis up to q r = 4, on panels halved towards 0, and the rest as the real
-  part of the Hankel function along a ray that leaves the axis at 30 degrees, where it decays like exp(-|q| r / 2).
-  The cost is the same at any r, the nodes in q r are the same for all r, and no oscillation is left to resolve;
+  part of the Hankel function along a ray that leaves the axis at 30 degrees, where it decays like exp(-|q| r / 2), or
+  at 15 where poles are near, with twice as many panels everywhere (`Path`). The cost is the same at any r, the nodes in
+  q r are the same for all r, and no oscillation is left to resolve;
 - for r < d/8, exp(-q d) ends the real axis first.
 
 Nothing is cut off or aliased; the tables are good to some 1e-14 of the largest value on a panel.
@@ -18,6 +18,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numba as nb
 import numpy as np
@@ -36,9 +37,51 @@ Spectra = Callable[[NDArray], NDArray]
 NODES = 20  # per panel of r; an interpolant on [b/2, b] with singularities at 0 converges like 5.8^-NODES
 END = 40.0  # exponentials are cut at exp(-END)
 TURN = 4.0  # q r where the path leaves the real axis
-SLOPE = np.exp(1j * np.pi / 6)
 
 _ABSCISSAE, _GAUSS = np.polynomial.legendre.leggauss(14)
+
+
+@dataclass(frozen=True)
+class Path:
+    """How the path of integration avoids the poles.
+
+    Attributes
+    ----------
+    angle : of the ray that leaves the real axis [rad].
+    cuts : panels a doubling, along the real axis and of r.
+    ray_edges : of the panels along the ray, in lengths of 1/r: to where exp(-END) is left.
+    """
+
+    angle: float
+    cuts: int
+    ray_edges: tuple[float, ...]
+
+    @property
+    def slope(self) -> complex:
+        """Direction of the ray."""
+        return complex(np.exp(1j * self.angle))
+
+    def doubling(self, first: float, last: float) -> FloatArray:
+        """Edges from `first` to `last` or a little beyond, `cuts` panels a doubling."""
+        doublings = max(0, int(np.ceil(np.log2(last / first))))
+        return np.asarray(first * 2.0 ** (np.arange(doublings * self.cuts + 1) / self.cuts), dtype=np.float64)
+
+    def graded(self, smallest: float, end: float) -> FloatArray:
+        """Edges from 0 to `end`, each panel 1/cuts as wide as its distance from 0, down to about `smallest`."""
+        halvings = max(0, int(np.ceil(np.log2(end / smallest))))
+        return np.concatenate([[0.0], end * 2.0 ** (np.arange(-halvings * self.cuts, 1) / self.cuts)])
+
+
+_STEEP = Path(np.pi / 6, 1, (0.0, 2.0, 4.0, 8.0, 14.0, 22.0, 34.0, 50.0, 80.0))
+# a quarter of the distance from the origin wide: half of that from poles at 30 degrees, 14 nodes reach round-off
+_FLAT = Path(
+    np.pi / 12, 2, (0.0, *np.cumsum(1.25 ** np.arange(16)).tolist(), END / np.sin(np.pi / 12))
+)  # fmt: skip
+
+
+def path_for(angle: float) -> Path:
+    """The path for a spectrum without poles within `angle` of the real axis [rad]."""
+    return _STEEP if angle > np.deg2rad(45) else _FLAT
 
 
 @dataclass(frozen=True)
@@ -51,12 +94,14 @@ class Kernels:
     orders : order of the Bessel function of each.
     decay : d, they decay like exp(-q d) [m].
     smallest : wavenumber below which they are smooth [1/m].
+    path : of their integration.
     """
 
     spectra: Spectra
     orders: tuple[int, ...]
     decay: float
     smallest: float
+    path: Path
 
 
 @dataclass(frozen=True)
@@ -71,32 +116,27 @@ class RadialTable:
 
 
 def surface_kernels(body: Body, load: Load) -> Kernels:
-    """Normal surface displacement less that of a half-space of the layer's material; see `layered_cells` for signs."""
-    layer = body.layer
-    assert layer is not None
+    """Normal surface displacement less that of a half-space of the outermost material; signs: see `layered_cells`."""
     row = layered.NORMAL_W if load is Load.NORMAL else layered.TANGENTIAL_W
-    scale = 0.5 / layer.material.shear_modulus
+    scale = 0.5 / body.surface_material.shear_modulus
 
     def spectra(q: NDArray) -> NDArray:
         return layered.wave_functions(q, body, 0.0, remainder=True)[row : row + 1] * (scale / q)
 
-    return Kernels(spectra, (0 if load is Load.NORMAL else 1,), 2 * layer.thickness, _smallest(body))
+    return _kernels(spectra, (0 if load is Load.NORMAL else 1,), layered.features(body, 0.0))
 
 
 def stress_kernels(body: Body, depth: float, load: Load) -> Kernels:
-    """Six stresses: in the layer less those of a half-space of its material, below it whole."""
-    layer = body.layer
-    assert layer is not None
-    inside = depth <= layer.thickness
-    decay = 2 * layer.thickness - depth if inside else depth
+    """Six stresses: in the outermost layer less those of a half-space of its material, below it whole."""
+    found = layered.features(body, depth)
 
     def normal(q: NDArray) -> NDArray:
-        f = layered.wave_functions(q, body, depth, remainder=inside)
+        f = layered.wave_functions(q, body, depth, remainder=found.remainder)
         ee, tt = f[layered.NORMAL_EE], f[layered.NORMAL_TT]
         return np.stack([f[layered.NORMAL_SIGMA], f[layered.NORMAL_TAU], 0.5 * (ee + tt), 0.5 * (ee - tt)])
 
     def tangential(q: NDArray) -> NDArray:
-        f = layered.wave_functions(q, body, depth, remainder=inside)
+        f = layered.wave_functions(q, body, depth, remainder=found.remainder)
         tau, ee, tt = f[layered.TANGENTIAL_TAU], f[layered.TANGENTIAL_EE], f[layered.TANGENTIAL_TT]
         across, below = f[layered.ACROSS_ET], f[layered.ACROSS_TZ]
         return np.stack(
@@ -111,14 +151,12 @@ def stress_kernels(body: Body, depth: float, load: Load) -> Kernels:
         )
 
     if load is Load.NORMAL:
-        return Kernels(normal, (0, 1, 0, 2), decay, _smallest(body))
-    return Kernels(tangential, (1, 0, 2, 1, 1, 3), decay, _smallest(body))
+        return _kernels(normal, (0, 1, 0, 2), found)
+    return _kernels(tangential, (1, 0, 2, 1, 1, 3), found)
 
 
-def _smallest(body: Body) -> float:
-    layer = body.layer
-    assert layer is not None
-    return min(1.0, body.material.shear_modulus / layer.material.shear_modulus) / (8 * layer.thickness)
+def _kernels(spectra: Spectra, orders: tuple[int, ...], found: layered.Features) -> Kernels:
+    return Kernels(spectra, orders, found.decay, found.smallest, path_for(found.angle))
 
 
 def radial_table(kernels: Kernels, r_max: float, *, line: bool = False) -> RadialTable:
@@ -126,9 +164,7 @@ def radial_table(kernels: Kernels, r_max: float, *, line: bool = False) -> Radia
 
     `line`: of 1/pi integral of f cos(q r) dq (order 0) or of sin (order 1) instead.
     """
-    first = kernels.decay / 8
-    doublings = max(0, int(np.ceil(np.log2(r_max / first))))
-    edges = np.concatenate([[0.0], first * 2.0 ** np.arange(doublings + 1)])
+    edges = np.concatenate([[0.0], kernels.path.doubling(kernels.decay / 8, max(r_max, kernels.decay / 8))])
     nodes = [panel_nodes(a, b) for a, b in itertools.pairwise(edges)]
     values = np.stack([_near(kernels, nodes[0], line), *(_far(kernels, r, line) for r in nodes[1:])])
     return RadialTable(edges, fit(values), kernels.decay)
@@ -165,8 +201,7 @@ def gauss_rule(edges: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def graded(smallest: float, end: float) -> FloatArray:
     """Edges from 0 to `end`, each panel as wide as its distance from 0, down to about `smallest`."""
-    halvings = max(0, int(np.ceil(np.log2(end / smallest))))
-    return np.concatenate([[0.0], end * 2.0 ** -np.arange(halvings, -1, -1.0)])
+    return _STEEP.graded(smallest, end)
 
 
 def apply(matrix: NDArray, vector: NDArray) -> NDArray:
@@ -185,30 +220,35 @@ def _wave(order: int, s: FloatArray, line: bool) -> FloatArray:
 
 def _near(kernels: Kernels, r: FloatArray, line: bool) -> FloatArray:
     """Transforms at r <= d/8, all on the real axis: (nodes, tables)."""
-    q, weights = gauss_rule(graded(min(kernels.smallest, 1 / kernels.decay), END / kernels.decay))
+    edges = kernels.path.graded(min(kernels.smallest, 1 / kernels.decay), END / kernels.decay)
+    q, weights = gauss_rule(edges)
     f = kernels.spectra(q) * weights
     scale = (1 / r if not line else np.ones_like(r))[:, None]
     waves = {order: _wave(order, np.outer(r, q), line) * scale for order in set(kernels.orders)}
     return np.stack([apply(waves[order], f[table]) for table, order in enumerate(kernels.orders)], axis=1)
 
 
-_RAY_T, _RAY_WEIGHTS = gauss_rule(np.array([0.0, 2.0, 4.0, 8.0, 14.0, 22.0, 34.0, 50.0, 2 * END]))
-_RAY_S = TURN + SLOPE * _RAY_T
-_RAY = {
-    False: [special.hankel1(n, _RAY_S) * _RAY_S * (SLOPE * _RAY_WEIGHTS) / (2 * np.pi) for n in range(4)],
-    True: [(-1j) ** n * np.exp(1j * _RAY_S) * (SLOPE * _RAY_WEIGHTS) / np.pi for n in range(2)],
-}
+@lru_cache(maxsize=4)
+def _ray(path: Path, line: bool) -> tuple[ComplexArray, tuple[ComplexArray, ...]]:
+    """q r on the ray, and what is integrated there against the spectrum for every order."""
+    t, weights = gauss_rule(np.array(path.ray_edges))
+    s = TURN + path.slope * t
+    weights = path.slope * weights
+    if line:
+        return s, tuple((-1j) ** n * np.exp(1j * s) * weights / np.pi for n in range(2))
+    return s, tuple(special.hankel1(n, s) * s * weights / (2 * np.pi) for n in range(4))
 
 
 def _far(kernels: Kernels, r: FloatArray, line: bool) -> FloatArray:
     """Transforms at r >= d/8: the real axis to q r = TURN, then the ray."""
-    s, weights = gauss_rule(graded(min(kernels.smallest * r.min(), 1.0), TURN))
+    s, weights = gauss_rule(kernels.path.graded(min(kernels.smallest * r.min(), 1.0), TURN))
+    ray, waves = _ray(kernels.path, line)
     f = kernels.spectra((s / r[:, None]).ravel()).reshape(-1, r.size, s.size)
-    f_ray = kernels.spectra((_RAY_S / r[:, None]).ravel()).reshape(-1, r.size, _RAY_S.size)
+    f_ray = kernels.spectra((ray / r[:, None]).ravel()).reshape(-1, r.size, ray.size)
     out = np.empty((r.size, len(kernels.orders)))
     for table, order in enumerate(kernels.orders):
         real = apply(f[table], _wave(order, s, line) * weights)
-        out[:, table] = (real + apply(f_ray[table], _RAY[line][order]).real) / (r if line else r**2)
+        out[:, table] = (real + apply(f_ray[table], waves[order]).real) / (r if line else r**2)
     return out
 
 

@@ -36,15 +36,14 @@ from bem.kernels.layered_cells import STRESS, SURFACE, add_cells, clear_odd
 from bem.kernels.layered_hankel import (
     END,
     NODES,
-    SLOPE,
     TURN,
     Kernels,
+    Path,
     RadialTable,
     Spectra,
     apply,
     fit,
     gauss_rule,
-    graded,
     panel_nodes,
     radial_table,
     stress_kernels,
@@ -71,7 +70,6 @@ _CELL_NODES, _CELL_WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     """What a bonded layer adds to the surface coefficients of a half-space of its material: (nx, ny) [m/Pa]."""
-    assert body.layer is not None
     tangential = load is Load.TANGENTIAL
     parities = (SURFACE_PARITY[load],)
     free, along = _axes(grid)
@@ -79,7 +77,7 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     kernels = surface_kernels(body, load)
     step = 0.0
     if not tangential:
-        one, two = body.layer.material, body.material
+        one, two = body.surface_material, body.material
         step = (1 - two.poissons_ratio) / two.shear_modulus - (1 - one.poissons_ratio) / one.shear_modulus
 
     def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
@@ -104,11 +102,10 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
 
 def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
     """Same for the six stresses at `depth` in the layer; below the layer the whole coefficients: (6, nx, ny)."""
-    assert body.layer is not None
     tangential = load is Load.TANGENTIAL
     parities = STRESS_PARITY[load]
     free, _ = _axes(grid)
-    inside = depth <= body.layer.thickness
+    inside = body.medium_at(depth) == 0
 
     def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
         return layered.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
@@ -211,7 +208,7 @@ def _line_table(grid: Grid, parts: _Parts, reach: float) -> RadialTable:
     free, along = _axes(grid)
     orders = tuple(0 if parity[free] > 0 else 1 for parity in parts.parities)
     decay = min(parts.kernels.decay, 0.5 * grid.lengths[along]) if parts.step else parts.kernels.decay
-    return radial_table(Kernels(parts.mean, orders, decay, parts.kernels.smallest), reach, line=True)
+    return radial_table(Kernels(parts.mean, orders, decay, parts.kernels.smallest, parts.kernels.path), reach, line=True)
 
 
 def _long_waves(grid: Grid, near: int, cells: int, parts: _Parts) -> FloatArray:
@@ -219,7 +216,7 @@ def _long_waves(grid: Grid, near: int, cells: int, parts: _Parts) -> FloatArray:
     free, along = _axes(grid)
     period = grid.lengths[along]
     width = min(4.0 / period, 6.0 / (near * grid.spacing[free]))
-    inner = graded(min(parts.kernels.smallest, width), width)
+    inner = parts.kernels.path.graded(min(parts.kernels.smallest, width), width)
     last = _LAST / period
     k, weights = gauss_rule(np.concatenate([inner, np.linspace(width, last, int(np.ceil(last / width)) + 1)[1:]]))
     modes = 2 * np.pi / period * np.arange(int(_LAST / (2 * np.pi)) + 1, dtype=np.float64)
@@ -259,41 +256,38 @@ class _Panel:
     ray: tuple[ComplexArray, ...]
 
 
-_RAY_T, _RAY_WEIGHTS = gauss_rule(np.array([0.0, 2.0, 4.0, 8.0, 14.0, 22.0, 34.0, 50.0, 2 * END]))
-
-
 @lru_cache(maxsize=96)
-def _panel(a: float, b: float) -> _Panel:
+def _panel(a: float, b: float, path: Path) -> _Panel:
     r = panel_nodes(a, b)[:, None]
     # real axis to where the window ends and q r has reached TURN; near the origin until exp(-q d) ends, d >= 8 b
     last = END / (8 * b) if a == 0 else TURN / b
     edges = np.linspace(0.0, _LAST, 25)
     if last > _LAST:
-        doublings = int(np.ceil(np.log2(last / _LAST)))
-        edges = np.concatenate([edges, np.geomspace(_LAST, last, doublings + 1)[1:]])
+        panels = path.cuts * int(np.ceil(np.log2(last / _LAST)))
+        edges = np.concatenate([edges, np.geomspace(_LAST, last, panels + 1)[1:]])
     q, weights = gauss_rule(edges)
     window = 0.5 * special.erfc((_SPLIT - q) / _WIDTH)
     real = tuple(special.jv(order, r * q) * (q * weights * window / (2 * np.pi)) for order in range(4))
     if a == 0:
         return _Panel(q, real, np.zeros((NODES, 0), dtype=np.complex128), ())
-    ray_q = max(last, _LAST) + SLOPE * _RAY_T / r
+    t, weights = gauss_rule(np.array(path.ray_edges))
+    ray_q = max(last, _LAST) + path.slope * t / r
     s = ray_q * r
     hankel = [special.hankel1(0, s), special.hankel1(1, s)]
     for order in (1, 2):
         hankel.append(2 * order / s * hankel[order] - hankel[order - 1])
-    factor = ray_q * SLOPE * _RAY_WEIGHTS / r / (2 * np.pi)
+    factor = ray_q * path.slope * weights / r / (2 * np.pi)
     return _Panel(q, real, ray_q, tuple(h * factor for h in hankel))
 
 
 def _windowed_table(kernels: Kernels, period: float) -> RadialTable:
     """Hankel transforms of the part above the split, up to 1.5 periods."""
     decay = kernels.decay / period
-    halvings = max(0, int(np.ceil(np.log2(8 * _PANEL / decay))))
-    inner = _PANEL * 2.0 ** -np.arange(halvings, 0, -1.0)
-    edges = np.concatenate([[0.0], inner, _PANEL * np.arange(1, int(_REACH / _PANEL) + 1)])
+    inner = kernels.path.graded(decay / 8, _PANEL)
+    edges = np.concatenate([inner, _PANEL * np.arange(2, int(_REACH / _PANEL) + 1)])
     values = np.empty((edges.size - 1, NODES, len(kernels.orders)))
     for number in range(edges.size - 1):
-        panel = _panel(float(edges[number]), float(edges[number + 1]))
+        panel = _panel(float(edges[number]), float(edges[number + 1]), kernels.path)
         f = kernels.spectra(panel.real_q / period)
         f_ray = kernels.spectra(panel.ray_q.ravel() / period).reshape(-1, *panel.ray_q.shape) if panel.ray else None
         for table, order in enumerate(kernels.orders):

@@ -1,4 +1,4 @@
-"""Doubly periodic half-space, bare or with a bonded layer: the response to a harmonic load, in closed form.
+"""Doubly periodic half-space, bare or under bonded layers: the response to a harmonic load, in closed form.
 
 A load exp(i (kx x + ky y)) on the surface of a homogeneous half-space decays as exp(-q z), q = |k|. Fields are sampled
 at the cell centres and loads are their trigonometric interpolants: the response is taken at the grid's own wavevectors,
@@ -48,7 +48,7 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
     """Normal surface displacement of a harmonic unit load, shape (nx, ny//2 + 1) [m/Pa].
 
     Pressure: 2 / (E* q), the spectrum itself. Traction along +x: -(1-2nu) kx / (2 G q^2), its imaginary part.
-    Mean mode 0. Johnson (1985), section 13.2, and the transform of Cerruti's solution. With a layer: see `layered`.
+    Mean mode 0. Johnson (1985), section 13.2, and the transform of Cerruti's solution. With layers: see `layered`.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
     """
     _check(grid)
     kx, ky, q, odd_x, _ = _wavevectors(grid)
-    if body.layer is not None:
+    if not body.homogeneous:
         tangential = load is Load.TANGENTIAL
         return layered.surface_response(odd_x if tangential else kx, ky, body, tangential=tangential)
     material = body.material
@@ -81,7 +81,7 @@ def stress_response(grid: Grid, body: Body, depth: float, load: Load) -> FloatAr
     if not (np.isfinite(depth) and depth >= 0):
         raise InputError(f"depth: {depth!r} must be finite and not negative [m]")
     kx, ky, q, odd_x, odd_y = _wavevectors(grid)
-    if body.layer is not None:
+    if not body.homogeneous:
         out = layered.stress_response(kx, ky, body, float(depth), tangential=load is Load.TANGENTIAL)
         for component, (parity_x, parity_y) in enumerate(STRESS_PARITY[load]):
             if parity_x < 0:

@@ -1,0 +1,99 @@
+"""A many-digit solution of the equations of elasticity for stacks of layers, and the package's answer to the same."""
+
+import itertools
+
+import mpmath as mp
+import numpy as np
+
+from bem.kernels import layered
+
+
+def elasticity(body, kx, ky, depth, traction):
+    """(ux, uy, uz) and (xx, yy, zz, yz, xz, xy) at `depth` under the traction (x, y, z) exp(i k.x) on z = 0.
+
+    Hooke's law and equilibrium as y' = A y for y = (u, sigma.z), its matrix exponential, and the decaying invariant
+    subspace of the substrate, in as many digits as the exponentials eat. Shares nothing with the package.
+    """
+    i = mp.mpc(0, 1)
+
+    def lame(solid):
+        e, nu = mp.mpf(solid.youngs_modulus), mp.mpf(solid.poissons_ratio)
+        return e / (2 * (1 + nu)), e * nu / ((1 + nu) * (1 - 2 * nu))
+
+    def strains_to_stress(solid):
+        """Rows xx, yy, xy of the stress in terms of y."""
+        mu, la = lame(solid)
+        stretch = mp.matrix([[-la * i * kx / (la + 2 * mu), -la * i * ky / (la + 2 * mu), 0, 0, 0, 1 / (la + 2 * mu)]])
+        divergence = mp.matrix([[i * kx, i * ky, 0, 0, 0, 0]]) + stretch
+        xx = la * divergence + 2 * mu * mp.matrix([[i * kx, 0, 0, 0, 0, 0]])
+        yy = la * divergence + 2 * mu * mp.matrix([[0, i * ky, 0, 0, 0, 0]])
+        xy = mu * mp.matrix([[i * ky, i * kx, 0, 0, 0, 0]])
+        return stretch, xx, yy, xy
+
+    def system(solid):
+        mu, _ = lame(solid)
+        stretch, xx, yy, xy = strains_to_stress(solid)
+        rows = [
+            mp.matrix([[0, 0, -i * kx, 1 / mu, 0, 0]]),
+            mp.matrix([[0, 0, -i * ky, 0, 1 / mu, 0]]),
+            stretch,
+            -(i * kx * xx + i * ky * xy),
+            -(i * kx * xy + i * ky * yy),
+            mp.matrix([[0, 0, 0, -i * kx, -i * ky, 0]]),
+        ]
+        a = mp.matrix(6, 6)
+        for r, row in enumerate(rows):
+            for c in range(6):
+                a[r, c] = row[c]
+        return a
+
+    kx, ky, depth = mp.mpf(kx), mp.mpf(ky), mp.mpf(depth)
+    q = mp.sqrt(kx**2 + ky**2)
+    below = system(body.material)
+    mix = mp.matrix([[1, 2, -1], [3, 1, 2], [-2, 1, 1], [1, -1, 3], [2, 2, 1], [-1, 3, 2]])
+    # the basis of what decays, carried up; `at` keeps it where it is wanted
+    basis = (below - q * mp.eye(6)) ** 3 * mix
+    interfaces = [mp.mpf(z) for z in itertools.accumulate((layer.thickness for layer in body.layers), initial=0.0)]
+    at, solid = None, body.material
+    if depth > interfaces[-1] or not body.layers:
+        at = mp.expm(below * (depth - interfaces[-1])) * basis
+    for layer, top, bottom in reversed(list(zip(body.layers, interfaces, interfaces[1:], strict=False))):
+        inside = system(layer.material)
+        if at is None and (depth > top or top == 0):
+            at, solid = mp.expm(inside * (depth - bottom)) * basis, layer.material
+        basis = mp.expm(-inside * (bottom - top)) * basis
+    weights = mp.lu_solve(basis[3:6, 0:3], -mp.matrix(traction))  # the outward normal is -z
+    y = at * weights
+    _, xx, yy, xy = strains_to_stress(solid)
+    stress = [(xx * y)[0], (yy * y)[0], y[5], y[4], y[3], (xy * y)[0]]
+    return np.array([complex(y[n]) for n in range(3)]), np.array([complex(s) for s in stress])
+
+
+def package(body, kx, ky, depth, tangential):
+    """The same from the package: complex displacement (3,) and stress (6,)."""
+    q = np.hypot(kx, ky)
+    cosine, sine = kx / q, ky / q
+    f = layered.wave_functions(np.array([q]), body, depth)[:, 0]
+    scale = 2 * body.surface_material.shear_modulus * q
+    stress = layered.stress_response([kx], [ky], body, depth, tangential=tangential)[:, 0].astype(complex)
+    if tangential:
+        along = 1j * cosine * 1j * f[layered.TANGENTIAL_U]
+        across = -sine * f[layered.ACROSS_U]
+        normal = 1j * cosine * f[layered.TANGENTIAL_W]
+        stress[[0, 1, 2, 5]] *= 1j
+    else:
+        along, across, normal = 1j * f[layered.NORMAL_U], 0.0, f[layered.NORMAL_W]
+        stress[[3, 4]] *= 1j
+    return np.array([cosine * along - sine * across, sine * along + cosine * across, normal]) / scale, stress
+
+
+def disagreement(body, kx, ky, depth, tangential):
+    """Largest error of the displacement and of the stress, each over its own largest component."""
+    reach = max(depth, sum(layer.thickness for layer in body.layers))
+    with mp.workdps(60 + int(3 * np.hypot(kx, ky) * reach)):
+        displacement, stress = elasticity(body, kx, ky, depth, (1, 0, 0) if tangential else (0, 0, 1))
+    mine, mine_stress = package(body, kx, ky, depth, tangential)
+    return max(
+        np.abs(mine - displacement).max() / np.abs(displacement).max(),
+        np.abs(mine_stress - stress).max() / np.abs(stress).max(),
+    )
