@@ -123,8 +123,7 @@ def spectra_memory() -> int:
 
 def _elastic(body: Body) -> tuple[float, ...]:
     """What of a body decides its elastic response."""
-    layer = () if body.layer is None else (*_moduli(body.layer.material), body.layer.thickness)
-    return (*_moduli(body.material), *layer)
+    return (*(value for solid in body.media for value in _moduli(solid)), *body.interfaces)
 
 
 def _moduli(material: Material) -> tuple[float, float]:
@@ -138,7 +137,7 @@ def _coupling(body: Body) -> float:
 
 def couples(bodies: tuple[Body, ...]) -> bool:
     """Whether traction changes the normal gap: Dundurs' beta is not zero, or layered bodies differ."""
-    if any(body.layer is not None for body in bodies):
+    if not all(body.homogeneous for body in bodies):
         return len(bodies) == 1 or _elastic(bodies[0]) != _elastic(bodies[1])
     total = sum((-1) ** i * _coupling(body) for i, body in enumerate(bodies))
     return abs(total) > _SAME * sum(abs(_coupling(body)) + 1 / body.material.shear_modulus for body in bodies)
@@ -147,7 +146,7 @@ def couples(bodies: tuple[Body, ...]) -> bool:
 def _kernel(grid: Grid, bodies: tuple[Body, ...], load: Load) -> FloatArray:
     """Spectrum of the kernel of both bodies: the sum for pressure, lower minus upper for traction."""
     signs = (1.0, 1.0) if load is Load.NORMAL else (1.0, -1.0)
-    if all(body.layer is None for body in bodies):
+    if all(body.homogeneous for body in bodies):
         # every homogeneous half-space has the same kernel up to a factor: one is enough
         factors = [1 / b.material.plane_strain_modulus if load is Load.NORMAL else _coupling(b) for b in bodies]
         first = max(range(len(bodies)), key=lambda i: abs(factors[i]))

@@ -2,35 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from bem.verification.stored import StoredCase
 
-BODY, LAYER, LOAD = "#e8e8e8", "#f4c27a", "#0072B2"
+BODY, LAYERS, LOAD = "#e8e8e8", ("#f4c27a", "#d9a0a0", "#b9cf9b"), "#0072B2"
 
 
 def draw(ax: Any, case: StoredCase) -> None:
     """Draw a stored problem on empty axes: a section y = 0, z down."""
     parameters = case.parameters
-    layer = parameters.get("layer")
     ax.set_axis_off()
     ax.set_aspect("equal")
     ax.set_xlim(-3, 3)
     ax.set_ylim(-2.6, 2.1)
     ax.fill_between([-3, 3], -2.4, 0, color=BODY, lw=0)
-    thickness = 0.0
-    if layer is not None:
-        thickness = float(np.clip(0.9 * layer[2] ** 0.5 if layer[2] else 0.6, 0.15, 1.6))
-        ax.fill_between([-3, 3], -thickness, 0, color=LAYER, lw=0)
-        ax.annotate(
-            "", (2.2, 0), (2.2, -thickness), arrowprops={"arrowstyle": "<->", "lw": 0.7, "shrinkA": 0, "shrinkB": 0}
-        )
-        height = "h" if case.problem == "harmonic" else f"h = {layer[2]:.4g}"
-        ax.text(2.3, -thickness / 2, height, fontsize=6.5, va="center")
-        words = f"E1 = {layer[0]:.3g} E, ν1 = {layer[1]:g}"
-        ax.text(-2.9, -thickness / 2, words, fontsize=6.5, va="center")
+    _stack(ax, parameters.get("layer") or (), case.problem == "harmonic")
     ax.text(-2.9, -2.2, f"E, ν = {parameters['nu']:g}", fontsize=6.5, va="center")
     ax.plot([-3, 3], [0, 0], "k-", lw=0.8)
     _axes(ax)
@@ -67,6 +57,25 @@ def _direction(case: StoredCase) -> str:
     if case.problem == "disc-tangential":
         return "tangential"
     return str(case.parameters.get("load", "normal"))
+
+
+def _stack(ax: Any, figures: Sequence[float], wave: bool) -> None:
+    """The layers (modulus, Poisson's ratio, thickness of each in turn), outermost first."""
+    top = 0.0
+    stack = list(zip(figures[::3], figures[1::3], figures[2::3], strict=True))
+    for number, (modulus, ratio, thickness) in enumerate(stack, 1):
+        height = float(np.clip(0.9 * thickness**0.5 if thickness else 0.6, 0.15, 1.6 / len(stack)))
+        bottom = top - height
+        ax.fill_between([-3, 3], bottom, top, color=LAYERS[(number - 1) % len(LAYERS)], lw=0)
+        ax.annotate(
+            "", (2.2, top), (2.2, bottom), arrowprops={"arrowstyle": "<->", "lw": 0.7, "shrinkA": 0, "shrinkB": 0}
+        )
+        name = "h" if len(stack) == 1 else f"h{number}"
+        label = name if wave and number == 1 else f"{name} = {thickness / (figures[2] if wave else 1.0):.4g}"
+        ax.text(2.3, (top + bottom) / 2, label + (" h1" if wave and number > 1 else ""), fontsize=6.5, va="center")
+        words = f"E{number} = {modulus:.3g} E, ν{number} = {ratio:g}"
+        ax.text(-2.9, (top + bottom) / 2, words, fontsize=6.5, va="center")
+        top = bottom
 
 
 def _axes(ax: Any) -> None:

@@ -192,7 +192,7 @@ def _groups(curves: Sequence[Curve], count: int) -> list[list[Curve]]:
     panels: dict[tuple[bool, str, str], list[Curve]] = {}
     for curve in curves:
         stress = curve.quantity.startswith(("stress", "von_mises"))
-        along = re.sub(r" \((layer|substrate)\)$", "", curve.along)
+        along = re.sub(r" \((layer(?: \d+)?|substrate)\)$", "", curve.along)
         if len(curve.bem) > 1:
             # figures in SI differ by orders of magnitude, scaled ones do not
             unit = curve.unit if curve.unit in ("m", "Pa") else ""
@@ -215,7 +215,8 @@ def _is_line(group: Sequence[Curve]) -> bool:
 
 def _label(curve: Curve) -> str:
     words = curve.quantity.replace("_displacement", "").replace("stress_", "").replace("_", " ")
-    return words.replace(" (substrate)", " sub.").replace(" (layer)", " layer").replace(" (surface)", "")
+    words = re.sub(r" \((layer(?: \d+)?)\)", r" \1", words)
+    return words.replace(" (substrate)", " sub.").replace(" (surface)", "")
 
 
 def _draw_curves(upper: object, lower: object, group: Sequence[Curve]) -> None:
@@ -243,7 +244,7 @@ def _draw_curves(upper: object, lower: object, group: Sequence[Curve]) -> None:
         if bar.any():
             lower.plot(x, bar, color=colour, lw=0.35)
             lower.plot(x, -bar, color=colour, lw=0.35)
-    along = re.sub(r" \((layer|substrate)\)$", "", group[0].along)
+    along = re.sub(r" \((layer(?: \d+)?|substrate)\)$", "", group[0].along)
     upper.set_title(along or "all points", fontsize=8)
     upper.legend(fontsize=6, frameon=False, ncols=2)
     lower.axhline(0, color="0.6", lw=0.5)

@@ -109,7 +109,11 @@ def _climb_thick(x, kappa, top, kept):  # type: ignore[no-untyped-def]
     w11, w12, w22 = zeta - uu, eta - uw, zeta - ww
     b11, b12, b22 = uu + zeta, uw - eta, ww + zeta
     over = 1.0 / (w11 * w22 - w12 * w12)
-    kept[_WAY], kept[_WAY + 1], kept[_WAY + 2] = 2.0 * zeta * over * w22, -2.0 * zeta * over * w12, 2.0 * zeta * over * w11
+    kept[_WAY], kept[_WAY + 1], kept[_WAY + 2] = (
+        2.0 * zeta * over * w22,
+        -2.0 * zeta * over * w12,
+        2.0 * zeta * over * w11,
+    )
     r11 = over * (w22 * b11 - w12 * b12)
     r12 = over * (w22 * b12 - w12 * b22)
     r22 = over * (w11 * b22 - w12 * b12)
@@ -253,7 +257,9 @@ def _in_plane(q, above, medium, media, remainder, tau0, sigma0, kept, waves):  #
         sigma = here[_BELOW + 1] * u + here[_BELOW + 2] * w
         u, w, tau, sigma = _carry(up, 4.0 / (1.0 + kappa), u, w, tau, sigma)
         if remainder:
-            u0, w0, tau_0, sigma_0 = _half_space_waves(down, kappa, -kappa * (tau0 + sigma0) + u * 0.0, sigma0 - tau0 + u * 0.0)
+            u0, w0, tau_0, sigma_0 = _half_space_waves(
+                down, kappa, -kappa * (tau0 + sigma0) + u * 0.0, sigma0 - tau0 + u * 0.0
+            )
             return u - u0, w - w0, tau - tau_0, sigma - sigma_0
         return u, w, tau, sigma
     p, n = waves[0], waves[1]
@@ -329,9 +335,7 @@ def fill(q, above, medium, media, remainder, out):  # type: ignore[no-untyped-de
         if bottom > 0:
             _climb(q[i], media, kept)
         for load in range(2):  # pressure, traction along k
-            u, w, tau, sigma = _in_plane(
-                q[i], above, medium, media, remainder, float(load), load - 1.0, kept, waves
-            )
+            u, w, tau, sigma = _in_plane(q[i], above, medium, media, remainder, float(load), load - 1.0, kept, waves)
             row = 6 * load
             column[row], column[row + 1], column[row + 2], column[row + 3] = u, w, g * tau, g * sigma
             column[row + 4] = g * ((c - 1.0) * sigma - c * u)

@@ -232,11 +232,11 @@ def _near(kernels: Kernels, r: FloatArray, line: bool) -> FloatArray:
 def _ray(path: Path, line: bool) -> tuple[ComplexArray, tuple[ComplexArray, ...]]:
     """q r on the ray, and what is integrated there against the spectrum for every order."""
     t, weights = gauss_rule(np.array(path.ray_edges))
-    s = TURN + path.slope * t
-    weights = path.slope * weights
+    s: ComplexArray = np.asarray(TURN + path.slope * t, dtype=np.complex128)
     if line:
-        return s, tuple((-1j) ** n * np.exp(1j * s) * weights / np.pi for n in range(2))
-    return s, tuple(special.hankel1(n, s) * s * weights / (2 * np.pi) for n in range(4))
+        wave: ComplexArray = np.exp(1j * s) * (path.slope * weights) / np.pi
+        return s, (wave, -1j * wave)
+    return s, tuple(special.hankel1(n, s) * s * (path.slope * weights) / (2 * np.pi) for n in range(4))
 
 
 def _far(kernels: Kernels, r: FloatArray, line: bool) -> FloatArray:

@@ -208,7 +208,9 @@ def _line_table(grid: Grid, parts: _Parts, reach: float) -> RadialTable:
     free, along = _axes(grid)
     orders = tuple(0 if parity[free] > 0 else 1 for parity in parts.parities)
     decay = min(parts.kernels.decay, 0.5 * grid.lengths[along]) if parts.step else parts.kernels.decay
-    return radial_table(Kernels(parts.mean, orders, decay, parts.kernels.smallest, parts.kernels.path), reach, line=True)
+    return radial_table(
+        Kernels(parts.mean, orders, decay, parts.kernels.smallest, parts.kernels.path), reach, line=True
+    )
 
 
 def _long_waves(grid: Grid, near: int, cells: int, parts: _Parts) -> FloatArray:
@@ -271,7 +273,7 @@ def _panel(a: float, b: float, path: Path) -> _Panel:
     if a == 0:
         return _Panel(q, real, np.zeros((NODES, 0), dtype=np.complex128), ())
     t, weights = gauss_rule(np.array(path.ray_edges))
-    ray_q = max(last, _LAST) + path.slope * t / r
+    ray_q: ComplexArray = np.asarray(max(last, _LAST) + path.slope * t / r, dtype=np.complex128)
     s = ray_q * r
     hankel = [special.hankel1(0, s), special.hankel1(1, s)]
     for order in (1, 2):

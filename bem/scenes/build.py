@@ -108,6 +108,14 @@ def softer_hardness(lower: Body, upper: Body | None) -> float:
     return min(known)
 
 
+def show_layers(body: Body) -> str:
+    """The layers of a coated body for a reader, outermost first."""
+    if len(body.layers) == 1:
+        return "a layer"
+    stack = ", ".join(f"{layer.material.name} {1e6 * layer.thickness:.4g} um" for layer in body.layers)
+    return f"{len(body.layers)} layers ({stack})"
+
+
 def traction_couples(lower: Body, upper: Body | None, friction: float) -> bool:
     """Whether traction moves the normal gap: friction between elastically different bodies, as the operator has it."""
     from bem.convolution import couples

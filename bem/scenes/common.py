@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 from pydantic_core import PydanticCustomError
@@ -173,28 +173,11 @@ class MeasuredSurface(Table):
 SurfaceScene = Annotated[SmoothSurface | GeneratedSurface | MeasuredSurface, Field(discriminator="kind")]
 
 
-class BodyScene(Table):
-    """One of the two bodies: what it is made of and what its surface looks like."""
+class _LayeredScene(Table):
+    """What both bodies share: a stack of layers and a surface."""
 
-    material: MaterialScene
     layer: LayerScene | None = None
-    surface: SurfaceScene = SmoothSurface()
-
-    @field_validator("surface", mode="before")
-    @classmethod
-    def _kind_by_default(cls, data: Any) -> Any:
-        return {"kind": "smooth"} if data == "smooth" else data
-
-    def build(self) -> Body:
-        """As `bem.Body`."""
-        return Body(self.material.build(), layer=None if self.layer is None else self.layer.build())
-
-
-class UpperBodyScene(Table):
-    """The upper body; without a material it is rigid."""
-
-    material: MaterialScene | None = None
-    layer: LayerScene | None = None
+    layers: list[LayerScene] = []
     surface: SurfaceScene = SmoothSurface()
 
     @field_validator("surface", mode="before")
@@ -203,8 +186,44 @@ class UpperBodyScene(Table):
         return {"kind": "smooth"} if data == "smooth" else data
 
     @model_validator(mode="after")
+    def _one_stack(self) -> Self:
+        if self.layer is not None and self.layers:
+            raise problem("layer and layers are both given", "layer for one, or layers for a stack, outermost first")
+        return self
+
+    @property
+    def stack(self) -> list[LayerScene]:
+        """All layers, outermost first."""
+        return self.layers if self.layer is None else [self.layer]
+
+    def with_outermost(self, thickness: float) -> Self:
+        """The same body with another thickness of its outermost layer [m]."""
+        first, *others = self.stack
+        first = first.model_copy(update={"thickness": thickness})
+        return self.model_copy(update={"layers": [first, *others]} if self.layers else {"layer": first})
+
+    def _on(self, material: MaterialScene) -> Body:
+        return Body(material.build(), layers=[layer.build() for layer in self.stack])
+
+
+class BodyScene(_LayeredScene):
+    """One of the two bodies: what it is made of and what its surface looks like."""
+
+    material: MaterialScene
+
+    def build(self) -> Body:
+        """As `bem.Body`."""
+        return self._on(self.material)
+
+
+class UpperBodyScene(_LayeredScene):
+    """The upper body; without a material it is rigid."""
+
+    material: MaterialScene | None = None
+
+    @model_validator(mode="after")
     def _layer_needs_material(self) -> UpperBodyScene:
-        if self.layer is not None and self.material is None:
+        if self.stack and self.material is None:
             raise problem(
                 "a layer without a material below it", "material with layer, material alone, or neither (rigid)"
             )
@@ -212,9 +231,7 @@ class UpperBodyScene(Table):
 
     def build(self) -> Body | None:
         """As `bem.Body`; None is rigid."""
-        if self.material is None:
-            return None
-        return Body(self.material.build(), layer=None if self.layer is None else self.layer.build())
+        return None if self.material is None else self._on(self.material)
 
 
 class GridScene(Table):

@@ -131,12 +131,9 @@ def stress_memory() -> int:
 
 
 def elastic(body: Body) -> tuple[float, ...]:
-    """What of a body decides its stresses: nu alone if homogeneous, else the ratio of moduli too."""
-    nu = body.material.poissons_ratio
-    if body.layer is None:
-        return (nu,)
-    coating = body.layer.material
-    return (nu, coating.poissons_ratio, coating.youngs_modulus / body.material.youngs_modulus, body.layer.thickness)
+    """What of a body decides its stresses: Poisson's ratios, moduli over the half-space's, depths of interfaces."""
+    ratios = (solid.youngs_modulus / body.material.youngs_modulus for solid in body.media[:-1])
+    return (*(solid.poissons_ratio for solid in body.media), *ratios, *body.interfaces)
 
 
 def check_request(
@@ -246,7 +243,7 @@ def factors_of(grid: Grid, body: Body, depth: float, friction: float) -> Factors
     COUNT.spectra += 1
     padded = padded_lengths(grid)
     wraps, packed = all(grid.periodic), packs(grid)
-    shared = packed and body.layer is None and friction != 0
+    shared = packed and body.homogeneous and friction != 0
     parts: list[list[tuple[FloatArray, tuple[int, int], float]]] = [[] for _ in range(6)]
     for load, factor in loads(friction):
         kernels = stress_response(grid, body, depth, load) if wraps else stress_coefficients(grid, body, depth, load)

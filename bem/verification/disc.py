@@ -13,7 +13,7 @@ from bem.materials import Body
 from bem.stress import subsurface_stress
 from bem.verification.patches import PointGrid, disc_means, free_grid, window
 from bem.verification.rows import Curve
-from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve
+from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve, on_side
 
 STEP = 1 / 40
 """Side of a cell over the radius."""
@@ -65,7 +65,7 @@ def _along(case: StoredCase) -> str:
 def _compared(case: StoredCase, curve: StoredCurve) -> NDArray[np.bool_] | None:
     """Which points of a curve are compared; None where bem has no such result."""
     x, y, z = curve.coordinates.T
-    if curve.name == "tangential_displacement" and case.body.layer is not None:
+    if curve.name == "tangential_displacement" and not case.body.homogeneous:
         return None
     if curve.name.startswith("stress"):
         return z > STEP / GLASS  # nearer to the surface than the smallest cell, shear is that of the cell's own edges
@@ -97,9 +97,7 @@ class Disc:
         if curve.name == "tangential_displacement":
             return self.tangential_displacement(x, y)
         component = STRESS_NAMES.index(curve.name)
-        if curve.side == "substrate" and self.body.layer is not None:
-            # on the interface bem gives the layer's side: the next depth a number can be is the substrate's
-            z = np.where(z <= self.body.layer.thickness, np.nextafter(self.body.layer.thickness, np.inf), z)
+        x, y, z = on_side(self.body, curve)
         return np.array(
             [self.stress(*point)[component] for point in zip(x.tolist(), y.tolist(), z.tolist(), strict=True)]
         )

@@ -13,7 +13,7 @@ from bem.kernels.layered import ACROSS_U, NORMAL_U, NORMAL_W, TANGENTIAL_U, TANG
 from bem.materials import Body, Layer
 from bem.stress import subsurface_stress
 from bem.verification.rows import Curve
-from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve
+from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve, depth_on_side
 from bem.verification.strip import ANTIPLANE
 
 CELLS = 8
@@ -48,10 +48,11 @@ def curves(case: StoredCase) -> list[Curve]:
 
 
 def _body(case: StoredCase, thickness: float) -> Body:
-    """Wavenumber 1: the thickness is q h."""
-    body = case.body
-    assert body.layer is not None
-    return Body(body.material, layer=Layer(body.layer.material, thickness))
+    """Wavenumber 1: the outermost thickness is q h, the others in proportion."""
+    first, *others = case.body.layers
+    ratio = thickness / first.thickness
+    inner = [Layer(layer.material, layer.thickness * ratio) for layer in others]
+    return Body(case.body.material, layers=[Layer(first.material, thickness), *inner])
 
 
 def _points(curve: StoredCurve) -> list[tuple[float, float]]:
@@ -61,13 +62,6 @@ def _points(curve: StoredCurve) -> list[tuple[float, float]]:
     match = re.search(r"q h = ([\d.eE+-]+)", curve.along)
     assert match is not None
     return [(float(match[1]), float(point[2])) for point in curve.coordinates]
-
-
-def _depth(thickness: float, depth: float, side: str) -> float:
-    """The depth on the wanted side of the interface, where the reference's is rounded."""
-    if abs(depth - thickness) < 1e-6 * thickness:
-        return float(np.nextafter(thickness, np.inf)) if side == "substrate" else thickness
-    return depth
 
 
 @dataclass(frozen=True)
@@ -118,7 +112,7 @@ def _stress(case: StoredCase, curve: StoredCurve) -> FloatArray:
     values = []
     for thickness, depth in _points(curve):
         body = _body(case, thickness)
-        z = [_depth(thickness, depth, curve.side)]
+        z = [depth_on_side(body, depth, curve.side)]
         if load == "normal":
             field = subsurface_stress(cell.pressure, cell.grid, body, z)
         else:
@@ -141,7 +135,6 @@ def _waves(case: StoredCase, curve: StoredCurve) -> FloatArray:
     values = []
     for thickness, depth in _points(curve):
         body = _body(case, thickness)
-        assert body.layer is not None
-        found = wave_functions(np.ones(1), body, _depth(thickness, depth, curve.side))
-        values.append(sign * found[row, 0] / (2 * body.layer.material.shear_modulus))
+        found = wave_functions(np.ones(1), body, depth_on_side(body, depth, curve.side))
+        values.append(sign * found[row, 0] / (2 * body.surface_material.shear_modulus))
     return np.array(values)

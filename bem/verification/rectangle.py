@@ -12,7 +12,7 @@ from bem.kernels.subsurface import rectangle_stress
 from bem.stress import subsurface_stress
 from bem.verification.patches import PointGrid, free_grid
 from bem.verification.rows import Curve
-from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve
+from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve, on_side
 
 STEP = 1 / 80
 """Side of a cell over the half-length."""
@@ -24,7 +24,7 @@ def curves(case: StoredCase) -> list[Curve]:
     """Both sides of a stored rectangle: the kernels at the points, and what production does with cells."""
     load = Load.NORMAL if case.parameters["load"] == "normal" else Load.TANGENTIAL
     sides = (2.0, 2.0 * case.parameters["width"])
-    cells, bare = _Cells(case), case.body.layer is None
+    cells, bare = _Cells(case), case.body.homogeneous
     found = []
     for curve in case.curves:
         x, y, z = curve.coordinates.T
@@ -79,10 +79,7 @@ class _Cells:
 
     def stress(self, curve: StoredCurve, component: int) -> FloatArray:
         """Through `subsurface_stress`."""
-        x, y, z = curve.coordinates.T
-        layer = self.body.layer
-        if curve.side == "substrate" and layer is not None:
-            z = np.where(z <= layer.thickness, np.nextafter(layer.thickness, np.inf), z)
+        x, y, z = on_side(self.body, curve)
         pressure = self.pressure(self.below)
         for depth in set(z.tolist()) - set(self.planes):
             plane = subsurface_stress(pressure, self.below.grid, self.body, [depth], friction=float(self.tangential))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -41,11 +42,9 @@ class StoredCurve:
 
     @property
     def side(self) -> str:
-        """`layer`, `substrate` or nothing: stresses jump where the body changes."""
-        for side in ("layer", "substrate"):
-            if self.along.endswith(f"({side})"):
-                return side
-        return ""
+        """`layer` (`layer 2`, ...), `substrate` or nothing: stresses jump where the body changes."""
+        found = re.search(r"\((layer(?: \d+)?|substrate)\)$", self.along)
+        return found[1] if found else ""
 
 
 @dataclass(frozen=True)
@@ -62,12 +61,34 @@ class StoredCase:
     @property
     def body(self) -> Body:
         """The body in units of the substrate's Young's modulus and the load's length."""
-        nu, layer = self.parameters["nu"], self.parameters.get("layer")
-        substrate = Material("substrate", youngs_modulus=1.0, poissons_ratio=nu)
-        if layer is None:
-            return Body(substrate)
-        coat = Material("layer", youngs_modulus=layer[0], poissons_ratio=layer[1])
-        return Body(substrate, layer=Layer(coat, layer[2]))
+        figures = self.parameters.get("layer") or ()
+        stack = [
+            Layer(Material("layer", youngs_modulus=modulus, poissons_ratio=nu), thickness)
+            for modulus, nu, thickness in zip(figures[::3], figures[1::3], figures[2::3], strict=True)
+        ]
+        nu = self.parameters["nu"]
+        return Body(Material("substrate", youngs_modulus=1.0, poissons_ratio=nu), layers=stack)
+
+
+def depth_on_side(body: Body, depth: float, side: str) -> float:
+    """A depth [m] in the medium that `side` names, where the reference's is rounded or lies on an interface.
+
+    An interface counts as the layer above it: the next depth that a number can be is the medium below.
+    """
+    if not side or body.homogeneous:
+        return depth
+    medium = len(body.interfaces) if side == "substrate" else int(side.removeprefix("layer") or 1) - 1
+    top = body.interfaces[medium - 1] if medium else -np.inf
+    bottom = body.interfaces[medium] if medium < len(body.interfaces) else np.inf
+    if depth <= top * (1 + 1e-6):
+        return float(np.nextafter(top, np.inf))
+    return bottom if depth >= bottom * (1 - 1e-6) else depth
+
+
+def on_side(body: Body, curve: StoredCurve) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """x, y, z of a curve's points, in the medium that it is about."""
+    x, y, z = curve.coordinates.T
+    return x, y, np.array([depth_on_side(body, float(depth), curve.side) for depth in z])
 
 
 def names() -> list[str]:

@@ -13,7 +13,7 @@ from bem.kernels.half_plane import strip_displacement, strip_stress
 from bem.kernels.loads import Load
 from bem.stress import subsurface_stress
 from bem.verification.rows import Curve
-from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve
+from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve, on_side
 
 STEP = 1 / 120
 """Side of a cell over the half-width."""
@@ -41,7 +41,7 @@ def curves(case: StoredCase) -> list[Curve]:
         if values is not None:
             allowance = 1.5e-3 if curve.name.startswith("stress") else 5e-4
             found.append(_pair(curve, quantity, values, allowance, REASON))
-        if case.body.layer is None and load != "antiplane":
+        if case.body.homogeneous and load != "antiplane":
             closed = _closed(case, curve)
             if closed is not None:
                 found.append(_pair(curve, f"{quantity}, half-plane kernel", closed, 1e-5, EXACT))
@@ -88,9 +88,7 @@ class Strip:
             return self.displacement(x)
         if not curve.name.startswith("stress"):
             return None
-        layer = self.body.layer
-        if curve.side == "substrate" and layer is not None:
-            z = np.where(z <= layer.thickness, np.nextafter(layer.thickness, np.inf), z)
+        x, _, z = on_side(self.body, curve)
         component = STRESS_NAMES.index(curve.name)
         return np.array([self.stress(component, *point) for point in zip(x.tolist(), z.tolist(), strict=True)])
 

@@ -248,13 +248,13 @@ def cannot_yield(
 
 
 def depths_for(setup: WearSetup, model: WearModel, body: int) -> FloatArray:
-    """Depths at which stress is computed: the setup's, cut at the interface of a layer, refined where exact."""
+    """Depths at which stress is computed: the setup's, cut at the outermost interface, refined where exact."""
     depths = setup.depths
-    layer = setup.bodies[body].layer
-    if layer is not None and model.within_layer:
+    interfaces = setup.bodies[body].interfaces
+    if interfaces and model.within_layer:
         # a depth closer to the interface than a tenth of an interval gives way to it
         sliver = 0.1 * float(np.diff(depths).min())
-        depths = np.append(depths[depths < layer.thickness - sliver], layer.thickness)
+        depths = np.append(depths[depths < interfaces[0] - sliver], interfaces[0])
     if model.refinement == "exact":
         depths = refine_depths(depths, model.refine)
     return depths

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from stack_oracle import disagreement
 
 from bem import Body, Grid, Layer, Material
 from bem.errors import InputError
 from bem.kernels import layered, spectral
 from bem.kernels.half_space import Load
-from tests.kernels.stack_oracle import disagreement
 
 
 def material(shear_modulus, poissons_ratio):

@@ -199,7 +199,7 @@ def _plan_stresses(scene: ContactScene, grid: Grid, body: Body | None, depths: t
     loads = 1 if scene.contact.friction == 0 else 2
     # Six real spectra a load and depth: half arrays where periodic, quarters elsewhere, kept up to half a gigabyte.
     spectra = min(2.0**29, len(depths) * loads * 6 * 8 * points * (0.5 if periodic else 0.25))
-    coated = body is not None and body.layer is not None
+    coated = body is not None and not body.homogeneous
     volume = 8.0 * grid.cells * len(depths)
     on_disk = volume >= LARGE
     held = volume * (fields - on_disk)
@@ -225,8 +225,11 @@ def _convolutions(grid: Grid) -> float:
 
 
 def _layered(lower: Body, upper: Body | None) -> str:
-    names = [name for name, body in (("lower", lower), ("upper", upper)) if body is not None and body.layer is not None]
-    return f"a layer on the {' and the '.join(names)} body" if names else ""
+    return " and ".join(
+        f"{build.show_layers(body)} on the {name} body"
+        for name, body in (("lower", lower), ("upper", upper))
+        if body is not None and not body.homogeneous
+    )
 
 
 def _coupling_reason(coupled: bool, friction: float) -> str:
@@ -396,8 +399,7 @@ def _stresses(
 
 def _yield_stresses(body: Body, depths: FloatArray) -> FloatArray:
     """The yield stress at each depth [Pa]; infinite where none is known."""
-    in_layer = depths <= (0.0 if body.layer is None else body.layer.thickness)
-    here = (body.surface_material if inside and body.layer else body.material for inside in in_layer)
+    here = (body.material_at(depth) for depth in depths.tolist())
     return np.array([np.inf if material.yield_stress is None else material.yield_stress for material in here])
 
 

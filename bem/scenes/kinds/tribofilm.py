@@ -134,7 +134,7 @@ class TribofilmScene(SceneModel):
 
     @model_validator(mode="after")
     def _film_is_the_layer(self) -> TribofilmScene:
-        if self.lower.layer is not None or self.upper.layer is not None:
+        if self.lower.stack or self.upper.stack:
             raise problem("a body has a layer of its own", "bodies without a layer: the film is the layer")
         return self
 

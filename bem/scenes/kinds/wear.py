@@ -177,11 +177,11 @@ def variant_of(scene: WearScene, variant: WearVariantScene) -> WearScene:
                 raise InputError(f"variants.{name}_rms_height: the {name} surface is smooth; allowed: a rough one")
             scene = changed(scene, f"{name}.surface.rms_height", rms_height)
     if variant.layer_thickness is not None:
-        coated = [name for name in ("lower", "upper") if getattr(scene, name).layer is not None]
+        coated = [name for name in ("lower", "upper") if getattr(scene, name).stack]
         if not coated:
             raise InputError("variants.layer_thickness: neither body is coated; allowed: a scene with a layer")
         for name in coated:
-            scene = changed(scene, f"{name}.layer.thickness", variant.layer_thickness)
+            scene = changed(scene, name, getattr(scene, name).with_outermost(variant.layer_thickness))
     return scene
 
 
@@ -248,7 +248,7 @@ def plan(scene: WearScene) -> Plan:
     depths = min(scene.depths.count, _DEPTHS_NEEDED)
     deepest = min(scene.depths.count, _DEPTHS_AT_FIRST)
     lower, upper = scene.lower.build(), scene.upper.build()
-    layered = [name for name, body in (("lower", lower), ("upper", upper)) if body.layer is not None]
+    layered = [name for name, body in (("lower", lower), ("upper", upper)) if not body.homogeneous]
     coupled = build.traction_couples(lower, upper, scene.cylinder.friction)
     return Plan(
         (
