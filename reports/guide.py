@@ -211,14 +211,15 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = (
         "bem/kernels/spectral.py",
     ),
     (
-        "Bonded layer",
+        "Bonded layers",
         "u/p = (1 - nu1)/(mu1 q) (1 + 4 x k e^-2x - l k e^-4x)/(1 - (l + k + 4 k x^2) e^-2x + l k e^-4x),  x = q h,\n"
         "l = 1 - 4(1 - nu1)/(1 + m(3 - 4nu2)),  k = (m - 1)/(m + 3 - 4nu1),  m = mu1/mu2;\n"
-        "stresses: down- and up-going waves of both solids, joined at the interface. Free-space coefficients:\n"
-        "those of the layer's material plus a smooth remainder by a Hankel transform",
+        "for one; any number, and stresses: impedance of what lies below carried up through each layer, reflection\n"
+        "R = (Zu - Z)^-1 (Z - Zd), decaying waves only. Free-space coefficients: those of the outermost material plus\n"
+        "a smooth remainder by a Hankel transform",
         "Burmister (1945); O'Sullivan and King (1988); derived anew here",
         "Plain sampling of the spectrum leaves 2 to 24 % of error; nothing here does that.",
-        "bem/kernels/layered.py, layered_hankel.py",
+        "bem/kernels/layered.py, layer_waves.py, layered_hankel.py",
     ),
     (
         "Contact",
@@ -530,8 +531,8 @@ def _keys(model: Any, prefix: str) -> Iterator[tuple[str, str, str, str]]:
             continue
         default = "" if tables else _default(field).replace("(not set)", "-").replace("...", "required")
         yield name, default, _about(field), effect_of(name)
-        if key in ("material", "layer", "surface") and prefix not in ("lower.", "layer."):
-            continue  # said once, for the lower body
+        if key == "layers" or (key in ("material", "layer", "surface") and prefix not in ("lower.", "layer.")):
+            continue  # said once, for the lower body's layer
         if len(tables) > 1:
             tags = [tag for inner in tables for tag in _tags(inner)]
             shown.add(f"{name}.kind")

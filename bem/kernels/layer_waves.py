@@ -29,10 +29,17 @@ ROWS = 15
 THICKNESS, MODULUS, KAPPA = range(3)
 MEDIUM = 3
 
-# What `_climb` leaves for each layer: impedance below (over its g), the displacements' way through (thin: the 2 x 2
-# matrix from the bottom to the top; thick: transmission uu, uw, ww), reflection and round trip pp, pn, nn (thick).
-_BELOW, _WAY, _REFLECTED, _ROUND, _TRACTIONS = 0, 3, 7, 10, 13
-_KEPT = 17
+# What `_climb` leaves for each layer: impedance below (over its g); the displacements' way through (thin: the 2 x 2
+# matrix from the bottom to the top, thick: transmission uu, uw, ww); reflection and round trip pp, pn, nn (thick);
+# tractions on the top of a thin outermost layer from the displacement below it; one over the determinant that solves
+# for what is below; exp(-q h) and sinh q h (thin).
+_BELOW, _WAY, _REFLECTED, _ROUND, _TRACTIONS, _SOLVE, _DECAY, _SINH = 0, 3, 7, 10, 13, 17, 18, 19
+_KEPT = 20
+
+# What belongs to the depth: distances (times q) below the top and above the bottom of its medium and their decays,
+# and what exp(-M s) of the second is made of where the state is carried up.
+_DOWN, _UP, _FALL, _BACK, _EXPONENTIAL = 0, 1, 2, 3, 4
+_PLACE = 8
 
 _SERIES = tuple(
     2 * j / math.factorial(2 * j + 1) for j in range(10, 0, -1)
@@ -57,9 +64,14 @@ def _exponential(s, c):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _carry(s, c, u, w, tau, sigma):  # type: ignore[no-untyped-def]
-    """The state a distance s (times q) above."""
-    sinh, cosh, gamma, delta = _exponential(s, c)
+def _carry(place, c, u, w, tau, sigma):  # type: ignore[no-untyped-def]
+    """The state above from that on the interface."""
+    sinh, cosh, gamma, delta = (
+        place[_EXPONENTIAL],
+        place[_EXPONENTIAL + 1],
+        place[_EXPONENTIAL + 2],
+        place[_EXPONENTIAL + 3],
+    )
     return (
         (cosh + gamma) * u + (sinh + delta) * w - (2.0 * sinh + delta) * tau - gamma * sigma,
         -((c - 1.0) * sinh + delta) * u + (cosh - gamma) * w + gamma * tau + (delta - (2.0 - c) * sinh) * sigma,
@@ -69,276 +81,315 @@ def _carry(s, c, u, w, tau, sigma):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _climb_thin(x, c, top, kept):  # type: ignore[no-untyped-def]
+def _climb_thin(x, c, number, kept):  # type: ignore[no-untyped-def]
     """Through a thin layer: what takes (u, w) below to (u, w) and (tau, sigma) above; the impedance on its top."""
     sinh, cosh, gamma, delta = _exponential(x, c)
-    uu, uw, ww = kept[_BELOW], kept[_BELOW + 1], kept[_BELOW + 2]
+    kept[number, _SINH] = sinh
+    uu, uw, ww = kept[number, _BELOW], kept[number, _BELOW + 1], kept[number, _BELOW + 2]
     tt, ts = cosh + gamma, (c - 1.0) * sinh + delta
     st, ss = -sinh - delta, cosh - gamma
     a11 = -c * sinh - delta + tt * uu + ts * uw
     a12 = -gamma + tt * uw + ts * ww
     a21 = gamma + st * uu + ss * uw
     a22 = delta + st * uw + ss * ww
-    kept[_TRACTIONS], kept[_TRACTIONS + 1], kept[_TRACTIONS + 2], kept[_TRACTIONS + 3] = a11, a12, a21, a22
-    if top:
+    if number == 0:
+        (
+            kept[number, _TRACTIONS],
+            kept[number, _TRACTIONS + 1],
+            kept[number, _TRACTIONS + 2],
+            kept[number, _TRACTIONS + 3],
+        ) = a11, a12, a21, a22
+        kept[number, _SOLVE] = 1.0 / (a11 * a22 - a12 * a21)
         return uu, uw, ww
     by_shear, by_stress = -2.0 * sinh - delta, delta - (2.0 - c) * sinh
     f11 = cosh + gamma + by_shear * uu - gamma * uw
     f12 = sinh + delta + by_shear * uw - gamma * ww
     f21 = -ts + gamma * uu + by_stress * uw
     f22 = cosh - gamma + gamma * uw + by_stress * ww
-    kept[_WAY], kept[_WAY + 1], kept[_WAY + 2], kept[_WAY + 3] = f11, f12, f21, f22
-    determinant = f11 * f22 - f12 * f21
-    return (
-        (a11 * f22 - a12 * f21) / determinant,
-        (a12 * f11 - a11 * f12) / determinant,
-        (a22 * f11 - a21 * f12) / determinant,
-    )
+    kept[number, _WAY], kept[number, _WAY + 1], kept[number, _WAY + 2], kept[number, _WAY + 3] = f11, f12, f21, f22
+    solve = 1.0 / (f11 * f22 - f12 * f21)
+    kept[number, _SOLVE] = solve
+    return (a11 * f22 - a12 * f21) * solve, (a12 * f11 - a11 * f12) * solve, (a22 * f11 - a21 * f12) * solve
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _climb_thick(x, kappa, top, kept):  # type: ignore[no-untyped-def]
-    """Through a thick layer: transmission, reflection and round trip of its waves; the impedance on its top.
+def _reflect(kappa, number, kept):  # type: ignore[no-untyped-def]
+    """Transmission and reflection of the waves of a thick layer by the impedance below it.
 
     With Zd, Zu the impedances of waves that decay downwards and upwards, Zu - Zd = 1 + 1/kappa (times the unit
     matrix): the displacement on the interface is (1 + 1/kappa) (Zu - Z)^-1 of the incoming one, reflected is
     (Zu - Z)^-1 (Z - Zd) of it, and a layer that continues below itself reflects nothing, to the last digit.
     """
-    uu, uw, ww = kept[_BELOW], kept[_BELOW + 1], kept[_BELOW + 2]
+    uu, uw, ww = kept[number, _BELOW], kept[number, _BELOW + 1], kept[number, _BELOW + 2]
     zeta, eta = 0.5 * (1.0 + 1.0 / kappa), 0.5 * (1.0 - 1.0 / kappa)  # Zd = [[-zeta, eta], ..], Zu = [[zeta, eta], ..]
     w11, w12, w22 = zeta - uu, eta - uw, zeta - ww
     b11, b12, b22 = uu + zeta, uw - eta, ww + zeta
     over = 1.0 / (w11 * w22 - w12 * w12)
-    kept[_WAY], kept[_WAY + 1], kept[_WAY + 2] = (
-        2.0 * zeta * over * w22,
-        -2.0 * zeta * over * w12,
-        2.0 * zeta * over * w11,
-    )
+    twice = 2.0 * zeta * over
+    kept[number, _WAY], kept[number, _WAY + 1], kept[number, _WAY + 2] = twice * w22, -twice * w12, twice * w11
     r11 = over * (w22 * b11 - w12 * b12)
     r12 = over * (w22 * b12 - w12 * b22)
     r22 = over * (w11 * b22 - w12 * b12)
     # from (u, w) to the sum and the difference (p, n)
-    pp, pn, nn = 0.5 * (r11 + r22) + r12, 0.5 * (r11 - r22), 0.5 * (r11 + r22) - r12
-    kept[_REFLECTED], kept[_REFLECTED + 1], kept[_REFLECTED + 2] = pp, pn, nn
-    square = np.exp(-2.0 * x)
-    turn = 2.0 * x / kappa
-    pp, pn, nn = (pp - 2.0 * turn * pn + turn * turn * nn) * square, (pn - turn * nn) * square, nn * square
-    kept[_ROUND], kept[_ROUND + 1], kept[_ROUND + 2] = pp, pn, nn
-    if top:
-        return uu, uw, ww
-    determinant = (1.0 + pp) * (1.0 + nn) - pn * pn
-    less = pp * nn - pn * pn
-    spp, spn, snn = (pp + less) / determinant, pn / determinant, (nn + less) / determinant
-    return (
-        -zeta + zeta * (spp + 2.0 * spn + snn),
-        eta + zeta * (spp - snn),
-        -zeta + zeta * (spp - 2.0 * spn + snn),
+    mean = 0.5 * (r11 + r22)
+    kept[number, _REFLECTED], kept[number, _REFLECTED + 1], kept[number, _REFLECTED + 2] = (
+        mean + r12,
+        0.5 * (r11 - r22),
+        mean - r12,
     )
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _climb(q, media, kept):  # type: ignore[no-untyped-def]
-    """Fill `kept` (media, _KEPT) from the half-space up."""
+def _climb_thick(x, kappa, number, kept):  # type: ignore[no-untyped-def]
+    """Through a thick layer, whose reflection is known: the round trip of its waves and the impedance on its top."""
+    pp, pn, nn = kept[number, _REFLECTED], kept[number, _REFLECTED + 1], kept[number, _REFLECTED + 2]
+    square = kept[number, _DECAY] * kept[number, _DECAY]
+    turn = (2.0 / kappa) * x
+    step = pn - turn * nn
+    pp, pn, nn = (pp - turn * (pn + step)) * square, step * square, nn * square
+    kept[number, _ROUND], kept[number, _ROUND + 1], kept[number, _ROUND + 2] = pp, pn, nn
+    if number == 0:  # the load is known: 1 + Zd^-1 Zu R'
+        kept[number, _SOLVE] = 1.0 / ((1.0 - kappa * pp) * (1.0 - nn / kappa) - pn * pn)
+        return pp, pn, nn
+    solve = 1.0 / ((1.0 + pp) * (1.0 + nn) - pn * pn)
+    kept[number, _SOLVE] = solve
+    less = pp * nn - pn * pn
+    pp, pn, nn = (pp + less) * solve, pn * solve, (nn + less) * solve
+    zeta, eta = 0.5 * (1.0 + 1.0 / kappa), 0.5 * (1.0 - 1.0 / kappa)
+    return -zeta + zeta * (pp + 2.0 * pn + nn), eta + zeta * (pp - nn), -zeta + zeta * (pp - 2.0 * pn + nn)
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _from_below(media, number, uu, uw, ww, kept):  # type: ignore[no-untyped-def]
+    """The impedance below a layer, in its own units."""
+    over = 1.0 / media[number, MODULUS]
+    kept[number, _BELOW], kept[number, _BELOW + 1], kept[number, _BELOW + 2] = uu * over, uw * over, ww * over
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _rest(media, kept):  # type: ignore[no-untyped-def]
+    """What is the same for every wavenumber: the half-space below the lowest layer, and how it reflects."""
     bottom = media.shape[0] - 1
-    kappa = media[bottom, KAPPA]
-    g = media[bottom, MODULUS]
-    one = q * 0.0 + 1.0
-    uu, uw, ww = -one * (0.5 * g * (1.0 + 1.0 / kappa)), one * (0.5 * g * (1.0 - 1.0 / kappa)), one * 0.0
-    ww = uu
-    for number in range(bottom - 1, -1, -1):
+    kappa, g = media[bottom, KAPPA], media[bottom, MODULUS]
+    zeta, eta = -0.5 * g * (1.0 + 1.0 / kappa), 0.5 * g * (1.0 - 1.0 / kappa)
+    _from_below(media, bottom - 1, zeta, eta, zeta, kept)
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _climb(q, media, reflected, kept):  # type: ignore[no-untyped-def]
+    """Fill `kept` (media, _KEPT) from the lowest layer up; `reflected`: transmission and reflection of that one."""
+    lowest = media.shape[0] - 2
+    for number in range(lowest, -1, -1):
         g, kappa = media[number, MODULUS], media[number, KAPPA]
-        here = kept[number]
-        here[_BELOW], here[_BELOW + 1], here[_BELOW + 2] = uu / g, uw / g, ww / g
         x = q * media[number, THICKNESS]
+        kept[number, _DECAY] = np.exp(-x)
         if abs(x) < 1.0:
-            uu, uw, ww = _climb_thin(x, 4.0 / (1.0 + kappa), number == 0, here)
+            uu, uw, ww = _climb_thin(x, 4.0 / (1.0 + kappa), number, kept)
         else:
-            uu, uw, ww = _climb_thick(x, kappa, number == 0, here)
-        uu, uw, ww = uu * g, uw * g, ww * g
+            if number < lowest:
+                _reflect(kappa, number, kept)
+            else:
+                for k in range(3):  # a smaller wavenumber may have left those of a thin layer there
+                    kept[number, _WAY + k] = reflected[k]
+            uu, uw, ww = _climb_thick(x, kappa, number, kept)
+        if number > 0:
+            _from_below(media, number - 1, uu * g, uw * g, ww * g, kept)
 
 
 @numba.njit(cache=True, error_model="numpy")
 def _loaded_layer(q, media, kept, tau0, sigma0, waves):  # type: ignore[no-untyped-def]
     """Displacement below the outermost layer; into `waves` the amplitudes on its top less those of a half-space."""
-    here = kept[0]
     x = q * media[0, THICKNESS]
     kappa = media[0, KAPPA]
+    solve = kept[0, _SOLVE]
     if abs(x) < 1.0:
-        a11, a12, a21, a22 = here[_TRACTIONS], here[_TRACTIONS + 1], here[_TRACTIONS + 2], here[_TRACTIONS + 3]
-        determinant = a11 * a22 - a12 * a21
-        return (a22 * tau0 - a12 * sigma0) / determinant, (a11 * sigma0 - a21 * tau0) / determinant
+        a11, a12, a21, a22 = (
+            kept[0, _TRACTIONS],
+            kept[0, _TRACTIONS + 1],
+            kept[0, _TRACTIONS + 2],
+            kept[0, _TRACTIONS + 3],
+        )
+        return (a22 * tau0 - a12 * sigma0) * solve, (a11 * sigma0 - a21 * tau0) * solve
     p0, n0 = -kappa * (tau0 + sigma0), sigma0 - tau0
-    pp, pn, nn = kappa * here[_ROUND], here[_ROUND + 1], here[_ROUND + 2] / kappa
-    r1, r2 = pp * p0 + kappa * pn * n0, nn * n0 + pn / kappa * p0
-    determinant = (1.0 - pp) * (1.0 - nn) - pn * pn
-    dp = ((1.0 - nn) * r1 + kappa * pn * r2) / determinant
-    dn = ((1.0 - pp) * r2 + pn / kappa * r1) / determinant
+    over = 1.0 / kappa
+    pp, pn, nn = kappa * kept[0, _ROUND], kept[0, _ROUND + 1], over * kept[0, _ROUND + 2]
+    r1, r2 = pp * p0 + pn * (kappa * n0), nn * n0 + pn * (over * p0)
+    dp = ((1.0 - nn) * r1 + kappa * pn * r2) * solve
+    dn = ((1.0 - pp) * r2 + over * pn * r1) * solve
     waves[0], waves[1] = dp, dn
-    return _transmitted(x, kappa, p0 + dp, n0 + dn, here)
+    return _transmitted(x, over, p0 + dp, n0 + dn, 0, kept, waves)
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _transmitted(x, kappa, p, n, here):  # type: ignore[no-untyped-def]
-    """Displacement below a thick layer from the amplitudes of its downward waves on its top."""
-    decay = np.exp(-x)
-    p, n = p * decay, (n - 2.0 * x * p / kappa) * decay
+def _transmitted(x, over, p, n, number, kept, waves):  # type: ignore[no-untyped-def]
+    """Displacement below a thick layer from the amplitudes of its downward waves on its top; `over`: 1 / kappa.
+
+    Into `waves` what arrives at the interface.
+    """
+    p = p * kept[number, _DECAY]
+    n = n * kept[number, _DECAY] - (2.0 * over) * x * p
+    waves[2], waves[3] = p, n
     u, w = 0.5 * (p + n), 0.5 * (p - n)
-    return here[_WAY] * u + here[_WAY + 1] * w, here[_WAY + 1] * u + here[_WAY + 2] * w
+    return kept[number, _WAY] * u + kept[number, _WAY + 1] * w, kept[number, _WAY + 1] * u + kept[number, _WAY + 2] * w
 
 
 @numba.njit(cache=True, error_model="numpy")
 def _pass_layer(q, media, kept, number, u, w, waves):  # type: ignore[no-untyped-def]
     """Displacement below a layer from that on its top; into `waves` the amplitudes there."""
-    here = kept[number]
     x = q * media[number, THICKNESS]
+    solve = kept[number, _SOLVE]
     if abs(x) < 1.0:
-        f11, f12, f21, f22 = here[_WAY], here[_WAY + 1], here[_WAY + 2], here[_WAY + 3]
-        determinant = f11 * f22 - f12 * f21
-        return (f22 * u - f12 * w) / determinant, (f11 * w - f21 * u) / determinant
+        f11, f12, f21, f22 = kept[number, _WAY], kept[number, _WAY + 1], kept[number, _WAY + 2], kept[number, _WAY + 3]
+        return (f22 * u - f12 * w) * solve, (f11 * w - f21 * u) * solve
     p, n = u + w, u - w
-    pp, pn, nn = here[_ROUND], here[_ROUND + 1], here[_ROUND + 2]
-    determinant = (1.0 + pp) * (1.0 + nn) - pn * pn
-    p, n = ((1.0 + nn) * p - pn * n) / determinant, ((1.0 + pp) * n - pn * p) / determinant
+    pp, pn, nn = kept[number, _ROUND], kept[number, _ROUND + 1], kept[number, _ROUND + 2]
+    p, n = ((1.0 + nn) * p - pn * n) * solve, ((1.0 + pp) * n - pn * p) * solve
     waves[0], waves[1] = p, n
-    return _transmitted(x, media[number, KAPPA], p, n, here)
+    return _transmitted(x, 1.0 / media[number, KAPPA], p, n, number, kept, waves)
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _half_space_waves(s, kappa, p, n):  # type: ignore[no-untyped-def]
-    """State of waves that decay downwards, amplitudes (p, n) a distance s (times q) above."""
-    fall = np.exp(-s)
-    p, n = p * fall, (n - 2.0 * s * p / kappa) * fall
-    return 0.5 * (p + n), 0.5 * (p - n), 0.5 * (-p / kappa - n), 0.5 * (-p / kappa + n)
+def _falling(place, over, p, n):  # type: ignore[no-untyped-def]
+    """State of waves that decay downwards, amplitudes (p, n) on the top of the medium; `over`: 1 / kappa."""
+    p = p * place[_FALL]
+    n = n * place[_FALL] - (2.0 * over) * place[_DOWN] * p
+    q = over * p
+    return 0.5 * (p + n), 0.5 * (p - n), 0.5 * (-q - n), 0.5 * (n - q)
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _waves_inside(down, up, kappa, here, p, n, p_sent, n_sent):  # type: ignore[no-untyped-def]
-    """State in a thick layer, `down` below its top and `up` above its bottom (times q).
-
-    p, n: amplitudes of the downward waves to add; p_sent, n_sent: of those that the interface reflects.
-    """
-    x = down + up
-    decay, back = np.exp(-x), np.exp(-up)
-    n_sent, p_sent = (n_sent - 2.0 * x * p_sent / kappa) * decay, p_sent * decay
-    p_up = here[_REFLECTED] * p_sent + here[_REFLECTED + 1] * n_sent
-    n_up = here[_REFLECTED + 1] * p_sent + here[_REFLECTED + 2] * n_sent
-    p_up, n_up = (p_up - 2.0 * up * n_up / kappa) * back, n_up * back
-    u, w, tau, sigma = _half_space_waves(down, kappa, p, n)
-    total, difference = p_up, n_up / kappa
+def _waves_inside(place, over, medium, kept, p, n, waves):  # type: ignore[no-untyped-def]
+    """State in a thick layer: downward waves of amplitudes p, n on its top, and what its interface reflects."""
+    p_sent, n_sent = waves[2], waves[3]
+    p_up = (kept[medium, _REFLECTED] * p_sent + kept[medium, _REFLECTED + 1] * n_sent) * place[_BACK]
+    n_up = (kept[medium, _REFLECTED + 1] * p_sent + kept[medium, _REFLECTED + 2] * n_sent) * place[_BACK]
+    p_up = p_up - (2.0 * over) * place[_UP] * n_up
+    u, w, tau, sigma = _falling(place, over, p, n)
+    less = over * n_up
     return (
         u + 0.5 * (p_up + n_up),
         w + 0.5 * (p_up - n_up),
-        tau + 0.5 * (total + difference),
-        sigma + 0.5 * (total - difference),
+        tau + 0.5 * (p_up + less),
+        sigma + 0.5 * (p_up - less),
     )
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _in_plane(q, above, medium, media, remainder, tau0, sigma0, kept, waves):  # type: ignore[no-untyped-def]
-    """u, w and the medium's own tau, sigma under a load; `above`: depth below the top of `medium`."""
+def _in_plane(q, medium, carried, remainder, media, place, kept, load, waves):  # type: ignore[no-untyped-def]
+    """u, w and the medium's own tau, sigma under pressure (load 0) or traction along k (1)."""
+    tau0, sigma0 = float(load), load - 1.0
     bottom = media.shape[0] - 1
-    kappa = media[medium, KAPPA]
-    u, w = q * 0.0, q * 0.0
-    for number in range(min(medium + 1, bottom)):
-        if number == 0:
-            u, w = _loaded_layer(q, media, kept, tau0, sigma0, waves)
-        else:
-            u, w = _pass_layer(q, media, kept, number, u, w, waves)
-    down = q * above
+    over = 1.0 / media[medium, KAPPA]
+    p0, n0 = -media[0, KAPPA] * (tau0 + sigma0) + q * 0.0, sigma0 - tau0 + q * 0.0
+    if bottom == 0:
+        return _falling(place, over, p0, n0)
+    u, w = _loaded_layer(q, media, kept, tau0, sigma0, waves)
+    for number in range(1, min(medium + 1, bottom)):
+        u, w = _pass_layer(q, media, kept, number, u, w, waves)
     if medium == bottom:
-        if bottom == 0:
-            return _half_space_waves(down, kappa, -kappa * (tau0 + sigma0) + u, sigma0 - tau0 + w)
-        return _half_space_waves(down, kappa, u + w, u - w)
-    here = kept[medium]
-    x = q * media[medium, THICKNESS]
-    up = q * (media[medium, THICKNESS] - above)
-    if abs(x) < 1.0 or (abs(up) < 1.0 and not remainder):
-        tau = here[_BELOW] * u + here[_BELOW + 1] * w
-        sigma = here[_BELOW + 1] * u + here[_BELOW + 2] * w
-        u, w, tau, sigma = _carry(up, 4.0 / (1.0 + kappa), u, w, tau, sigma)
+        return _falling(place, over, u + w, u - w)
+    if carried:
+        tau = kept[medium, _BELOW] * u + kept[medium, _BELOW + 1] * w
+        sigma = kept[medium, _BELOW + 1] * u + kept[medium, _BELOW + 2] * w
+        u, w, tau, sigma = _carry(place, 4.0 / (1.0 + media[medium, KAPPA]), u, w, tau, sigma)
         if remainder:
-            u0, w0, tau_0, sigma_0 = _half_space_waves(
-                down, kappa, -kappa * (tau0 + sigma0) + u * 0.0, sigma0 - tau0 + u * 0.0
-            )
+            u0, w0, tau_0, sigma_0 = _falling(place, over, p0, n0)
             return u - u0, w - w0, tau - tau_0, sigma - sigma_0
         return u, w, tau, sigma
     p, n = waves[0], waves[1]
-    if medium > 0:
-        return _waves_inside(down, up, kappa, here, p, n, p, n)
-    p0, n0 = -kappa * (tau0 + sigma0), sigma0 - tau0
-    if remainder:
-        return _waves_inside(down, up, kappa, here, p, n, p0 + p, n0 + n)
-    return _waves_inside(down, up, kappa, here, p0 + p, n0 + n, p0 + p, n0 + n)
+    if medium == 0 and not remainder:
+        p, n = p + p0, n + n0
+    return _waves_inside(place, over, medium, kept, p, n, waves)
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _rise(s):  # type: ignore[no-untyped-def]
-    """1 + exp(-2 s) and 1 - exp(-2 s), free of cancellation."""
-    fall = np.exp(-s)
-    if abs(s) < 1.0:
-        return 1.0 + fall * fall, 2.0 * fall * np.sinh(s)
-    return 1.0 + fall * fall, 1.0 - fall * fall
+def _even_odd(decay, sinh, small):  # type: ignore[no-untyped-def]
+    """1 + exp(-2 s) and 1 - exp(-2 s) from exp(-s) and, where s is small, sinh s."""
+    square = decay * decay
+    return 1.0 + square, 2.0 * decay * sinh if small else 1.0 - square
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _anti_plane(q, above, medium, media, remainder, impedances, out):  # type: ignore[no-untyped-def]
+def _anti_plane(q, medium, remainder, media, place, kept, impedances, out):  # type: ignore[no-untyped-def]
     """Shear across the plane: sums of positive terms only, at any thickness and ratio of moduli."""
     bottom = media.shape[0] - 1
     impedance = media[bottom, MODULUS] + q * 0.0
-    for number in range(bottom - 1, -1, -1):
+    for number in range(bottom - 1, 0, -1):
         g = media[number, MODULUS]
         impedances[number] = impedance / g
-        if number > 0:
-            even, odd = _rise(q * media[number, THICKNESS])
-            impedance = g * (impedance * even + g * odd) / (g * even + impedance * odd)
+        even, odd = _even_odd(kept[number, _DECAY], kept[number, _SINH], abs(q * media[number, THICKNESS]) < 1.0)
+        impedance = g * (impedance * even + g * odd) / (g * even + impedance * odd)
+    if bottom > 0:
+        impedances[0] = impedance
     v = 1.0 + q * 0.0  # displacement on top of the medium, times G1 q under a unit traction on the surface
+    fall = place[_FALL]
     for number in range(min(medium + 1, bottom)):
-        x = q * media[number, THICKNESS]
-        even, odd = _rise(x)
         zeta = impedances[number]
-        if number == 0:
-            loaded = odd + zeta * even
-            v = (even + zeta * odd) / loaded
-            if remainder:
-                down, up = np.exp(-q * above), np.exp(-2.0 * x + q * above)
-                square = np.exp(-2.0 * x)
-                out[ACROSS_ET] = (1.0 - zeta) * (square * down + up) / loaded
-                out[ACROSS_TZ] = -(1.0 - zeta) * (square * down - up) / loaded
-                out[ACROSS_U] = 2.0 * out[ACROSS_ET]
-                return
-        if number == medium:
-            fall = np.exp(-q * above)
-            through = even + zeta * odd
-            even, odd = _rise(q * (media[number, THICKNESS] - above))
-            g = media[medium, MODULUS]
-            out[ACROSS_U] = 2.0 * v * fall * (even + zeta * odd) / through
-            out[ACROSS_ET] = 0.5 * g * out[ACROSS_U]
-            out[ACROSS_TZ] = -g * v * fall * (odd + zeta * even) / through
+        even, odd = _even_odd(kept[number, _DECAY], kept[number, _SINH], abs(q * media[number, THICKNESS]) < 1.0)
+        through = even + zeta * odd
+        # over the traction on the surface, or the displacement on the top of an inner layer
+        scale = 1.0 / (odd + zeta * even) if number == 0 else v / through
+        if remainder:
+            scale = (1.0 - zeta) * scale
+            square, up = kept[number, _DECAY] * kept[number, _DECAY] * fall, kept[number, _DECAY] * place[_BACK]
+            out[ACROSS_ET], out[ACROSS_TZ] = scale * (square + up), -scale * (square - up)
+            out[ACROSS_U] = 2.0 * out[ACROSS_ET]
             return
-        v = v * (2.0 * np.exp(-x) / (even + zeta * odd))
-    v = v * np.exp(-q * above)
+        if number == medium:
+            even, odd = _even_odd(place[_BACK], place[_EXPONENTIAL], abs(place[_UP]) < 1.0)
+            scale = scale * fall
+            out[ACROSS_U] = 2.0 * scale * (even + zeta * odd)
+            out[ACROSS_ET] = 0.5 * media[medium, MODULUS] * out[ACROSS_U]
+            out[ACROSS_TZ] = -media[medium, MODULUS] * scale * (odd + zeta * even)
+            return
+        v = 2.0 * kept[number, _DECAY] * scale
+    v = v * fall
     out[ACROSS_U], out[ACROSS_ET] = 2.0 * v, media[bottom, MODULUS] * v
     out[ACROSS_TZ] = -out[ACROSS_ET]
 
 
 @numba.njit(cache=True, error_model="numpy")
-def fill(q, above, medium, media, remainder, out):  # type: ignore[no-untyped-def]
-    """Fill `out` (ROWS, n) for the wavenumbers q (n,) at the distance `above` below the top of a medium."""
+def _find_place(q, above, thickness, inside, carried, c, place):  # type: ignore[no-untyped-def]
+    """Fill `place` (_PLACE,) for a wavenumber and a depth `above` below the top of its medium."""
+    place[_DOWN] = q * above
+    place[_FALL] = np.exp(-place[_DOWN])
+    if inside:
+        up = q * (thickness - above)
+        place[_UP], place[_BACK] = up, np.exp(-up)
+        if carried:
+            sinh, cosh, gamma, delta = _exponential(up, c)
+            place[_EXPONENTIAL], place[_EXPONENTIAL + 1] = sinh, cosh
+            place[_EXPONENTIAL + 2], place[_EXPONENTIAL + 3] = gamma, delta
+
+
+@numba.njit(cache=True, error_model="numpy")
+def fill(q, above, medium, media, remainder, pressed, drawn, out):  # type: ignore[no-untyped-def]
+    """Fill `out` (ROWS, n) for the wavenumbers q (n,) at the distance `above` below the top of a medium.
+
+    `pressed`: the rows under pressure; `drawn`: those under tractions. The others are left as they are.
+    """
     bottom = media.shape[0] - 1
-    kept = np.empty((media.shape[0], _KEPT), out.dtype)
-    impedances = np.empty(media.shape[0], out.dtype)
-    waves = np.empty(2, out.dtype)
-    column = np.empty(ROWS, out.dtype)
-    g = media[medium, MODULUS]
-    c = 4.0 / (1.0 + media[medium, KAPPA])
+    kept = np.zeros((media.shape[0], _KEPT), out.dtype)
+    impedances, waves = np.empty(media.shape[0], out.dtype), np.empty(4, out.dtype)
+    place, column = np.zeros(_PLACE, out.dtype), np.empty(ROWS, out.dtype)
+    g, c, thickness = media[medium, MODULUS], 4.0 / (1.0 + media[medium, KAPPA]), media[medium, THICKNESS]
+    if bottom > 0:
+        _rest(media, kept)
+        _reflect(media[bottom - 1, KAPPA], bottom - 1, kept)
+    reflected = kept[max(bottom - 1, 0), _WAY : _WAY + 3].copy()
     for i in range(q.size):
+        inside = medium < bottom
+        carried = inside and (abs(q[i] * thickness) < 1.0 or (abs(q[i] * (thickness - above)) < 1.0 and not remainder))
+        _find_place(q[i], above, thickness, inside, carried, c, place)
         if bottom > 0:
-            _climb(q[i], media, kept)
-        for load in range(2):  # pressure, traction along k
-            u, w, tau, sigma = _in_plane(q[i], above, medium, media, remainder, float(load), load - 1.0, kept, waves)
+            _climb(q[i], media, reflected, kept)
+        for load in range(0 if pressed else 1, 2 if drawn else 1):
+            u, w, tau, sigma = _in_plane(q[i], medium, carried, remainder, media, place, kept, load, waves)
             row = 6 * load
             column[row], column[row + 1], column[row + 2], column[row + 3] = u, w, g * tau, g * sigma
             column[row + 4] = g * ((c - 1.0) * sigma - c * u)
             column[row + 5] = g * (c - 1.0) * (sigma - u)
-        _anti_plane(q[i], above, medium, media, remainder, impedances, column)
-        out[:, i] = column
+        if drawn:
+            _anti_plane(q[i], medium, remainder, media, place, kept, impedances, column)
+        for row in range(0 if pressed else 6, ROWS if drawn else 6):
+            out[row, i] = column[row]

@@ -54,6 +54,7 @@ from bem.kernels.layer_waves import (
     TANGENTIAL_U,
     TANGENTIAL_W,
 )
+from bem.kernels.loads import Load
 from bem.materials import Body
 
 __all__ = [
@@ -115,7 +116,9 @@ def _media(body: Body) -> FloatArray:
     )
 
 
-def wave_functions(wavenumber: NDArray, body: Body, depth: float, *, remainder: bool = False) -> NDArray:
+def wave_functions(
+    wavenumber: NDArray, body: Body, depth: float, *, remainder: bool = False, load: Load | None = None
+) -> NDArray:
     """Response of a body to unit tractions exp(i k.x) on its surface, in the frame of the wavevector.
 
     Parameters
@@ -125,6 +128,7 @@ def wave_functions(wavenumber: NDArray, body: Body, depth: float, *, remainder: 
     depth : z [m], not negative; an interface itself counts as the layer above it.
     remainder : leave out the half-space of the outermost material (only for depths in it). What is left decays like
         exp(-q (2 h - z)), is computed without cancellation, and vanishes for identical materials.
+    load : only the rows under pressure, or only those under tractions; the others are then zero.
 
     Returns
     -------
@@ -144,8 +148,9 @@ def wave_functions(wavenumber: NDArray, body: Body, depth: float, *, remainder: 
         )
     above = depth - (body.interfaces[medium - 1] if medium else 0.0)
     q = np.ascontiguousarray(wavenumber).ravel()
-    out = np.empty((ROWS, q.size), dtype=q.dtype)
-    layer_waves.fill(q, float(above), medium, _media(body), remainder, out)
+    out = np.zeros((ROWS, q.size), dtype=q.dtype)
+    pressed, drawn = load is not Load.TANGENTIAL, load is not Load.NORMAL
+    layer_waves.fill(q, float(above), medium, _media(body), remainder, pressed, drawn, out)
     return out
 
 
@@ -158,7 +163,7 @@ def surface_response(
     the result (odd in kx). Zero where k = 0: there is no limit. `remainder` as in `wave_functions`.
     """
     cosine, _, q = _directions(kx, ky)
-    functions = wave_functions(q, body, 0.0, remainder=remainder)
+    functions = wave_functions(q, body, 0.0, remainder=remainder, load=_load(tangential))
     with np.errstate(divide="ignore", invalid="ignore"):
         scale = np.where(q > 0, 0.5 / (body.surface_material.shear_modulus * q), 0.0)
     if tangential:
@@ -176,7 +181,7 @@ def stress_response(
     four under traction. At k = 0: the laterally constrained uniform state. `remainder` as in `wave_functions`.
     """
     cosine, sine, q = _directions(kx, ky)
-    f = wave_functions(q, body, depth, remainder=remainder).reshape(ROWS, *q.shape)
+    f = wave_functions(q, body, depth, remainder=remainder, load=_load(tangential)).reshape(ROWS, *q.shape)
     stress = np.empty((6, *q.shape))
     if tangential:
         tau, sigma, ee, tt = f[TANGENTIAL_TAU], f[TANGENTIAL_SIGMA], f[TANGENTIAL_EE], f[TANGENTIAL_TT]
@@ -203,6 +208,10 @@ def stress_response(
     for component in range(6):
         stress[component][at_rest] = 0.0 if remainder else uniform[component]
     return stress
+
+
+def _load(tangential: bool) -> Load:
+    return Load.TANGENTIAL if tangential else Load.NORMAL
 
 
 def _directions(kx: ArrayLike, ky: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:

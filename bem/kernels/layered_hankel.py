@@ -121,7 +121,7 @@ def surface_kernels(body: Body, load: Load) -> Kernels:
     scale = 0.5 / body.surface_material.shear_modulus
 
     def spectra(q: NDArray) -> NDArray:
-        return layered.wave_functions(q, body, 0.0, remainder=True)[row : row + 1] * (scale / q)
+        return layered.wave_functions(q, body, 0.0, remainder=True, load=load)[row : row + 1] * (scale / q)
 
     return _kernels(spectra, (0 if load is Load.NORMAL else 1,), layered.features(body, 0.0))
 
@@ -131,12 +131,12 @@ def stress_kernels(body: Body, depth: float, load: Load) -> Kernels:
     found = layered.features(body, depth)
 
     def normal(q: NDArray) -> NDArray:
-        f = layered.wave_functions(q, body, depth, remainder=found.remainder)
+        f = layered.wave_functions(q, body, depth, remainder=found.remainder, load=load)
         ee, tt = f[layered.NORMAL_EE], f[layered.NORMAL_TT]
         return np.stack([f[layered.NORMAL_SIGMA], f[layered.NORMAL_TAU], 0.5 * (ee + tt), 0.5 * (ee - tt)])
 
     def tangential(q: NDArray) -> NDArray:
-        f = layered.wave_functions(q, body, depth, remainder=found.remainder)
+        f = layered.wave_functions(q, body, depth, remainder=found.remainder, load=load)
         tau, ee, tt = f[layered.TANGENTIAL_TAU], f[layered.TANGENTIAL_EE], f[layered.TANGENTIAL_TT]
         across, below = f[layered.ACROSS_ET], f[layered.ACROSS_TZ]
         return np.stack(

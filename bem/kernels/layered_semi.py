@@ -111,7 +111,7 @@ def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatA
         return layered.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
 
     def mean(k: NDArray) -> NDArray:
-        f = layered.wave_functions(k, body, depth, remainder=inside)
+        f = layered.wave_functions(k, body, depth, remainder=inside, load=load)
         out = np.zeros((6, k.size), dtype=k.dtype)
         if tangential and free == 1:
             out[4], out[5] = f[layered.ACROSS_TZ], f[layered.ACROSS_ET]
