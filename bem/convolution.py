@@ -246,14 +246,8 @@ class DisplacementOperator:
 
     def modulus_at(self, wavenumber: float) -> float:
         """E* [Pa] that a harmonic pressure of that wavenumber [rad/m] sees: of the layers for short waves."""
-        compliance = 0.0
-        for body in self.bodies:
-            if body.layer is None:
-                compliance += 1 / body.material.plane_strain_modulus
-            else:
-                response = layered.surface_response(wavenumber, 0.0, body, tangential=False)
-                compliance += 0.5 * wavenumber * float(response)
-        return 1 / compliance
+        response = sum(float(layered.surface_response(wavenumber, 0.0, body, tangential=False)) for body in self.bodies)
+        return 2 / (wavenumber * response)
 
     @property
     def symmetric(self) -> bool:
