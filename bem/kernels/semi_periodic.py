@@ -21,6 +21,7 @@ free axis' mean is symmetric (a step from -c to c for a cell of traction across 
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import NamedTuple
 
 import numba as nb
 import numpy as np
@@ -83,26 +84,60 @@ _TAIL_WEIGHTS = 0.5 * _LEGENDRE[1]
 _STRESS, _PRESSURE_LIFT, _TRACTION_LIFT = 0, 1, 2
 
 
+class _Response(NamedTuple):
+    """What is summed and under what load; lengths in periods.
+
+    swap: the periodic axis is x. reference: length at which a line load displaces nothing. first: the nearest image
+    that belongs to the tail.
+    """
+
+    kind: int
+    swap: bool
+    z: float
+    nu: float
+    pressure: float
+    traction: float
+    reference: float
+    first: int
+
+
+class _Cells(NamedTuple):
+    """Cells of the grid, in periods: steps along the free axis and along the period, Gauss points over a piece."""
+
+    step: float
+    step_along: float
+    points: int
+
+
+class _Means(NamedTuple):
+    """From samples along the period to means over cells: nodes, weights (node, cell) of even and odd, parity of each
+    part.
+    """
+
+    nodes: FloatArray
+    even: FloatArray
+    odd: FloatArray
+    parity: FloatArray
+
+
 @nb.njit(**COMPILE)
-def _add_pair(
-    kind: int, swap: bool, z: float, shift: float, nu: float, pressure: float, traction: float, weight: float,
-    count: int, room: FloatArray,
-) -> None:  # fmt: skip
-    """Add `weight` times the point forces at +-`shift` along the periodic axis (x if `swap`) to a block of points."""
-    if kind == _STRESS:
+def _add_pair(what: _Response, shift: float, weight: float, count: int, room: FloatArray) -> None:
+    """Add `weight` times the point forces at +-`shift` along the periodic axis to a block of points."""
+    if what.kind == _STRESS:
+        pressure, traction = weight * what.pressure, weight * what.traction
         for side in (-1.0, 1.0):
             at = -side * shift
-            right, on = (at, 0.0) if swap else (0.0, at)
-            subsurface.add_points(right, on, z, nu, weight * pressure, weight * traction, count, room)
+            right, on = (at, 0.0) if what.swap else (0.0, at)
+            subsurface.add_points(right, on, what.z, what.nu, pressure, traction, count, room)
         return
     for k in range(count):
         x, y = room[X_AT + k], room[Y_AT + k]
-        free, along = (y, x) if swap else (x, y)
+        free, along = (y, x) if what.swap else (x, y)
         plus = (along + shift) ** 2 + free * free
         minus = (along - shift) ** 2 + free * free
-        if kind == _PRESSURE_LIFT:
+        if what.kind == _PRESSURE_LIFT:
             room[k] += weight * (1.0 / np.sqrt(plus) + 1.0 / np.sqrt(minus))
-        elif swap:
+        elif what.swap:
             room[k] += weight * 2.0 * along * (along * along + free * free - shift * shift) / (plus * minus)
         else:
             room[k] += weight * free * (1.0 / plus + 1.0 / minus)
@@ -110,165 +145,140 @@ def _add_pair(
 
 @nb.njit(**COMPILE)
 def _add_tail(
-    kind: int,
-    swap: bool,
-    free: float,
-    along: FloatArray,
-    z: float,
-    nu: float,
-    pressure: float,
-    traction: float,
-    reference: float,
-    first: int,
-    weight: float,
-    room: FloatArray,
-    out: FloatArray,
+    what: _Response, free: float, along: FloatArray, weight: float, room: FloatArray, out: FloatArray
 ) -> None:
-    """Add all point forces at +-k periods, k >= first, to `out` (parts, points along); lengths in periods."""
+    """Add all point forces at +-k periods, k >= first, to `out` (parts, points along)."""
     count = along.size
     across = np.full(count, free)
-    if swap:
+    if what.swap:
         subsurface.block_of(along, across, room)
     else:
         subsurface.block_of(across, along, room)
-    for k in range(first, _EXPLICIT):
-        _add_pair(kind, swap, z, float(k), nu, pressure, traction, weight, count, room)
+    for k in range(what.first, _EXPLICIT):
+        _add_pair(what, float(k), weight, count, room)
     start = _EXPLICIT - 0.5
     for i in range(_EULER_NODES.size):
         t = _EULER_NODES[i]
         w = weight * _EULER_WEIGHTS[i]
-        _add_pair(kind, swap, z, start + t, nu, pressure, traction, w, count, room)
-        _add_pair(kind, swap, z, start - t, nu, pressure, traction, -w, count, room)
-    if kind == _PRESSURE_LIFT:
-        for k in range(count):
-            for t in (start + along[k], start - along[k]):
-                room[k] -= weight * np.log((t + np.sqrt(t * t + free * free)) / reference)
-    else:
-        stretch = np.sqrt(start * start + free * free + z * z)
-        for i in range(_TAIL_NODES.size):
-            left = 1.0 - _TAIL_NODES[i]
-            w = weight * _TAIL_WEIGHTS[i] * stretch / (left * left)
-            t = start + stretch * _TAIL_NODES[i] / left
-            _add_pair(kind, swap, z, t, nu, pressure, traction, w, count, room)
+        _add_pair(what, start + t, w, count, room)
+        _add_pair(what, start - t, -w, count, room)
+    _add_integral(what, start, free, along, weight, room)
     for c in range(out.shape[0]):
         for k in range(count):
             out[c, k] += room[c * BLOCK + k]
 
 
 @nb.njit(**COMPILE)
-def _add_line(
-    kind: int,
-    swap: bool,
-    free: float,
-    z: float,
-    half: float,
-    share: float,
-    nu: float,
-    pressure: float,
-    traction: float,
-    reference: float,
-    out: FloatArray,
-    strip: FloatArray,
+def _add_integral(
+    what: _Response, start: float, free: float, along: FloatArray, weight: float, room: FloatArray
 ) -> None:
+    """Add the integral of the pairs of point forces from `start` on to a block of points."""
+    if what.kind == _PRESSURE_LIFT:
+        for k in range(along.size):
+            for t in (start + along[k], start - along[k]):
+                room[k] -= weight * np.log((t + np.sqrt(t * t + free * free)) / what.reference)
+        return
+    stretch = np.sqrt(start * start + free * free + what.z * what.z)
+    for i in range(_TAIL_NODES.size):
+        left = 1.0 - _TAIL_NODES[i]
+        w = weight * _TAIL_WEIGHTS[i] * stretch / (left * left)
+        _add_pair(what, start + stretch * _TAIL_NODES[i] / left, w, along.size, room)
+
+
+@nb.njit(**COMPILE)
+def _add_line(what: _Response, free: float, half: float, share: float, out: FloatArray, strip: FloatArray) -> None:
     """Add 2 pi times the stress (or V, or chi_x) of a strip |free'| < half; `share`: loaded fraction of a period."""
-    if kind == _STRESS:
+    if what.kind == _STRESS:
         strip[:] = 0.0
-        if swap:
-            add_strip(free, z, half, nu, pressure, 0.0, traction, strip)
-            out[0] += 2.0 * share * strip[1]
-            out[1] += 2.0 * share * strip[0]
-            out[3] += 2.0 * share * strip[4]
-            out[4] += 2.0 * share * strip[3]
-        else:
-            add_strip(free, z, half, nu, pressure, traction, 0.0, strip)
-            out[0] += 2.0 * share * strip[0]
-            out[1] += 2.0 * share * strip[1]
-            out[3] += 2.0 * share * strip[3]
-            out[4] += 2.0 * share * strip[4]
+        across = 0.0 if what.swap else what.traction
+        add_strip(free, what.z, half, what.nu, what.pressure, across, what.traction - across, strip)
+        # the strip's x is the free axis
+        x, y = (1, 0) if what.swap else (0, 1)
+        out[0] += 2.0 * share * strip[x]
+        out[1] += 2.0 * share * strip[y]
         out[2] += 2.0 * share * strip[2]
+        out[3] += 2.0 * share * strip[3 + x]
+        out[4] += 2.0 * share * strip[3 + y]
         out[5] += 2.0 * share * strip[5]
-    elif kind == _PRESSURE_LIFT:
-        out[0] -= 2.0 * share * reference * log_strip(free / reference, half / reference)
-    elif not swap:
+    elif what.kind == _PRESSURE_LIFT:
+        out[0] -= 2.0 * share * what.reference * log_strip(free / what.reference, half / what.reference)
+    elif not what.swap:
         out[0] += share * np.pi * 2.0 * min(max(free, -half), half)
 
 
 @nb.njit(**COMPILE)
 def _add_cell(
-    kind: int,
-    swap: bool,
-    free: float,
-    along: FloatArray,
-    z: float,
-    half: float,
-    half_along: float,
-    nu: float,
-    pressure: float,
-    traction: float,
-    room: FloatArray,
-    out: FloatArray,
+    what: _Response, free: float, along: FloatArray, half: float, half_along: float, room: FloatArray, out: FloatArray
 ) -> None:
     """Add one uniformly loaded cell to `out` (parts, points along)."""
     across = np.full(along.size, free)
-    x, y, a, b = (along, across, half_along, half) if swap else (across, along, half, half_along)
-    if kind == _STRESS:
-        subsurface.add_rectangles(x, y, z, a, b, nu, pressure, traction, room, out)
+    x, y, a, b = (along, across, half_along, half) if what.swap else (across, along, half, half_along)
+    if what.kind == _STRESS:
+        subsurface.add_rectangles(x, y, what.z, a, b, what.nu, what.pressure, what.traction, room, out)
         return
     lift = np.zeros(3)
     for k in range(along.size):
         # at nu = 0: 4 pi G uz = 2 V under pressure, chi_x under traction
         lift[:] = 0.0
-        half_space.add_rectangle(x[k], y[k], z, a, b, 0.0, kind == _TRACTION_LIFT, lift)
-        out[0, k] += 0.5 * lift[2] if kind == _PRESSURE_LIFT else lift[2]
+        half_space.add_rectangle(x[k], y[k], what.z, a, b, 0.0, what.kind == _TRACTION_LIFT, lift)
+        out[0, k] += 0.5 * lift[2] if what.kind == _PRESSURE_LIFT else lift[2]
 
 
 @nb.njit(**COMPILE)
-def _fill(
-    kind: int,
-    swap: bool,
-    step: float,
-    half: float,
-    step_along: float,
-    z: float,
-    nu: float,
-    pressure: float,
-    traction: float,
-    reference: float,
-    nodes: FloatArray,
-    even: FloatArray,
-    odd: FloatArray,
-    parity: FloatArray,
-    points: int,
-    first: int,
-    tail: FloatArray,
+def _within_reach(what: _Response, free: float, half: float) -> tuple[float, float]:
+    """The part of the cell at -`free` that is not seen as a line; empty where the ends meet."""
+    reach = np.sqrt(max(_LINE * _LINE - what.z * what.z, 0.0))
+    return min(max(free - reach, -half), half), min(max(free + reach, -half), half)
+
+
+@nb.njit(**COMPILE)
+def _sample_cell(
+    what: _Response, cells: _Cells, free: float, ends: tuple[float, float], nodes: FloatArray, room: FloatArray,
     out: FloatArray,
-) -> None:
-    """Fill out[component, free offset, offset along] for offsets along up to half a period. Lengths in periods.
+) -> None:  # fmt: skip
+    """Add the tail over the part of a cell between `ends` at the nodes to `out` (parts, nodes)."""
+    low, high = ends
+    pieces = int(np.ceil((high - low) / 0.5))
+    width = (high - low) / pieces
+    for piece in range(pieces):
+        centre = low + (piece + 0.5) * width
+        for g in range(cells.points):
+            source = centre + 0.5 * width * NODES[cells.points, g]
+            _add_tail(what, free - source, nodes, width * WEIGHTS[cells.points, g], room, out)
+
+
+@nb.njit(**COMPILE)
+def _add_means(means: _Means, samples: FloatArray, row: FloatArray) -> None:
+    """Add the means over the cells of what was sampled at the nodes to `row` (parts, cells)."""
+    for c in range(row.shape[0]):
+        for n in range(means.nodes.size):
+            value = samples[c, n]
+            shape = means.even[n] if means.parity[c] > 0 else means.odd[n]
+            for j in range(row.shape[1]):
+                row[c, j] += value * shape[j]
+
+
+@nb.njit(**COMPILE)
+def _fill(what: _Response, cells: _Cells, means: _Means, tail: FloatArray, out: FloatArray) -> None:
+    """Fill out[component, free offset, offset along] for offsets along up to half a period.
 
     `tail` : the tail at [component, free offset, node along], or nothing (sampled here, then, over each cell).
     """
     parts = out.shape[0]
-    half_along = 0.5 * step_along
-    samples = np.zeros((parts, nodes.size))
+    half = 0.5 * cells.step
+    samples = np.zeros((parts, means.nodes.size))
     line = np.zeros(parts)
     strip = np.zeros(6)
     room = np.zeros(8 * BLOCK)
     row = np.zeros((parts, out.shape[2]))
-    offsets = np.arange(out.shape[2]) * step_along
-    reach = np.sqrt(max(_LINE * _LINE - z * z, 0.0))
+    offsets = np.arange(out.shape[2]) * cells.step_along
     for i in range(out.shape[1]):
-        free = i * step
-        # the part of the cell within reach, and the strips on either side of it
-        low = min(max(free - reach, -half), half)
-        high = min(max(free + reach, -half), half)
+        free = i * cells.step
+        low, high = _within_reach(what, free, half)
         line[:] = 0.0
-        for start, stop in ((-half, low), (high, half)):
+        for start, stop in ((-half, low), (high, half)):  # strips on either side
             if stop > start:
-                middle = 0.5 * (start + stop)
-                _add_line(
-                    kind, swap, free - middle, z, 0.5 * (stop - start), step_along, nu, pressure, traction, reference,
-                    line, strip,
-                )  # fmt: skip
+                _add_line(what, free - 0.5 * (start + stop), 0.5 * (stop - start), cells.step_along, line, strip)
         for c in range(parts):
             out[c, i, :] = line[c]
         if not high > low:
@@ -277,47 +287,20 @@ def _fill(
             samples[:] = tail[:, i, :]
         else:
             samples[:] = 0.0
-            pieces = int(np.ceil((high - low) / 0.5))
-            width = (high - low) / pieces
-            for piece in range(pieces):
-                centre = low + (piece + 0.5) * width
-                for g in range(points):
-                    source = centre + 0.5 * width * NODES[points, g]
-                    _add_tail(
-                        kind, swap, free - source, nodes, z, nu, pressure, traction, reference, first,
-                        width * WEIGHTS[points, g], room, samples,
-                    )  # fmt: skip
+            _sample_cell(what, cells, free, (low, high), means.nodes, room, samples)
         middle = 0.5 * (low + high)
         row[:] = 0.0
-        for k in range(1 - first, first):
-            _add_cell(
-                kind, swap, free - middle, offsets + k, z, 0.5 * (high - low), half_along, nu, pressure, traction,
-                room, row,
-            )  # fmt: skip
+        for k in range(1 - what.first, what.first):
+            _add_cell(what, free - middle, offsets + k, 0.5 * (high - low), 0.5 * cells.step_along, room, row)
+        _add_means(means, samples, row)
         for c in range(parts):
-            for n in range(nodes.size):
-                value = samples[c, n]
-                shape = even[n] if parity[c] > 0 else odd[n]
-                for j in range(row.shape[1]):
-                    row[c, j] += value * shape[j]
             for j in range(row.shape[1]):
                 out[c, i, j] += row[c, j]
 
 
 @nb.njit(**COMPILE)
 def _sample(
-    kind: int,
-    swap: bool,
-    z: float,
-    nu: float,
-    pressure: float,
-    traction: float,
-    reference: float,
-    first: int,
-    free_nodes: FloatArray,
-    means: FloatArray,
-    nodes: FloatArray,
-    out: FloatArray,
+    what: _Response, free_nodes: FloatArray, free_means: FloatArray, nodes: FloatArray, out: FloatArray
 ) -> None:
     """The tail over each cell along the free axis, (parts, free offsets, nodes), from samples at `free_nodes`."""
     parts = out.shape[0]
@@ -325,9 +308,9 @@ def _sample(
     room = np.zeros(8 * BLOCK)
     for s in range(free_nodes.size):
         samples[:] = 0.0
-        _add_tail(kind, swap, free_nodes[s], nodes, z, nu, pressure, traction, reference, first, 1.0, room, samples)
+        _add_tail(what, free_nodes[s], nodes, 1.0, room, samples)
         for i in range(out.shape[1]):
-            w = means[i, s]
+            w = free_means[i, s]
             if w != 0.0:
                 for c in range(parts):
                     for n in range(nodes.size):
@@ -399,21 +382,17 @@ def _table(
     quarter = np.zeros((len(parities), grid.shape[free], cells // 2 + 1))
     parity = np.array(parities, dtype=np.float64)
     half = 0.5 * step
-    reference = grid.lengths[free] / period
-    loads = (nu, pressure, traction, reference)
     z = depth / period
     # whole cells within reach, and none so wide that a panel is no gain
     smooth = half <= 0.25 and (grid.shape[free] * step) ** 2 + z * z <= _LINE**2
     first = 1 if smooth and cells >= _MANY and step <= 1 / _MANY else 2
-    nodes, even, odd = _interpolation(cells, first)
+    what = _Response(kind, swap, z, nu, pressure, traction, grid.lengths[free] / period, first)
+    means = _Means(*_interpolation(cells, first), parity)
     points = _points((first - 0.5 if first == 1 else 1.0) / min(half, 0.25))
-    tail = np.zeros((len(parities), grid.shape[free] if smooth else 0, nodes.size))
+    tail = np.zeros((len(parities), grid.shape[free] if smooth else 0, means.nodes.size))
     if smooth:
-        _sample(kind, swap, z, *loads, first, *_panels(grid.shape[free], step, points, first), nodes, tail)
-    _fill(
-        kind, swap, step, half, 1.0 / cells, z, *loads,
-        nodes, even, odd, parity, points, first, tail, quarter,
-    )  # fmt: skip
+        _sample(what, *_panels(grid.shape[free], step, points, first), means.nodes, tail)
+    _fill(what, _Cells(step, 1.0 / cells, points), means, tail, quarter)
     odd_parts = parity < 0
     quarter[odd_parts, :, 0] = 0.0
     if cells % 2 == 0:
