@@ -125,6 +125,7 @@ def solve_contact(
     if cells < 16:
         raise ValueError(f"cells {cells}: fewer than 16 over the patch do not resolve a contact")
     layers.bodies(nu, layer)
+    layers.one_layer(layer)
     if indenter is not None and not (indenter[0] > 0 and -1 < indenter[1] < 0.5):
         raise ValueError(f"indenter {list(indenter)}: modulus ratio must be positive, Poisson's ratio in (-1, 0.5)")
     row = shape == "row"

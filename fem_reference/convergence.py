@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -166,8 +167,10 @@ def picture(builder: Any, span: float = 3.0) -> dict[str, Any]:
         nodes = sorted({node for interval in getattr(builder, name) for node in interval.nodes()})
         inside = [node for node in nodes if node <= span]
         lines[name] = [float(f"{node:.6g}") for node in inside]
-    depth = [sum(interval.end - interval.start for interval in builder.z[: builder.layers])]
-    return {**lines, "interface": depth[0] if builder.layers else None, "note": "coarsest mesh, near the load"}
+    counts = builder.layers if isinstance(builder, PlaneGrid) else (builder.layers,) if builder.layers else ()
+    depths = [builder.z[last - 1].end for last in accumulate(counts)]
+    found = {**lines, "interface": depths[0] if depths else None, "note": "coarsest mesh, near the load"}
+    return found | ({"interfaces": depths} if len(depths) > 1 else {})
 
 
 def equilibrium(solution: Solution, load: Sequence[float], tolerance: float = 1e-5) -> dict[str, dict[str, float]]:

@@ -8,6 +8,7 @@ Jacobian of the meridian is r; the integrals over the angle give the same factor
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -16,10 +17,10 @@ from numpy.typing import NDArray
 
 from fem_reference.convergence import Curve, equilibrium, study
 from fem_reference.elasticity import Solution, cartesian_components, isotropic_stress, solve
-from fem_reference.layers import LAYERS, bodies, describe_body
+from fem_reference.layers import LAYERS, STACKS, bodies, describe_body
 from fem_reference.problem import LAYER, POISSONS_RATIO, Parameter, Problem
 from fem_reference.results import STRESS_NAMES, Result
-from meshes.grids import half_space_grid
+from meshes.grids import half_space_grid, layer_names
 
 Array = NDArray[np.float64]
 DEGREE = 4
@@ -133,20 +134,35 @@ def evaluate(solution: Solution, points: Array, harmonic: int, side: str | None 
     return displacement, cartesian_components(turn @ stress @ turn.transpose(0, 2, 1))
 
 
-def depths(thickness: float | None) -> dict[str, Array]:
-    """Depths at which stresses are asked for, by side of the interface (None:
+def depths(thicknesses: Sequence[float]) -> dict[str, Array]:
+    """Depths at which stresses are asked for, by medium.
 
-    homogeneous), at least 0.1 below the surface's edge singularity or a tenth of the layer.
+    At least 0.1 below the surface's edge singularity or a tenth of the outermost layer.
     """
-    if thickness is None:
+    if not thicknesses:
         return {"": np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 3.0, 4.0])}
-    layer = thickness * np.array([0.1, 0.25, 0.5, 0.75, 0.9, 1.0])
+    first, *others = thicknesses
+    found = {"layer": first * np.array([0.1, 0.25, 0.5, 0.75, 0.9, 1.0])}
+    bottom = first
+    for name, thickness in zip(layer_names(len(thicknesses))[1:], others, strict=True):
+        found[name] = bottom + thickness * np.array([0.0, 0.25, 0.5, 0.75, 1.0])
+        bottom += thickness
     below = np.array([0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0])
-    substrate = np.concatenate([thickness * np.array([1.0, 1.1, 1.5]), below[below > 1.5 * thickness]])
-    return {"layer": layer, "substrate": substrate}
+    found["substrate"] = np.concatenate([bottom * np.array([1.0, 1.1, 1.5]), below[below > 1.5 * bottom]])
+    return found
 
 
-def _curves(solution: Solution, harmonic: int, thickness: float | None) -> list[Curve]:
+def interfaces(thicknesses: Sequence[float]) -> list[tuple[str, str, float]]:
+    """(words, medium, depth) of both sides of every interface, from the surface down."""
+    names = [*layer_names(len(thicknesses)), "substrate"]
+    found = []
+    for number, depth in enumerate(accumulate(thicknesses), 1):
+        words = "interface" if number == 1 else f"interface {number}"
+        found += [(words, names[number - 1], depth), (words, names[number], depth)]
+    return found
+
+
+def _curves(solution: Solution, harmonic: int, thicknesses: Sequence[float]) -> list[Curve]:
     """Surface displacements along x, stresses below the centre, off the axis, and along the interface."""
     surface = np.array([[x, 0.0, 0.0] for x in SURFACE])
     displacement, _ = evaluate(solution, surface, harmonic)
@@ -161,7 +177,7 @@ def _curves(solution: Solution, harmonic: int, thickness: float | None) -> list[
             Curve("tangential_displacement", unit, "surface, x = 0", across, evaluate(solution, across, 1)[0][0])
         )
     lines: list[tuple[str, Array, str]] = []
-    for side, levels in depths(thickness).items():
+    for side, levels in depths(thicknesses).items():
         label = f" ({side})" if side else ""
         for x, y, name in (
             (0.0, 0.0, "depth at x = y = 0"),
@@ -169,10 +185,9 @@ def _curves(solution: Solution, harmonic: int, thickness: float | None) -> list[
             (-1.2, 0.5, "depth at x = -1.2, y = 0.5"),
         ):
             lines.append((name + label, np.array([[x, y, z] for z in levels]), side))
-    if thickness is not None:
-        across = np.array([0.0, 0.25, 0.5, 0.75, 0.9, 1.1, 1.25, 1.5, 2.0, 3.0])
-        for side in ("layer", "substrate"):
-            lines.append((f"interface, y = 0 ({side})", np.array([[x, 0.0, thickness] for x in across]), side))
+    across = np.array([0.0, 0.25, 0.5, 0.75, 0.9, 1.1, 1.25, 1.5, 2.0, 3.0])
+    for words, side, depth in interfaces(thicknesses):
+        lines.append((f"{words}, y = 0 ({side})", np.array([[x, 0.0, depth] for x in across]), side))
     for along, points, side in lines:
         _, stress = evaluate(solution, points, harmonic, side or None)
         on_axis = {"stress_xz"} if harmonic else {"stress_xx", "stress_yy", "stress_zz"}
@@ -187,10 +202,10 @@ def _curves(solution: Solution, harmonic: int, thickness: float | None) -> list[
 def _solve(
     harmonic: int, *, nu: float, layer: Sequence[float] | None, pressure: str, levels: Sequence[int] = (1, 2, 3)
 ) -> Result:
-    materials, thickness = bodies(nu, layer)
+    materials, thicknesses = bodies(nu, layer)
 
     def grid(level: int, boxes: int = 0) -> Any:
-        return half_space_grid(thickness=thickness, level=level, boxes=boxes)
+        return half_space_grid(thickness=thicknesses, level=level, boxes=boxes)
 
     def solve_on(builder: Any) -> Solution:
         if harmonic == 0:
@@ -238,7 +253,7 @@ def _solve(
         far_field=FAR_FIELD,
         grid=grid,
         solve=solve_on,
-        curves=lambda solution: _curves(solution, harmonic, thickness),
+        curves=lambda solution: _curves(solution, harmonic, thicknesses),
         degree=DEGREE,
         levels=levels,
         # the walls shift the middle by something like 1/R along the load and strain it by 1/R^2
@@ -269,7 +284,7 @@ def _stored(prefix: str, uniform: Sequence[str], hertz: Sequence[str]) -> dict[s
     for pressure, names in (("uniform", uniform), ("hertz", hertz)):
         for name in names:
             case = f"{prefix}-{pressure}" + (f"-{name}" if name else "")
-            cases[case] = {"pressure": pressure} | ({"layer": LAYERS[name]} if name else {})
+            cases[case] = {"pressure": pressure} | ({"layer": (LAYERS | STACKS)[name]} if name else {})
     return cases
 
 
@@ -281,8 +296,8 @@ PROBLEMS = (
         solve_normal,
         _stored(
             "disc",
-            ["", "soft", "stiff", "stiff-thin", "soft-thick"],
-            ["", *LAYERS],
+            ["", "soft", "stiff", "stiff-thin", "soft-thick", "soft-on-stiff"],
+            ["", *LAYERS, "stiff-on-soft"],
         ),
         quick=("disc-uniform",),
     ),
@@ -294,7 +309,7 @@ PROBLEMS = (
         _stored(
             "disc-tangential",
             ["", "soft", "stiff", "stiff-thin", "soft-thick"],
-            ["", "soft", "stiff-thin", "film-15GPa-200nm"],
+            ["", "soft", "stiff-thin", "film-15GPa-200nm", "stiff-on-soft"],
         ),
     ),
 )

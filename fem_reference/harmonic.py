@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 
 from fem_reference.convergence import Curve, study
 from fem_reference.elasticity import Solution, solve
-from fem_reference.layers import LAYERS, bodies, describe_body
+from fem_reference.layers import LAYERS, STACKS, bodies, describe_body
 from fem_reference.problem import LAYER, POISSONS_RATIO, Parameter, Problem
 from fem_reference.results import STRESS_NAMES, Quantity, Result
 from fem_reference.strip import LOADS, evaluate, held_on_axis, strain_antiplane, strain_plane
-from meshes.grids import harmonic_grid
+from meshes.grids import harmonic_grid, layer_names
 
 Array = NDArray[np.float64]
 DEGREE = 4
@@ -32,13 +32,16 @@ FAR_FIELD = (
 )
 
 
-def _depths(thickness: float) -> dict[str, Array]:
-    """Depths by side, in wavelengths."""
-    below = thickness + np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4])
-    return {"layer": thickness * np.array([0.0, 0.25, 0.5, 0.75, 1.0]), "substrate": below}
+def _depths(thicknesses: Sequence[float]) -> dict[str, Array]:
+    """Depths by medium, in wavelengths."""
+    found, top = {}, 0.0
+    for name, thickness in zip(layer_names(len(thicknesses)), thicknesses, strict=True):
+        found[name] = top + thickness * np.array([0.0, 0.25, 0.5, 0.75, 1.0])
+        top += thickness
+    return found | {"substrate": top + np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4])}
 
 
-def _curves(solution: Solution, load: str, thickness: float, label: str) -> list[Curve]:
+def _curves(solution: Solution, load: str, thicknesses: Sequence[float], label: str) -> list[Curve]:
     """Amplitudes at the surface and over the depth, lengths times the wavenumber."""
     crest, node = 0.0, 0.25
     # where the cosine or sine of each quantity is one; under a traction the roles of cosine and sine change
@@ -50,7 +53,7 @@ def _curves(solution: Solution, load: str, thickness: float, label: str) -> list
         stressed = {"stress_yz": crest, "stress_xy": node}
     note = "amplitude of the cosine or sine along x; coordinates times the wavenumber q"
     found = []
-    for side, z in _depths(thickness).items():
+    for side, z in _depths(thicknesses).items():
         at = {x: evaluate(solution, np.array([[x, 0.0, d] for d in z]), load, side) for x in (crest, node)}
         points = np.column_stack([0 * z, 0 * z, z * WAVENUMBER])
         along = f"depth q z at {label} ({side})"
@@ -65,8 +68,9 @@ def _curves(solution: Solution, load: str, thickness: float, label: str) -> list
 
 def _one(nu: float, layer: Sequence[float], load: str, wavenumber_thickness: float) -> Result:
     """One wavelength."""
-    materials, _ = bodies(nu, layer)
-    thickness = wavenumber_thickness / WAVENUMBER
+    materials, thicknesses = bodies(nu, layer)
+    # q h is the outermost layer's; the others are in proportion
+    thicknesses = tuple(wavenumber_thickness / WAVENUMBER * t / thicknesses[0] for t in thicknesses)
     antiplane = load == "antiplane"
     held = held_on_axis(load)
     direction = 1 if load == "normal" else 0
@@ -91,9 +95,9 @@ def _one(nu: float, layer: Sequence[float], load: str, wavenumber_thickness: flo
         parameters={},
         normalisation="",
         far_field=FAR_FIELD,
-        grid=lambda level: harmonic_grid(thickness=thickness, level=level),
+        grid=lambda level: harmonic_grid(thickness=thicknesses, level=level),
         solve=solve_on,
-        curves=lambda solution: _curves(solution, load, thickness, f"q h = {wavenumber_thickness:g}"),
+        curves=lambda solution: _curves(solution, load, thicknesses, f"q h = {wavenumber_thickness:g}"),
         degree=DEGREE,
         boxes=False,
         round_off=1e-9,
@@ -102,7 +106,7 @@ def _one(nu: float, layer: Sequence[float], load: str, wavenumber_thickness: flo
 
 def solve_harmonic(*, nu: float, layer: Sequence[float], load: str, wavenumbers: Sequence[float]) -> Result:
     """Harmonic load: see the module. The layer's thickness enters through q h only."""
-    if layer is None:
+    if not layer:
         raise ValueError("layer: the harmonic problem needs one (of modulus ratio 1 for a homogeneous body)")
     bad = [w for w in wavenumbers if not 0 < w <= 50]
     if bad:
@@ -137,7 +141,8 @@ def solve_harmonic(*, nu: float, layer: Sequence[float], load: str, wavenumbers:
         "tangential": "traction p cos(q x) along x",
         "antiplane": "traction p cos(q x) along y",
     }[load]
-    body = describe_body(nu, layer, "h").replace(f"{layer[2]:.4g} h thick", "of thickness h")
+    over = [figure / (layer[2] if number % 3 == 2 else 1.0) for number, figure in enumerate(layer)]
+    body = describe_body(nu, over, "h").replace("1 h thick", "of thickness h", 1)
     return replace(
         parts[-1],
         sentence=f"A {kind} on {body}, for q h from {min(wavenumbers):g} to {max(wavenumbers):g}.",
@@ -161,6 +166,7 @@ def _stored() -> dict[str, dict[str, Any]]:
         names = ("soft", "stiff", "rubber", "film-15GPa-200nm", "film-130GPa-20nm")
         for name in names[:2] if load == "antiplane" else names:
             cases[f"harmonic-{load}-{name}"] = {"load": load, "layer": LAYERS[name]}
+        cases[f"harmonic-{load}-stiff-on-soft"] = {"load": load, "layer": STACKS["stiff-on-soft"]}
     return cases
 
 
@@ -170,7 +176,7 @@ PROBLEMS = (
         "harmonic pressure or traction on a layered body, periodic: the frequency response over q h",
         (
             POISSONS_RATIO,
-            Parameter("layer", (0.1, 0.4, 1.0), LAYER.help + "; the thickness is h", kind=float, count=3),
+            Parameter("layer", (0.1, 0.4, 1.0), LAYER.help + "; the outermost thickness is h", kind=float, count=-1),
             Parameter("load", "normal", "direction of the traction", choices=LOADS),
             Parameter("wavenumbers", WAVENUMBERS, "wavenumbers times the thickness, q h", kind=float, count=-1),
         ),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from fem_reference.elasticity import Material
+from meshes.grids import CELL_TAGS, layer_names
 
 LAYERS: dict[str, tuple[float, float, float]] = {
     "soft": (0.1, 0.4, 0.5),
@@ -21,17 +22,42 @@ LAYERS: dict[str, tuple[float, float, float]] = {
 }
 """Modulus over the substrate's, Poisson's ratio, thickness over the load's radius or half-width; by name."""
 
+STACKS: dict[str, tuple[float, ...]] = {
+    # a hard coat on a compliant, nearly incompressible interlayer; a soft one on a stiff interlayer
+    "stiff-on-soft": (10.0, 0.25, 0.25, 0.1, 0.45, 0.15),
+    "soft-on-stiff": (0.2, 0.4, 0.3, 8.0, 0.2, 0.2),
+}
+"""The same three figures of each layer of a stack, outermost first; by name."""
 
-def bodies(nu: float, layer: Sequence[float] | None) -> tuple[dict[str, Material], float | None]:
-    """Materials by cell tag, and the layer's thickness.
+
+def stack_of(layer: Sequence[float] | None) -> list[tuple[float, float, float]]:
+    """(modulus ratio, Poisson's ratio, thickness) of each layer, outermost first. ValueError unless in threes."""
+    figures = list(layer or ())
+    if len(figures) % 3:
+        raise ValueError(f"layer: {len(figures)} figures; three belong to each layer, outermost first")
+    return list(zip(figures[::3], figures[1::3], figures[2::3], strict=True))
+
+
+def one_layer(layer: Sequence[float] | None) -> float | None:
+    """Thickness of the only layer, None without one. ValueError where there are several."""
+    stack = stack_of(layer)
+    if len(stack) > 1:
+        raise ValueError(f"layer: {len(stack)} layers, but this problem takes one")
+    return stack[0][2] if stack else None
+
+
+def bodies(nu: float, layer: Sequence[float] | None) -> tuple[dict[str, Material], tuple[float, ...]]:
+    """Materials by cell tag, and the thicknesses of the layers, outermost first.
 
     The substrate's modulus is the unit. ValueError for figures no solid has.
     """
+    stack = stack_of(layer)
     messages = []
     if not -1 < nu < 0.5:
         messages.append(f"nu {nu}: Poisson's ratio must lie between -1 and 0.5, both excluded")
-    if layer is not None:
-        modulus, poisson, thickness = layer
+    if len(stack) > len(CELL_TAGS) - 1:
+        messages.append(f"layer: {len(stack)} layers; at most {len(CELL_TAGS) - 1} are meshed")
+    for modulus, poisson, thickness in stack:
         if not modulus > 0:
             messages.append(f"layer: modulus ratio {modulus} must be positive")
         if not -1 < poisson < 0.5:
@@ -41,17 +67,21 @@ def bodies(nu: float, layer: Sequence[float] | None) -> tuple[dict[str, Material
     if messages:
         raise ValueError("; ".join(messages))
     materials = {"substrate": Material(1.0, nu)}
-    if layer is None:
-        return materials, None
-    materials["layer"] = Material(layer[0], layer[1])
-    return materials, layer[2]
+    for name, (modulus, poisson, _) in zip(layer_names(len(stack)), stack, strict=True):
+        materials[name] = Material(modulus, poisson)
+    return materials, tuple(thickness for _, _, thickness in stack)
 
 
 def describe_body(nu: float, layer: Sequence[float] | None, length: str) -> str:
     """The body in words, thickness in units of `length`."""
-    if layer is None:
+    words = [
+        f"{thickness:.4g} {length} thick (modulus {modulus:.4g} of the substrate's, Poisson's ratio {poisson:g})"
+        for modulus, poisson, thickness in stack_of(layer)
+    ]
+    if not words:
         return f"a homogeneous half-space (Poisson's ratio {nu:g})"
+    if len(words) == 1:
+        return f"a half-space (Poisson's ratio {nu:g}) with a bonded layer {words[0]}"
     return (
-        f"a half-space (Poisson's ratio {nu:g}) with a bonded layer {layer[2]:.4g} {length} thick "
-        f"(modulus {layer[0]:.4g} of the substrate's, Poisson's ratio {layer[1]:g})"
+        f"a half-space (Poisson's ratio {nu:g}) under {len(words)} bonded layers, outermost first: {'; '.join(words)}"
     )

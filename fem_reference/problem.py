@@ -39,9 +39,10 @@ class Parameter:
 LAYER = Parameter(
     "layer",
     None,
-    "bonded layer: modulus over the substrate's, Poisson's ratio, thickness over the problem's length; default none",
+    "bonded layer: modulus over the substrate's, Poisson's ratio, thickness over the problem's length; of a stack "
+    "three figures for each, outermost first; default none",
     kind=float,
-    count=3,
+    count=-1,
 )
 POISSONS_RATIO = Parameter("nu", 0.3, "Poisson's ratio of the body (of the substrate, where there is a layer)")
 

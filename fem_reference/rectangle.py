@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from fem_reference.convergence import Curve, equilibrium, study
 from fem_reference.elasticity import Solution, cartesian_components, isotropic_stress, solve
-from fem_reference.layers import LAYERS, bodies, describe_body
+from fem_reference.layers import LAYERS, bodies, describe_body, one_layer
 from fem_reference.problem import LAYER, POISSONS_RATIO, Parameter, Problem
 from fem_reference.results import STRESS_NAMES, Result
 from meshes.grids import rectangle_grid
@@ -83,7 +83,8 @@ def _curves(solution: Solution, load: str, width: float, thickness: float | None
 
 def solve_rectangle(*, nu: float, layer: Sequence[float] | None, load: str, width: float) -> Result:
     """A loaded rectangle: see the module."""
-    materials, thickness = bodies(nu, layer)
+    materials, _ = bodies(nu, layer)
+    thickness = one_layer(layer)
     if not 0.1 <= width <= 1:
         raise ValueError(f"width {width}: the shorter half-side over the longer must lie between 0.1 and 1")
     direction = 2 if load == "normal" else 0

@@ -15,9 +15,9 @@ import ufl
 from numpy.typing import NDArray
 
 from fem_reference.convergence import Curve, equilibrium, study
-from fem_reference.disc import SURFACE, depths
+from fem_reference.disc import SURFACE, depths, interfaces
 from fem_reference.elasticity import Solution, cartesian_components, isotropic_stress, solve
-from fem_reference.layers import LAYERS, bodies, describe_body
+from fem_reference.layers import LAYERS, STACKS, bodies, describe_body
 from fem_reference.problem import LAYER, POISSONS_RATIO, Parameter, Problem
 from fem_reference.results import STRESS_NAMES, Result
 from meshes.grids import half_space_grid
@@ -77,7 +77,7 @@ def held_on_axis(load: str) -> list[int] | None:
     return {"normal": [0], "tangential": [1], "antiplane": None}[load]
 
 
-def _curves(solution: Solution, load: str, thickness: float | None) -> list[Curve]:
+def _curves(solution: Solution, load: str, thicknesses: Sequence[float]) -> list[Curve]:
     surface = np.array([[x, 0.0, 0.0] for x in SURFACE])
     displacement, _ = evaluate(solution, surface, load)
     datum = SURFACE.index(DATUM)
@@ -92,14 +92,13 @@ def _curves(solution: Solution, load: str, thickness: float | None) -> list[Curv
         other = 2 - along
         found.append(Curve(names[other], unit, "surface", surface[1:], displacement[other, 1:]))
     lines: list[tuple[str, Array, str]] = []
-    for side, levels in depths(thickness).items():
+    for side, levels in depths(thicknesses).items():
         label = f" ({side})" if side else ""
         for x in (0.0, 0.7, 1.3):
             lines.append((f"depth at x = {x:g}{label}", np.array([[x, 0.0, z] for z in levels]), side))
-    if thickness is not None:
-        across = np.array([0.0, 0.25, 0.5, 0.75, 0.9, 1.1, 1.25, 1.5, 2.0, 3.0])
-        for side in ("layer", "substrate"):
-            lines.append((f"interface ({side})", np.array([[x, 0.0, thickness] for x in across]), side))
+    across = np.array([0.0, 0.25, 0.5, 0.75, 0.9, 1.1, 1.25, 1.5, 2.0, 3.0])
+    for words, side, depth in interfaces(thicknesses):
+        lines.append((f"{words} ({side})", np.array([[x, 0.0, depth] for x in across]), side))
     for name, points, side in lines:
         _, stress = evaluate(solution, points, load, side or None)
         free = components(load, on_axis=not points[:, 0].any())
@@ -126,7 +125,7 @@ def _box_order(load: str, name: str) -> float:
 
 def solve_strip(*, nu: float, layer: Sequence[float] | None, load: str) -> Result:
     """A loaded strip: see the module."""
-    materials, thickness = bodies(nu, layer)
+    materials, thicknesses = bodies(nu, layer)
     antiplane = load == "antiplane"
     held = held_on_axis(load)
 
@@ -151,9 +150,9 @@ def solve_strip(*, nu: float, layer: Sequence[float] | None, load: str) -> Resul
         parameters={"nu": nu, "layer": None if layer is None else list(layer), "load": load},
         normalisation="Half-width a = 1, traction p = 1, Young's modulus of the substrate 1.",
         far_field=FAR_FIELD,
-        grid=lambda level, boxes=0: half_space_grid(thickness=thickness, level=level, boxes=boxes),
+        grid=lambda level, boxes=0: half_space_grid(thickness=thicknesses, level=level, boxes=boxes),
         solve=solve_on,
-        curves=lambda solution: _curves(solution, load, thickness),
+        curves=lambda solution: _curves(solution, load, thicknesses),
         degree=DEGREE,
         box_order=lambda curve: _box_order(load, curve.name),
         # half of the strip is meshed: the resultant is 1
@@ -170,6 +169,8 @@ def _stored() -> dict[str, dict[str, Any]]:
         for name in names:
             case = f"strip-{load}" + (f"-{name}" if name else "")
             cases[case] = {"load": load} | ({"layer": LAYERS[name]} if name else {})
+        name = "soft-on-stiff" if load == "tangential" else "stiff-on-soft"
+        cases[f"strip-{load}-{name}"] = {"load": load, "layer": STACKS[name]}
     return cases
 
 

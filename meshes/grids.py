@@ -13,10 +13,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import accumulate, pairwise
 from typing import Any
 
-CELL_TAGS = {"substrate": 1, "layer": 2}
+CELL_TAGS = {"substrate": 1, "layer": 2, "layer 2": 3, "layer 3": 4, "layer 4": 5}
 FACET_TAGS = {"axis": 11, "loaded": 12, "surface": 13, "far": 14, "axis_y": 15, "end": 16, "bottom": 17}
+
+
+def layer_names(count: int) -> list[str]:
+    """Names of the layers of a stack, outermost first."""
+    return ["layer", *(f"layer {number}" for number in range(2, count + 1))][:count]
 
 
 @dataclass(frozen=True)
@@ -123,7 +129,7 @@ class PlaneGrid:
     ----------
     x, z : the intervals of each axis, joined end to end; z begins at the surface, 0.
     loaded : how many x intervals, from the first, carry the load.
-    layers : how many z intervals, from the surface, belong to the layer.
+    layers : how many z intervals belong to each layer, from the surface down.
 
     Facets: ``axis`` at the least x, ``end`` at the greatest, ``loaded`` and ``surface`` at z = 0, ``bottom`` at the
     greatest z.
@@ -132,7 +138,7 @@ class PlaneGrid:
     x: tuple[Interval, ...]
     z: tuple[Interval, ...]
     loaded: int = 1
-    layers: int = 0
+    layers: tuple[int, ...] = ()
     dimension: int = field(default=2, init=False)
 
     def build(self, model: Any) -> None:
@@ -140,10 +146,14 @@ class PlaneGrid:
         axes = (self.x, self.z)
         corners, _ = _lattice(model, axes)
         lines = _edges(model, axes, corners)
-        cells: dict[str, list[int]] = {"layer": [], "substrate": []}
+        media = [
+            name for name, count in zip(layer_names(len(self.layers)), self.layers, strict=True) for _ in range(count)
+        ]
+        media += ["substrate"] * (len(self.z) - len(media))
+        cells: dict[str, list[int]] = {name: [] for name in media}
         for i in range(len(self.x)):
-            for k in range(len(self.z)):
-                cells["layer" if k < self.layers else "substrate"].append(_face(model, lines, 0, 1, (i, k)))
+            for k, medium in enumerate(media):
+                cells[medium].append(_face(model, lines, 0, 1, (i, k)))
         facets = {
             "axis": [lines[1, (0, k)] for k in range(len(self.z))],
             "end": [lines[1, (len(self.x), k)] for k in range(len(self.z))],
@@ -251,31 +261,36 @@ def _outwards(near: float, boxes: int, level: int) -> list[Interval]:
     return intervals
 
 
-def half_space_grid(*, thickness: float | None, level: int, boxes: int = 0) -> PlaneGrid:
+def half_space_grid(*, thickness: Sequence[float] | float | None, level: int, boxes: int = 0) -> PlaneGrid:
     """Half of a half-plane, or the meridian of a half-space, loaded on 0 <= x <= 1.
 
     Parameters
     ----------
-    thickness : of the layer, over the load's half-width or radius; None for a homogeneous body.
+    thickness : of each layer, outermost first, over the load's half-width or radius; None for a homogeneous body.
     level : subdivision, 1, 2, 3, ...
     boxes : how many times the box is made wider by WIDER, the mesh inside staying the same.
     """
-    edge = EDGE * min(1.0, thickness or 1.0)
-    near = max(4.0, 2 * (thickness or 0.0))
+    stack = _stack(thickness)
+    edge = EDGE * min(1.0, *stack, 1.0)
+    near = max(4.0, 2 * sum(stack))
     beyond = _outwards(near, boxes, level)
     x = [graded(0.0, 1.0, edge, GROWTH, level, fine_at_end=True), graded(1.0, near, edge, GROWTH, level), *beyond]
+    levels = [0.0, *accumulate(stack), near]
+    z = [
+        # below the first layer cells as large as progress from the surface would have made them
+        graded(top, bottom, top * (GROWTH - 1) if top else edge, GROWTH, level)
+        for top, bottom in pairwise(levels)
+    ]
+    return PlaneGrid(tuple(x), (*z, *beyond), loaded=1, layers=(1,) * len(stack))
+
+
+def _stack(thickness: Sequence[float] | float | None) -> tuple[float, ...]:
     if thickness is None:
-        z = [graded(0.0, near, edge, GROWTH, level), *beyond]
-    else:
-        z = [
-            graded(0.0, thickness, edge, GROWTH, level),
-            graded(thickness, near, thickness * (GROWTH - 1), GROWTH, level),
-            *beyond,
-        ]
-    return PlaneGrid(tuple(x), tuple(z), loaded=1, layers=0 if thickness is None else 1)
+        return ()
+    return tuple(thickness) if isinstance(thickness, Sequence) else (thickness,)
 
 
-def harmonic_grid(*, thickness: float | None, level: int) -> PlaneGrid:
+def harmonic_grid(*, thickness: Sequence[float] | float | None, level: int) -> PlaneGrid:
     """Half a wavelength of a layered body under a harmonic load: 0 <= x <= 1/2 in wavelengths, four wavelengths deep.
 
     The load is smooth: equal cells along x; downwards the cells grow from the surface, or from either side of the
@@ -284,16 +299,26 @@ def harmonic_grid(*, thickness: float | None, level: int) -> PlaneGrid:
     """
     deep = 4.0
     x = (uniform(0.0, 0.5, 4 * level),)
-    if thickness is None:
-        return PlaneGrid(x, (graded(0.0, deep, 0.08, 1.4, level),), loaded=1, layers=0)
-    deep += min(thickness, 4.0)
-    first = min(0.08, 0.5 * thickness)
-    below = graded(thickness, deep, min(0.08, 2 * thickness), 1.4, level)
-    if thickness <= 0.16:
-        return PlaneGrid(x, (uniform(0.0, thickness, 2 * level), below), loaded=1, layers=1)
-    middle = 0.5 * thickness
-    layer = (graded(0.0, middle, first, 1.4, level), graded(middle, thickness, first, 1.4, level, fine_at_end=True))
-    return PlaneGrid(x, (*layer, below), loaded=1, layers=2)
+    stack = _stack(thickness)
+    if not stack:
+        return PlaneGrid(x, (graded(0.0, deep, 0.08, 1.4, level),), loaded=1)
+    bottom = sum(stack)
+    z: list[Interval] = []
+    counts = []
+    for top, below in pairwise((0.0, *accumulate(stack))):
+        if below - top <= 0.16:
+            intervals = [uniform(top, below, 2 * level)]
+        else:
+            middle, first = 0.5 * (top + below), min(0.08, 0.5 * (below - top))
+            intervals = [
+                graded(top, middle, first, 1.4, level),
+                graded(middle, below, first, 1.4, level, fine_at_end=True),
+            ]
+        z += intervals
+        counts.append(len(intervals))
+    deep += min(bottom, 4.0)
+    z.append(graded(bottom, max(deep, bottom + 1.0), min(0.08, 2 * stack[-1]), 1.4, level))
+    return PlaneGrid(x, tuple(z), loaded=1, layers=tuple(counts))
 
 
 def progression(start: float, end: float, cells: int, spread: float, *, fine_at_end: bool = False) -> Interval:

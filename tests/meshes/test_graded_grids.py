@@ -14,6 +14,7 @@ from meshes.grids import (
     graded,
     half_space_grid,
     harmonic_grid,
+    layer_names,
     progression,
     rectangle_grid,
 )
@@ -78,6 +79,8 @@ def test_a_wrong_interval_is_refused():
         harmonic_grid(thickness=0.01, level=1),
         harmonic_grid(thickness=1.5, level=1),
         harmonic_grid(thickness=None, level=1),
+        half_space_grid(thickness=(0.3, 0.1), level=1),
+        harmonic_grid(thickness=(0.5, 0.1, 0.2), level=1),
         rectangle_grid(half_length=1.0, half_width=0.5, level=2),
     ],
     ids=lambda builder: type(builder).__name__,
@@ -88,7 +91,9 @@ def test_a_mesh_is_whole_tagged_and_always_the_same(builder):
     axes = [builder.x, builder.z] if builder.dimension == 2 else [builder.x, builder.y, builder.z]
     assert total == np.prod([sum(interval.cells for interval in axis) for axis in axes])
     assert sum(count for (dimension, _), count in groups.items() if dimension == builder.dimension) == total
-    assert ((builder.dimension, CELL_TAGS["layer"]) in groups) == (builder.layers > 0)
+    stack = builder.layers if isinstance(builder.layers, tuple) else (1,) * (builder.layers > 0)
+    for name in layer_names(4):
+        assert ((builder.dimension, CELL_TAGS[name]) in groups) == (name in layer_names(len(stack)))
     assert groups[builder.dimension - 1, FACET_TAGS["loaded"]] > 0
     # the nodes lie where the intervals say; gmsh integrates the progression along the line to about 1e-6
     for axis, column in zip(axes, points.T, strict=False):
@@ -110,4 +115,4 @@ def test_wider_boxes_leave_the_mesh_inside_alone():
 def test_a_builder_describes_itself():
     entry = describe(half_space_grid(thickness=0.3, level=1))
     assert entry["builder"] == "meshes.grids.PlaneGrid"
-    assert entry["parameters"]["layers"] == 1
+    assert tuple(entry["parameters"]["layers"]) == (1,)
