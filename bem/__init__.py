@@ -8,6 +8,10 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
+from bem.compiled import provide_folder
+
+provide_folder()
+
 _HOMES = {
     "grid": ["Grid"],
     "materials": ["CATALOGUE", "Body", "Layer", "Material", "contact_modulus", "dundurs_beta"],

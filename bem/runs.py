@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -47,6 +47,7 @@ def run_scene(
     workers: int | None = None,
     scheduler: str | None = None,
     watcher: Watcher | None = None,
+    pdf: bool = False,
 ) -> FinishedRun:
     """Run a scene and write its run directory.
 
@@ -61,7 +62,8 @@ def run_scene(
     figures : draw figures and write the report; `bem report` can do it later.
     workers : processes, for a scene of several cases; as many as cores and memory allow where not given.
     scheduler : address of a Dask scheduler, instead of processes on this machine.
-    watcher : told of progress and notes.
+    watcher : told of progress and notes, and of the numbers before pictures of them are drawn.
+    pdf : draw every figure as PDF too, for print; `bem plot` makes any later.
 
     Returns
     -------
@@ -110,13 +112,17 @@ def run_scene(
         for text in outcome_warnings(facts, computed.outcome):
             computed.notes.append(text)
             watcher.note(text)
-        _write(directory, scene, computed, figures, watcher)
+        formats = () if not figures else ("png", "pdf") if pdf else ("png",)
+        _write(directory, scene, computed, formats, watcher)
     return open_run(directory.path)
 
 
-def _write(directory: RunDirectory, scene: SceneModel, computed: Computed, figures: bool, watcher: Watcher) -> None:
-    """Arrays, volumes, figures, report; the summary last."""
-    from bem.results.dataset import to_dataset, write_variables
+def _write(
+    directory: RunDirectory, scene: SceneModel, computed: Computed, formats: tuple[str, ...], watcher: Watcher
+) -> None:
+    """Arrays, volumes, figures in these formats with the report (neither without any); the summary last."""
+    from bem.results.arrays import to_arrays
+    from bem.results.dataset import write_variables
     from bem.results.vtk import write_volumes
 
     outcome, seconds = computed.outcome, dict(computed.seconds)
@@ -136,21 +142,25 @@ def _write(directory: RunDirectory, scene: SceneModel, computed: Computed, figur
         "notes": computed.notes,
         "seconds_by_stage": seconds,
     }
-    if figures:
+    kind = get_kind(scene.kind)
+    tell = getattr(watcher, "numbers", None)
+    if tell is not None:
+        with suppress(OSError):  # nobody may be listening any more; the run goes on
+            tell({**summary, "wall_time_s": time.time() - computed.epoch}, kind.headline)
+    if formats:
         from bem.plots.draw import draw_all
         from bem.plots.report import write_report
 
         run = FinishedRun(directory.path, scene_table(scene), summary)
-        run.__dict__["dataset"] = to_dataset(outcome.variables, attributes)  # no need to read it back
+        run.__dict__["arrays"] = to_arrays(outcome.variables, attributes)  # no need to read it back
 
         def failed(name: str, error: Exception) -> None:
             text = f"figure {name} could not be drawn: {error!r}"
             computed.notes.append(text)
             watcher.note(text)
 
-        kind = get_kind(scene.kind)
         with _timed(seconds, "figures and report"):
-            drawn = draw_all(run, kind.figures, directory.figures, on_failure=failed)
+            drawn = draw_all(run, kind.figures, directory.figures, formats, on_failure=failed)
             summary["wall_time_s"] = time.time() - computed.epoch
             write_report(run, drawn, kind.headline)
     summary["wall_time_s"] = time.time() - computed.epoch

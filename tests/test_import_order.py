@@ -8,7 +8,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1] / "bem"
 
 ORDER = [
-    {"errors", "lazy", "representation", "small_files"},
+    {"errors", "lazy", "representation", "small_files", "compiled"},
     {"grid", "materials", "threads", "fftw", "laws"},
     {"kernels", "reference_solutions"},
     {"transforms"},
@@ -25,7 +25,7 @@ ORDER = [
     {"campaigns"},
     {"plots"},
     {"runs"},
-    {"sweeps"},
+    {"sweeps", "warm_up"},
     {"verification", "benchmarks"},
     {"cli"},
 ]

@@ -26,6 +26,8 @@ class Watcher(Protocol):
     def note(self, text: str) -> None:
         """Something the reader must know."""
 
+    # It may also have `numbers(summary, headline)`, which a run calls before it draws pictures of them.
+
 
 class Silent:
     """A watcher that does nothing."""

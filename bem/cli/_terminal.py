@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 _FIRST_SHOWN_AFTER = 1.0  # seconds; shorter work needs no bar
@@ -18,6 +19,7 @@ class Terminal:
         self._bars: Any = None
         self._tasks: dict[str, Any] = {}
         self._started: dict[str, float] = {}
+        self.printed = False
 
     def __enter__(self) -> Terminal:
         return self
@@ -46,6 +48,13 @@ class Terminal:
     def note(self, text: str) -> None:
         """See `bem.runs.Watcher`."""
         self.say(f"note: {text}")
+
+    def numbers(self, summary: Mapping[str, Any], headline: Sequence[str]) -> None:
+        """See `bem.runs.Watcher`: the numbers at once, pictures take longer."""
+        self.__exit__()
+        print_numbers(summary, headline)
+        sys.stdout.flush()
+        self.printed = True
 
     def say(self, text: str) -> None:
         """A line on the error stream, above the bars."""
@@ -139,15 +148,19 @@ def show_warnings(warnings: Sequence[str]) -> None:
         console.print(Padding(Text(f"- {text}"), (0, 0, 0, 2)))
 
 
-def print_summary(run: Any, headline: Sequence[str]) -> None:
-    """The figures of a finished run and where its files are."""
+def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
+    """The figures of a run."""
     from bem.plots.report import spelled
 
-    rows = [spelled(name, run.summary[name]) for name in headline if run.summary.get(name) is not None]
-    rows.append(("status", run.summary["status"]))
-    rows.append(("time", f"{run.summary['wall_time_s']:.1f} s"))
-    table(("figure", "value"), rows, title=f"{run.summary['scene']} ({run.summary['kind']})")
-    print(f"results: {run.path}")
+    rows = [spelled(name, summary[name]) for name in headline if summary.get(name) is not None]
+    rows.append(("status", summary["status"]))
+    rows.append(("time", f"{summary['wall_time_s']:.1f} s"))
+    table(("figure", "value"), rows, title=f"{summary['scene']} ({summary['kind']})")
+
+
+def print_files(folder: Path) -> None:
+    """Where the files of a finished run are."""
+    print(f"results: {folder}")
     for name, what in (("figures", "figures"), ("report.html", "report ")):
-        if (run.path / name).exists():
-            print(f"{what}: {run.path / name}")
+        if (folder / name).exists():
+            print(f"{what}: {folder / name}")

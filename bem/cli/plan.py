@@ -25,6 +25,7 @@ def register(app: typer.Typer) -> None:
           bem plan rough-contact --set grid.shape=8192
         """
         from bem.cli._terminal import show_warnings
+        from bem.compiled import SECONDS, is_cold
         from bem.runs import plan_scene
         from bem.scenes.checks import examine, scene_warnings
         from bem.scenes.planner import available_memory, show_bytes
@@ -38,6 +39,10 @@ def register(app: typer.Typer) -> None:
         _show_contacts(facts)
         _show_steps(planned)
         show_warnings(warnings)
+        if is_cold():
+            typer.echo(
+                f"not compiled yet: the first run takes about {SECONDS:.0f} s longer (`bem warm-up` does it now)"
+            )
         free = available_memory()
         if planned.memory > free:
             typer.echo(

@@ -52,6 +52,7 @@ def register(app: typer.Typer) -> None:
         figures: Annotated[
             bool, typer.Option("--figures/--no-figures", help="Draw figures and write the report.")
         ] = True,
+        pdf: Annotated[bool, typer.Option("--pdf", help="Draw every figure as PDF too, for print.")] = False,
         threads: Annotated[
             int | None, typer.Option(min=1, max=1024, help="Threads of each case; without it BEM_THREADS, or 1.")
         ] = None,
@@ -74,7 +75,7 @@ def register(app: typer.Typer) -> None:
           bem run my-scene.toml --out first --set contact.load="5 N"
           bem run my-scene.toml --out first --resume
         """
-        from bem.cli._terminal import Terminal, print_summary
+        from bem.cli._terminal import Terminal, print_files, print_numbers
         from bem.runs import run_scene
         from bem.scenes import get_kind
         from bem.threads import set_threads
@@ -95,11 +96,14 @@ def register(app: typer.Typer) -> None:
                     workers=workers,
                     scheduler=scheduler,
                     watcher=terminal,
+                    pdf=pdf,
                 )
             except KeyboardInterrupt:
                 terminal.say("interrupted; the same command with --resume goes on")
                 raise typer.Exit(130) from None
-        print_summary(done, get_kind(done.summary["kind"]).headline)
+        if not terminal.printed:  # a run that was finished before
+            print_numbers(done.summary, get_kind(done.summary["kind"]).headline)
+        print_files(done.path)
         if done.summary["status"] != "converged":
             typer.echo(f"bem: not converged: {done.summary['where']}", err=True)
             raise typer.Exit(3)

@@ -9,10 +9,26 @@ from typing import Any
 
 from bem.errors import InputError, ResultsError
 from bem.plots.figures import FigureKind, all_figures
+from bem.results.arrays import Arrays
 from bem.results.atomic import replacing
+from bem.results.read import FinishedRun
 from bem.scenes.validate import nearest
 
 FORMATS = ("png", "pdf", "svg")
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """A run as figures see it: its arrays without xarray, which nobody waits for to look at a picture."""
+
+    path: Path
+    scene: dict[str, Any]
+    summary: dict[str, Any]
+    dataset: Arrays
+
+
+def _seen(run: Any) -> Any:
+    return _Seen(run.path, run.scene, run.summary, run.arrays) if isinstance(run, FinishedRun) else run
 
 
 @dataclass(frozen=True)
@@ -27,7 +43,7 @@ def draw_all(
     run: Any,
     names: Sequence[str],
     folder: Path,
-    formats: Sequence[str] = ("png", "pdf"),
+    formats: Sequence[str] = ("png",),
     on_failure: Callable[[str, Exception], None] | None = None,
 ) -> list[Drawn]:
     """Draw those of the named figures that fit the run, in that order.
@@ -36,6 +52,7 @@ def draw_all(
     lost to a picture. Files that cannot be written are a ResultsError all the same.
     """
     known = all_figures()
+    run = _seen(run)
     drawn = []
     for name in names:
         try:
@@ -54,7 +71,7 @@ def draw(
     run: Any,
     kind: FigureKind,
     folder: Path,
-    formats: Sequence[str] = ("png", "pdf"),
+    formats: Sequence[str] = ("png",),
     size: tuple[float, float] | None = None,
 ) -> Drawn:
     """Draw one figure in the given formats and size [inch]."""
@@ -63,7 +80,7 @@ def draw(
 
     from bem.plots.style import style
 
-    paths = []
+    run, paths = _seen(run), []
     with style():
         figure = Figure(figsize=size or kind.size, layout="constrained")
         FigureCanvasAgg(figure)
@@ -90,7 +107,7 @@ def figure_kind(run: Any, name: str) -> FigureKind:
     ------
     InputError : no such figure, or not from this run.
     """
-    known = all_figures()
+    known, run = all_figures(), _seen(run)
     fitting = [kind.name for kind in known.values() if kind.fits(run)]
     if name not in known:
         raise InputError(

@@ -17,18 +17,6 @@ if TYPE_CHECKING:
     import xarray
 
 
-def to_dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> xarray.Dataset:
-    """Variables as an `xarray.Dataset`; those named like their only dimension become coordinates."""
-    import xarray
-
-    def entry(variable: Variable) -> tuple[tuple[str, ...], Any, dict[str, str]]:
-        return variable.dimensions, variable.values, {"units": variable.units, "long_name": variable.description}
-
-    coordinates = {name: entry(item) for name, item in variables.items() if item.dimensions == (name,)}
-    data = {name: entry(item) for name, item in variables.items() if name not in coordinates}
-    return xarray.Dataset(data, coords=coordinates, attrs=dict(attributes))
-
-
 def write_variables(path: Path, variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> None:
     """Write the file, whole or not at all, the same bytes for the same values; ResultsError if it cannot be.
 

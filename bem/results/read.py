@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bem.errors import ResultsError
+from bem.results.arrays import Arrays, read_arrays
 from bem.results.atomic import reason
 from bem.results.dataset import read_dataset
 from bem.results.directory import CHECKSUMS, RESULTS, SCENE, SUMMARY, SWAPPING, checksum, names_of_files
@@ -35,6 +36,12 @@ class FinishedRun:
         """All arrays, with units and coordinates; ResultsError if the file is missing or damaged."""
         _check(self.path, RESULTS)
         return read_dataset(self.path / RESULTS)
+
+    @cached_property
+    def arrays(self) -> Arrays:
+        """The same arrays without xarray, each read when first asked for: what figures are drawn from."""
+        _check(self.path, RESULTS)
+        return read_arrays(self.path / RESULTS)
 
     def __repr__(self) -> str:
         figures = _figures(self.summary)

@@ -57,16 +57,17 @@ def test_a_light_name_does_not_pull_in_a_heavy_one():
 
 SMALL = (
     *("hertz-sphere", "--set", "grid.shape=32", "--set", "grid.lengths=256 um", "--set", "outputs.depths=[0.0]"),
-    *("--out", "run", "--no-figures"),
+    *("--out", "run"),
 )
 
 
 def test_a_run_loads_no_scheduler_and_no_units_registry(tmp_path, monkeypatch):
-    """dask came in by two doors, pyfftw's interfaces and pint: two seconds of every run where it is installed."""
+    """dask came in by three doors, pyfftw's interfaces, pint and xarray: two seconds of every run where it is installed."""
     monkeypatch.chdir(tmp_path)
     modules = loaded(COMMAND, "run", *SMALL)
     assert "pyfftw" in modules
-    assert not modules & {"dask", "distributed", "pint", "SurfaceTopography"}
+    assert "matplotlib" in modules
+    assert not modules & {"dask", "distributed", "pint", "SurfaceTopography", "xarray", "pandas"}
 
 
 @pytest.mark.parametrize("first", ["pint", "pandas"])

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bem.plots.figures import all_figures
-from bem.results.dataset import to_dataset
+from bem.results.arrays import to_arrays
 from bem.scenes.context import Variable
 
 
@@ -22,7 +22,7 @@ def film_run(*, fraction):
     }
     if fraction:
         variables["film_fraction"] = Variable(("time", "film_x"), filled.copy(), "1", "share of the gap filled")
-    return SimpleNamespace(dataset=to_dataset(variables, {}))
+    return SimpleNamespace(dataset=to_arrays(variables, {}))
 
 
 def test_filled_share_over_place_and_time():

@@ -99,7 +99,7 @@ def test_a_run_folder_holds_what_it_promises(tmp_path):
         assert key in summary
     assert summary["status"] == "converged"
     kinds = {name.rsplit(".", 1)[1] for name in os.listdir(tmp_path / "run" / "figures")}
-    assert kinds == {"png", "pdf"}
+    assert kinds == {"png"}, "nobody looks at a PDF that was not asked for"
     for name in ("pressure-map", "contact-map", "von-mises-section", "convergence"):
         assert (tmp_path / "run" / "figures" / f"{name}.png").stat().st_size > 5000
     assert damaged_files(tmp_path / "run") == []
@@ -288,3 +288,26 @@ def test_watcher_is_told(tmp_path, counting):
     run_scene({"kind": "contact"}, tmp_path, watcher=watcher)
     assert (6, 6, "cycles") in told
     assert "cycle one is over" in told
+
+
+def test_numbers_are_told_before_pictures_are_drawn(tmp_path, monkeypatch):
+    told = []
+    monkeypatch.setattr("bem.plots.draw.draw_all", lambda *_, **__: told.append("pictures") or [])
+
+    def numbers(summary, headline):
+        assert (tmp_path / "results.nc").is_file()
+        assert summary["status"] == "converged"
+        assert summary["wall_time_s"] > 0
+        assert set(headline) & set(summary)
+        told.append("numbers")
+        raise BrokenPipeError("nobody listens any more")
+
+    watcher = SimpleNamespace(progress=lambda *_: None, note=told.append, numbers=numbers)
+    run_scene(SCENE, tmp_path, watcher=watcher)
+    assert told == ["numbers", "pictures"]
+
+
+def test_pdfs_are_drawn_when_asked_for(tmp_path):
+    run = run_scene(SCENE, tmp_path / "run", pdf=True)
+    endings = sorted(item.suffix for item in (run.path / "figures").iterdir())
+    assert endings.count(".pdf") == endings.count(".png") >= 6

@@ -1,6 +1,6 @@
 """The figures there are. A module here holds a tuple `FIGURES` of `FigureKind`; a new one needs nothing else.
 
-`draw(run, figure)` fills an empty matplotlib figure from `run.dataset` (an xarray.Dataset with units and long names),
+`draw(run, figure)` fills an empty matplotlib figure from `run.dataset` (`bem.results.arrays`: values, axes, units),
 `run.summary` and `run.scene` (tables of plain values). It never solves and never writes. `bem.plots.style` has the
 colours, unit prefixes and maps. A figure is drawn
 when the variables it `needs` are in the dataset and `applies(run)` holds.

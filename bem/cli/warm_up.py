@@ -1,0 +1,20 @@
+"""`bem warm-up`."""
+
+from __future__ import annotations
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+
+    @app.command("warm-up", hidden=True)
+    def warm_up() -> None:
+        """Compile every loop now instead of in the first run; `make setup` does."""
+        from bem.warm_up import warm_up
+
+        failed = warm_up(lambda words: typer.echo(words, err=True))
+        for words in failed:
+            typer.echo(f"bem: left cold: {words}", err=True)
+        if failed:
+            raise typer.Exit(1)

@@ -1,0 +1,48 @@
+"""Compiles every loop once, by running small scenes of all kinds, so that no user's first run has to."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from bem.errors import BemError
+from bem.runs import run_scene
+
+_FEW = ("repetitions=1", "cycles.count=3", "cycles.settled=1", "depths.count=8")
+
+SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
+    ("hertz-sphere", ()),
+    ("hertz-cylinder", ()),
+    ("rough-contact", ("grid.shape=256",)),
+    ("sinusoid", ()),
+    ("coated-sphere", ("grid.shape=96",)),
+    ("film-reciprocating", ("march.duration=5 ms", "march.steps=20")),
+    ("stribeck-mineral-oil", ("repetitions=1", "speeds.count=3", "grid.shape=100", "film.points=500")),
+    ("running-in-stribeck", (*_FEW, 'speeds.values=["0.01 m/s"]', "cycles.averaged=1", "grid.shape=96")),
+    ("wear-soft-roughness", (*_FEW, "domain.cells=120", "domain.half_widths=2.4")),
+    ("wear-steel-brass", (*_FEW, "domain.cells=160")),
+    ("tribofilm-afm-tip", ('rubbing.loads=["600 nN"]', "grid.shape=48")),
+    ("tribofilm-macro", ('rubbing.temperatures=["80 degC"]', "grid.shape=128", "grid.lengths=200 um")),
+    ("uniform-asperities", ('array.spacings=["20 um"]', 'array.interferences=["50 nm"]', "array.cell=1 um")),
+    ("particles-afm-map", ("synthetic.shape=[256, 256]",)),
+)
+"""Built-in scenes and what makes them small; between them they pass through every compiled loop."""
+
+
+def warm_up(say: Callable[[str], None]) -> list[str]:
+    """Run them all in a temporary folder; returns the scenes that could not be run, with the reason.
+
+    Parameters
+    ----------
+    say : told in words how far it is.
+    """
+    failed = []
+    with tempfile.TemporaryDirectory() as folder:
+        for number, (name, settings) in enumerate(SCENES):
+            say(f"compiling, {number + 1} of {len(SCENES)}: {name}")
+            try:
+                run_scene(name, Path(folder) / name, settings=settings, figures=False)
+            except BemError as error:
+                failed.append(f"{name}: {error}")
+    return failed

@@ -1,0 +1,131 @@
+"""Compiled loops: made at set-up, kept where they can be kept, and missed in words."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from bem import compiled
+from bem.runs import plan_scene
+from bem.warm_up import SCENES, warm_up
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.mark.parametrize(("name", "settings"), SCENES)
+def test_every_scene_of_the_warm_up_can_be_run(name, settings):
+    plan_scene(name, settings)
+
+
+def test_every_kind_is_warmed_up():
+    from bem.scenes import kind_names, library
+
+    assert {library()[name]["kind"] for name, _ in SCENES} == set(kind_names())
+
+
+def test_what_cannot_be_run_is_said_and_the_rest_is(monkeypatch):
+    ran = []
+
+    def run(name, folder, *, settings, figures):
+        ran.append(name)
+        plan_scene(name, ["grid.shape=-1"] if name == "sinusoid" else settings)
+
+    monkeypatch.setattr("bem.warm_up.run_scene", run)
+    said = []
+    failed = warm_up(said.append)
+    assert len(said) == len(SCENES)
+    assert ran == [name for name, _ in SCENES]
+    assert [words.split(":")[0] for words in failed] == ["sinusoid"]
+
+
+def test_set_up_warms_up():
+    assert "bem warm-up" in (ROOT / ".ci" / "setup").read_text()
+    assert "--compile-bytecode" in (ROOT / ".ci" / "setup").read_text()
+
+
+COMPILED = """
+import sys
+from numba.core import event
+with event.install_recorder("numba:compile") as record:
+    from bem.runs import run_scene
+    run_scene(sys.argv[1], sys.argv[2], settings=sys.argv[3:], figures=False)
+print(sum(1 for _, item in record.buffer if item.is_start))
+"""
+
+
+@pytest.mark.slow
+def test_what_was_compiled_once_is_not_compiled_again(tmp_path):
+    """The scenes as users run them, but smaller, on caches of their own: after the small ones nothing is left to do."""
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+
+    def compilations(folder, name, *settings):
+        done = subprocess.run(
+            [sys.executable, "-c", COMPILED, name, str(tmp_path / folder), *settings],
+            capture_output=True, text=True, timeout=300, check=False, env=environment,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        return int(done.stdout.splitlines()[-1])
+
+    name, settings = SCENES[0]
+    assert compilations("first", name, *settings) > 10
+    assert compilations("second", name, "grid.shape=160", "contact.load=11 N") == 0
+
+
+@pytest.fixture
+def locked(monkeypatch, tmp_path):
+    """An installation that cannot be written, and a home in `tmp_path`; numba's variable is put back afterwards."""
+    here = tmp_path / "site-packages" / "bem"
+    here.mkdir(parents=True)
+    real = os.access
+    monkeypatch.setattr(compiled, "_HERE", here)
+    monkeypatch.setattr(compiled.os, "access", lambda path, mode: Path(path) != here and real(path, mode))
+    monkeypatch.setenv("NUMBA_CACHE_DIR", "")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr("tempfile.tempdir", None)
+    import numba
+
+    monkeypatch.setattr(numba.config, "CACHE_DIR", "")
+    return tmp_path
+
+
+def test_a_read_only_installation_keeps_its_loops_with_the_user(locked):
+    compiled.provide_folder()
+    assert os.environ["NUMBA_CACHE_DIR"] == str(locked / "cache" / "bem" / "compiled")
+
+
+def test_without_a_home_a_folder_of_ones_own_is_taken(locked, monkeypatch):
+    (locked / "cache").write_text("no folder")
+    compiled.provide_folder()
+    folder = Path(os.environ["NUMBA_CACHE_DIR"])
+    assert folder.parent == locked
+    assert folder.stat().st_mode & 0o777 == 0o700
+
+
+def test_a_folder_that_others_may_write_is_not_trusted(locked):
+    """What is in it is executed."""
+    (locked / "cache").write_text("no folder")
+    own = locked / f"bem-compiled-{os.getuid()}"
+    own.mkdir()
+    own.chmod(0o777)
+    compiled.provide_folder()
+    assert os.environ["NUMBA_CACHE_DIR"] == ""
+
+
+def test_a_plan_says_that_loops_are_not_compiled_yet(tmp_path):
+    def plan(**variables):
+        done = subprocess.run(
+            [sys.executable, "-m", "bem", "plan", "hertz-sphere"],
+            capture_output=True, text=True, timeout=100, check=True, env=os.environ | variables,
+        )  # fmt: skip
+        return done.stdout
+
+    cold = plan(NUMBA_CACHE_DIR=str(tmp_path / "empty"))
+    assert "not compiled yet" in cold
+    assert "bem warm-up" in cold
+    warm = tmp_path / "warm" / "bem"
+    warm.mkdir(parents=True)
+    (warm / f"transforms._pad-1.py{sys.version_info[0]}{sys.version_info[1]}.nbi").write_text("")
+    assert "not compiled yet" not in plan(NUMBA_CACHE_DIR=str(tmp_path / "warm"))
