@@ -62,7 +62,7 @@ SMALL = (
 
 
 def test_a_run_loads_no_scheduler_and_no_units_registry(tmp_path, monkeypatch):
-    """dask came in by three doors, pyfftw's interfaces, pint and xarray: two seconds of every run where it is installed."""
+    """dask came in by three doors, pyfftw's interfaces, pint and xarray: two seconds of every run."""
     monkeypatch.chdir(tmp_path)
     modules = loaded(COMMAND, "run", *SMALL)
     assert "pyfftw" in modules
