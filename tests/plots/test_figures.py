@@ -117,7 +117,7 @@ def test_only_what_fits_is_drawn(tmp_path):
 def test_a_contact_that_is_open_everywhere_can_be_drawn(tmp_path):
     run = contact_run(tmp_path)
     run.dataset["pressure"].values[:] = 0.0
-    run.dataset["contact_state"][:] = 0
+    run.dataset["contact_state"].values[:] = 0
     drawn = {item.kind.name for item in draw_all(run, NAMES, tmp_path, ("png",))}
     assert "pressure-map" not in drawn
     assert "contact-map" in drawn
