@@ -310,12 +310,12 @@ def test_boundary_lubrication_is_said_and_lambda_ratio_is_one_in_both_kinds():
     """Creeping: both kinds converge with the load met, say that it is boundary, and mean the same by lambda."""
     speeds = {"speeds": ["1e-7 m/s"]}
     _, sharing, said = run(scene_with(FRICTION, film={"points": 200}, **speeds))
-    _, cycles, told = run(scene_with(RUNNING_IN, cycles={"count": 2, "averaged": 2, "settled": 2}, **speeds))
+    _, cycles, told = run(scene_with(RUNNING_IN, cycles={"count": 1, "averaged": 1, "settled": 1}, **speeds))
     for outcome, context in ((sharing, said), (cycles, told)):
         summary = outcome.summary
         assert outcome.status is Status.CONVERGED
         assert summary["contact_load_N"][0] + summary["film_load_N"][0] == pytest.approx(5.5, rel=5e-4)
         assert summary["friction"][0] == pytest.approx(0.15, rel=1e-3)  # the tolerance's tenth is the film's
         assert any("boundary lubrication" in note for note in context.notes)
-    # wear of two cycles changes the roughness by less than that
-    assert cycles.summary["lambda_ratio"][0] == pytest.approx(sharing.summary["lambda_ratio"][0], rel=0.05)
+    # the first cycle's surfaces are unworn; both films are solved on 200 nodes
+    assert cycles.summary["lambda_ratio"][0] == pytest.approx(sharing.summary["lambda_ratio"][0], rel=1e-6)
