@@ -13,12 +13,9 @@ from bem.kernels.spectral import stress_response
 from bem.reference_solutions.hamilton import sphere_stress
 from bem.reference_solutions.mcewen import cylinder_stress
 from bem.stress import (
-    bound_tile,
-    von_mises_bound,
     von_mises_field,
     von_mises_limit,
     von_mises_planes,
-    von_mises_where_above,
 )
 from bem.stress.packed import pack
 from bem.threads import set_threads
@@ -234,46 +231,6 @@ def rough(rng, shape, fraction):
     return np.where(rng.random(shape) < fraction, rng.random(shape), 0.0)
 
 
-def over_cells(bound, tile, shape):
-    return np.kron(bound, np.ones((1, tile, tile)))[:, : shape[0], : shape[1]]
-
-
-@pytest.mark.parametrize("periodic", ALL_PERIODIC)
-@pytest.mark.parametrize("friction", [0.0, 0.3])
-def test_the_bound_is_never_violated(periodic, friction):
-    rng = np.random.default_rng(5)
-    for shape in ((7, 6), (18, 5), (1, 14), (15, 1), (23, 31)):
-        grid = Grid(shape, (1.0, 0.7), periodic=periodic)
-        depths = [0.0, 0.3, 2.0, 10.0]
-        for tile in (1, 3, 4, None):
-            pressure = rough(rng, shape, 0.2) * (rng.choice([-1, 1], shape) if tile == 3 else 1)
-            bound = von_mises_bound(pressure, grid, BODY, depths, friction=friction, tile=tile)
-            field = von_mises_field(pressure, grid, BODY, depths, friction=friction)
-            size = tile or bound_tile(grid)
-            assert bound.shape == (4, -(-shape[0] // size), -(-shape[1] // size))
-            # round-off of the transforms
-            assert (field <= over_cells(bound, size, shape) + 1e-14 * np.abs(pressure).max()).all()
-
-
-def test_the_bound_is_exact_for_one_loaded_cell_and_useful_for_many():
-    grid = Grid((40, 40), (1.0, 1.0))
-    pressure = np.zeros(grid.shape)
-    pressure[11, 27] = 3.0
-    field = von_mises_field(pressure, grid, BODY, [0.5, 3.0], friction=0.2)
-    bound = von_mises_bound(pressure, grid, BODY, [0.5, 3.0], friction=0.2, tile=1)
-    np.testing.assert_allclose(bound, field, rtol=0, atol=1e-11)  # its own allowance for round-off
-    pressure = rough(np.random.default_rng(6), grid.shape, 0.05)
-    depths = [1.0, 4.0, 12.0]
-    peak = von_mises_field(pressure, grid, BODY, depths, friction=0.2).max(axis=(1, 2))
-    fine, coarse = (
-        von_mises_bound(pressure, grid, BODY, depths, friction=0.2, tile=tile).max(axis=(1, 2)) for tile in (1, 4)
-    )
-    assert (peak <= fine).all()
-    assert (fine <= coarse).all()
-    assert (fine < 1.5 * peak).all()  # as measured, rounded up: it must not quietly become useless
-    assert coarse[2] < 2.5 * peak[2]
-
-
 @pytest.mark.parametrize("periodic", ALL_PERIODIC)
 @pytest.mark.parametrize("friction", [0.0, -0.4])
 def test_the_limit_is_never_exceeded(periodic, friction):
@@ -303,7 +260,9 @@ def test_the_limit_is_near_for_one_loaded_cell_and_costs_one_pass_a_depth():
         # one cell: sqrt(5) at most if the largest d, e, yz, xz, xy were equal and apart; as measured, rounded up
         assert (limit < factor * peak).all()
     assert room.COUNT.bounds == 2
-    assert not von_mises_limit(0 * many, grid, BODY, depths).any()
+    TRANSFORMS.reset()
+    assert not von_mises_limit(0 * many, grid, BODY, depths[::-1], friction=0.2).any()
+    assert (room.COUNT.bounds, TRANSFORMS.forward, TRANSFORMS.inverse) == (2, 0, 0)
 
 
 def test_planes_go_where_they_are_wanted():
@@ -320,29 +279,6 @@ def test_planes_go_where_they_are_wanted():
         von_mises_planes(pressure, grid, BODY, [0.0, 1.0], out=stack)
 
 
-def test_depths_that_cannot_reach_the_threshold_are_left_out_and_nothing_else_changes():
-    grid = Grid((40, 30), (1.0, 1.0), periodic=(False, True))
-    pressure = rough(np.random.default_rng(7), grid.shape, 0.03)
-    depths = np.arange(16) * 1.5
-    whole = von_mises_field(pressure, grid, BODY, depths, friction=0.2)
-    threshold = 0.1
-    TRANSFORMS.reset()
-    field, computed = von_mises_where_above(threshold, pressure, grid, BODY, depths, friction=0.2)
-    assert TRANSFORMS.inverse == 5 * computed.sum()
-    assert 3 <= computed.sum() <= 12  # it leaves something out, and not everything
-    np.testing.assert_array_equal(field[computed], whole[computed])
-    assert not field[~computed].any()
-    assert (whole[~computed] < threshold).all()
-    np.testing.assert_array_equal(field > threshold, whole > threshold)
-    narrow = von_mises_where_above(threshold, pressure, grid, BODY, depths, friction=0.2, margin=0)[1]
-    np.testing.assert_array_equal(computed, narrow | np.append(narrow[1:], False) | np.insert(narrow[:-1], 0, False))
-    TRANSFORMS.reset()
-    nothing, computed = von_mises_where_above(1e3, pressure, grid, BODY, depths, out=np.ones((16, 40, 30)))
-    assert not nothing.any()
-    assert not computed.any()
-    assert (TRANSFORMS.forward, TRANSFORMS.inverse) == (0, 0)
-
-
 def test_a_layer_of_the_same_material_changes_nothing():
     same = Body(BODY.material, layer=Layer(Material("skin", youngs_modulus=210e9, poissons_ratio=NU), 1e-6))
     pressure = np.random.default_rng(8).random((6, 5))
@@ -351,17 +287,6 @@ def test_a_layer_of_the_same_material_changes_nothing():
         plain = subsurface_stress(pressure, grid, BODY, [0.0, 0.5e-6, 2e-6], friction=0.2)
         coated = subsurface_stress(pressure, grid, same, [0.0, 0.5e-6, 2e-6], friction=0.2)
         np.testing.assert_allclose(coated, plain, rtol=0, atol=1e-12)  # the layered kernels' own 1e-13, 30 cells
-
-
-def test_the_bound_makes_its_tables_once_and_no_transform():
-    grid = Grid((20, 20), (1.4, 1.0))
-    pressure = np.ones(grid.shape)
-    von_mises_bound(pressure, grid, BODY, [1.0, 2.0])
-    room.COUNT.reset()
-    TRANSFORMS.reset()
-    von_mises_bound(2 * pressure, grid, BODY, [2.0, 1.0])
-    assert (room.COUNT.bounds, TRANSFORMS.forward, TRANSFORMS.inverse) == (0, 0, 0)
-    assert not von_mises_bound(0 * pressure, grid, BODY, [1.0]).any()
 
 
 components = st.lists(st.floats(-1e9, 1e9), min_size=6, max_size=6)
@@ -403,7 +328,7 @@ def test_linearity_mirror_and_scale(nx, ny, periodic, friction, seed):
 def test_bad_input_is_refused_with_every_mistake_named():
     grid = Grid((4, 4), (1, 1))
     pressure = np.ones((4, 4))
-    for function in (subsurface_stress, von_mises_field, von_mises_bound, von_mises_limit, von_mises_planes):
+    for function in (subsurface_stress, von_mises_field, von_mises_limit, von_mises_planes):
         with pytest.raises(InputError) as caught:
             function(pressure, grid, "steel", [-1.0], friction=np.nan)
         assert len(caught.value.messages) == 3
@@ -416,11 +341,6 @@ def test_bad_input_is_refused_with_every_mistake_named():
             function(np.full((4, 4), np.nan), grid, BODY, [1.0])
     with pytest.raises(InputError, match="out"):
         subsurface_stress(pressure, grid, BODY, [1.0], out=np.empty((6, 2, 4, 4)))
-    with pytest.raises(InputError, match="tile"):
-        von_mises_bound(pressure, grid, BODY, [1.0], tile=0)
-    for threshold, margin in ((np.nan, 1), ("high", 1), (1.0, -1)):
-        with pytest.raises(InputError, match="von_mises_where_above"):
-            von_mises_where_above(threshold, pressure, grid, BODY, [1.0], margin=margin)
     with pytest.raises(InputError, match="6 components"):
         von_mises(np.ones((5, 2)))
     with pytest.raises(InputError, match="limit"):

@@ -3,20 +3,17 @@
 `spectra` makes and keeps the kernels, `sweeps` goes through the depths, `bound` says where nothing can be.
 """
 
-from bem.stress.bound import bound_tile, von_mises_bound, von_mises_limit, von_mises_where_above
+from bem.stress.bound import von_mises_limit
 from bem.stress.spectra import COUNT, set_stress_memory, stress_memory
 from bem.stress.sweeps import subsurface_stress, von_mises, von_mises_field, von_mises_planes
 
 __all__ = [
     "COUNT",
-    "bound_tile",
     "set_stress_memory",
     "stress_memory",
     "subsurface_stress",
     "von_mises",
-    "von_mises_bound",
     "von_mises_field",
     "von_mises_limit",
     "von_mises_planes",
-    "von_mises_where_above",
 ]
