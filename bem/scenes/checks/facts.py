@@ -27,6 +27,7 @@ class Case:
     Parameters
     ----------
     label : which of the scene's contacts, such as "10 N"; empty where there is but one.
+    lower, upper : the bodies; a rigid upper one is None.
     grid : None where the kind has no cells over an area.
     load : on the grid [N]; None where it is not known beforehand.
     smooth : Hertz contact of the substrates, None for a flat.
@@ -37,6 +38,7 @@ class Case:
     slide : how far the lower surface is moved on in a cycle [m]; None where nothing is.
     shape : "flat", "sphere", "cylinder", "ellipsoid" or "sinusoid".
     wavelength : of a sinusoid [m].
+    surfaces : the scene's tables of the surfaces, by body.
     """
 
     label: str
