@@ -17,10 +17,10 @@ from scipy.interpolate import PchipInterpolator
 
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
-from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_kernel import LineOperator
 from bem.lubrication.line_newton import State, newton
-from bem.lubrication.steady import lowest_film, scaled_problem
+from bem.lubrication.line_scales import scaled_problem
+from bem.lubrication.steady import KeptSteady, lowest_film
 from bem.reference_solutions.line_film import dowson_higginson_minimum, moes_central
 
 if TYPE_CHECKING:
@@ -74,8 +74,9 @@ def similarity_case(load: float, piezo: float) -> tuple[dict[str, object], float
 def nested_films(film: FilmSolution, levels: int) -> list[tuple[float, float]]:
     """(minimum, central) film in Moes' unit on the film's mesh and on it split again and again."""
     kept = film.state
-    problem: Problem = scaled_problem(kept.scales, kept.load, film.lubricant)
-    state: State = kept.state
+    assert isinstance(kept, KeptSteady)
+    problem = scaled_problem(kept.scales, kept.load, film.lubricant)
+    state = kept.state
     found = [_measures(state)]
     for _ in range(levels):
         half = np.arange(2 * len(state.offset) - 1) / 2

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Protocol
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -12,6 +12,13 @@ from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
 from bem.representation import readable
+
+
+class KeptFilm(Protocol):
+    """A film as its solver left it: it may be looked at anywhere, and the solver that made it may start from it."""
+
+    def sample(self, position: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Pressure [Pa] and thickness [m] at any positions [m]."""
 
 
 @readable
@@ -64,7 +71,7 @@ class FilmSolution:
     volume_imbalance: float | None = None
     film_fraction: FloatArray | None = None
     notes: tuple[str, ...] = ()
-    state: Any = field(default=None, repr=False, compare=False)
+    state: KeptFilm | None = field(default=None, repr=False, compare=False)
 
     def shear_stress(self, position: FloatArray | None = None) -> FloatArray:
         """Shear stress tau + (h/2) dp/dx on the flat in the full film [Pa], zero in the cavitated exit.

@@ -12,7 +12,8 @@ With mass-conserving cavitation H becomes theta H in both flow and storage, thet
 filled, the balance is an equation at every node, and P >= 0 is complementary to 1 - theta >= 0 instead: an active set
 says which of P and theta is unknown at a node, and changes with every Newton step. A face carries the theta of the
 node upstream on the film extrapolated to it: of second order in the full film, without oscillations behind it, and the
-same formula whoever is full, so that the discrete problem has one solution.
+same formula whoever is full, so that the discrete problem has one solution. What differs between the two models is in
+`line_rupture`.
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ from bem.lubrication.cavitation import Cavitation
 from bem.lubrication.line_flow import Problem, mean_fluidity
 from bem.lubrication.line_kernel import logarithmic_weights
 from bem.lubrication.line_linear import DEFLECTION
+from bem.lubrication.line_rupture import RUPTURES, Iterate, Rupture
 
 
 @dataclass(frozen=True)
@@ -118,6 +120,57 @@ def elastic_film(mesh: FixedMesh, pressure: FloatArray, datum: float) -> FloatAr
     return film
 
 
+@dataclass(frozen=True)
+class Step:
+    """What stays the same during a time step.
+
+    The time derivative is `leading * rho H + history`. upstream, farther : the node upstream of every face, and the one
+    upstream of that; extrapolation : how much of their difference is added on the face.
+    """
+
+    problem: Problem
+    mesh: FixedMesh
+    entrainment: float
+    leading: float
+    history: FloatArray
+    rupture: Rupture
+    upstream: NDArray[np.intp]
+    farther: NDArray[np.intp]
+    extrapolation: FloatArray
+
+    @property
+    def loaded(self) -> bool:
+        """Whether the load is given; else the datum stays as it is."""
+        return bool(np.isfinite(self.problem.load))
+
+
+@dataclass(frozen=True)
+class Balance:
+    """The balances at an iterate. On nodes: density and slopes, mass, mass of a full gap (held), excess of each volume,
+    row (its scale), scaled (their ratio). On faces: the rest. highest : of the pressure."""
+
+    density: FloatArray
+    density_slope: FloatArray
+    slope: FloatArray
+    thickness: FloatArray
+    mean_density: FloatArray
+    fluid: FloatArray
+    left: FloatArray
+    right: FloatArray
+    gradient: FloatArray
+    cubed: FloatArray
+    mass: FloatArray
+    held: FloatArray
+    carried: FloatArray
+    faced: FloatArray
+    flux: FloatArray
+    excess: FloatArray
+    row: FloatArray
+    scaled: FloatArray
+    load_error: float
+    highest: float
+
+
 def time_step(
     problem: Problem,
     mesh: FixedMesh,
@@ -133,146 +186,182 @@ def time_step(
 
     An infinite load keeps the datum as it is: a gap of given shape.
     """
-    nodes = len(mesh.position)
-    conserving = cavitation is Cavitation.MASS_CONSERVING
-    loaded = np.isfinite(problem.load)
-    upstream, farther = _upstream_nodes(mesh, entrainment)
+    rupture = RUPTURES[cavitation]
     extrapolation = mesh.ahead if entrainment >= 0 else mesh.behind
-    spacing = mesh.spacing
-    pressure, film, datum = start.pressure.copy(), start.film.copy(), start.datum
-    fraction = start.fraction.copy() if conserving else np.ones(nodes)
-    inlet = 0 if entrainment >= 0 else -1
-    fraction[inlet] = 1.0  # flooded
+    step = Step(
+        problem, mesh, entrainment, leading, history, rupture, *_upstream_nodes(mesh, entrainment), extrapolation
+    )
+    fraction = rupture.start(start.fraction)
+    fraction[0 if entrainment >= 0 else -1] = 1.0  # flooded
+    at = Iterate(start.pressure.copy(), start.film.copy(), start.datum, fraction)
     full = start.full.copy()
     full[0] = full[-1] = False
-    interior = np.arange(1, nodes - 1)
-    # one flux to measure by: what is entrained or squeezed through the contact
     converged, residual, iterations = False, np.inf, 0
     seen: list[bytes] = []
     while True:
-        positive = np.maximum(pressure, 0.0)
-        log_viscosity, slope = problem.log_viscosity(positive)
-        density, density_slope = problem.density(positive)
-        thickness = 0.5 * (film[1:] + film[:-1])
-        mean_density = 0.5 * (density[1:] + density[:-1])
-        fluid, left, right = mean_fluidity(log_viscosity)
-        gradient = np.diff(pressure) / spacing
-        cubed = thickness**3 / 6
-        mass = fraction * density * film
-
-        carried = entrainment * fraction[upstream]
-        held = density * film
-        faced = held[upstream] + extrapolation * (held[upstream] - held[farther])
-        flux = carried * faced - cubed * mean_density * fluid * gradient
-        excess = np.diff(flux, prepend=0.0, append=0.0) + mesh.volume * (leading * mass + history)
-        # what is carried through a ruptured gap is as thin as the exit, however wide the gap
-        measure = np.minimum(film, 10 * film.min()) if conserving else film
-        row = (mesh.volume * leading + abs(entrainment)) * measure
-        scaled = excess / row
-        load_error = 1 - (mesh.quadrature @ pressure) / problem.load if loaded else 0.0
-
-        # a node carries pressure unless that vanishes and a void opens; both measured by their own scale
-        highest = max(float(pressure.max()), 1e-300)
-        new_full = pressure / highest > (1 - fraction if conserving else scaled)
-        new_full[0] = new_full[-1] = False
+        balance = balance_of(step, at)
         if iterations:
-            worst = [abs(float(load_error)), max(-float(pressure.min()) / highest, 0.0)]
-            if conserving:
-                worst += [
-                    float(np.max(np.abs(scaled[1:-1]))),
-                    float(np.max(fraction[1:-1])) - 1,
-                    float(np.max(np.abs(np.where(full, 1 - fraction, pressure / highest))[1:-1])),
-                ]
-            else:
-                worst += [
-                    float(np.max(np.abs(scaled[full]), initial=0.0)),
-                    -float(np.where(full, 0.0, scaled)[1:-1].min(initial=0.0)),
-                ]
-            residual = max(worst)
-            if residual <= tolerance:
-                converged = True
-                break
-        if iterations == max_iterations or not np.isfinite(scaled).all():
+            residual = _residual(step, at, balance, full)
+            converged = residual <= tolerance
+        if converged or iterations == max_iterations or not np.isfinite(balance.scaled).all():
             break
         if iterations:
-            key = new_full.tobytes()
-            if key in seen and not np.array_equal(new_full, full) and iterations > 8:
-                # the exit hops between two nodes: take the smaller film and let Newton settle
-                new_full &= full
-            seen.append(key)
-            full = new_full
-        full[np.flatnonzero(full)[0] if full.any() else nodes // 2] = True
-        index = np.flatnonzero(full)
-        rows_at = interior if conserving else index
-        empty = interior[~full[1:-1]] if conserving else interior[:0]
-        through_film = 0.5 * thickness**2 * mean_density * fluid * gradient
-        steep = cubed * gradient * mean_density
-        mobility = cubed * mean_density * fluid / spacing
-        dense = 0.5 * cubed * fluid * gradient
-        stored = film * density_slope
-        faces = _upwind(carried, density, extrapolation, entrainment)
-        faces[1:3] -= 0.5 * through_film
-        by_film = _bands(faces, mesh.volume * leading * fraction * density / row, row)
-        faces = _upwind(carried, stored, extrapolation, entrainment)
-        faces[1] += mobility - steep * left * slope[:-1] - dense * density_slope[:-1]
-        faces[2] -= mobility + steep * right * slope[1:] + dense * density_slope[1:]
-        by_pressure = _bands(faces, mesh.volume * leading * fraction * stored / row, row)
-        faces = np.zeros_like(faces)
-        faces[1 if entrainment >= 0 else 2] = entrainment * faced
-        by_fraction = _bands(faces, mesh.volume * leading * held / row, row)
-
-        size = len(rows_at)
-        matrix = np.zeros((size + 1, size + 1))
-        unknown = len(index)
-        place = np.full(nodes, -1)
-        place[index] = np.arange(unknown)
-        place[empty] = unknown + np.arange(len(empty))
-        elastic = -DEFLECTION * highest
-        _assemble(matrix, rows_at, index, place, elastic * by_film, mesh.weights, highest * by_pressure, by_fraction)
-        unit = float(film.min())
-        matrix[:-1, -1] = by_film.sum(axis=0)[rows_at] * unit
-        if loaded:
-            matrix[-1, :unknown] = mesh.quadrature[index] * highest / problem.load
-        else:
-            matrix[-1, -1] = 1.0
-        # nodes that leave the film drop their pressure in the same step
-        dropped = np.where(full, 0.0, -pressure)
-        film_drop = -DEFLECTION * (mesh.weights @ dropped)
-        known = -scaled - _applied(by_film, film_drop) - _applied(by_pressure, dropped)
-        # and those that enter it are filled
-        filled = np.where(full, 1 - fraction, 0.0) if conserving else np.zeros(nodes)
-        if conserving:
-            known -= _applied(by_fraction, filled)
-        right_side = np.append(
-            known[rows_at], load_error - (mesh.quadrature @ dropped) / problem.load if loaded else 0.0
-        )
-        change = lu_solve(lu_factor(matrix, overwrite_a=True, check_finite=False), right_side, check_finite=False)
-        if not np.isfinite(change).all():
+            full = _carrying(step, at, balance, full, seen, settle=iterations > 8)
+        full[np.flatnonzero(full)[0] if full.any() else len(full) // 2] = True
+        changed = _newton(step, at, balance, full)
+        if changed is None:
             break
-        step_pressure = dropped
-        step_pressure[index] = change[:unknown] * highest
-        step_fraction = filled
-        step_fraction[empty] = change[unknown:-1]
-        step_datum = change[-1] * unit
-        step_film = step_datum - DEFLECTION * (mesh.weights @ step_pressure)
-        shrinking = step_film < 0
-        length = 1.0
-        if shrinking.any():
-            length = min(1.0, 0.8 * float(np.min(-film[shrinking] / step_film[shrinking])))
-        pressure = pressure + length * step_pressure
-        fraction = fraction + length * step_fraction
-        datum += length * step_datum
-        film = film + length * step_film
+        at = changed
         iterations += 1
-    moved = float(np.abs(flux).max()) + float(np.abs(mesh.volume * (leading * mass + history))[full].sum())
-    balanced = excess[1:-1] if conserving else excess[full]
-    imbalance = abs(float(balanced.sum())) / max(moved, 1e-300)
-    if conserving:
-        outlet, last = (-1, -2) if entrainment >= 0 else (0, 1)
-        fraction[outlet] = min(mass[last] / (density[outlet] * film[outlet]), 1.0)
-        mass[outlet] = fraction[outlet] * density[outlet] * film[outlet]
-    outcome = Film(np.maximum(pressure, 0.0), film, datum, mass, full, fraction)
-    return StepOutcome(outcome, iterations, residual, converged, imbalance)
+    return _outcome(step, at, balance, full, iterations, residual, converged)
+
+
+def balance_of(step: Step, at: Iterate) -> Balance:
+    """Flow through the faces and what it leaves in the volumes."""
+    mesh, positive = step.mesh, np.maximum(at.pressure, 0.0)
+    log_viscosity, slope = step.problem.log_viscosity(positive)
+    density, density_slope = step.problem.density(positive)
+    thickness = 0.5 * (at.film[1:] + at.film[:-1])
+    mean_density = 0.5 * (density[1:] + density[:-1])
+    fluid, left, right = mean_fluidity(log_viscosity)
+    gradient = np.diff(at.pressure) / mesh.spacing
+    cubed = thickness**3 / 6
+    mass = at.fraction * density * at.film
+    carried = step.entrainment * at.fraction[step.upstream]
+    held = density * at.film
+    faced = held[step.upstream] + step.extrapolation * (held[step.upstream] - held[step.farther])
+    flux = carried * faced - cubed * mean_density * fluid * gradient
+    excess = np.diff(flux, prepend=0.0, append=0.0) + mesh.volume * (step.leading * mass + step.history)
+    # one flux to measure by: what is entrained or squeezed through the contact
+    row = (mesh.volume * step.leading + abs(step.entrainment)) * step.rupture.measure(at.film)
+    return Balance(
+        density=density,
+        density_slope=density_slope,
+        slope=slope,
+        thickness=thickness,
+        mean_density=mean_density,
+        fluid=fluid,
+        left=left,
+        right=right,
+        gradient=gradient,
+        cubed=cubed,
+        mass=mass,
+        held=held,
+        carried=carried,
+        faced=faced,
+        flux=flux,
+        excess=excess,
+        row=row,
+        scaled=excess / row,
+        load_error=float(1 - (mesh.quadrature @ at.pressure) / step.problem.load) if step.loaded else 0.0,
+        highest=max(float(at.pressure.max()), 1e-300),
+    )
+
+
+def _residual(step: Step, at: Iterate, balance: Balance, full: NDArray[np.bool_]) -> float:
+    """The worst of load, negative pressure, balance and complementarity."""
+    worst = [abs(balance.load_error), max(-float(at.pressure.min()) / balance.highest, 0.0)]
+    share = at.pressure / balance.highest
+    return max(worst + step.rupture.violations(share, at.fraction, balance.scaled, full))
+
+
+def _carrying(
+    step: Step, at: Iterate, balance: Balance, full: NDArray[np.bool_], seen: list[bytes], *, settle: bool
+) -> NDArray[np.bool_]:
+    """The nodes that carry pressure next; `seen` are those of earlier iterates, and gets these."""
+    found = step.rupture.carrying(at.pressure / balance.highest, at.fraction, balance.scaled)
+    found[0] = found[-1] = False
+    key = found.tobytes()
+    if key in seen and not np.array_equal(found, full) and settle:
+        # the exit hops between two nodes: take the smaller film and let Newton settle
+        found &= full
+    seen.append(key)
+    return found
+
+
+def _derivatives(step: Step, at: Iterate, balance: Balance) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Of the scaled excess with film, pressure and fraction, as bands of five nodes."""
+    b, volume = balance, step.mesh.volume
+    through_film = 0.5 * b.thickness**2 * b.mean_density * b.fluid * b.gradient
+    steep = b.cubed * b.gradient * b.mean_density
+    mobility = b.cubed * b.mean_density * b.fluid / step.mesh.spacing
+    dense = 0.5 * b.cubed * b.fluid * b.gradient
+    stored = at.film * b.density_slope
+    faces = _upwind(b.carried, b.density, step.extrapolation, step.entrainment)
+    faces[1:3] -= 0.5 * through_film
+    by_film = _bands(faces, volume * step.leading * at.fraction * b.density / b.row, b.row)
+    faces = _upwind(b.carried, stored, step.extrapolation, step.entrainment)
+    faces[1] += mobility - steep * b.left * b.slope[:-1] - dense * b.density_slope[:-1]
+    faces[2] -= mobility + steep * b.right * b.slope[1:] + dense * b.density_slope[1:]
+    by_pressure = _bands(faces, volume * step.leading * at.fraction * stored / b.row, b.row)
+    faces = np.zeros_like(faces)
+    faces[1 if step.entrainment >= 0 else 2] = step.entrainment * b.faced
+    by_fraction = _bands(faces, volume * step.leading * b.held / b.row, b.row)
+    return by_film, by_pressure, by_fraction
+
+
+def _newton(step: Step, at: Iterate, balance: Balance, full: NDArray[np.bool_]) -> Iterate | None:
+    """One step of Newton's method for the pressures of full nodes, the fractions of empty ones and the datum; as long
+    as the film stays positive. None where the equations have no solution."""
+    mesh, highest = step.mesh, balance.highest
+    by_film, by_pressure, by_fraction = _derivatives(step, at, balance)
+    index, rows_at, empty = np.flatnonzero(full), step.rupture.balanced(full), step.rupture.empty(full)
+    size, unknown = len(rows_at), len(index)
+    matrix = np.zeros((size + 1, size + 1))
+    place = np.full(len(full), -1)
+    place[index] = np.arange(unknown)
+    place[empty] = unknown + np.arange(len(empty))
+    elastic = -DEFLECTION * highest
+    _assemble(matrix, rows_at, index, place, elastic * by_film, mesh.weights, highest * by_pressure, by_fraction)
+    unit = float(at.film.min())
+    matrix[:-1, -1] = by_film.sum(axis=0)[rows_at] * unit
+    # nodes that leave the film drop their pressure in the same step, those that enter it are filled
+    dropped = np.where(full, 0.0, -at.pressure)
+    filled = step.rupture.filling(at.fraction, full)
+    known = -balance.scaled - _applied(by_film, -DEFLECTION * (mesh.weights @ dropped)) - _applied(by_pressure, dropped)
+    known -= _applied(by_fraction, filled)
+    missing = 0.0
+    if step.loaded:
+        matrix[-1, :unknown] = mesh.quadrature[index] * highest / step.problem.load
+        missing = balance.load_error - (mesh.quadrature @ dropped) / step.problem.load
+    else:
+        matrix[-1, -1] = 1.0
+    right_side = np.append(known[rows_at], missing)
+    change = lu_solve(lu_factor(matrix, overwrite_a=True, check_finite=False), right_side, check_finite=False)
+    if not np.isfinite(change).all():
+        return None
+    dropped[index] = change[:unknown] * highest
+    filled[empty] = change[unknown:-1]
+    datum = change[-1] * unit
+    thicker = datum - DEFLECTION * (mesh.weights @ dropped)
+    shrinking = thicker < 0
+    length = 1.0
+    if shrinking.any():
+        length = min(1.0, 0.8 * float(np.min(-at.film[shrinking] / thicker[shrinking])))
+    return Iterate(
+        pressure=at.pressure + length * dropped,
+        film=at.film + length * thicker,
+        datum=at.datum + length * datum,
+        fraction=at.fraction + length * filled,
+    )
+
+
+def _outcome(
+    step: Step,
+    at: Iterate,
+    balance: Balance,
+    full: NDArray[np.bool_],
+    iterations: int,
+    residual: float,
+    converged: bool,
+) -> StepOutcome:
+    """The film after the step, and how well all volumes together balance."""
+    moved = float(np.abs(balance.flux).max())
+    moved += float(np.abs(step.mesh.volume * (step.leading * balance.mass + step.history))[full].sum())
+    imbalance = abs(float(balance.excess[step.rupture.balanced(full)].sum())) / max(moved, 1e-300)
+    step.rupture.leave(at, balance.density, balance.mass, (-1, -2) if step.entrainment >= 0 else (0, 1))
+    film = Film(np.maximum(at.pressure, 0.0), at.film, at.datum, balance.mass, full, at.fraction)
+    return StepOutcome(film, iterations, residual, converged, imbalance)
 
 
 def _upstream_nodes(mesh: FixedMesh, entrainment: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

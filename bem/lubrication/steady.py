@@ -14,6 +14,7 @@ from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation, unknown_cavitation
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_flow import Problem
+from bem.lubrication.line_friction import friction_forces
 from bem.lubrication.line_kernel import logarithmic_weights
 from bem.lubrication.line_linear import DEFLECTION
 from bem.lubrication.line_newton import (
@@ -27,6 +28,7 @@ from bem.lubrication.line_newton import (
     spike_cells_to_exit,
     stretched,
 )
+from bem.lubrication.line_scales import Scales, line_scales, scaled_problem
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.validity import Case, notes_on
 
@@ -46,18 +48,7 @@ COARSE_TOLERANCE = 1e-4
 START_LOAD = 0.3
 MOES_LOADS = (1e-5, 1e4)
 """Loads M for which a film is looked for; beyond them the equations are not a model of anything."""
-RIGID_LOAD = 1e-4
 MAX_INLET_SHARE = 0.01
-
-
-@dataclass(frozen=True)
-class Scales:
-    """Moes' units: length along the film, film, pressure, and the load M."""
-
-    length: float
-    film: float
-    pressure: float
-    load: float
 
 
 def solve_line_film(
@@ -121,8 +112,8 @@ def solve_line_film(
     if initial is not None:
         if not isinstance(initial, FilmSolution):
             raise InputError(f"initial: {type(initial).__name__} is not a FilmSolution")
-        if isinstance(initial.state, _Kept):
-            outcome = _from_neighbour(problem, initial, scales.pressure, points - 1, tolerance, max_iterations)
+        if isinstance(initial.state, KeptSteady):
+            outcome = _from_neighbour(problem, initial.state, scales.pressure, points - 1, tolerance, max_iterations)
             spent += outcome.iterations
     if outcome is None or not outcome.converged:
         outcome = _from_scratch(problem, scales, lubricant, points - 1, tolerance, max_iterations)
@@ -145,7 +136,7 @@ def solve_line_film(
 
 
 @dataclass(frozen=True)
-class _Kept:
+class KeptSteady:
     """What a warm start and a look at other positions need of a solve."""
 
     state: State
@@ -164,11 +155,10 @@ class _Kept:
 
 
 def _from_neighbour(
-    problem: Problem, initial: FilmSolution, unit: float, cells: int, tolerance: float, limit: int
+    problem: Problem, kept: KeptSteady, unit: float, cells: int, tolerance: float, limit: int
 ) -> Outcome:
     """From the solution of another case: on its mesh as long as a sharp spike stays on its fine cells, else anew from
     a coarse mesh upwards, where a spike that has moved is found in few and cheap steps."""
-    kept = initial.state
     factor, film_factor = _scaling(kept.load, problem.load)
     state = stretched(kept.state, factor, problem.load / kept.load / factor, film_factor)
     change = max(abs(math.log(problem.load / kept.load)), abs(math.log(unit / kept.scales.pressure)))
@@ -255,33 +245,6 @@ def _ladder(problem: Problem, state: State, coarse: int, cells: int, tolerance: 
         spent += outcome.iterations
         state = outcome.state
     return replace(outcome, iterations=spent)
-
-
-def scaled_problem(scales: Scales, load: float, lubricant: Lubricant) -> Problem:
-    """The similarity problem of an oil at a load M."""
-    unit = scales.pressure
-
-    def log_viscosity(pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
-        value, slope = lubricant.log_viscosity_ratio(pressure * unit)
-        return value, slope * unit
-
-    def density(pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
-        value, slope = lubricant.density_ratio(pressure * unit)
-        return value, slope * unit
-
-    return Problem(load, log_viscosity, density)
-
-
-def line_scales(load: float, radius: float, contact_modulus: float, entrainment: float, viscosity: float) -> Scales:
-    """Moes' units for a case; `entrainment` is |u1 + u2|. A rigid pair gets an E* so high that it does not count."""
-    rigid = viscosity * entrainment * radius
-    if math.isinf(contact_modulus):
-        reduced = (load / RIGID_LOAD) ** 2 / rigid
-    else:
-        reduced = 2 * contact_modulus
-    moes = load / math.sqrt(reduced * rigid)
-    speed = viscosity * entrainment / (reduced * radius)
-    return Scales(radius * speed**0.25, radius * math.sqrt(speed), reduced * speed**0.25, moes)
 
 
 def _check(
@@ -389,7 +352,7 @@ def _result(
     pressure = np.maximum(state.pressure, 0.0)
     central = float(PchipInterpolator(x, film)(0.0))
     status = Status.CONVERGED if outcome.converged else Status.STALLED
-    shear, striated = _shear_force(state, problem, scales, speeds, reversed_, lubricant)
+    shear, striated = friction_forces(state, scales, speeds, reversed_, lubricant)
     sign = -1.0 if reversed_ else 1.0
 
     own_x = x * scales.length
@@ -423,7 +386,7 @@ def _result(
         status=status,
         speeds=(float(speeds[0]), float(speeds[1])),
         lubricant=lubricant,
-        state=_Kept(state, problem.load, scales, reversed_),
+        state=KeptSteady(state, problem.load, scales, reversed_),
     )
 
 
@@ -476,48 +439,3 @@ def lowest_film(x: FloatArray, film: FloatArray) -> float:
     slope = left + curvature * (x[i] - x[i - 1])
     at = np.clip(-0.5 * slope / curvature, x[i - 1] - x[i], x[i + 1] - x[i])
     return float(film[i] + slope * at + curvature * at * at)
-
-
-def _shear_force(
-    state: State,
-    problem: Problem,
-    scales: Scales,
-    speeds: Sequence[float],
-    reversed_: bool,
-    lubricant: Lubricant,
-) -> tuple[float, float]:
-    """Friction force per length without and with the striated exit, for positive entrainment [N/m]."""
-    x, film = state.position, state.film
-    pressure = np.maximum(state.pressure, 0.0)
-    difference = (speeds[0] - speeds[1]) * (-1.0 if reversed_ else 1.0)
-    thickness = film * scales.film
-    position = x * scales.length
-
-    # upstream of the mesh H = X^2/2 + c with c small against X^2/2
-    start = abs(x[0])
-    offset = film[0] - 0.5 * start**2
-    tail_1 = 2 / start * (1 - 2 * offset / start**2 / 3)
-    tail_2 = 4 / (3 * start**3)
-
-    viscosity = lubricant.viscosity_at(pressure * scales.pressure)
-    sliding = lubricant.shear_stress(viscosity * difference / thickness, pressure * scales.pressure)
-    couette = float(np.sum(0.5 * np.diff(position) * (sliding[1:] + sliding[:-1])))
-    couette += lubricant.viscosity * difference * tail_1 * scales.length / scales.film
-    poiseuille = 0.25 * float(np.sum((film[1:] + film[:-1]) * np.diff(pressure)))
-    poiseuille += 3 * (tail_1 - film[-1] * tail_2)
-    full = couette + poiseuille * scales.film * scales.pressure
-
-    # streamers behind the exit cover the fraction h_e/h: integral of (h_e/h) tau(h), out to where it no longer counts
-    span = math.log(1e3) - math.log(1e-6)
-    points, weights = np.polynomial.legendre.leggauss(64)
-    near, far = 1e-6 * max(state.exit, math.sqrt(2 * film[-1])), 0.5 * span * (points + 1)
-    reach = np.concatenate([[0.0], near * np.exp(far)])
-    behind = (
-        state.datum
-        + 0.5 * (state.exit + reach) ** 2
-        - DEFLECTION * (logarithmic_weights(reach, state.offset) @ state.pressure)
-    )
-    ambient = lubricant.shear_stress(lubricant.viscosity * difference / (behind * scales.film), 0.0)
-    ambient = ambient * film[-1] / behind
-    streamers = near * ambient[0] + 0.5 * span * float(np.sum(weights * ambient[1:] * reach[1:]))
-    return full, full + streamers * scales.length

@@ -14,17 +14,10 @@ from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation, unknown_cavitation
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_flow import Problem
+from bem.lubrication.line_scales import Scales, line_scales, scaled_problem
 from bem.lubrication.line_step import Film, FixedMesh, elastic_film, fixed_mesh, time_step
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.steady import (
-    Scales,
-    check_speeds,
-    line_scales,
-    lowest_film,
-    scaled_problem,
-    solve_line_film,
-    typical_half_width,
-)
+from bem.lubrication.steady import check_speeds, lowest_film, solve_line_film, typical_half_width
 from bem.lubrication.validity import Case, notes_on
 
 FAR = 50.0

@@ -1,0 +1,58 @@
+"""Friction force of a steady line-contact film."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from bem.lubrication.line_kernel import logarithmic_weights
+from bem.lubrication.line_linear import DEFLECTION
+from bem.lubrication.line_newton import State
+from bem.lubrication.line_scales import Scales
+from bem.lubrication.lubricant import Lubricant
+
+
+def friction_forces(
+    state: State,
+    scales: Scales,
+    speeds: Sequence[float],
+    reversed_: bool,
+    lubricant: Lubricant,
+) -> tuple[float, float]:
+    """Friction force per length without and with the striated exit, for positive entrainment [N/m]."""
+    x, film = state.position, state.film
+    pressure = np.maximum(state.pressure, 0.0)
+    difference = (speeds[0] - speeds[1]) * (-1.0 if reversed_ else 1.0)
+    thickness = film * scales.film
+    position = x * scales.length
+
+    # upstream of the mesh H = X^2/2 + c with c small against X^2/2
+    start = abs(x[0])
+    offset = film[0] - 0.5 * start**2
+    tail_1 = 2 / start * (1 - 2 * offset / start**2 / 3)
+    tail_2 = 4 / (3 * start**3)
+
+    viscosity = lubricant.viscosity_at(pressure * scales.pressure)
+    sliding = lubricant.shear_stress(viscosity * difference / thickness, pressure * scales.pressure)
+    couette = float(np.sum(0.5 * np.diff(position) * (sliding[1:] + sliding[:-1])))
+    couette += lubricant.viscosity * difference * tail_1 * scales.length / scales.film
+    poiseuille = 0.25 * float(np.sum((film[1:] + film[:-1]) * np.diff(pressure)))
+    poiseuille += 3 * (tail_1 - film[-1] * tail_2)
+    full = couette + poiseuille * scales.film * scales.pressure
+
+    # streamers behind the exit cover the fraction h_e/h: integral of (h_e/h) tau(h), out to where it no longer counts
+    span = math.log(1e3) - math.log(1e-6)
+    points, weights = np.polynomial.legendre.leggauss(64)
+    near, far = 1e-6 * max(state.exit, math.sqrt(2 * film[-1])), 0.5 * span * (points + 1)
+    reach = np.concatenate([[0.0], near * np.exp(far)])
+    behind = (
+        state.datum
+        + 0.5 * (state.exit + reach) ** 2
+        - DEFLECTION * (logarithmic_weights(reach, state.offset) @ state.pressure)
+    )
+    ambient = lubricant.shear_stress(lubricant.viscosity * difference / (behind * scales.film), 0.0)
+    ambient = ambient * film[-1] / behind
+    streamers = near * ambient[0] + 0.5 * span * float(np.sum(weights * ambient[1:] * reach[1:]))
+    return full, full + streamers * scales.length
