@@ -320,10 +320,10 @@ def _newton(step: Step, at: Iterate, balance: Balance, full: NDArray[np.bool_]) 
     filled = step.rupture.filling(at.fraction, full)
     known = -balance.scaled - _applied(by_film, -DEFLECTION * (mesh.weights @ dropped)) - _applied(by_pressure, dropped)
     known -= _applied(by_fraction, filled)
-    missing = 0.0
+    missing: float = 0.0
     if step.loaded:
         matrix[-1, :unknown] = mesh.quadrature[index] * highest / step.problem.load
-        missing = balance.load_error - (mesh.quadrature @ dropped) / step.problem.load
+        missing = balance.load_error - float(mesh.quadrature @ dropped) / step.problem.load
     else:
         matrix[-1, -1] = 1.0
     right_side = np.append(known[rows_at], missing)
@@ -333,7 +333,7 @@ def _newton(step: Step, at: Iterate, balance: Balance, full: NDArray[np.bool_]) 
     dropped[index] = change[:unknown] * highest
     filled[empty] = change[unknown:-1]
     datum = change[-1] * unit
-    thicker = datum - DEFLECTION * (mesh.weights @ dropped)
+    thicker: FloatArray = datum - DEFLECTION * (mesh.weights @ dropped)
     shrinking = thicker < 0
     length = 1.0
     if shrinking.any():
