@@ -397,6 +397,7 @@ PROBLEMS = (
         {
             "contact-sphere-plain": {},
             "contact-sphere-elastic-pair": {"indenter": [0.5, 0.2]},
+            "contact-sphere-high-nu-soft": {"nu": 0.45, "layer": list(layers.LAYERS["soft"])},
             **{
                 f"contact-sphere-{name}": {"layer": list(layers.LAYERS[name])}
                 for name in ("soft", "stiff", "stiff-thin", "film-15GPa-200nm", "film-130GPa-20nm")
@@ -411,6 +412,7 @@ PROBLEMS = (
         _solver("cylinder"),
         {
             "contact-cylinder-plain": {},
+            "contact-cylinder-low-nu-stiff": {"nu": 0.1, "layer": list(layers.LAYERS["stiff"])},
             **{f"contact-cylinder-{name}": {"layer": list(layers.LAYERS[name])} for name in ("soft", "stiff")},
         },
     ),

@@ -298,7 +298,11 @@ PROBLEMS = (
             "disc",
             ["", "soft", "stiff", "stiff-thin", "soft-thick", "soft-on-stiff"],
             ["", *LAYERS, "stiff-on-soft"],
-        ),
+        )
+        | {
+            "disc-uniform-low-nu": {"nu": 0.05},
+            "disc-hertz-high-nu-soft": {"nu": 0.45, "pressure": "hertz", "layer": LAYERS["soft"]},
+        },
         quick=("disc-uniform",),
     ),
     Problem(
@@ -310,6 +314,7 @@ PROBLEMS = (
             "disc-tangential",
             ["", "soft", "stiff", "stiff-thin", "soft-thick"],
             ["", "soft", "stiff-thin", "film-15GPa-200nm", "stiff-on-soft"],
-        ),
+        )
+        | {"disc-tangential-uniform-low-nu-stiff": {"nu": 0.1, "layer": LAYERS["stiff"]}},
     ),
 )

@@ -167,6 +167,8 @@ def _stored() -> dict[str, dict[str, Any]]:
         for name in names[:2] if load == "antiplane" else names:
             cases[f"harmonic-{load}-{name}"] = {"load": load, "layer": LAYERS[name]}
         cases[f"harmonic-{load}-stiff-on-soft"] = {"load": load, "layer": STACKS["stiff-on-soft"]}
+    cases["harmonic-normal-low-nu-soft"] = {"nu": 0.1, "load": "normal", "layer": LAYERS["soft"]}
+    cases["harmonic-tangential-high-nu-stiff"] = {"nu": 0.48, "load": "tangential", "layer": LAYERS["stiff"]}
     return cases
 
 

@@ -171,6 +171,8 @@ def _stored() -> dict[str, dict[str, Any]]:
             cases[case] = {"load": load} | ({"layer": LAYERS[name]} if name else {})
         name = "soft-on-stiff" if load == "tangential" else "stiff-on-soft"
         cases[f"strip-{load}-{name}"] = {"load": load, "layer": STACKS[name]}
+    cases["strip-normal-high-nu-stiff"] = {"nu": 0.49, "load": "normal", "layer": LAYERS["stiff"]}
+    cases["strip-tangential-low-nu-soft"] = {"nu": 0.05, "load": "tangential", "layer": LAYERS["soft"]}
     return cases
 
 

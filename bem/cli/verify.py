@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from bem.verification.rows import Gate, Row
 
 
 def register(app: typer.Typer) -> None:
@@ -21,6 +25,13 @@ def register(app: typer.Typer) -> None:
         json_out: Annotated[
             Path | None, typer.Option("--json", metavar="FILE", help="Write the rows as a list to a .json file.")
         ] = None,
+        fresh: Annotated[
+            int | None,
+            typer.Option("--fresh", metavar="N", help="Instead N problems drawn at random, solved by finite elements."),
+        ] = None,
+        seed: Annotated[
+            int | None, typer.Option("--seed", metavar="S", help="Of what is drawn; another each time if not given.")
+        ] = None,
     ) -> None:
         """Accuracy gates: bem against finite elements and closed forms; exit 1 if any fails.
 
@@ -31,50 +42,110 @@ def register(app: typer.Typer) -> None:
         Examples:
           bem verify --list
           bem verify --case "contact-*" --json rows.json
+          bem verify --fresh 5 --seed 7
         """
         from bem.cli._quantity import new_file
-        from bem.cli._terminal import Terminal, table
+        from bem.cli._terminal import table
         from bem.convolution import set_spectra_memory
+        from bem.errors import InputError
         from bem.stress import set_stress_memory
         from bem.verification import registry
 
         if json_out is not None:
             new_file(json_out, "--json", (".json",))
+        if seed is not None and fresh is None:
+            raise InputError("--seed: nothing is drawn; allowed: together with --fresh")
         # gates share no spectra: keeping them would only fill the memory
         set_spectra_memory(1 << 26)
         set_stress_memory(1 << 26)
+        if fresh is not None:
+            _fresh(fresh, seed, case or [], show_list, json_out)
+            return
         chosen = registry.select(case or [])
         if show_list:
             table(["gate", "what is compared"], [[gate.name, gate.sentence] for gate in chosen])
             return
-        with Terminal() as terminal:
-            rows = registry.run(chosen, lambda done, name: terminal.progress(done, len(chosen), "gates", {}))
-            terminal.progress(len(chosen), len(chosen), "gates", {})
+        rows, broken = _judged(chosen)
         if json_out is not None:
             _write(json_out, rows)
-        headers = ["case", "quantity", "bem", "reference", "error bar", "difference", "tolerance", ""]
-        lines = [
-            [
-                row.case,
-                row.quantity,
-                f"{row.bem:.6g}",
-                f"{row.reference:.6g}",
-                f"{row.error_bar:.1e}",
-                f"{row.difference:.1e}",
-                f"{row.tolerance:.1e}",
-                "pass" if row.passed else "FAIL",
-            ]
-            for row in rows
-        ]
-        table(headers, lines, right=(2, 3, 4, 5, 6), wide_only=(2, 3))
-        failed = [row for row in rows if not row.passed]
-        for row in failed:
-            typer.echo(
-                f"FAIL {row.case}, {row.quantity} at {row.where} [{row.unit}]: {row.bem:.9g}, not {row.reference:.9g}"
-            )
-        typer.echo(f"{len(rows) - len(failed)} of {len(rows)} rows passed in {len(chosen)} gates")
-        if failed:
+        _show(rows, len(chosen))
+        if broken or not all(row.passed for row in rows):
             raise typer.Exit(1)
+
+
+def _fresh(count: int, seed: int | None, patterns: list[str], show_list: bool, json_out: Path | None) -> None:
+    """Problems drawn at random; for each that fails, what to type to see it again."""
+    import secrets
+    import tempfile
+
+    from bem.cli._terminal import table
+    from bem.verification import fresh, registry
+
+    seed = secrets.randbelow(10**6) if seed is None else seed
+    with tempfile.TemporaryDirectory(prefix="bem-fresh-") as folder:
+        gates = fresh.gates(fresh.draw(count, seed), Path(folder))
+        chosen = registry.matching(gates, patterns)
+        if show_list:
+            table(["gate", "what is compared"], [[gate.name, gate.sentence] for gate in chosen])
+            return
+        rows, broken = _judged(chosen, go_on=True)
+    if json_out is not None:
+        _write(json_out, rows)
+    _show(rows, len(chosen))
+    sentences = {gate.name: gate.sentence for gate in chosen}
+    for name in dict.fromkeys([*broken, *(row.case for row in rows if not row.passed)]):
+        typer.echo(f"to see it again: bem verify --fresh {count} --seed {seed} --case {name}   ({sentences[name]})")
+    typer.echo(f"seed {seed}")
+    if broken or not all(row.passed for row in rows):
+        raise typer.Exit(1)
+
+
+def _judged(chosen: Sequence[Gate], *, go_on: bool = False) -> tuple[list[Row], list[str]]:
+    """Rows of the gates, and names of those that could not be computed; the first of them ends it unless `go_on`."""
+    from bem.cli._terminal import Terminal
+    from bem.errors import BemError
+
+    rows: list[Row] = []
+    broken = []
+    with Terminal() as terminal:
+        for done, gate in enumerate(chosen):
+            terminal.progress(done, len(chosen), "gates", {})
+            try:
+                rows += gate.run()
+            except BemError as error:
+                if not go_on:
+                    raise
+                broken.append(gate.name)
+                terminal.say(f"FAIL {gate.name}: {error}")
+        terminal.progress(len(chosen), len(chosen), "gates", {})
+    return rows, broken
+
+
+def _show(rows: Sequence[Row], gates: int) -> None:
+    """The table, what failed below it, and how many passed."""
+    from bem.cli._terminal import table
+
+    headers = ["case", "quantity", "bem", "reference", "error bar", "difference", "tolerance", ""]
+    lines = [
+        [
+            row.case,
+            row.quantity,
+            f"{row.bem:.6g}",
+            f"{row.reference:.6g}",
+            f"{row.error_bar:.1e}",
+            f"{row.difference:.1e}",
+            f"{row.tolerance:.1e}",
+            "pass" if row.passed else "FAIL",
+        ]
+        for row in rows
+    ]
+    table(headers, lines, right=(2, 3, 4, 5, 6), wide_only=(2, 3))
+    failed = [row for row in rows if not row.passed]
+    for row in failed:
+        typer.echo(
+            f"FAIL {row.case}, {row.quantity} at {row.where} [{row.unit}]: {row.bem:.9g}, not {row.reference:.9g}"
+        )
+    typer.echo(f"{len(rows) - len(failed)} of {len(rows)} rows passed in {gates} gates")
 
 
 KEYS = ("case", "quantity", "bem", "reference", "error_bar", "difference", "tolerance", "passed")

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import fnmatch
 import importlib
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 
 from bem.errors import InputError
 from bem.verification import stored
-from bem.verification.rows import Curve, Gate, Row
+from bem.verification.rows import Curve, Gate
 
 FAMILIES = {
     "disc": "disc",
@@ -49,9 +49,18 @@ def select(patterns: Sequence[str]) -> list[Gate]:
     ------
     InputError : a pattern that matches nothing; the message names the nearest gates.
     """
-    everything = gates()
+    return matching(gates(), patterns)
+
+
+def matching(everything: Sequence[Gate], patterns: Sequence[str]) -> list[Gate]:
+    """Those of some gates whose name matches any of the patterns; all where there are none.
+
+    Raises
+    ------
+    InputError : as `select`.
+    """
     if not patterns:
-        return everything
+        return list(everything)
     names = [gate.name for gate in everything]
     bad = [pattern for pattern in patterns if not fnmatch.filter(names, pattern)]
     if bad:
@@ -66,18 +75,13 @@ def select(patterns: Sequence[str]) -> list[Gate]:
     return [gate for gate in everything if any(fnmatch.fnmatchcase(gate.name, pattern) for pattern in patterns)]
 
 
-def run(chosen: Iterable[Gate], progress: Callable[[int, str], None] = lambda done, name: None) -> list[Row]:
-    """Rows of the gates in order; `progress` is called before each with how many are done."""
-    rows: list[Row] = []
-    for done, gate in enumerate(chosen):
-        progress(done, gate.name)
-        rows += gate.run()
-    return rows
-
-
-def _stored_curves(name: str) -> list[Curve]:
-    case = stored.read(name)
+def curves_of(case: stored.StoredCase) -> list[Curve]:
+    """Both sides of a case of the reference."""
     compute: Callable[[stored.StoredCase], list[Curve]] = importlib.import_module(
         f"bem.verification.{FAMILIES[case.problem]}"
     ).curves
     return compute(case)
+
+
+def _stored_curves(name: str) -> list[Curve]:
+    return curves_of(stored.read(name))

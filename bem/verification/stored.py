@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 from typing import Any
 
 import numpy as np
@@ -110,7 +111,17 @@ def read(name: str) -> StoredCase:
     ------
     ResultsError : a file that is missing, damaged or of another format.
     """
-    path = files("bem.verification") / "fem_results" / f"{name}.json"
+    return load(files("bem.verification") / "fem_results" / f"{name}.json")
+
+
+def load(path: Traversable) -> StoredCase:
+    """A case in a file, named after it.
+
+    Raises
+    ------
+    ResultsError : a file that is missing, damaged or of another format.
+    """
+    name = path.name.removesuffix(".json")
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
         if document["format"] != FORMAT:

@@ -1,0 +1,182 @@
+"""Problems that nobody chose: drawn at random, solved by the finite-element reference at once, judged as stored ones.
+
+The reference (`fem_reference`) runs in an interpreter of its own beside a checkout of the repository. A problem follows
+from seed and number alone, so any of them can be drawn again.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import bem
+from bem.errors import InputError, ResultsError
+from bem.verification import registry, stored
+from bem.verification.rows import Gate
+
+ROOT = Path(bem.__file__).resolve().parents[1]
+INTERPRETER = ROOT / ".venv-fem" / "bin" / "python"
+TIME_LIMIT = 900
+"""Seconds that the reference may take for one problem; the slowest, a block in three dimensions, takes one minute."""
+Parameters = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A problem of the reference with its parameters; `name` says seed and number."""
+
+    name: str
+    problem: str
+    parameters: Parameters
+
+    @property
+    def options(self) -> list[str]:
+        """The parameters as the reference's command line takes them."""
+        found = []
+        for key, value in self.parameters.items():
+            values = value if isinstance(value, list) else [value]
+            found += [f"--{key}", *(f"{v:.10g}" if isinstance(v, float) else str(v) for v in values)]
+        return found
+
+
+def draw(count: int, seed: int) -> list[Drawn]:
+    """Problems 1 to `count` of a seed; a larger count starts with the same ones."""
+    if count < 1:
+        raise InputError(f"--fresh {count}: allowed: one problem or more")
+    if seed < 0:
+        raise InputError(f"--seed {seed}: allowed: zero or more")
+    return [_draw(seed, number) for number in range(1, count + 1)]
+
+
+def _draw(seed: int, number: int) -> Drawn:
+    rng = np.random.default_rng([seed, number])
+    problems = list(_PROBLEMS)
+    weights = np.array([_PROBLEMS[name][1] for name in problems])
+    problem = problems[rng.choice(len(problems), p=weights / weights.sum())]
+    parameters = {"nu": _poisson(rng)} | _PROBLEMS[problem][0](rng)
+    return Drawn(f"fresh-{seed}-{number}", problem, parameters)
+
+
+def _uniform(rng: np.random.Generator, low: float, high: float) -> float:
+    return float(f"{rng.uniform(low, high):.3g}")
+
+
+def _logarithmic(rng: np.random.Generator, low: float, high: float) -> float:
+    return float(f"{np.exp(rng.uniform(np.log(low), np.log(high))):.3g}")
+
+
+def _poisson(rng: np.random.Generator) -> float:
+    return _uniform(rng, 0.05, 0.49)
+
+
+def _layer(rng: np.random.Generator, share: float = 0.8) -> Parameters:
+    """A layer, or for the rest of the cases none: modulus over the substrate's, Poisson's ratio, thickness."""
+    layer = [_logarithmic(rng, 0.01, 100), _poisson(rng), _logarithmic(rng, 0.05, 3)]
+    return {"layer": layer} if rng.random() < share else {}
+
+
+def _disc(rng: np.random.Generator) -> Parameters:
+    return _layer(rng) | {"pressure": str(rng.choice(["uniform", "hertz"]))}
+
+
+def _strip(rng: np.random.Generator) -> Parameters:
+    return _layer(rng) | {"load": str(rng.choice(["normal", "tangential", "antiplane"]))}
+
+
+def _harmonic(rng: np.random.Generator) -> Parameters:
+    waves = sorted(_logarithmic(rng, 0.05, 10) for _ in range(3))
+    return _layer(rng, 1.0) | {"load": str(rng.choice(["normal", "tangential", "antiplane"])), "wavenumbers": waves}
+
+
+def _rectangle(rng: np.random.Generator) -> Parameters:
+    return _layer(rng) | {"load": str(rng.choice(["normal", "tangential"])), "width": _uniform(rng, 0.3, 1.0)}
+
+
+def _indenter(rng: np.random.Generator) -> Parameters:
+    """In half of the cases an elastic counterface."""
+    other = [_logarithmic(rng, 0.1, 10), _poisson(rng)]
+    return {"indenter": other} if rng.random() < 0.5 else {}
+
+
+def _round(rng: np.random.Generator) -> Parameters:
+    loads = sorted({_logarithmic(rng, 0.1, 1.0) for _ in range(3)})
+    return _layer(rng) | _indenter(rng) | {"loads": loads}
+
+
+def _row(rng: np.random.Generator) -> Parameters:
+    """Loads up to nine tenths of what flattens the row if all of the body were as soft as its softest part."""
+    body = _layer(rng)
+    softest = min(1.0, body["layer"][0]) if body else 1.0
+    loads = sorted({float(f"{softest * rng.uniform(0.05, 0.9):.3g}") for _ in range(3)})
+    return body | _indenter(rng) | {"loads": loads}
+
+
+_PROBLEMS: dict[str, tuple[Callable[[np.random.Generator], Parameters], float]] = {
+    "disc": (_disc, 3.0),
+    "disc-tangential": (_disc, 2.0),
+    "strip": (_strip, 3.0),
+    "harmonic": (_harmonic, 3.0),
+    "rectangle": (_rectangle, 0.5),
+    "contact-sphere": (_round, 2.0),
+    "contact-cylinder": (_round, 2.0),
+    "contact-row": (_row, 2.0),
+}
+"""Problem -> what is drawn, and how often: a rectangle takes ten times as long as any other."""
+
+
+def gates(drawn: Sequence[Drawn], folder: Path) -> list[Gate]:
+    """A gate for each problem: running it has the reference solve the problem, into `folder`, and compares.
+
+    Raises
+    ------
+    InputError : no reference beside this bem.
+    """
+    if not (ROOT / "fem_reference").is_dir() or not INTERPRETER.exists():
+        raise InputError(
+            f"--fresh: the finite-element reference is not here ({INTERPRETER}); "
+            "allowed: in a checkout of the repository, after `make setup-fem`"
+        )
+    return [
+        Gate(
+            item.name,
+            registry.FAMILIES[item.problem],
+            f"{item.problem} {' '.join(item.options)}",
+            partial(_both, item, folder),
+        )
+        for item in drawn
+    ]
+
+
+def _both(item: Drawn, folder: Path) -> Any:
+    """Curves of both codes."""
+    path = folder / f"{item.name}.json"
+    solve(item, path)
+    return registry.curves_of(stored.load(path))
+
+
+def solve(item: Drawn, path: Path) -> None:
+    """Have the reference solve a problem and write its file.
+
+    Raises
+    ------
+    ResultsError : it failed or took too long; the message holds the command.
+    """
+    command = [str(INTERPRETER), "-m", "fem_reference", item.problem, *item.options, "--out", str(path)]
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    shown = " ".join(["python -m fem_reference", item.problem, *item.options])
+    try:
+        done = subprocess.run(
+            command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False, timeout=TIME_LIMIT
+        )
+    except subprocess.TimeoutExpired as error:
+        raise ResultsError(f"{item.name}: the reference took more than {TIME_LIMIT} s: {shown}") from error
+    if done.returncode != 0:
+        last = (done.stdout + done.stderr).strip().splitlines()[-1:]
+        raise ResultsError(f"{item.name}: the reference failed ({' '.join(last)}): {shown}")

@@ -1,0 +1,123 @@
+"""Problems drawn at random: the same for the same seed, within their ranges, judged as stored ones, seen again."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from bem.cli import build
+from bem.errors import InputError, ResultsError
+from bem.verification import fresh, registry, stored
+
+STORED = Path(stored.__file__).parent / "fem_results"
+
+
+@pytest.fixture(autouse=True)
+def _memory_as_before(monkeypatch):
+    """The command bounds the caches of its own process; tests share theirs."""
+    monkeypatch.setattr("bem.convolution.set_spectra_memory", lambda limit: None)
+    monkeypatch.setattr("bem.stress.set_stress_memory", lambda limit: None)
+
+
+def test_a_seed_gives_the_same_problems_and_more_of_them_start_alike():
+    assert fresh.draw(5, 3) == fresh.draw(9, 3)[:5]
+    assert fresh.draw(5, 3) != fresh.draw(5, 4)
+    with pytest.raises(InputError, match="--fresh 0"):
+        fresh.draw(0, 1)
+    with pytest.raises(InputError, match="--seed -1"):
+        fresh.draw(1, -1)
+
+
+def test_draws_cover_every_family_and_the_ranges():
+    drawn = fresh.draw(400, 1)
+    assert {item.problem for item in drawn} == set(registry.FAMILIES)
+    substrates = [item.parameters["nu"] for item in drawn]
+    layers = [item.parameters["layer"] for item in drawn if "layer" in item.parameters]
+    assert 0.05 <= min(substrates) < 0.08
+    assert 0.46 < max(substrates) <= 0.49
+    assert 0.01 <= min(layer[0] for layer in layers) < 0.02
+    assert 50 < max(layer[0] for layer in layers) <= 100
+    assert any("layer" not in item.parameters for item in drawn)
+    assert any("indenter" in item.parameters for item in drawn)
+
+
+def test_options_are_what_the_reference_takes():
+    (item,) = [fresh.Drawn("x", "harmonic", {"nu": 0.3, "layer": [0.1, 0.4, 1.0], "load": "normal"})]
+    assert item.options == ["--nu", "0.3", "--layer", "0.1", "0.4", "1", "--load", "normal"]
+
+
+def replay(monkeypatch, spoil=lambda document: None):
+    """The reference, replaced by a stored case of the same problem."""
+
+    def solve(item, path):
+        document = json.loads((STORED / "harmonic-normal-soft.json").read_text())
+        spoil(document)
+        path.write_text(json.dumps(document))
+
+    monkeypatch.setattr(fresh, "solve", solve)
+    monkeypatch.setattr(fresh, "INTERPRETER", STORED)  # anything that is there
+    monkeypatch.setattr(fresh, "draw", lambda count, seed: [fresh.Drawn(f"fresh-{seed}-1", "harmonic", {"nu": 0.3})])
+
+
+def run(*arguments):
+    return CliRunner().invoke(build(), ["verify", *arguments])
+
+
+def test_what_is_drawn_is_judged_as_what_is_stored(monkeypatch, tmp_path):
+    replay(monkeypatch)
+    done = run("--fresh", "1", "--seed", "7", "--json", str(tmp_path / "rows.json"))
+    assert done.exit_code == 0, done.output
+    assert "seed 7" in done.output
+    found = json.loads((tmp_path / "rows.json").read_text())
+    (gate,) = registry.select(["harmonic-normal-soft"])
+    assert [row["quantity"] for row in found] == [row.quantity for row in gate.run()]
+
+
+def test_a_failure_says_what_to_type_to_see_it_again(monkeypatch):
+    def spoil(document):
+        quantity = document["quantities"][0]
+        quantity["values"][0] *= 1.01
+
+    replay(monkeypatch, spoil)
+    done = run("--fresh", "4", "--seed", "7")
+    assert done.exit_code == 1
+    assert "to see it again: bem verify --fresh 4 --seed 7 --case fresh-7-1" in done.output
+
+
+def test_a_reference_that_fails_is_no_pass(monkeypatch):
+    replay(monkeypatch)
+
+    def solve(item, path):
+        raise ResultsError("the reference failed")
+
+    monkeypatch.setattr(fresh, "solve", solve)
+    done = run("--fresh", "1", "--seed", "7")
+    assert done.exit_code == 1
+    assert "to see it again" in done.output
+
+
+def test_mistakes_on_the_command_line(monkeypatch):
+    for arguments, words in (
+        (("--seed", "3"), "together with --fresh"),
+        (("--fresh", "0"), "one problem or more"),
+        (("--fresh", "2", "--case", "nothing"), "no gate has such a name"),
+    ):
+        done = run(*arguments)
+        assert done.exit_code != 0
+        assert words in done.output + str(done.exception)
+    monkeypatch.setattr(fresh, "INTERPRETER", STORED / "nowhere")
+    assert "setup-fem" in str(run("--fresh", "1").exception)
+
+
+@pytest.mark.fem
+def test_one_problem_from_the_reference_itself(tmp_path):
+    if not fresh.INTERPRETER.exists():
+        pytest.skip("no .venv-fem: `make setup-fem` makes it")
+    parameters = {"nu": 0.17, "layer": [3.0, 0.45, 0.7], "load": "antiplane", "wavenumbers": [0.4, 3.0]}
+    (gate,) = fresh.gates([fresh.Drawn("mine", "harmonic", parameters)], tmp_path)
+    found = gate.run()
+    assert found
+    assert [row for row in found if not row.passed] == []
+    with pytest.raises(ResultsError, match="reference failed"):
+        fresh.solve(fresh.Drawn("bad", "harmonic", {"nu": 0.7}), tmp_path / "bad.json")
