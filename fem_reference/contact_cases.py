@@ -397,6 +397,8 @@ PROBLEMS = (
         {
             "contact-sphere-plain": {},
             "contact-sphere-elastic-pair": {"indenter": [0.5, 0.2]},
+            # a contact seven times smaller than that on the bare body
+            "contact-sphere-very-stiff": {"nu": 0.27, "layer": [70.0, 0.44, 1.25], "loads": [0.14, 0.27]},
             "contact-sphere-high-nu-soft": {"nu": 0.45, "layer": list(layers.LAYERS["soft"])},
             **{
                 f"contact-sphere-{name}": {"layer": list(layers.LAYERS[name])}

@@ -37,7 +37,7 @@ def rows(checks: Sequence[Check]) -> list[tuple[str, str, str, Any, str]]:
     for check in checks:
         try:
             summary = stored(check.scene)
-            ours, agrees = check.ours(summary), check.agrees(summary)
+            ours, agrees = check.rule.ours(summary), check.rule.agrees(summary)
         except FileNotFoundError:
             ours, agrees = "not run", None
         verdict = {True: "agrees", False: "differs", None: "–"}[agrees]

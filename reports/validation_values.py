@@ -40,14 +40,21 @@ class Value:
 
 
 @dataclass(frozen=True)
+class Rule:
+    """What we get for a line, and whether that agrees."""
+
+    ours: Callable[[Summary], str]
+    agrees: Callable[[Summary], bool | None]
+
+
+@dataclass(frozen=True)
 class Check:
-    """A line of the table: what the source says, what we get, whether that agrees, and why not where it does not."""
+    """A line of the table: what the source says, our rule, and why it differs where it does."""
 
     item: str
     scene: str
     source: str
-    ours: Callable[[Summary], str]
-    agrees: Callable[[Summary], bool | None]
+    rule: Rule
     remark: str = ""
 
 

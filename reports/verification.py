@@ -104,23 +104,9 @@ def _verdict(done: Sequence[_Done]) -> Section:
 
 
 def _reading() -> Section:
+    limits = {"displacements": f"{DISPLACEMENT_LIMIT:.1%}", "stresses": f"{STRESS_LIMIT:.0%}"}
     return Section(
-        "How to read this",
-        text(
-            "The finite-element code (dolfinx on graded meshes, its own formulas, its own interpreter) and bem share "
-            "no line. Every figure of the reference carries an error bar from three meshes and, for unbounded bodies, "
-            "three sizes of box. Differences, error bars and tolerances are relative to the largest value of the "
-            "curve; the table shows both figures where the difference uses up most of its tolerance. A tolerance is "
-            "the reference's error bar there plus an allowance for bem's own discretisation, whose reason stands in "
-            f"the table; none exceeds {DISPLACEMENT_LIMIT:.1%} for displacements and lengths and {STRESS_LIMIT:.0%} "
-            "for stresses and pressures."
-        )
-        + text(
-            "In the figures lines are bem and marks the reference; below each the difference, in the same relative "
-            "measure, with the error bars of the reference as thin lines. Figures of stored cases are in units of the "
-            "load, its length and the substrate's modulus. That a broken kernel would be seen is a test of its own: "
-            "each is made wrong by one per cent, and by its sign, and a gate must fail."
-        ),
+        "How to read this", "".join(text(words.format(**limits)) for words in prose("verification")["reading"])
     )
 
 

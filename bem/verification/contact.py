@@ -20,14 +20,15 @@ from bem.verification.rows import Curve
 from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve
 
 SPHERE_STEP, LINE_STEP, ROW_CELLS = 1 / 60, 1 / 200, 1000
-"""Cells: of the sphere and the cylinder over the Hertz length, of the row in a wavelength."""
+"""Cells: of the sphere and the cylinder over the Hertz length (where the contact is about as large), of the row in a
+wavelength."""
 EDGE_CELLS = 8
 """So many cells next to the edge say where it is; the outermost two, which know it only to a cell, do not."""
 CELLS_TO_EDGE = 60
 """Cells over the radius where only scalars are asked for (sphere)."""
 REASONS = {
-    "sphere": "cells of 1/60 of the Hertz radius; the edge, where p^2 falls to zero, is known to a tenth of a cell",
-    "cylinder": "cells of 1/200 of the Hertz half-width; the edge from the fall of p^2 towards it",
+    "sphere": "cells of about 1/60 of the radius; the edge, where p^2 falls to zero, is known to a tenth of a cell",
+    "cylinder": "cells of about 1/200 of the half-width; the edge from the fall of p^2 towards it",
     "row": "1000 cells in a wavelength; the edge from the fall of p^2 towards it",
 }
 ALLOWANCE = {
@@ -177,12 +178,16 @@ class _Contact:
         if self.shape == "row":
             return PointGrid(Grid((ROW_CELLS, 2), (1 / ROW_CELLS, 0.25), periodic=(True, True)), (0, 0))
         if self.shape == "cylinder":
-            step = LINE_STEP if load in self.detailed else LINE_STEP * self.edges[load]
+            step = self._on_points(LINE_STEP, load) if load in self.detailed else LINE_STEP * self.edges[load]
             half = int(np.ceil(1.1 * self.edges[load] / step)) + 2
             return PointGrid(Grid((2 * half + 1, 2), (step, 1.0), periodic=(False, True)), (half, 0))
-        step = SPHERE_STEP if load in self.detailed else self.edges[load] / CELLS_TO_EDGE
+        step = self._on_points(SPHERE_STEP, load) if load in self.detailed else self.edges[load] / CELLS_TO_EDGE
         reach = 1.1 * self.edges[load]
         return free_grid(step, (-reach, reach), (-reach, reach))
+
+    def _on_points(self, step: float, load: float) -> float:
+        """A cell with the reference's points among its multiples, finer where the contact is small beside Hertz'."""
+        return step / max(1, round(1 / self.edges[load]))
 
     def extended(self, load: float, x: tuple[float, float]) -> tuple[PointGrid, FloatArray]:
         """The grid and the pressure, widened along x to reach the points."""

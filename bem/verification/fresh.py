@@ -77,9 +77,13 @@ def _poisson(rng: np.random.Generator) -> float:
 
 
 def _layer(rng: np.random.Generator, share: float = 0.8) -> Parameters:
-    """A layer, or for the rest of the cases none: modulus over the substrate's, Poisson's ratio, thickness."""
-    layer = [_logarithmic(rng, 0.01, 100), _poisson(rng), _logarithmic(rng, 0.05, 3)]
-    return {"layer": layer} if rng.random() < share else {}
+    """One layer, sometimes a stack of two or three, or (beyond the share) none: three figures of each, outermost first.
+
+    These are the modulus over the substrate's, Poisson's ratio, and the thickness.
+    """
+    count = int(rng.choice([1, 2, 3], p=[0.7, 0.2, 0.1]))
+    layers = [[_logarithmic(rng, 0.01, 100), _poisson(rng), _logarithmic(rng, 0.05, 3)] for _ in range(count)]
+    return {"layer": [figure for layer in layers for figure in layer]} if rng.random() < share else {}
 
 
 def _disc(rng: np.random.Generator) -> Parameters:
@@ -113,7 +117,7 @@ def _round(rng: np.random.Generator) -> Parameters:
 def _row(rng: np.random.Generator) -> Parameters:
     """Loads up to nine tenths of what flattens the row if all of the body were as soft as its softest part."""
     body = _layer(rng)
-    softest = min(1.0, body["layer"][0]) if body else 1.0
+    softest = min(1.0, *body["layer"][::3]) if body else 1.0
     loads = sorted({float(f"{softest * rng.uniform(0.05, 0.9):.3g}") for _ in range(3)})
     return body | _indenter(rng) | {"loads": loads}
 

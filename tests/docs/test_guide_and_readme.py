@@ -21,7 +21,6 @@ from bem.scenes import get_kind, kind_names, library
 from bem.scenes.load import load_scene
 from reports import guide
 from reports.builder import render
-from reports.guide_options import EFFECTS
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text("utf-8")
@@ -62,7 +61,11 @@ def test_the_readme_scene_is_a_good_scene(tmp_path, monkeypatch, surface):
 def commands():
     """`bem ...` lines of README and guide, without comments and paths."""
     lines = [line for block in blocks("sh") for line in block.splitlines()]
-    lines += [line for text in (guide.FIRST_STEPS, guide.SWEEP, guide.OWN_SURFACES) for line in text.splitlines()]
+    lines += [
+        line
+        for text in (guide.EXAMPLES["first-steps"], guide.EXAMPLES["sweep"], guide.EXAMPLES["own-surfaces"])
+        for line in text.splitlines()
+    ]
     found = []
     for line in lines:
         for part in line.split(";"):
@@ -150,7 +153,7 @@ def own_laws():
 def test_slope_of_the_example_law_is_its_derivative():
     scope = {"__name__": "example"}
     with own_laws():
-        exec(guide.LAW, scope)
+        exec(guide.EXAMPLES["law"], scope)
     law = scope["Power"](exponent=12)
     pressure = np.array([0.0, 1e8, 1e9])
     step = 1e3
@@ -162,22 +165,22 @@ def test_slope_of_the_example_law_is_its_derivative():
 def test_the_example_of_a_law_in_a_scene_is_one():
     scene = {key: value for key, value in library()["film-start-stop"].items() if key != "oil"}
     with own_laws():
-        exec(guide.LAW, {"__name__": "example"})
-        loaded = load_scene(scene | tomllib.loads(guide.LAW_SCENE))
+        exec(guide.EXAMPLES["law"], {"__name__": "example"})
+        loaded = load_scene(scene | tomllib.loads(guide.EXAMPLES["law-scene"]))
         assert loaded.oil.build().exponent == 12
 
 
 @pytest.mark.parametrize("kind", kind_names())
 def test_the_guide_says_what_every_key_does(kind, page):
     for name, _, _, effect in guide._keys(get_kind(kind).model, ""):
-        assert effect, f"{kind}: {name} has no line in reports/guide_options.py"
+        assert effect, f"{kind}: {name} has no line in reports/prose/options.toml"
         assert f"<td>{name}</td>" in page, name
 
 
 def test_no_effect_is_left_of_keys_that_are_gone():
     names = [name.split(".") for kind in kind_names() for name, *_ in guide._keys(get_kind(kind).model, "")]
     used = {parts[-1] for parts in names} | {".".join(parts[-2:]) for parts in names}
-    assert EFFECTS.keys() <= used | {"kind"}
+    assert guide.EFFECTS.keys() <= used | {"kind"}
 
 
 def test_the_guide_names_what_exists(page):

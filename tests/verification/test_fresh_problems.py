@@ -38,6 +38,7 @@ def test_draws_cover_every_family_and_the_ranges():
     assert 0.46 < max(substrates) <= 0.49
     assert 0.01 <= min(layer[0] for layer in layers) < 0.02
     assert 50 < max(layer[0] for layer in layers) <= 100
+    assert {len(layer) // 3 for layer in layers} == {1, 2, 3}
     assert any("layer" not in item.parameters for item in drawn)
     assert any("indenter" in item.parameters for item in drawn)
 

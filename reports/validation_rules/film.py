@@ -1,0 +1,89 @@
+"""Our numbers and verdicts for the lines on paper A: film and friction."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+from reports.validation_values import (
+    Rule,
+    Summary,
+    at,
+    curve,
+    differences,
+    hertz_pressure,
+    over_runs,
+    signed_difference,
+    speed,
+    steel_modulus,
+    within,
+)
+
+
+def _apart(summary: Summary, one: str, other: str) -> float:
+    """Largest difference of the friction of two models."""
+    pair = (curve(summary, model=one)["friction"], curve(summary, model=other)["friction"])
+    return max(abs(a - b) for a, b in zip(*pair, strict=True))
+
+
+RULES: dict[str, Rule] = {
+    "spheres_14_20_30_40_um_apart_load_over_hertz": Rule(
+        over_runs("load_over_hertz_finite_array"),
+        lambda s: all(a < b < 1 for a, b in itertools.pairwise((*s["load_over_hertz_finite_array"][:4], 0.999))),
+    ),
+    "the_same_from_the_mean_plane_of_the_deformed": Rule(
+        over_runs("load_over_hertz"),
+        lambda s: s["load_over_hertz"][0] < s["load_over_hertz"][3] < 1,
+    ),
+    "e_of_steel_on_steel_twice_the_contact_modulus": Rule(
+        lambda s: f"{2e-9 * steel_modulus():.1f}",
+        lambda s: abs(2e-9 * steel_modulus() / 231 - 1) < 0.005,
+    ),
+    "hertz_pressure_at_5_5_n_mean_and_largest_mpa": Rule(
+        lambda s: f"{250 * math.pi * hertz_pressure(5.5):.0f} and {1000 * hertz_pressure(5.5):.0f}",
+        lambda s: abs(250 * math.pi * hertz_pressure(5.5) / 102 - 1) < 0.01,
+    ),
+    "friction_at_0_001_m_s": Rule(
+        lambda s: str(at(s, "friction", speed(0.001)(s))),
+        lambda s: within(at(s, "friction", speed(0.001)(s)), 0.085, 0.09),
+    ),
+    "contact_load_at_0_001_m_s_n": Rule(
+        lambda s: str(at(s, "contact_load_N", speed(0.001)(s))),
+        lambda s: within(at(s, "contact_load_N", speed(0.001)(s)), 5.275 * 0.95, 5.275 * 1.05),
+    ),
+    "film_load_at_0_001_m_s_n": Rule(
+        lambda s: str(at(s, "film_load_N", speed(0.001)(s))),
+        lambda s: within(at(s, "film_load_N", speed(0.001)(s)), 0.225 / 1.6, 0.225 * 1.6),
+    ),
+    "contact_load_at_0_3_m_s_n": Rule(
+        lambda s: f"{at(s, 'contact_load_N', speed(0.3)(s))}",
+        lambda s: at(s, "contact_load_N", speed(0.3)(s)).mean == 0.0,
+    ),
+    "elastic_against_capped_at_6_gpa_largest": Rule(
+        lambda s: f"{_apart(s, 'capped', 'elastic'):.1e}",
+        lambda s: _apart(s, "capped", "elastic") < 0.005,
+    ),
+    "uncoupled_against_coupled_asperities_at_5_5_n": Rule(
+        lambda s: f"{signed_difference(s, curve(s, model='elastic')):+.1f}",
+        lambda s: signed_difference(s, curve(s, model="elastic")) > 0,
+    ),
+    "uncoupled_less_coupled_friction_d_with_its": Rule(
+        lambda s: ", ".join(f"{d:+.1f}" for d in differences(s, "34 um")),
+        lambda s: min(differences(s, "34 um")) > 0 and 25 < max(differences(s, "34 um")) < 40,
+    ),
+    "the_same_for_l_57_um": Rule(
+        lambda s: ", ".join(f"{d:+.1f}" for d in differences(s, "57 um")),
+        lambda s: all(abs(b) < abs(a) for a, b in zip(differences(s, "34 um"), differences(s, "57 um"), strict=True)),
+    ),
+    "the_size_of_d_grows_with_load_l_34_um": Rule(
+        lambda s: ", ".join(f"{abs(d):.1f}" for d in differences(s, "34 um")) + " %",
+        lambda s: all(abs(a) < abs(b) for a, b in itertools.pairwise(differences(s, "34 um"))),
+    ),
+    "two_measured_surfaces_friction_at_0_001_m_s": Rule(
+        lambda s: (
+            f"{at(s, 'friction', 0)}; {at(s, 'contact_load_N', 0)} and "
+            f"{at(s, 'contact_load_N', len(s['speed_m_s']) - 1)}"
+        ),
+        lambda s: None,
+    ),
+}
