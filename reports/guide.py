@@ -45,7 +45,7 @@ def _using() -> list[Section]:
         ("summary.json", "the figures; units are in the names"),
         ("results.nc", "all arrays with units: xarray, h5py, any netCDF reader"),
         ("volume.vtu", "stresses below the surface for ParaView"),
-        ("figures/, report.html", "pictures as PNG and PDF, and one page with all"),
+        ("figures/, report.html", "pictures as PNG (`--pdf`: as PDF too), and one page with all"),
         ("checkpoint.bin", "while it runs; --resume goes on from it to the same bits"),
     )
     codes = (

@@ -15,6 +15,7 @@ from bem.results.read import FinishedRun
 from bem.scenes.validate import nearest
 
 FORMATS = ("png", "pdf", "svg")
+_DOTS = 200  # per inch
 
 
 @dataclass(frozen=True)
@@ -82,15 +83,19 @@ def draw(
 
     run, paths = _seen(run), []
     with style():
-        figure = Figure(figsize=size or kind.size, layout="constrained")
-        FigureCanvasAgg(figure)
+        # at the dots of the file from the start: sizes of texts that the layout asks for serve the picture too
+        figure = Figure(figsize=size or kind.size, dpi=_DOTS, layout="constrained")
+        canvas = FigureCanvasAgg(figure)
         kind.draw(run, figure)
         figure.draw_without_rendering()
         figure.set_layout_engine("none")  # the layout is found once for all formats
         for ending in formats:
             path = folder / f"{kind.name}.{ending}"
             with replacing(path) as temporary:
-                figure.savefig(temporary, format=ending)
+                if ending == "png":
+                    canvas.print_png(temporary)  # `savefig` would draw it twice
+                else:
+                    figure.savefig(temporary, format=ending)
             paths.append(path)
         if kind.animate is not None:
             path = folder / f"{kind.name}.gif"

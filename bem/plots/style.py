@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -13,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from bem.scenes.context import release
+from bem.plots.labels import label, largest_of, prefix
 
 BLUE, ORANGE, GREEN, PINK, SKY, VERMILION, YELLOW, BLACK = [
     "#0072B2",
@@ -54,43 +53,13 @@ _RC: dict[str, Any] = {
     "savefig.dpi": 200,
     "axes.formatter.useoffset": False,
 }
-_PREFIXES = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}
-_PART = 1 << 20
 _MOST_CELLS = 1400
 """Along each axis of a map: twice the dots of the widest."""
-_PREFIXED = ("m", "Pa", "N", "s", "m/s", "N/m", "J", "W")
 
 
 def style() -> AbstractContextManager[None]:
     """The look, for a `with` block."""
     return matplotlib.rc_context(_RC)  # type: ignore[arg-type]
-
-
-def prefix(values: Any, unit: str) -> tuple[float, str]:
-    """Factor and unit label that bring the largest of `values` between 1 and 1000: (1e6, "µm") for micrometres."""
-    if unit in ("", "1"):
-        return 1.0, ""
-    if unit not in _PREFIXED:
-        return 1.0, unit
-    largest = largest_of(values)
-    if largest == 0:
-        return 1.0, unit
-    power = min(max(math.floor(math.log10(largest * 1.0000001) / 3), -4), 4)
-    return 10.0 ** (-3 * power), _PREFIXES[power] + unit
-
-
-def largest_of(values: Any) -> float:
-    """The largest finite absolute value, 0 where there is none; large arrays are gone through in parts."""
-    array = np.asarray(values, dtype=np.float64)
-    largest = 0.0
-    for part in array if array.size > _PART else (array,):
-        if part.size > _PART and part.ndim > 1:
-            largest = max(largest, largest_of(part))
-        else:
-            finite = np.abs(part[np.isfinite(part)])
-            largest = max(largest, float(finite.max()) if finite.size else 0.0)
-        release(array)
-    return largest
 
 
 def thinned(values: NDArray[Any]) -> NDArray[Any]:
@@ -106,11 +75,6 @@ def height_limit(heights: NDArray[np.float64]) -> float:
     """
     limit = float(np.percentile(np.abs(thinned(heights)), 99.8))
     return limit if limit > 0 else largest_of(heights)
-
-
-def label(text: str, unit: str) -> str:
-    """Text for an axis: `x (µm)`."""
-    return f"{text} ({unit})" if unit else text
 
 
 def field_axes(axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[float, float, float, float]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.plots.style import label, prefix
+from bem.plots.labels import label, prefix
 
 UNITS = {
     "m": "m", "m2": "m²", "nm": "nm", "um": "µm", "Pa": "Pa", "N": "N", "s": "s", "C": "°C", "K": "K",

@@ -96,3 +96,8 @@ assert not hasattr(pyfftw.interfaces, "nothing_of_this_name")
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode == 0, done.stderr
+
+
+def test_numbers_are_spelt_without_matplotlib():
+    """They are on the terminal before anything that draws is loaded."""
+    assert "matplotlib" not in loaded("from bem.plots.report import spelled, write_report; spelled('load_N', 1.0)")

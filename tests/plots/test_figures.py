@@ -230,3 +230,20 @@ def test_a_figure_that_fails_does_not_cost_the_others(tmp_path, monkeypatch):
     assert failed == ["broken"]
     with pytest.raises(ZeroDivisionError):
         draw_all(run, ("broken",), tmp_path, ("png",))
+
+
+def test_a_picture_is_drawn_once_after_its_layout(tmp_path, monkeypatch):
+    """One pass finds the layout, one draws: matplotlib's `savefig` would make it three."""
+    from matplotlib.figure import Figure
+
+    passes = []
+    old = Figure.draw
+    monkeypatch.setattr(Figure, "draw", lambda self, renderer: passes.append(1) or old(self, renderer))
+    (path,) = draw(contact_run(tmp_path), all_figures()["pressure-map"], tmp_path).paths
+    assert len(passes) == 2
+    from PIL import Image
+
+    width, height = all_figures()["pressure-map"].size
+    with Image.open(path) as image:
+        assert image.size == (round(200 * width), round(200 * height))
+        assert image.info["dpi"] == pytest.approx((200, 200), rel=1e-3)  # stored per metre, in whole numbers

@@ -1,0 +1,46 @@
+"""Quantities on axes and in tables, with prefixed units; without matplotlib, for who only prints them."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from bem.scenes.context import release
+
+_PREFIXES = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}
+_PART = 1 << 20
+_PREFIXED = ("m", "Pa", "N", "s", "m/s", "N/m", "J", "W")
+
+
+def prefix(values: Any, unit: str) -> tuple[float, str]:
+    """Factor and unit label that bring the largest of `values` between 1 and 1000: (1e6, "µm") for micrometres."""
+    if unit in ("", "1"):
+        return 1.0, ""
+    if unit not in _PREFIXED:
+        return 1.0, unit
+    largest = largest_of(values)
+    if largest == 0:
+        return 1.0, unit
+    power = min(max(math.floor(math.log10(largest * 1.0000001) / 3), -4), 4)
+    return 10.0 ** (-3 * power), _PREFIXES[power] + unit
+
+
+def largest_of(values: Any) -> float:
+    """The largest finite absolute value, 0 where there is none; large arrays are gone through in parts."""
+    array = np.asarray(values, dtype=np.float64)
+    largest = 0.0
+    for part in array if array.size > _PART else (array,):
+        if part.size > _PART and part.ndim > 1:
+            largest = max(largest, largest_of(part))
+        else:
+            finite = np.abs(part[np.isfinite(part)])
+            largest = max(largest, float(finite.max()) if finite.size else 0.0)
+        release(array)
+    return largest
+
+
+def label(text: str, unit: str) -> str:
+    """Text for an axis: `x (µm)`."""
+    return f"{text} ({unit})" if unit else text
