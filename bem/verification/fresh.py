@@ -76,12 +76,12 @@ def _poisson(rng: np.random.Generator) -> float:
     return _uniform(rng, 0.05, 0.49)
 
 
-def _layer(rng: np.random.Generator, share: float = 0.8) -> Parameters:
-    """One layer, sometimes a stack of two or three, or (beyond the share) none: three figures of each, outermost first.
+def _layer(rng: np.random.Generator, share: float = 0.8, most: int = 3) -> Parameters:
+    """One layer, sometimes a stack of up to `most`, or (beyond the share) none: three figures of each, outermost first.
 
     These are the modulus over the substrate's, Poisson's ratio, and the thickness.
     """
-    count = int(rng.choice([1, 2, 3], p=[0.7, 0.2, 0.1]))
+    count = min(most, int(rng.choice([1, 2, 3], p=[0.7, 0.2, 0.1])))
     layers = [[_logarithmic(rng, 0.01, 100), _poisson(rng), _logarithmic(rng, 0.05, 3)] for _ in range(count)]
     return {"layer": [figure for layer in layers for figure in layer]} if rng.random() < share else {}
 
@@ -100,23 +100,23 @@ def _harmonic(rng: np.random.Generator) -> Parameters:
 
 
 def _rectangle(rng: np.random.Generator) -> Parameters:
-    return _layer(rng) | {"load": str(rng.choice(["normal", "tangential"])), "width": _uniform(rng, 0.3, 1.0)}
+    return _layer(rng, most=1) | {"load": str(rng.choice(["normal", "tangential"])), "width": _uniform(rng, 0.3, 1.0)}
 
 
 def _indenter(rng: np.random.Generator) -> Parameters:
-    """In half of the cases an elastic counterface."""
+    """In half of the cases an elastic counterface; the reference's contacts and blocks take one layer."""
     other = [_logarithmic(rng, 0.1, 10), _poisson(rng)]
     return {"indenter": other} if rng.random() < 0.5 else {}
 
 
 def _round(rng: np.random.Generator) -> Parameters:
     loads = sorted({_logarithmic(rng, 0.1, 1.0) for _ in range(3)})
-    return _layer(rng) | _indenter(rng) | {"loads": loads}
+    return _layer(rng, most=1) | _indenter(rng) | {"loads": loads}
 
 
 def _row(rng: np.random.Generator) -> Parameters:
     """Loads up to nine tenths of what flattens the row if all of the body were as soft as its softest part."""
-    body = _layer(rng)
+    body = _layer(rng, most=1)
     softest = min(1.0, *body["layer"][::3]) if body else 1.0
     loads = sorted({float(f"{softest * rng.uniform(0.05, 0.9):.3g}") for _ in range(3)})
     return body | _indenter(rng) | {"loads": loads}

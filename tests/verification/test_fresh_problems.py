@@ -40,6 +40,7 @@ def test_draws_cover_every_family_and_the_ranges():
     assert 50 < max(layer[0] for layer in layers) <= 100
     assert {len(layer) // 3 for layer in layers} == {1, 2, 3}
     assert any("layer" not in item.parameters for item in drawn)
+    assert all(len(i.parameters.get("layer", [])) <= 3 for i in drawn if i.problem.startswith(("contact", "rect")))
     assert any("indenter" in item.parameters for item in drawn)
 
 
