@@ -216,6 +216,12 @@ def unregister(law: type[Law]) -> None:
         del _laws[law.family][law.name]
 
 
+def modules_of_laws() -> tuple[str, ...]:
+    """Modules of all laws from outside the package: what another process has to import to know them too."""
+    found = {law.__module__ for entered in _laws.values() for law in entered.values()}
+    return tuple(sorted(name for name in found if name.split(".")[0] != "bem"))
+
+
 def laws_of(family: str) -> Mapping[str, type[Law]]:
     """The laws of a family by name, in alphabetical order."""
     _load(family, plugins=True)

@@ -26,7 +26,7 @@ class Case:
     index : place in the campaign, the last axis running fastest.
     scene : with one value of everything that runs.
     repetition : which; enters the seeds.
-    repeated : whether seeds carry the repetition at all; see `seeds_of`.
+    repeated : whether seeds carry the repetition at all.
     label : what tells it from the others, such as "load 5 N, repetition 2"; empty for the only one.
     """
 

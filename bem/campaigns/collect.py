@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.campaigns.cases import REPETITION, Campaign, Case
+from bem.campaigns.cases import REPETITION, Campaign, Case, campaign_of
 from bem.errors import Status
-from bem.scenes.axes import Axis
+from bem.scenes.common import SceneModel
 from bem.scenes.context import Outcome, Variable
 from bem.scenes.records import Figure, Record, Series, described, mean, spread
 
@@ -42,6 +42,13 @@ def collect(campaign: Campaign, given: Sequence[Given]) -> Outcome:
     return Outcome({**summary, **own}, variables, status, where, volumes, tuple(axis.name for axis in campaign.axes))
 
 
+def outcome_of(scene: SceneModel, record: Record) -> Outcome:
+    """The outcome of a resolved scene of one case from its record."""
+    campaign = campaign_of(scene)
+    (case,) = campaign.cases
+    return collect(campaign, [Given(case, record)])
+
+
 def worst(given: Sequence[Given]) -> tuple[Status, str]:
     """The worst status of all cases, and where they did not converge, in words."""
     found, words = Status.CONVERGED, []
@@ -58,36 +65,53 @@ def worst(given: Sequence[Given]) -> tuple[Status, str]:
 def _summary(
     campaign: Campaign, known: Mapping[str, Figure | Series], records: Sequence[Record | None]
 ) -> dict[str, Any]:
-    """Figures by their names: one value, or a list over all axes but the repetitions, of which means are taken."""
+    """Figures by their names: one value, or a list over all axes but the repetitions, of which means are taken.
+
+    Where figures are lists themselves (over speeds, times), those of the first case stand there, and all cases under
+    `curves`.
+    """
     outer = [axis for axis in campaign.axes if axis.name != REPETITION]
     repeated = next((len(axis) for axis in campaign.axes if axis.name == REPETITION), None)
     each = repeated or 1
-    groups = [list(records[start : start + each]) for start in range(0, len(records), each)]
-    lists = len(groups) > 1 or campaign.kind.always_lists
-
-    def shaped(values: list[Any]) -> Any:
-        return values if lists else values[0]
-
+    told = {name: item for name, item in known.items() if isinstance(item, Figure) and _is_told(name, item, records)}
+    common = {name: item for name, item in told.items() if item.dimensions == (name,)}
+    groups = []
+    for index, place in enumerate(np.ndindex(*(len(axis) for axis in outer))):
+        own = {
+            axis.figure.key(axis.name): axis.figure.shown(axis.values[i])
+            for axis, i in zip(outer, place, strict=True)
+            if axis.always
+        }
+        members = records[index * each : (index + 1) * each]
+        groups.append(own | _figures({n: item for n, item in told.items() if n not in common}, members))
     summary: dict[str, Any] = {}
-    for axis in outer:
-        if axis.always:
-            summary[axis.figure.key(axis.name)] = shaped(_along(outer, axis))
+    for name, item in common.items():
+        summary[item.key(name)] = item.shown(next(getattr(r, name) for r in records if r is not None))
     if repeated is not None:
         summary["repetitions"] = each
-    for name, figure in known.items():
-        if not isinstance(figure, Figure):
-            continue
-        found = [[None if r is None else figure.shown(getattr(r, name)) for r in group] for group in groups]
-        if figure.optional and all(value is None for group in found for value in group):
-            continue
+    if any(item.dimensions for item in told.values()):
+        return summary | groups[0] | ({"curves": groups} if len(groups) > 1 else {})
+    lists = len(groups) > 1 or campaign.kind.always_lists
+    return summary | {key: [group[key] for group in groups] if lists else groups[0][key] for key in groups[0]}
+
+
+def _is_told(name: str, figure: Figure, records: Sequence[Record | None]) -> bool:
+    return not figure.optional or any(getattr(record, name) is not None for record in records if record is not None)
+
+
+def _figures(told: Mapping[str, Figure], records: Sequence[Record | None]) -> dict[str, Any]:
+    """The figures of one case over its repetitions: mean, spread and each, or the value where there is only one."""
+    found: dict[str, Any] = {}
+    for name, figure in told.items():
+        values = [None if record is None else figure.shown(getattr(record, name)) for record in records]
         key = figure.key(name)
-        if each == 1:
-            summary[key] = shaped([group[0] for group in found])
+        if len(values) == 1:
+            found[key] = values[0]
         else:
-            summary[key] = shaped([_over(mean, group) for group in found])
-            summary[f"{key}_spread"] = shaped([_over(spread, group) for group in found])
-            summary[f"{key}_each"] = shaped(found)
-    return summary
+            found[key] = _over(mean, values)
+            found[f"{key}_spread"] = _over(spread, values)
+            found[f"{key}_each"] = values
+    return found
 
 
 def _over(statistic: Any, values: list[Any]) -> Any:
@@ -100,13 +124,6 @@ def _over(statistic: Any, values: list[Any]) -> Any:
     return statistic(values)
 
 
-def _along(outer: Sequence[Axis], axis: Axis) -> list[Any]:
-    """The axis' value in each group, in the order of the groups."""
-    shape = tuple(len(other) for other in outer)
-    places = np.indices(shape)[list(outer).index(axis)].ravel()
-    return [axis.figure.shown(axis.values[int(i)]) for i in places]
-
-
 def _variables(
     campaign: Campaign, known: Mapping[str, Figure | Series], records: Sequence[Record | None]
 ) -> dict[str, Variable]:
@@ -114,6 +131,7 @@ def _variables(
     axes = tuple(axis.name for axis in campaign.axes)
     for axis in campaign.axes:
         variables[axis.name] = Variable((axis.name,), np.array(axis.values), axis.figure.si, axis.figure.text)
+    odd = _odd_dimensions(known, records)
     for name, item in known.items():
         values = [None if record is None else getattr(record, name) for record in records]
         if all(value is None for value in values):
@@ -128,15 +146,16 @@ def _variables(
             dimensions, unit, text = item.dimensions, item.unit, item.text
         if isinstance(item, Series) and item.rows:
             variables |= _rows(name, item, values, variables)
-        elif isinstance(item, Series) and item.of != "each":
-            kept = next(value for value in (values if item.of == "first" else values[::-1]) if value is not None)
+        elif (isinstance(item, Series) and item.of != "each") or odd & set(dimensions):
+            first = isinstance(item, Series) and item.of == "first"
+            kept = next(value for value in (values if first else values[::-1]) if value is not None)
             variables[name] = Variable(dimensions, np.asarray(kept), unit, text)
         elif dimensions == (name,):
-            variables[name] = Variable(dimensions, _coordinate(name, values), unit, text)
+            variables[name] = Variable(dimensions, _coordinate(values), unit, text)
         else:
             stacked = _stacked(values)
             variables[name] = Variable(
-                (*axes, *dimensions), stacked.reshape(*campaign.shape, *stacked.shape[1:]), unit, text
+                (*axes, *dimensions), stacked.reshape((*campaign.shape, *stacked.shape[1:])), unit, text
             )
     return variables
 
@@ -154,19 +173,31 @@ def _rows(name: str, item: Series, values: list[Any], known: Mapping[str, Variab
     return found
 
 
-def _coordinate(name: str, values: list[Any]) -> NDArray[Any]:
-    """The longest of the cases' coordinates, of which the others must be the beginning."""
-    known = [np.asarray(value) for value in values if value is not None]
-    longest = max(known, key=len)
-    for value in known:
-        if not np.array_equal(value, longest[: len(value)]):
-            raise ValueError(f"{name}: differs between cases, so arrays over it cannot stand side by side")
-    return longest
+def _odd_dimensions(known: Mapping[str, Figure | Series], records: Sequence[Record | None]) -> set[str]:
+    """Dimensions that differ between cases, as those of grids of their own: arrays over them are kept of one case."""
+    odd = set()
+    for name, item in known.items():
+        if item.dimensions == (name,) and not (isinstance(item, Series) and (item.rows or item.of != "each")):
+            values = [getattr(record, name) for record in records if record is not None]
+            longest = _coordinate(values) if any(value is not None for value in values) else ()
+            if any(value is not None and not np.array_equal(value, longest[: len(value)]) for value in values):
+                odd.add(name)
+    return odd
+
+
+def _coordinate(values: list[Any]) -> NDArray[Any]:
+    """The longest of the cases' coordinates, of which the others are the beginning."""
+    return max((np.asarray(value) for value in values if value is not None), key=len)
 
 
 def _stacked(values: list[Any]) -> NDArray[Any]:
     """Arrays of all cases; shorter ones and missing ones are filled up with not-a-number."""
     known = [np.asarray(value) for value in values if value is not None]
+    if len(values) == 1:
+        only = known[0].astype(np.int8) if known[0].dtype == bool else known[0]  # files know no truth values
+        return only[np.newaxis]  # a view: it may be larger than memory
+    if any(value.dtype == bool for value in known):
+        return _stacked([None if value is None else np.asarray(value, dtype=np.int8) for value in values])
     shapes = {value.shape for value in known}
     if len(shapes) == 1 and len(known) == len(values):
         return np.stack(known)

@@ -8,6 +8,7 @@ on from its own state, so a campaign killed at any moment ends, resumed, in the 
 from __future__ import annotations
 
 import dataclasses
+import importlib
 import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -22,6 +23,7 @@ from bem.campaigns.context import CaseContext, Silent, Watcher
 from bem.campaigns.disk import marked, sees
 from bem.campaigns.local import compute_locally
 from bem.errors import BemError, ConvergenceError, InputError, ResultsError, Status
+from bem.laws import modules_of_laws
 from bem.results.checkpoint import load_checkpoint, save_checkpoint
 from bem.results.directory import CASES, CHECKPOINT
 from bem.scenes.context import Outcome
@@ -53,11 +55,13 @@ class CaseJob:
 
     Parameters
     ----------
+    index, case : which, and what.
     file : of its checkpoint, None where there is none.
     first, last : whether it is the first, the last of its campaign.
     epoch : clock time [s] at which the run would have begun had it not been interrupted.
     threads : for its run; None leaves them as they are.
     token : of the run's folder where the worker may not see it, see `disk`.
+    modules : to import first, of laws and kinds from outside the package.
     """
 
     index: int
@@ -68,9 +72,12 @@ class CaseJob:
     epoch: float
     threads: int | None = None
     token: str = ""
+    modules: tuple[str, ...] = ()
 
     def compute(self, watcher: Watcher) -> Result:
         """Run the case, going on from its checkpoint; errors that a scene can cause come back as words."""
+        for name in self.modules:
+            importlib.import_module(name)
         if self.threads is not None:
             set_threads(self.threads)
         file = self.file if not self.token or (self.file and sees(self.file.parent.parent, self.token)) else None
@@ -183,17 +190,18 @@ def _results(
     board: Board,
 ) -> Iterator[tuple[int, Result]]:
     """Results of the jobs in the order in which they end."""
+    modules = tuple(dict.fromkeys((type(campaign.scene).__module__, *modules_of_laws())))
+    sent = [dataclasses.replace(job, threads=get_threads(), modules=modules) for job in jobs]
     if scheduler is not None and jobs:
         from bem.campaigns.cluster import compute_on_cluster
 
         folder = jobs[0].file.parent.parent if jobs[0].file and len(campaign.cases) > 1 else None
         with nullcontext("none") if folder is None else marked(folder) as token:
-            yield from compute_on_cluster([dataclasses.replace(job, token=token) for job in jobs], scheduler)
+            yield from compute_on_cluster([dataclasses.replace(job, token=token) for job in sent], scheduler)
         return
     memory = 0.0 if plan is None else plan.memory
     count = staff(workers, len(jobs) if workers else _worth(len(jobs), plan), memory, board.note) if jobs else 0
-    if count > 1 and type(campaign.scene).__module__ != "__main__":  # else no other process could know the kind
-        sent = [dataclasses.replace(job, threads=get_threads()) for job in jobs]
+    if count > 1 and "__main__" not in modules:  # what a script itself defines is known to no other process
         yield from compute_locally(sent, count, board.watching)
         return
     for job in jobs:

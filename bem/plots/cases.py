@@ -5,9 +5,11 @@ A dataset's attribute `axes` names the dimensions along which the cases lie (loa
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from itertools import product
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from bem.plots.style import prefix
@@ -23,48 +25,58 @@ def axes_of(dataset: Any) -> list[str]:
 
 def grouped(run: Any, name: str) -> list[tuple[str, Array]]:
     """Label and values (repetition, ...) of each case; the label says only what differs, if anything."""
-    variable = run.dataset[name]
-    outer = [axis for axis in axes_of(run.dataset) if axis in variable.dims and axis != REPETITION]
-    found = []
-    for place in product(*(range(run.dataset.sizes[axis]) for axis in outer)):
-        at = dict(zip(outer, place, strict=True))
-        values = variable.isel(at)
-        if REPETITION not in values.dims:
-            values = values.expand_dims(REPETITION)
-        words = [value_words(run.dataset[axis][i]) for axis, i in at.items() if run.dataset.sizes[axis] > 1]
-        found.append((", ".join(words), values.transpose(REPETITION, ...).values))
-    return found
+    values, dimensions = run.dataset[name].values, list(run.dataset[name].dims)
+    if REPETITION in dimensions:
+        values = np.moveaxis(values, dimensions.index(REPETITION), 0)
+        dimensions.remove(REPETITION)
+    else:
+        values = values[np.newaxis]
+    outer = [axis for axis in axes_of(run.dataset) if axis in dimensions]
+    values = np.moveaxis(values, [1 + dimensions.index(axis) for axis in outer], range(1, 1 + len(outer)))
+    return [(label_of(run.dataset, outer, place), values[(slice(None), *place)]) for place in _places(run, outer)]
 
 
 def rows_of(run: Any, name: str) -> list[tuple[str, Array]]:
     """The same of rows that follow one another, as of particles: label and values (rows,) of each case, all repetitions
     together."""
-    variable = run.dataset[name]
-    (dimension,) = variable.dims
-    case = run.dataset[f"{dimension}_case"].values
-    axes = axes_of(run.dataset)
+    (dimension,) = run.dataset[name].dims
+    case, axes = run.dataset[f"{dimension}_case"].values, axes_of(run.dataset)
     repetitions = run.dataset.sizes[REPETITION] if REPETITION in axes else 1
     outer = [axis for axis in axes if axis != REPETITION]
-    found = []
-    for index, place in enumerate(product(*(range(run.dataset.sizes[axis]) for axis in outer))):
-        words = [
-            value_words(run.dataset[axis][i])
-            for axis, i in zip(outer, place, strict=True)
-            if run.dataset.sizes[axis] > 1
-        ]
-        found.append((", ".join(words), variable.values[case // repetitions == index]))
-    return found
+    return [
+        (label_of(run.dataset, outer, place), run.dataset[name].values[case // repetitions == index])
+        for index, place in enumerate(_places(run, outer))
+    ]
 
 
-def value_words(item: Any) -> str:
+def along(run: Any, name: str, axis: str) -> tuple[Array, Array, Array, Array]:
+    """Values of an axis in rising order, and mean, least and largest of a figure at each, over everything else."""
+    order = np.argsort(run.dataset[axis].values)
+    values = np.moveaxis(run.dataset[name].values, list(run.dataset[name].dims).index(axis), 0)
+    rows = values.reshape(len(values), -1)[order]
+    each = run.dataset[axis].values[order]
+    return each, np.nanmean(rows, axis=1), np.nanmin(rows, axis=1), np.nanmax(rows, axis=1)
+
+
+def label_of(dataset: Any, axes: Sequence[str], place: Sequence[int]) -> str:
+    """What is at a place along axes, of those with more than one value."""
+    words = [value_words(dataset[axis], i) for axis, i in zip(axes, place, strict=True) if dataset.sizes[axis] > 1]
+    return ", ".join(words)
+
+
+def value_words(item: Any, i: int) -> str:
     """A value of an axis with its unit."""
-    value = item.values.item()
+    value = item.values[i]
     unit = str(item.attrs.get("units", "1"))
     if isinstance(value, bytes | str):
-        return value.decode() if isinstance(value, bytes) else value
+        return value.decode() if isinstance(value, bytes) else str(value)
     if unit == "K":
         return f"{value - 273.15:.4g} °C"
     if unit == "1":
         return f"{value:.6g}"
     factor, shown = prefix([value], unit)
     return f"{value * factor:.4g} {shown}"
+
+
+def _places(run: Any, axes: Sequence[str]) -> Iterator[tuple[int, ...]]:
+    return product(*(range(run.dataset.sizes[axis]) for axis in axes))

@@ -20,7 +20,7 @@ AXES = ("speed", "time", "cycle", "depth", "interference", "iteration", "film_x"
 """Dimensions that a line may run along, the first that a variable has."""
 COUNTED = ("particle",)
 """Dimensions without an order of their own: a line counts them up by size."""
-CASES = ("speed", "run_speed", "load", "temperature", "hardness", "model", "variant")
+CASES = ("speed", "load", "temperature", "hardness", "model", "variant")
 """What tells cases apart, beside dimensions of their own; any of them may be a case's place on the axis."""
 _LEFT_OUT = ("sample", "component", "frame")
 _PLACES = ("x", "film_x")

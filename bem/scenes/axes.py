@@ -53,15 +53,19 @@ def listed(scene: Any, key: str, name: str, figure: Figure) -> Axis:
     return Axis(name, values, figure, lambda scene, i: changed(scene, key, [values[i]]))
 
 
-def variants(scene: Any, change: Callable[[Any, Any], Any], key: str = "variants", unnamed: str = "") -> Axis:
-    """The axis of the named variants in a list of tables; `change(scene, variant)` makes the scene of one."""
+def variants(scene: Any, change: Callable[[Any, Any], Any], unnamed: str = "", always: bool = False) -> Axis:
+    """The axis of the named tables in `variants`; `change(scene, variant)` makes the scene of one.
+
+    unnamed : what a scene without variants is called. always : whether its summary says so.
+    """
+    key = "variants"
     found: Sequence[Any] = getattr(scene, key)
 
     def pick(scene: Any, i: int) -> Any:
         return changed(change(scene, found[i]), key, []) if found else scene
 
     names = tuple(item.name for item in found) or (unnamed,)
-    return Axis("variant", names, Figure("", "variant"), pick, always=bool(found) or bool(unnamed))
+    return Axis("variant", names, Figure("", "variant"), pick, always=bool(found) or always)
 
 
 def changed(table: Model, key: str, value: Any) -> Model:

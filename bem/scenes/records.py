@@ -92,8 +92,9 @@ class Series:
     unit : SI.
     text : what it is.
     of : whose is kept where there are several cases: each one's, the first's or the last's.
-    rows : lengths differ from case to case, as of particles; the cases' rows follow one another and the variable
-        `DIMENSION_case` says which case each is of. Otherwise shorter ones are filled up with not-a-number.
+    rows : lengths differ from case to case, as of particles; the cases' rows follow one another, and a variable named
+        after the dimension with `_case` behind it says which case each is of. Otherwise shorter ones are filled up with
+        not-a-number.
     """
 
     dimensions: tuple[str, ...]

@@ -8,7 +8,7 @@ import pytest
 from bem.campaigns import campaign_of, compute
 from bem.errors import InputError
 from bem.runs import plan_scene
-from bem.scenes import PlainContext, build, get_kind, library
+from bem.scenes import build, library
 from bem.scenes.kinds import kind_names
 from bem.transforms import COUNT
 
@@ -68,7 +68,7 @@ def test_convolutions_of_a_contact_are_as_many_as_planned_within_a_factor_of_two
     from bem.scenes.kinds.contact import _convolutions
 
     scene, _ = plan_scene(name, ["grid.shape=128", "outputs.von_mises=false", "outputs.stresses=false"])
-    outcome = get_kind(scene.kind).run(scene, PlainContext(scene.seed))
+    outcome = compute(campaign_of(scene)).outcome
     planned = _convolutions(build.grid_of(scene.grid))
     assert planned / 2 <= outcome.summary["convolutions"] <= 2 * planned
 

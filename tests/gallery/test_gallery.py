@@ -39,8 +39,7 @@ def test_reduced_scene_runs(folder, name):
     scene = gallery_scene(name, folder, reduced=True)
     run = run_scene(scene, folder / name)
     assert run.summary["status"] == "converged", run.summary["where"]
-    statistics = {key for key in run.summary if key.endswith(("_spread", "_each"))}
-    assert set(run.summary) - statistics == KEYS[name]
+    assert set(run.summary) >= KEYS[name]
     kind = get_kind(scene["kind"])
     for key in ("scene", "kind", "version", "seed", "wall_time_s", "status", *PROMISED.get(scene["kind"], "").split()):
         assert key in run.summary, key

@@ -5,6 +5,7 @@ import copy
 import numpy as np
 import pytest
 
+from bem.campaigns.collect import outcome_of
 from bem.convolution import displacement_operator
 from bem.errors import Status
 from bem.grid import Grid
@@ -22,7 +23,7 @@ KIND = get_kind("contact")
 def run(source, settings=(), context=None):
     scene, _ = plan_scene(source, settings)
     context = context or PlainContext(scene.seed)
-    return scene, KIND.run(scene, context), context
+    return scene, outcome_of(scene, KIND.run(scene, context)), context
 
 
 ROUGH = {

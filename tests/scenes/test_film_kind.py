@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from bem.campaigns.collect import outcome_of
 from bem.scenes import PlainContext
 from bem.scenes.kinds.film import KIND, FilmScene
 
@@ -20,7 +21,8 @@ SCENE = {
 
 
 def run(changes=None):
-    return KIND.run(FilmScene.model_validate(SCENE | (changes or {})), PlainContext())
+    scene = FilmScene.model_validate(SCENE | (changes or {}))
+    return outcome_of(scene, KIND.run(scene, PlainContext()))
 
 
 def test_stop_and_start():

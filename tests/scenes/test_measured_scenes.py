@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+from bem.campaigns.collect import outcome_of
 from bem.errors import InputError, Status, SurfaceFileError
 from bem.runs import plan_scene
 from bem.scenes import PlainContext, get_kind
@@ -28,7 +29,7 @@ def scene(lower, upper=None, **contact):
 def run(data, settings=()):
     resolved, _ = plan_scene(data, settings)
     context = PlainContext(resolved.seed)
-    return resolved, KIND.run(resolved, context), context
+    return resolved, outcome_of(resolved, KIND.run(resolved, context)), context
 
 
 @pytest.mark.slow

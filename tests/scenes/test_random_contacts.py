@@ -4,6 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from bem.campaigns.collect import outcome_of
 from bem.errors import InputError, Status
 from bem.runs import plan_scene
 from bem.scenes import PlainContext, get_kind
@@ -75,7 +76,7 @@ scenes = st.fixed_dictionaries(
 def test_an_answer_within_its_bounds_or_a_refusal(data):
     try:
         scene, _ = plan_scene(data)
-        outcome = KIND.run(scene, PlainContext(scene.seed))
+        outcome = outcome_of(scene, KIND.run(scene, PlainContext(scene.seed)))
     except InputError as error:
         assert all(error.messages)  # noqa: PT017
         return

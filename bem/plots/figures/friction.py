@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from bem.plots.cases import along, grouped
 from bem.plots.figures import FigureKind
 from bem.plots.style import BLACK, BLUE, GREEN, OPEN, ORANGE, PINK, SEQUENTIAL, SKY, VERMILION, label, prefix
 
@@ -25,14 +26,14 @@ _MEASURED_RADIUS = (210e-9, 236e-9)  # dynamic light scattering at 0.01 m/s, 223
 Array = NDArray[Any]
 
 
-def _labels(run: Any) -> list[str]:
-    """What tells a curve from the others."""
-    data = run.dataset
-    models = [_MODEL_NAMES.get(str(m), str(m)) for m in data["model"].values]
-    variants = [str(v) for v in data["variant"].values]
-    loads = [f"{v:.3g} N" for v in data["load"].values]
-    differ = [column for column in (models, variants, loads) if len(set(column)) > 1]
-    return [", ".join(parts) for parts in zip(*differ, strict=True)] if differ else ["friction"] * len(models)
+def _curves(run: Any, name: str) -> list[tuple[str, Array]]:
+    """Label and values (repetition, speed) of each curve, in the order of speed; models are spelt out."""
+    order = np.argsort(run.dataset["speed"].values)
+    found = []
+    for words, values in grouped(run, name):
+        parts = [_MODEL_NAMES.get(part, part) for part in words.split(", ") if part]
+        found.append((", ".join(parts) or "friction", values[:, order]))
+    return found
 
 
 def _band(axes: Axes, x: Array, values: Array, colour: str, name: str, **how: Any) -> None:
@@ -50,20 +51,16 @@ def _speed_axis(axes: Axes, speed: Array) -> None:
 
 
 def _stribeck(run: Any, figure: Figure) -> None:
-    data, axes = run.dataset, figure.add_subplot()
-    speed, names = data["speed"].values, _labels(run)
-    order = np.argsort(speed)
-    groups = list(dict.fromkeys(names))
-    many = len(groups) > 6
-    for number, name in enumerate(groups):
-        rows = [i for i, other in enumerate(names) if other == name]
+    axes = figure.add_subplot()
+    speed, curves = np.sort(run.dataset["speed"].values), _curves(run, "friction")
+    many = len(curves) > 6
+    for number, (name, values) in enumerate(curves):
         style = "--" if "uncoupled" in name else "-"
-        values = data["friction"].values[rows][:, order]
-        _band(axes, speed[order], values, _COLOURS[number], name, linestyle=style, linewidth=0.9 if many else 1.4)
+        _band(axes, speed, values, _COLOURS[number], name, linestyle=style, linewidth=0.9 if many else 1.4)
         if number == 0:
             for key, text, dots in (("boundary_part", "of it boundary", ":"), ("film_part", "of it film", "-.")):
-                part = data[key].values[rows][:, order].mean(axis=0)
-                axes.plot(speed[order], part, color="0.45", linestyle=dots, linewidth=1.1, label=text)
+                part = _curves(run, key)[0][1].mean(axis=0)
+                axes.plot(speed, part, color="0.45", linestyle=dots, linewidth=1.1, label=text)
     axes.set_ylabel("coefficient of friction")
     _speed_axis(axes, speed)
     axes.legend(fontsize=6.5 if many else 7.5, ncols=2 if many else 1)
@@ -71,20 +68,16 @@ def _stribeck(run: Any, figure: Figure) -> None:
 
 def _sharing(run: Any, figure: Figure) -> None:
     """Loads above, film thickness below, of the first curve over its repetitions."""
-    data = run.dataset
-    names = _labels(run)
-    rows = [i for i, name in enumerate(names) if name == names[0]]
-    speed = data["speed"].values
-    order = np.argsort(speed)
+    speed = np.sort(run.dataset["speed"].values)
     upper, lower = figure.subplots(2, 1, sharex=True)
     for key, colour, text in (("contact_load", VERMILION, "contact"), ("film_load", BLUE, "film")):
-        _band(upper, speed[order], data[key].values[rows][:, order], colour, text)
+        _band(upper, speed, _curves(run, key)[0][1], colour, text)
     upper.set_ylabel("load (N)")
     upper.set_ylim(0)
     upper.legend()
-    film = data["minimum_film"].values[rows][:, order]
+    film = _curves(run, "minimum_film")[0][1]
     factor, unit = prefix(film, "m")
-    _band(lower, speed[order], film * factor, BLUE, "")
+    _band(lower, speed, film * factor, BLUE, "")
     lower.set_ylabel(label("minimum film", unit))
     _speed_axis(lower, speed)
 
@@ -184,19 +177,6 @@ def _difference(run: Any, figure: Figure) -> None:
     axes.legend()
 
 
-def _by_speed(run: Any, name: str) -> tuple[Array, Array, Array, Array]:
-    """Speeds, and mean, least and largest of a run variable at each."""
-    speeds, values = run.dataset["run_speed"].values, run.dataset[name].values
-    each = np.unique(speeds)
-    rows = [values[speeds == s] for s in each]
-    return (
-        each,
-        np.array([r.mean() for r in rows]),
-        np.array([r.min() for r in rows]),
-        np.array([r.max() for r in rows]),
-    )
-
-
 def _run_in_stribeck(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
     for name, colour, text, how in (
@@ -205,7 +185,7 @@ def _run_in_stribeck(run: Any, figure: Figure) -> None:
         ("boundary_friction_part", "0.45", "run in, of it boundary", ":"),
         ("film_friction_part", "0.45", "run in, of it film", "-."),
     ):
-        speed, mean, low, high = _by_speed(run, name)
+        speed, mean, low, high = along(run, name, "speed")
         marker = {"--": "s", "-": "o"}.get(how)  # the square is seen where both are equal
         size = 6.0 if marker == "s" else 3.5
         axes.plot(speed, mean, how, color=colour, label=text, marker=marker, markersize=size, markerfacecolor="none")
@@ -216,26 +196,15 @@ def _run_in_stribeck(run: Any, figure: Figure) -> None:
     axes.legend()
 
 
-def _run_groups(run: Any) -> list[tuple[str, list[int]]]:
-    speeds, hardness = run.dataset["run_speed"].values, run.dataset["hardness"].values
-    differ_speed, differ_hardness = len(set(speeds)) > 1, len(set(hardness)) > 1
-    names = [
-        ", ".join(([f"{s:g} m/s"] if differ_speed else []) + ([f"{h / 1e9:.3g} GPa"] if differ_hardness else []))
-        for s, h in zip(speeds, hardness, strict=True)
-    ]
-    names_in_order = [names[i] for i in np.lexsort((hardness, speeds))]
-    return [(name, [i for i, other in enumerate(names) if other == name]) for name in dict.fromkeys(names_in_order)]
-
-
 def _cycles(name: str, text: str) -> Any:
     def draw(run: Any, figure: Figure) -> None:
         axes = figure.add_subplot()
-        cycle, groups = run.dataset["cycle"].values, _run_groups(run)
-        for number, (group, rows) in enumerate(groups):
+        cycle, groups = run.dataset["cycle"].values, grouped(run, name)
+        for number, (group, values) in enumerate(groups):
             import matplotlib
 
             colour = matplotlib.colormaps["viridis"](0.85 * number / max(1, len(groups) - 1))
-            axes.plot(cycle, run.dataset[name].values[rows].mean(axis=0), color=colour, linewidth=1.1, label=group)
+            axes.plot(cycle, values.mean(axis=0), color=colour, linewidth=1.1, label=group)
         axes.set_xlabel("cycle")
         axes.set_ylabel(text)
         axes.set_xlim(1, max(2, cycle[-1]))
@@ -249,7 +218,7 @@ def _cycles(name: str, text: str) -> Any:
 
 def _radius_over_speed(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
-    speed, mean, low, high = _by_speed(run, "particle_equivalent_radius")
+    speed, mean, low, high = along(run, "particle_equivalent_radius", "speed")
     axes.plot(speed, mean * 1e9, "o-", color=BLUE, markersize=4, label="computed; 0: no particles")
     axes.fill_between(speed, low * 1e9, high * 1e9, color=BLUE, alpha=0.18, linewidth=0)
     middle = 0.5e9 * sum(_MEASURED_RADIUS)
@@ -264,15 +233,10 @@ def _radius_over_speed(run: Any, figure: Figure) -> None:
 
 def _over_hardness(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
-    hardness = run.dataset["hardness"].values
-    each = np.unique(hardness)
     for name, colour, text in (("friction_initial", VERMILION, "initial"), ("friction_run_in", BLUE, "run in")):
-        values = run.dataset[name].values
-        rows = [values[hardness == h] for h in each]
-        axes.plot(each * 1e-9, [r.mean() for r in rows], "o-", color=colour, markersize=4, label=text)
-        axes.fill_between(
-            each * 1e-9, [r.min() for r in rows], [r.max() for r in rows], color=colour, alpha=0.18, linewidth=0
-        )
+        each, mean, low, high = along(run, name, "hardness")
+        axes.plot(each * 1e-9, mean, "o-", color=colour, markersize=4, label=text)
+        axes.fill_between(each * 1e-9, low, high, color=colour, alpha=0.18, linewidth=0)
     axes.set_xlabel("hardness of the disk (GPa)")
     axes.set_ylabel("coefficient of friction")
     axes.legend()
@@ -320,7 +284,7 @@ def _animate(run: Any, path: Path) -> None:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     frames, extent, highest = _touched_strip(run)
-    cycles, friction = run.dataset["frame"].values, run.dataset["friction_over_cycles"].values[0]
+    cycles, friction = run.dataset["frame"].values, grouped(run, "friction_over_cycles")[0][1][0]
     figure = Figure(figsize=(6.4, 3.6), layout="constrained")
     FigureCanvasAgg(figure)
     left, right = figure.subplots(1, 2, width_ratios=(2, 3))
@@ -374,11 +338,11 @@ def _has_differences(run: Any) -> bool:
 
 
 def _many_speeds(run: Any) -> bool:
-    return np.unique(run.dataset["run_speed"].values).size > 1
+    return run.dataset.sizes["speed"] > 1
 
 
 def _many_hardnesses(run: Any) -> bool:
-    return np.unique(run.dataset["hardness"].values).size > 1
+    return run.dataset.sizes["hardness"] > 1
 
 
 _WIDE = (5.6, 3.6)
@@ -424,7 +388,7 @@ FIGURES = (
     FigureKind(
         "running-in-stribeck",
         "Friction in the first cycle and after running-in, over speed; bands span the repetitions.",
-        ("run_speed", "friction_initial", "friction_run_in"),
+        ("speed", "friction_initial", "friction_run_in"),
         _run_in_stribeck,
         _WIDE,
         _many_speeds,
@@ -432,21 +396,21 @@ FIGURES = (
     FigureKind(
         "friction-over-cycles",
         "Coefficient of friction over the cycles.",
-        ("cycle", "friction_over_cycles", "run_speed", "hardness"),
+        ("cycle", "friction_over_cycles", "speed", "hardness"),
         _cycles("friction_over_cycles", "coefficient of friction"),
         (6.2, 3.6),
     ),
     FigureKind(
         "contact-share-over-cycles",
         "Share of the load that the surfaces carry, over the cycles.",
-        ("cycle", "contact_share", "run_speed", "hardness"),
+        ("cycle", "contact_share", "speed", "hardness"),
         _cycles("contact_share", "share of the load on contact"),
         (6.2, 3.6),
     ),
     FigureKind(
         "particle-radius-over-speed",
         "Settled radius of the particles over speed, beside what dynamic light scattering found (thesis, paper D).",
-        ("run_speed", "particle_equivalent_radius"),
+        ("speed", "particle_equivalent_radius"),
         _radius_over_speed,
         _WIDE,
         _many_speeds,

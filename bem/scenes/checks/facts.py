@@ -257,6 +257,8 @@ def _wear(scene: Any) -> list[Case]:
 
 
 def _tribofilm(scene: Any) -> list[Case]:
+    from bem.tribofilm.properties import Constant
+
     grid, bodies, radii = build.grid_of(scene.grid), _bodies(scene), _shape(scene.shape)
     line = math.isinf(radii[1])
     return [
@@ -267,7 +269,7 @@ def _tribofilm(scene: Any) -> list[Case]:
             smooth=smooth_contact(
                 bodies["lower"], bodies["upper"], radii, load=load / grid.lengths[1] if line else load
             ),
-            cap=getattr(scene.film.hardness, "value", None) if scene.film.hardness.kind == "constant" else None,
+            cap=scene.film.hardness.value if isinstance(scene.film.hardness, Constant) else None,
             friction=scene.rubbing.friction,
             shape=scene.shape.kind,
             wavelength=scene.shape.wavelength,

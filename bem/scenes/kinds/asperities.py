@@ -6,19 +6,22 @@ All asperities of an endless array carry the same, so one asperity on a doubly p
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from bem.errors import InputError, Status
-from bem.grid import Grid
+from bem.grid import FloatArray, Grid
 from bem.materials import contact_modulus
+from bem.scenes.axes import Axis, listed
 from bem.scenes.common import BodyScene, Cells, PositiveLength, SceneModel, Table, UpperBodyScene, problem
-from bem.scenes.context import Context, Outcome, Variable
+from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.planner import Plan, Step, convolution_memory
+from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Length
 
 _LOADS = 14
@@ -75,91 +78,120 @@ def plan(scene: AsperitiesScene) -> Plan:
         (
             Step(
                 "contacts",
-                f"{_LOADS} loads for each of {len(scene.array.spacings)} spacings, one asperity each",
-                transforms=2.0 * 20 * _LOADS * len(scene.array.spacings),
+                f"{_LOADS} loads for each spacing, one asperity each",
+                transforms=2.0 * 20 * _LOADS,
                 points=float(largest.cells),
                 memory=convolution_memory(largest.shape, largest.periodic),
             ),
             Step("the other asperities of the array", "all carry the same, by symmetry", skipped=True),
-            Step("figures and report", "pictures of the results", seconds=3.0, memory=2e8),
+            Step("figures and report", "pictures of the results", seconds=3.0, memory=2e8, per="run"),
         )
     )
 
 
-def run(scene: AsperitiesScene, context: Context) -> Outcome:
-    """Loads over depths for every spacing."""
-    from scipy.interpolate import PchipInterpolator
+def axes(scene: AsperitiesScene) -> tuple[Axis, ...]:
+    """Spacings."""
+    return (
+        listed(scene, "array.spacings", "asperity_spacing", Figure("um", "distance of asperities", name="spacing")),
+    )
 
+
+@dataclass(frozen=True, eq=False)
+class AsperityRecord(Record):
+    """Load over depth of one asperity among its neighbours."""
+
+    load_over_hertz: Annotated[float, Figure("", "load over that of an asperity alone, deepest, from the mean plane")]
+    load_over_hertz_finite_array: Annotated[float, Figure("", "the same of a finite array, from the flat")]
+    hertz_load: Annotated[FloatArray, Series(("interference",), "N", "load of an asperity alone", of="first")]
+    interference: Annotated[FloatArray, Series(("interference",), "m", "how deep the tops are pressed in")]
+    asperity_load: Annotated[FloatArray, Series(("interference",), "N", "load per asperity, from the mean plane")]
+    asperity_load_window: Annotated[FloatArray, Series(("interference",), "N", "load per asperity, finite array")]
+    x: Annotated[FloatArray, Series(("x",), "m", "x", of="first")]
+    y: Annotated[FloatArray, Series(("y",), "m", "y", of="first")]
+    pressure: Annotated[
+        FloatArray, Series(("x", "y"), "Pa", "contact pressure of the first spacing at the highest load", of="first")
+    ]
+
+
+def run(scene: AsperitiesScene, context: Context) -> AsperityRecord:
+    """Loads over depths at one spacing."""
     from bem.contact import solve_contact
     from bem.convolution import displacement_operator
 
-    array = scene.array
+    array, (spacing,) = scene.array, scene.array.spacings
     lower, upper = scene.lower.build(), scene.upper.build()
     modulus = contact_modulus(lower.material, None if upper is None else upper.material)
     depth = np.array(sorted(array.interferences))
     hertz = 4 / 3 * modulus * math.sqrt(array.radius) * depth**1.5
     loads = 4 / 3 * modulus * math.sqrt(array.radius) * np.geomspace(0.02 * depth[0], 1.6 * depth[-1], _LOADS) ** 1.5
-    mean_plane: list[NDArray[np.float64]] = []
-    from_flat: list[NDArray[np.float64]] = []
-    shown, status = None, Status.CONVERGED
-    for number, spacing in enumerate(array.spacings):
-        grid = grid_at(scene, spacing)
-        x, y = grid.x[:, None], grid.y[None, :]
-        # the parabola that Hertz' sphere is; below the foot stands the flat
-        gap = np.minimum((x**2 + y**2) / (2 * array.radius), array.height)
-        operator = displacement_operator(grid, lower if upper is None else (lower, upper))
-        approach, pressure = [], None
-        with context.timer("contacts"):
-            for load in loads:
-                solution = solve_contact(gap, operator, load=load, initial_pressure=pressure)
-                pressure = solution.pressure
-                approach.append(solution.approach - float(gap.min()))
-                if solution.status is not Status.CONVERGED:
-                    status = solution.status
-        if shown is None:
-            shown = (grid, pressure)
-        inward = np.array(approach)
-        # a finite square array sinks in as a whole by the mean pressure's own deflection at its middle
-        sunk = SQUARE_PATCH * array.window * loads / spacing**2 / (math.pi * modulus)
-        for target, values in ((mean_plane, inward), (from_flat, inward + sunk)):
-            if not (np.diff(values) > 0).all() or values[0] > depth[0] or values[-1] < depth[-1]:
-                raise InputError(
-                    f"array.interferences: {depth[0]:.3g} to {depth[-1]:.3g} m cannot be reached at a spacing of "
-                    f"{spacing:.3g} m; allowed: {max(values[0], 0):.3g} to {values[-1]:.3g} m"
-                )
-            target.append(PchipInterpolator(values, loads ** (2 / 3))(depth) ** 1.5)
-        context.progress(number + 1, len(array.spacings), "spacings")
-    assert shown is not None
-    share = [float(row[-1] / hertz[-1]) for row in from_flat]
-    summary: dict[str, Any] = {
-        "spacing_um": [1e6 * s for s in array.spacings],
-        "load_over_hertz": [float(row[-1] / hertz[-1]) for row in mean_plane],
-        "load_over_hertz_finite_array": share,
-        "hertz_load_N": float(hertz[-1]),
-        "interference_nm": 1e9 * float(depth[-1]),
-    }
-    grid, pressure = shown
+    grid = grid_at(scene, spacing)
+    x, y = grid.x[:, None], grid.y[None, :]
+    # the parabola that Hertz' sphere is; below the foot stands the flat
+    gap = np.minimum((x**2 + y**2) / (2 * array.radius), array.height)
+    operator = displacement_operator(grid, lower if upper is None else (lower, upper))
+    approach, status = [], Status.CONVERGED
+    pressure: FloatArray | None = None
+    with context.timer("contacts"):
+        for number, load in enumerate(loads):
+            solution = solve_contact(gap, operator, load=load, initial_pressure=pressure)
+            pressure = solution.pressure
+            approach.append(solution.approach - float(gap.min()))
+            if solution.status is not Status.CONVERGED:
+                status = solution.status
+            context.progress(number + 1, _LOADS, "contacts")
     assert pressure is not None
-    along = ("asperity_spacing", "interference")
-    variables = {
-        "asperity_spacing": Variable(("asperity_spacing",), np.array(array.spacings), "m", "distance of asperities"),
-        "interference": Variable(("interference",), depth, "m", "how deep the tops are pressed in"),
-        "asperity_load": Variable(along, np.array(mean_plane), "N", "load per asperity, from the mean plane"),
-        "asperity_load_window": Variable(along, np.array(from_flat), "N", "load per asperity, finite array"),
-        "hertz_load": Variable(("interference",), hertz, "N", "load of an asperity alone"),
-        "x": Variable(("x",), grid.x, "m", "x"),
-        "y": Variable(("y",), grid.y, "m", "y"),
-        "pressure": Variable(("x", "y"), pressure, "Pa", "contact pressure of the closest spacing at the highest load"),
-    }
-    return Outcome(summary, variables, status, "" if status is Status.CONVERGED else "a contact")
+    inward = np.array(approach)
+    # a finite square array sinks in as a whole by the mean pressure's own deflection at its middle
+    sunk = SQUARE_PATCH * array.window * loads / spacing**2 / (math.pi * modulus)
+    mean_plane, from_flat = (_at_depths(depth, values, loads, spacing) for values in (inward, inward + sunk))
+    return AsperityRecord(
+        load_over_hertz=float(mean_plane[-1] / hertz[-1]),
+        load_over_hertz_finite_array=float(from_flat[-1] / hertz[-1]),
+        hertz_load=hertz,
+        interference=depth,
+        asperity_load=mean_plane,
+        asperity_load_window=from_flat,
+        x=grid.x,
+        y=grid.y,
+        pressure=pressure,
+        status=status,
+        where="" if status is Status.CONVERGED else "a contact",
+    )
+
+
+def _at_depths(depth: FloatArray, inward: FloatArray, loads: FloatArray, spacing: float) -> FloatArray:
+    """Loads at the depths asked for [N].
+
+    Raises
+    ------
+    InputError : depths that the loads do not reach.
+    """
+    from scipy.interpolate import PchipInterpolator
+
+    if not (np.diff(inward) > 0).all() or inward[0] > depth[0] or inward[-1] < depth[-1]:
+        raise InputError(
+            f"array.interferences: {depth[0]:.3g} to {depth[-1]:.3g} m cannot be reached at a spacing of "
+            f"{spacing:.3g} m; allowed: {max(inward[0], 0):.3g} to {inward[-1]:.3g} m"
+        )
+    return np.asarray(PchipInterpolator(inward, loads ** (2 / 3))(depth) ** 1.5)
+
+
+def summarise(scene: AsperitiesScene, axes: Any, records: Sequence[AsperityRecord | None]) -> dict[str, Any]:
+    """Of an asperity alone, at the deepest."""
+    first = next(record for record in records if record is not None)
+    return {"hertz_load_N": float(first.hertz_load[-1]), "interference_nm": 1e9 * float(first.interference[-1])}
 
 
 KIND = Kind(
     name="asperities",
     title="a regular array of spherical asperities against a flat: load per asperity over depth",
     model=AsperitiesScene,
+    axes=axes,
     plan=plan,
     run=run,
+    record=AsperityRecord,
+    summarise=summarise,
+    always_lists=True,
     figures=("asperity-loads", "pressure-map"),
     headline=("spacing_um", "load_over_hertz", "load_over_hertz_finite_array", "hertz_load_N"),
 )

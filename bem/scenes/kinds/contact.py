@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Annotated, Any, Literal
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError, Status
-from bem.grid import Grid
+from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.scenes import build
 from bem.scenes.common import (
@@ -27,17 +28,25 @@ from bem.scenes.common import (
     exactly_one,
     problem,
 )
-from bem.scenes.context import LARGE, Context, Outcome, Variable, release
+from bem.scenes.context import LARGE, Context, release
 from bem.scenes.kinds import Kind
 from bem.scenes.planner import Plan, Step, padded_points, show_bytes
+from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Length, Ratio
 
-FloatArray = NDArray[np.float64]
+if TYPE_CHECKING:
+    from bem.contact import ContactSolution
 
 _TRANSFORMS_PER_CONVOLUTION = 3.2
 """Time of a convolution and what the contact solver does besides, in transforms: measured, 256 to 1024 cells."""
 _LIBRARIES = 2.2e8
 """Bytes of the interpreter with the solver's libraries."""
+
+
+def _map(unit: str, text: str) -> Series:
+    return Series(("x", "y"), unit, text)
+
+
 _STRESS_COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 
 
@@ -168,6 +177,7 @@ def plan(scene: ContactScene) -> Plan:
         Step(
             "figures and report",
             "pictures of the results, and the libraries for them",
+            per="run",
             seconds=4.0,
             memory=2.2e8 + 8.0 * grid.cells * 2,
         ),
@@ -238,126 +248,155 @@ def _coupling_reason(coupled: bool, friction: float) -> str:
     return "no friction" if friction == 0 else "Dundurs' beta is zero: traction does not move the gap"
 
 
-def run(scene: ContactScene, context: Context) -> Outcome:
+@dataclass(frozen=True, eq=False)
+class ContactRecord(Record):
+    """A solved contact, and the stresses below it where they are asked for."""
+
+    contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid")]
+    plastic_area_fraction: Annotated[float, Figure("", "area at the hardness over that of the grid")]
+    contact_area: Annotated[float, Figure("m2", "real contact area")]
+    mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
+    max_pressure: Annotated[float, Figure("Pa", "highest pressure")]
+    load: Annotated[float, Figure("N", "load")]
+    approach: Annotated[float, Figure("m", "approach from first touch")]
+    mean_gap: Annotated[float, Figure("m", "mean of the open gap")]
+    residual: Annotated[float, Figure("", "relative residual")]
+    iterations: Annotated[int, Figure("", "iterations")]
+    convolutions: Annotated[float, Figure("", "convolutions")]
+    lower_Sq: Annotated[float | None, Figure("m", "Sq of the lower surface", optional=True)]
+    upper_Sq: Annotated[float | None, Figure("m", "Sq of the upper surface", optional=True)]
+    max_von_mises: Annotated[float | None, Figure("Pa", "highest von Mises stress", optional=True)]
+    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)]
+    yielded_volume: Annotated[float | None, Figure("m3", "volume beyond the yield stress", optional=True)]
+    x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding")]
+    y: Annotated[FloatArray, Series(("y",), "m", "y")]
+    pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
+    displacement: Annotated[FloatArray, _map("m", "normal displacement of both bodies together")]
+    gap: Annotated[FloatArray, _map("m", "gap between the deformed surfaces")]
+    contact_state: Annotated[NDArray[np.int8], _map("1", "0 open, 1 elastic, 2 capped")]
+    undeformed_gap: Annotated[FloatArray, _map("m", "gap before deformation, zero at first touch")]
+    plastic_depth: Annotated[FloatArray | None, _map("m", "overlap of the surfaces where capped")]
+    lower_height: Annotated[FloatArray | None, _map("m", "height of the lower surface")]
+    upper_height: Annotated[FloatArray | None, _map("m", "height of the upper surface")]
+    iteration: Annotated[NDArray[np.int64] | None, Series(("iteration",), "1", "iteration")]
+    residual_history: Annotated[
+        FloatArray | None, Series(("iteration",), "1", "relative residual of the contact solver")
+    ]
+    depth: Annotated[FloatArray | None, Series(("depth",), "m", "depth below the surface")]
+    von_mises: Annotated[FloatArray | None, Series(("depth", "x", "y"), "Pa", "von Mises stress")]
+    component: Annotated[list[str] | None, Series(("component",), "1", "component of the stress")]
+    stress: Annotated[FloatArray | None, Series(("component", "depth", "x", "y"), "Pa", "stress, positive in tension")]
+
+
+def run(scene: ContactScene, context: Context) -> ContactRecord:
     """Solve the contact and, where asked for, the stresses below it."""
+    grid = build.grid_of(scene.grid)
+    with context.timer("surfaces"):
+        heights = {
+            name: build.heights_of(body.surface, grid, context.seed(name), context.note)
+            for name, body in (("lower", scene.lower), ("upper", scene.upper))
+        }
+    undeformed = build.shape_of(scene.shape, grid)
+    for values in heights.values():
+        undeformed -= values
+    if any(values.any() for values in heights.values()):
+        undeformed -= undeformed.min()  # approach counts from first touch; smooth shapes touch at zero already
+    with context.timer("contact"):
+        solution, history = _solve(scene, grid, undeformed, context)
+    for note in solution.notes:
+        context.note(note)
+    stresses: dict[str, Any] = dict.fromkeys(_STRESSES)
+    if _depths(scene):
+        with context.timer("stresses"):
+            stresses |= _stresses(scene, solution.pressure, context)
+    converged = solution.status is Status.CONVERGED
+    return ContactRecord(
+        **_figures(solution, grid.area, heights),
+        x=grid.x,
+        y=grid.y,
+        pressure=solution.pressure,
+        displacement=solution.displacement,
+        gap=solution.gap,
+        contact_state=_contact_state(solution.pressure, scene.contact.hardness),
+        undeformed_gap=undeformed,
+        plastic_depth=solution.plastic_depth if np.any(solution.plastic_depth) else None,
+        iteration=history[:, 0].astype(np.int64) if len(history) else None,
+        residual_history=history[:, 1] if len(history) else None,
+        **stresses,
+        status=solution.status,
+        where="" if converged else f"contact solve: {solution.status.message}, residual {solution.residual:.2g}",
+    )
+
+
+def _solve(
+    scene: ContactScene, grid: Grid, undeformed: FloatArray, context: Context
+) -> tuple[ContactSolution, FloatArray]:
+    """The contact, from the checkpoint where it was solved before, and (n, 2) iterations and residuals."""
     from bem.contact import ContactSolution, solve_contact
     from bem.convolution import displacement_operator
 
-    grid = build.grid_of(scene.grid)
+    saved = context.saved()
+    if saved is not None:
+        fields = saved["solution"]
+        told = {"status": Status(fields["status"]), "notes": tuple(fields.get("notes", ()))}
+        return ContactSolution(**(fields | told)), saved["history"]
     lower, upper = scene.lower.build(), scene.upper.build()
-    with context.timer("surfaces"):
-        heights = {
-            "lower": build.heights_of(scene.lower.surface, grid, context.seed("lower"), context.note),
-            "upper": build.heights_of(scene.upper.surface, grid, context.seed("upper"), context.note),
-        }
-    undeformed = build.shape_of(scene.shape, grid)
-    undeformed -= heights["lower"]
-    undeformed -= heights["upper"]
-    if any(values.any() for values in heights.values()):
-        undeformed -= undeformed.min()  # approach counts from first touch; smooth shapes touch at zero already
+    operator = displacement_operator(grid, lower if upper is None else (lower, upper), friction=scene.contact.friction)
+    history = []
 
-    with context.timer("contact"):
-        saved = context.saved()
-        if saved is not None:
-            fields = saved["solution"]
-            solution = ContactSolution(
-                **(fields | {"status": Status(fields["status"]), "notes": tuple(fields.get("notes", ()))})
-            )
-            history = saved["history"]
-        else:
-            operator = displacement_operator(
-                grid, lower if upper is None else (lower, upper), friction=scene.contact.friction
-            )
-            history = []
+    def watch(iterations: int, residual: float, fraction: float) -> None:
+        history.append((iterations, residual))
+        # convergence is near linear in the logarithm of the residual
+        share = math.log(min(max(residual, 1e-300), 1.0)) / math.log(scene.contact.tolerance)
+        context.progress(int(100 * min(share, 1.0)), 100, "contact", residual=residual, area_fraction=fraction)
 
-            def watch(iterations: int, residual: float, fraction: float) -> None:
-                history.append((iterations, residual))
-                # convergence is near linear in the logarithm of the residual
-                share = math.log(min(max(residual, 1e-300), 1.0)) / math.log(scene.contact.tolerance)
-                context.progress(int(100 * min(share, 1.0)), 100, "contact", residual=residual, area_fraction=fraction)
-
-            solution = solve_contact(
-                undeformed,
-                operator,
-                load=_load(scene, grid.area),
-                approach=scene.contact.approach,
-                mean_gap=scene.contact.mean_gap,
-                hardness=scene.contact.hardness,
-                tolerance=scene.contact.tolerance,
-                max_iterations=scene.contact.max_iterations,
-                callback=watch,
-            )
-            del operator  # and with it its spectra
-            context.progress(100, 100, "contact", residual=solution.residual)
-            context.save({"solution": _fields(solution), "history": np.array(history).reshape(-1, 2)})
-    for note in solution.notes:
-        context.note(note)
-
-    variables = {
-        "x": Variable(("x",), grid.x, "m", "x, along sliding"),
-        "y": Variable(("y",), grid.y, "m", "y"),
-        "pressure": Variable(("x", "y"), solution.pressure, "Pa", "contact pressure"),
-        "displacement": Variable(("x", "y"), solution.displacement, "m", "normal displacement of both bodies together"),
-        "gap": Variable(("x", "y"), solution.gap, "m", "gap between the deformed surfaces"),
-        "contact_state": Variable(
-            ("x", "y"), _contact_state(solution.pressure, scene.contact.hardness), "1", "0 open, 1 elastic, 2 capped"
-        ),
-        "undeformed_gap": Variable(("x", "y"), undeformed, "m", "gap before deformation, zero at first touch"),
-    }
-    if np.any(solution.plastic_depth):
-        variables["plastic_depth"] = Variable(
-            ("x", "y"), solution.plastic_depth, "m", "overlap of the surfaces where capped"
-        )
-    for name, values in heights.items():
-        if values.any():
-            variables[f"{name}_height"] = Variable(("x", "y"), values, "m", f"height of the {name} surface")
-    if len(history):
-        iterations, residuals = np.array(history).T
-        variables["iteration"] = Variable(("iteration",), iterations.astype(np.int64), "1", "iteration")
-        variables["residual_history"] = Variable(
-            ("iteration",), residuals, "1", "relative residual of the contact solver"
-        )
-
-    summary = _summary(solution, grid.area, heights)
-    volumes: tuple[str, ...] = ()
-    if _depths(scene):
-        with context.timer("stresses"):
-            stresses, found = _stresses(scene, solution.pressure, context)
-        variables |= stresses
-        summary |= found
-        volumes = ("von_mises", "stress") if scene.outputs.stresses else ("von_mises",)
-    where = (
-        ""
-        if solution.status == Status.CONVERGED
-        else f"contact solve: {solution.status.message}, residual {solution.residual:.2g}"
+    solution = solve_contact(
+        undeformed,
+        operator,
+        load=_load(scene, grid.area),
+        approach=scene.contact.approach,
+        mean_gap=scene.contact.mean_gap,
+        hardness=scene.contact.hardness,
+        tolerance=scene.contact.tolerance,
+        max_iterations=scene.contact.max_iterations,
+        callback=watch,
     )
-    return Outcome(summary, variables, solution.status, where, volumes if scene.outputs.vtk else ())
+    del operator  # and with it its spectra
+    context.progress(100, 100, "contact", residual=solution.residual)
+    told_of = np.array(history, dtype=np.float64).reshape(-1, 2)
+    context.save({"solution": _fields(solution), "history": told_of})
+    return solution, told_of
 
 
-def _summary(solution: Any, area: float, heights: dict[str, FloatArray]) -> dict[str, Any]:
+def _figures(solution: ContactSolution, area: float, heights: dict[str, FloatArray]) -> dict[str, Any]:
     contact_area = float(solution.contact_area)
-    summary: dict[str, Any] = {
+    figures: dict[str, Any] = {
         "contact_area_fraction": contact_area / area,
         "plastic_area_fraction": float(solution.plastic_area) / area,
-        "contact_area_m2": contact_area,
-        "mean_contact_pressure_Pa": float(solution.load) / contact_area if contact_area > 0 else 0.0,
-        "max_pressure_Pa": float(solution.pressure.max()),
-        "load_N": float(solution.load),
-        "approach_m": float(solution.approach),
-        "mean_gap_m": float(np.maximum(solution.gap, 0).mean()),
+        "contact_area": contact_area,
+        "mean_contact_pressure": float(solution.load) / contact_area if contact_area > 0 else 0.0,
+        "max_pressure": float(solution.pressure.max()),
+        "load": float(solution.load),
+        "approach": float(solution.approach),
+        "mean_gap": float(np.maximum(solution.gap, 0).mean()),
         "residual": float(solution.residual),
         "iterations": int(solution.iterations),
         "convolutions": float(solution.convolutions),
     }
     for name, values in heights.items():
-        if values.any():
-            summary[f"{name}_Sq_m"] = float(np.sqrt(np.mean((values - values.mean()) ** 2)))
-    return summary
+        rough = bool(values.any())
+        figures[f"{name}_height"] = values if rough else None
+        figures[f"{name}_Sq"] = float(np.sqrt(np.mean((values - values.mean()) ** 2))) if rough else None
+    return figures
 
 
-def _stresses(
-    scene: ContactScene, pressure: FloatArray, context: Context
-) -> tuple[dict[str, Variable], dict[str, float]]:
+_STRESSES = (
+    *("max_von_mises", "max_von_mises_depth", "yielded_volume"),
+    *("depth", "von_mises", "component", "stress"),
+)
+
+
+def _stresses(scene: ContactScene, pressure: FloatArray, context: Context) -> dict[str, Any]:
     """Von Mises at every depth, the six components where asked for, and the figures of both."""
     from bem.stress import subsurface_stress, von_mises, von_mises_planes
 
@@ -381,20 +420,15 @@ def _stresses(
         yielded[i] = np.count_nonzero(plane > limits[i]) * grid.cell_area
         release(mises)
         context.progress(i + 1, len(depths), "stresses")
-    variables = {
-        "depth": Variable(("depth",), depths, "m", f"depth below the surface of the {scene.outputs.body} body"),
-        "von_mises": Variable(("depth", "x", "y"), mises, "Pa", "von Mises stress"),
+    return {
+        "max_von_mises": float(highest.max()),
+        "max_von_mises_depth": float(depths[int(np.argmax(highest))]),
+        "yielded_volume": float(np.trapezoid(yielded, depths)) if np.isfinite(limits).any() else None,
+        "depth": depths,
+        "von_mises": mises,
+        "component": None if stress is None else list(_STRESS_COMPONENTS),
+        "stress": stress,
     }
-    if stress is not None:
-        variables["component"] = Variable(("component",), np.array(_STRESS_COMPONENTS), "1", "component of the stress")
-        variables["stress"] = Variable(("component", "depth", "x", "y"), stress, "Pa", "stress, positive in tension")
-    found = {
-        "max_von_mises_Pa": float(highest.max()),
-        "max_von_mises_depth_m": float(depths[int(np.argmax(highest))]),
-    }
-    if np.isfinite(limits).any():
-        found["yielded_volume_m3"] = float(np.trapezoid(yielded, depths))
-    return variables, found
 
 
 def _yield_stresses(body: Body, depths: FloatArray) -> FloatArray:
@@ -442,12 +476,21 @@ def _control(scene: ContactScene) -> str:
     return f"mean gap {control.mean_gap:g} m"
 
 
+def volumes(scene: ContactScene) -> tuple[str, ...]:
+    """Fields for ParaView."""
+    if not scene.outputs.vtk or not _depths(scene):
+        return ()
+    return ("von_mises", "stress") if scene.outputs.stresses else ("von_mises",)
+
+
 KIND = Kind(
     name="contact",
     title="two rough, possibly coated bodies pressed together: pressure, contact area, approach, stresses below",
     model=ContactScene,
     plan=plan,
     run=run,
+    record=ContactRecord,
+    volumes=volumes,
     resolve=resolve,
     figures=(
         "pressure-map",

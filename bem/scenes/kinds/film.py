@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Literal
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
 
 from bem.errors import Status
+from bem.grid import FloatArray
 from bem.scenes.common import BodyScene, Force, PositiveLength, SceneModel, Table, UpperBodyScene, problem
-from bem.scenes.context import Context, Outcome, Variable
+from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.lubrication import OilScene
 from bem.scenes.planner import Plan, Step
+from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Length, Speed, Time
+
+if TYPE_CHECKING:
+    from bem.lubrication import FilmSolution
 
 
 class MotionScene(Table):
@@ -108,12 +115,37 @@ def plan(scene: FilmScene) -> Plan:
                 memory=8.0 * n * n * 6,
             ),
             Step("rough contact", "both surfaces are smooth", skipped=True),
-            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8),
+            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8, per="run"),
         )
     )
 
 
-def run(scene: FilmScene, context: Context) -> Outcome:
+@dataclass(frozen=True, eq=False)
+class FilmTimeRecord(Record):
+    """A film in time."""
+
+    times_reported: Annotated[FloatArray, Figure("s", "time", ("reported",), name="time")]
+    minimum_film_reported: Annotated[FloatArray, Figure("nm", "minimum film", ("reported",), name="minimum_film")]
+    thinnest_film: Annotated[float, Figure("nm", "thinnest film of all times")]
+    thinnest_film_time: Annotated[float, Figure("s", "when it is that thin")]
+    film_at_end: Annotated[float, Figure("nm", "minimum film at the end")]
+    largest_friction_force: Annotated[float, Figure("N", "largest friction force")]
+    volume_imbalance: Annotated[float, Figure("", "volume that appears or goes, over that in the film")]
+    newton_steps: Annotated[int, Figure("", "Newton steps")]
+    time: Annotated[FloatArray, Series(("time",), "s", "time")]
+    film_x: Annotated[FloatArray, Series(("film_x",), "m", "x, along sliding")]
+    speed: Annotated[FloatArray, Series(("time",), "m/s", "speed of the flat")]
+    minimum_film: Annotated[FloatArray, Series(("time",), "m", "minimum film thickness")]
+    central_film: Annotated[FloatArray, Series(("time",), "m", "film thickness at the centre")]
+    friction: Annotated[
+        FloatArray, Series(("time",), "1", "coefficient of friction, positive along +x on the cylinder")
+    ]
+    thickness: Annotated[FloatArray, Series(("time", "film_x"), "m", "film thickness")]
+    film_pressure: Annotated[FloatArray, Series(("time", "film_x"), "Pa", "film pressure")]
+    film_fraction: Annotated[FloatArray | None, Series(("time", "film_x"), "1", "share of the gap filled with oil")]
+
+
+def run(scene: FilmScene, context: Context) -> FilmTimeRecord:
     """March through the motion."""
     from bem.lubrication import Cavitation, march_line_film
     from bem.materials import contact_modulus
@@ -145,51 +177,36 @@ def run(scene: FilmScene, context: Context) -> Outcome:
         )
     for note in dict.fromkeys(note for film in films for note in film.notes):
         context.note(f"film: {note}")
+    return _record(films, cylinder.width)
+
+
+def _record(films: Sequence[FilmSolution], width: float) -> FilmTimeRecord:
     last = films[-1]
+    time = np.array([float(film.time or 0.0) for film in films])
     minimum = np.array([film.minimum_thickness for film in films])
-    summary: dict[str, Any] = {
-        "time_s": [float(films[i].time or 0.0) for i in _few(len(films))],
-        "minimum_film_nm": [float(1e9 * minimum[i]) for i in _few(len(films))],
-        "thinnest_film_nm": float(1e9 * minimum.min()),
-        "thinnest_film_time_s": float(films[int(minimum.argmin())].time or 0.0),
-        "film_at_end_nm": float(1e9 * minimum[-1]),
-        "largest_friction_force_N": float(max(abs(film.shear_force) for film in films) * cylinder.width),
-        "volume_imbalance": float(max(film.volume_imbalance or 0.0 for film in films)),
-        "newton_steps": int(sum(film.iterations for film in films)),
-    }
-    time = np.array([film.time for film in films], dtype=np.float64)
-    variables = {
-        "time": Variable(("time",), time, "s", "time"),
-        "film_x": Variable(("film_x",), last.position, "m", "x, along sliding"),
-        "speed": Variable(("time",), np.array([film.speeds[0] for film in films]), "m/s", "speed of the flat"),
-        "minimum_film": Variable(("time",), minimum, "m", "minimum film thickness"),
-        "central_film": Variable(
-            ("time",), np.array([film.central_thickness for film in films]), "m", "film thickness at the centre"
-        ),
-        "friction": Variable(
-            ("time",),
-            np.array([film.shear_force / film.load for film in films]),
-            "1",
-            "coefficient of friction, positive along +x on the cylinder",
-        ),
-        "thickness": Variable(("time", "film_x"), np.array([film.thickness for film in films]), "m", "film thickness"),
-        "film_pressure": Variable(
-            ("time", "film_x"), np.array([film.pressure for film in films]), "Pa", "film pressure"
-        ),
-    }
-    if last.film_fraction is not None:
-        variables["film_fraction"] = Variable(
-            ("time", "film_x"),
-            np.array([film.film_fraction for film in films]),
-            "1",
-            "share of the gap filled with oil",
-        )
-    where = "" if last.status is Status.CONVERGED else f"time {last.time:g} s: {last.status.message}"
-    return Outcome(summary, variables, last.status, where)
-
-
-def _few(count: int) -> list[int]:
-    return sorted({round(i) for i in np.linspace(0, count - 1, min(count, 21))})
+    few = sorted({round(i) for i in np.linspace(0, len(films) - 1, min(len(films), 21))})
+    filled = None if last.film_fraction is None else np.array([film.film_fraction for film in films])
+    return FilmTimeRecord(
+        times_reported=time[few],
+        minimum_film_reported=minimum[few],
+        thinnest_film=float(minimum.min()),
+        thinnest_film_time=float(time[minimum.argmin()]),
+        film_at_end=float(minimum[-1]),
+        largest_friction_force=float(max(abs(film.shear_force) for film in films) * width),
+        volume_imbalance=float(max(film.volume_imbalance or 0.0 for film in films)),
+        newton_steps=int(sum(film.iterations for film in films)),
+        time=time,
+        film_x=last.position,
+        speed=np.array([film.speeds[0] for film in films]),
+        minimum_film=minimum,
+        central_film=np.array([film.central_thickness for film in films]),
+        friction=np.array([film.shear_force / film.load for film in films]),
+        thickness=np.array([film.thickness for film in films]),
+        film_pressure=np.array([film.pressure for film in films]),
+        film_fraction=filled,
+        status=last.status,
+        where="" if last.status is Status.CONVERGED else f"time {last.time:g} s: {last.status.message}",
+    )
 
 
 KIND = Kind(
@@ -198,6 +215,7 @@ KIND = Kind(
     model=FilmScene,
     plan=plan,
     run=run,
+    record=FilmTimeRecord,
     figures=("film-over-time", "film-profiles", "film-pressures", "film-fraction"),
     headline=("thinnest_film_nm", "thinnest_film_time_s", "film_at_end_nm", "volume_imbalance"),
 )

@@ -1,28 +1,34 @@
 """Kind `friction`: load sharing between oil film and rough contact over speed, the Stribeck curve (thesis, paper A).
 
-One curve per load, surface and contact model, each over repetitions with surfaces of their own.
+A case is one curve: one load, one surface, one contact model; each speed starts from the solution of the one before.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Annotated, Any, Literal
+from dataclasses import dataclass
+from itertools import product
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError, InputError, Status
-from bem.grid import Grid
+from bem.grid import FloatArray, Grid
 from bem.materials import contact_modulus
 from bem.scenes import build
+from bem.scenes.axes import Axis, changed, listed, variants
 from bem.scenes.common import BodyScene, GridScene, PositiveLength, SceneModel, Table, problem
-from bem.scenes.context import Context, Outcome, Variable
+from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.lubrication import FilmMeshScene, LubricatedScene, OilScene, SpeedsScene
 from bem.scenes.planner import Plan, Step, convolution_memory, padded_points
+from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Ratio
+
+if TYPE_CHECKING:
+    from bem.friction import MixedSolution
 
 Model = Literal["elastic", "capped", "uncoupled", "uncoupled_elastic"]
 _CONVOLUTIONS = 120  # of the contacts of one speed
@@ -74,7 +80,7 @@ class FrictionScene(SceneModel):
     repetitions: Annotated[int, Field(strict=True, ge=1, le=1000)] = 1
 
 
-def check_patch(grid: Grid, film: FilmMeshScene, half_widths: list[float]) -> None:
+def check_patch(grid: Grid, film: FilmMeshScene, half_width: float) -> None:
     """Whether the rough patch fits the contact and the film's grid.
 
     Raises
@@ -85,10 +91,10 @@ def check_patch(grid: Grid, film: FilmMeshScene, half_widths: list[float]) -> No
     messages = []
     if grid.periodic[0]:
         messages.append("grid.periodic: the patch lies under a cylinder; allowed: [false, true] or [false, false]")
-    if reach < max(half_widths):
+    if reach < half_width:
         messages.append(
             f"grid: the rough patch reaches {reach:.3g} m to either side, less than the contact's half-width "
-            f"{max(half_widths):.3g} m; allowed: at least that"
+            f"{half_width:.3g} m; allowed: at least that"
         )
     if film.start is not None and film.end is not None and (film.start > grid.x[0] or film.end < grid.x[-1]):
         messages.append(
@@ -121,10 +127,8 @@ def resolve(scene: FrictionScene) -> FrictionScene:
     return scene.model_copy(update={"grid": grid, "contact": contact})
 
 
-def surface_of(scene: FrictionScene, variant: SurfaceVariant | None) -> Any:
-    """The lower surface with a variant's changes."""
-    if variant is None:
-        return scene.lower.surface
+def variant_of(scene: FrictionScene, variant: SurfaceVariant) -> FrictionScene:
+    """The scene with a variant's changes to the lower surface."""
     if scene.lower.surface.kind != "generated":
         raise InputError("variants: the lower surface is not generated; allowed: a generated one")
     changes = {k: v for k, v in variant.model_dump(exclude={"name"}).items() if v is not None}
@@ -132,42 +136,67 @@ def surface_of(scene: FrictionScene, variant: SurfaceVariant | None) -> Any:
         raise InputError(
             "variants.correlation_length: the lower surface has none; allowed: one with correlation_length"
         )
-    return scene.lower.surface.model_copy(update=changes)
+    return changed(scene, "lower.surface", scene.lower.surface.model_copy(update=changes))
+
+
+def axes(scene: FrictionScene) -> tuple[Axis, ...]:
+    """Loads, then variants of the surface, then models."""
+    return (
+        load_axis(scene),
+        variants(scene, variant_of, always=True),
+        listed(scene, "sharing.models", "model", Figure("", "contact model")),
+    )
+
+
+def load_axis(scene: Any) -> Axis:
+    """The loads on the whole width, given as such or by their Hertz pressures."""
+    key = "loads" if scene.contact.loads is not None else "hertz_pressures"
+    values = getattr(scene.contact, key)
+    return Axis(
+        "load",
+        tuple(scene.contact.forces(modulus_of(scene))),
+        Figure("N", "load"),
+        lambda scene, i: changed(scene, f"contact.{key}", [values[i]]),
+    )
+
+
+def load_of(scene: Any) -> float:
+    """The load of a case on the whole width [N]."""
+    (load,) = scene.contact.forces(modulus_of(scene))
+    return float(load)
 
 
 def plan(scene: FrictionScene) -> Plan:
-    """What will be computed.
+    """What will be computed for one curve.
 
     Raises
     ------
     InputError : a patch that does not fit. InfeasibleError : a load that neither film nor surfaces can carry.
     """
     grid = build.grid_of(scene.grid)
-    loads = scene.contact.forces(modulus_of(scene))
-    check_patch(grid, scene.film, [half_width(scene, load) for load in loads])
-    check_loads(scene, loads)
-    for variant in (*scene.variants,) or (None,):
-        build.check_surfaces(grid, lower=surface_of(scene, variant), upper=scene.upper.surface)
-    curves = len(loads) * max(1, len(scene.variants)) * scene.repetitions * len(scene.sharing.models)
-    speeds = curves * len(scene.speeds.build())
-    coupled = sum(model in _BASELINE for model in scene.sharing.models) / len(scene.sharing.models)
+    load, (model,) = load_of(scene), scene.sharing.models
+    check_patch(grid, scene.film, half_width(scene, load))
+    check_load(scene, load)
+    build.check_surfaces(grid, lower=scene.lower.surface, upper=scene.upper.surface)
+    speeds = len(scene.speeds.build())
+    coupled = model in _BASELINE
     points = padded_points(grid.shape, grid.periodic)
     bodies = (scene.lower.build(), scene.upper.build())
-    couples = coupled > 0 and build.traction_couples(*bodies, scene.contact.boundary_friction)
+    couples = coupled and build.traction_couples(*bodies, scene.contact.boundary_friction)
     return Plan(
         (
-            Step("surfaces", f"{scene.repetitions} pairs", transforms=40.0 * scene.repetitions, points=grid.cells),
+            Step("surfaces", "a pair for each curve", transforms=40.0, points=grid.cells),
             Step(
                 "films",
-                f"about 8 for each of {speeds} speeds, most of them on a coarser mesh",
+                f"about 8 for each of {speeds} speeds of a curve, most of them on a coarser mesh",
                 seconds=speeds * (0.3 + 5e-8 * scene.film.points**2),
                 memory=16.0 * scene.film.points**2,
             ),
             Step(
                 "rough contacts",
-                f"{curves} curves, each speed from the one before; none where the film clears the roughness",
-                skipped=coupled == 0,
-                transforms=2.0 * _CONVOLUTIONS * speeds * coupled,
+                "each speed from the one before; none where the film clears the roughness",
+                skipped=not coupled,
+                transforms=2.0 * _CONVOLUTIONS * speeds,
                 points=points,
                 memory=convolution_memory(grid.shape, grid.periodic),
             ),
@@ -180,13 +209,13 @@ def plan(scene: FrictionScene) -> Plan:
                 skipped=not couples,
                 memory=convolution_memory(grid.shape, grid.periodic) if couples else 0.0,
             ),
-            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8),
+            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8, per="run"),
         )
     )
 
 
-def check_loads(scene: Any, loads: list[float]) -> None:
-    """Refuse loads beyond hardness times the patch where a film cannot be expected to take them.
+def check_load(scene: Any, load: float) -> None:
+    """Refuse a load beyond hardness times the patch where a film cannot be expected to take it.
 
     Raises
     ------
@@ -194,76 +223,89 @@ def check_loads(scene: Any, loads: list[float]) -> None:
     """
     hardness, grid = scene.contact.hardness, build.grid_of(scene.grid)
     area = grid.lengths[0] * scene.contact.width
-    for load in loads:
-        if hardness is not None and load > hardness * area:
-            raise InfeasibleError(
-                f"contact.loads: {load:g} N is beyond hardness x area of the patch, {hardness * area:g} N, and the "
-                "film cannot carry more than the surfaces under it; allowed: a smaller load or a larger patch"
-            )
+    if hardness is not None and load > hardness * area:
+        raise InfeasibleError(
+            f"contact.loads: {load:g} N is beyond hardness x area of the patch, {hardness * area:g} N, and the "
+            "film cannot carry more than the surfaces under it; allowed: a smaller load or a larger patch"
+        )
 
 
-def run(scene: FrictionScene, context: Context) -> Outcome:
-    """All curves, speed by speed."""
+def _curve(unit: str, text: str, name: str = "") -> Figure:
+    return Figure(unit, text, ("speed",), name=name)
+
+
+def _shown(dimensions: tuple[str, ...], unit: str, text: str) -> Series:
+    return Series(dimensions, unit, text, of="first")
+
+
+@dataclass(frozen=True, eq=False)
+class CurveRecord(Record):
+    """A Stribeck curve, and the fields that make pictures, at the speed where film and contact share most evenly."""
+
+    speed: Annotated[FloatArray, _curve("m_s", "speed of the flat")]
+    friction: Annotated[FloatArray, _curve("", "coefficient of friction")]
+    boundary_part: Annotated[FloatArray, _curve("", "boundary part of the friction", "boundary_friction_part")]
+    film_part: Annotated[FloatArray, _curve("", "film part of the friction", "film_friction_part")]
+    contact_load: Annotated[FloatArray, _curve("N", "load carried by contact")]
+    film_load: Annotated[FloatArray, _curve("N", "load carried by the film")]
+    minimum_film: Annotated[FloatArray, _curve("nm", "minimum film thickness")]
+    lambda_ratio: Annotated[FloatArray, _curve("", "film under the whole load over roughness")]
+    contact_area_fraction: Annotated[FloatArray, _curve("", "real contact area over patch")]
+    film_solves: Annotated[FloatArray, _curve("", "films solved")]
+    contact_solves: Annotated[FloatArray, _curve("", "rough contacts solved")]
+    rms_height: Annotated[float, Figure("nm", "rms height of both surfaces together", name="Sq")]
+    shown_speed: Annotated[FloatArray, _shown((), "m/s", "speed at which the fields are shown")]
+    x: Annotated[FloatArray, _shown(("x",), "m", "x, along sliding")]
+    y: Annotated[FloatArray, _shown(("y",), "m", "y")]
+    height: Annotated[FloatArray, _shown(("x", "y"), "m", "height of both surfaces together")]
+    displacement: Annotated[FloatArray, _shown(("x", "y"), "m", "normal displacement by the contact")]
+    pressure: Annotated[FloatArray, _shown(("x", "y"), "Pa", "contact pressure")]
+    separation: Annotated[FloatArray, _shown(("x",), "m", "distance of the mean planes")]
+    film_thickness_patch: Annotated[FloatArray, _shown(("x",), "m", "film thickness over the patch")]
+    film_pressure_patch: Annotated[FloatArray, _shown(("x",), "Pa", "film pressure over the patch")]
+    film_x: Annotated[FloatArray, _shown(("film_x",), "m", "x on the film's own mesh")]
+    film_pressure: Annotated[FloatArray, _shown(("film_x",), "Pa", "film pressure")]
+    film_thickness: Annotated[FloatArray, _shown(("film_x",), "m", "film thickness")]
+
+
+def run(scene: FrictionScene, context: Context) -> CurveRecord:
+    """One curve, speed by speed."""
     from bem.friction import solve_mixed
 
-    grid = build.grid_of(scene.grid)
-    bodies = (scene.lower.build(), scene.upper.build())
-    oil = scene.oil.build()
+    grid, (model,) = build.grid_of(scene.grid), scene.sharing.models
+    with context.timer("surfaces"):
+        height = build.heights_of(scene.lower.surface, grid, context.seed("lower"), context.note)
+        height = height + build.heights_of(scene.upper.surface, grid, context.seed("upper"), context.note)
     pairs = scene.speeds.build()
-    position = scene.film.positions()
-    curves = [
-        (load, variant, model, repetition)
-        for load in scene.contact.forces(modulus_of(scene))
-        for variant in (*scene.variants,) or (None,)
-        for model in scene.sharing.models
-        for repetition in range(scene.repetitions)
-    ]
-    finished: list[dict[str, Any]] = list((context.saved() or {"finished": []})["finished"])
-    for index, (load, variant, model, repetition) in enumerate(curves):
-        if index < len(finished):
-            continue
-        with context.timer("surfaces"):
-            height = build.heights_of(
-                surface_of(scene, variant), grid, context.seed("lower", repetition), context.note
-            ) + build.heights_of(scene.upper.surface, grid, context.seed("upper", repetition), context.note)
-        solutions: list[Any] = []
-        for number, speeds in enumerate(pairs):
-            with context.timer("load sharing"), _in_words_of_the_scene():
-                solutions.append(
-                    solve_mixed(
-                        height=height,
-                        grid=grid,
-                        bodies=bodies,
-                        radius=scene.contact.radius,
-                        width=scene.contact.width,
-                        load=load,
-                        speeds=speeds,
-                        lubricant=oil,
-                        boundary_friction=scene.contact.boundary_friction,
-                        hardness=scene.contact.hardness if model in ("capped", "uncoupled") else None,
-                        tolerance=scene.sharing.tolerance,
-                        contact_tolerance=scene.sharing.contact_tolerance,
-                        film_points=scene.film.points,
-                        film_position=position,
-                        contact_model="uncoupled" if model.startswith("uncoupled") else "coupled",
-                        asperity_separation=scene.sharing.asperity_separation,
-                        striated_exit=scene.sharing.striated_exit,
-                        initial=solutions[-1] if solutions else None,
-                    )
-                )
-            own = solutions[-1]
-            for note in own.notes:
-                # the film's model is the same at all speeds: said once
-                context.note(f"film: {note}" if note in own.film.notes else f"speed {speeds[0]:g} m/s, {model}: {note}")
-            context.progress(
-                index * len(pairs) + number + 1, len(curves) * len(pairs), "speeds", friction=solutions[-1].friction
+    solutions: list[MixedSolution] = []
+    for speeds in pairs:
+        with context.timer("load sharing"), _in_words_of_the_scene():
+            own = solve_mixed(
+                height=height,
+                grid=grid,
+                bodies=(scene.lower.build(), scene.upper.build()),
+                radius=scene.contact.radius,
+                width=scene.contact.width,
+                load=load_of(scene),
+                speeds=speeds,
+                lubricant=scene.oil.build(),
+                boundary_friction=scene.contact.boundary_friction,
+                hardness=scene.contact.hardness if model in ("capped", "uncoupled") else None,
+                tolerance=scene.sharing.tolerance,
+                contact_tolerance=scene.sharing.contact_tolerance,
+                film_points=scene.film.points,
+                film_position=scene.film.positions(),
+                contact_model="uncoupled" if model.startswith("uncoupled") else "coupled",
+                asperity_separation=scene.sharing.asperity_separation,
+                striated_exit=scene.sharing.striated_exit,
+                initial=solutions[-1] if solutions else None,
             )
-        name = "" if variant is None else variant.name
-        finished.append(
-            {"load": load, "variant": name, "model": model, "repetition": repetition} | _record(solutions, height)
-        )
-        context.save({"finished": finished})
-    return _outcome(scene, grid, finished)
+        solutions.append(own)
+        for note in own.notes:
+            # the film's model is the same at all speeds: said once
+            context.note(f"film: {note}" if note in own.film.notes else f"speed {speeds[0]:g} m/s: {note}")
+        context.progress(len(solutions), len(pairs), "speeds", friction=own.friction)
+    return _record(grid, solutions, height)
 
 
 @contextmanager
@@ -275,173 +317,79 @@ def _in_words_of_the_scene() -> Iterator[None]:
         raise InputError([m.replace("position: ", "film: the film grid ", 1) for m in error.messages]) from None
 
 
-_FIGURES = (
-    "friction",
-    "boundary_friction_part",
-    "film_friction_part",
-    "contact_load_N",
-    "film_load_N",
-    "minimum_film_nm",
-    "lambda_ratio",
-    "contact_area_fraction",
-    "film_solves",
-    "contact_solves",
-)
-
-
-def _record(solutions: list[Any], height: NDArray[np.float64]) -> dict[str, Any]:
-    """What is kept of a curve: a row per speed, and the fields that make pictures, at the middle speed in touch."""
-    rows = {
-        "friction": [s.friction for s in solutions],
-        "boundary_friction_part": [s.boundary_force / s.load for s in solutions],
-        "film_friction_part": [s.film_force / s.load for s in solutions],
-        "contact_load_N": [s.contact_load for s in solutions],
-        "film_load_N": [s.film_load for s in solutions],
-        "minimum_film_nm": [1e9 * s.minimum_film for s in solutions],
-        "lambda_ratio": [s.lambda_ratio for s in solutions],
-        "contact_area_fraction": [
-            0.0 if s.contact is None else s.contact.contact_area / s.grid.area for s in solutions
-        ],
-        "film_solves": [float(s.evaluations) for s in solutions],
-        "contact_solves": [float(s.contact_solves) for s in solutions],
-    }
+def _record(grid: Grid, solutions: list[MixedSolution], height: FloatArray) -> CurveRecord:
+    """A row for each speed; fields of the middle speed in touch."""
     mixed = [i for i, s in enumerate(solutions) if not s.full_film]
-    shares = [abs(s.contact_load / s.load - 0.5) for s in solutions]
-    shown = min(mixed, key=lambda i: shares[i]) if mixed else 0
-    s = solutions[shown]
-    pressure, thickness = s.film.at(s.grid.x)
-    bad = [i for i, one in enumerate(solutions) if one.status is not Status.CONVERGED]
-    return {
-        "rows": {key: np.array(values) for key, values in rows.items()},
-        "rms_height": float(height.std()),
-        "shown": shown,
-        "height": height,
-        "pressure": s.contact_pressure,
-        "film_position": s.film.position,
-        "film_pressure": s.film.pressure,
-        "film_thickness": s.film.thickness,
-        "patch_film_pressure": pressure,
-        "patch_film_thickness": thickness,
-        "separation": s.separation,
-        "displacement": _zeros(s)
-        if s.contact is None or not hasattr(s.contact, "displacement")
-        else s.contact.displacement,
-        "statuses": [str(one.status.value) for one in solutions],
-        "failed": bad,
-    }
+    s = solutions[min(mixed, key=lambda i: abs(solutions[i].contact_load / solutions[i].load - 0.5)) if mixed else 0]
+    film_pressure, film_thickness = s.film.at(grid.x)
+    bad = [one for one in solutions if one.status is not Status.CONVERGED]
+
+    def over(value: Callable[[MixedSolution], float]) -> FloatArray:
+        return np.array([value(one) for one in solutions])
+
+    return CurveRecord(
+        speed=over(lambda s: s.speeds[0]),
+        friction=over(lambda s: s.friction),
+        boundary_part=over(lambda s: s.boundary_force / s.load),
+        film_part=over(lambda s: s.film_force / s.load),
+        contact_load=over(lambda s: s.contact_load),
+        film_load=over(lambda s: s.film_load),
+        minimum_film=over(lambda s: s.minimum_film),
+        lambda_ratio=over(lambda s: s.lambda_ratio),
+        contact_area_fraction=over(lambda s: 0.0 if s.contact is None else s.contact.contact_area / grid.area),
+        film_solves=over(lambda s: float(s.evaluations)),
+        contact_solves=over(lambda s: float(s.contact_solves)),
+        rms_height=float(height.std()),
+        shown_speed=np.array(s.speeds[0]),
+        x=grid.x,
+        y=grid.y,
+        height=height,
+        displacement=getattr(s.contact, "displacement", np.zeros(grid.shape)),
+        pressure=s.contact_pressure,
+        separation=s.separation,
+        film_thickness_patch=film_thickness,
+        film_pressure_patch=film_pressure,
+        film_x=s.film.position,
+        film_pressure=s.film.pressure,
+        film_thickness=s.film.thickness,
+        status=bad[0].status if bad else Status.CONVERGED,
+        where="; ".join(f"speed {one.speeds[0]:g} m/s: {one.status.value}" for one in bad[:5]),
+    )
 
 
-def _zeros(solution: Any) -> NDArray[np.float64]:
-    return np.zeros(solution.grid.shape)
-
-
-def _outcome(scene: FrictionScene, grid: Grid, finished: list[dict[str, Any]]) -> Outcome:
-    each = scene.repetitions
-    groups = [finished[start : start + each] for start in range(0, len(finished), each)]
-    speed = [pair[0] for pair in scene.speeds.build()]
-    curves = []
-    for group in groups:
-        curve: dict[str, Any] = {key: group[0][key] for key in ("load", "variant", "model")}
-        curve["load_N"] = curve.pop("load")
-        for key in _FIGURES:
-            values = np.array([record["rows"][key] for record in group])
-            curve[key] = values.mean(axis=0).tolist()
-            if each > 1:
-                curve[f"{key}_spread"] = values.std(axis=0, ddof=1).tolist()
-        curves.append(curve)
-    main = curves[0]
-    summary: dict[str, Any] = {
-        "speed_m_s": speed,
-        **{key: main[key] for key in main if key not in ("variant", "model")},
-        "model": main["model"],
-        "variant": main["variant"],
-        "repetitions": each,
-        "Sq_nm": 1e9 * float(np.mean([record["rms_height"] for record in groups[0]])),
-    }
-    if len(curves) > 1:
-        summary["curves"] = curves
-    differences = _differences(groups)
-    if differences:
-        summary["largest_difference"] = differences
-    failed = [
-        f"{record['model']} at {record['load']:g} N, speed {speed[i]:g} m/s: {record['statuses'][i]}"
-        for record in finished
-        for i in record["failed"]
-    ]
-    status = Status.CONVERGED
-    if failed:
-        first = next(record for record in finished if record["failed"])
-        status = Status(first["statuses"][first["failed"][0]])
-    return Outcome(summary, _variables(grid, speed, finished), status, "; ".join(failed[:5]))
-
-
-def _differences(groups: list[list[dict[str, Any]]]) -> list[dict[str, Any]]:
+def summarise(
+    scene: FrictionScene, axes: Sequence[Axis], records: Sequence[CurveRecord | None]
+) -> dict[str, list[dict[str, Any]]]:
     """The largest |f_u - f_c| over f_u there [%], eq. (13) of paper A: mean and spread over the repetitions."""
+    table = np.empty(tuple(len(axis) for axis in axes), dtype=object)
+    table.ravel()[:] = records
+    loads, names, models, _ = (axis.values for axis in axes[-4:])
+    table = table.reshape(-1, *table.shape[-4:])[0]
     found = []
-    by_key = {(g[0]["load"], g[0]["variant"], g[0]["model"]): g for g in groups}
-    for (load, variant, model), group in by_key.items():
-        base = by_key.get((load, variant, _BASELINE.get(model, "")))
-        if base is None:
+    for (i, load), (j, variant), (k, model) in product(enumerate(loads), enumerate(names), enumerate(models)):
+        if _BASELINE.get(model) not in models:
             continue
         values = []
-        for one, other in zip(group, base, strict=True):
-            coupled, alone = one["rows"]["friction"], other["rows"]["friction"]
-            at = int(np.argmax(np.abs(alone - coupled)))
-            values.append(100 * float(abs(alone[at] - coupled[at]) / alone[at]))
-        found.append(
-            {
-                "load_N": load,
-                "variant": variant,
-                "model": model,
-                "d_percent": float(np.mean(values)),
-                "d_percent_spread": float(np.std(values, ddof=1)) if len(values) > 1 else 0.0,
-            }
-        )
-    return found
-
-
-def _variables(grid: Grid, speed: list[float], finished: list[dict[str, Any]]) -> dict[str, Variable]:
-    last = finished[0]
-
-    def over(key: str, factor: float = 1.0) -> NDArray[np.float64]:
-        return factor * np.array([record["rows"][key] for record in finished])
-
-    along = ("curve", "speed")
-    return {
-        "speed": Variable(("speed",), np.array(speed), "m/s", "speed of the flat"),
-        "load": Variable(("curve",), np.array([r["load"] for r in finished]), "N", "load"),
-        "model": Variable(("curve",), np.array([r["model"] for r in finished]), "1", "contact model"),
-        "variant": Variable(("curve",), np.array([r["variant"] for r in finished]), "1", "surface"),
-        "repetition": Variable(("curve",), np.array([r["repetition"] for r in finished]), "1", "repetition"),
-        "friction": Variable(along, over("friction"), "1", "coefficient of friction"),
-        "boundary_part": Variable(along, over("boundary_friction_part"), "1", "boundary part of the friction"),
-        "film_part": Variable(along, over("film_friction_part"), "1", "film part of the friction"),
-        "contact_load": Variable(along, over("contact_load_N"), "N", "load carried by contact"),
-        "film_load": Variable(along, over("film_load_N"), "N", "load carried by the film"),
-        "minimum_film": Variable(along, over("minimum_film_nm", 1e-9), "m", "minimum film thickness"),
-        "lambda_ratio": Variable(along, over("lambda_ratio"), "1", "film under the whole load over roughness"),
-        "contact_area_fraction": Variable(along, over("contact_area_fraction"), "1", "real contact area over patch"),
-        "shown_speed": Variable((), np.array(speed[last["shown"]]), "m/s", "speed at which the fields are shown"),
-        "x": Variable(("x",), grid.x, "m", "x, along sliding"),
-        "y": Variable(("y",), grid.y, "m", "y"),
-        "height": Variable(("x", "y"), last["height"], "m", "height of both surfaces together"),
-        "displacement": Variable(("x", "y"), last["displacement"], "m", "normal displacement by the contact"),
-        "pressure": Variable(("x", "y"), last["pressure"], "Pa", "contact pressure"),
-        "separation": Variable(("x",), last["separation"], "m", "distance of the mean planes"),
-        "film_thickness_patch": Variable(("x",), last["patch_film_thickness"], "m", "film thickness over the patch"),
-        "film_pressure_patch": Variable(("x",), last["patch_film_pressure"], "Pa", "film pressure over the patch"),
-        "film_x": Variable(("film_x",), last["film_position"], "m", "x on the film's own mesh"),
-        "film_pressure": Variable(("film_x",), last["film_pressure"], "Pa", "film pressure"),
-        "film_thickness": Variable(("film_x",), last["film_thickness"], "m", "film thickness"),
-    }
+        for one, base in zip(table[i, j, k], table[i, j, models.index(_BASELINE[model])], strict=True):
+            if one is not None and base is not None:
+                at = int(np.argmax(np.abs(base.friction - one.friction)))
+                values.append(100 * float(abs(base.friction[at] - one.friction[at]) / base.friction[at]))
+        spread = float(np.std(values, ddof=1)) if len(values) > 1 else 0.0
+        percent = float(np.mean(values)) if values else None
+        row = {"load_N": load, "variant": variant, "model": model, "d_percent": percent, "d_percent_spread": spread}
+        found.append(row)
+    return {"largest_difference": found} if found else {}
 
 
 KIND = Kind(
     name="friction",
     title="load sharing between oil film and rough contact over speed: the Stribeck curve",
     model=FrictionScene,
+    axes=axes,
     plan=plan,
     run=run,
+    record=CurveRecord,
+    summarise=summarise,
     resolve=resolve,
     figures=(
         "stribeck-curve",

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from bem.grid import FloatArray, Grid
 from bem.scenes.common import Cells, MeasuredSurface, PositiveLength, SceneModel, Table, exactly_one
-from bem.scenes.context import Context, Outcome, Variable
+from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.planner import Plan, Step
+from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Density, Force, Length, Ratio, Time, Viscosity, WearCoefficient
 
 
@@ -91,12 +93,12 @@ def plan(scene: ParticlesScene) -> Plan:
                 skipped=scene.sedimentation is None,
             ),
             Step("contact and stresses", "the particles are measured, not computed", skipped=True),
-            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8),
+            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8, per="run"),
         )
     )
 
 
-def _map(scene: ParticlesScene, context: Context) -> tuple[NDArray[np.float64], tuple[float, float]]:
+def _map(scene: ParticlesScene, context: Context) -> tuple[FloatArray, tuple[float, float]]:
     if scene.synthetic is not None:
         from bem.particles import synthetic_afm_map
 
@@ -117,9 +119,45 @@ def _map(scene: ParticlesScene, context: Context) -> tuple[NDArray[np.float64], 
     return surface.heights, surface.spacing
 
 
-def run(scene: ParticlesScene, context: Context) -> Outcome:
+def _column(unit: str, text: str) -> Series:
+    return Series(("particle",), unit, text, rows=True)
+
+
+@dataclass(frozen=True, eq=False)
+class ParticlesRecord(Record):
+    """The particles of a map."""
+
+    count: Annotated[int, Figure("", "particles")]
+    number_mean_radius: Annotated[float, Figure("nm", "equivalent radius, mean by number")]
+    number_std_radius: Annotated[float, Figure("nm", "its standard deviation by number")]
+    area_mean_radius: Annotated[float, Figure("nm", "equivalent radius, mean by area")]
+    area_std_radius: Annotated[float, Figure("nm", "its standard deviation by area")]
+    volume_mean_radius: Annotated[float, Figure("nm", "equivalent radius, mean by volume")]
+    volume_std_radius: Annotated[float, Figure("nm", "its standard deviation by volume")]
+    length: Annotated[float, Figure("nm", "mean length by number")]
+    width: Annotated[float, Figure("nm", "mean width by number")]
+    thickness: Annotated[float, Figure("nm", "mean thickness by number")]
+    threshold: Annotated[float, Figure("nm", "height above the plate from which there is a particle")]
+    width_over_thickness: Annotated[float | None, Figure("", "mean of width over thickness", optional=True)]
+    wear_volume: Annotated[float | None, Figure("mm3", "worn volume by Archard's law", optional=True)]
+    particle_number: Annotated[float | None, Figure("", "number of particles in it", optional=True)]
+    particles_per_mm_and_N: Annotated[float | None, Figure("", "particles per mm and N", optional=True)]
+    sedimentation_time: Annotated[float | None, Figure("h", "time until they have settled", optional=True)]
+    sedimented: Annotated[bool | None, Figure("", "whether that time is available", optional=True)]
+    x: Annotated[FloatArray, Series(("x",), "m", "x")]
+    y: Annotated[FloatArray, Series(("y",), "m", "y")]
+    level_height: Annotated[FloatArray, Series(("x", "y"), "m", "height above the plate")]
+    particle_volume: Annotated[FloatArray, _column("m^3", "volume of a particle")]
+    particle_equivalent_radius: Annotated[FloatArray, _column("m", "equivalent radius of a particle")]
+    particle_length: Annotated[FloatArray, _column("m", "length of a particle")]
+    particle_width: Annotated[FloatArray, _column("m", "width of a particle")]
+    particle_thickness: Annotated[FloatArray, _column("m", "thickness of a particle")]
+    particle_x: Annotated[FloatArray, _column("m", "x of a particle's centre")]
+    particle_y: Annotated[FloatArray, _column("m", "y of a particle's centre")]
+
+
+def run(scene: ParticlesScene, context: Context) -> ParticlesRecord:
     """Read, separate, measure."""
-    from bem.grid import Grid
     from bem.particles import level_background, particle_statistics, particles_from_height_map
 
     with context.timer("map"):
@@ -131,61 +169,57 @@ def run(scene: ParticlesScene, context: Context) -> Outcome:
             heights, spacing, threshold=choices.threshold, method=choices.background, lines=choices.level_lines
         )
     by = {weight: particle_statistics(found, weight=weight) for weight in ("number", "area", "volume")}
-    summary: dict[str, Any] = {"count": len(found)}
+    means: dict[str, Any] = {}
     for weight, statistics in by.items():
-        summary[f"{weight}_mean_radius_nm"] = 1e9 * statistics.mean_equivalent_radius
-        summary[f"{weight}_std_radius_nm"] = 1e9 * statistics.std_equivalent_radius
-    for key in ("length", "width", "thickness"):
-        summary[f"{key}_nm"] = 1e9 * getattr(by["number"], f"mean_{key}")
-    summary["threshold_nm"] = 1e9 * choices.threshold
-    if found:
-        summary["width_over_thickness"] = float(np.mean([p.width / p.thickness for p in found]))
-    summary |= _archard(scene, by["number"], len(found)) | _sedimentation(scene)
-    grid = Grid(heights.shape, spacing)
-    variables = {
-        "x": Variable(("x",), grid.x, "m", "x"),
-        "y": Variable(("y",), grid.y, "m", "y"),
-        "level_height": Variable(("x", "y"), level, "m", "height above the plate"),
+        means[f"{weight}_mean_radius"] = statistics.mean_equivalent_radius
+        means[f"{weight}_std_radius"] = statistics.std_equivalent_radius
+    columns: dict[str, Any] = {
+        f"particle_{name}": np.array([getattr(p, name) for p in found], dtype=np.float64)
+        for name in ("volume", "equivalent_radius", "length", "width", "thickness")
     }
-    for name, unit, text in (
-        ("volume", "m^3", "volume"),
-        ("equivalent_radius", "m", "equivalent radius"),
-        ("length", "m", "length"),
-        ("width", "m", "width"),
-        ("thickness", "m", "thickness"),
-    ):
-        values = np.array([getattr(p, name) for p in found], dtype=np.float64)
-        variables[f"particle_{name}"] = Variable(("particle",), values, unit, f"{text} of a particle")
     for axis, name in enumerate("xy"):
-        values = np.array([p.position[axis] for p in found], dtype=np.float64)
-        variables[f"particle_{name}"] = Variable(("particle",), values, "m", f"{name} of a particle's centre")
-    return Outcome(summary, variables)
+        columns[f"particle_{name}"] = np.array([p.position[axis] for p in found], dtype=np.float64)
+    grid = Grid(heights.shape, spacing)
+    return ParticlesRecord(
+        count=len(found),
+        **means,
+        length=by["number"].mean_length,
+        width=by["number"].mean_width,
+        thickness=by["number"].mean_thickness,
+        threshold=choices.threshold,
+        width_over_thickness=float(np.mean([p.width / p.thickness for p in found])) if found else None,
+        **_archard(scene, by["number"], len(found)),
+        **_sedimentation(scene),
+        x=grid.x,
+        y=grid.y,
+        level_height=level,
+        **columns,
+    )
 
 
-def _archard(scene: ParticlesScene, statistics: Any, count: int) -> dict[str, float]:
+def _archard(scene: ParticlesScene, statistics: Any, count: int) -> dict[str, Any]:
+    names = ("wear_volume", "particle_number", "particles_per_mm_and_N")
     if scene.archard is None or count == 0:
-        return {}
+        return dict.fromkeys(names)
     from bem.particles import archard_volume, particle_coefficient, particle_number
 
-    volume = archard_volume(scene.archard.specific_wear_rate, scene.archard.load, scene.archard.distance)
+    rate = scene.archard.specific_wear_rate
+    volume = archard_volume(rate, scene.archard.load, scene.archard.distance)
     mean = statistics.total_volume / statistics.count
-    return {
-        "wear_volume_mm3": 1e9 * volume,
-        "particle_number": particle_number(volume, mean),
-        "particles_per_mm_and_N": 1e-3 * particle_coefficient(scene.archard.specific_wear_rate, mean),
-    }
+    values = (volume, particle_number(volume, mean), 1e-3 * particle_coefficient(rate, mean))
+    return dict(zip(names, values, strict=True))
 
 
 def _sedimentation(scene: ParticlesScene) -> dict[str, Any]:
     if scene.sedimentation is None:
-        return {}
+        return {"sedimentation_time": None, "sedimented": None}
     from bem.particles import sedimentation_time
 
-    needed = sedimentation_time(**scene.sedimentation.model_dump(exclude={"available"}))
-    figures: dict[str, Any] = {"sedimentation_time_h": needed / 3600}
-    if scene.sedimentation.available is not None:
-        figures["sedimented"] = needed <= scene.sedimentation.available
-    return figures
+    needed, available = (
+        sedimentation_time(**scene.sedimentation.model_dump(exclude={"available"})),
+        scene.sedimentation.available,
+    )
+    return {"sedimentation_time": needed, "sedimented": None if available is None else needed <= available}
 
 
 KIND = Kind(
@@ -194,6 +228,7 @@ KIND = Kind(
     model=ParticlesScene,
     plan=plan,
     run=run,
+    record=ParticlesRecord,
     figures=("particle-map", "particle-sizes"),
     headline=(
         "count",

@@ -1,43 +1,38 @@
 """Kind `running-in`: the wear cycle in mixed lubrication, load shared between film and rough contact (thesis, paper D).
 
-One wear loop per hardness, speed and repetition; initial friction is that of the first cycle, run-in friction the mean
-of the last ones.
+A case is one wear loop: one hardness, one speed, one pair of surfaces. Initial friction is that of the first cycle,
+run-in friction the mean of the last ones.
 """
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from bem.errors import InputError
-from bem.grid import Grid
+from bem.grid import FloatArray
 from bem.scenes import build
+from bem.scenes.axes import Axis, changed
 from bem.scenes.common import BodyScene, GridScene, PositivePressure, SceneModel, Table, problem
-from bem.scenes.context import Context, Outcome, Variable
+from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
-from bem.scenes.kinds.friction import check_loads, check_patch, half_width, modulus_of
-from bem.scenes.lubrication import LubricatedScene, OilScene, SpeedsScene
+from bem.scenes.kinds.friction import check_load, check_patch, half_width, load_of
+from bem.scenes.lubrication import FilmMeshScene, LubricatedScene, OilScene, SpeedsScene
 from bem.scenes.planner import Plan, Step, convolution_memory, padded_points, stress_kernel_seconds
+from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Ratio
-from bem.scenes.wearing import Count, SizesScene, WearDepthsScene, WearScenePart, size_statistics
+from bem.scenes.wearing import Count, IntArray, SizesScene, WearDepthsScene, WearScenePart, size_statistics
 
-
-def pack_record(record: Any, tables: Any) -> dict[str, Any]:
-    """A record with each of its `tables` (name -> fields) as columns."""
-    from bem.wear.running_in import pack_table
-
-    return {**record, **{name: pack_table(record[name]) for name in tables}}
-
-
-def unpack_record(packed: Any, tables: Any) -> dict[str, Any]:
-    """The record that `pack_record` was given."""
-    from bem.wear.running_in import unpack_table
-
-    return {**packed, **{name: unpack_table(packed[name], fields) for name, fields in tables.items()}}
-
+if TYPE_CHECKING:
+    from bem.friction.film_table import FilmTable
+    from bem.friction.setup import MixedSetup
+    from bem.wear import RunningIn
+    from bem.wear.mixed import MixedContact
 
 _CONVOLUTIONS = 80  # of the two or three contacts of a cycle
 _DEPTHS_NEEDED = 6
@@ -107,60 +102,64 @@ def resolve(scene: RunningInScene) -> RunningInScene:
     return scene.model_copy(update={"grid": grid, "contact": contact})
 
 
-def with_hardness(scene: RunningInScene, hardness: float | None) -> RunningInScene:
+def with_hardness(scene: RunningInScene, hardness: float) -> RunningInScene:
     """The scene with that hardness of the lower body; its yield stress follows it."""
-    if hardness is None:
-        return scene
     material = scene.lower.material.model_copy(update={"hardness": hardness, "yield_stress": None})
-    lower = scene.lower.model_copy(update={"material": material})
     upper = scene.upper.build().surface_material.hardness
-    cap = hardness if upper is None else min(hardness, upper)
-    return scene.model_copy(update={"lower": lower, "contact": scene.contact.model_copy(update={"hardness": cap})})
+    scene = changed(scene, "lower.material", material)
+    return changed(scene, "contact.hardness", hardness if upper is None else min(hardness, upper))
 
 
-def _hardnesses(scene: RunningInScene) -> list[float | None]:
-    return [*scene.hardnesses] or [None]
+def axes(scene: RunningInScene) -> tuple[Axis, ...]:
+    """Hardnesses, then speeds."""
+    given, pairs = scene.hardnesses, scene.speeds.build()
+    caps = tuple(with_hardness(scene, h).contact.hardness for h in given) if given else (scene.contact.hardness,)
+
+    def at_hardness(scene: RunningInScene, i: int) -> RunningInScene:
+        return changed(with_hardness(scene, given[i]), "hardnesses", []) if given else scene
+
+    def at_speed(scene: RunningInScene, i: int) -> RunningInScene:
+        return changed(scene, "speeds", SpeedsScene(values=[pairs[i][0]], cylinder=scene.speeds.cylinder))
+
+    return (
+        Axis("hardness", caps, Figure("Pa", "hardness of the softer body"), at_hardness),
+        Axis("speed", tuple(pair[0] for pair in pairs), Figure("m_s", "speed of the flat"), at_speed),
+    )
 
 
 def plan(scene: RunningInScene) -> Plan:
-    """What will be computed.
+    """What will be computed for one wear loop.
 
     Raises
     ------
     InputError : a patch that does not fit, a wearing body without yield stress. InfeasibleError : too much load.
     """
-    grid = build.grid_of(scene.grid)
-    loads = scene.contact.forces(modulus_of(scene))
-    from bem.scenes.lubrication import FilmMeshScene
-
-    check_patch(grid, FilmMeshScene(), [half_width(scene, load) for load in loads])
+    grid, load, cycles = build.grid_of(scene.grid), load_of(scene), scene.cycles.count
+    check_patch(grid, FilmMeshScene(), half_width(scene, load))
     build.check_surfaces(grid, lower=scene.lower.surface, upper=scene.upper.surface)
-    for hardness in _hardnesses(scene):
-        check_loads(with_hardness(scene, hardness), loads)
+    check_load(scene, load)
     strengths = [body.build().surface_material.yield_stress for body in (scene.lower, scene.upper)]
-    if all(value is None for value in strengths) and not scene.hardnesses:
+    if all(value is None for value in strengths):
         raise InputError(
             "lower.material: neither body has a yield_stress or a hardness, so nothing can wear; allowed: one of them"
         )
-    runs = len(scene.speeds.build()) * max(1, len(scene.hardnesses)) * scene.repetitions
-    cycles = runs * scene.cycles.count
     points = padded_points(grid.shape, grid.periodic)
     depths = min(scene.depths.count, _DEPTHS_NEEDED)
     deepest = min(scene.depths.count, 4 * _DEPTHS_NEEDED)  # in the first cycles
-    films = len(scene.speeds.build()) * 20
     return Plan(
         (
-            Step("surfaces", f"{scene.repetitions} pairs", transforms=40.0 * scene.repetitions, points=grid.cells),
+            Step("surfaces", "a pair for each case", transforms=40.0, points=grid.cells),
             Step(
                 "film tables",
-                f"about 20 films for each of {len(scene.speeds.build())} speeds, shared by all cycles and repetitions",
-                seconds=films * 2e-7 * scene.sharing.film_points**2,
+                "about 20 films for each speed, shared by all cycles and repetitions",
+                per="grid",
+                seconds=20 * 2e-7 * scene.sharing.film_points**2,
                 memory=16.0 * scene.sharing.film_points**2,
             ),
-            Step(f"a film for every balance ({3 * cycles})", "films are interpolated in the tables", skipped=True),
+            Step("a film for every balance", "films are interpolated in the tables", skipped=True),
             Step(
                 "contact",
-                f"{cycles} cycles, two or three contacts each, from the last pressure; none in full film",
+                f"{cycles} cycles a case, two or three contacts each, from the last pressure; none in full film",
                 transforms=2.0 * _CONVOLUTIONS * cycles,
                 points=points,
                 memory=convolution_memory(grid.shape, grid.periodic),
@@ -174,120 +173,164 @@ def plan(scene: RunningInScene) -> Plan:
                 memory=8.0 * (points / 4 * 12 * deepest + grid.cells * (deepest + 8)),
             ),
             Step("pieces", "runs of yielded voxels along depth", seconds=0.004 * cycles, memory=8.0 * grid.cells * 8),
-            Step("figures and report", "pictures of the results", seconds=5.0, memory=2e8),
+            Step("figures and report", "pictures of the results", seconds=5.0, memory=2e8, per="run"),
         )
     )
 
 
-def run(scene: RunningInScene, context: Context) -> Outcome:
-    """All hardnesses, speeds and repetitions, one wear loop each."""
-    from bem.friction.film_table import FilmTable
-    from bem.friction.setup import MixedSetup
-    from bem.wear import WearModel, pack_state, run_in, unpack_state
-    from bem.wear.mixed import MIXED_FIELDS, MixedContact, MixedState, film_table
-    from bem.wear.running_in import CYCLE_FIELDS, PARTICLE_FIELDS, RunningInState, pack_table, unpack_table
+def _over(unit: str, text: str) -> Series:
+    return Series(("cycle",), unit, text)
 
-    records = {"cycles": CYCLE_FIELDS, "particles": PARTICLE_FIELDS, "rows": MIXED_FIELDS}
-    grid = build.grid_of(scene.grid)
-    load = scene.contact.forces(modulus_of(scene))[0]
-    oil = scene.oil.build()
-    runs = [
-        (hardness, speeds, repetition)
-        for hardness in _hardnesses(scene)
-        for speeds in scene.speeds.build()
-        for repetition in range(scene.repetitions)
+
+def _shown(unit: str, text: str) -> Series:
+    return Series(("x", "y"), unit, text, of="first")
+
+
+@dataclass(frozen=True, eq=False)
+class RunningInRecord(Record):
+    """A lubricated wear loop: friction before and after, particles, histories, the last film and surface."""
+
+    friction_initial: Annotated[float, Figure("", "friction in the first cycle")]
+    friction_run_in: Annotated[float, Figure("", "friction, mean of the last cycles")]
+    friction: Annotated[float, Figure("", "friction, mean of the last cycles")]
+    boundary_friction_part: Annotated[float, Figure("", "boundary part of the run-in friction")]
+    film_friction_part: Annotated[float, Figure("", "film part of the run-in friction")]
+    contact_load: Annotated[float, Figure("N", "load carried by contact, run in")]
+    contact_load_initial: Annotated[float, Figure("N", "load carried by contact in the first cycle")]
+    film_load: Annotated[float, Figure("N", "load carried by the film, run in")]
+    minimum_film: Annotated[float, Figure("nm", "minimum film thickness, run in")]
+    lambda_ratio: Annotated[float, Figure("", "film under the whole load over roughness, run in")]
+    contact_area_fraction: Annotated[float, Figure("", "real contact area over patch, run in")]
+    Sq_initial: Annotated[float, Figure("nm", "Sq in Hertz' strip, unworn")]
+    Sq_final: Annotated[float, Figure("nm", "Sq in Hertz' strip, run in")]
+    worn_depth: Annotated[float, Figure("nm", "mean depth worn in Hertz' strip")]
+    particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled")]
+    particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle")]
+    particles_last_cycles: Annotated[float, Figure("", "particles of the last cycles")]
+    film_table_error: Annotated[float, Figure("", "error of the film that is interpolated in the table")]
+    evaluations_per_cycle: Annotated[float, Figure("", "films per cycle")]
+    convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle")]
+    particle_equivalent_radius: Annotated[float, Figure("nm", "equivalent radius of the particles, settled")]
+    number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number")]
+    volume_mean_radius: Annotated[float, Figure("nm", "the same, mean by volume")]
+    cycle: Annotated[IntArray, _over("1", "cycle")]
+    friction_over_cycles: Annotated[FloatArray, _over("1", "coefficient of friction")]
+    film_load_over_cycles: Annotated[FloatArray, _over("N", "load carried by the film")]
+    minimum_film_over_cycles: Annotated[FloatArray, _over("m", "minimum film thickness")]
+    contact_share: Annotated[FloatArray, _over("1", "share of the load carried by contact")]
+    rms_height_over_cycles: Annotated[FloatArray, _over("m", "Sq of the worn surface in the strip in contact")]
+    volume_over_cycles: Annotated[FloatArray, _over("m^3", "volume worn per cycle")]
+    particles_over_cycles: Annotated[FloatArray, _over("1", "particles per cycle")]
+    x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding")]
+    y: Annotated[FloatArray, Series(("y",), "m", "y")]
+    film_thickness_patch: Annotated[FloatArray, Series(("x",), "m", "film")]
+    film_pressure_patch: Annotated[FloatArray, Series(("x",), "Pa", "film pressure")]
+    separation: Annotated[FloatArray, Series(("x",), "m", "distance of mean planes")]
+    height_before: Annotated[FloatArray, _shown("m", "height of the wearing surface, unworn")]
+    height_after: Annotated[FloatArray, _shown("m", "height of the wearing surface, run in")]
+    pressure: Annotated[FloatArray, _shown("Pa", "contact pressure in the last cycle")]
+    frame: Annotated[IntArray, Series(("frame",), "1", "cycle of the frame", of="first")]
+    pressure_frames: Annotated[
+        FloatArray, Series(("frame", "x", "y"), "Pa", "contact pressure over the cycles", of="first")
     ]
-    saved = context.saved() or {"finished": [], "current": None}
-    finished: list[dict[str, Any]] = [unpack_record(record, records) for record in saved["finished"]]
-    current = saved["current"]
-    tables: dict[tuple[float, float], FilmTable] = {}
-    for index, (hardness, speeds, repetition) in enumerate(runs):
-        if index < len(finished):
-            continue
-        own = with_hardness(scene, hardness)
-        bodies = (own.lower.build(), own.upper.build())
-        with context.timer("surfaces"):
-            initial = [
-                build.heights_of(body.surface, grid, context.seed(name, repetition), context.note)
-                for name, body in (("lower", own.lower), ("upper", own.upper))
-            ]
-        state, mixed_state, rows = None, None, None
-        if current is not None:
-            state = unpack_state(current["wear"])
-            mixed_state = MixedState(current["film_load"], current["slope"])
-            rows = unpack_table(current["rows"], MIXED_FIELDS)
-            frames = [np.asarray(frame) for frame in current["frames"]]
-        else:
-            frames = []
-        current = None
-        setup = MixedSetup(
-            grid=grid,
-            bodies=bodies,
-            radius=scene.contact.radius,
-            width=scene.contact.width,
-            load=load,
-            lubricant=oil,
-            boundary_friction=scene.contact.boundary_friction,
-            hardness=own.contact.hardness,
-            film_points=scene.sharing.film_points,
-            tolerance=scene.sharing.tolerance,
-            contact_tolerance=scene.sharing.contact_tolerance,
+
+
+def run(scene: RunningInScene, context: Context) -> RunningInRecord:
+    """One wear loop."""
+    from bem.wear import WearModel, pack_state, run_in, unpack_state
+    from bem.wear.mixed import MIXED_FIELDS, MixedContact, MixedState
+    from bem.wear.running_in import RunningInState, pack_table, unpack_table
+
+    setup, (speeds,) = _setup(scene), scene.speeds.build()
+    grid = setup.grid
+    with context.timer("surfaces"):
+        initial = [
+            build.heights_of(body.surface, grid, context.seed(name), context.note)
+            for name, body in (("lower", scene.lower), ("upper", scene.upper))
+        ]
+    saved = context.saved()
+    frames = [] if saved is None else [np.asarray(frame) for frame in saved["frames"]]
+    step = MixedContact(
+        setup,
+        speeds,
+        table=_shared_table(scene, setup, speeds),
+        state=None if saved is None else MixedState(saved["film_load"], saved["slope"]),
+        rows=None if saved is None else unpack_table(saved["rows"], MIXED_FIELDS),
+    )
+
+    def watch(now: RunningInState) -> None:
+        if now.cycle in _frame_cycles(scene.cycles.count) and now.pressure is not None:
+            frames.append(now.pressure)
+        if now.cycle % _CHECKPOINT_EVERY == 0:
+            balance = {"film_load": step.state.film_load, "slope": step.state.slope, "rows": pack_table(step.rows)}
+            context.save({"wear": pack_state(now), "frames": list(frames), **balance})
+        row = step.rows[-1]
+        context.progress(
+            now.cycle,
+            scene.cycles.count,
+            "cycles",
+            friction=float(row["friction"]),
+            contact_share=float(row["contact_load"]) / setup.load,
         )
-        if speeds not in tables:
-            tables[speeds] = film_table(setup, speeds)
-        step = MixedContact(setup, speeds, table=tables[speeds], state=mixed_state, rows=rows)
-        shown = index == 0 or len(runs) == 1
 
-        def watch(
-            now: RunningInState, index: int = index, step: Any = step, frames: Any = frames, shown: bool = shown
-        ) -> None:
-            if shown and now.cycle in _frame_cycles(scene.cycles.count):
-                frames.append(now.pressure)
-            if now.cycle % _CHECKPOINT_EVERY == 0:
-                context.save(
-                    {
-                        "finished": [pack_record(record, records) for record in finished],
-                        "current": {
-                            "wear": pack_state(now),
-                            "film_load": step.state.film_load,
-                            "slope": step.state.slope,
-                            "rows": pack_table(step.rows),
-                            "frames": list(frames),
-                        },
-                    }
-                )
-            context.progress(
-                index * scene.cycles.count + now.cycle,
-                len(runs) * scene.cycles.count,
-                "cycles",
-                friction=float(step.rows["friction"][-1]),
-                contact_share=float(step.rows["contact_load"][-1]) / load,
-            )
+    with context.timer("cycles"):
+        result = run_in(
+            initial[0],
+            initial[1],
+            grid=grid,
+            bodies=(scene.lower.build(), scene.upper.build()),
+            load=setup.load * grid.lengths[1] / scene.contact.width,
+            depths=scene.depths.build(),
+            friction=scene.contact.boundary_friction,
+            hardness=scene.contact.hardness,
+            cycles=scene.cycles.count,
+            model=WearModel(**scene.wear.model_dump()),
+            contact_step=step,
+            state=None if saved is None else unpack_state(saved["wear"]),
+            callback=watch,
+        )
+    for note in step.notes:
+        # the film's model is the same in all cases: said once
+        context.note(f"film: {note}" if note in step.film_notes else note)
+    with context.timer("films"):
+        film_error = step.table.error(float(step.rows["film_load"][-1]))
+    return _record(scene, setup, initial, result, step, frames, film_error)
 
-        with context.timer("cycles"):
-            result = run_in(
-                initial[0],
-                initial[1],
-                grid=grid,
-                bodies=bodies,
-                load=load * grid.lengths[1] / scene.contact.width,
-                depths=own.depths.build(),
-                friction=scene.contact.boundary_friction,
-                hardness=own.contact.hardness,
-                cycles=scene.cycles.count,
-                model=WearModel(**own.wear.model_dump()),
-                contact_step=step,
-                state=state,
-                callback=watch,
-            )
-        for note in step.notes:
-            # the film's model is the same at all speeds: said once
-            context.note(f"film: {note}" if note in step.film_notes else f"speed {speeds[0]:g} m/s: {note}")
-        with context.timer("films"):
-            film_error = step.table.error(float(step.rows["film_load"][-1]))
-        finished.append(_record(scene, own, speeds, repetition, grid, initial, result, step, frames, film_error))
-        context.save({"finished": [pack_record(record, records) for record in finished], "current": None})
-    return _outcome(scene, grid, finished)
+
+def _setup(scene: RunningInScene) -> MixedSetup:
+    from bem.friction.setup import MixedSetup
+
+    return MixedSetup(
+        grid=build.grid_of(scene.grid),
+        bodies=(scene.lower.build(), scene.upper.build()),
+        radius=scene.contact.radius,
+        width=scene.contact.width,
+        load=load_of(scene),
+        lubricant=scene.oil.build(),
+        boundary_friction=scene.contact.boundary_friction,
+        hardness=scene.contact.hardness,
+        film_points=scene.sharing.film_points,
+        tolerance=scene.sharing.tolerance,
+        contact_tolerance=scene.sharing.contact_tolerance,
+    )
+
+
+_TABLES: dict[str, FilmTable] = {}
+"""Films of the last speeds of this process: what is in a table never depends on what was asked of it before."""
+_MOST_TABLES = 8
+
+
+def _shared_table(scene: RunningInScene, setup: MixedSetup, speeds: tuple[float, float]) -> FilmTable:
+    """The films of the set-up at these speeds; those of other cases with the same contact and oil, where there are."""
+    from bem.wear.mixed import film_table
+
+    line = (setup.radius, setup.width, setup.load, setup.line.contact_modulus, setup.film_points)
+    key = repr((scene.oil, line, speeds, setup.grid.shape, setup.grid.spacing))
+    if key not in _TABLES:
+        while len(_TABLES) >= _MOST_TABLES:
+            del _TABLES[next(iter(_TABLES))]
+        _TABLES[key] = film_table(setup, speeds)
+    return _TABLES[key]
 
 
 def _frame_cycles(count: int) -> list[int]:
@@ -297,169 +340,101 @@ def _frame_cycles(count: int) -> list[int]:
 
 def _record(
     scene: RunningInScene,
-    own: RunningInScene,
-    speeds: tuple[float, float],
-    repetition: int,
-    grid: Grid,
-    initial: list[NDArray[np.float64]],
-    result: Any,
-    step: Any,
-    frames: list[NDArray[np.float64]],
+    setup: MixedSetup,
+    initial: list[FloatArray],
+    result: RunningIn,
+    step: MixedContact,
+    frames: list[FloatArray],
     film_error: float,
-) -> dict[str, Any]:
-    """What is kept of a finished run: tables and surfaces."""
-    final = (result.lower_heights, result.upper_heights)
-    body = 1 if (final[1] != initial[1]).any() and not (final[0] != initial[0]).any() else 0
-    pick = {"wearing": body, "lower": 0, "upper": 1}[scene.sizes.particles_of]
-    film = step.film if step.film is not None else step.table.under(float(step.rows["film_load"][-1]))
+) -> RunningInRecord:
+    """The figures of a wear loop and what is kept of it."""
+    grid, body, cycles, rows = setup.grid, result.wearing[0], result.cycles, step.rows
+    before, after = initial[body], result.worn_heights()[: grid.shape[0]]
+    particles = result.particles[result.particles["body"] == scene.sizes.body(body)]
+    last, end = rows[-scene.cycles.averaged :], int(cycles["cycle"][-1])
+    late = particles[particles["cycle"] > end - scene.cycles.settled]
+    strip = np.abs(grid.x) <= setup.line.half_width(setup.load)  # the same before and after, at all speeds
+    film = step.film if step.film is not None else step.table.under(float(rows["film_load"][-1]))
     separation = step.separation if step.separation is not None else film.thickness[:, 0]
-    return {
-        "speed": speeds[0],
-        "hardness": own.contact.hardness,
-        "repetition": repetition,
-        "cycles": result.cycles,
-        "particles": result.particles[result.particles["body"] == pick],
-        "rows": step.rows,
-        "before": initial[body],
-        "after": final[body][: grid.shape[0]],
-        "pressure": result.pressure,
-        "film_thickness": film.thickness[:, 0],
-        "film_pressure": film.pressure[:, 0],
-        "separation": separation,
-        "contact_strip": half_width(scene, scene.contact.forces(modulus_of(scene))[0]),
-        "film_error": film_error,
-        "frames": np.array(frames) if frames else np.zeros((0, *grid.shape)),
-    }
-
-
-def _figures(scene: RunningInScene, record: dict[str, Any], grid: Grid) -> dict[str, float]:
-    """The summary's figures of one run."""
-    rows, cycles, particles = record["rows"], record["cycles"], record["particles"]
-    load = scene.contact.forces(modulus_of(scene))[0]
-    last = rows[-scene.cycles.averaged :]
-    late = particles[particles["cycle"] > cycles["cycle"][-1] - scene.cycles.settled]
-    strip = np.abs(grid.x) <= record["contact_strip"]  # Hertz' strip: the same before and after, at all speeds
-    figures = {
-        "friction_initial": float(rows["friction"][0]),
-        "friction_run_in": float(last["friction"].mean()),
-        "friction": float(last["friction"].mean()),
-        "boundary_friction_part": float(last["boundary_force"].mean()) / load,
-        "film_friction_part": float(last["film_force"].mean()) / load,
-        "contact_load_N": float(last["contact_load"].mean()),
-        "contact_load_initial_N": float(rows["contact_load"][0]),
-        "film_load_N": float(last["film_load"].mean()),
-        "minimum_film_nm": 1e9 * float(last["minimum_film"].mean()),
-        "lambda_ratio": float(last["lambda_ratio"].mean()),
-        "contact_area_fraction": float(cycles["contact_area"][-scene.cycles.averaged :].mean() / grid.area),
-        "Sq_initial_nm": 1e9 * float(record["before"][strip].std()),
-        "Sq_final_nm": 1e9 * float(record["after"][strip].std()),
-        "worn_depth_nm": 1e9 * float((record["before"] - record["after"])[strip].mean()),
-        "particles_per_cycle": late.size / scene.cycles.settled,
-        "particles_first_cycle": float((particles["cycle"] == 1).sum()),
-        "particles_last_cycles": float((particles["cycle"] > cycles["cycle"][-1] - scene.cycles.averaged).sum()),
-        "film_table_error": record["film_error"],
-        "evaluations_per_cycle": float(rows["evaluations"].mean()),
-        "convolutions_per_cycle": float(cycles["convolutions"].mean()),
-    }
-    sizes = size_statistics(late, scene.sizes.smallest) if late.size else None
-    figures["particle_equivalent_radius_nm"] = (
-        1e9 * sizes[scene.sizes.report]["equivalent_radius"] if sizes is not None else 0.0
+    over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
+    for name in ("rms_height", "volume", "particles"):
+        over[f"{name}_over_cycles"] = cycles[name].astype(np.float64)
+    assert result.pressure is not None
+    return RunningInRecord(
+        friction_initial=float(rows["friction"][0]),
+        friction_run_in=float(last["friction"].mean()),
+        friction=float(last["friction"].mean()),
+        boundary_friction_part=float(last["boundary_force"].mean()) / setup.load,
+        film_friction_part=float(last["film_force"].mean()) / setup.load,
+        contact_load=float(last["contact_load"].mean()),
+        contact_load_initial=float(rows["contact_load"][0]),
+        film_load=float(last["film_load"].mean()),
+        minimum_film=float(last["minimum_film"].mean()),
+        lambda_ratio=float(last["lambda_ratio"].mean()),
+        contact_area_fraction=float(cycles["contact_area"][-scene.cycles.averaged :].mean() / grid.area),
+        Sq_initial=float(before[strip].std()),
+        Sq_final=float(after[strip].std()),
+        worn_depth=float((before - after)[strip].mean()),
+        particles_per_cycle=late.size / scene.cycles.settled,
+        particles_first_cycle=float((particles["cycle"] == 1).sum()),
+        particles_last_cycles=float((particles["cycle"] > end - scene.cycles.averaged).sum()),
+        film_table_error=film_error,
+        evaluations_per_cycle=float(rows["evaluations"].mean()),
+        convolutions_per_cycle=float(cycles["convolutions"].mean()),
+        **_radii(scene, late),
+        cycle=np.arange(1, len(rows) + 1),
+        contact_share=rows["contact_load"] / setup.load,
+        **over,
+        x=grid.x,
+        y=grid.y,
+        film_thickness_patch=film.thickness[:, 0],
+        film_pressure_patch=film.pressure[:, 0],
+        separation=separation,
+        height_before=before,
+        height_after=after,
+        pressure=result.pressure,
+        frame=np.array(_frame_cycles(scene.cycles.count)[: len(frames)]),
+        pressure_frames=np.array(frames),
     )
-    for weight in ("number", "volume"):
-        figures[f"{weight}_mean_radius_nm"] = 1e9 * sizes[weight]["equivalent_radius"] if sizes is not None else 0.0
-    return figures
 
 
-def _outcome(scene: RunningInScene, grid: Grid, finished: list[dict[str, Any]]) -> Outcome:
-    each = scene.repetitions
-    figures = [_figures(scene, record, grid) for record in finished]
-    groups = [figures[start : start + each] for start in range(0, len(figures), each)]
-    heads = finished[::each]
+def _radii(scene: RunningInScene, particles: NDArray[np.void]) -> dict[str, Any]:
+    """Mean equivalent radii [m] of the settled particles, 0 of none."""
+    names = ("particle_equivalent_radius", "number_mean_radius", "volume_mean_radius")
+    if not particles.size:
+        return dict.fromkeys(names, 0.0)
+    sizes = size_statistics(particles, scene.sizes.smallest)
+    weights = (scene.sizes.report, "number", "volume")
+    return {name: sizes[weight]["equivalent_radius"] for name, weight in zip(names, weights, strict=True)}
+
+
+def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[RunningInRecord | None]) -> dict[str, Any]:
+    """What is the same for all cases, and the hardness of least friction where several were tried."""
     summary: dict[str, Any] = {
-        "speed_m_s": [record["speed"] for record in heads],
-        "hardness_Pa": [record["hardness"] for record in heads],
-        "repetitions": each,
         "cycles": scene.cycles.count,
-        "load_N": scene.contact.forces(modulus_of(scene))[0],
+        "load_N": load_of(scene),
         "reported_mean": scene.sizes.report,
     }
-    for key in figures[0]:
-        values = [np.array([row[key] for row in group]) for group in groups]
-        summary[key] = [float(v.mean()) for v in values]
-        if each > 1:
-            summary[f"{key}_spread"] = [float(v.std(ddof=1)) for v in values]
-    if scene.hardnesses and len(scene.hardnesses) > 2:
-        best = int(np.argmin(summary["friction_run_in"]))
-        summary["hardness_of_least_friction_Pa"] = summary["hardness_Pa"][best]
-        summary["least_friction_inside_range"] = heads[best]["hardness"] not in (
-            min(scene.hardnesses),
-            max(scene.hardnesses),
-        )
-    return Outcome(summary, _variables(scene, grid, finished, figures))
-
-
-def _variables(
-    scene: RunningInScene, grid: Grid, finished: list[dict[str, Any]], figures: list[dict[str, float]]
-) -> dict[str, Variable]:
-    load = scene.contact.forces(modulus_of(scene))[0]
-    run = ("run",)
-    variables = {
-        "run_speed": Variable(run, np.array([r["speed"] for r in finished]), "m/s", "speed of the flat"),
-        "hardness": Variable(run, np.array([r["hardness"] for r in finished]), "Pa", "hardness of the softer body"),
-        "repetition": Variable(run, np.array([r["repetition"] for r in finished]), "1", "repetition"),
-        "cycle": Variable(("cycle",), np.arange(1, scene.cycles.count + 1), "1", "cycle"),
-    }
-    for key, unit, factor, text in (
-        ("friction_initial", "1", 1.0, "friction in the first cycle"),
-        ("friction_run_in", "1", 1.0, "friction, mean of the last cycles"),
-        ("boundary_friction_part", "1", 1.0, "boundary part of the run-in friction"),
-        ("film_friction_part", "1", 1.0, "film part of the run-in friction"),
-        ("particle_equivalent_radius_nm", "m", 1e-9, "equivalent radius of the particles, settled"),
-        ("particles_per_cycle", "1", 1.0, "particles per cycle, settled"),
-    ):
-        name = key.removesuffix("_nm")
-        variables[name] = Variable(run, factor * np.array([f[key] for f in figures]), unit, text)
-    over = ("run", "cycle")
-    for name, unit, text in (
-        ("friction", "1", "coefficient of friction"),
-        ("film_load", "N", "load carried by the film"),
-        ("minimum_film", "m", "minimum film thickness"),
-    ):
-        variables[f"{name}_over_cycles"] = Variable(over, np.array([r["rows"][name] for r in finished]), unit, text)
-    share = np.array([r["rows"]["contact_load"] for r in finished]) / load
-    variables["contact_share"] = Variable(over, share, "1", "share of the load carried by contact")
-    for name, unit, text in (
-        ("rms_height", "m", "rms height Sq of the worn surface in the strip in contact"),
-        ("volume", "m^3", "volume worn per cycle"),
-        ("particles", "1", "particles per cycle"),
-    ):
-        values = np.array([r["cycles"][name] for r in finished], dtype=np.float64)
-        variables[f"{name}_over_cycles"] = Variable(over, values, unit, text)
-    along = ("run", "x")
-    variables |= {
-        "x": Variable(("x",), grid.x, "m", "x, along sliding"),
-        "y": Variable(("y",), grid.y, "m", "y"),
-        "film_thickness_patch": Variable(along, np.array([r["film_thickness"] for r in finished]), "m", "film"),
-        "film_pressure_patch": Variable(along, np.array([r["film_pressure"] for r in finished]), "Pa", "film pressure"),
-        "separation": Variable(along, np.array([r["separation"] for r in finished]), "m", "distance of mean planes"),
-        "height_before": Variable(("x", "y"), finished[0]["before"], "m", "height of the wearing surface, unworn"),
-        "height_after": Variable(("x", "y"), finished[0]["after"], "m", "height of the wearing surface, run in"),
-        "pressure": Variable(("x", "y"), finished[0]["pressure"], "Pa", "contact pressure in the last cycle"),
-    }
-    frames = finished[0]["frames"]
-    if len(frames):
-        cycles = np.array(_frame_cycles(scene.cycles.count)[: len(frames)])
-        variables["frame"] = Variable(("frame",), cycles, "1", "cycle of the frame")
-        variables["pressure_frames"] = Variable(("frame", "x", "y"), frames, "Pa", "contact pressure over the cycles")
-    return variables
+    if len(scene.hardnesses) > 2:
+        sizes = [len(axis) for axis in axes[-3:]]
+        friction = np.array([np.nan if r is None else r.friction_run_in for r in records]).reshape(-1, *sizes)[0]
+        caps = axes[-3].values
+        best = caps[int(np.nanargmin(friction.mean(axis=2))) // sizes[1]]
+        summary["hardness_of_least_friction_Pa"] = best
+        summary["least_friction_inside_range"] = best not in (min(scene.hardnesses), max(scene.hardnesses))
+    return summary
 
 
 KIND = Kind(
     name="running-in",
     title="running-in in mixed lubrication: wear cycles with the load shared between film and contact",
     model=RunningInScene,
+    axes=axes,
     plan=plan,
     run=run,
+    record=RunningInRecord,
+    summarise=summarise,
+    always_lists=True,
     resolve=resolve,
     figures=(
         "running-in-stribeck",

@@ -158,7 +158,7 @@ def axes(scene: TribofilmScene) -> tuple[Axis, ...]:
     return (
         listed(scene, "rubbing.loads", "load", Figure("N", "load")),
         listed(scene, "rubbing.temperatures", "temperature", Figure("C", "temperature")),
-        variants(scene, variant_of, unnamed="film"),
+        variants(scene, variant_of, unnamed="film", always=True),
     )
 
 
