@@ -31,6 +31,10 @@ def in_blocks(size: int, results: int, kernel: Callable[..., None], *arguments: 
     """Call `kernel(start, stop, out, *arguments)` for all blocks of `size` entries; returns (blocks, results)."""
     blocks = -(-size // BLOCK)
     partial = np.zeros((blocks, results))
+    if blocks == 1:
+        # a tenth of the Python calls of a contact of 256 x 256 cells were spent on sharing what is one thread's
+        kernel(0, size, partial[0], *arguments)
+        return partial
 
     def work(_worker: int, block: int) -> None:
         kernel(block * BLOCK, min(size, (block + 1) * BLOCK), partial[block], *arguments)

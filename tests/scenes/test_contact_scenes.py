@@ -92,8 +92,9 @@ def test_rough_capped_contact():
     assert pressure.max() == 1.8e9
     assert (state == 2).any()
     assert (state == 1).any()
-    assert outcome.summary["contact_area_fraction"] == np.mean(pressure > 0)
-    assert outcome.summary["plastic_area_fraction"] == pytest.approx(np.mean(state == 2), abs=1e-15)
+    # areas end inside cells: less than the cells that carry pressure, and by no more than what their edges hold
+    assert 0.8 * np.mean(pressure > 0) < outcome.summary["contact_area_fraction"] < np.mean(pressure > 0)
+    assert 0.8 * np.mean(state == 2) < outcome.summary["plastic_area_fraction"] < 1.2 * np.mean(state == 2)
     assert outcome.summary["load_N"] == pytest.approx(80e6 * (32e-6) ** 2, rel=1e-9)
     mises = outcome.variables["von_mises"].values
     assert outcome.summary["max_von_mises_Pa"] == mises.max()
