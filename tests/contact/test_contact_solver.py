@@ -267,6 +267,7 @@ def test_convolutions_and_python_calls_of_the_surface_they_are_quoted_for():
     solve_contact(gap, op, load=0.0035)  # spectra and plans
     with cProfile.Profile() as profile:
         solution = solve_contact(gap, op, load=0.0035)
-    calls = pstats.Stats(profile).total_calls
+    rows = pstats.Stats(profile).stats.items()  # transforms make more calls once threads were used
+    calls = sum(row[1] for (file, _, _), row in rows if Path(file).parent == Path(passes.__file__).parent)
     assert solution.convolutions <= 17.7  # 17.66 counted
-    assert calls <= 13_300  # 12,726 counted; 13,922 while passes over one block were shared among threads
+    assert calls <= 2500  # 2373 counted; 2672 while passes over a single block were shared among threads
