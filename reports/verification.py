@@ -309,9 +309,10 @@ def _draw_mesh(ax: object, case: stored.StoredCase) -> None:
     ax.autoscale()
     ax.set_aspect("equal", adjustable="datalim")
     ax.invert_yaxis()
-    interface = result.mesh.get("picture", {}).get("interface")
-    if interface:
-        ax.axhline(interface, color=COLOURS[1], lw=0.9)
+    picture = result.mesh.get("picture", {})
+    for interface in picture.get("interfaces") or [picture.get("interface")]:
+        if interface:
+            ax.axhline(interface, color=COLOURS[1], lw=0.9)
     levels = result.mesh["levels"]
     ax.set_title(f"coarsest mesh; unknowns {', '.join(str(level['dofs']) for level in levels)}", fontsize=8)
     ax.set_xlabel("x", fontsize=7)

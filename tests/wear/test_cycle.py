@@ -27,6 +27,7 @@ from bem.wear.segmentation import segment
 
 HARD = Body(Material("cylinder", youngs_modulus=210e9, poissons_ratio=0.3, hardness=6e9))
 SOFT = Body(Material("disk", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9, yield_stress=0.64e9))
+STIFF = Material("interlayer", youngs_modulus=300e9, poissons_ratio=0.2)
 GRID = Grid((48, 40), (100e-9, 100e-9), periodic=(False, True))
 DEPTHS = np.arange(24) * 95e-9
 LOAD = 2.2e-3  # about 7 % of the grid at the hardness
@@ -152,9 +153,10 @@ def test_the_bodies_that_should_wear_do(wears):
     assert result.particles["volume"].sum() == pytest.approx(lost * GRID.cell_area, rel=1e-11)
 
 
-def test_pieces_of_a_film_end_at_its_interface():
+@pytest.mark.parametrize("below", [(), (Layer(STIFF, 200e-9),)], ids=["one layer", "two layers"])
+def test_pieces_of_a_film_end_at_its_interface(below):
     film = Material("film", youngs_modulus=88e9, poissons_ratio=0.3, hardness=1.8e9, yield_stress=0.5e9)
-    coated = Body(HARD.material, layer=Layer(film, 100e-9))
+    coated = Body(HARD.material, layers=(Layer(film, 100e-9), *below))
     lower, upper = surfaces()
     bodies = (coated, HARD)
     result = run_in(lower, upper, cycles=1, **(ARGUMENTS | {"bodies": bodies}))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -46,12 +48,17 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
     )
     bar = figure.colorbar(shown, ax=axes, pad=0.02)
     bar.set_label(label("von Mises stress", unit))
-    yield_stress = _yield_stress(run)
-    if yield_stress is not None and section.max() > yield_stress > section.min():
-        axes.contour(
-            across_x * factor_x, depth * factor_z, section, levels=[yield_stress], colors="white", linewidths=1.0
-        )
-        axes.plot([], [], color="0.6", linewidth=1.0, label=f"yield, {yield_stress * factor:.3g} {unit}")
+    for medium in _media(run):
+        inside = (depth > medium.top) & (depth <= medium.bottom) | (depth == 0.0) & (medium.top == 0.0)
+        if 0 < medium.top < depth[-1]:
+            axes.axhline(medium.top * factor_z, color="white", linewidth=0.8, linestyle=":")
+        there = section[inside]
+        limit = medium.yield_stress
+        if limit is not None and len(there) > 1 and there.max() > limit > there.min():
+            axes.contour(
+                across_x * factor_x, depth[inside] * factor_z, there, levels=[limit], colors="white", linewidths=1.0
+            )
+            axes.plot([], [], color="0.6", linewidth=1.0, label=f"yield, {limit * factor:.3g} {unit}")
     axes.plot(
         x[ix] * factor_x,
         computed[iz] * factor_z,
@@ -79,11 +86,19 @@ def _depth_profile(run: Any, figure: Figure) -> None:
     largest, mean = _by_depth(stress)
     factor, unit = prefix(largest, "Pa")
     axes = figure.add_subplot()
-    axes.plot(depth * factor_z, largest * factor, marker="o", markersize=3, label="largest")
-    axes.plot(depth * factor_z, mean * factor, marker="s", markersize=3, label="mean")
-    yield_stress = _yield_stress(run)
-    if yield_stress is not None:
-        axes.axhline(yield_stress * factor, color="0.4", linestyle="--", linewidth=1.0, label="yield stress")
+    media = _media(run)
+    breaks = np.searchsorted(depth, [medium.top for medium in media[1:]], side="right")  # von Mises jumps there
+    for values, marker, name in ((largest, "o", "largest"), (mean, "s", "mean")):
+        at, shown = np.insert(depth, breaks, np.nan) * factor_z, np.insert(values, breaks, np.nan) * factor
+        axes.plot(at, shown, marker=marker, markersize=3, label=name)
+    for medium in media:
+        if 0 < medium.top < depth[-1]:
+            axes.axvline(medium.top * factor_z, color="0.7", linewidth=0.8, linestyle=":")
+        if medium.yield_stress is not None and medium.top < depth[-1]:
+            ends = np.array([medium.top, min(medium.bottom, depth[-1])]) * factor_z
+            axes.plot(ends, [medium.yield_stress * factor] * 2, color="0.4", linestyle="--", linewidth=1.0)
+    if any(medium.yield_stress is not None for medium in media):
+        axes.plot([], [], color="0.4", linestyle="--", linewidth=1.0, label="yield stress")
     axes.set_xlabel(label("depth", unit_z))
     axes.set_ylabel(label("von Mises stress", unit))
     axes.set_xlim(0)
@@ -113,10 +128,28 @@ def _by_depth(stress: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray
     return largest, mean
 
 
-def _yield_stress(run: Any) -> float | None:
-    """Of the material whose stress is shown."""
+@dataclass(frozen=True)
+class _Medium:
+    """What lies between two depths [m] of the body shown."""
+
+    top: float
+    bottom: float
+    yield_stress: float | None
+
+
+def _media(run: Any) -> list[_Medium]:
+    """The layers of the body whose stress is shown, outermost first, and its half-space."""
     body = run.scene.get(run.scene.get("outputs", {}).get("body", "lower")) or {}
-    material = body.get("material") or {}
+    layers = body.get("layers") or ([body["layer"]] if body.get("layer") else [])
+    tops = [0.0, *itertools.accumulate(float(layer["thickness"]) for layer in layers)]
+    materials = [*(layer["material"] for layer in layers), body.get("material")]
+    return [
+        _Medium(top, bottom, _yield_stress(material or {}))
+        for top, bottom, material in zip(tops, [*tops[1:], np.inf], materials, strict=True)
+    ]
+
+
+def _yield_stress(material: dict[str, Any]) -> float | None:
     if material.get("yield_stress"):
         return float(material["yield_stress"])
     return float(material["hardness"]) / 2.8 if material.get("hardness") else None
