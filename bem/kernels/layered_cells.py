@@ -26,7 +26,7 @@ from bem.kernels.cell_rules import COMPILE
 from bem.kernels.coefficients import STRESS_PARITY, SURFACE_PARITY
 from bem.kernels.half_space import Load
 from bem.kernels.layered_hankel import RadialTable, evaluate, panel_of, radial_table, stress_kernels, surface_kernels
-from bem.kernels.subsurface import Six
+from bem.kernels.subsurface import BLOCK, Six, add_six
 from bem.materials import Body
 
 # points, and the least D over half a side: (R + sqrt(R^2 - 1))^(-2 n) is 1e-15 for the large ones (the order of the
@@ -87,12 +87,11 @@ def _add_point(kind: int, x: float, y: float, r: float, g: FloatArray, weight: f
 
 
 # Cells of a row under one rule go through it side by side, in vector registers: the operations of `_add_cell`, in the
-# same order for each. One array holds, `_BLOCK` numbers each (a distance that the compiler has to know), the sums of
+# same order for each. One array holds, `BLOCK` numbers each (a distance that the compiler has to know), the sums of
 # six components, y of the cells, y, r and place in the panel of a point, and six tables there.
-_BLOCK = 64
-_CELL, _Y, _R, _T, _G = 6 * _BLOCK, 7 * _BLOCK, 8 * _BLOCK, 9 * _BLOCK, 10 * _BLOCK
-_SUM = 16 * _BLOCK
-_ROOM = 17 * _BLOCK
+_CELL, _Y, _R, _T, _G = 6 * BLOCK, 7 * BLOCK, 8 * BLOCK, 9 * BLOCK, 10 * BLOCK
+_SUM = 16 * BLOCK
+_ROOM = 17 * BLOCK
 
 
 @nb.njit(**COMPILE)
@@ -109,7 +108,7 @@ def _add_side_by_side(
             value = panel[power, table]
             for k in range(count):
                 room[_SUM + k] = room[_SUM + k] * room[_T + k] + value
-        at = _G + table * _BLOCK
+        at = _G + table * BLOCK
         for k in range(count):
             room[at + k] = room[_SUM + k]
     if kind == SURFACE_NORMAL:
@@ -122,28 +121,18 @@ def _add_side_by_side(
     elif kind == STRESS_NORMAL:
         for k in range(count):
             c, s = _along(x, room[_Y + k], room[_R + k])
-            xx, yy, zz, yz, xz, xy = _pressed(
-                c, s, room[_G + k], room[_G + _BLOCK + k], room[_G + 2 * _BLOCK + k], room[_G + 3 * _BLOCK + k]
+            stress = _pressed(
+                c, s, room[_G + k], room[_G + BLOCK + k], room[_G + 2 * BLOCK + k], room[_G + 3 * BLOCK + k]
             )
-            room[k] += weight * xx
-            room[_BLOCK + k] += weight * yy
-            room[2 * _BLOCK + k] += weight * zz
-            room[3 * _BLOCK + k] += weight * yz
-            room[4 * _BLOCK + k] += weight * xz
-            room[5 * _BLOCK + k] += weight * xy
+            add_six(weight, stress, k, room)
     else:
         for k in range(count):
             c, s = _along(x, room[_Y + k], room[_R + k])
-            xx, yy, zz, yz, xz, xy = _drawn(
-                c, s, room[_G + k], room[_G + _BLOCK + k], room[_G + 2 * _BLOCK + k], room[_G + 3 * _BLOCK + k],
-                room[_G + 4 * _BLOCK + k], room[_G + 5 * _BLOCK + k],
+            stress = _drawn(
+                c, s, room[_G + k], room[_G + BLOCK + k], room[_G + 2 * BLOCK + k], room[_G + 3 * BLOCK + k],
+                room[_G + 4 * BLOCK + k], room[_G + 5 * BLOCK + k],
             )  # fmt: skip
-            room[k] += weight * xx
-            room[_BLOCK + k] += weight * yy
-            room[2 * _BLOCK + k] += weight * zz
-            room[3 * _BLOCK + k] += weight * yz
-            room[4 * _BLOCK + k] += weight * xz
-            room[5 * _BLOCK + k] += weight * xy
+            add_six(weight, stress, k, room)
 
 
 @nb.njit(**COMPILE)
@@ -155,11 +144,11 @@ def _add_block(
     along_x: int,
     along_y: int,
     count: int,
-    edges: FloatArray,
-    coefficients: FloatArray,
+    table: RadialTable,
     room: FloatArray,
 ) -> None:
     """Add the integrals over the first `count` cells of a block, all at `x`, to its sums."""
+    edges, coefficients = table.edges, table.coefficients
     end = edges[-1]
     for i in range(_POINTS[along_x]):
         px = x + a * _NODES[along_x, i]
@@ -200,11 +189,10 @@ def _rule_for(reach: float, ripple: float, fall: float) -> int:
 
 
 @nb.njit(**COMPILE)
-def _rules(
-    x: float, y: float, a: float, b: float, decay: float, wavenumber: float, width: float, end: float
-) -> tuple[int, int]:
+def _rules(x: float, y: float, a: float, b: float, table: RadialTable) -> tuple[int, int]:
     """Rules along x and y for a piece of half sides a, b centred at (x, y); (-1, -1) where nothing is left of it."""
     gap_x, gap_y = max(abs(x) - a, 0.0), max(abs(y) - b, 0.0)
+    decay, wavenumber, width, end = table.decay, table.wavenumber, table.width, table.edges[-1]
     if gap_x * gap_x + gap_y * gap_y >= end * end:
         return -1, -1
     fall = width * width * (gap_x * gap_x + gap_y * gap_y)
@@ -220,23 +208,19 @@ def _add_cell(
     y: float,
     half_x: float,
     half_y: float,
-    decay: float,
-    wavenumber: float,
-    width: float,
-    edges: FloatArray,
-    coefficients: FloatArray,
+    table: RadialTable,
     stack: FloatArray,
     g: FloatArray,
     out: FloatArray,
 ) -> None:
     """Add the integral over the cell centred at (x, y) to `out`."""
-    end = edges[-1]
+    end = table.edges[-1]
     stack[0, 0], stack[0, 1], stack[0, 2], stack[0, 3] = x, y, half_x, half_y
     height = 1
     while height > 0:
         height -= 1
         x0, y0, a, b = stack[height, 0], stack[height, 1], stack[height, 2], stack[height, 3]
-        along_x, along_y = _rules(x0, y0, a, b, decay, wavenumber, width, end)
+        along_x, along_y = _rules(x0, y0, a, b, table)
         if along_x < 0:
             continue
         split_x, split_y = along_x == _POINTS.size, along_y == _POINTS.size
@@ -255,7 +239,7 @@ def _add_cell(
                 py = y0 + b * _NODES[along_y, j]
                 r = np.sqrt(px * px + py * py)
                 if r < end:
-                    evaluate(r, edges, coefficients, g)
+                    evaluate(r, table.edges, table.coefficients, g)
                     _add_point(kind, px, py, r, g, a * b * _WEIGHTS[along_x, i] * _WEIGHTS[along_y, j], out)
 
 
@@ -265,17 +249,13 @@ def _add_cells(
     sides: tuple[float, float],
     period: tuple[int, int],
     images: tuple[int, int],
-    decay: float,
-    wavenumber: float,
-    width: float,
-    edges: FloatArray,
-    coefficients: FloatArray,
+    table: RadialTable,
     out: FloatArray,
 ) -> None:
     """Add the integrals over the cells [i, j] of `out` (components, nx, ny) and their images, `period` cells apart."""
     components, nx, ny = out.shape
     stack = np.empty((400, 4))
-    g = np.empty(coefficients.shape[2])
+    g = np.empty(table.coefficients.shape[2])
     room = np.zeros(_ROOM)
     row = np.empty((components, ny))
     a, b = 0.5 * sides[0], 0.5 * sides[1]
@@ -287,27 +267,25 @@ def _add_cells(
                 start = 0
                 while start < ny:
                     y = (start + q * period[1]) * sides[1]
-                    rules = _rules(x, y, a, b, decay, wavenumber, width, edges[-1])
+                    rules = _rules(x, y, a, b, table)
                     if max(rules) == _POINTS.size or max(rules) < 0:
-                        _add_cell(
-                            kind, x, y, a, b, decay, wavenumber, width, edges, coefficients, stack, g, row[:, start]
-                        )
+                        _add_cell(kind, x, y, a, b, table, stack, g, row[:, start])
                         start += 1
                         continue
                     count = 0
-                    while count < _BLOCK and start + count < ny:
+                    while count < BLOCK and start + count < ny:
                         y = (start + count + q * period[1]) * sides[1]
-                        if _rules(x, y, a, b, decay, wavenumber, width, edges[-1]) != rules:
+                        if _rules(x, y, a, b, table) != rules:
                             break
                         room[_CELL + count] = y
                         count += 1
                     for c in range(components):
                         for k in range(count):
-                            room[c * _BLOCK + k] = row[c, start + k]
-                    _add_block(kind, x, a, b, *rules, count, edges, coefficients, room)
+                            room[c * BLOCK + k] = row[c, start + k]
+                    _add_block(kind, x, a, b, *rules, count, table, room)
                     for c in range(components):
                         for k in range(count):
-                            row[c, start + k] = room[c * _BLOCK + k]
+                            row[c, start + k] = room[c * BLOCK + k]
                     start += count
         out[:, i] += row
 
@@ -317,18 +295,7 @@ def add_cells(out: FloatArray, grid: Grid, table: RadialTable, kind: int, images
 
     out: (components, n, m), offsets from 0 along both axes; it may cover a part of the grid.
     """
-    _add_cells(
-        kind,
-        grid.spacing,
-        grid.shape,
-        images,
-        table.decay,
-        table.wavenumber,
-        table.width,
-        table.edges,
-        table.coefficients,
-        out,
-    )
+    _add_cells(kind, grid.spacing, grid.shape, images, table, out)
 
 
 def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:

@@ -19,6 +19,7 @@ import itertools
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numba as nb
 import numpy as np
@@ -104,9 +105,11 @@ class Kernels:
     path: Path
 
 
-@dataclass(frozen=True)
-class RadialTable:
-    """Piecewise polynomials: coefficients [panel, power, table] of t in (-1, 1) between `edges`; 0 beyond the last."""
+class RadialTable(NamedTuple):
+    """Piecewise polynomials: coefficients [panel, power, table] of t in (-1, 1) between `edges`; 0 beyond the last.
+
+    A tuple, which compiled code takes whole.
+    """
 
     edges: FloatArray
     coefficients: FloatArray

@@ -89,21 +89,13 @@ def _traction_point(x: float, y: float, z: float, nu: float) -> Six:
 def add_point(x: float, y: float, z: float, nu: float, pressure: float, traction: float, out: FloatArray) -> None:
     """Add 2 pi times the six stresses of point forces: `pressure` into the body, `traction` along +x."""
     if pressure != 0.0:
-        xx, yy, zz, yz, xz, xy = _pressure_point(x, y, z, nu)
-        out[0] += pressure * xx
-        out[1] += pressure * yy
-        out[2] += pressure * zz
-        out[3] += pressure * yz
-        out[4] += pressure * xz
-        out[5] += pressure * xy
+        stress = _pressure_point(x, y, z, nu)
+        for component in range(6):
+            out[component] += pressure * stress[component]
     if traction != 0.0:
-        xx, yy, zz, yz, xz, xy = _traction_point(x, y, z, nu)
-        out[0] += traction * xx
-        out[1] += traction * yy
-        out[2] += traction * zz
-        out[3] += traction * yz
-        out[4] += traction * xz
-        out[5] += traction * xy
+        stress = _traction_point(x, y, z, nu)
+        for component in range(6):
+            out[component] += traction * stress[component]
 
 
 # Points side by side go through a rule in vector registers: the very operations of `add_point`, in the same order for
@@ -124,28 +116,27 @@ def block_of(x: FloatArray, y: FloatArray, room: FloatArray) -> None:
 
 
 @nb.njit(**COMPILE)
+def add_six(weight: float, stress: Six, k: int, room: FloatArray) -> None:
+    """Add `weight` times six stresses to the sums of point k of a block."""
+    room[k] += weight * stress[0]
+    room[BLOCK + k] += weight * stress[1]
+    room[2 * BLOCK + k] += weight * stress[2]
+    room[3 * BLOCK + k] += weight * stress[3]
+    room[4 * BLOCK + k] += weight * stress[4]
+    room[5 * BLOCK + k] += weight * stress[5]
+
+
+@nb.njit(**COMPILE)
 def add_points(
     right: float, on: float, z: float, nu: float, pressure: float, traction: float, count: int, room: FloatArray
 ) -> None:
     """`add_point` of point forces at (right, on) to the sums of each of the first `count` points of a block."""
     if pressure != 0.0:
         for k in range(count):
-            xx, yy, zz, yz, xz, xy = _pressure_point(room[X_AT + k] - right, room[Y_AT + k] - on, z, nu)
-            room[k] += pressure * xx
-            room[BLOCK + k] += pressure * yy
-            room[2 * BLOCK + k] += pressure * zz
-            room[3 * BLOCK + k] += pressure * yz
-            room[4 * BLOCK + k] += pressure * xz
-            room[5 * BLOCK + k] += pressure * xy
+            add_six(pressure, _pressure_point(room[X_AT + k] - right, room[Y_AT + k] - on, z, nu), k, room)
     if traction != 0.0:
         for k in range(count):
-            xx, yy, zz, yz, xz, xy = _traction_point(room[X_AT + k] - right, room[Y_AT + k] - on, z, nu)
-            room[k] += traction * xx
-            room[BLOCK + k] += traction * yy
-            room[2 * BLOCK + k] += traction * zz
-            room[3 * BLOCK + k] += traction * yz
-            room[4 * BLOCK + k] += traction * xz
-            room[5 * BLOCK + k] += traction * xy
+            add_six(traction, _traction_point(room[X_AT + k] - right, room[Y_AT + k] - on, z, nu), k, room)
 
 
 @nb.njit(**COMPILE)
