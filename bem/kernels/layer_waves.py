@@ -8,7 +8,8 @@ modulus over that of the outermost layer. All 2 x 2 matrices that relate displac
   layer of q h < 1 takes the matrix exponential (`_climb_thin`), a thicker one the reflection below it and a round
   trip of decaying waves (`_climb_thick`).
 - `_loaded_layer` and `_pass_layer` go down: from the load on the surface to the displacement on the interface below
-  the medium asked for. Only displacements are handed on: (Zu - Z)^-1 of two definite matrices cannot cancel, whatever the moduli.
+  the medium asked for. Only displacements are handed on: (Zu - Z)^-1 of two definite matrices cannot cancel,
+  whatever the moduli.
 - `_in_plane` gives the state at a depth: carried up from the interface by the matrix exponential within 1/q of it
   (where the waves of a soft layer cancel), else the sum of the two waves.
 """
