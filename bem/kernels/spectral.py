@@ -21,7 +21,7 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.kernels import layered
-from bem.kernels.loads import STRESS_PARITY, Load
+from bem.kernels.loads import STRESS_PARITY, SURFACE_PARITY, Load, Parities
 from bem.materials import Body
 
 
@@ -44,6 +44,15 @@ def _wavevectors(grid: Grid) -> tuple[FloatArray, FloatArray, FloatArray, FloatA
     return kx, ky, q, odd_x, odd_y
 
 
+def _mirrored(rows: FloatArray, count: int, parities: Parities) -> FloatArray:
+    """All `count` rows of kx from the first count // 2 + 1 of (parts, ...), by parity in x."""
+    out = np.empty((len(rows), count, *rows.shape[2:]))
+    out[:, : count // 2 + 1] = rows
+    for part, (along_x, _) in enumerate(parities):
+        np.multiply(rows[part, (count - 1) // 2 : 0 : -1], along_x, out=out[part, count // 2 + 1 :])
+    return out
+
+
 def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
     """Normal surface displacement of a harmonic unit load, shape (nx, ny//2 + 1) [m/Pa].
 
@@ -57,8 +66,9 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
     _check(grid)
     kx, ky, q, odd_x, _ = _wavevectors(grid)
     if not body.homogeneous:
-        tangential = load is Load.TANGENTIAL
-        return layered.surface_response(odd_x if tangential else kx, ky, body, tangential=tangential)
+        tangential, half = load is Load.TANGENTIAL, grid.shape[0] // 2 + 1
+        rows = layered.surface_response((odd_x if tangential else kx)[:half], ky[:half], body, tangential=tangential)
+        return _mirrored(rows[None], grid.shape[0], (SURFACE_PARITY[load],))[0]
     material = body.material
     if load is Load.NORMAL:
         out = 2 / (material.plane_strain_modulus * q)
@@ -82,7 +92,9 @@ def stress_response(grid: Grid, body: Body, depth: float, load: Load) -> FloatAr
         raise InputError(f"depth: {depth!r} must be finite and not negative [m]")
     kx, ky, q, odd_x, odd_y = _wavevectors(grid)
     if not body.homogeneous:
-        out = layered.stress_response(kx, ky, body, float(depth), tangential=load is Load.TANGENTIAL)
+        half = grid.shape[0] // 2 + 1
+        rows = layered.stress_response(kx[:half], ky[:half], body, float(depth), tangential=load is Load.TANGENTIAL)
+        out = _mirrored(rows, grid.shape[0], STRESS_PARITY[load])
         for component, (parity_x, parity_y) in enumerate(STRESS_PARITY[load]):
             if parity_x < 0:
                 out[component] *= odd_x == kx
