@@ -258,7 +258,7 @@ def test_cells_side_by_side_have_the_bits_of_single_ones(depth, spacing, load):
     half = 0.5 * spacing[0], 0.5 * spacing[1]
     for i, j, q in itertools.product(range(7), range(150), (-1, 0, 1)):
         layered_cells._add_cell(
-            kind, i * spacing[0], (j + 150 * q) * spacing[1], *half, table.decay, 0.0, 0.0, table.edges,
-            table.coefficients, np.empty((400, 4)), np.empty(table.coefficients.shape[2]), single[:, i, j],
+            kind, i * spacing[0], (j + 150 * q) * spacing[1], *half, table, np.empty((400, 4)),
+            np.empty(table.coefficients.shape[2]), single[:, i, j],
         )  # fmt: skip
     assert np.array_equal(got, single)
