@@ -63,7 +63,7 @@ def yield_below_the_surface(facts: Facts) -> Iterator[str]:
     pressure stays below the hardness, so that one sentence says it.
     """
     for case in facts.cases:
-        strengths = [body.material.yield_stress for body in case.bodies.values() if body.layer is None]
+        strengths = [body.material.yield_stress for body in case.bodies.values() if body.homogeneous]
         known = [value for value in strengths if value is not None]
         if case.smooth is None or case.cap is not None or not known or not facts.of_kind("contact", "film"):
             continue

@@ -110,8 +110,9 @@ class Facts:
             if table is not None and table.material is not None:
                 body = table.build()
                 found[f"{name}.material"] = body.material
-                if body.layer is not None:
-                    found[f"{name}.layer.material"] = body.layer.material
+                for number, layer in enumerate(body.layers):
+                    key = "layer" if table.layer is not None else f"layers[{number}]"
+                    found[f"{name}.{key}.material"] = layer.material
         return found
 
     def worst_surfaces(self, measure: Callable[[RoughSurface], float]) -> Iterator[tuple[float, Case, RoughSurface]]:

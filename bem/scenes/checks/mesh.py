@@ -131,7 +131,7 @@ def depths_miss_the_largest_stress(facts: Facts) -> Iterator[str]:
     From friction 0.3 on it is largest at the surface (Hamilton 1983; Smith & Liu 1953). One depth alone is meant.
     """
     for case in facts.cases:
-        bare = all(body.layer is None for body in case.bodies.values())
+        bare = all(body.homogeneous for body in case.bodies.values())
         if not (len(case.depths) > 1 and case.smooth is not None and bare and facts.of_kind("contact")):
             continue
         rough = any(surface.kind != "smooth" for surface in case.surfaces.values())

@@ -99,10 +99,8 @@ def _column(case: Case) -> dict[str, str]:
 
 
 def _body(body: Body) -> str:
-    below = _material(body.material)
-    if body.layer is None:
-        return below
-    return f"{si(body.layer.thickness, 'm')} of {_material(body.layer.material)}, on {below}"
+    stack = [f"{si(layer.thickness, 'm')} of {_material(layer.material)}" for layer in body.layers]
+    return ", on ".join([*stack, _material(body.material)])
 
 
 def _material(material: Material) -> str:
