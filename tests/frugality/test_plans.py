@@ -118,7 +118,7 @@ def test_a_plan_refuses_surfaces_that_cannot_be_generated(monkeypatch, name, set
         raise AssertionError("heights were made")
 
     plan_scene(name)  # the scene as it is can be had: the check can fail
-    monkeypatch.setattr("bem.surfaces.generate._impose_moments", forbidden)
+    monkeypatch.setattr("bem.surfaces.generate.impose_moments", forbidden)
     with pytest.raises(InputError, match=words) as caught:
         plan_scene(name, settings)
     body = settings[0].split(".")[0]

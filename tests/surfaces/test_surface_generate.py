@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from bem import Grid, InputError, describe_surface, generate_surface
 from bem.surfaces import radial_spectrum
 from bem.surfaces.distributions import standard_quantiles
-from bem.surfaces.generate import SAMPLE_LENGTH_TOLERANCE, STATISTICS_TOLERANCE
+from bem.surfaces.generate import SAMPLE_LENGTH_TOLERANCE
+from bem.surfaces.moments import STATISTICS_TOLERANCE
 
 CELL = 1e-7
 PERIODIC = (True, True)
@@ -141,9 +142,9 @@ def test_seeds_differ_and_are_uncorrelated():
 
 
 def test_phases_are_uniform():
-    from bem.surfaces.generate import _phases
+    from bem.surfaces.spectrum import phases
 
-    phases = _phases((200, 200), 3)[1:, 1:-1]
+    phases = phases((200, 200), 3)[1:, 1:-1]
     # mean of n random unit vectors is 1/sqrt(n) long; four standard deviations
     for power in (1, 2, 3):
         assert abs(np.mean(phases**power)) < 4 / np.sqrt(phases.size)
@@ -242,6 +243,9 @@ def test_all_mistakes_at_once():
     with pytest.raises(InputError) as caught:
         generate_surface(square(64), rms_height=-1, seed=-1, correlation_length=1e-6, hurst=0.8, kurtosis=0.5)
     assert len(caught.value.messages) == 4
+    with pytest.raises(InputError) as caught:  # one length for both axes is one mistake
+        generate_surface(square(64), rms_height=1e-7, seed=1, correlation_length=-1e-6)
+    assert len(caught.value.messages) == 1
 
 
 def test_grid_is_checked():

@@ -1,0 +1,131 @@
+"""Skewness and kurtosis of a random surface, met within its spectrum.
+
+Ranks and amplitudes are put back in turn (Schreiber & Schmitz, *Phys. Rev. Lett.* 77 (1996) 635), then Newton's method
+on a quadratic and a cubic correction without waves outside the spectrum closes what is left.
+
+Knows heights and amplitudes; no grid, no lengths. Verified in tests/surfaces/test_surface_generate.py: moments of the
+sample to STATISTICS_TOLERANCE, nothing outside the spectrum.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import scipy.fft as fft
+
+from bem.errors import InputError
+from bem.grid import FloatArray
+from bem.surfaces.distributions import standard_quantiles
+from bem.surfaces.spectrum import multiplicity
+
+STATISTICS_TOLERANCE = 1e-6
+"""Largest difference between the asked and the given skewness and kurtosis."""
+
+_ITERATIONS = 12
+_SLACKS = (1.0, 3.0, 10.0, 100.0)
+"""How far the spectrum may give way, tried in turn; more than 1 is needed where there are few waves only."""
+
+
+def standardise(heights: FloatArray) -> FloatArray:
+    """Heights of zero mean and unit rms."""
+    deviation = heights - heights.mean()
+    rms = float(np.sqrt(np.mean(deviation**2)))
+    deviation = deviation / rms
+    return deviation - deviation.mean()
+
+
+def _moments(z: FloatArray) -> tuple[float, float]:
+    square = z * z
+    return float(np.mean(square * z)), float(np.mean(square * square))
+
+
+def impose_moments(heights: FloatArray, amplitude: FloatArray, skewness: float, kurtosis: float) -> FloatArray:
+    """Standardised heights with these moments; a Gaussian request that so few waves cannot meet is returned as it is.
+
+    Raises
+    ------
+    InputError : moments other than 0 and 3 that this spectrum cannot have.
+    """
+    gaussian = skewness == 0.0 and kurtosis == 3.0
+    if not gaussian:
+        heights = _rank_and_spectrum(heights, amplitude, skewness, kurtosis)
+    for slack in (1.0,) if gaussian else _SLACKS:
+        polished = _polish(heights, amplitude, skewness, kurtosis, slack)
+        if polished is not None:
+            return polished
+    if gaussian:
+        return heights
+    given = _moments(heights)
+    raise InputError(
+        f"generate_surface: skewness {skewness!r} and kurtosis {kurtosis!r} cannot be had with this spectrum on "
+        f"{heights.shape[0]} x {heights.shape[1]} cells; the nearest found are {given[0]:.3g} and {given[1]:.3g}: "
+        "take a shorter correlation length (or roll-off), a larger grid, or milder statistics"
+    )
+
+
+def _rank_and_spectrum(heights: FloatArray, amplitude: FloatArray, skewness: float, kurtosis: float) -> FloatArray:
+    target = standard_quantiles(heights.size, skewness, kurtosis)
+    for _ in range(_ITERATIONS):
+        ranked = np.empty(heights.size)
+        ranked[np.argsort(heights, axis=None, kind="stable")] = target
+        spectrum = fft.rfft2(ranked.reshape(heights.shape))
+        size = np.abs(spectrum)
+        spectrum *= np.divide(amplitude, size, out=np.zeros_like(size), where=size > 0)
+        heights = standardise(fft.irfft2(spectrum, heights.shape))
+    return heights
+
+
+def _polish(
+    heights: FloatArray, amplitude: FloatArray, skewness: float, kurtosis: float, slack: float
+) -> FloatArray | None:
+    """z + a P(z^2) + b P(z^3) with a and b by Newton until both moments are met; None if it fails.
+
+    P cuts every wave of the correction down to `slack` times the prescribed amplitude, so nothing leaves the band and
+    no wave changes by more than its part.
+    """
+    power = float((amplitude**2 * multiplicity((heights.shape[0], heights.shape[1]))).sum())
+    envelope = amplitude * (slack * heights.size / math.sqrt(power))
+
+    def in_band(field: FloatArray) -> FloatArray:
+        spectrum = fft.rfft2(field)
+        size = np.abs(spectrum)
+        spectrum *= np.minimum(1.0, np.divide(envelope, size, out=np.zeros_like(size), where=size > 0))
+        return np.asarray(fft.irfft2(spectrum, field.shape))
+
+    wanted = np.array([skewness, kurtosis])
+    for _ in range(40):
+        missed = wanted - _moments(heights)
+        if np.abs(missed).max() <= 0.01 * STATISTICS_TOLERANCE:
+            return heights
+        square = in_band(heights * heights)
+        cube = in_band(heights**3)
+        coefficients = _newton(heights, square, cube, missed)
+        if coefficients is None:
+            return None
+        heights = standardise(heights + coefficients[0] * square + coefficients[1] * cube)
+    return heights if np.abs(wanted - _moments(heights)).max() <= STATISTICS_TOLERANCE else None
+
+
+def _newton(z: FloatArray, square: FloatArray, cube: FloatArray, missed: FloatArray) -> FloatArray | None:
+    """One damped step; moments of the standardised sum linearised about (0, 0)."""
+    skewness, kurtosis = _moments(z)
+    columns = []
+    for direction in (square, cube):
+        along = float(np.mean(z * direction))
+        columns.append(
+            [
+                3 * float(np.mean(z * z * direction)) - 3 * skewness * along,
+                4 * float(np.mean(z**3 * direction)) - 4 * kurtosis * along,
+            ]
+        )
+    jacobian = np.array(columns).T
+    scale = float(np.abs(jacobian).max())
+    if not 0 < scale < math.inf or abs(np.linalg.det(jacobian / scale)) < 1e-10:
+        return None
+    step: FloatArray = np.linalg.solve(jacobian, missed)
+    # small enough steps keep the map monotone over most of the heights
+    largest = float(np.abs(step[0] * square + step[1] * cube).max() / max(1.0, np.abs(z).max()))
+    if not math.isfinite(largest):
+        return None
+    return step * min(1.0, 0.1 / largest) if largest > 0 else step
