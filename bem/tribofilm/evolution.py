@@ -7,6 +7,9 @@ The unknowns are the film grown so far and the film worn so far, so that thickne
 last bit. The right-hand side is stiff where growth falls steeply with thickness: Radau IIA (order 5, L-stable) with
 error control. A delay is integrated by the method of steps: over one lag the past is a known, dense function, and the
 kinks it carries lie at the ends of the steps.
+
+Knows the balance and a growth rate of the thickness; no contact. Verified in tests/tribofilm/test_film_evolution.py
+(closed forms, delays) and test_tribofilm_stiff.py.
 """
 
 from __future__ import annotations
@@ -19,18 +22,16 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from bem.errors import BemError, ConvergenceError, InputError
+from bem.errors import BemError, ConvergenceError
 from bem.grid import FloatArray
 from bem.representation import readable
+from bem.tribofilm.balance import FilmBalance, checked_times
 
 GrowthRate = Callable[[float], float]
 """mean thickness [m] -> growth rate [m/s]"""
 
 _ATOM = 2e-10
 """Height of an atom [m]: thinner films need no relative accuracy."""
-
-MOST_LAGS = 5000
-"""Lags within the time: each is integrated by itself, some tens of evaluations."""
 
 _MOST_EVALUATIONS = 200_000
 """Of the rates. An ordinary film takes some hundreds, each of its lags some tens."""
@@ -84,74 +85,15 @@ def evolve_film(
     InputError : times that do not increase, negative constants, a lag that fits too often into the time.
     ConvergenceError : the integrator gave up, or took more evaluations than any film should.
     """
-    when = np.asarray(times, dtype=np.float64)
-    messages = []
-    if when.ndim != 1 or when.size < 2 or not (np.diff(when) > 0).all():
-        messages.append("times: at least two increasing values [s]")
-    for key, value in (("wear_coefficient", wear_coefficient), ("lag", lag), ("initial_thickness", initial_thickness)):
-        if not (math.isfinite(value) and value >= 0):
-            messages.append(f"{key} {value!r} must be >= 0 and finite")
-    if not messages and 0 < lag * MOST_LAGS < when[-1] - when[0]:
-        messages.append(f"lag {lag!r} must be 0 or at least {1 / MOST_LAGS:g} of the time, {when[-1] - when[0]:g} s")
-    if not concentration_constant > 0:
-        messages.append(f"concentration_constant {concentration_constant!r} must be positive [1/m]")
-    if not 0 < tolerance < 1:
-        messages.append(f"tolerance {tolerance!r} must lie between 0 and 1")
-    if messages:
-        raise InputError(messages)
-
-    history = _Past(when[0], initial_thickness)
-    span = when[-1] - when[0]
-    step = lag if lag > 0 else span
-    state = np.array([0.0, 0.0, 0.0])
-    evaluations = 0
-
-    def rates(t: float, y: FloatArray) -> FloatArray:
-        nonlocal evaluations
-        evaluations += 1
-        if evaluations > _MOST_EVALUATIONS:
-            raise ConvergenceError(
-                f"tribofilm: the time integration came to {t:.6g} s in {_MOST_EVALUATIONS} evaluations: at a wear "
-                f"of {wear_coefficient:g} 1/s after a lag of {lag:g} s the film comes and goes; lower either"
-            )
-        # what rounding takes below zero comes back: cut off there, wear had no slope and Newton's steps diverged
-        balance = initial_thickness + float(y[0]) - float(y[1])
-        thickness = max(balance, 0.0)
-        growth = growth_rate(thickness)
-        if lag > 0:
-            wear = wear_coefficient * history(t - lag)
-            wear = min(wear, growth + thickness / (_SHORT * lag))
-        else:
-            wear = wear_coefficient * balance
-        share = math.exp(-concentration_constant * thickness) if math.isfinite(concentration_constant) else 0.0
-        return np.array([growth, wear, share * wear])
-
-    accuracy: dict[str, Any] = {"rtol": tolerance, "atol": _ATOM * tolerance}
-    begin = when[0]
-    while begin < when[-1]:
-        end = min(begin + step, when[-1])
-        if when[-1] - end < 1e-9 * span:
-            end = when[-1]
-        # a step that overflows or divides by zero within Radau is repeated with a shorter one
-        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-            try:
-                solution = solve_ivp(rates, (begin, end), state, method="Radau", dense_output=True, **accuracy)
-            except BemError:
-                raise
-            except ValueError as error:  # a step without finite numbers in it
-                raise ConvergenceError(f"tribofilm: the time integration broke off after {begin:.6g} s") from error
-        if not solution.success:
-            raise ConvergenceError(
-                f"tribofilm: the time integration stopped at {solution.t[-1]:.6g} s: {solution.message}"
-            )
-        history.append(end, solution.sol)
-        state = solution.y[:, -1]
-        begin = end
-
-    grown, worn, substrate = np.array([history.state(t) for t in when]).T
+    balance = FilmBalance(wear_coefficient, lag, concentration_constant, initial_thickness)
+    when = checked_times(times, balance, tolerance)
+    past = _Past(when[0], initial_thickness)
+    rates = _Rates(balance, growth_rate, past)
+    _integrate(rates, when, tolerance)
+    states = [past.state(t) for t in when]
+    at = np.array([rates(t, state) for t, state in zip(when, states, strict=True)])
+    grown, worn, substrate = np.array(states).T
     thickness = np.maximum(initial_thickness + grown - worn, 0.0)
-    at = np.array([rates(t, np.array([g, w, s])) for t, g, w, s in zip(when, grown, worn, substrate, strict=True)])
-    finite = math.isfinite(concentration_constant)
     return FilmHistory(
         time=when,
         thickness=thickness,
@@ -160,9 +102,72 @@ def evolve_film(
         substrate_wear=substrate,
         growth_rate=at[:, 0],
         wear_rate=np.maximum(at[:, 1], 0.0),
-        concentration=np.exp(-concentration_constant * thickness) if finite else np.zeros_like(thickness),
-        evaluations=evaluations - len(when),
+        concentration=balance.concentration(thickness),
+        evaluations=rates.evaluations - len(when),
     )
+
+
+class _Rates:
+    """Rates of grown, worn and substrate wear [m/s] at a time and these three [m], counted."""
+
+    def __init__(self, balance: FilmBalance, growth_rate: GrowthRate, past: _Past) -> None:
+        self.balance = balance
+        self.growth_rate = growth_rate
+        self.past = past
+        self.evaluations = 0
+
+    def __call__(self, t: float, y: FloatArray) -> FloatArray:
+        balance = self.balance
+        self.evaluations += 1
+        if self.evaluations > _MOST_EVALUATIONS:
+            raise ConvergenceError(
+                f"tribofilm: the time integration came to {t:.6g} s in {_MOST_EVALUATIONS} evaluations: at a wear of "
+                f"{balance.wear_coefficient:g} 1/s after a lag of {balance.lag:g} s the film comes and goes; lower "
+                "either"
+            )
+        # what rounding takes below zero comes back: cut off there, wear had no slope and Newton's steps diverged
+        difference = balance.initial_thickness + float(y[0]) - float(y[1])
+        thickness = max(difference, 0.0)
+        growth = self.growth_rate(thickness)
+        if balance.lag > 0:
+            wear = balance.wear_coefficient * self.past(t - balance.lag)
+            wear = min(wear, growth + thickness / (_SHORT * balance.lag))
+        else:
+            wear = balance.wear_coefficient * difference
+        constant = balance.concentration_constant
+        concentration = math.exp(-constant * thickness) if math.isfinite(constant) else 0.0
+        return np.array([growth, wear, concentration * wear])
+
+
+def _integrate(rates: _Rates, when: FloatArray, tolerance: float) -> None:
+    """From the first time to the last, over one lag at a time; the solution is appended to the rates' past."""
+    begin, last = when[0], when[-1]
+    span = last - begin
+    step = rates.balance.lag if rates.balance.lag > 0 else span
+    state = np.zeros(3)
+    while begin < last:
+        end = min(begin + step, last)
+        if last - end < 1e-9 * span:
+            end = last
+        solution = _solve_step(rates, (begin, end), state, tolerance)
+        rates.past.append(end, solution.sol)
+        state = solution.y[:, -1]
+        begin = end
+
+
+def _solve_step(rates: _Rates, between: tuple[float, float], state: FloatArray, tolerance: float) -> Any:
+    accuracy: dict[str, Any] = {"rtol": tolerance, "atol": _ATOM * tolerance}
+    # a step that overflows or divides by zero within Radau is repeated with a shorter one
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
+        try:
+            solution = solve_ivp(rates, between, state, method="Radau", dense_output=True, **accuracy)
+        except BemError:
+            raise
+        except ValueError as error:  # a step without finite numbers in it
+            raise ConvergenceError(f"tribofilm: the time integration broke off after {between[0]:.6g} s") from error
+    if not solution.success:
+        raise ConvergenceError(f"tribofilm: the time integration stopped at {solution.t[-1]:.6g} s: {solution.message}")
+    return solution
 
 
 class _Past:

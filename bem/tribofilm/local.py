@@ -4,6 +4,9 @@ With the mean thickness alone (`grow.grow_tribofilm`, as in the source) the film
 contact; here it changes the surface too. Each step solves the contact under the surface raised by the film, stiffness
 and hardness being those of the mean film in the contact, and advances every cell by the exponential trapezoidal rule
 (ETD2RK, Cox and Matthews 2002): wear is integrated exactly, so no step, however long, makes a film negative.
+
+Knows the balance and the contact under a film; no scene. Verified in tests/tribofilm/test_local_film.py: order in time,
+uniform films against the mean's equation.
 """
 
 from __future__ import annotations
@@ -13,9 +16,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from bem.errors import ConvergenceError, InputError
+from bem.errors import ConvergenceError
 from bem.grid import FloatArray
+from bem.tribofilm.balance import FilmBalance, checked_times
 from bem.tribofilm.contact_growth import ContactSample, FilmContact, solve_film_contact
 
 _SAFETY, _SHRINK, _STRETCH = 0.9, 0.2, 3.0
@@ -63,52 +68,22 @@ def grow_local_film(
     InputError : times that do not increase, negative constants. InfeasibleError : a load beyond hardness times area.
     ConvergenceError : a contact that did not converge, or steps that shrink without end.
     """
-    when = np.asarray(times, dtype=np.float64)
-    messages = []
-    if when.ndim != 1 or when.size < 2 or not (np.diff(when) > 0).all():
-        messages.append("times: at least two increasing values [s]")
-    for key, value in (("wear_coefficient", wear_coefficient), ("initial_thickness", initial_thickness)):
-        if not (math.isfinite(value) and value >= 0):
-            messages.append(f"{key} {value!r} must be >= 0 and finite")
-    if not 0 < tolerance < 1:
-        messages.append(f"tolerance {tolerance!r} must lie between 0 and 1")
-    if messages:
-        raise InputError(messages)
-
+    balance = FilmBalance(wear_coefficient, 0.0, concentration_constant, initial_thickness)
+    when = checked_times(times, balance, tolerance)
     area = np.ones(contact.grid.shape, bool) if contact.nominal_area is None else contact.nominal_area.astype(bool)
-    solved = 0
-    last: ContactSample | None = None
-
-    def growth(film: FloatArray, now: float) -> ContactSample:
-        nonlocal solved, last
-        raised = replace(contact, gap=contact.gap - film)
-        touched = film[last.pressure > 0] if last is not None else film[area]
-        mean = float(touched.mean()) if touched.size else 0.0
-        last = solve_film_contact(raised, mean, None if last is None else last.pressure)
-        solved += 1
-        if callback is not None:
-            callback(now, last)
-        return last
-
+    contacts = _Contacts(contact, area, callback)
     film = np.full(contact.grid.shape, initial_thickness)
-    grown = np.zeros(contact.grid.shape)
-    substrate = np.zeros(contact.grid.shape)
+    films = _Films(film, np.zeros(film.shape), np.zeros(film.shape), contacts.solve(film, when[0]))
     rows = [(float(film[area].mean()), 0.0, 0.0, 0.0)]
-    start = growth(film, when[0])
     step = 0.01 * (when[-1] - when[0])
     rejected = 0
     now = when[0]
     for target in when[1:]:
         while now < target:
             step = min(step, target - now)
-            decay = math.exp(-wear_coefficient * step)
-            first, second = _weights(wear_coefficient * step)
-            predicted = film * decay + step * first * start.growth_map
-            end = growth(predicted, now + step)
-            corrected = predicted + step * second * (end.growth_map - start.growth_map)
-            corrected = np.maximum(corrected, 0.0)
-            error = float(np.abs(corrected - predicted)[area].mean())
-            allowed = tolerance * max(float(corrected[area].mean()), _THIN)
+            tried, difference = _advance(films, contacts, balance, now, step)
+            error = float(difference[area].mean())
+            allowed = tolerance * max(float(tried.film[area].mean()), _THIN)
             factor = min(_STRETCH, max(_SHRINK, _SAFETY * math.sqrt(allowed / error))) if error > 0 else _STRETCH
             if error > allowed:
                 rejected += 1
@@ -116,19 +91,67 @@ def grow_local_film(
                 if step < 1e-9 * (when[-1] - when[0]):
                     raise ConvergenceError(f"tribofilm: time steps shrink without end at {now:.6g} s")
                 continue
-            gained = 0.5 * step * (start.growth_map + end.growth_map)
-            worn = film + gained - corrected
-            if math.isfinite(concentration_constant):
-                share = 0.5 * (np.exp(-concentration_constant * film) + np.exp(-concentration_constant * corrected))
-                substrate += share * worn
-            grown += gained
-            film, now, start = corrected, now + step, end
+            films, now = tried, now + step
             step *= factor
         now = target
-        mean_film, mean_grown = float(film[area].mean()), float(grown[area].mean())
-        rows.append((mean_film, mean_grown, initial_thickness + mean_grown - mean_film, float(substrate[area].mean())))
-    thickness, total, lost, wear = np.array(rows).T
-    return LocalFilm(when, thickness, total, lost, wear, film, start.pressure, solved, rejected)
+        thickness, grown, substrate = (float(each[area].mean()) for each in (films.film, films.grown, films.substrate))
+        rows.append((thickness, grown, initial_thickness + grown - thickness, substrate))
+    means, grown_means, worn_means, wear_means = np.array(rows).T
+    return LocalFilm(
+        when, means, grown_means, worn_means, wear_means, films.film, films.contact.pressure, contacts.solved, rejected
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Films:
+    """At one time: local film, what has grown and how much substrate has left, (nx, ny) [m], and the contact there."""
+
+    film: FloatArray
+    grown: FloatArray
+    substrate: FloatArray
+    contact: ContactSample
+
+
+class _Contacts:
+    """Contacts under the surface raised by a film, counted; each starts from the pressure of the one before."""
+
+    def __init__(
+        self, contact: FilmContact, area: NDArray[np.bool_], callback: Callable[[float, ContactSample], None] | None
+    ) -> None:
+        self.contact = contact
+        self.area = area
+        self.callback = callback
+        self.solved = 0
+        self.last: ContactSample | None = None
+
+    def solve(self, film: FloatArray, now: float) -> ContactSample:
+        """The contact under this film."""
+        raised = replace(self.contact, gap=self.contact.gap - film)
+        touched = film[self.area if self.last is None else self.last.pressure > 0]
+        mean = float(touched.mean()) if touched.size else 0.0
+        self.last = solve_film_contact(raised, mean, None if self.last is None else self.last.pressure)
+        self.solved += 1
+        if self.callback is not None:
+            self.callback(now, self.last)
+        return self.last
+
+
+def _advance(
+    films: _Films, contacts: _Contacts, balance: FilmBalance, now: float, step: float
+) -> tuple[_Films, FloatArray]:
+    """Films after `step`, and how far they are from those predicted with the growth at the step's beginning."""
+    start = films.contact
+    decay = math.exp(-balance.wear_coefficient * step)
+    first, second = _weights(balance.wear_coefficient * step)
+    predicted = films.film * decay + step * first * start.growth_map
+    end = contacts.solve(predicted, now + step)
+    corrected = predicted + step * second * (end.growth_map - start.growth_map)
+    corrected = np.maximum(corrected, 0.0)
+    gained = 0.5 * step * (start.growth_map + end.growth_map)
+    worn = films.film + gained - corrected
+    concentration = 0.5 * (balance.concentration(films.film) + balance.concentration(corrected))
+    tried = _Films(corrected, films.grown + gained, films.substrate + concentration * worn, end)
+    return tried, np.abs(corrected - predicted)
 
 
 def _weights(z: float) -> tuple[float, float]:
