@@ -1,4 +1,4 @@
-"""Laws of oil, wear and tribofilms: what one looks like, and the one registry that knows them all.
+"""Laws of oil, friction, wear and tribofilms: what one looks like, and the one registry that knows them all.
 
 A law is a frozen dataclass that derives from its family's class (`bem.lubrication.viscosity.ViscosityLaw` and its like,
 see `FAMILIES`): a `name`, its parameters as fields made by `parameter`, its formula as the method that the family asks
@@ -32,6 +32,7 @@ FAMILIES = {
     "viscosity_law": "bem.lubrication.viscosity",
     "density_law": "bem.lubrication.density",
     "shear_law": "bem.lubrication.shear",
+    "boundary_friction": "bem.friction.boundary",
     "criterion": "bem.wear.criterion",
     "growth": "bem.tribofilm.growth",
     "film_property": "bem.tribofilm.properties",

@@ -1,9 +1,9 @@
 """Friction of a balance, and what both load sharings report of it: one definition each.
 
 Friction is (boundary part + film part) / load, positive where it resists the sliding. The boundary part is the boundary
-friction times the contact's load, zero without sliding; the film part the shear force of the film on the flat outside
-the cells in contact. The lambda ratio is the minimum of the smooth film under the *whole* load over the rms height of
-both surfaces together: of the conditions, not of how the load came to be shared.
+shear stress summed over the contact, zero without sliding; the film part the shear force of the film on the flat
+outside the cells in contact. The lambda ratio is the minimum of the smooth film under the *whole* load over the rms
+height of both surfaces together: of the conditions, not of how the load came to be shared.
 """
 
 from __future__ import annotations
@@ -13,11 +13,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bem.convolution import couples
+from bem.friction.boundary import filled_part
 from bem.friction.film import PatchFilm
 from bem.friction.rough_contact import Pressed
 from bem.friction.setup import MixedSetup
 from bem.friction.solution import sliding_sign
 from bem.grid import FloatArray
+from bem.materials import Body
 
 LARGEST_FRICTION = 1.0
 """Coefficient of friction that neither a boundary layer nor an oil under pressure reaches."""
@@ -25,19 +28,31 @@ LARGEST_FRICTION = 1.0
 
 @dataclass(frozen=True)
 class Forces:
-    """Friction forces on the whole contact [N]."""
+    """Friction forces on the whole contact [N], and the boundary part over the contact's load, 0 without a contact."""
 
     boundary: float
     film: float
+    coefficient: float
 
 
 def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup, speeds: tuple[float, float]) -> Forces:
     """Both parts of friction at a pair of speeds (u1, u2) [m/s]."""
+    coefficient = _boundary_coefficient(contact, setup, abs(speeds[0] - speeds[1]))
     if contact is None:
-        return Forces(0.0, sliding_sign(speeds) * film.shear_force)
+        return Forces(0.0, sliding_sign(speeds) * film.shear_force, coefficient)
     covered = float(np.sum(film.shear_stress * (contact.pressure > 0))) * setup.grid.cell_area * setup.slices
-    boundary = setup.boundary_friction * contact.load if speeds[0] != speeds[1] else 0.0
-    return Forces(boundary, sliding_sign(speeds) * (film.shear_force - covered))
+    boundary = coefficient * contact.load if speeds[0] != speeds[1] else 0.0
+    return Forces(boundary, sliding_sign(speeds) * (film.shear_force - covered), coefficient)
+
+
+def _boundary_coefficient(contact: Pressed | None, setup: MixedSetup, sliding_speed: float) -> float:
+    law = setup.boundary_law
+    if law.constant is not None:
+        return law.constant
+    if contact is None or sliding_speed == 0 or not contact.pressure.any():
+        return 0.0
+    filled = filled_part(contact.pressure, contact.area / setup.slices, setup.grid)
+    return law.mean_coefficient(contact.pressure, filled, sliding_speed)
 
 
 def lambda_ratio(whole: PatchFilm, height: FloatArray) -> float:
@@ -46,10 +61,12 @@ def lambda_ratio(whole: PatchFilm, height: FloatArray) -> float:
     return whole.minimum_thickness / rms if rms > 0 else math.inf
 
 
-def validity_notes(friction: float, film: PatchFilm, whole: PatchFilm, setup: MixedSetup) -> tuple[str, ...]:
+def validity_notes(
+    friction: float, forces: Forces, film: PatchFilm, whole: PatchFilm, setup: MixedSetup
+) -> tuple[str, ...]:
     """What to say of friction that is not to be believed, and of a film under the whole load that is not to be had."""
     notes = []
-    if friction > max(LARGEST_FRICTION, 1.01 * setup.boundary_friction):
+    if friction > max(LARGEST_FRICTION, 1.01 * forces.coefficient):
         stressed = float(np.abs(film.shear_stress).max()) > float(film.pressure.max())
         notes.append(
             f"friction {friction:.3g} is above any physical bound (about {LARGEST_FRICTION:g}): "
@@ -65,3 +82,18 @@ def validity_notes(friction: float, film: PatchFilm, whole: PatchFilm, setup: Mi
             "viscosity: lambda_ratio is that of this load, an upper bound"
         )
     return tuple(notes)
+
+
+def coupling_notes(forces: Forces, traction: float, setup: MixedSetup) -> tuple[str, ...]:
+    """What to say where the normal gap felt another boundary friction than the contact has: `traction` over pressure
+    and the mean coefficient differ by more than a tenth, and bodies elastically different couple them."""
+    used, found = abs(traction), forces.coefficient
+    if setup.boundary_law.constant is not None or used == 0 or found == 0 or abs(used - found) <= 0.1 * found:
+        return ()
+    bodies = (setup.bodies,) if isinstance(setup.bodies, Body) else setup.bodies
+    if not couples(bodies):
+        return ()
+    return (
+        f"boundary friction couples into the normal gap as {used:.3g}, its value at the pressure of a rough contact by "
+        f"itself; the mean of this contact is {found:.3g}",
+    )

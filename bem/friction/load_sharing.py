@@ -18,8 +18,9 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.friction.balance import Balance, BalanceStart, Regime, share_load
+from bem.friction.boundary import BoundaryFrictionGiven
 from bem.friction.film import PatchFilm, SolvedFilm
-from bem.friction.forces import friction_forces, lambda_ratio, validity_notes
+from bem.friction.forces import coupling_notes, friction_forces, lambda_ratio, validity_notes
 from bem.friction.rough_contact import RoughContact, rough_contact
 from bem.friction.setup import MixedSetup
 from bem.friction.solution import MixedSolution
@@ -39,7 +40,7 @@ def solve_mixed(
     load: float,
     speeds: Sequence[float],
     lubricant: Lubricant,
-    boundary_friction: float,
+    boundary_friction: BoundaryFrictionGiven,
     hardness: float | None = None,
     tolerance: float = 1e-4,
     film_points: int = 2000,
@@ -62,7 +63,8 @@ def solve_mixed(
     load : on the whole width [N].
     speeds : (u1, u2) of flat and cylinder [m/s].
     lubricant : the oil.
-    boundary_friction : coefficient where the surfaces touch.
+    boundary_friction : coefficient where the surfaces touch; or a law of `bem.friction.boundary`, as an object or as a
+        table such as {"kind": "pressure_dependent", "shear_strength": 1e6, "pressure_coefficient": 0.1}.
     hardness : cap of the contact pressure [Pa]; None is elastic.
     tolerance : of the balance, (F_H + F_C - load) / load.
     film_points : nodes of the film's own mesh.
@@ -76,8 +78,9 @@ def solve_mixed(
 
     Returns
     -------
-    MixedSolution; friction = (boundary_friction F_C + F_film) / load, F_film the shear force of the film on the flat
-    outside the cells in contact. `status` is converged only where the returned film and contact carry the load to
+    MixedSolution; friction = (F_boundary + F_film) / load, F_boundary the sum of the boundary shear stress over the
+    contact (boundary_friction F_C for a coefficient), F_film the shear force of the film on the flat outside the cells
+    in contact. `status` is converged only where the returned film and contact carry the load to
     `tolerance`; `notes` say where a model is outside its validity. A film that is left with less than a tenth of the
     tolerance is boundary lubrication: the contact is then solved for all the rest of the load.
 
@@ -90,7 +93,8 @@ def solve_mixed(
     -----
     Model of the thesis' papers A and D; the volume condition is `mean_gap` control of the rough contact. Boundary
     friction couples into the normal displacements of the coupled contact unless the bodies are elastically alike, where
-    it cancels; the flat feels it against its sliding over the cylinder. Uncoupled asperities do not feel it.
+    it cancels; the flat feels it against its sliding over the cylinder; a law takes one number for it
+    (`bem.friction.boundary`). Uncoupled asperities do not feel it.
     """
     setup = MixedSetup(
         grid=grid,
@@ -199,7 +203,7 @@ def solve_setup(
     whole, films = _whole_film(film, rough, setup.load)
     balance = share_load(film, rough, setup.load, setup.tolerance, whole, _start(setup, film.speeds, initial))
     balance = dataclasses.replace(balance, films=balance.films + films)
-    return _solution(setup, height, film, whole, balance)
+    return _solution(setup, height, film, rough, whole, balance)
 
 
 def _whole_film(film: SolvedFilm, rough: RoughContact, load: float) -> tuple[PatchFilm, int]:
@@ -225,7 +229,7 @@ def _start(setup: MixedSetup, speeds: tuple[float, float], initial: MixedSolutio
 
 
 def _solution(
-    setup: MixedSetup, height: FloatArray, film: SolvedFilm, whole: PatchFilm, balance: Balance
+    setup: MixedSetup, height: FloatArray, film: SolvedFilm, rough: RoughContact, whole: PatchFilm, balance: Balance
 ) -> MixedSolution:
     found, contact = balance.film, balance.contact
     forces = friction_forces(found, contact, setup, film.speeds)
@@ -257,5 +261,7 @@ def _solution(
         grid=setup.grid,
         boundary_friction=setup.boundary_friction,
         regime=balance.regime,
-        notes=balance.notes + validity_notes(friction, found, whole, setup),
+        notes=balance.notes
+        + validity_notes(friction, forces, found, whole, setup)
+        + coupling_notes(forces, rough.traction, setup),
     )

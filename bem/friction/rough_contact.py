@@ -4,7 +4,8 @@ The film is as thick as between smooth surfaces. Under *volume* control the roug
 hold the same oil; under *load* control until they carry what they are given, where the film has no say.
 
 Boundary friction couples into the normal gap by one rule. Where the surfaces slide, the flat (the lower body) feels the
-traction f p against its sliding over the cylinder, along -x where u1 > u2, the cylinder the opposite. Normal
+traction f p against its sliding over the cylinder, along -x where u1 > u2, the cylinder the opposite; f is the
+coefficient or, of a law, its value at the pressure of a rough contact by itself (`bem.friction.boundary`). Normal
 displacements follow it unless the bodies are elastically alike: there the two cancel exactly, and nothing is computed.
 Without sliding there is no traction. Uncoupled asperities are Hertz', without friction.
 """
@@ -30,6 +31,7 @@ from bem.friction.asperities import (
     uncoupled_contact,
     volume_shift,
 )
+from bem.friction.boundary import reference_pressure
 from bem.friction.film import PatchFilm
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
@@ -60,6 +62,10 @@ class RoughContact(Protocol):
     """A rough patch, its roughness given."""
 
     @property
+    def traction(self) -> float:
+        """On the flat over the contact's pressure, as the normal gap feels it; 0 where it does not."""
+
+    @property
     def tolerance(self) -> float:
         """What a contact is solved to unless the balance asks for more; 0 where it is exact anyway."""
 
@@ -87,7 +93,20 @@ def rough_contact(setup: MixedSetup, height: FloatArray, speeds: Sequence[float]
     rough = height - height.mean()
     if setup.contact_model == "uncoupled":
         return UncoupledAsperities(setup, rough)
-    return CoupledContact(setup, rough, boundary_traction(speeds, setup.boundary_friction))
+    return CoupledContact(setup, rough, boundary_traction(speeds, reference_friction(setup, rough, speeds)))
+
+
+def reference_friction(setup: MixedSetup, height: FloatArray, speeds: Sequence[float]) -> float:
+    """Boundary friction at the pressure that a rough contact of these heights (nx, ny) [m] has by itself."""
+    law, sliding_speed = setup.boundary_law, abs(speeds[0] - speeds[1])
+    if law.constant is not None:
+        return law.constant
+    if sliding_speed == 0:
+        return 0.0
+    line = setup.line
+    smooth = setup.load / (2 * line.half_width(setup.load) * setup.width)
+    pressure = reference_pressure(height, setup.grid, line.contact_modulus, smooth, setup.hardness)
+    return law.coefficient(pressure, sliding_speed)
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,6 +183,7 @@ class UncoupledAsperities:
 
     setup: MixedSetup
     rough: FloatArray
+    traction: float = 0.0
     tolerance: float = 0.0
     largest_load: float = math.inf
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from bem.errors import InputError
+from bem.friction.boundary import BoundaryFriction, BoundaryFrictionGiven, boundary_law
 from bem.grid import FloatArray, Grid
 from bem.lubrication import Lubricant
 from bem.materials import Body, contact_modulus
@@ -46,7 +48,7 @@ class MixedSetup:
     width: float
     load: float
     lubricant: Lubricant
-    boundary_friction: float
+    boundary_friction: BoundaryFrictionGiven
     hardness: float | None = None
     tolerance: float = 1e-4
     film_points: int = 2000
@@ -62,8 +64,11 @@ class MixedSetup:
         messages = [*self._numbers(), *self._choices()]
         if messages:
             raise InputError(messages)
-        for name in ("radius", "width", "load", "boundary_friction"):
+        for name in ("radius", "width", "load"):
             object.__setattr__(self, name, float(getattr(self, name)))
+        friction = self.boundary_friction
+        made = float(friction) if _real(friction) else boundary_law(friction)  # type: ignore[arg-type]
+        object.__setattr__(self, "boundary_friction", made)
         if not isinstance(self.bodies, Body):
             pair = tuple(self.bodies)
             object.__setattr__(self, "bodies", pair[0] if len(pair) == 1 else pair)
@@ -77,8 +82,7 @@ class MixedSetup:
             value = getattr(self, name)
             if not (_real(value) and value > 0):
                 messages.append(f"{name}: {value!r} must be positive and finite")
-        if not (_real(self.boundary_friction) and self.boundary_friction >= 0):
-            messages.append(f"boundary_friction: {self.boundary_friction!r} must be zero or positive")
+        messages += self._boundary_friction()
         if self.hardness is not None and not (_real(self.hardness) and self.hardness > 0):
             messages.append(f"hardness: {self.hardness!r} must be positive [Pa], or None for elastic contact")
         if not (_real(self.tolerance) and 1e-9 <= self.tolerance <= 0.1):
@@ -88,6 +92,18 @@ class MixedSetup:
         if not (isinstance(self.film_points, (int, np.integer)) and 100 <= self.film_points <= 20000):
             messages.append(f"film_points: {self.film_points!r} must be an integer from 100 to 20000")
         return messages
+
+    def _boundary_friction(self) -> list[str]:
+        value = self.boundary_friction
+        if _real(value) and value >= 0:  # type: ignore[operator]
+            return []
+        if not isinstance(value, (str, Mapping, BoundaryFriction)):
+            return [f"boundary_friction: {value!r} must be zero or positive, or a law"]
+        try:
+            boundary_law(value)
+        except InputError as error:
+            return list(error.messages)
+        return []
 
     def _choices(self) -> list[str]:
         messages = []
@@ -124,6 +140,12 @@ class MixedSetup:
         bodies = (self.bodies,) if isinstance(self.bodies, Body) else self.bodies
         modulus = contact_modulus(*(body.material for body in bodies))
         return LineContact(self.radius, self.width, modulus, self.lubricant)
+
+    @property
+    def boundary_law(self) -> BoundaryFriction:
+        """The boundary friction as a law, also where it is a number."""
+        value = self.boundary_friction
+        return value if isinstance(value, BoundaryFriction) else boundary_law(value)
 
     @property
     def slices(self) -> float:

@@ -10,6 +10,7 @@ from bem.contact import ContactSolution
 from bem.errors import Status
 from bem.friction.asperities import AsperityContact
 from bem.friction.balance import Regime
+from bem.friction.boundary import BoundaryFrictionGiven, boundary_law, filled_part
 from bem.grid import FloatArray, Grid
 from bem.lubrication import FilmSolution
 from bem.representation import readable
@@ -38,7 +39,7 @@ class MixedSolution:
     balance_slope : of ln(film_load + contact_load) with ln(film_load): where the next speed's balance starts from.
     status : converged where the imbalance is within the tolerance and film and contact are converged themselves;
         infeasible where film and surfaces cannot carry the load within their models.
-    grid, boundary_friction : as given.
+    grid, boundary_friction : as given; a law where one was.
     regime : "full film", "mixed" or "boundary": the end of the balance, if any, that it is at.
     notes : sentences on what is outside a model's validity, or at an end of the balance.
     """
@@ -62,7 +63,7 @@ class MixedSolution:
     balance_slope: float
     status: Status
     grid: Grid
-    boundary_friction: float
+    boundary_friction: BoundaryFrictionGiven
     regime: Regime = Regime.MIXED
     notes: tuple[str, ...] = ()
 
@@ -91,7 +92,13 @@ class MixedSolution:
     @property
     def boundary_shear_stress(self) -> FloatArray:
         """Boundary friction (nx, ny) [Pa]: what the flat takes along with it, positive where u1 > u2."""
-        return sliding_sign(self.speeds) * self.boundary_friction * self.contact_pressure
+        sign, speed = sliding_sign(self.speeds), abs(self.speeds[0] - self.speeds[1])
+        if self.contact is None or (speed == 0 and not isinstance(self.boundary_friction, float)):
+            return np.zeros(self.grid.shape)
+        if isinstance(self.boundary_friction, float):
+            return sign * self.boundary_friction * self.contact.pressure
+        filled = filled_part(self.contact.pressure, self.contact.contact_area, self.grid)
+        return sign * boundary_law(self.boundary_friction).cell_stress(self.contact.pressure, filled, speed)
 
 
 def sliding_sign(speeds: tuple[float, float]) -> float:

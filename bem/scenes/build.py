@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from bem.errors import InputError
 from bem.grid import Grid
+from bem.laws import Law
 from bem.materials import Body
 from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, ShapeScene, SmoothSurface
 
@@ -116,7 +117,7 @@ def show_layers(body: Body) -> str:
     return f"{len(body.layers)} layers ({stack})"
 
 
-def traction_couples(lower: Body, upper: Body | None, friction: float) -> bool:
+def traction_couples(lower: Body, upper: Body | None, friction: float | Law) -> bool:
     """Whether traction moves the normal gap: friction between elastically different bodies, as the operator has it."""
     from bem.convolution import couples
 

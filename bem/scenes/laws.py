@@ -153,6 +153,33 @@ class LawKey:
         return {"anyOf": [*([{"enum": alone}] if alone else []), *tables]}
 
 
+@dataclass(frozen=True)
+class LawOrNumber(LawKey):
+    """Annotation of a number or a law: a number as `number` allows it, or what a `LawKey` takes."""
+
+    number: Any = None
+
+    def read(self, value: Any) -> Any:
+        """The number or the law; errors as `LawKey.read`, or those of the number."""
+        if isinstance(value, Law | dict) or (isinstance(value, str) and value.isidentifier()):
+            return super().read(value)
+        return TypeAdapter(self.number).validate_python(value)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
+        """As `LawKey`."""
+        write = core_schema.plain_serializer_function_ser_schema(
+            lambda value: plain(value) if isinstance(value, Law) else value
+        )
+        return core_schema.no_info_plain_validator_function(self.read, serialization=write)
+
+    def __get_pydantic_json_schema__(
+        self, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """The number, or as `LawKey`."""
+        laws = super().__get_pydantic_json_schema__(schema, handler)
+        return {"anyOf": [TypeAdapter(self.number).json_schema(), *laws["anyOf"]]}
+
+
 class LawTable(Table):
     """A table that takes parameters of its laws beside the laws' keys.
 

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from pydantic import Field, model_validator
 
+from bem.friction.boundary import BoundaryFriction, boundary_law
 from bem.lubrication.density import DensityLaw, Incompressible
 from bem.lubrication.shear import LimitedShear, ShearLaw
 from bem.lubrication.viscosity import Roelands, ViscosityLaw
 from bem.scenes.common import Force, PositiveLength, PositivePressure, Table, problem
-from bem.scenes.laws import LawKey, LawTable
+from bem.scenes.laws import LawKey, LawOrNumber, LawTable
 from bem.scenes.units import Pressure, PressureViscosity, Ratio, Speed, Viscosity
 
 if TYPE_CHECKING:
@@ -105,14 +106,16 @@ class LubricatedScene(Table):
     """The contact as a whole: a cylinder along y on a flat. Loads are on its full width.
 
     Loads may be given as maximum Hertz pressures of the smooth contact instead. `hardness` defaults to the softer
-    body's.
+    body's. `boundary_friction` is a coefficient, or a law with its parameters.
     """
 
     radius: PositiveLength
     width: PositiveLength
     loads: Annotated[list[Annotated[Force, Field(gt=0)]], Field(min_length=1, max_length=64)] | None = None
     hertz_pressures: Annotated[list[Annotated[Pressure, Field(gt=0)]], Field(min_length=1, max_length=64)] | None = None
-    boundary_friction: Annotated[Ratio, Field(ge=0, le=2)]
+    boundary_friction: Annotated[
+        float | BoundaryFriction, LawOrNumber("boundary_friction", number=Annotated[Ratio, Field(ge=0, le=2)])
+    ]
     hardness: PositivePressure | None = None
 
     @model_validator(mode="after")
@@ -120,6 +123,15 @@ class LubricatedScene(Table):
         if (self.loads is None) == (self.hertz_pressures is None):
             raise problem("loads and hertz_pressures", "exactly one of loads, hertz_pressures")
         return self
+
+    def nominal_friction(self, load: float, contact_modulus: float, speeds: tuple[float, float]) -> float:
+        """Boundary friction as one number, before any contact is known: of a law at the hardness, or else at the mean
+        pressure of the smooth contact under a load on the full width [N], at speeds (u1, u2) [m/s]."""
+        law = boundary_law(self.boundary_friction)
+        if law.constant is not None or speeds[0] == speeds[1]:
+            return law.constant or 0.0
+        smooth = math.sqrt(math.pi * contact_modulus * load / self.width / self.radius) / 4
+        return law.coefficient(self.hardness or smooth, abs(speeds[0] - speeds[1]))
 
     def forces(self, contact_modulus: float) -> list[float]:
         """Loads on the full width [N]; p0 = sqrt(W E* / (pi R)) per unit length, Johnson (1985), eq. 4.45."""

@@ -8,11 +8,13 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from pydantic import BaseModel
+from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
 from bem.errors import InputError
 from bem.laws import Law
 from bem.scenes.kinds import get_kind, kind_names
+from bem.scenes.laws import LawOrNumber
 from bem.scenes.load import _dump_value, library
 from bem.scenes.units import Dimension
 from bem.scenes.validate import _fields, _law, _literals, _member, _unwrap, _without_none, nearest, show
@@ -137,10 +139,12 @@ def _about(field: Any) -> str:
     annotation, metadata = _unwrap(_without_none(field.annotation))
     pending = [*metadata, *field.metadata, *typing.get_args(annotation)]
     literals: list[str] = list(_literals(annotation))
-    for item in pending:
+    for item in sorted(pending, key=lambda item: not isinstance(item, LawOrNumber)):
         item, more = _unwrap(item)
         pending_more = [*more, item]
         for part in pending_more:
+            if isinstance(part, LawOrNumber):
+                return f"{_about(FieldInfo.from_annotation(part.number))}, or a law: {', '.join(part.names())}"
             if isinstance(part, Dimension):
                 return part.allowed
         literals = literals or list(_literals(item))

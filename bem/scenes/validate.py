@@ -13,7 +13,7 @@ from pydantic import BaseModel, ValidationError
 
 from bem.errors import InputError
 from bem.laws import Law, laws_of
-from bem.scenes.laws import LawTable, fields_of
+from bem.scenes.laws import LawOrNumber, LawTable, fields_of
 from bem.scenes.units import Dimension
 
 _BARE = re.compile(r"[A-Za-z0-9_-]{1,64}")
@@ -74,7 +74,7 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
     key, annotation, metadata = _locate(mistake["loc"], data, model)
     value = mistake.get("input")
     where = f"{key} = {show(value)}" if key else "scene"
-    dimension = next((item for item in metadata if isinstance(item, Dimension)), None)
+    dimension = next((item for item in _spread(metadata) if isinstance(item, Dimension)), None)
     allowed = f"; allowed: {dimension.allowed}" if dimension else ""
     if kind == "extra_forbidden":
         parent, _, last = key.rpartition(".")
@@ -84,7 +84,8 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
     if kind == "missing":
         return f"{key}: missing{allowed or _choices(annotation)}"
     if kind == "literal_error":
-        return f"{where}: not allowed{nearest(value, _literals(annotation))}{_choices(annotation)}"
+        either = f", or {dimension.allowed}" if dimension else ""
+        return f"{where}: not allowed{nearest(value, _literals(annotation))}{_choices(annotation)}{either}"
     if kind in ("union_tag_invalid", "union_tag_not_found"):
         names = [name.strip().strip("'") for name in str(context.get("expected_tags", "")).split(",") if name.strip()]
         names = names or sorted(_tags(annotation))
@@ -106,6 +107,12 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
     if kind.startswith(("greater_than", "less_than")) and dimension and dimension.unit:
         text += f" {dimension.unit}"
     return f"{where}: {text}{allowed}"
+
+
+def _spread(metadata: Sequence[Any]) -> Iterable[Any]:
+    """The metadata with those of numbers in whose place a law may stand."""
+    for item in metadata:
+        yield from _unwrap(item.number)[1] if isinstance(item, LawOrNumber) else (item,)
 
 
 def _names_at(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> Iterable[str]:
@@ -183,9 +190,15 @@ def _without_none(annotation: Any) -> Any:
     annotation, _ = _unwrap(annotation)
     if typing.get_origin(annotation) in (typing.Union, types.UnionType):
         members = [item for item in typing.get_args(annotation) if item is not type(None)]
+        # of a number or a law the number's dimension is with the field
+        members = [item for item in members if _is_law(item)] or members
         if len(members) == 1:
             return members[0]
     return annotation
+
+
+def _is_law(annotation: Any) -> bool:
+    return isinstance(annotation, type) and issubclass(annotation, Law)
 
 
 def _members(annotation: Any) -> list[Any]:

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from bem.friction.balance import NEGLIGIBLE, Balance, BalanceStart, Regime, boundary_note, share_load
 from bem.friction.film import PatchFilm
 from bem.friction.film_table import FilmTable
-from bem.friction.forces import friction_forces, lambda_ratio, validity_notes
-from bem.friction.rough_contact import boundary_traction, rough_contact
+from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, validity_notes
+from bem.friction.rough_contact import RoughContact, boundary_traction, rough_contact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 from bem.wear.cycle import ContactOutcome
@@ -89,6 +89,8 @@ class MixedContact:
         self.separation: FloatArray | None = None
         self.contact_solves = 0
         self._whole: PatchFilm | None = None
+        self._forces: Forces | None = None
+        self._coupling: tuple[str, ...] = ()
 
     def __call__(self, heights: FloatArray, last_pressure: FloatArray | None) -> ContactOutcome:
         """The contact of one cycle; see `bem.wear.ContactStep`."""
@@ -100,7 +102,7 @@ class MixedContact:
         balance = share_load(self.table, rough, setup.load, setup.tolerance, self._whole, start)
         if balance.contact is not None:
             self.state = MixedState(balance.film.load, balance.slope)
-        return self._outcome(balance, self._whole, heights)
+        return self._outcome(balance, rough, self._whole, heights)
 
     @property
     def film_notes(self) -> tuple[str, ...]:
@@ -110,7 +112,7 @@ class MixedContact:
     @property
     def notes(self) -> tuple[str, ...]:
         """What to say of the cycles so far: those in boundary lubrication, and models outside their validity."""
-        if self.film is None or self._whole is None:
+        if self.film is None or self._whole is None or self._forces is None:
             return ()
         notes = []
         boundary = int(np.sum(self.rows["regime"] == REGIMES.index(Regime.BOUNDARY)))
@@ -118,11 +120,13 @@ class MixedContact:
             share = NEGLIGIBLE * self.setup.tolerance
             notes.append(f"{boundary} of {len(self.rows)} cycles: {boundary_note(share)}")
         friction = float(self.rows["friction"].max())
-        return (*notes, *self.film_notes, *validity_notes(friction, self.film, self._whole, self.setup))
+        notes += [*self.film_notes, *validity_notes(friction, self._forces, self.film, self._whole, self.setup)]
+        return (*notes, *self._coupling)
 
-    def _outcome(self, balance: Balance, whole: PatchFilm, heights: FloatArray) -> ContactOutcome:
+    def _outcome(self, balance: Balance, rough: RoughContact, whole: PatchFilm, heights: FloatArray) -> ContactOutcome:
         setup, film, contact = self.setup, balance.film, balance.contact
         forces = friction_forces(film, contact, setup, self.speeds)
+        self._forces, self._coupling = forces, coupling_notes(forces, rough.traction, setup)
         shift = 0.0 if contact is None else contact.approach
         new = np.zeros(1, MIXED_FIELDS)
         new[0] = (
@@ -148,7 +152,7 @@ class MixedContact:
             contact_area=0.0 if solution is None else solution.contact_area,
             plastic_area=0.0 if solution is None else solution.plastic_area,
             load=0.0 if solution is None else solution.load,
-            friction=boundary_traction(self.speeds, setup.boundary_friction),
+            friction=boundary_traction(self.speeds, forces.coefficient),
             residual=getattr(solution, "residual", 0.0),
             convolutions=balance.convolutions,
             status=balance.status,

@@ -281,7 +281,7 @@ def run(scene: RunningInScene, context: Context) -> RunningInRecord:
             bodies=(scene.lower.build(), scene.upper.build()),
             load=setup.load * grid.lengths[1] / scene.contact.width,
             depths=scene.depths.build(),
-            friction=scene.contact.boundary_friction,
+            friction=scene.contact.nominal_friction(setup.load, setup.line.contact_modulus, speeds),
             hardness=scene.contact.hardness,
             cycles=scene.cycles.count,
             model=WearModel(**scene.wear.model_dump()),
