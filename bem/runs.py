@@ -32,7 +32,8 @@ def plan_scene(
     InputError : a bad scene.
     """
     scene = source if isinstance(source, SceneModel) else load_scene(source, settings)
-    scene = get_kind(scene.kind).resolve(scene)
+    if scene.over is None:  # else each of its cases is resolved by itself
+        scene = get_kind(scene.kind).resolve(scene)
     return scene, plan(campaign_of(scene))
 
 
@@ -87,13 +88,14 @@ def run_scene(
     ) as directory:
         if directory.resumed and directory.finished:
             return open_run(directory.path)
+        campaign = campaign_of(scene)
         try:
-            facts = examine(scene)
+            facts = examine(campaign.base)
             notes = scene_warnings(facts)
             for text in notes:
                 watcher.note(text)
             computed = compute(
-                campaign_of(scene),
+                campaign,
                 directory.path,
                 plan=planned,
                 workers=workers,
@@ -143,10 +145,11 @@ def _write(
         "seconds_by_stage": seconds,
     }
     kind = get_kind(scene.kind)
+    headline = (*(scene.over or ()), *kind.headline)
     tell = getattr(watcher, "numbers", None)
     if tell is not None:
         with suppress(OSError):  # nobody may be listening any more; the run goes on
-            tell({**summary, "wall_time_s": time.time() - computed.epoch}, kind.headline)
+            tell({**summary, "wall_time_s": time.time() - computed.epoch}, headline)
     if formats:
         from bem.plots.draw import draw_all
         from bem.plots.report import write_report
@@ -162,7 +165,7 @@ def _write(
         with _timed(seconds, "figures and report"):
             drawn = draw_all(run, kind.figures, directory.figures, formats, on_failure=failed)
             summary["wall_time_s"] = time.time() - computed.epoch
-            write_report(run, drawn, kind.headline)
+            write_report(run, drawn, headline)
     summary["wall_time_s"] = time.time() - computed.epoch
     directory.finish(summary)
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
@@ -11,6 +12,8 @@ from bem.errors import InputError
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.kinds import Kind, get_kind
+from bem.scenes.load import scene_table, scenes_over, unit_at
+from bem.scenes.paths import parse_key, value_at
 from bem.scenes.records import Figure
 
 REPETITION = "repetition"
@@ -39,10 +42,14 @@ class Case:
 
 @dataclass(frozen=True)
 class Campaign:
-    """A scene and all its cases, in the order of `axes`, the last one running fastest."""
+    """A scene and all its cases, in the order of `axes`, the last one running fastest.
+
+    base : the resolved scene at the first values of `over`; the scene itself where nothing is given there.
+    """
 
     kind: Kind
     scene: SceneModel
+    base: SceneModel
     axes: tuple[Axis, ...]
     cases: tuple[Case, ...]
 
@@ -53,38 +60,75 @@ class Campaign:
 
 
 def campaign_of(scene: SceneModel) -> Campaign:
-    """The cases of a resolved scene.
+    """The cases of a scene: all combinations of the values of `over`, of the kind's own lists, and repetitions.
 
     Raises
     ------
-    InputError : too many of them.
+    InputError : too many of them; values of `over` that make a bad scene, or lists of another length.
     """
     kind = get_kind(scene.kind)
-    if kind.record is None:
-        return Campaign(kind, scene, (), (Case(0, scene, 0, False, ""),))
-    axes = tuple(kind.axes(scene))
+    bases = [kind.resolve(one) for one in scenes_over(scene)]
+    inner = [_own_axes(kind, base) for base in bases]
+    if len({tuple(len(axis) for axis in axes) for axes in inner}) > 1:
+        raise InputError("over: its values change how long the scene's own lists are; allowed: lists of one length")
+    axes = (*_axes_of_over(scene, bases), *_common(inner))
+    if math.prod(len(axis) for axis in axes) > _MOST_CASES:
+        raise InputError(f"scene: {math.prod(map(len, axes))} cases; allowed: {_MOST_CASES} in all combinations")
+    cases = []
+    outer = len(axes) - len(inner[0])
+    for index, place in enumerate(product(*(range(len(axis)) for axis in axes))):
+        at = index // math.prod(len(axis) for axis in inner[0])
+        own, repetition = bases[at], 0
+        for axis, i in zip(inner[at], place[outer:], strict=True):
+            own = axis.pick(own, i)
+            repetition = i if axis.name == REPETITION else repetition
+        cases.append(Case(index, own, repetition, _seeds_are_numbered(scene, repetition), label_of(axes, place)))
+    return Campaign(kind, scene, bases[0], axes, tuple(cases))
+
+
+def _own_axes(kind: Kind, scene: SceneModel) -> tuple[Axis, ...]:
     repeats = _repetitions(scene)
-    if repeats is not None:
-        axes = (*axes, repeats)
-    count = 1
-    for axis in axes:
-        count *= len(axis)
-    if count > _MOST_CASES:
-        raise InputError(f"scene: {count} cases; allowed: {_MOST_CASES}, all combinations taken together")
-    cases = [
-        _case(index, scene, axes, place) for index, place in enumerate(product(*(range(len(axis)) for axis in axes)))
-    ]
-    return Campaign(kind, scene, axes, tuple(cases))
+    return tuple(kind.axes(scene)) if repeats is None else (*kind.axes(scene), repeats)
 
 
-def _case(index: int, scene: SceneModel, axes: Sequence[Axis], place: Sequence[int]) -> Case:
-    own = scene
-    repetition = 0
-    for axis, i in zip(axes, place, strict=True):
-        own = axis.pick(own, i)
-        if axis.name == REPETITION:
-            repetition = i
-    return Case(index, own, repetition, _seeds_are_numbered(scene, repetition), label_of(axes, place))
+def _common(inner: Sequence[Sequence[Axis]]) -> list[Axis]:
+    """The kind's own axes; where `over` changes the values along one, they are counted instead."""
+    found = []
+    for same in zip(*inner, strict=True):
+        if len({axis.values for axis in same}) == 1:
+            found.append(same[0])
+        else:
+            number = Figure("", f"number of the {same[0].name}, whose values differ")
+            found.append(Axis(same[0].name, tuple(range(len(same[0]))), number, same[0].pick))
+    return found
+
+
+def _axes_of_over(scene: SceneModel, bases: Sequence[SceneModel]) -> list[Axis]:
+    """Keys of `over` with their values as the scenes understood them, in SI units; texts where they are no numbers."""
+    axes: list[Axis] = []
+    counts = [len(values) for values in (scene.over or {}).values()]
+    for number, (key, given) in enumerate((scene.over or {}).items()):
+        step = math.prod(counts[number + 1 :])
+        tables = [scene_table(bases[i * step]) for i in range(len(given))]
+        values, unit = axis_values(key, [str(value) for value in given], tables), "1"
+        if not isinstance(values[0], str):
+            unit = unit_at(bases[0], key)
+        axes.append(Axis(key, values, Figure("", key), lambda scene, i: scene, unit=unit))
+    return axes
+
+
+def axis_values(key: str, given: Sequence[str], tables: Sequence[Mapping[str, Any]]) -> tuple[Any, ...]:
+    """What stands at a swept key in the tables of the scenes; what was written where these are no different numbers."""
+    found: list[Any] = []
+    for table in tables:
+        value = value_at(table, parse_key(key) or ())
+        if isinstance(value, list) and value and all(item == value[0] for item in value):
+            value = value[0]
+        found.append(value)
+    numbers = all(isinstance(value, int | float) and not isinstance(value, bool) for value in found)
+    if numbers and len(set(found)) == len(found):
+        return tuple(found)
+    return tuple(text.strip("\"'") for text in given)
 
 
 def label_of(axes: Sequence[Axis], place: Sequence[int | None]) -> str:
@@ -94,7 +138,7 @@ def label_of(axes: Sequence[Axis], place: Sequence[int | None]) -> str:
 
 
 def _words(axis: Axis, i: int) -> str:
-    value, unit = axis.figure.shown(axis.values[i]), axis.figure.unit.replace("_", "/")
+    value, unit = axis.figure.shown(axis.values[i]), axis.figure.unit.replace("_", "/") or axis.unit.replace("1", "")
     number = f"{value:.6g}" if isinstance(value, float) else str(value)
     return f"{axis.name} {number} {'degC' if unit == 'C' else unit}".rstrip()
 

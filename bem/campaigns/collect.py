@@ -33,7 +33,6 @@ def collect(campaign: Campaign, given: Sequence[Given]) -> Outcome:
     """All of it as the outcome of the scene."""
     records = [item.record for item in given]
     status, where = worst(given)
-    assert campaign.kind.record is not None
     known = described(campaign.kind.record)
     summary = _summary(campaign, known, records)
     own = campaign.kind.summarise(campaign.scene, campaign.axes, records)
@@ -130,7 +129,7 @@ def _variables(
     variables: dict[str, Variable] = {}
     axes = tuple(axis.name for axis in campaign.axes)
     for axis in campaign.axes:
-        variables[axis.name] = Variable((axis.name,), np.array(axis.values), axis.figure.si, axis.figure.text)
+        variables[axis.name] = Variable((axis.name,), np.array(axis.values), axis.si, axis.figure.text)
     odd = _odd_dimensions(known, records)
     for name, item in known.items():
         values = [None if record is None else getattr(record, name) for record in records]

@@ -89,8 +89,6 @@ class CaseJob:
             raise  # no case can be kept on a disk that is full
         except (BemError, MemoryError) as error:
             return _failed(error, context.notes, context.seconds)
-        if isinstance(record, Outcome):
-            return Result({"outcome": record}, context.notes, context.seconds)
         return Result(pack(without(record, first=self.first, last=self.last)), context.notes, context.seconds)
 
     def lost(self, why: str) -> Result:
@@ -235,9 +233,6 @@ def _together(campaign: Campaign, results: Sequence[Result], epoch: float) -> Co
         words = list(dict.fromkeys(message for result in broken for message in result.error.split(" | ")))
         raise broken[0].exception(words if issubclass(broken[0].exception, InputError) else "; ".join(words))
     kind = campaign.kind
-    if kind.record is None:
-        assert results[0].record is not None
-        return Computed(results[0].record["outcome"], results[0].notes, results[0].seconds, epoch)
     records = [None if result.record is None else unpack(result.record, kind.record) for result in results]
     given = [
         Given(case, record, result.error, result.status)

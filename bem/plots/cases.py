@@ -5,14 +5,18 @@ A dataset's attribute `axes` names the dimensions along which the cases lie (loa
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.plots.style import prefix
+from bem.plots.labels import prefix
+from bem.results.arrays import Array as ArrayOfRun
+from bem.results.arrays import Arrays
+from bem.scenes.kinds import get_kind
+from bem.scenes.records import figures
 
 REPETITION = "repetition"
 Array = NDArray[Any]
@@ -21,6 +25,28 @@ Array = NDArray[Any]
 def axes_of(dataset: Any) -> list[str]:
     """Dimensions along which the cases lie."""
     return str(dataset.attrs.get("axes", "")).split()
+
+
+def first_case(dataset: Any) -> Any:
+    """The arrays of the first case alone, for figures that know only one; what has no axes stays as it is."""
+    axes = set(axes_of(dataset))
+    if not axes:
+        return dataset
+
+    def first(item: Any) -> ArrayOfRun:
+        kept = tuple(slice(None) if name not in axes else 0 for name in item.dims)
+        dims = tuple(name for name in item.dims if name not in axes)
+        shape = tuple(n for n, name in zip(item.shape, item.dims, strict=True) if name not in axes)
+        return ArrayOfRun(dims, shape, item.attrs, lambda: np.asarray(item.values[kept]))
+
+    one = {name: first(dataset[name]) for name in dataset.variables if name not in axes}
+    return Arrays(one, {**dataset.attrs, "axes": ""})
+
+
+def first_figures(summary: Mapping[str, Any]) -> dict[str, Any]:
+    """A summary with the figures of the first case alone, where there are lists over cases."""
+    known = figures(get_kind(summary["kind"]).record)
+    return {key: value[0] if key in known and isinstance(value, list) else value for key, value in summary.items()}
 
 
 def grouped(run: Any, name: str) -> list[tuple[str, Array]]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from bem.errors import InputError, ResultsError
+from bem.plots.cases import axes_of, first_case, first_figures
 from bem.plots.figures import FigureKind, all_figures
 from bem.results.arrays import Arrays
 from bem.results.atomic import replacing
@@ -30,6 +31,16 @@ class _Seen:
 
 def _seen(run: Any) -> Any:
     return _Seen(run.path, run.scene, run.summary, run.arrays) if isinstance(run, FinishedRun) else run
+
+
+_OF_ANY_KIND = ("figures-over-keys",)
+
+
+def _for(run: Any, kind: FigureKind) -> Any:
+    """The run as a figure knows it: all cases, or the first one."""
+    if kind.all_cases or not axes_of(run.dataset):
+        return run
+    return _Seen(run.path, run.scene, first_figures(run.summary), first_case(run.dataset))
 
 
 @dataclass(frozen=True)
@@ -55,9 +66,9 @@ def draw_all(
     known = all_figures()
     run = _seen(run)
     drawn = []
-    for name in names:
+    for name in (*names, *(extra for extra in _OF_ANY_KIND if extra not in names)):
         try:
-            if known[name].fits(run):
+            if known[name].fits(_for(run, known[name])):
                 drawn.append(draw(run, known[name], folder, formats))
         except ResultsError:
             raise
@@ -81,7 +92,7 @@ def draw(
 
     from bem.plots.style import style
 
-    run, paths = _seen(run), []
+    run, paths = _for(_seen(run), kind), []
     with style():
         # at the dots of the file from the start: sizes of texts that the layout asks for serve the picture too
         figure = Figure(figsize=size or kind.size, dpi=_DOTS, layout="constrained")
@@ -113,7 +124,7 @@ def figure_kind(run: Any, name: str) -> FigureKind:
     InputError : no such figure, or not from this run.
     """
     known, run = all_figures(), _seen(run)
-    fitting = [kind.name for kind in known.values() if kind.fits(run)]
+    fitting = [kind.name for kind in known.values() if kind.fits(_for(run, kind))]
     if name not in known:
         raise InputError(
             f'--figure "{name}": no such figure{nearest(name, fitting)}; allowed for this run: {", ".join(fitting)}'

@@ -14,6 +14,7 @@ from bem.results.atomic import replacing
 from bem.scenes.context import Variable
 
 _MOST_PANELS, _MOST_LINES = 4, 8
+_CHANCE = ("seed", "repetition")
 _LINES, _MARKERS = ("-", "--", ":", "-."), ("o", "s", "^", "D", "v", "P", "X", "*")
 
 
@@ -41,27 +42,33 @@ def draw_sweep(
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    keys = list(spacings)
-    names = _chosen(variables, keys, headline)
-    if not names:
+    if not _chosen(variables, list(spacings), headline):
         return []
-    columns = 2 if len(names) > 1 else 1
-    rows = -(-len(names) // columns)
     paths = []
     with style():
-        figure = Figure(figsize=(3.5 * columns, 2.7 * rows + 0.3), layout="constrained")
+        figure = Figure(layout="constrained")
         FigureCanvasAgg(figure)
-        for i, name in enumerate(names):
-            _panel(figure.add_subplot(rows, columns, i + 1), variables, name, keys, spacings)
-        axes = figure.axes[0]
-        if len(axes.get_legend_handles_labels()[1]) > 1:
-            figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2, fontsize=7.5)
+        fill(figure, variables, spacings, headline)
         for ending in formats:
             target = path.with_name(f"{path.name}.{ending}")
             with replacing(target) as temporary:
                 figure.savefig(temporary, format=ending)
             paths.append(target)
     return paths
+
+
+def fill(figure: Any, variables: Mapping[str, Variable], spacings: Mapping[str, str], headline: Sequence[str]) -> None:
+    """Fill an empty matplotlib figure with the panels of `draw_sweep`, and make it as large as they need."""
+    keys = list(spacings)
+    names = _chosen(variables, keys, headline)
+    columns = 2 if len(names) > 1 else 1
+    rows = -(-len(names) // columns)
+    figure.set_size_inches(3.5 * columns, 2.7 * rows + 0.3)
+    for i, name in enumerate(names):
+        _panel(figure.add_subplot(rows, columns, i + 1), variables, name, keys, spacings)
+    if figure.axes and len(figure.axes[0].get_legend_handles_labels()[1]) > 1:
+        handles = figure.axes[0].get_legend_handles_labels()
+        figure.legend(*handles, loc="outside lower center", ncols=2, fontsize=7.5)
 
 
 def _chosen(variables: Mapping[str, Variable], keys: Sequence[str], headline: Sequence[str]) -> list[str]:
@@ -81,19 +88,19 @@ def _drawable(variable: Variable, name: str) -> bool:
 def _panel(
     axes: Any, variables: Mapping[str, Variable], name: str, keys: Sequence[str], spacings: Mapping[str, str]
 ) -> None:
-    """One figure over one key; over seeds its mean with the range as a band."""
+    """One figure over one key; over seeds and repetitions its mean with the range as a band."""
     variable = variables[name]
     values, dimensions = variable.values, list(variable.dimensions)
     low = high = values
-    if "seed" in dimensions and len(dimensions) > 1:
-        axis = dimensions.index("seed")
+    for chance in (name for name in _CHANCE if name in dimensions and len(dimensions) > 1):
+        axis = dimensions.index(chance)
         with np.errstate(all="ignore"):
             count = np.isfinite(values).sum(axis)
-            low = np.nanmin(np.where(np.isfinite(values), values, np.inf), axis)
-            high = np.nanmax(np.where(np.isfinite(values), values, -np.inf), axis)
+            low = np.nanmin(np.where(np.isfinite(low), low, np.inf), axis)
+            high = np.nanmax(np.where(np.isfinite(high), high, -np.inf), axis)
             values = np.where(count > 0, np.nansum(values, axis) / np.maximum(count, 1), np.nan)
         low, high = (np.where(np.isfinite(item), item, np.nan) for item in (low, high))
-        dimensions.remove("seed")
+        dimensions.remove(chance)
     along = next((key for key in keys if key in dimensions and len(variables[key].values) > 1), dimensions[0])
     position, ticks, words, unit = _positions(variables.get(along), values.shape[dimensions.index(along)], along)
     factor, shown = prefix(values, variable.units if variable.units != "1" else "")

@@ -31,7 +31,8 @@ class Axis:
     values : of each place: numbers in SI units, or texts.
     figure : unit and label of the values.
     pick : pick(scene, i) -> the scene with only the i-th.
-    always : whether the summary has lists even where there is one value, and the key where there is nothing to tell.
+    always : whether the summary says it even where there is nothing to tell.
+    unit : SI unit of the values, where it is not that of the figure.
     """
 
     name: str
@@ -39,6 +40,12 @@ class Axis:
     figure: Figure
     pick: Callable[[Any, int], Any] = field(compare=False)
     always: bool = True
+    unit: str = ""
+
+    @property
+    def si(self) -> str:
+        """The SI unit of the values."""
+        return self.unit or self.figure.si
 
     def __len__(self) -> int:
         return len(self.values)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
 from bem.materials import CATALOGUE, Body, Layer, Material
+from bem.scenes.ranges import values_of_keys
 from bem.scenes.units import Force, Length, Pressure, Ratio
 
 PositiveLength = Annotated[Length, Field(gt=0)]
@@ -320,6 +321,8 @@ class SceneModel(Table):
     """What every scene has. `redoes` says which figure or table of the thesis, where it is one.
 
     `repetitions` runs every case so often, with seeds of its own; means and spreads of all figures are then reported.
+    `over` holds dotted keys with several values each, of which all combinations are run: lists, or ranges as of
+    `bem sweep --over`.
     """
 
     kind: str
@@ -328,6 +331,24 @@ class SceneModel(Table):
     redoes: str = ""
     seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] = 1
     repetitions: Annotated[int, Field(strict=True, ge=1, le=1000)] | None = None
+    over: dict[str, list[Any]] | None = None
+    _source: dict[str, Any] | None = PrivateAttr(default=None)
+
+    @field_validator("over", mode="before")
+    @classmethod
+    def _values_of_keys(cls, data: Any) -> Any:
+        return None if data is None else values_of_keys(data)
+
+    @property
+    def source(self) -> dict[str, Any] | None:
+        """The table as it was written, of a scene with `over`: what keys change is changed there."""
+        return self._source
+
+    def with_source(self, table: dict[str, Any]) -> Self:
+        """The scene with the table that it was made from."""
+        made = self.model_copy()
+        made._source = table
+        return made
 
 
 __all__ = [

@@ -9,6 +9,7 @@ import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from importlib import resources
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -63,7 +64,51 @@ def scene_from_table(data: Any, folder: Path | None = None) -> SceneModel:
     ]
     if not_text:
         raise InputError(capped(not_text))
-    return validate(_absolute(data, (folder or Path.cwd()).resolve()), get_kind(kind).model)
+    table = _absolute(data, (folder or Path.cwd()).resolve())
+    scene = validate(table, get_kind(kind).model)
+    return scene if scene.over is None else scene.with_source(table)
+
+
+def scenes_over(scene: SceneModel) -> list[SceneModel]:
+    """The scenes at all combinations of the values of `over`, the last key running fastest; the scene itself without.
+
+    Raises
+    ------
+    InputError : what is wrong with any of them, with the values that make it so.
+    """
+    if scene.over is None or scene.source is None:
+        return [scene]
+    found, messages = [], []
+    for values in product(*scene.over.values()):
+        data = {key: item for key, item in scene.source.items() if key != "over"}
+        words = ", ".join(f"{key} = {show(value)}" for key, value in zip(scene.over, values, strict=True))
+        try:
+            for key, value in zip(scene.over, values, strict=True):
+                parsed = parse_key(key)
+                if parsed is None:
+                    raise InputError(f'over: "{key}" is no key; allowed: dotted keys such as contact.load')
+                plain = _plain(value) if isinstance(value, str) else value
+                put(data, parsed, plain, pair=_is_pair(data, parsed))
+            found.append(scene_from_table(data))
+        except InputError as error:
+            messages += [f"over: at {words}: {message}" for message in error.messages]
+    if messages:
+        raise InputError(capped(list(dict.fromkeys(messages))))
+    return found
+
+
+def unit_at(scene: SceneModel, key: str) -> str:
+    """The SI unit of the field at a dotted key, of which an index picks one value; "1" for none."""
+    table: Any = scene
+    unit = ""
+    for part in parse_key(key) or ():
+        if isinstance(part, int):
+            table = table[part] if isinstance(table, list | tuple) and part < len(table) else None
+            continue
+        field = getattr(type(table), "model_fields", {}).get(part)
+        unit = "" if field is None else _unit_of(field)
+        table = getattr(table, part, None)
+    return unit or "1"
 
 
 def library() -> dict[str, dict[str, Any]]:
@@ -206,7 +251,12 @@ def _is_text(text: Any) -> bool:
 
 
 def dump_scene(scene: SceneModel) -> str:
-    """The scene as TOML text in SI units, each number with its unit behind it; loading it gives an equal scene."""
+    """The scene as TOML text in SI units, each number with its unit behind it; loading it gives an equal scene.
+
+    A scene with `over` is written as it was: its cases differ before anything is filled in.
+    """
+    if scene.source is not None:
+        return "".join(f"{json.dumps(key)} = {_dump_value(value)}\n" for key, value in scene.source.items())
     return "\n".join(_dump_table(scene, ())) + "\n"
 
 

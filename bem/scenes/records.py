@@ -133,9 +133,9 @@ def described(record: type[Record]) -> Mapping[str, Figure | Series]:
     return _DESCRIBED[name]
 
 
-def figures(record: type[Record]) -> Mapping[str, Figure]:
-    """The figures of a record by their names in the summary."""
-    return {item.key(name): item for name, item in described(record).items() if isinstance(item, Figure)}
+def figures(record: type[Record]) -> Mapping[str, str]:
+    """The fields of a record that are figures, by their names in the summary."""
+    return {item.key(name): name for name, item in described(record).items() if isinstance(item, Figure)}
 
 
 def pack(record: Record) -> dict[str, Any]:

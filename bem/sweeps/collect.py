@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from bem.campaigns.ranges import Axis
 from bem.scenes.context import Variable
+from bem.scenes.ranges import Axis
 
 _SKIPPED = ("scene", "kind", "version", "notes", "seconds_by_stage")
 _UNITS = {

@@ -13,10 +13,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bem
+from bem.campaigns.cases import axis_values
 from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.disk import marked
 from bem.campaigns.engine import staff
-from bem.campaigns.ranges import Axis, parse_axes
 from bem.errors import InputError, ResultsError
 from bem.plots.sweep import draw_sweep
 from bem.results import RunDirectory, open_run
@@ -26,9 +26,9 @@ from bem.results.directory import SCENE
 from bem.runs import plan_scene
 from bem.scenes import get_kind
 from bem.scenes.common import SceneModel
-from bem.scenes.load import _unit_of, dump_scene, load_scene, scene_table
-from bem.scenes.paths import parse_key, value_at
+from bem.scenes.load import dump_scene, load_scene, scene_table, unit_at
 from bem.scenes.planner import check_memory
+from bem.scenes.ranges import Axis, parse_axes
 from bem.sweeps.collect import Coordinate, dataset_variables, table_text
 from bem.sweeps.point import Done, Point, is_finished, store
 
@@ -154,30 +154,8 @@ def _plan_points(
 def _coordinate(axis: Axis, place: int, axes: Sequence[Axis], scenes: Sequence[SceneModel]) -> Coordinate:
     """Values of a swept key as the scenes understood them, with their unit."""
     step = math.prod(len(other.values) for other in axes[place + 1 :])
-    found: list[Any] = []
-    for i in range(len(axis.values)):
-        value: Any = value_at(scene_table(scenes[i * step]), parse_key(axis.key) or ())
-        if isinstance(value, list) and value and all(item == value[0] for item in value):
-            value = value[0]
-        found.append(value)
-    numbers = all(isinstance(value, int | float) and not isinstance(value, bool) for value in found)
-    if numbers and len(set(found)) == len(found):
-        return Coordinate(axis, tuple(found), _unit_at(scenes[0], axis.key))
-    return Coordinate(axis, tuple(text.strip("\"'") for text in axis.values), "1")
-
-
-def _unit_at(scene: SceneModel, key: str) -> str:
-    """The SI unit of the field at a key, of which an index picks one value."""
-    table: Any = scene
-    unit = ""
-    for part in parse_key(key) or ():
-        if isinstance(part, int):
-            table = table[part] if isinstance(table, list | tuple) and part < len(table) else None
-            continue
-        field = getattr(type(table), "model_fields", {}).get(part)
-        unit = "" if field is None else _unit_of(field)
-        table = getattr(table, part, None)
-    return unit or "1"
+    values = axis_values(axis.key, axis.values, [scene_table(scenes[i * step]) for i in range(len(axis.values))])
+    return Coordinate(axis, values, "1" if isinstance(values[0], str) else unit_at(scenes[0], axis.key))
 
 
 def _take(folder: Path, name: str, axes: Sequence[Axis], settings: Sequence[str], resume: bool) -> None:

@@ -14,11 +14,11 @@ import pytest
 import typer
 
 from bem import Grid, laws
-from bem.campaigns.ranges import parse_axes
 from bem.cli import build as build_cli
 from bem.runs import plan_scene
 from bem.scenes import get_kind, kind_names, library
 from bem.scenes.load import load_scene
+from bem.scenes.ranges import parse_axes
 from reports import guide
 from reports.builder import render
 

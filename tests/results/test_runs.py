@@ -4,7 +4,7 @@ import dataclasses
 import json
 import os
 from types import SimpleNamespace
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 import pytest
@@ -16,8 +16,9 @@ from bem.results import open_run
 from bem.results.checkpoint import load_checkpoint
 from bem.results.read import damaged_files
 from bem.runs import run_scene
-from bem.scenes import Kind, Outcome, Plan, Step, Variable, get_kind
+from bem.scenes import Kind, Plan, Step, get_kind
 from bem.scenes.common import SceneModel
+from bem.scenes.records import Figure, Record
 
 SCENE = {
     "kind": "contact",
@@ -40,6 +41,11 @@ class CountingScene(SceneModel):
     cycles: int = 6
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
+class CountingRecord(Record):
+    total: Annotated[np.ndarray, Figure("m", "sum", ("n",))]
+
+
 @pytest.fixture
 def counting(monkeypatch):
     """The kind `contact` replaced by one that counts; `stop` is called with the cycle, and may raise."""
@@ -57,11 +63,10 @@ def counting(monkeypatch):
                 context.note("cycle one is over")
             context.save({"cycle": cycle + 1, "total": total})
             context.progress(cycle + 1, scene.cycles, "cycles", total=float(total[0]))
-        return Outcome(
-            {"total_m": list(total)}, {"total": Variable(("n",), total, "m", "sum")}, control.status, "cycle 3"
-        )
+        return CountingRecord(total, status=control.status, where="cycle 3")
 
-    kind = Kind("contact", "counting", CountingScene, lambda scene: Plan((Step("adding", "it is all there is"),)), run)
+    plan = Plan((Step("adding", "it is all there is"),))
+    kind = Kind("contact", "counting", CountingScene, lambda scene: plan, run, CountingRecord)
     for module in ("bem.runs", "bem.scenes.load", "bem.campaigns.cases", "bem.campaigns.engine"):
         monkeypatch.setattr(f"{module}.get_kind", lambda name: kind)
     return control

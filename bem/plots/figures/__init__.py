@@ -11,7 +11,7 @@ from __future__ import annotations
 import importlib
 import pkgutil
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +33,8 @@ class FigureKind:
     size : width and height [inch].
     applies : applies(run) -> whether there is anything to show.
     animate : animate(run, path) writes an animated GIF beside the figure; None for most.
+    all_cases : whether it shows all cases of a run, as those of a module with `ALL_CASES = True` do; others are given
+        the arrays of the first case.
     """
 
     name: str
@@ -42,6 +44,7 @@ class FigureKind:
     size: tuple[float, float] = (5.0, 4.0)
     applies: Callable[[Any], bool] = _always
     animate: Callable[[Any, Path], None] | None = None
+    all_cases: bool = False
 
     def fits(self, run: Any) -> bool:
         """Whether this figure can be drawn from `run`."""
@@ -52,7 +55,8 @@ def all_figures() -> dict[str, FigureKind]:
     """All figures by name."""
     found: dict[str, FigureKind] = {}
     for module in sorted(item.name for item in pkgutil.iter_modules(__path__)):
-        for kind in importlib.import_module(f"bem.plots.figures.{module}").FIGURES:
+        loaded = importlib.import_module(f"bem.plots.figures.{module}")
+        for kind in loaded.FIGURES:
             assert kind.name not in found, f"two figures are called {kind.name!r}"
-            found[kind.name] = kind
+            found[kind.name] = replace(kind, all_cases=getattr(loaded, "ALL_CASES", False))
     return found

@@ -346,6 +346,7 @@ def _many_hardnesses(run: Any) -> bool:
 
 
 _WIDE = (5.6, 3.6)
+ALL_CASES = True
 FIGURES = (
     FigureKind(
         "stribeck-curve",

@@ -101,6 +101,7 @@ def _wears_substrate(run: Any) -> bool:
     return bool((run.dataset["substrate_wear"].values > 0).any())
 
 
+ALL_CASES = True
 FIGURES = (
     FigureKind("film-thickness", "Mean film thickness.", ("time", "thickness"), _thickness, (5.0, 3.4)),
     FigureKind("film-wear-rate", "Rate at which the film itself wears.", ("time", "wear_rate"), _wear_rate, (5.0, 3.4)),

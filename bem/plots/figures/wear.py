@@ -174,6 +174,7 @@ def _many_runs(run: Any) -> bool:
     return np.unique(run.dataset["load"].values).size > 1
 
 
+ALL_CASES = True
 FIGURES = (
     FigureKind(
         "particle-radius-over-cycles",

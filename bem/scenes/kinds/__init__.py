@@ -6,12 +6,19 @@ To add the kind `wear`, write `bem/scenes/kinds/wear.py` (a kind `running-in` li
         name="wear",              # the file's name with "-" for "_"; what `kind = "..."` in a scene says
         title="wear particles ...",         # one line
         model=WearScene,          # pydantic model, a subclass of bem.scenes.common.SceneModel
-        plan=plan,                # plan(scene) -> Plan: cheap, no work; says what is skipped and why
-        run=run,                  # run(scene, context) -> Outcome
+        plan=plan,                # plan(scene) -> Plan: of one case, no work; says what is skipped and why
+        run=run,                  # run(scene, context) -> record: one case
+        record=WearRecord,        # what a case gives, a dataclass as of bem.scenes.records
+        axes=axes,                # optional: axes(scene) -> what the scene runs over, as of bem.scenes.axes
         figures=("pressure-map", ...),      # names from bem/plots/figures/, drawn when the run is over
         headline=("particle_equivalent_radius_nm", ...),    # keys of the summary to show first
         resolve=resolve,          # optional: resolve(scene) -> scene, first of all: fills in what files decide
+        summarise=summarise,      # optional: summarise(scene, axes, records) -> more keys of the summary
     )
+
+*One case.* `plan` and `run` are given a scene in which every axis has one value, and know of no other. Loads, variants,
+repetitions, whatever `[over]` names, processes, clusters, statistics, notes of many cases, resuming and the dataset are
+the business of `bem.campaigns`.
 
 *Model.* Fields have the types of `bem.scenes.units` (`Length`, `Force`, `Temperature`, ...: strings with units or
 SI numbers come in, SI floats come out) and the tables of `bem.scenes.common` (`BodyScene` = material + layer +
@@ -42,19 +49,17 @@ memory.
 - `context.saved()`: that state when the run is resumed, else None; a resumed run must end in the same bits.
 
 An interrupt is a `KeyboardInterrupt` out of any call; the state saved last is what a resumed run starts from. `run`
-writes no file. It returns
+writes no file. It returns its record,
 
-    Outcome(
-        summary={"cycles": 200, ...},       # JSON values; units in the names; lists in the order of the scene
-        variables={
-            "x": Variable(("x",), grid.x, "m", "x, along sliding"),   # named like its dimension: a coordinate
-            "pressure": Variable(("x", "y"), pressure, "Pa", "contact pressure"),
-        },
-        status=Status.CONVERGED,            # the worst status; any other makes the exit code 3
-        where="",                           # and then says where: "cycle 17: ..."
-        volumes=("von_mises",),             # variables (..., "depth", "x", "y") that go into the VTK file
-    )
+    @dataclass(frozen=True, eq=False)
+    class WearRecord(Record):
+        cycles: Annotated[int, Figure("", "cycles")]                                  # summary: cycles
+        Sq_final: Annotated[float, Figure("nm", "Sq in the contact strip, run in")]   # summary: Sq_final_nm
+        x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding")]  # named like its dimension: a coordinate
+        pressure: Annotated[FloatArray, Series(("x", "y"), "Pa", "contact pressure", of="last")]   # of the last case
 
+in SI units, with `status` (the worst of its solvers; any but converged makes the exit code 3) and `where` ("cycle 17:
+..."),
 and raises `InputError` (bad input: the run's folder is removed again, unless something was saved in it) or
 `ConvergenceError` (it cannot go on: the checkpoint stays, exit code 3). For scripts and tests
 `bem.scenes.PlainContext` needs no disk.
@@ -101,8 +106,8 @@ class Kind:
     title: str
     model: type[SceneModel]
     plan: Callable[[Any], Plan]
-    run: Callable[[Any, Context], Any]
-    record: type[Record] | None = None
+    run: Callable[[Any, Context], Record]
+    record: type[Record]
     figures: tuple[str, ...] = ()
     headline: tuple[str, ...] = ()
     resolve: Callable[[Any], Any] = field(default=_unchanged)

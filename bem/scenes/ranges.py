@@ -1,12 +1,15 @@
-"""What `--over key=...` means: a key of a scene and the values it takes."""
+"""Keys of a scene that run over several values: what `--over key=...` and the table `[over]` mean."""
 
 from __future__ import annotations
 
 import json
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
+
+from pydantic_core import PydanticCustomError
 
 from bem.errors import InputError
 from bem.scenes.paths import parse_key, spell_key, values_in_file
@@ -60,6 +63,37 @@ def parse_axes(texts: Sequence[str]) -> tuple[Axis, ...]:
     if messages:
         raise InputError(messages)
     return tuple(axes)
+
+
+def values_of_keys(table: Any) -> dict[str, list[Any]]:
+    """The table `[over]` as dotted keys with their values: lists as they are, texts as the values of `--over`.
+
+    Raises
+    ------
+    PydanticCustomError : no table, no values, the same twice.
+    """
+    if not isinstance(table, Mapping) or not table:
+        raise _wrong("not a table of keys", 'such as "contact.load" = ["1 N", "2 N"]')
+    found: dict[str, list[Any]] = {}
+    for name, values in table.items():
+        if isinstance(values, Mapping):
+            found |= {f"{name}.{inner}": item for inner, item in values_of_keys(values).items()}
+        elif isinstance(values, list | tuple) and values:
+            if len({repr(value) for value in values}) < len(values):
+                raise _wrong(f"{name} has the same value twice", "each value once")
+            found[str(name)] = list(values)
+        elif isinstance(values, str):
+            try:
+                found[str(name)] = list(parse_axis(f"{name}={values}").values)
+            except InputError as error:
+                raise _wrong(f"{name}: {error}", 'a list, or a range such as "1 N:10 N:4"') from None
+        else:
+            raise _wrong(f"{name} is no list of values", 'a list, or a range such as "1 N:10 N:4"')
+    return found
+
+
+def _wrong(problem: str, allowed: str) -> PydanticCustomError:
+    return PydanticCustomError("scene", "{problem}; allowed: {allowed}", {"problem": problem, "allowed": allowed})
 
 
 def parse_axis(text: str) -> Axis:

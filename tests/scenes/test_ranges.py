@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bem.campaigns.ranges import parse_axes, parse_axis
 from bem.errors import InputError
+from bem.scenes.ranges import parse_axes, parse_axis
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,45 @@
+"""Headline figures over the keys of `[over]`, the same as a sweep draws."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from bem.plots.cases import axes_of
+from bem.plots.figures import FigureKind
+from bem.plots.sweep import fill
+from bem.scenes.context import Variable
+from bem.scenes.kinds import get_kind
+from bem.scenes.records import figures
+
+ALL_CASES = True
+
+
+def _keys(run: Any) -> list[str]:
+    return [axis for axis in axes_of(run.dataset) if axis in (run.scene.get("over") or {})]
+
+
+def _figures(run: Any, figure: Figure) -> None:
+    kind, data, keys = get_kind(run.summary["kind"]), run.dataset, _keys(run)
+    variables = {name: _variable(data[name]) for name in axes_of(data)}
+    for key, name in figures(kind.record).items():
+        if name in data.variables and set(data[name].dims) <= set(axes_of(data)):
+            variables[key] = _variable(data[name])
+    fill(figure, variables, dict.fromkeys(keys, "linear"), kind.headline)
+
+
+def _variable(item: Any) -> Variable:
+    return Variable(tuple(item.dims), item.values, str(item.attrs["units"]), str(item.attrs["long_name"]))
+
+
+FIGURES = (
+    FigureKind(
+        "figures-over-keys",
+        "Headline figures over the keys that were varied.",
+        (),
+        _figures,
+        (7.0, 5.6),
+        lambda run: bool(_keys(run)),
+    ),
+)
