@@ -73,7 +73,7 @@ def contact_region(pressure: FloatArray, gap: FloatArray, undeformed: FloatArray
     Parameters
     ----------
     pressure : (nx, ny) [Pa], zero outside contact. gap, undeformed : (nx, ny), deformed and undeformed gap [m].
-    modulus : E* as the length of a cell sees it [Pa].
+    grid : of the cells. modulus : E* as the length of a cell sees it [Pa].
     """
     return _region(pressure > 0, pressure, gap, undeformed, grid, modulus)
 
