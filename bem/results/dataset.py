@@ -36,7 +36,7 @@ def write_variables(path: Path, variables: Mapping[str, Variable], attributes: M
             for name, item in variables.items():
                 text = item.values.dtype.kind in "US"
                 kind = h5py.string_dtype() if text else item.values.dtype
-                values = item.values.astype(object) if text else np.ascontiguousarray(item.values)
+                values = item.values.astype(object) if text else np.asarray(item.values, order="C")
                 parts = not text and values.ndim > 0 and values.nbytes >= LARGE  # it may be on disk and not in memory
                 stored = file.create_variable(name, item.dimensions, kind, data=None if parts else values)
                 for i in range(len(values) if parts else 0):

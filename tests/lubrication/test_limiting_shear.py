@@ -150,7 +150,7 @@ def test_a_stribeck_curve_at_500_newton():
     """stribeck-mineral-oil with a load that gave frictions of 1e7 and more."""
     scene, _ = plan_scene(SCENE, [])
     context = PlainContext(scene.seed)
-    outcome = get_kind("friction").run(scene, context)
-    assert all(0.03 < value < 0.1 for value in outcome.summary["friction"])
+    curve = get_kind("friction").run(scene, context)
+    assert all(0.03 < value < 0.1 for value in curve.friction)
     assert any("limiting shear stress" in note for note in context.notes)
     assert not any("not to be believed" in note for note in context.notes)
