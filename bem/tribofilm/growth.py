@@ -63,7 +63,7 @@ class StressActivatedGrowth(GrowthLaw):
         """
         if not (math.isfinite(temperature) and temperature > 0):
             raise InputError(f"temperature {temperature!r} must be positive [K]; add 273.15 to degrees Celsius")
-        barrier = self.activation_energy - np.asarray(shear_stress, dtype=np.float64) * self.activation_volume
-        with np.errstate(over="ignore"):  # a barrier beyond all numbers: nothing grows
+        with np.errstate(over="ignore"):  # a barrier beyond all numbers: nothing grows; a work beyond them: no barrier
+            barrier = self.activation_energy - np.asarray(shear_stress, dtype=np.float64) * self.activation_volume
             height = np.maximum(barrier, 0.0) / np.float64(Boltzmann * temperature)
         return np.asarray(self.prefactor * np.exp(-height))
