@@ -1,4 +1,9 @@
-"""Particles on a plate, from a height map of any microscope (thesis, paper B, section 2.6)."""
+"""Particles on a plate, from a height map of any microscope (thesis, paper B, section 2.6).
+
+The plate is levelled, what stands out of it is labelled (by watershed where touching particles are to be separated) and
+measured. Knows maps, no contact. Verified in tests/particles/test_particle_height_map.py on synthetic maps whose
+particles are known, and against scipy's labels.
+"""
 
 from __future__ import annotations
 
@@ -45,8 +50,9 @@ def particles_from_height_map(
     threshold : height above the background [m]; 50 nm in the source.
     background : how the plate is levelled, see `level_background`: "plane", "curvature", "offset" or "none".
     level_lines : also take out an offset for each scan line (each iy), as an AFM needs.
-    separate : None: what touches is one particle. A share s between 0 and 1: two summits are two particles where the
-        pass between them is lower than (1 - s) times the lower summit (watershed); 0.3 is a good start.
+    separate : None: what touches is one particle. A relative prominence s between 0 and 1: two summits are two
+        particles where the pass between them is lower than (1 - s) times the lower summit (watershed); 0.3 is a good
+        start.
     border : "exclude" leaves out particles that touch the edge of the map, "include" keeps them, marked `truncated`.
     rectangle : length and width from the bounding rectangle along x and y ("axis_aligned", as the source), or from the
         one of smallest area at any angle ("minimum_area").
@@ -61,6 +67,7 @@ def particles_from_height_map(
     ------
     InputError : heights that are not a finite map, names or values out of range.
     """
+    # the arguments are the entry point's promise: what to see, how to level, what to keep
     array, cell = check_map(heights, spacing)
     _check(threshold, background, separate, border, rectangle, smallest_columns, smallest_radius, connectivity)
     level = level_background(array, cell, threshold=threshold, method=background, lines=level_lines)
@@ -145,8 +152,8 @@ def label_particles(
     above = np.flatnonzero(flat > threshold)
     # from the top down; equal heights in order of place, so the same map always gives the same labels
     order = above[np.argsort(-flat[above], kind="stable")]
-    share = 2.0 if separate is None else separate
-    roots = _flood(flat, order, level.shape[0], level.shape[1], share, connectivity == 8)
+    prominence = 2.0 if separate is None else separate
+    roots = _flood(flat, order, level.shape[0], level.shape[1], prominence, connectivity == 8)
     labels = np.zeros(flat.size, dtype=np.int64)
     if above.size:
         _, first, inverse = np.unique(roots[above], return_index=True, return_inverse=True)
@@ -166,9 +173,9 @@ def _root(parent: NDArray[np.int64], i: int) -> int:
 
 @njit(cache=True)
 def _flood(
-    heights: FloatArray, order: NDArray[np.int64], nx: int, ny: int, share: float, corners: bool
+    heights: FloatArray, order: NDArray[np.int64], nx: int, ny: int, prominence: float, corners: bool
 ) -> NDArray[np.int64]:
-    """Watershed from the summits down: roots of each column; `share` of 2 merges all that touch."""
+    """Watershed from the summits down: roots of each column; a relative prominence of 2 merges all that touch."""
     parent = np.full(heights.size, -1, dtype=np.int64)  # the root of a particle is its summit
     for n in range(order.size):
         here = order[n]
@@ -197,7 +204,7 @@ def _flood(
                 if other == mine:
                     continue
                 # heights[here] is the pass between both summits
-                if heights[here] >= (1 - share) * min(heights[mine], heights[other]):
+                if heights[here] >= (1 - prominence) * min(heights[mine], heights[other]):
                     if heights[other] > heights[mine] or (heights[other] == heights[mine] and other < mine):
                         parent[mine] = other
                         mine = other
@@ -217,6 +224,7 @@ def _measure(
     smallest_columns: int,
     smallest_radius: float,
 ) -> list[Particle]:
+    """Sizes and places of the labelled particles that are kept."""
     nx, ny = level.shape
     ix, iy = np.nonzero(labels)
     names = labels[ix, iy]

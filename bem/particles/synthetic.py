@@ -3,6 +3,8 @@
 Nothing here is measured. Sizes are chosen so that the map shows what the thesis reports of its sample: flat particles
 whose number-weighted mean equivalent radius is 175 nm and volume-weighted 358 nm (steel, 10 N, 467 particles), from a
 log-normal distribution: mean exp(m + s^2/2), volume-weighted mean exp(m + 7 s^2/2).
+
+Knows the generator of surfaces for the plate. Verified in tests/particles/test_particle_height_map.py.
 """
 
 from __future__ import annotations
@@ -72,21 +74,8 @@ def synthetic_afm_map(
     ------
     InputError : sizes out of range, or more particles than find room.
     """
-    messages = []
-    if not (1 <= count <= 10**6):
-        messages.append(f"synthetic_afm_map: count {count!r} must be at least 1")
-    if not 0 < number_mean_radius < volume_mean_radius < math.inf:
-        messages.append(
-            f"synthetic_afm_map: number_mean_radius {number_mean_radius!r} must be positive and below "
-            f"volume_mean_radius {volume_mean_radius!r} [m]"
-        )
-    for name, value in (("width_over_thickness", width_over_thickness), ("length_over_width", length_over_width)):
-        if not (math.isfinite(value) and value >= 1):
-            messages.append(f"synthetic_afm_map: {name} {value!r} must be at least 1")
-    if not (math.isfinite(plate_rms) and plate_rms >= 0):
-        messages.append(f"synthetic_afm_map: plate_rms {plate_rms!r} must not be negative [m]")
-    if messages:
-        raise InputError(messages)
+    # the arguments are the entry point's promise; each has a default from the thesis' sample
+    _check(count, (number_mean_radius, volume_mean_radius), (width_over_thickness, length_over_width), plate_rms)
     grid = Grid(shape, (lengths[0] / shape[0], lengths[1] / shape[1]))
     radius = _radii(count, number_mean_radius, volume_mean_radius)[::-1]  # largest placed first
     # V = fill pi/4 l w t = 4/3 pi R^3
@@ -103,17 +92,43 @@ def synthetic_afm_map(
             grid, rms_height=plate_rms, seed=seed, hurst=0.8, rolloff_wavelength=min(grid.lengths) / 20
         )
     for i in range(count):
-        reach = length[i] / 2
-        near_x = np.flatnonzero(np.abs(grid.x - position[i, 0]) <= reach)
-        near_y = np.flatnonzero(np.abs(grid.y - position[i, 1]) <= reach)
-        if near_x.size == 0 or near_y.size == 0:
-            continue
-        dx, dy = grid.x[near_x][:, None] - position[i, 0], grid.y[near_y][None, :] - position[i, 1]
-        along = (dx * math.cos(angle[i]) + dy * math.sin(angle[i])) / (length[i] / 2)
-        across = (-dx * math.sin(angle[i]) + dy * math.cos(angle[i])) / (width[i] / 2)
-        rho2 = along**2 + across**2
-        heights[np.ix_(near_x, near_y)] += thickness[i] * np.maximum(1 - rho2 ** (_PROFILE // 2), 0.0)
+        _add_particle(heights, grid, position[i], angle[i], (length[i], width[i], thickness[i]))
     return SyntheticMap(heights, grid.spacing, radius, length, width, thickness, angle, position)
+
+
+def _check(count: int, radii: tuple[float, float], ratios: tuple[float, float], plate_rms: float) -> None:
+    messages = []
+    if not (1 <= count <= 10**6):
+        messages.append(f"synthetic_afm_map: count {count!r} must be at least 1")
+    if not 0 < radii[0] < radii[1] < math.inf:
+        messages.append(
+            f"synthetic_afm_map: number_mean_radius {radii[0]!r} must be positive and below "
+            f"volume_mean_radius {radii[1]!r} [m]"
+        )
+    for name, value in zip(("width_over_thickness", "length_over_width"), ratios, strict=True):
+        if not (math.isfinite(value) and value >= 1):
+            messages.append(f"synthetic_afm_map: {name} {value!r} must be at least 1")
+    if not (math.isfinite(plate_rms) and plate_rms >= 0):
+        messages.append(f"synthetic_afm_map: plate_rms {plate_rms!r} must not be negative [m]")
+    if messages:
+        raise InputError(messages)
+
+
+def _add_particle(
+    heights: FloatArray, grid: Grid, position: FloatArray, angle: float, sides: tuple[float, float, float]
+) -> None:
+    """Add, in place, an elliptic particle of (length, width, thickness) [m] with its length at `angle` to x."""
+    length, width, thickness = sides
+    reach = length / 2
+    near_x = np.flatnonzero(np.abs(grid.x - position[0]) <= reach)
+    near_y = np.flatnonzero(np.abs(grid.y - position[1]) <= reach)
+    if near_x.size == 0 or near_y.size == 0:
+        return
+    dx, dy = grid.x[near_x][:, None] - position[0], grid.y[near_y][None, :] - position[1]
+    along = (dx * math.cos(angle) + dy * math.sin(angle)) / (length / 2)
+    across = (-dx * math.sin(angle) + dy * math.cos(angle)) / (width / 2)
+    rho2 = along**2 + across**2
+    heights[np.ix_(near_x, near_y)] += thickness * np.maximum(1 - rho2 ** (_PROFILE // 2), 0.0)
 
 
 def _radii(count: int, number_mean: float, volume_mean: float) -> FloatArray:
@@ -123,7 +138,7 @@ def _radii(count: int, number_mean: float, volume_mean: float) -> FloatArray:
         radius = np.exp(spread * (normal - normal[-1]))
         return float((radius**4).sum() / (radius**3).sum() / radius.mean())
 
-    # one particle of a radius far beyond all others: the volume mean is it, the number mean its share
+    # one particle of a radius far beyond all others: the volume mean is it, the number mean 1/count of it
     if not volume_mean / number_mean < 0.95 * count:
         raise InputError(
             f"synthetic_afm_map: {count} particles cannot have a volume mean {volume_mean / number_mean:.3g} times "
@@ -140,17 +155,17 @@ def _place(random: np.random.Generator, reach: FloatArray, grid: Grid) -> FloatA
     half = np.array(grid.lengths) / 2
     placed = np.empty((len(reach), 2))
     for i, size in enumerate(reach):
-        room = half - size - gap
+        free = half - size - gap
         for _ in range(2000):
-            if (room <= 0).any():
+            if (free <= 0).any():
                 break
-            place = random.uniform(-room, room)
+            place = random.uniform(-free, free)
             if (np.hypot(*(placed[:i] - place).T) > reach[:i] + size + gap).all():
                 placed[i] = place
                 break
         else:
-            room = np.zeros(2)
-        if (room <= 0).any():
+            free = np.zeros(2)
+        if (free <= 0).any():
             raise InputError(
                 f"synthetic_afm_map: particle {i + 1} of {len(reach)} finds no room on {grid.lengths[0]:.4g} x "
                 f"{grid.lengths[1]:.4g} m; take fewer or smaller particles, or a larger map"
