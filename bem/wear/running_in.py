@@ -2,6 +2,8 @@
 
 The loop is a fold over a state: `advance(state) -> state`. A state holds all that the next cycle needs, so a run that
 is stopped after any cycle and goes on from its stored state ends in the same bits as one that was never stopped.
+
+Knows cycles (`wear.cycle`) and records; no scene, no file. Verified in tests/wear/test_cycle.py.
 """
 
 from __future__ import annotations
@@ -245,6 +247,7 @@ def run_in(
     InputError : shapes that do not match, a wearing body without yield stress.
     ConvergenceError : a contact that did not converge; says in which cycle.
     """
+    # fifteen arguments are the entry point's promise; behind it they are surfaces, a set-up, a model and a state
     choices = model if model is not None else WearModel()
     setup = WearSetup(
         grid=grid,
