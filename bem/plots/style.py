@@ -147,3 +147,11 @@ def map_of_heights(
     bar.set_label(label("height", unit))
     bar.outline.set_linewidth(0.6)
     return image
+
+
+def speed_axis(axes: Axes, speed: NDArray[Any]) -> None:
+    """An axis of speeds, logarithmic where it can be, over values from zero."""
+    axes.set_xlabel("speed (m/s)")
+    if (speed > 0).all() and len(speed) > 1:
+        axes.set_xscale("log")
+    axes.set_ylim(0)

@@ -1,19 +1,21 @@
-"""Figures of friction and running-in: Stribeck curves with their parts, sections through film and surface, cycles."""
+"""Figures of friction: Stribeck curves with their parts, sections through film and surface, loads of asperities.
+
+Knows a run's dataset, summary and scene; solves nothing. Verified in tests/plots/test_figures.py: every figure of every
+built-in scene is drawn.
+"""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from bem.plots.cases import along, grouped
+from bem.plots.cases import grouped
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLACK, BLUE, GREEN, OPEN, ORANGE, PINK, SEQUENTIAL, SKY, VERMILION, label, prefix
+from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, prefix, speed_axis
 
 _COLOURS = (BLUE, VERMILION, GREEN, ORANGE, SKY, PINK, BLACK) * 9
 _MODEL_NAMES = {
@@ -22,7 +24,6 @@ _MODEL_NAMES = {
     "uncoupled": "uncoupled asperities, plastic",
     "uncoupled_elastic": "uncoupled asperities, elastic",
 }
-_MEASURED_RADIUS = (210e-9, 236e-9)  # dynamic light scattering at 0.01 m/s, 223 +- 13 nm; thesis, paper D
 Array = NDArray[Any]
 
 
@@ -43,13 +44,6 @@ def _band(axes: Axes, x: Array, values: Array, colour: str, name: str, **how: An
         axes.fill_between(x, values.min(axis=0), values.max(axis=0), color=colour, alpha=0.18, linewidth=0)
 
 
-def _speed_axis(axes: Axes, speed: Array) -> None:
-    axes.set_xlabel("speed (m/s)")
-    if (speed > 0).all() and len(speed) > 1:
-        axes.set_xscale("log")
-    axes.set_ylim(0)
-
-
 def _stribeck(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
     speed, curves = np.sort(run.dataset["speed"].values), _curves(run, "friction")
@@ -62,7 +56,7 @@ def _stribeck(run: Any, figure: Figure) -> None:
                 part = _curves(run, key)[0][1].mean(axis=0)
                 axes.plot(speed, part, color="0.45", linestyle=dots, linewidth=1.1, label=text)
     axes.set_ylabel("coefficient of friction")
-    _speed_axis(axes, speed)
+    speed_axis(axes, speed)
     axes.legend(fontsize=6.5 if many else 7.5, ncols=2 if many else 1)
 
 
@@ -79,7 +73,7 @@ def _sharing(run: Any, figure: Figure) -> None:
     factor, unit = prefix(film, "m")
     _band(lower, speed, film * factor, BLUE, "")
     lower.set_ylabel(label("minimum film", unit))
-    _speed_axis(lower, speed)
+    speed_axis(lower, speed)
 
 
 def _section(run: Any, figure: Figure) -> None:
@@ -177,139 +171,6 @@ def _difference(run: Any, figure: Figure) -> None:
     axes.legend()
 
 
-def _run_in_stribeck(run: Any, figure: Figure) -> None:
-    axes = figure.add_subplot()
-    for name, colour, text, how in (
-        ("friction_initial", VERMILION, "initial", "--"),
-        ("friction_run_in", BLUE, "run in", "-"),
-        ("boundary_friction_part", "0.45", "run in, of it boundary", ":"),
-        ("film_friction_part", "0.45", "run in, of it film", "-."),
-    ):
-        speed, mean, low, high = along(run, name, "speed")
-        marker = {"--": "s", "-": "o"}.get(how)  # the square is seen where both are equal
-        size = 6.0 if marker == "s" else 3.5
-        axes.plot(speed, mean, how, color=colour, label=text, marker=marker, markersize=size, markerfacecolor="none")
-        if marker and (high > low).any():
-            axes.fill_between(speed, low, high, color=colour, alpha=0.18, linewidth=0)
-    axes.set_ylabel("coefficient of friction")
-    _speed_axis(axes, speed)
-    axes.legend()
-
-
-def _cycles(name: str, text: str) -> Any:
-    def draw(run: Any, figure: Figure) -> None:
-        axes = figure.add_subplot()
-        cycle, groups = run.dataset["cycle"].values, grouped(run, name)
-        for number, (group, values) in enumerate(groups):
-            import matplotlib
-
-            colour = matplotlib.colormaps["viridis"](0.85 * number / max(1, len(groups) - 1))
-            axes.plot(cycle, values.mean(axis=0), color=colour, linewidth=1.1, label=group)
-        axes.set_xlabel("cycle")
-        axes.set_ylabel(text)
-        axes.set_xlim(1, max(2, cycle[-1]))
-        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-        axes.set_ylim(0)
-        if len(groups) > 1:
-            axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
-
-    return draw
-
-
-def _radius_over_speed(run: Any, figure: Figure) -> None:
-    axes = figure.add_subplot()
-    speed, mean, low, high = along(run, "particle_equivalent_radius", "speed")
-    axes.plot(speed, mean * 1e9, "o-", color=BLUE, markersize=4, label="computed; 0: no particles")
-    axes.fill_between(speed, low * 1e9, high * 1e9, color=BLUE, alpha=0.18, linewidth=0)
-    middle = 0.5e9 * sum(_MEASURED_RADIUS)
-    axes.errorbar(
-        [0.01], [middle], yerr=[0.5e9 * (_MEASURED_RADIUS[1] - _MEASURED_RADIUS[0])], fmt="s", color=VERMILION,
-        markersize=4, capsize=3, label="light scattering (thesis, paper D)",
-    )  # fmt: skip
-    axes.set_ylabel("equivalent radius (nm)")
-    _speed_axis(axes, speed)
-    axes.legend()
-
-
-def _over_hardness(run: Any, figure: Figure) -> None:
-    axes = figure.add_subplot()
-    for name, colour, text in (("friction_initial", VERMILION, "initial"), ("friction_run_in", BLUE, "run in")):
-        each, mean, low, high = along(run, name, "hardness")
-        axes.plot(each * 1e-9, mean, "o-", color=colour, markersize=4, label=text)
-        axes.fill_between(each * 1e-9, low, high, color=colour, alpha=0.18, linewidth=0)
-    axes.set_xlabel("hardness of the disk (GPa)")
-    axes.set_ylabel("coefficient of friction")
-    axes.legend()
-
-
-def _touched_strip(run: Any) -> tuple[Array, tuple[float, float, float, float], float]:
-    """Pressure of the kept cycles [MPa] (frame, y, x) where the surfaces ever touch, its extent [um], its maximum.
-
-    Contacts are a few cells each: every pixel shows the largest pressure of the cells around it.
-    """
-    from scipy.ndimage import grey_dilation
-
-    data = run.dataset
-    x, y = data["x"].values * 1e6, data["y"].values * 1e6
-    frames = data["pressure_frames"].values * 1e-6
-    touched = np.flatnonzero((frames > 0).any(axis=(0, 2)))
-    low, high = (touched[0], touched[-1] + 1) if touched.size else (0, len(x))
-    strip = np.array([grey_dilation(f[low:high].T, size=3) for f in frames])
-    return strip, (x[low], x[high - 1], y[0], y[-1]), float(frames.max()) or 1.0
-
-
-def _frames(run: Any, figure: Figure) -> None:
-    """Pressure in the strip in contact at five of the cycles that were kept."""
-    frames, extent, highest = _touched_strip(run)
-    cycles = run.dataset["frame"].values
-    shown = np.unique(np.geomspace(1, len(frames), min(5, len(frames))).round().astype(int)) - 1
-    many = figure.subplots(1, len(shown), sharey=True, squeeze=False)[0]
-    for axes, index in zip(many, shown, strict=True):
-        image = _pressure_image(axes, frames[index], extent, highest)
-        axes.set_title(f"cycle {int(cycles[index])}")
-        axes.set_xlabel("x (µm)")
-    many[0].set_ylabel("y (µm)")
-    figure.colorbar(image, ax=list(many), label="contact pressure (MPa)")
-
-
-def _pressure_image(axes: Axes, values: Array, extent: tuple[float, float, float, float], highest: float) -> Any:
-    axes.set_facecolor(OPEN)
-    shown = np.where(values > 0, values, np.nan)
-    return axes.imshow(shown, extent=extent, aspect="equal", cmap=SEQUENTIAL, vmin=0, vmax=highest)
-
-
-def _animate(run: Any, path: Path) -> None:
-    """Pressure over the cycles, beside the friction up to then."""
-    from matplotlib.animation import FuncAnimation, PillowWriter
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
-    frames, extent, highest = _touched_strip(run)
-    cycles, friction = run.dataset["frame"].values, grouped(run, "friction_over_cycles")[0][1][0]
-    figure = Figure(figsize=(6.4, 3.6), layout="constrained")
-    FigureCanvasAgg(figure)
-    left, right = figure.subplots(1, 2, width_ratios=(2, 3))
-    image = _pressure_image(left, frames[0], extent, highest)
-    left.set_xlabel("x (µm)")
-    left.set_ylabel("y (µm)")
-    figure.colorbar(image, ax=left, label="contact pressure (MPa)")
-    right.plot(run.dataset["cycle"].values, friction, color="0.85")
-    (line,) = right.plot([], [], color=BLUE)
-    right.set_xlabel("cycle")
-    right.set_ylabel("coefficient of friction")
-    right.set_ylim(0)
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")
-
-    def show(index: int) -> tuple[Any, ...]:
-        image.set_data(np.where(frames[index] > 0, frames[index], np.nan))
-        line.set_data(np.arange(1, cycles[index] + 1), friction[: int(cycles[index])])
-        left.set_title(f"cycle {int(cycles[index])}")
-        return image, line
-
-    animation = FuncAnimation(figure, show, frames=len(frames), init_func=lambda: ())
-    animation.save(str(path), writer=PillowWriter(fps=4), dpi=110)
-
-
 def _asperity_loads(run: Any, figure: Figure) -> None:
     data = run.dataset
     depth = data["interference"].values
@@ -337,15 +198,6 @@ def _has_differences(run: Any) -> bool:
     return bool(run.summary.get("largest_difference"))
 
 
-def _many_speeds(run: Any) -> bool:
-    return run.dataset.sizes["speed"] > 1
-
-
-def _many_hardnesses(run: Any) -> bool:
-    return run.dataset.sizes["hardness"] > 1
-
-
-_WIDE = (5.6, 3.6)
 ALL_CASES = True
 FIGURES = (
     FigureKind(
@@ -383,46 +235,8 @@ FIGURES = (
         "Largest relative difference of friction between uncoupled asperities and the rough half-space, over load.",
         ("speed", "friction", "model"),
         _difference,
-        _WIDE,
+        (5.6, 3.6),
         _has_differences,
-    ),
-    FigureKind(
-        "running-in-stribeck",
-        "Friction in the first cycle and after running-in, over speed; bands span the repetitions.",
-        ("speed", "friction_initial", "friction_run_in"),
-        _run_in_stribeck,
-        _WIDE,
-        _many_speeds,
-    ),
-    FigureKind(
-        "friction-over-cycles",
-        "Coefficient of friction over the cycles.",
-        ("cycle", "friction_over_cycles", "speed", "hardness"),
-        _cycles("friction_over_cycles", "coefficient of friction"),
-        (6.2, 3.6),
-    ),
-    FigureKind(
-        "contact-share-over-cycles",
-        "Share of the load that the surfaces carry, over the cycles.",
-        ("cycle", "contact_share", "speed", "hardness"),
-        _cycles("contact_share", "share of the load on contact"),
-        (6.2, 3.6),
-    ),
-    FigureKind(
-        "particle-radius-over-speed",
-        "Settled radius of the particles over speed, beside what dynamic light scattering found (thesis, paper D).",
-        ("speed", "particle_equivalent_radius"),
-        _radius_over_speed,
-        _WIDE,
-        _many_speeds,
-    ),
-    FigureKind(
-        "friction-over-hardness",
-        "Friction before and after running-in over the hardness of the disk; bands span the repetitions.",
-        ("hardness", "friction_initial", "friction_run_in"),
-        _over_hardness,
-        _WIDE,
-        _many_hardnesses,
     ),
     FigureKind(
         "asperity-loads",
@@ -430,13 +244,5 @@ FIGURES = (
         ("interference", "asperity_spacing", "asperity_load", "asperity_load_window", "hertz_load"),
         _asperity_loads,
         (8.0, 3.8),
-    ),
-    FigureKind(
-        "running-in-frames",
-        "Contact pressure of the first run at some of its cycles, in the strip where the surfaces touch.",
-        ("pressure_frames", "frame", "x", "y", "friction_over_cycles"),
-        _frames,
-        (8.4, 3.0),
-        animate=_animate,
     ),
 )
