@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.benchmarks.cases import MEAN_PRESSURE, PERIODIC, UNIT, common_residual, rough_gap
+from bem.benchmarks.contact_cases import MEAN_PRESSURE, PERIODIC, UNIT, common_residual, rough_gap
 from bem.benchmarks.measure import THREAD_VARIABLES, Point, measure_apart
 from bem.errors import InputError
 

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from bem import InputError, ResultsError, displacement_operator, solve_contact
-from bem.benchmarks.cases import CASES, UNIT, common_residual, rough_gap
+from bem.benchmarks.cases import CASES
+from bem.benchmarks.contact_cases import UNIT, common_residual, rough_gap
 from bem.benchmarks.floor import Floor, bandwidth, transform_pair
 from bem.benchmarks.history import append_run, compare, find_run, new_run, read_history
 from bem.benchmarks.measure import Point, growth, measure, measure_apart, watched

@@ -1,0 +1,163 @@
+"""Dry contacts that are timed: rough ones judged by their residual, smooth ones by closed forms."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from bem.benchmarks.measure import Outcome, Timed
+from bem.contact import ContactSolution, solve_contact
+from bem.convolution import DisplacementOperator, displacement_operator
+from bem.grid import FloatArray, Grid
+from bem.materials import Body, Layer, Material
+
+FREE, SEMI, PERIODIC = (False, False), (False, True), (True, True)
+POISSON = 0.3
+UNIT = Body(Material("unit contact modulus", youngs_modulus=1 - POISSON**2, poissons_ratio=POISSON))
+"""E* = 1 against a rigid body."""
+MEAN_PRESSURE = 0.0035
+
+
+def rough_gap(cells: int) -> FloatArray:
+    """The gap of all comparisons: side 1, Hurst 0.8, roll-off 1/8, cut-off 8 cells, rms slope 0.1."""
+    from bem.surfaces import generate_surface
+
+    grid = Grid((cells, cells), (1 / cells, 1 / cells), periodic=PERIODIC)
+    return -generate_surface(
+        grid, rms_slope=0.1, hurst=0.8, rolloff_wavelength=1 / 8, cutoff_wavelength=8 / cells, seed=1
+    )
+
+
+def common_residual(pressure: FloatArray, gap: FloatArray, operator: DisplacementOperator) -> tuple[float, float]:
+    """(complementarity, violation) of any pressure on any solver, relative to the rms of the gap.
+
+    The gap is counted from its pressure-weighted mean, so the first is sum p |g| / sum p and the second the largest of
+    |g| in contact and -g outside.
+    """
+    deformed = gap + operator(pressure)
+    touching = pressure > 0
+    deformed -= (pressure * deformed).sum() / pressure.sum()
+    roughness = gap.std()
+    complementarity = (pressure * np.abs(deformed)).sum() / pressure.sum() / roughness
+    overlap = max(float(np.abs(deformed[touching]).max()), float(-deformed[~touching].min(initial=0.0)))
+    return float(complementarity), overlap / float(roughness)
+
+
+def _judge_rough(gap: FloatArray, operator: DisplacementOperator, capped: bool) -> Callable[[ContactSolution], Outcome]:
+    def judge(solution: ContactSolution) -> Outcome:
+        errors = {"residual": solution.residual}
+        values = {
+            "contact_fraction": solution.contact_area / operator.grid.area,
+            "plastic_fraction": solution.plastic_area / operator.grid.area,
+            "converged": float(solution.status == "converged"),
+        }
+        if not capped:
+            complementarity, violation = common_residual(solution.pressure, gap, operator)
+            errors |= {"violation": violation, "complementarity": complementarity}
+        counts = {"convolutions": solution.convolutions, "iterations": float(solution.iterations)}
+        return Outcome(errors, counts, values)
+
+    return judge
+
+
+def rough(
+    cells: float,
+    *,
+    periodic: tuple[bool, bool] = PERIODIC,
+    bodies: Callable[[float], Body] = lambda spacing: UNIT,
+    hardness: float | None = None,
+    tolerance: float = 1e-8,
+) -> Timed:
+    """Dry rough contact of `cells` a side; the error is the residual recomputed."""
+    n = int(cells)
+    gap = rough_gap(n)
+    operator = displacement_operator(Grid((n, n), (1 / n, 1 / n), periodic=periodic), bodies(1 / n))
+
+    def solve() -> ContactSolution:
+        return solve_contact(gap, operator, load=MEAN_PRESSURE, hardness=hardness, tolerance=tolerance)
+
+    return Timed(solve, _judge_rough(gap, operator, hardness is not None))
+
+
+def film_on_base(spacing: float) -> Body:
+    """A film of a third of the base's modulus, eight cells thick."""
+    film = Material("film", youngs_modulus=UNIT.material.youngs_modulus / 3, poissons_ratio=POISSON)
+    return Body(UNIT.material, layer=Layer(film, 8 * spacing))
+
+
+def tolerances(cells: float) -> Callable[[float], Timed]:
+    """`rough` at one size over the digits that are asked for."""
+    return lambda digits: rough(cells, tolerance=10.0 ** (-digits))
+
+
+def peer_tolerance(code: float) -> Timed:
+    """`cells + digits / 100`: one number, as every size is."""
+    cells = int(code)
+    return rough(cells, tolerance=10.0 ** -round(100 * (code - cells)))
+
+
+def sphere(cells: float) -> Timed:
+    """A sphere against Hertz, free along both axes."""
+    from bem.reference_solutions.hertz import sphere_contact
+
+    n = int(cells)
+    exact = sphere_contact(radius=1.0, contact_modulus=1.0, load=1e-3)
+    spacing = 3 * exact.semi_axes[0] / n
+    grid = Grid((n, n), (spacing, spacing))
+    operator = displacement_operator(grid, UNIT)
+    x, y = grid.x[:, None], grid.y[None, :]
+    gap, expected = exact.undeformed_gap(x, y), exact.pressure(x, y)
+
+    def judge(solution: ContactSolution) -> Outcome:
+        return Outcome(
+            {
+                "mean_pressure_error": float(np.abs(solution.pressure - expected).sum() / expected.sum()),
+                "maximum_pressure": abs(solution.pressure.max() / exact.maximum_pressure - 1),
+                "approach": abs(solution.approach / exact.approach - 1),
+                "contact_radius": abs(math.sqrt(solution.contact_area / exact.contact_area) - 1),
+            },
+            {"convolutions": solution.convolutions},
+            {"unknowns": float(grid.cells)},
+        )
+
+    return Timed(lambda: solve_contact(gap, operator, load=exact.load), judge)
+
+
+def _judge_pressure(expected: FloatArray) -> Callable[[ContactSolution], Outcome]:
+    def judge(solution: ContactSolution) -> Outcome:
+        error = float(np.abs(solution.pressure - expected).sum() / expected.sum())
+        return Outcome({"mean_pressure_error": error}, {"convolutions": solution.convolutions})
+
+    return judge
+
+
+def cylinder(cells: float) -> Timed:
+    """A cylinder against Hertz, periodic along its axis."""
+    from bem.reference_solutions.hertz import cylinder_contact
+
+    n = int(cells)
+    exact = cylinder_contact(radius=1.0, contact_modulus=1.0, load=1e-3)
+    grid = Grid((n, 8), (3 * exact.half_width / n,) * 2, periodic=SEMI)
+    operator = displacement_operator(grid, UNIT)
+    expected = exact.pressure(grid.x[:, None]) * np.ones((1, 8))
+    gap = np.broadcast_to(grid.x[:, None] ** 2 / 2, grid.shape).copy()
+    load = exact.load * grid.lengths[1]
+
+    return Timed(lambda: solve_contact(gap, operator, load=load), _judge_pressure(expected))
+
+
+def row(cells: float) -> Timed:
+    """A row of sinusoids against Westergaard, periodic."""
+    from bem.reference_solutions.westergaard import SinusoidalContact
+
+    n = int(cells)
+    exact = SinusoidalContact(amplitude=0.01, wavelength=1.0, contact_modulus=1.0, mean_pressure=0.01)
+    grid = Grid((n, 8), (1 / n, 1 / n), periodic=PERIODIC)
+    operator = displacement_operator(grid, UNIT)
+    x = grid.x - grid.x[n // 2]
+    expected = exact.pressure(x)[:, None] * np.ones((1, 8))
+    gap = np.broadcast_to(0.01 * (1 - np.cos(2 * np.pi * x))[:, None], grid.shape).copy()
+
+    return Timed(lambda: solve_contact(gap, operator, load=0.01 * grid.area), _judge_pressure(expected))

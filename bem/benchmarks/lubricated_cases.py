@@ -1,0 +1,131 @@
+"""Films, mixed lubrication and Stribeck curves that are timed, judged by finer meshes."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import numpy as np
+
+from bem.benchmarks.contact_cases import PERIODIC, SEMI
+from bem.benchmarks.measure import Outcome, Timed
+from bem.grid import FloatArray, Grid
+from bem.materials import Body, Material
+
+STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
+FILM = {"load": 900.0, "radius": 2e-3, "contact_modulus": 115.4e9, "speeds": (0.1, 0.0)}
+
+
+def line_film(points: float) -> Timed:
+    """A line-contact film of `points` nodes; the error is that against the limit of finer meshes."""
+    from bem.lubrication import FilmSolution, Lubricant, solve_line_film
+
+    oil = Lubricant(0.36, pressure_viscosity=25e-9)
+
+    def solve() -> FilmSolution:
+        return solve_line_film(**FILM, lubricant=oil, points=int(points))  # type: ignore[arg-type]
+
+    def judge(film: FilmSolution) -> Outcome:
+        minimum, central, shear = _film_reference()
+        return Outcome(
+            {
+                "minimum_film": abs(film.minimum_thickness / minimum - 1),
+                "central_film": abs(film.central_thickness / central - 1),
+                "shear_force": abs(film.shear_force / shear - 1),
+            },
+            {"newton_steps": float(film.iterations)},
+        )
+
+    return Timed(solve, judge)
+
+
+@functools.cache
+def _film_reference() -> tuple[float, float, float]:
+    """Richardson's limit of 2000 and 4000 points, second order."""
+    from bem.lubrication import Lubricant, solve_line_film
+
+    oil = Lubricant(0.36, pressure_viscosity=25e-9)
+    values = []
+    for points in (2000, 4000):
+        film = solve_line_film(**FILM, lubricant=oil, points=points)  # type: ignore[arg-type]
+        values.append((film.minimum_thickness, film.central_thickness, film.shear_force))
+    coarse, fine = np.array(values)
+    limit = fine + (fine - coarse) / 3
+    return float(limit[0]), float(limit[1]), float(limit[2])
+
+
+SPEEDS = (0.001, 0.01, 0.03, 0.05, 0.1, 0.2, 0.3)
+
+
+def _mixed_case(cells: int, film_points: int, tolerance: float) -> dict[str, Any]:
+    from bem.lubrication import Lubricant
+    from bem.surfaces import generate_surface
+
+    # one surface for every mesh: each coarser grid takes every so many points of the finest
+    finest = 480  # twice the finest mesh that is timed: the reference is not one of the points
+    whole = Grid((finest, finest), (90e-6 / finest,) * 2, periodic=PERIODIC)
+    height = generate_surface(whole, rms_height=100e-9, seed=3, correlation_length=4e-6)[
+        :: finest // cells, :: finest // cells
+    ]
+    return {
+        "height": height,
+        "grid": Grid((cells, cells), (90e-6 / cells,) * 2, periodic=SEMI),
+        "bodies": (Body(STEEL), Body(STEEL)),
+        "radius": 2e-3,
+        "width": 6e-3,
+        "load": 5.5,
+        "lubricant": Lubricant(0.36, pressure_viscosity=25e-9),
+        "boundary_friction": 0.15,
+        "hardness": 6e9,
+        "film_points": film_points,
+        "tolerance": tolerance,
+    }
+
+
+@functools.cache
+def _mixed_reference() -> FloatArray:
+    from bem.friction import stribeck_curve
+
+    return np.array([p.friction for p in stribeck_curve(SPEEDS, **_mixed_case(480, 2000, 1e-6))])
+
+
+@functools.cache
+def _point_reference() -> float:
+    from bem.friction import solve_mixed
+
+    return solve_mixed(**_mixed_case(480, 2000, 1e-6), speeds=(SPEEDS[2], 0.0)).friction
+
+
+def load_sharing(cells: float) -> Timed:
+    """One speed in mixed lubrication, against twice the finest mesh."""
+    from bem.friction import MixedSolution, solve_mixed
+
+    case = _mixed_case(int(cells), 2000, 1e-4)
+
+    def judge(point: MixedSolution) -> Outcome:
+        return Outcome(
+            {"friction": abs(point.friction / _point_reference() - 1)},
+            {"evaluations": float(point.evaluations), "contact_solves": float(point.contact_solves)},
+        )
+
+    return Timed(lambda: solve_mixed(**case, speeds=(SPEEDS[2], 0.0)), judge)
+
+
+def stribeck(cells: float) -> Timed:
+    """A Stribeck curve, against twice the finest mesh."""
+    from bem.friction import MixedSolution, stribeck_curve
+
+    case = _mixed_case(int(cells), 2000, 1e-4)
+
+    def judge(curve: list[MixedSolution]) -> Outcome:
+        found = np.array([p.friction for p in curve])
+        return Outcome(
+            {"friction": float(np.abs(found / _mixed_reference() - 1).max())},
+            {
+                "evaluations": float(sum(p.evaluations for p in curve)),
+                "contact_solves": float(sum(p.contact_solves for p in curve)),
+                "speeds": float(len(curve)),
+            },
+        )
+
+    return Timed(lambda: stribeck_curve(SPEEDS, **case), judge)
