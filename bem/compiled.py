@@ -40,14 +40,12 @@ def provide_folder() -> None:
 def is_cold() -> bool:
     """Whether the next run has to compile first: none of the transforms' loops is newer than their source."""
     named = os.environ.get("NUMBA_CACHE_DIR")
-    folders = Path(named).glob("*") if named else [_HERE / "__pycache__"]
+    folders = Path(named).glob("*") if named else [_HERE / "transforms" / "__pycache__"]
     version = f"py{sys.version_info[0]}{sys.version_info[1]}"
     try:
-        changed = (_HERE / "transforms.py").stat().st_mtime
+        changed = (_HERE / "transforms" / "padded.py").stat().st_mtime
         return not any(
-            index.stat().st_mtime >= changed
-            for folder in folders
-            for index in folder.glob(f"transforms.*.{version}*.nbi")
+            index.stat().st_mtime >= changed for folder in folders for index in folder.glob(f"padded.*.{version}*.nbi")
         )
     except OSError:
         return True

@@ -1,0 +1,69 @@
+"""Padded lengths, and spectra of even and odd kernels from a quarter of their values."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+from bem.transforms.count import COUNT
+
+FloatArray = NDArray[Any]
+
+
+def padded_length(cells: int, periodic: bool) -> int:
+    """Length of the transform along an axis: the axis itself if periodic, else an even fast length >= 2 cells - 1.
+
+    A power of two serves where it is little longer, since plans made without timing are so much better for it: up to a
+    tenth for 512, up to 3 % beyond. Measured, a convolution of 240 cells along x gains a seventh with 512 for 480, of
+    500 or 1000 cells a tenth to a third; 1024 for 960 would lose.
+    """
+    if periodic or cells == 1:
+        return cells
+    fast = 2 * int(scipy.fft.next_fast_len(cells, real=True))
+    power = 1 << (fast - 1).bit_length()
+    return power if power >= 512 and power <= (1.1 if power == 512 else 1.03) * fast else fast
+
+
+def kernel_spectrum(coefficients: FloatArray, padded: tuple[int, int], parity: tuple[int, int]) -> FloatArray:
+    """Spectrum of a kernel that is even (+1) or odd (-1) along each axis, from its non-negative offsets only.
+
+    Parameters
+    ----------
+    coefficients : (mx, my), value at offset (i, j); at -i it is parity_x times that, likewise along y. Offsets beyond
+        half the padded length are ignored (a periodic axis repeats them), missing ones are zero.
+    padded : (px, py), lengths of the transform.
+    parity : (+-1, +-1).
+
+    Returns
+    -------
+    (py // 2 + 1, px // 2 + 1), real, in double precision. The true spectrum is this times i for each odd axis (a factor
+    -1 if both are), and at px - k it is parity_x times that at k.
+    """
+    result = np.ascontiguousarray(_half_spectrum(coefficients, padded[1], parity[1]).T)
+    COUNT.kernels += 1
+    return np.ascontiguousarray(_half_spectrum(result, padded[0], parity[0]))
+
+
+def _half_spectrum(values: FloatArray, length: int, parity: int) -> FloatArray:
+    """Real or imaginary part of the transform along the last axis of an even or odd sequence."""
+    kept = length // 2 + 1
+    half = np.zeros((values.shape[0], kept))
+    given = min(kept, values.shape[1])
+    half[:, :given] = values[:, :given]
+    if length == 1:
+        return half if parity == 1 else np.zeros_like(half)
+    if length % 2 == 0:
+        if parity == 1:
+            return cast(FloatArray, scipy.fft.dct(half, type=1, axis=-1))
+        result = np.zeros_like(half)
+        if kept > 2:
+            result[:, 1:-1] = -scipy.fft.dst(half[:, 1:-1], type=1, axis=-1)
+        return result
+    full = np.concatenate([half, parity * half[:, :0:-1]], axis=1)
+    if parity == -1:
+        full[:, 0] = 0
+    spectrum = scipy.fft.rfft(full, axis=-1)
+    return np.ascontiguousarray(spectrum.real if parity == 1 else spectrum.imag)
