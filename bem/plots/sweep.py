@@ -101,7 +101,7 @@ def _panel(
             values = np.where(count > 0, np.nansum(values, axis) / np.maximum(count, 1), np.nan)
         low, high = (np.where(np.isfinite(item), item, np.nan) for item in (low, high))
         dimensions.remove(chance)
-    along = next((key for key in keys if key in dimensions and len(variables[key].values) > 1), dimensions[0])
+    along = _axis(variables, dimensions, keys)
     position, ticks, words, unit = _positions(variables.get(along), values.shape[dimensions.index(along)], along)
     factor, shown = prefix(values, variable.units if variable.units != "1" else "")
     others = [d for d in dimensions if d != along]
@@ -128,7 +128,7 @@ def _panel(
             )
     if ticks:
         axes.set_xticks(position, ticks, rotation=30 if max(map(len, ticks)) > 6 else 0)
-    elif spacings.get(along) == "logarithmic":
+    elif spacings.get(along) == "logarithmic" or (along == "speed" and np.min(position) > 0):
         axes.set_xscale("log")
         if np.max(position) < 100 * np.min(position):  # too few decades for a readable label at each
             shown_at = position[:: -(-len(position) // 6)]
@@ -136,6 +136,13 @@ def _panel(
             axes.minorticks_off()
     axes.set_xlabel(label(words, unit))
     axes.set_ylabel(label(_spelt(name, variable.units), shown))
+
+
+def _axis(variables: Mapping[str, Variable], dimensions: Sequence[str], keys: Sequence[str]) -> str:
+    """What a panel is drawn over: what curves run over (speed) if the figure is one, else the first swept key."""
+    curve = [d for d in dimensions if d not in keys and d in variables and variables[d].values.dtype.kind in "if"]
+    swept = [key for key in keys if key in dimensions and len(variables[key].values) > 1]
+    return next((d for d in (*curve, *swept) if len(variables[d].values) > 1), dimensions[0])
 
 
 def _positions(variable: Variable | None, size: int, name: str) -> tuple[Any, list[str], str, str]:

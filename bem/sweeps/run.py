@@ -240,7 +240,7 @@ def _collect(
         "kind": scene.kind,
         "version": bem.__version__,
     }
-    variables = dataset_variables(coordinates, summaries)
+    variables = dataset_variables(get_kind(scene.kind), scene, coordinates, summaries)
     write_variables(folder / DATASET, variables, attributes)
     words = [errors.get(name, "") for name in names]
     write_text(folder / TABLE, table_text(coordinates, summaries, names, words))

@@ -273,3 +273,46 @@ def test_fewer_processes_where_memory_is_short(monkeypatch):
     assert engine.staff(None, 100, 1.0, watcher.note) == 8
     assert engine.staff(None, 3, 1.0, watcher.note) == 3
     assert engine.staff(5, 100, 1e9, watcher.note) == 5
+
+
+STRIBECK = {
+    "kind": "friction",
+    "name": "curve",
+    "lower": {
+        "material": "steel-disk-110HV",
+        "surface": {"kind": "generated", "rms_height": "120 nm", "correlation_length": "2 um"},
+    },
+    "upper": {"material": "steel-cylinder"},
+    "contact": {"radius": "2 mm", "width": "6 mm", "loads": ["5.5 N"], "boundary_friction": 0.15},
+    "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
+    "grid": {"shape": [64, 32], "spacing": "0.8 um", "periodic": [False, True]},
+    "speeds": ["0.003 m/s", "0.05 m/s", "0.5 m/s"],
+    "film": {"points": 300},
+}
+
+
+def test_curves_have_the_speed_as_a_dimension_and_overlay_by_the_swept_value(tmp_path, here, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(
+        "bem.sweeps.run.draw_sweep", lambda variables, spacings, *_: drawn.append((variables, spacings))
+    )
+    done = run_sweep(STRIBECK, ["oil.viscosity=0.18 Pa*s,0.36 Pa*s"], tmp_path / "s")
+    data = done.dataset
+    assert data["friction"].dims == ("oil.viscosity", "speed")
+    assert data["minimum_film_nm"].attrs["units"] == "nm"
+    assert data["speed"].attrs["units"] == "m/s"
+    np.testing.assert_array_equal(data["speed"], [0.003, 0.05, 0.5])
+    assert not [name for name in data.sizes if str(name).startswith("entry")]
+    assert float(data["minimum_film_nm"][1, 2]) > float(data["minimum_film_nm"][0, 2]), "thicker oil, thicker film"
+    from matplotlib.figure import Figure
+
+    from bem.plots.sweep import fill
+
+    figure = Figure()
+    fill(figure, *drawn[0], ("friction", "minimum_film_nm"))
+    for axes in figure.axes:
+        assert len(axes.lines) == 2
+        assert [line.get_label() for line in axes.lines] == ["oil.viscosity = 0.18 Pa*s", "oil.viscosity = 0.36 Pa*s"]
+        np.testing.assert_array_equal(
+            axes.lines[0].get_xdata() / axes.lines[0].get_xdata()[0], [1, 0.05 / 0.003, 0.5 / 0.003]
+        )
