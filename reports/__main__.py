@@ -24,11 +24,17 @@ def main() -> None:
     parser.add_argument("--pdf", action="store_true", help="print each page to PDF too (needs chromium)")
     parser.add_argument("--out", type=Path, default=HERE, help="folder to write into")
     parser.add_argument("--reduced", action="store_true", help="gallery: small grids, few cycles")
+    parser.add_argument("--renew", nargs="*", metavar="RESULT", help="validation: run what stored results are stale")
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="RESULT:KEY=VALUE", help="renewal: a setting of a scene"
+    )
     options = parser.parse_args()
     unknown = [name for name in options.names if name not in (*REPORTS, GALLERY)]
     if unknown:
         parser.error(f"no report {', '.join(unknown)}; there are {', '.join((*REPORTS, GALLERY))}")
     pages, failed = [], []
+    if options.renew is not None:
+        failed += renewed(parser, options.renew, options.set)
     for name in options.names or REPORTS:
         report = importlib.import_module(f"reports.{name}")
         if name == GALLERY:
@@ -37,7 +43,7 @@ def main() -> None:
             except KeyboardInterrupt:
                 say("interrupted; the same command goes on where it stopped")
                 sys.exit(130)
-            failed = report.unfinished(runs)
+            failed += report.unfinished(runs)
             pages.append(report.page(runs, reduced=options.reduced))
         else:
             pages.append(report.build())
@@ -46,6 +52,27 @@ def main() -> None:
     for words in failed:
         say(f"failed: {words}")
     sys.exit(1 if failed else 0)
+
+
+def renewed(parser: argparse.ArgumentParser, names: list[str], settings: list[str]) -> list[str]:
+    """What could not be renewed of the validation's stored results."""
+    from reports.validation_renewal import jobs, renew
+
+    given: dict[str, list[str]] = {}
+    for setting in settings:
+        name, colon, words = setting.partition(":")
+        if not colon:
+            parser.error(f"--set {setting}: allowed: RESULT:KEY=VALUE")
+        given.setdefault(name, []).append(words)
+    known = jobs(given)
+    unknown = sorted({*names, *given} - set(known))
+    if unknown:
+        parser.error(f"no stored result {', '.join(unknown)}; there are {', '.join(known)}")
+    try:
+        return renew([known[name] for name in names or known], say=say)
+    except KeyboardInterrupt:
+        say("interrupted; the same command goes on where it stopped")
+        sys.exit(130)
 
 
 def say(words: str) -> None:

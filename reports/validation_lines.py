@@ -14,7 +14,16 @@ def _lines(section: str) -> list[Check]:
     """The lines of a section; each names its rule."""
     rules = import_module(f"reports.validation_rules.{section}").RULES
     return [
-        Check(line["item"], line["scene"], line["thesis"], rules[line["rule"]], line.get("remark", ""))
+        Check(
+            line["item"],
+            line["scene"],
+            line["thesis"],
+            rules[line["rule"]],
+            line["accepted"],
+            line.get("remark", ""),
+            line.get("echoes", False),
+            line.get("experiments", False),
+        )
         for line in _WORDS[section]
     ]
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
+import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, cast
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
     from bem.scenes.kinds.wear import WearScene
 
 STORED = HERE / "results" / "validation"
+EXPERIMENTS = HERE / "results" / "experiments"
 Summary = dict[str, Any]
 
 
@@ -41,21 +44,37 @@ class Value:
 
 @dataclass(frozen=True)
 class Rule:
-    """What we get for a line, and whether that agrees."""
+    """What we get for a line, whether that agrees, and the stored numbers its remark quotes."""
 
     ours: Callable[[Summary], str]
     agrees: Callable[[Summary], bool | None]
+    quoted: Callable[[Summary], str] = lambda summary: ""
 
 
 @dataclass(frozen=True)
 class Check:
-    """A line of the table: what the source says, our rule, and why it differs where it does."""
+    """A line of the table: what the source says, what is accepted and by what right, our rule, and a remark.
+
+    `echoes` says of a line that repeats what was put in: it has no verdict. `experiments` says of a remark that it
+    quotes runs that are not stored.
+    """
 
     item: str
     scene: str
     source: str
     rule: Rule
+    accepted: str
     remark: str = ""
+    echoes: bool = False
+    experiments: bool = False
+
+
+SCATTER = math.sqrt(175 / 110)
+"""The source's own scatter of sizes, 1.26 either way: light scattering gives radii of 110 to 175 nm for one pair."""
+CONSTANT = (747 * 541 * 145 / (600 * 476 * 129)) ** (1 / 3)
+"""What the source calls hardly any change: by its AFM the size rises by a sixth from 2.5 to 10 N."""
+READING = 0.05
+"""What can be read from a curve that is only plotted, of its height."""
 
 
 def at(summary: Summary, key: str, index: int | None = None) -> Value:
@@ -67,16 +86,51 @@ def at(summary: Summary, key: str, index: int | None = None) -> Value:
     return Value(float("nan") if value is None else float(value), spread)
 
 
+def echo(summary: Summary) -> None:
+    """No verdict: the line repeats what was put in."""
+
+
 def within(value: Value, low: float, high: float) -> bool:
-    """Whether the mean lies in a range widened by the spread over repetitions."""
-    margin = value.spread or 0.0
-    return low - margin <= value.mean <= high + margin
+    """Whether the mean lies in a range; our own spread does not widen it."""
+    return low <= value.mean <= high
+
+
+def near(value: Value, wanted: float, factor: float = SCATTER) -> bool:
+    """Whether the mean lies within a factor of what the source says."""
+    return within(value, wanted / factor, wanted * factor)
 
 
 def row_of(summary: Summary, key: str, wanted: float) -> int:
-    """Index of the run whose `key` (a list) is nearest to `wanted`."""
+    """Index of the run whose `key` (a list) is `wanted`.
+
+    Raises
+    ------
+    LookupError : the scene has no such run; the nearest one says nothing of it.
+    """
     values = summary[key] if isinstance(summary[key], list) else [summary[key]]
-    return min(range(len(values)), key=lambda i: abs(values[i] - wanted))
+    for index, value in enumerate(values):
+        if math.isclose(value, wanted, rel_tol=1e-6):  # a thousandth of what scenes write out
+            return index
+    raise LookupError(f"{summary.get('scene')}: no run of {key} = {wanted:g}; there are {values}")
+
+
+def at_speed(summary: Summary, key: str, metres_per_second: float) -> Value:
+    """A figure at a speed; between two speeds of the scene on the line over log speed, with the larger spread.
+
+    Raises
+    ------
+    LookupError : the speed lies outside those of the scene.
+    """
+    speeds = summary["speed_m_s"]
+    exact = [i for i, v in enumerate(speeds) if math.isclose(v, metres_per_second, rel_tol=1e-6)]
+    if exact:
+        return at(summary, key, exact[0])
+    upper = next((i for i, v in enumerate(speeds) if v > metres_per_second), 0)
+    if upper == 0:
+        raise LookupError(f"{summary.get('scene')}: {metres_per_second:g} m/s outside {speeds[0]:g} to {speeds[-1]:g}")
+    low, high = at(summary, key, upper - 1), at(summary, key, upper)
+    share = math.log(metres_per_second / speeds[upper - 1]) / math.log(speeds[upper] / speeds[upper - 1])
+    return Value(low.mean + share * (high.mean - low.mean), max(low.spread or 0.0, high.spread or 0.0) or None)
 
 
 def speed(metres_per_second: float) -> Callable[[Summary], int]:
@@ -106,12 +160,12 @@ def load(newtons: float) -> Callable[[Summary], int]:
 
 
 def near_sizes(newtons: float, length: float, width: float, thickness: float) -> Callable[[Summary], bool]:
-    """Each of the three within a factor 1.6: the thesis' surfaces are not public, and sizes depend on them."""
+    """Each of the three within the source's own scatter."""
 
     def judge(summary: Summary) -> bool:
         index = load(newtons)(summary)
         return all(
-            within(at(summary, f"particle_{q}_nm", index), wanted / 1.6, wanted * 1.6)
+            near(at(summary, f"particle_{q}_nm", index), wanted)
             for q, wanted in (("length", length), ("width", width), ("thickness", thickness))
         )
 
@@ -147,9 +201,36 @@ def last_change(summary: Summary, weight: str) -> float:
     return abs(values[1] / values[0] - 1)
 
 
-def settled_by_mesh(summary: Summary) -> bool:
-    """Volume mean changes by less than 10 % from 240 to 320 cells."""
-    return last_change(summary, "volume") < 0.1
+def unchanged(values: Sequence[Value], factor: float = CONSTANT) -> bool:
+    """Whether the largest lies within a factor of the smallest."""
+    return max(v.mean for v in values) < factor * min(v.mean for v in values)
+
+
+def falling(values: Sequence[Value]) -> bool:
+    """Whether each value is less than the one before."""
+    return all(a.mean > b.mean for a, b in itertools.pairwise(values))
+
+
+def settled_by_mesh(weight: str) -> Callable[[Summary], bool]:
+    """Whether a mean changes by no more than can be read from the source's curve, from 240 to 320 cells."""
+    return lambda summary: last_change(summary, weight) < READING
+
+
+def plateau_from(cycles: Sequence[float | None], settled: int = 50, factor: float = SCATTER) -> int | None:
+    """Cycle from which the mean radius of ten cycles stays within a factor of that of the last `settled`.
+
+    None where it never does before the last `settled` cycles, which are what it is measured by.
+    """
+    means = [
+        sum(found) / len(found) if (found := [v for v in cycles[i : i + 10] if v is not None]) else math.nan
+        for i in range(0, len(cycles), 10)
+    ]
+    last = means[-(settled // 10) :]
+    level = sum(last) / len(last)
+    early = means[: -(settled // 10)]
+    outside = [i for i, mean in enumerate(early) if not level / factor <= mean <= level * factor]
+    start = outside[-1] + 1 if outside else 0
+    return None if start == len(early) else 10 * start
 
 
 def over_runs(key: str) -> Callable[[Summary], str]:
@@ -251,4 +332,21 @@ def stored(scene: str) -> Summary:
     FileNotFoundError : the scene was not run at full size.
     """
     found: Summary = json.loads((STORED / f"{scene}.json").read_text())
+    return found
+
+
+def experiments() -> list[dict[str, Any]]:
+    """The runs that remarks quote: name, built-in scene, settings."""
+    text = (HERE / "experiments" / "runs.toml").read_text("utf-8")
+    return list(tomllib.loads(text)["run"])
+
+
+def experiment(name: str) -> Summary:
+    """The kept result of an experiment.
+
+    Raises
+    ------
+    FileNotFoundError : it was not run.
+    """
+    found: Summary = json.loads((EXPERIMENTS / f"{name}.json").read_text("utf-8"))
     return found

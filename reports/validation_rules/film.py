@@ -9,21 +9,39 @@ from reports.validation_values import (
     Rule,
     Summary,
     at,
+    at_speed,
     curve,
     differences,
+    echo,
+    experiment,
     hertz_pressure,
     over_runs,
     signed_difference,
-    speed,
     steel_modulus,
     within,
 )
+
+GRID = 0.04
+"""What the source's own film grid, eight to eleven points across the contact at 0.001 m/s, leaves open."""
 
 
 def _apart(summary: Summary, one: str, other: str) -> float:
     """Largest difference of the friction of two models."""
     pair = (curve(summary, model=one)["friction"], curve(summary, model=other)["friction"])
     return max(abs(a - b) for a, b in zip(*pair, strict=True))
+
+
+def _longer_waves() -> str:
+    """Film load of one surface, as it is and with longer waves."""
+    found = [
+        f"{at_speed(experiment(f'film-load-{name}'), 'film_load_N', 0.001).mean:.3f} N {words}"
+        for name, words in (
+            ("one-surface", "as it is"),
+            ("cutoff-9-um", "with a cut-off of 9 um"),
+            ("waves-20-to-60-um", "with waves from 20 to 60 um"),
+        )
+    ]
+    return ", ".join(found)
 
 
 RULES: dict[str, Rule] = {
@@ -37,27 +55,28 @@ RULES: dict[str, Rule] = {
     ),
     "e_of_steel_on_steel_twice_the_contact_modulus": Rule(
         lambda s: f"{2e-9 * steel_modulus():.1f}",
-        lambda s: abs(2e-9 * steel_modulus() / 231 - 1) < 0.005,
+        echo,
     ),
     "hertz_pressure_at_5_5_n_mean_and_largest_mpa": Rule(
         lambda s: f"{250 * math.pi * hertz_pressure(5.5):.0f} and {1000 * hertz_pressure(5.5):.0f}",
-        lambda s: abs(250 * math.pi * hertz_pressure(5.5) / 102 - 1) < 0.01,
+        echo,
     ),
     "friction_at_0_001_m_s": Rule(
-        lambda s: str(at(s, "friction", speed(0.001)(s))),
-        lambda s: within(at(s, "friction", speed(0.001)(s)), 0.085, 0.09),
+        lambda s: str(at_speed(s, "friction", 0.001)),
+        lambda s: within(at_speed(s, "friction", 0.001), 0.09 * 5.275 / 5.5, 0.09),
     ),
     "contact_load_at_0_001_m_s_n": Rule(
-        lambda s: str(at(s, "contact_load_N", speed(0.001)(s))),
-        lambda s: within(at(s, "contact_load_N", speed(0.001)(s)), 5.275 * 0.95, 5.275 * 1.05),
+        lambda s: str(at_speed(s, "contact_load_N", 0.001)),
+        lambda s: within(at_speed(s, "contact_load_N", 0.001), 5.5 - 0.225 * (1 + GRID), 5.5 - 0.225 * (1 - GRID)),
     ),
     "film_load_at_0_001_m_s_n": Rule(
-        lambda s: str(at(s, "film_load_N", speed(0.001)(s))),
-        lambda s: within(at(s, "film_load_N", speed(0.001)(s)), 0.225 / 1.6, 0.225 * 1.6),
+        lambda s: str(at_speed(s, "film_load_N", 0.001)),
+        lambda s: within(at_speed(s, "film_load_N", 0.001), 0.225 * (1 - GRID), 0.225 * (1 + GRID)),
+        lambda s: _longer_waves(),
     ),
     "contact_load_at_0_3_m_s_n": Rule(
-        lambda s: f"{at(s, 'contact_load_N', speed(0.3)(s))}",
-        lambda s: at(s, "contact_load_N", speed(0.3)(s)).mean == 0.0,
+        lambda s: f"{at_speed(s, 'contact_load_N', 0.3)}",
+        lambda s: at_speed(s, "contact_load_N", 0.3).mean == 0.0,
     ),
     "elastic_against_capped_at_6_gpa_largest": Rule(
         lambda s: f"{_apart(s, 'capped', 'elastic'):.1e}",
@@ -69,7 +88,7 @@ RULES: dict[str, Rule] = {
     ),
     "uncoupled_less_coupled_friction_d_with_its": Rule(
         lambda s: ", ".join(f"{d:+.1f}" for d in differences(s, "34 um")),
-        lambda s: min(differences(s, "34 um")) > 0 and 25 < max(differences(s, "34 um")) < 40,
+        lambda s: min(differences(s, "34 um")) > 0 and 31.5 <= max(differences(s, "34 um")) < 32.5,
     ),
     "the_same_for_l_57_um": Rule(
         lambda s: ", ".join(f"{d:+.1f}" for d in differences(s, "57 um")),

@@ -1,0 +1,133 @@
+"""Where a stored result of the validation report comes from, and whether scene and code are still what they were."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import re
+import subprocess
+from collections.abc import Iterator, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import bem
+from bem.errors import InputError
+from bem.runs import plan_scene
+from bem.scenes.load import dump_scene
+
+CODE = Path(bem.__file__).resolve().parent
+SCENE_MODULES = ("build", "lubrication", "wearing")
+"""Of `bem.scenes`, what computes; the rest reads, checks and plans, and shows in the resolved scene."""
+NOT_HASHED = ("scenes", "campaigns", "results", "plots", "runs", "cli", "errors", "lazy", "fftw", "threads", "compiled")
+"""Rooms that decide no figure: how scenes are read, work is dealt out, results are written and shown."""
+
+Summary = dict[str, Any]
+
+
+def scene_hash(scene: str, settings: Sequence[str] = ()) -> str:
+    """Of the resolved text of a built-in scene, where measured surfaces count by their file's name alone."""
+    text = dump_scene(plan_scene(scene, tuple(settings))[0])
+    return _digest(re.sub(r'(?m)^(path\s*=\s*)"[^"]*?([^"/]*)"', r'\1"\2"', text))
+
+
+@cache
+def code_hash(kind: str) -> str:
+    """Of the modules a kind runs (`modules`), without comments, docstrings and layout."""
+    return _digest("\n".join(f"{path.relative_to(CODE)}\n{_bare(path)}" for path in modules(kind)))
+
+
+@cache
+def modules(kind: str) -> tuple[Path, ...]:
+    """The kind's own module with the parts of `bem.scenes` that compute, and every room below that these import."""
+    found, rooms = set[Path](), set[str]()
+    waiting = [CODE / "scenes" / "kinds" / f"{kind.replace('-', '_')}.py"]
+    while waiting:
+        path = waiting.pop()
+        if path in found:
+            continue
+        found.add(path)
+        for parts in _imports(path):
+            room, rest = parts[0], parts[1:]
+            if room == "scenes":
+                names = rest[1:2] if rest[:1] == ["kinds"] else rest[:1]
+                folder = CODE / "scenes" / "kinds" if rest[:1] == ["kinds"] else CODE / "scenes"
+                waiting += [folder / f"{n}.py" for n in names if folder.name == "kinds" or n in SCENE_MODULES]
+            elif room not in NOT_HASHED and room not in rooms:
+                rooms.add(room)
+                waiting += sorted((CODE / room).rglob("*.py")) or [CODE / f"{room}.py"]
+        waiting = [item for item in waiting if item.is_file()]
+    return tuple(sorted(found))
+
+
+def rooms(kind: str) -> str:
+    """What `code_hash` covers, in words."""
+    return ", ".join(sorted({path.relative_to(CODE).parts[0].removesuffix(".py") for path in modules(kind)}))
+
+
+def _imports(path: Path) -> Iterator[list[str]]:
+    """Dotted names below `bem` that a module imports anywhere."""
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "bem":
+            below = (node.module or "").split(".")[1:]
+            yield from ([*below, alias.name] for alias in node.names)
+        elif isinstance(node, ast.Import):
+            yield from (a.name.split(".")[1:] for a in node.names if a.name.startswith("bem."))
+
+
+def _bare(path: Path) -> str:
+    tree = ast.parse(path.read_text("utf-8"))
+    for node in ast.walk(tree):
+        body = getattr(node, "body", None)
+        if isinstance(body, list):
+            node.body = [part for part in body if not _is_text(part)]  # type: ignore[attr-defined]
+    return ast.unparse(tree)
+
+
+def _is_text(node: ast.AST) -> bool:
+    """A docstring, of a module, class, function or constant."""
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def commit() -> str:
+    """The commit this runs from; with a plus behind it where tracked files differ, nothing where there is none."""
+    try:
+        head = _git("rev-parse", "--short=10", "HEAD")
+        return head + ("+" if _git("status", "--porcelain", "--untracked-files=no", "--", "bem") else "")
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+
+
+def _git(*words: str) -> str:
+    done = subprocess.run(["git", *words], cwd=CODE.parent, check=True, capture_output=True, text=True)
+    return done.stdout.strip()
+
+
+def origin(scene: str, kind: str, settings: Sequence[str] = ()) -> Summary:
+    """What is kept with a result: hashes of the scene and the code, commit, and what was set on the built-in scene."""
+    return {
+        "scene_hash": scene_hash(scene, settings),
+        "code_hash": code_hash(kind),
+        "commit": commit(),
+        "settings": list(settings),
+    }
+
+
+def stale(scene: str, summary: Summary) -> str:
+    """Why a stored result no longer stands for its scene and this code; empty where it does."""
+    kept = summary.get("origin")
+    if kept is None:
+        return "stale: kept without its scene's and code's hash"
+    reasons = []
+    try:
+        if kept["scene_hash"] != scene_hash(scene, kept["settings"]):
+            reasons.append("scene")
+    except InputError:
+        reasons.append("scene")
+    if kept["code_hash"] != code_hash(summary["kind"]):
+        reasons.append("code")
+    return f"stale: {' and '.join(reasons)} changed since" if reasons else ""

@@ -1,0 +1,142 @@
+"""Renew the stored results of the validation report: every scene at full size, hours of work, resumable."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem.cli._terminal import Terminal
+from bem.errors import BemError
+from bem.results import FinishedRun
+from bem.runs import plan_scene, run_scene
+from bem.scenes.load import dump_scene
+from bem.scenes.planner import machine_rate, show_seconds
+from reports.builder import HERE
+from reports.validation_lines import CHECKS
+from reports.validation_origin import origin, stale
+from reports.validation_values import EXPERIMENTS, STORED, experiments
+
+RUNS = HERE / "validation-runs"
+ORIGIN = "origin.json"
+
+
+@dataclass(frozen=True)
+class Job:
+    """A built-in scene, what is set on it, and the file its result is kept in."""
+
+    name: str
+    scene: str
+    settings: tuple[str, ...]
+    target: Path
+
+
+def jobs(settings: Mapping[str, Sequence[str]] | None = None) -> dict[str, Job]:
+    """All results there are to keep: of the scenes that lines name, and of the experiments that remarks quote."""
+    given = settings or {}
+    scenes = sorted({check.scene for checks in CHECKS.values() for check in checks})
+    found = {name: Job(name, name, tuple(given.get(name, ())), STORED / f"{name}.json") for name in scenes}
+    for run in experiments():
+        name, wanted = run["name"], (*run["settings"], *given.get(run["name"], ()))
+        found[name] = Job(name, run["scene"], wanted, EXPERIMENTS / f"{name}.json")
+    return found
+
+
+def renew(chosen: Sequence[Job], *, folder: Path = RUNS, say: Callable[[str], None] = lambda words: None) -> list[str]:
+    """Run these, the quickest first, and keep what comes; what is kept and not stale is left as it is.
+
+    A run that was interrupted goes on from its checkpoint if neither its scene nor the code has changed since. Each
+    result is kept as soon as it is there, and only if it converged.
+
+    Returns
+    -------
+    failed : a line for each that could not be renewed; the others go on.
+    """
+    failed, seconds = [], {}
+    for job in chosen:
+        try:
+            if is_stale(job):
+                seconds[job] = plan_scene(job.scene, job.settings)[1].seconds(machine_rate())
+        except BemError as error:
+            failed.append(f"{job.name}: {error}")
+    for job in sorted(seconds, key=lambda job: seconds[job]):
+        say(f"{job.name}: about {show_seconds(seconds[job])} on a quiet machine")
+        try:
+            run = _run(job, folder / job.name)
+        except BemError as error:
+            failed.append(f"{job.name}: {error}")
+            continue
+        if run.summary["status"] == "converged":
+            keep(job, run)
+        else:
+            failed.append(f"{job.name}: {run.summary['status']}: {run.summary['where']}")
+    return failed
+
+
+def is_kept(scene: str) -> bool:
+    """Whether a result of a scene is kept."""
+    return (STORED / f"{scene}.json").exists()
+
+
+def is_stale(job: Job) -> bool:
+    """Whether a result is not kept, or of another scene, other settings or other code."""
+    if not job.target.exists():
+        return True
+    summary = json.loads(job.target.read_text("utf-8"))
+    return bool(stale(job.scene, summary)) or tuple(summary["origin"]["settings"]) != job.settings
+
+
+def keep(job: Job, run: FinishedRun) -> Path:
+    """Store a run's summary with its origin, written beside it when it began, and what the rules need besides."""
+    summary = {**run.summary, "origin": json.loads(_origin_of(run.path).read_text("utf-8")), **_history(run)}
+    job.target.parent.mkdir(parents=True, exist_ok=True)
+    job.target.write_text(json.dumps(summary, indent=1) + "\n", encoding="utf-8")
+    return job.target
+
+
+def _run(job: Job, folder: Path) -> FinishedRun:
+    """The finished run, begun anew where its scene or code has changed since it was begun."""
+    scene, _ = plan_scene(job.scene, job.settings)
+    now, before = origin(job.scene, scene.kind, job.settings), _origin_of(folder)
+    hashes = ("scene_hash", "code_hash")
+    known = json.loads(before.read_text("utf-8")) if before.exists() else {}
+    same = all(known.get(key) == now[key] for key in hashes) and _same_text(folder, dump_scene(scene))
+    before.parent.mkdir(parents=True, exist_ok=True)
+    if not same:
+        before.write_text(json.dumps(now), encoding="utf-8")
+    with Terminal() as terminal:
+        return run_scene(
+            job.scene,
+            folder,
+            settings=job.settings,
+            resume=same,
+            overwrite=True,
+            figures=False,
+            watcher=terminal,
+        )
+
+
+def _origin_of(folder: Path) -> Path:
+    """Beside the run directory, which holds nothing but its own files."""
+    return folder.with_name(f"{folder.name}.{ORIGIN}")
+
+
+def _same_text(folder: Path, text: str) -> bool:
+    """Whether what is or was begun there is this scene; a folder not yet there is."""
+    path = folder / "scene.toml"
+    return not path.exists() or path.read_text("utf-8") == text
+
+
+def _history(run: FinishedRun) -> dict[str, Any]:
+    """Volume-mean radius [nm] cycle by cycle, mean over repetitions, for each load or variant of a wear scene."""
+    if run.summary["kind"] != "wear":
+        return {}
+    radius = run.dataset["radius"]
+    if "repetition" in radius.dims:
+        radius = radius.mean("repetition")  # cycles without particles are left out
+    values = 1e9 * np.atleast_2d(radius.transpose(..., "cycle").to_numpy())
+    return {"cycle_radius_nm": [[None if np.isnan(v) else round(float(v), 1) for v in row] for row in values]}
