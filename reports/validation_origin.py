@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import ast
 import hashlib
+import io
+import json
 import re
 import subprocess
+import tokenize
 from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
@@ -14,7 +17,7 @@ from typing import Any
 import bem
 from bem.errors import InputError
 from bem.runs import plan_scene
-from bem.scenes.load import dump_scene
+from bem.scenes.load import dump_scene, library
 
 CODE = Path(bem.__file__).resolve().parent
 SCENE_MODULES = ("build", "lubrication", "wearing")
@@ -26,9 +29,23 @@ Summary = dict[str, Any]
 
 
 def scene_hash(scene: str, settings: Sequence[str] = ()) -> str:
-    """Of the resolved text of a built-in scene, where measured surfaces count by their file's name alone."""
-    text = dump_scene(plan_scene(scene, tuple(settings))[0])
-    return _digest(re.sub(r'(?m)^(path\s*=\s*)"[^"]*?([^"/]*)"', r'\1"\2"', text))
+    """Of the resolved text of a built-in scene.
+
+    Of one on measured surfaces, which are the user's and may not be there, of its table as it stands, where the files
+    count by their names.
+    """
+    if _is_measured(library()[scene]):
+        return _digest(json.dumps([library()[scene], shown(settings)]))
+    return _digest(dump_scene(plan_scene(scene, tuple(settings))[0]))
+
+
+def shown(settings: Sequence[str]) -> list[str]:
+    """Settings with files by their names alone: where they lie is no part of a scene."""
+    return [re.sub(r"(path=).*?([^/]*)$", r"\1\2", setting) for setting in settings]
+
+
+def _is_measured(table: Any) -> bool:
+    return isinstance(table, dict) and ("path" in table or any(_is_measured(part) for part in table.values()))
 
 
 @cache
@@ -76,12 +93,18 @@ def _imports(path: Path) -> Iterator[list[str]]:
 
 
 def _bare(path: Path) -> str:
-    tree = ast.parse(path.read_text("utf-8"))
-    for node in ast.walk(tree):
-        body = getattr(node, "body", None)
-        if isinstance(body, list):
-            node.body = [part for part in body if not _is_text(part)]  # type: ignore[attr-defined]
-    return ast.unparse(tree)
+    """The source's own lines, so that every version of Python sees the same, without docstrings, comments and gaps."""
+    text = path.read_text("utf-8")
+    lines = text.splitlines()
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT:
+            row, column = token.start
+            lines[row - 1] = lines[row - 1][:column]
+    for node in ast.walk(ast.parse(text)):
+        if _is_text(node):
+            first, last = node.lineno - 1, node.end_lineno or node.lineno  # type: ignore[attr-defined]
+            lines[first:last] = [""] * (last - first)
+    return "\n".join(line.rstrip() for line in lines if line.strip())
 
 
 def _is_text(node: ast.AST) -> bool:
@@ -113,7 +136,7 @@ def origin(scene: str, kind: str, settings: Sequence[str] = ()) -> Summary:
         "scene_hash": scene_hash(scene, settings),
         "code_hash": code_hash(kind),
         "commit": commit(),
-        "settings": list(settings),
+        "settings": shown(settings),
     }
 
 

@@ -18,7 +18,7 @@ from bem.scenes.load import dump_scene
 from bem.scenes.planner import machine_rate, show_seconds
 from reports.builder import HERE
 from reports.validation_lines import CHECKS
-from reports.validation_origin import origin, stale
+from reports.validation_origin import origin, shown, stale
 from reports.validation_values import EXPERIMENTS, STORED, experiments
 
 RUNS = HERE / "validation-runs"
@@ -87,7 +87,7 @@ def is_stale(job: Job) -> bool:
     if not job.target.exists():
         return True
     summary = json.loads(job.target.read_text("utf-8"))
-    return bool(stale(job.scene, summary)) or tuple(summary["origin"]["settings"]) != job.settings
+    return bool(stale(job.scene, summary)) or summary["origin"]["settings"] != shown(job.settings)
 
 
 def keep(job: Job, run: FinishedRun) -> Path:

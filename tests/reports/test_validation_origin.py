@@ -1,0 +1,103 @@
+"""A stored result is stale when its scene or the code that its kind runs has changed; renewal runs just those."""
+
+import json
+
+import pytest
+
+from reports import validation_origin
+from reports.validation_origin import code_hash, modules, origin, scene_hash, stale
+from reports.validation_renewal import Job, jobs, renew
+from reports.validation_values import EXPERIMENTS, STORED
+
+SMALL = ("synthetic.shape=[256, 256]",)
+
+
+@pytest.fixture
+def small(tmp_path):
+    return Job("map", "particles-afm-map", SMALL, tmp_path / "kept" / "map.json")
+
+
+def test_a_result_without_origin_is_stale():
+    assert stale("uniform-asperities", {"kind": "asperities"}).startswith("stale: kept without")
+
+
+def test_scene_and_code_each_make_a_result_stale():
+    summary = {"kind": "friction", "origin": origin("stribeck-mineral-oil", "friction")}
+    assert stale("stribeck-mineral-oil", summary) == ""
+    for part, key in (("scene", "scene_hash"), ("code", "code_hash")):
+        other = {**summary, "origin": {**summary["origin"], key: "0"}}
+        assert stale("stribeck-mineral-oil", other) == f"stale: {part} changed since"
+    set_otherwise = {**summary, "origin": origin("stribeck-mineral-oil", "friction", ["repetitions=1"])}
+    assert stale("stribeck-mineral-oil", set_otherwise) == ""  # it holds for what was set, which the page shows
+    set_otherwise["origin"]["settings"] = []
+    assert stale("stribeck-mineral-oil", set_otherwise) == "stale: scene changed since"
+
+
+def test_where_measured_surfaces_lie_is_no_part_of_the_scene():
+    at = [scene_hash("stribeck-measured", [f"lower.surface.path={folder}/disk.al3d"]) for folder in ("/a", "/b/c")]
+    assert at[0] == at[1] != scene_hash("stribeck-measured", ["lower.surface.path=/a/other.al3d"])
+
+
+def test_code_of_a_kind_is_its_own_module_and_the_rooms_below():
+    names = {
+        kind: {"/".join(p.relative_to(validation_origin.CODE).parts) for p in modules(kind)}
+        for kind in ("friction", "wear", "asperities")
+    }
+    assert names["friction"] >= {"scenes/kinds/friction.py", "scenes/build.py", "materials.py"}
+    assert any(name.startswith("lubrication/") for name in names["friction"])
+    assert not any(name.startswith("wear/") for name in names["friction"])
+    assert any(name.startswith("stress/") for name in names["wear"])
+    for kind, found in names.items():
+        assert not any(name.startswith(("cli/", "plots/", "results/", "campaigns/")) for name in found), kind
+    assert len({code_hash(kind) for kind in names}) == len(names)
+
+
+def test_comments_and_docstrings_are_no_code(tmp_path):
+    texts = ('"""A."""\nx = 1  # one\n', '"""B."""\n\n\nx = 1\n', "x = 2\n")
+    bare = []
+    for text in texts:
+        (tmp_path / "m.py").write_text(text)
+        bare.append(validation_origin._bare(tmp_path / "m.py"))
+    assert bare[0] == bare[1] != bare[2]
+
+
+def test_renewal_keeps_a_result_with_its_origin_and_leaves_it_while_it_holds(small, tmp_path):
+    said = []
+    assert renew([small], folder=tmp_path / "runs", say=said.append) == []
+    kept = json.loads(small.target.read_text())
+    assert stale(small.scene, kept) == ""
+    assert kept["origin"]["settings"] == list(SMALL)
+    assert kept["status"] == "converged"
+    assert renew([small], folder=tmp_path / "runs", say=said.append) == []
+    assert len(said) == 1  # it held: nothing was run
+    kept["origin"]["code_hash"] = "0"
+    small.target.write_text(json.dumps(kept))
+    assert renew([small], folder=tmp_path / "runs", say=said.append) == []
+    assert len(said) == 2
+    assert stale(small.scene, json.loads(small.target.read_text())) == ""
+
+
+def test_a_run_begun_with_other_code_is_not_gone_on_with(small, tmp_path, monkeypatch):
+    monkeypatch.setattr(validation_origin, "code_hash", lambda kind: "before")
+    renew([small], folder=tmp_path / "runs")
+    first = (tmp_path / "runs" / "map" / "summary.json").stat().st_mtime_ns
+    monkeypatch.undo()
+    renew([small], folder=tmp_path / "runs")
+    assert (tmp_path / "runs" / "map" / "summary.json").stat().st_mtime_ns > first
+    assert json.loads(small.target.read_text())["origin"]["code_hash"] == code_hash("particles")
+
+
+def test_a_scene_that_cannot_run_does_not_stop_the_others(small, tmp_path):
+    bad = Job("bad", "particles-afm-map", ("synthetic.shape=0",), tmp_path / "kept" / "bad.json")
+    failed = renew([bad, small], folder=tmp_path / "runs")
+    assert len(failed) == 1
+    assert failed[0].startswith("bad: ")
+    assert small.target.exists()
+    assert not bad.target.exists()
+
+
+def test_every_kept_result_can_be_renewed():
+    targets = {job.target for job in jobs().values()}
+    assert {*STORED.glob("*.json"), *EXPERIMENTS.glob("*.json")} <= targets
+    for name, job in jobs().items():
+        assert scene_hash(job.scene, job.settings), name

@@ -1,0 +1,142 @@
+"""Every verdict of the validation report can fail: a stored value is changed, and it flips."""
+
+import copy
+import math
+
+import pytest
+
+from reports.validation import CHECKS
+from reports.validation_values import (
+    SCATTER,
+    Value,
+    at_speed,
+    falling,
+    near_sizes,
+    plateau_from,
+    row_of,
+    stored,
+    unchanged,
+    within,
+)
+
+COUNTED = [check for checks in CHECKS.values() for check in checks if not check.echoes]
+RULES = {check.item: check.rule for check in COUNTED}
+FACTORS = (1e-3, 0.3, 0.6, 0.8, 0.9, 1.1, 1.3, 2.0, 10.0)
+
+
+class Watched(dict):
+    """A summary that remembers what was read of it."""
+
+    def __init__(self, *arguments):
+        super().__init__(*arguments)
+        self.read = set()
+
+    def __getitem__(self, key):
+        self.read.add(key)
+        return super().__getitem__(key)
+
+    def get(self, key, default=None):
+        self.read.add(key)
+        return super().get(key, default)
+
+
+def numbers(value):
+    """Lists of numbers, and the places in them, below a stored value."""
+    if isinstance(value, dict):
+        for key, part in value.items():
+            if key == "friction":
+                yield from numbers(part)
+    elif isinstance(value, list):
+        if value and all(isinstance(v, int | float) for v in value):
+            yield from ((value, i) for i in range(len(value)))
+        for part in value:
+            yield from numbers(part)
+
+
+def changed(summary):
+    """Summaries in which one number that the rule reads is another, or moved by a hundredth where it is zero."""
+    for key in sorted(summary.read - {"load_N", "speed_m_s", "hardness_Pa", "cell_nm"}):
+        if isinstance(summary.get(key), int | float):
+            for factor in FACTORS:
+                yield {**summary, key: factor * summary[key] + 0.01 * (summary[key] == 0)}
+            continue
+        for place in range(sum(1 for _ in numbers(summary.get(key)))):
+            for factor in FACTORS:
+                other = {**summary, key: copy.deepcopy(summary[key])}
+                values, index = list(numbers(other[key]))[place]
+                values[index] = factor * values[index] + 0.01 * (values[index] == 0)
+                yield other
+
+
+@pytest.mark.parametrize("check", COUNTED, ids=lambda check: check.item[:40])
+def test_a_line_that_agrees_differs_when_one_stored_number_is_another(check):
+    summary = Watched(stored(check.scene))
+    if check.rule.agrees(summary) is not True:
+        return  # it has failed, or is not judged
+    assert any(check.rule.agrees(other) is False for other in changed(summary))
+
+
+def test_only_lines_without_counterpart_or_stored_cycles_are_not_judged():
+    open_lines = [check.item for check in COUNTED if check.rule.agrees(stored(check.scene)) is None]
+    assert [item for item in open_lines if not item.startswith(("two measured", "plateau of"))] == []
+
+
+def test_our_own_spread_widens_no_window():
+    assert not within(Value(1.1, spread=5.0), 0.0, 1.0)
+    assert within(Value(1.0, spread=None), 0.0, 1.0)
+
+
+def test_a_run_at_another_load_or_speed_is_not_taken_for_the_one_asked_for():
+    with pytest.raises(LookupError, match=r"no run of load_N = 10"):
+        row_of({"scene": "s", "load_N": [2.5, 9.9]}, "load_N", 10)
+    assert row_of({"load_N": [2.5, 10.000001]}, "load_N", 10) == 1
+    speeds = {"speed_m_s": [0.1, 0.4], "F": [2.0, 4.0]}
+    assert at_speed(speeds, "F", 0.2).mean == pytest.approx(3.0)  # half-way on the logarithm
+    with pytest.raises(LookupError, match="outside"):
+        at_speed(speeds, "F", 0.5)
+
+
+def test_particle_numbers_are_held_to_the_source_s_range():
+    rule = RULES["particles per mm and N at 2.5, 5, 10 N, steel: 350e-7 mm^3/(N m) over our mean volume, one mesh"]
+
+    def summary(per_mm_and_newton):
+        volume = 350e-7 * 1e9 * 1e-3 / per_mm_and_newton  # um^3: 350e-7 mm^3/(N m) = 350e-10 mm^3/(N mm)
+        return {"load_N": [2.5, 5, 10], "worn_volume_per_cycle_um3": [volume] * 3, "particles_per_cycle": [1.0] * 3}
+
+    for number, agrees in ((1100, False), (1300, True), (5900, True), (6100, False)):
+        assert rule.agrees(summary(number)) is agrees
+
+
+def test_contact_and_film_load_are_one_figure_and_no_film_is_not_the_source_s():
+    rules = RULES["contact load at 0.001 m/s (N)"], RULES["film load at 0.001 m/s (N)"]
+    for film, agrees in ((0.0, False), (0.21, False), (0.225, True), (0.24, False)):
+        summary = {"speed_m_s": [0.001], "film_load_N": [film], "contact_load_N": [5.5 - film]}
+        assert [rule.agrees(summary) for rule in rules] == [agrees, agrees]
+
+
+def test_sizes_lie_within_the_source_s_scatter():
+    sizes = {"load_N": 10.0, **{f"particle_{q}_nm": v for q, v in (("length", 100), ("width", 50), ("thickness", 20))}}
+    assert near_sizes(10, 100, 50, 20)(sizes)
+    assert not near_sizes(10, 100, 50, 20 * 1.01 * SCATTER)(sizes)
+
+
+def test_a_plateau_is_looked_for_in_the_cycles():
+    settled = [100.0] * 200
+    assert plateau_from(settled) == 0
+    assert plateau_from([650.0] * 40 + [100.0] * 160) == 40
+    assert plateau_from([650.0] * 60 + [100.0] * 140) == 60
+    assert plateau_from([300 - i for i in range(200)]) is None or plateau_from([300 - i for i in range(200)]) > 50
+    assert plateau_from([None if i % 2 else 100.0 for i in range(200)]) == 0
+    rule = RULES["plateau of the radius, 10 N"]
+    summary = {"load_N": [10.0]}
+    assert rule.agrees({**summary, "cycle_radius_nm": [[650.0] * 40 + [100.0] * 160]}) is True
+    assert rule.agrees({**summary, "cycle_radius_nm": [[650.0] * 60 + [100.0] * 140]}) is False
+    assert rule.agrees(summary) is None
+
+
+def test_trends():
+    assert falling([Value(3), Value(2), Value(1)])
+    assert not falling([Value(3), Value(3)])
+    assert unchanged([Value(100), Value(116)])
+    assert not unchanged([Value(100), Value(118)])
+    assert math.isclose(SCATTER, 1.2613, rel_tol=1e-4)  # by hand
