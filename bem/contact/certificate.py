@@ -91,11 +91,12 @@ def _regions(request: Request, pressure: FloatArray, deformed: FloatArray, load:
     operator, grid, cap = request.operator, request.operator.grid, request.cap
     modulus = operator.modulus_at(0.5 * math.pi / math.sqrt(grid.cell_area))
     contact = contact_region(pressure, deformed, request.gap, grid, modulus)
+    area = max(contact.area, load / cap)  # no more than the cap on average, also where no cell is at it
+    contact = replace(contact, area=area)
     if not (pressure >= cap).any():
         return contact, Region(0.0, 0.0, 0.0)
     plastic = plastic_region(pressure, deformed, request.gap, cap, grid, modulus)
-    area = max(contact.area, load / cap)  # no more than the cap on average
-    return replace(contact, area=area), replace(plastic, area=min(plastic.area, area))
+    return contact, replace(plastic, area=min(plastic.area, area))
 
 
 def _relative(error: float, reference: float) -> float:

@@ -135,6 +135,18 @@ def test_a_punch_ends_between_cells():
     assert solution.counted_area == 20 * 12
 
 
+def test_a_cell_below_the_hardness_carries_no_more_than_it_on_average():
+    # a spot well inside one cell: its area is not told by the cell, but the hardness gives a least one
+    grid = Grid((16, 16), (1.0, 1.0))
+    gap = (grid.x[:, None] ** 2 + grid.y[None, :] ** 2) / 2
+    operator = displacement_operator(grid, Body(UNIT))
+    load = 1e-4
+    pressure = solve_contact(gap, operator, load=load).pressure.max()
+    solution = solve_contact(gap, operator, load=load, hardness=1.01 * pressure)
+    assert solution.plastic_area == 0
+    assert solution.contact_area >= load / (1.01 * pressure)
+
+
 def test_everywhere_and_nowhere():
     grid = Grid((8, 8), (1.0, 1.0), periodic=(True, True))
     operator = displacement_operator(grid, Body(UNIT))
