@@ -96,7 +96,7 @@ def _regions(request: Request, pressure: FloatArray, deformed: FloatArray, load:
     if not (pressure >= cap).any():
         return contact, Region(0.0, 0.0, 0.0)
     plastic = plastic_region(pressure, deformed, request.gap, cap, grid, modulus)
-    return contact, replace(plastic, area=min(plastic.area, area))
+    return contact, replace(plastic, area=min(plastic.area, load / cap))  # the rest carries what the load has beyond it
 
 
 def _relative(error: float, reference: float) -> float:

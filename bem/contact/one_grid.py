@@ -71,11 +71,15 @@ class Problem:
         effort = self.shared.effort
         return solve_level(self.operator, self.gap, control, self.cap, start, allowed, effort, tuning, self.report)
 
+    def plain(self, control: Direct, start: FloatArray | None, tolerance: float) -> LevelResult:
+        """Load or approach, from a start, without what is done where that fails."""
+        tuning = self.shared.tuning if self.operator.symmetric else replace(self.shared.tuning, stall=25)
+        return self.level(control, start, self.shared.allowed(tolerance), tuning)
+
     def direct(self, control: Direct, start: FloatArray | None, tolerance: float) -> LevelResult:
         """Load or approach, from a start; see `search.Solve`."""
         shared, allowed = self.shared, self.shared.allowed(tolerance)
-        tuning = shared.tuning if self.operator.symmetric else replace(shared.tuning, stall=25)
-        result = self.level(control, start, allowed, tuning)
+        result = self.plain(control, start, tolerance)
         if result.converged or shared.effort.left <= 0:
             return result
         if not self.operator.symmetric:
@@ -110,8 +114,12 @@ def solve_on_grid(problem: Problem, control: Control, start: Start, tolerance: f
             control = ApproachControl(float(problem.gap.mean()) - control.mean_gap)
     if isinstance(control, MeanGapControl):
         return _with_mean_gap(problem, control.mean_gap, start, tolerance)
-    result = problem.direct(control, start.pressure, tolerance)
-    if isinstance(control, LoadControl) or result.converged or problem.shared.effort.left <= 0:
+    if isinstance(control, LoadControl):
+        return problem.direct(control, start.pressure, tolerance)
+    # displacements without a mean: next to full contact an approach is far harder than a load, and the guard is dear
+    first = problem.plain if problem.operator.mean_free else problem.direct
+    result = first(control, start.pressure, tolerance)
+    if result.converged or problem.shared.effort.left <= 0:
         return result
     cells = problem.gap.size
     return approach_by_load(control.approach, problem.cap, None, cells, problem.shared.scale, tolerance, problem.direct)

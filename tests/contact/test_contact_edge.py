@@ -147,6 +147,16 @@ def test_a_cell_below_the_hardness_carries_no_more_than_it_on_average():
     assert solution.contact_area >= load / (1.01 * pressure)
 
 
+def test_the_plastic_area_carries_no_more_than_the_load():
+    # nearly all of it at the hardness, where edges of the last elastic cells cut off up to 6 % too little
+    grid = Grid((24, 1), (1.0, 1.0), periodic=(True, True))
+    hardness, load = 0.01, 0.01 * 0.85 * grid.area
+    for seed in (4, 5, 13):
+        gap = 0.05 * np.random.default_rng(seed).normal(size=grid.shape)
+        solution = solve_contact(gap, displacement_operator(grid, Body(UNIT)), load=load, hardness=hardness)
+        assert 0 < solution.plastic_area * hardness <= load * (1 + 1e-12)
+
+
 def test_everywhere_and_nowhere():
     grid = Grid((8, 8), (1.0, 1.0), periodic=(True, True))
     operator = displacement_operator(grid, Body(UNIT))

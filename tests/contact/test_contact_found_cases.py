@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, operator, rough, violation
 
+from bem import Body, Grid, Layer, Material, displacement_operator, generate_surface
 from bem.contact import solve_contact
 
 
@@ -107,3 +108,19 @@ def test_approach_of_a_step_near_full_contact(low):
     assert violation(op, gap, solution) <= 1e-8 * gap.std() + 1e-12 * np.abs(solution.displacement).max()
     assert np.ptp(solution.pressure, axis=1).max() <= 1e-6 * solution.pressure.max()  # nothing varies along the step
     assert solution.convolutions < 100  # 76, 21 and 16; all 5000 iterations were used up on a coarse grid
+
+
+@pytest.mark.parametrize("seed", [0, 2])
+def test_mean_gap_below_a_film_on_a_soft_base(seed):
+    """By the approach the cells in contact swing from round to round; one such case used up all 5000 iterations."""
+    film = Material("film", youngs_modulus=1e12, poissons_ratio=0.45)
+    bases = [Material("base", youngs_modulus=modulus, poissons_ratio=0.0) for modulus in (5e9, 5e6)]
+    grid = Grid((48, 32), (2e-8, 2e-8), periodic=(True, True))
+    gap = -generate_surface(grid, rms_height=1e-9, correlation_length=3e-8, seed=seed)
+    op = displacement_operator(grid, (Body(bases[0], layer=Layer(film, 3e-8)), Body(bases[1])))
+    solution = solve_contact(gap, op, mean_gap=4e-11)
+    assert solution.status == "converged"
+    opening = gap + op(solution.pressure) - solution.approach
+    assert np.abs(opening[solution.pressure > 0]).max() <= 1e-8 * gap.std()
+    assert np.maximum(opening, 0).mean() == pytest.approx(4e-11, rel=1e-6)  # to the residual
+    assert solution.iterations < 600  # 330 by way of the load, 1300 to 1400 on the guard of the energy
