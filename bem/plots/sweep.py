@@ -82,6 +82,8 @@ def _chosen(variables: Mapping[str, Variable], keys: Sequence[str], headline: Se
 
 def _drawable(variable: Variable, name: str) -> bool:
     plain = variable.values.dtype.kind == "f" and bool(np.isfinite(variable.values).any())
+    if name.startswith("speed_") and variable.dimensions[-1] == "speed":  # what the curves run over themselves
+        return False
     return plain and name not in ("wall_time_s", "seed", "iterations", "convolutions", "residual")
 
 
