@@ -1,7 +1,8 @@
 """What is measured: one entry of `CASES` is one curve of error, time and memory over a size.
 
 To add a case, write a function of the size that returns `Timed` and enter it in `CASES`; tables, figures, the history
-and the command line follow. The functions are in `contact_cases`, `lubricated_cases` and `surface_change_cases`.
+and the command line follow. The functions are in `contact_cases`, `lubricated_cases`, `surface_change_cases` and
+`campaign_cases`.
 Verified in tests/benchmarks/test_benchmarks.py: every case runs at its smallest size.
 """
 
@@ -12,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from bem.benchmarks.campaign_cases import wear_campaign
 from bem.benchmarks.contact_cases import (
     FREE,
     SEMI,
@@ -152,6 +154,16 @@ CASES = {
             size_name="depths over 6 um",
             error_name="error of the worn volume",
             threads=True,
+        ),
+        Case(
+            "campaign",
+            "Eight wear loops on all cores, against one",
+            wear_campaign,
+            (10, 40),
+            (10,),
+            1,
+            "cycles",
+            "arrays that differ",
         ),
         _cells(
             "tribofilm",

@@ -261,6 +261,16 @@ class GridScene(Table):
         return self
 
 
+class LineGridScene(GridScene):
+    """Cells along x (sliding) and y of a slice of a line contact, which goes on along y where `periodic` is not given.
+
+    Without `shape` and `spacing` (or `lengths`) those of the measured surfaces are taken: the finer spacing, the
+    common area.
+    """
+
+    periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = (False, True)
+
+
 class ShapeScene(Table):
     """The smooth shape of the upper body; it touches at the middle of the grid."""
 

@@ -57,6 +57,13 @@ def run(source):
     return scene, computed.outcome, computed
 
 
+@pytest.mark.parametrize("base", [FRICTION, RUNNING_IN], ids=["friction", "running-in"])
+def test_a_grid_that_does_not_say_otherwise_goes_on_along_the_cylinder(base):
+    for grid, periodic in (({}, (False, True)), ({"periodic": False}, (False, False))):
+        scene, _ = plan_scene(base | {"grid": {"shape": [64, 32], "spacing": "0.8 um"} | grid}, [])
+        assert scene.grid.periodic == periodic
+
+
 @pytest.fixture(scope="module")
 def friction():
     return run(scene_with(FRICTION, sharing={"models": ["capped", "uncoupled"]}, repetitions=2))[1]

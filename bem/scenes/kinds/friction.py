@@ -19,7 +19,7 @@ from bem.grid import FloatArray, Grid
 from bem.materials import contact_modulus
 from bem.scenes import build
 from bem.scenes.axes import Axis, changed, listed, variants
-from bem.scenes.common import BodyScene, GridScene, PositiveLength, SceneModel, Table, problem
+from bem.scenes.common import BodyScene, LineGridScene, PositiveLength, SceneModel, Table, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.lubrication import FilmMeshScene, LubricatedScene, OilScene, SpeedsScene
@@ -73,7 +73,7 @@ class FrictionScene(SceneModel):
     contact: LubricatedScene
     oil: OilScene
     speeds: SpeedsScene
-    grid: GridScene = GridScene(periodic=(False, True))
+    grid: LineGridScene = LineGridScene()
     film: FilmMeshScene = FilmMeshScene()
     sharing: SharingScene = SharingScene()
     variants: list[SurfaceVariant] = []  # noqa: RUF012

@@ -18,7 +18,7 @@ from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.scenes import build
 from bem.scenes.axes import Axis, changed
-from bem.scenes.common import BodyScene, GridScene, PositivePressure, SceneModel, Table, problem
+from bem.scenes.common import BodyScene, LineGridScene, PositivePressure, SceneModel, Table, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.kinds.friction import check_load, check_patch, half_width, load_of
@@ -74,7 +74,7 @@ class RunningInScene(SceneModel):
     contact: LubricatedScene
     oil: OilScene
     speeds: SpeedsScene
-    grid: GridScene = GridScene(periodic=(False, True))
+    grid: LineGridScene = LineGridScene()
     depths: WearDepthsScene
     wear: WearScenePart = WearScenePart()
     cycles: RunningInCycles = RunningInCycles()
