@@ -45,9 +45,9 @@ def _table(result: results.Result) -> str:
     for curve in result.quantities:
         size = max((abs(v) for v in curve.values), default=0.0)
         bar = max(curve.error_bar, default=0.0)
-        share = f"{bar / size:.1e}" if size else "-"
+        relative = f"{bar / size:.1e}" if size else "-"
         order = "-" if curve.order is None else f"{curve.order:.1f}"
-        lines.append(f"  {curve.name:24s} {curve.along:42s} max {size:10.4g}  bar/max {share:>8s}  order {order}")
+        lines.append(f"  {curve.name:24s} {curve.along:42s} max {size:10.4g}  bar/max {relative:>8s}  order {order}")
     for name, check in result.checks.items():
         lines.append(f"  {name}: {check['value']:.9g}, expected {check['expected']:.9g}")
     return "\n".join(lines)

@@ -110,13 +110,13 @@ def at_force(branch: Branch, force: float) -> ContactState:
     for _ in range(60):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if lagrange(middle) @ branch.forces[chosen] < force else (low, middle)
-    share = lagrange(0.5 * (low + high))
+    weights = lagrange(0.5 * (low + high))
     return ContactState(
         force=force,
-        edge=float(share @ branch.nodes[branch.edges[chosen]]),
-        approach=float(share @ branch.approaches[chosen]),
-        pressure=share @ branch.pressures[chosen],
-        gap=share @ branch.gaps[chosen],
+        edge=float(weights @ branch.nodes[branch.edges[chosen]]),
+        approach=float(weights @ branch.approaches[chosen]),
+        pressure=weights @ branch.pressures[chosen],
+        gap=weights @ branch.gaps[chosen],
     )
 
 
@@ -125,10 +125,10 @@ def weighted_profile(nodes: NDArray[np.float64], profile: object, *, axisymmetri
 
     (callable of position) with each piecewise linear shape, (n,), by six Gauss points a cell.
     """
-    points, shares = np.polynomial.legendre.leggauss(6)
+    points, factors = np.polynomial.legendre.leggauss(6)
     left, right = nodes[:-1, None], nodes[1:, None]
     x = left + (right - left) * (1 + points) / 2
-    integrand = profile(x) * shares * (right - left) / 2 * (x if axisymmetric else 1.0)  # type: ignore[operator]
+    integrand = profile(x) * factors * (right - left) / 2 * (x if axisymmetric else 1.0)  # type: ignore[operator]
     rising = (x - left) / (right - left)
     found = np.zeros(nodes.size)
     found[:-1] += np.sum(integrand * (1 - rising), axis=1)

@@ -1,4 +1,8 @@
-"""The study behind every linear case: three meshes, three boxes, error bars."""
+"""The study behind every linear case: three meshes, three boxes, error bars.
+
+Knows meshes, solutions and stored results; no problem. Verified in tests/fem_reference/test_fem_solutions.py and
+by the stored cases.
+"""
 
 from __future__ import annotations
 
@@ -74,56 +78,97 @@ def extrapolate_boxes(boxes: Sequence[Sequence[Curve]], orders: Sequence[float])
     return FarField(correction, error)
 
 
-def study(
-    *,
-    problem: str,
-    sentence: str,
-    parameters: Mapping[str, Any],
-    normalisation: str,
-    far_field: str,
-    grid: Callable[..., Builder],
-    solve: Callable[[Builder], Solution],
-    curves: Callable[[Solution], list[Curve]],
-    degree: int,
-    levels: Sequence[int] = (1, 2, 3),
-    boxes: bool = True,
-    box_order: Callable[[Curve], float] = lambda curve: 1.0,
-    checks: Callable[[Solution], dict[str, dict[str, float]]] = lambda solution: {},
-    round_off: float = 1e-7,
-    typical_share: float = 0.1,
-) -> Result:
-    """Solve on meshes of rising level and in boxes of rising width, and put the result together.
+@dataclass(frozen=True)
+class Statement:
+    """What is solved, in words and parameters, as it is stored; see `results.Result`."""
 
+    problem: str
+    sentence: str
+    parameters: Mapping[str, Any]
+    normalisation: str
+    far_field: str
+
+
+@dataclass(frozen=True)
+class Method:
+    """How it is solved.
+
+    Parameters
+    ----------
     grid : called with level= and, for the wider boxes, boxes=.
+    solve : the solution on a mesh. curves : its figures. degree : of the elements.
+    levels : of the meshes, rising.
+    box_order : by curve, k of the leading error 1/R^k of a box; None where the body is not cut off by one.
     checks : equilibrium of the finest solution.
     """
+
+    grid: Callable[..., Builder]
+    solve: Callable[[Builder], Solution]
+    curves: Callable[[Solution], list[Curve]]
+    degree: int
+    levels: Sequence[int] = (1, 2, 3)
+    box_order: Callable[[Curve], float] | None = lambda curve: 1.0
+    checks: Callable[[Solution], dict[str, dict[str, float]]] = lambda solution: {}
+
+
+@dataclass(frozen=True)
+class Floors:
+    """Least error bars, relative; see `richardson.estimate`."""
+
+    round_off: float = 1e-7
+    typical: float = 0.1
+
+
+def study(statement: Statement, method: Method, floors: Floors = Floors()) -> Result:
+    """Solve on meshes of rising level and in boxes of rising width, and put the result together."""
     began = processor_time()
+    meshes = [method.grid(level=level) for level in method.levels]
     rows, found = [], []
-    solution = None
-    coarsest = None
-    for level in levels:
-        builder = grid(level=level)
-        coarsest = coarsest or builder
-        solution = solve(builder)
-        found.append(curves(solution))
+    for level, mesh in zip(method.levels, meshes, strict=True):
+        solution = method.solve(mesh)
+        found.append(method.curves(solution))
         rows.append({"parameters": {"level": level}, "cells": solution.cells, "dofs": solution.dofs, "size": 1 / level})
-    assert solution is not None
-    assert coarsest is not None
-    finest = found[-1]
-    if boxes:
-        wider = [curves(solve(grid(level=levels[0], boxes=n))) for n in (1, 2)]
-        far = extrapolate_boxes([found[0], *wider], [box_order(curve) for curve in finest])
-    else:
-        far = FarField([np.zeros(1)] * len(finest), [np.zeros(1)] * len(finest))
+    coarsest = meshes[0]
+    return Result(
+        case="",
+        problem=statement.problem,
+        sentence=statement.sentence,
+        parameters=dict(statement.parameters),
+        normalisation=statement.normalisation,
+        far_field=statement.far_field,
+        mesh={
+            "builder": f"{type(coarsest).__module__}.{type(coarsest).__qualname__}",
+            "element": f"Lagrange of degree {method.degree}",
+            "levels": rows,
+            "picture": picture(coarsest),
+        },
+        quantities=_quantities(found, _far_field(method, found), method, floors),
+        checks=method.checks(solution),
+        versions=versions(),
+        date=today(),
+        time_s=round(processor_time() - began, 2),
+    )
+
+
+def _far_field(method: Method, found: list[list[Curve]]) -> FarField:
+    """What two wider boxes say on the coarsest mesh."""
+    if method.box_order is None:
+        return FarField([np.zeros(1)] * len(found[0]), [np.zeros(1)] * len(found[0]))
+    wider = [method.curves(method.solve(method.grid(level=method.levels[0], boxes=n))) for n in (1, 2)]
+    return extrapolate_boxes([found[0], *wider], [method.box_order(curve) for curve in found[-1]])
+
+
+def _quantities(found: list[list[Curve]], far: FarField, method: Method, floors: Floors) -> list[Quantity]:
+    """The finest curves with the far field's correction, and their error bars."""
     quantities = []
-    for index, curve in enumerate(finest):
+    for index, curve in enumerate(found[-1]):
         bar = estimate(
-            [1 / level for level in levels],
+            [1 / level for level in method.levels],
             np.array([row[index].values for row in found]),
-            expected_order=degree if curve.derivative else degree + 1,
-            round_off=round_off,
+            expected_order=method.degree if curve.derivative else method.degree + 1,
+            round_off=floors.round_off,
             other_error=far.error[index],
-            typical_share=typical_share,
+            typical=floors.typical,
         )
         quantities.append(
             Quantity(
@@ -137,25 +182,7 @@ def study(
                 curve.note,
             )
         )
-    return Result(
-        case="",
-        problem=problem,
-        sentence=sentence,
-        parameters=dict(parameters),
-        normalisation=normalisation,
-        far_field=far_field,
-        mesh={
-            "builder": f"{type(coarsest).__module__}.{type(coarsest).__qualname__}",
-            "element": f"Lagrange of degree {degree}",
-            "levels": rows,
-            "picture": picture(coarsest),
-        },
-        quantities=quantities,
-        checks=checks(solution),
-        versions=versions(),
-        date=today(),
-        time_s=round(processor_time() - began, 2),
-    )
+    return quantities
 
 
 def picture(builder: Any, span: float = 3.0) -> dict[str, Any]:

@@ -15,8 +15,8 @@ import numpy as np
 import ufl
 from numpy.typing import NDArray
 
-from fem_reference.convergence import Curve, equilibrium, study
-from fem_reference.elasticity import Solution, cartesian_components, isotropic_stress, solve
+from fem_reference.convergence import Curve, Method, Statement, equilibrium, study
+from fem_reference.elasticity import Solution, WeakForm, cartesian_components, isotropic_stress, solve
 from fem_reference.layers import LAYERS, STACKS, bodies, describe_body
 from fem_reference.problem import LAYER, POISSONS_RATIO, Parameter, Problem
 from fem_reference.results import STRESS_NAMES, Result
@@ -128,10 +128,16 @@ def evaluate(solution: Solution, points: Array, harmonic: int, side: str | None 
         strain[:, 1, 2] = strain[:, 2, 1] = (grad_v[:, 1] - axial_over_r) / 2 * sine
         strain[:, 0, 2] = strain[:, 2, 0] = (grad_u[:, 1] + g[:, 2, 0]) / 2 * cosine
     stress = isotropic_stress(strain, lame, shear)
-    turn = np.zeros((len(points), 3, 3))
-    turn[:, 0, 0], turn[:, 0, 1], turn[:, 1, 0], turn[:, 1, 1], turn[:, 2, 2] = cosine, -sine, sine, cosine, 1.0
-    displacement = np.einsum("nij,jn->in", turn, cylindrical)
-    return displacement, cartesian_components(turn @ stress @ turn.transpose(0, 2, 1))
+    rotation = np.zeros((len(points), 3, 3))
+    rotation[:, 0, 0], rotation[:, 0, 1], rotation[:, 1, 0], rotation[:, 1, 1], rotation[:, 2, 2] = (
+        cosine,
+        -sine,
+        sine,
+        cosine,
+        1.0,
+    )
+    displacement = np.einsum("nij,jn->in", rotation, cylindrical)
+    return displacement, cartesian_components(rotation @ stress @ rotation.transpose(0, 2, 1))
 
 
 def depths(thicknesses: Sequence[float]) -> dict[str, Array]:
@@ -199,6 +205,32 @@ def _curves(solution: Solution, harmonic: int, thicknesses: Sequence[float]) -> 
     return found
 
 
+def _weak_form(harmonic: int, pressure: str) -> WeakForm:
+    load_degree = None if pressure == "uniform" else 30
+    if harmonic == 0:
+        return WeakForm(
+            fields=2,
+            degree=DEGREE,
+            strain=strain_0,
+            weight=lambda x: x[0],
+            load=lambda v, x: _profile(pressure, x[0]) * v[1],
+            load_degree=load_degree,
+            held={"axis": [0], "end": None, "bottom": None},
+            rigid=[(0.0, 1.0)],
+        )
+    return WeakForm(
+        fields=3,
+        degree=DEGREE,
+        strain=strain_1,
+        weight=lambda x: x[0],
+        # traction tau (cos t, -sin t): works on U - V = D
+        load=lambda v, x: _profile(pressure, x[0]) * v[1],
+        load_degree=load_degree,
+        held={"axis": [0, 2], "end": None, "bottom": None},
+        rigid=[(0.0, 2.0, 0.0)],
+    )
+
+
 def _solve(
     harmonic: int, *, nu: float, layer: Sequence[float] | None, pressure: str, levels: Sequence[int] = (1, 2, 3)
 ) -> Result:
@@ -207,34 +239,7 @@ def _solve(
     def grid(level: int, boxes: int = 0) -> Any:
         return half_space_grid(thickness=thicknesses, level=level, boxes=boxes)
 
-    def solve_on(builder: Any) -> Solution:
-        if harmonic == 0:
-            return solve(
-                builder,
-                materials,
-                fields=2,
-                degree=DEGREE,
-                strain=strain_0,
-                weight=lambda x: x[0],
-                load=lambda v, x: _profile(pressure, x[0]) * v[1],
-                load_degree=None if pressure == "uniform" else 30,
-                held={"axis": [0], "end": None, "bottom": None},
-                rigid=[(0.0, 1.0)],
-            )
-        return solve(
-            builder,
-            materials,
-            fields=3,
-            degree=DEGREE,
-            strain=strain_1,
-            weight=lambda x: x[0],
-            # traction tau (cos t, -sin t): works on U - V = D
-            load=lambda v, x: _profile(pressure, x[0]) * v[1],
-            load_degree=None if pressure == "uniform" else 30,
-            held={"axis": [0, 2], "end": None, "bottom": None},
-            rigid=[(0.0, 2.0, 0.0)],
-        )
-
+    form = _weak_form(harmonic, pressure)
     # per meridian: 2 pi (harmonic 0) or pi (harmonic 1) times the integral is the force
     factor = 2 * np.pi if harmonic == 0 else np.pi
 
@@ -245,14 +250,16 @@ def _solve(
 
     profile = "A uniform" if pressure == "uniform" else "A Hertzian (semi-ellipsoidal)"
     kind = "pressure" if harmonic == 0 else "traction along x"
-    return study(
+    statement = Statement(
         problem="disc" if harmonic == 0 else "disc-tangential",
         sentence=f"{profile} {kind} on a disc of radius a, on {describe_body(nu, layer, 'a')}.",
         parameters={"nu": nu, "layer": None if layer is None else list(layer), "pressure": pressure},
         normalisation="Radius a = 1, largest traction p = 1, Young's modulus of the substrate 1.",
         far_field=FAR_FIELD,
+    )
+    method = Method(
         grid=grid,
-        solve=solve_on,
+        solve=lambda builder: solve(builder, materials, form),
         curves=lambda solution: _curves(solution, harmonic, thicknesses),
         degree=DEGREE,
         levels=levels,
@@ -260,6 +267,7 @@ def _solve(
         box_order=lambda curve: 1.0 if curve.name == along and not curve.derivative else 2.0,
         checks=checks,
     )
+    return study(statement, method)
 
 
 def solve_normal(*, nu: float, layer: Sequence[float] | None, pressure: str) -> Result:

@@ -2,8 +2,10 @@
 problem of the reference.
 
 A *kinematics* says how a few fields of the mesh's two (or three) coordinates make a three-dimensional strain. It is
-written twice, once in UFL for the assembly and once in
-numpy for the evaluation; the equilibrium and convergence tests see both.
+written twice, once in UFL for the assembly and once in numpy for the evaluation.
+
+Knows meshes and their tags; no problem, nothing of `bem`. Verified in tests/fem_reference/test_fem_solutions.py
+(equilibrium, convergence) and by the stored cases, which `python -m fem_reference CASE --check` solves again.
 """
 
 from __future__ import annotations
@@ -82,28 +84,12 @@ def cartesian_components(stress: Array) -> Array:
     return np.array([stress[:, i, j] for i, j in ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))])
 
 
-def solve(
-    builder: Builder,
-    materials: Mapping[str, Material],
-    *,
-    fields: int,
-    degree: int,
-    strain: Callable[[Any, Any], Any],
-    weight: Callable[[Any], Any],
-    load: Callable[[Any, Any], Any],
-    held: Mapping[str, Sequence[int] | None],
-    rigid: Sequence[Sequence[float]] = (),
-    load_degree: int | None = None,
-    loaded: Sequence[str] = ("loaded",),
-    product_grid: bool = False,
-    interface: float = 0.0,
-) -> Solution:
-    """Solve one linear problem, by a sparse Cholesky factorisation or, on blocks, by conjugate gradients.
+@dataclass(frozen=True)
+class WeakForm:
+    """A linear problem as it is assembled, whatever the mesh.
 
     Parameters
     ----------
-    builder : the mesh.
-    materials : by cell tag name.
     fields : number of unknown fields.
     degree : of the Lagrange elements.
     strain : (field, coordinates) -> UFL strain tensor, 3 x 3.
@@ -113,80 +99,141 @@ def solve(
     rigid : rigid motions, as values of the fields, with which the reaction of the far boundary is measured.
     load_degree : quadrature degree on the loaded facets (polynomial loads need none).
     loaded : names of the loaded facet tags.
-    product_grid : the mesh is a block of hexahedra that is a product of three axes: use `tensor_solver`.
-    interface : depth of the layer's lower side in a product grid.
+    """
+
+    fields: int
+    degree: int
+    strain: Callable[[Any, Any], Any]
+    weight: Callable[[Any], Any]
+    load: Callable[[Any, Any], Any]
+    held: Mapping[str, Sequence[int] | None]
+    rigid: Sequence[Sequence[float]] = ()
+    load_degree: int | None = None
+    loaded: Sequence[str] = ("loaded",)
+
+    def listed(self, u: Any) -> Any:
+        """The fields as a vector, also where there is one only."""
+        return u if self.fields > 1 else ufl.as_vector([u])
+
+    def shape(self, *more: int) -> tuple[int, ...]:
+        """Value shape of the fields, or of something with further axes for each of them."""
+        return (self.fields, *more) if self.fields > 1 else more
+
+
+@dataclass(frozen=True)
+class ProductGrid:
+    """A block of hexahedra that is a product of three axes: solved with `tensor_solver`.
+
+    interface : depth of the layer's lower side; 0 without a layer.
+    """
+
+    interface: float
+
+
+@dataclass(frozen=True)
+class _Assembled:
+    """A weak form on a mesh: what is held at zero, the energy of two fields, the matrix and its right-hand side."""
+
+    mesh: Any
+    cell_tags: Any
+    space: Any
+    conditions: list[Any]
+    energy: Callable[[Any, Any], Any]
+    matrix: Any
+    right: Any
+
+
+def solve(
+    builder: Builder, materials: Mapping[str, Material], form: WeakForm, product_grid: ProductGrid | None = None
+) -> Solution:
+    """Solve one linear problem, by a sparse Cholesky factorisation or, on blocks, by conjugate gradients.
+
+    materials : by cell tag name.
 
     The reaction is the work of the residual of all held fields on each rigid motion; by equilibrium it is minus the
     load's.
     """
+    problem = _assemble(builder, materials, form)
+    field = compat.function(problem.space)
+    if product_grid is None:
+        factor_and_solve(problem.matrix, problem.right, compat.petsc_vector(field))
+    else:
+        inverse = _inverse_on_products(problem, materials, form.degree, product_grid.interface)
+        solve_block(problem.matrix, problem.right, compat.petsc_vector(field), inverse, 1e-9)
+    problem.matrix.destroy()
+    reaction = _reaction(problem, form, field)
+    gradient = compat.interpolate_expression(
+        ufl.grad(field),
+        compat.function_space(problem.mesh, form.degree, form.shape(problem.mesh.geometry.dim), continuous=False),
+    )
+    return Solution(
+        problem.mesh,
+        problem.cell_tags,
+        materials,
+        field,
+        gradient,
+        compat.dof_count(problem.space),
+        compat.cell_count(problem.mesh),
+        reaction,
+    )
+
+
+def _assemble(builder: Builder, materials: Mapping[str, Material], form: WeakForm) -> _Assembled:
     mesh, cell_tags, facet_tags = compat.load_mesh(builder)
-    space = compat.function_space(mesh, degree, (fields,) if fields > 1 else ())
+    space = compat.function_space(mesh, form.degree, form.shape())
     constants = compat.function_space(mesh, 0, (), continuous=False)
     lame, shear = compat.function(constants), compat.function(constants)
     for name, material in materials.items():
         cells = cell_tags.find(CELL_TAGS[name])
         lame.x.array[cells], shear.x.array[cells] = material.lame
     x = ufl.SpatialCoordinate(mesh)
+    weight = form.weight(x)
     # a rectangle's Jacobian is constant: 2 degree integrates the plain products exactly; the radius needs more
-    precision = 2 * degree if weight(x) == 1.0 else 2 * degree + 2
+    precision = 2 * form.degree if weight == 1.0 else 2 * form.degree + 2
+    on_surface = form.load_degree or 2 * form.degree + 2
     dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": precision})
-    ds = ufl.Measure(
-        "ds", mesh, subdomain_data=facet_tags, metadata={"quadrature_degree": load_degree or 2 * degree + 2}
-    )
+    ds = ufl.Measure("ds", mesh, subdomain_data=facet_tags, metadata={"quadrature_degree": on_surface})
     trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
 
-    def listed(u: Any) -> Any:
-        return u if fields > 1 else ufl.as_vector([u])
-
     def energy(u: Any, v: Any) -> Any:
-        e, f = strain(listed(u), x), strain(listed(v), x)
-        return (lame * ufl.tr(e) * ufl.tr(f) + 2 * shear * ufl.inner(e, f)) * weight(x) * dx
+        e, f = form.strain(form.listed(u), x), form.strain(form.listed(v), x)
+        return (lame * ufl.tr(e) * ufl.tr(f) + 2 * shear * ufl.inner(e, f)) * weight * dx
 
-    conditions = []
-    for name, components in held.items():
+    conditions: list[Any] = []
+    for name, components in form.held.items():
         conditions += compat.fixed(space, facet_tags, FACET_TAGS[name], components)
-    work = sum((load(listed(test), x) * weight(x) * ds(FACET_TAGS[name]) for name in loaded), start=0)
+    work = sum((form.load(form.listed(test), x) * weight * ds(FACET_TAGS[name]) for name in form.loaded), start=0)
     right = compat.assemble_vector(compat.form(work))
     compat.zero_fixed(right, conditions)
     matrix = compat.assemble_matrix(compat.form(energy(trial, test)), conditions)
-    field = compat.function(space)
-    if product_grid:
-        coordinates = np.asarray(space.tabulate_dof_coordinates())
-        fixed = held_nodes(len(coordinates), compat.fixed_dofs(conditions))
-        lame_of = {name: material.lame for name, material in materials.items()}
-        below, shear_below = lame_of["substrate"]
+    return _Assembled(mesh, cell_tags, space, conditions, energy, matrix, right)
 
-        def shear_at(depth: Array) -> Array:
-            return np.where(depth < interface, lame_of.get("layer", lame_of["substrate"])[1], shear_below)
 
-        inverse = FastDiagonalisation(coordinates, degree, fixed, shear_at, 2 + below / shear_below)
-        solve_block(matrix, right, compat.petsc_vector(field), inverse, 1e-9)
-    else:
-        factor_and_solve(matrix, right, compat.petsc_vector(field))
-    matrix.destroy()
+def _inverse_on_products(
+    problem: _Assembled, materials: Mapping[str, Material], degree: int, interface: float
+) -> FastDiagonalisation:
+    """The preconditioner of a product grid: shear moduli over depth, one ratio of the moduli."""
+    coordinates = np.asarray(problem.space.tabulate_dof_coordinates())
+    fixed = held_nodes(len(coordinates), compat.fixed_dofs(problem.conditions))
+    lame_of = {name: material.lame for name, material in materials.items()}
+    below, shear_below = lame_of["substrate"]
 
-    reaction = []
-    if rigid:
-        residual = compat.assemble_vector(compat.form(energy(field, test))).array.reshape(-1, fields)
-        held_dofs = np.zeros(residual.size, dtype=bool)
-        held_dofs[compat.fixed_dofs(conditions)] = True
-        for motion in rigid:
-            reaction.append(float(np.sum(residual * held_dofs.reshape(residual.shape) * np.asarray(motion))))
-    dimension = mesh.geometry.dim
-    gradient = compat.interpolate_expression(
-        ufl.grad(field),
-        compat.function_space(mesh, degree, (fields, dimension) if fields > 1 else (dimension,), continuous=False),
-    )
-    return Solution(
-        mesh,
-        cell_tags,
-        materials,
-        field,
-        gradient,
-        compat.dof_count(space),
-        compat.cell_count(mesh),
-        np.array(reaction),
-    )
+    def shear_at(depth: Array) -> Array:
+        return np.where(depth < interface, lame_of.get("layer", lame_of["substrate"])[1], shear_below)
+
+    return FastDiagonalisation(coordinates, degree, fixed, shear_at, 2 + below / shear_below)
+
+
+def _reaction(problem: _Assembled, form: WeakForm, field: Any) -> Array:
+    """Work of the held fields' residual on each rigid motion."""
+    if not form.rigid:
+        return np.array([])
+    test = ufl.TestFunction(problem.space)
+    residual = compat.assemble_vector(compat.form(problem.energy(field, test))).array.reshape(-1, form.fields)
+    held = np.zeros(residual.size, dtype=bool)
+    held[compat.fixed_dofs(problem.conditions)] = True
+    worked = residual * held.reshape(residual.shape)
+    return np.array([float(np.sum(worked * np.asarray(motion))) for motion in form.rigid])
 
 
 def factor_and_solve(matrix: Any, right: Any, solution: Any) -> None:

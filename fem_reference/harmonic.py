@@ -15,8 +15,8 @@ import numpy as np
 import ufl
 from numpy.typing import NDArray
 
-from fem_reference.convergence import Curve, study
-from fem_reference.elasticity import Solution, solve
+from fem_reference.convergence import Curve, Floors, Method, Statement, study
+from fem_reference.elasticity import Solution, WeakForm, solve
 from fem_reference.layers import LAYERS, STACKS, bodies, describe_body
 from fem_reference.problem import LAYER, POISSONS_RATIO, Parameter, Problem
 from fem_reference.results import STRESS_NAMES, Quantity, Result
@@ -77,9 +77,7 @@ def _one(nu: float, layer: Sequence[float], load: str, wavenumber_thickness: flo
 
     def solve_on(builder: Any) -> Solution:
         planes = {} if held is None else {"axis": held, "end": held}
-        return solve(
-            builder,
-            materials,
+        form = WeakForm(
             fields=1 if antiplane else 2,
             degree=DEGREE,
             strain=strain_antiplane if antiplane else strain_plane,
@@ -88,20 +86,16 @@ def _one(nu: float, layer: Sequence[float], load: str, wavenumber_thickness: flo
             load_degree=16,
             held={"bottom": None, **planes},
         )
+        return solve(builder, materials, form)
 
-    return study(
-        problem="harmonic",
-        sentence="",
-        parameters={},
-        normalisation="",
-        far_field=FAR_FIELD,
+    method = Method(
         grid=lambda level: harmonic_grid(thickness=thicknesses, level=level),
         solve=solve_on,
         curves=lambda solution: _curves(solution, load, thicknesses, f"q h = {wavenumber_thickness:g}"),
         degree=DEGREE,
-        boxes=False,
-        round_off=1e-9,
+        box_order=None,
     )
+    return study(Statement("harmonic", "", {}, "", FAR_FIELD), method, Floors(round_off=1e-9))
 
 
 def solve_harmonic(*, nu: float, layer: Sequence[float], load: str, wavenumbers: Sequence[float]) -> Result:

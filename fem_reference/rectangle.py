@@ -13,8 +13,8 @@ import numpy as np
 import ufl
 from numpy.typing import NDArray
 
-from fem_reference.convergence import Curve, equilibrium, study
-from fem_reference.elasticity import Solution, cartesian_components, isotropic_stress, solve
+from fem_reference.convergence import Curve, Floors, Method, Statement, equilibrium, study
+from fem_reference.elasticity import ProductGrid, Solution, WeakForm, cartesian_components, isotropic_stress, solve
 from fem_reference.layers import LAYERS, bodies, describe_body, one_layer
 from fem_reference.problem import LAYER, POISSONS_RATIO, Parameter, Problem
 from fem_reference.results import STRESS_NAMES, Result
@@ -90,9 +90,7 @@ def solve_rectangle(*, nu: float, layer: Sequence[float] | None, load: str, widt
     direction = 2 if load == "normal" else 0
 
     def solve_on(builder: Any) -> Solution:
-        return solve(
-            builder,
-            materials,
+        form = WeakForm(
             fields=3,
             degree=DEGREE,
             strain=lambda u, x: ufl.sym(ufl.grad(u)),
@@ -100,12 +98,11 @@ def solve_rectangle(*, nu: float, layer: Sequence[float] | None, load: str, widt
             load=lambda v, x: v[direction],
             held={"axis": [0] if load == "normal" else [1, 2], "axis_y": [1], "far": None},
             rigid=[tuple(float(i == direction) for i in range(3))],
-            product_grid=True,
-            interface=thickness or 0.0,
         )
+        return solve(builder, materials, form, ProductGrid(interface=thickness or 0.0))
 
     kind = "pressure" if load == "normal" else "traction along x"
-    return study(
+    statement = Statement(
         problem="rectangle",
         sentence=(
             f"A uniform {kind} on the rectangle |x| <= a, |y| <= {width:g} a of {describe_body(nu, layer, 'a')}, "
@@ -114,6 +111,8 @@ def solve_rectangle(*, nu: float, layer: Sequence[float] | None, load: str, widt
         parameters={"nu": nu, "layer": None if layer is None else list(layer), "load": load, "width": width},
         normalisation="Half-length a = 1, traction p = 1, Young's modulus of the substrate 1.",
         far_field=FAR_FIELD,
+    )
+    method = Method(
         grid=lambda level, boxes=0: rectangle_grid(
             half_length=1.0, half_width=width, level=level, thickness=thickness, boxes=boxes
         ),
@@ -121,11 +120,11 @@ def solve_rectangle(*, nu: float, layer: Sequence[float] | None, load: str, widt
         curves=lambda solution: _curves(solution, load, width, thickness),
         degree=DEGREE,
         levels=(2, 3, 4),
-        typical_share=1.0,
         box_order=lambda curve: 2.0 if curve.derivative else 1.0,
         # a quarter of the rectangle is meshed
         checks=lambda solution: equilibrium(solution, [width]),
     )
+    return study(statement, method, Floors(typical=1.0))
 
 
 PROBLEMS = (

@@ -63,7 +63,7 @@ def estimate(
     expected_order: float,
     round_off: float = 1e-10,
     other_error: ArrayLike = 0.0,
-    typical_share: float = 0.1,
+    typical: float = 0.1,
 ) -> Estimate:
     """Value, error bar and observed order at points computed on three or more meshes.
 
@@ -74,12 +74,12 @@ def estimate(
     expected_order : order the elements should give; a higher observed one is not trusted.
     round_off : floor of the bar, relative to the largest value of the curve (linear solver and evaluation).
     other_error : (n,) or scalar, added to the bar: what the far field leaves.
-    typical_share : the least difference of a point, over the root mean square of the curve; near one where meshes are
+    typical : the least difference of a point, over the root mean square of the curve; near one where meshes are
         coarse and a point's place in its cell decides its error.
 
     The bar at a point is SAFETY d / ((h2/h3)^p - 1) with p the observed order of the whole curve, at most the expected
     one, at least one half. Its difference d is |f3 - f2|; or, where larger, |f2 - f1| shrunk as the curve's largest
-    difference did, or `typical_share` of the root mean square: at a single point the last difference is small by
+    difference did, or `typical` times the root mean square: at a single point the last difference is small by
     accident when the error passes through zero. Where no order can be seen the differences themselves (times SAFETY)
     are the bar: then the sequence has not converged regularly, and the bar says so.
     """
@@ -96,9 +96,9 @@ def estimate(
     order = None
     if np.max(last, initial=0.0) > floor:
         order = observed_order(sizes, (np.max(first), np.max(last)))
-    typical = typical_share * np.sqrt(np.mean(last**2)) if last.size else 0.0
+    least = typical * np.sqrt(np.mean(last**2)) if last.size else 0.0
     shrunk = first * np.max(last, initial=0.0) / max(np.max(first, initial=0.0), 1e-300)
-    difference = np.maximum.reduce([last, np.minimum(shrunk, first), np.full_like(last, typical)])
+    difference = np.maximum.reduce([last, np.minimum(shrunk, first), np.full_like(last, least)])
     if order is not None:
         used = min(max(order, 0.5), expected_order)
         difference = difference / ((sizes[-2] / sizes[-1]) ** used - 1)

@@ -14,9 +14,9 @@ import numpy as np
 import ufl
 from numpy.typing import NDArray
 
-from fem_reference.convergence import Curve, equilibrium, study
+from fem_reference.convergence import Curve, Method, Statement, equilibrium, study
 from fem_reference.disc import SURFACE, depths, interfaces
-from fem_reference.elasticity import Solution, cartesian_components, isotropic_stress, solve
+from fem_reference.elasticity import Solution, WeakForm, cartesian_components, isotropic_stress, solve
 from fem_reference.layers import LAYERS, STACKS, bodies, describe_body
 from fem_reference.problem import LAYER, POISSONS_RATIO, Parameter, Problem
 from fem_reference.results import STRESS_NAMES, Result
@@ -131,9 +131,7 @@ def solve_strip(*, nu: float, layer: Sequence[float] | None, load: str) -> Resul
 
     def solve_on(builder: Any) -> Solution:
         direction = 1 if load == "normal" else 0
-        return solve(
-            builder,
-            materials,
+        form = WeakForm(
             fields=1 if antiplane else 2,
             degree=DEGREE,
             strain=strain_antiplane if antiplane else strain_plane,
@@ -142,14 +140,17 @@ def solve_strip(*, nu: float, layer: Sequence[float] | None, load: str) -> Resul
             held={"end": None, "bottom": None} | ({} if held is None else {"axis": held}),
             rigid=[tuple(float(i == direction) for i in range(1 if antiplane else 2))],
         )
+        return solve(builder, materials, form)
 
     kind = {"normal": "pressure", "tangential": "traction along x", "antiplane": "traction along y"}[load]
-    return study(
+    statement = Statement(
         problem="strip",
         sentence=f"A uniform {kind} on a strip of half-width a (plane strain), on {describe_body(nu, layer, 'a')}.",
         parameters={"nu": nu, "layer": None if layer is None else list(layer), "load": load},
         normalisation="Half-width a = 1, traction p = 1, Young's modulus of the substrate 1.",
         far_field=FAR_FIELD,
+    )
+    method = Method(
         grid=lambda level, boxes=0: half_space_grid(thickness=thicknesses, level=level, boxes=boxes),
         solve=solve_on,
         curves=lambda solution: _curves(solution, load, thicknesses),
@@ -158,6 +159,7 @@ def solve_strip(*, nu: float, layer: Sequence[float] | None, load: str) -> Resul
         # half of the strip is meshed: the resultant is 1
         checks=lambda solution: equilibrium(solution, [1.0]),
     )
+    return study(statement, method)
 
 
 def _stored() -> dict[str, dict[str, Any]]:

@@ -79,7 +79,7 @@ def test_checks(result) -> None:
 
 RETURN = """
 import numpy as np
-from fem_reference.plasticity import DEVIATOR, UNIT, radial_return
+from fem_reference.indentation import DEVIATOR, UNIT, radial_return
 
 bulk, shear = 1 / (3 * (1 - 2 * 0.3)), 1 / (2 * (1 + 0.3))
 elastic = bulk * np.outer(UNIT, UNIT) + 2 * shear * DEVIATOR

@@ -126,12 +126,12 @@ inner = elasticity.solve_block
 elasticity.solve_block = lambda *arguments: counts.append(inner(*arguments))
 grid = rectangle_grid(half_length=1.0, half_width=0.5, level=1, thickness=0.5)
 materials = {"substrate": elasticity.Material(1.0, 0.3), "layer": elasticity.Material(10.0, 0.25)}
+form = elasticity.WeakForm(
+    fields=3, degree=4, strain=lambda u, x: ufl.sym(ufl.grad(u)), weight=lambda x: 1.0, load=lambda v, x: v[2],
+    held={"axis": [0], "axis_y": [1], "far": None},
+)
 fields = [
-    elasticity.solve(
-        grid, materials, fields=3, degree=4, strain=lambda u, x: ufl.sym(ufl.grad(u)), weight=lambda x: 1.0,
-        load=lambda v, x: v[2], held={"axis": [0], "axis_y": [1], "far": None}, product_grid=way, interface=0.5,
-    ).field.x.array
-    for way in (True, False)
+    elasticity.solve(grid, materials, form, way).field.x.array for way in (elasticity.ProductGrid(0.5), None)
 ]
 print(np.max(np.abs(fields[0] - fields[1])) / np.max(np.abs(fields[1])), counts[0])
 """
