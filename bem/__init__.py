@@ -28,7 +28,7 @@ _HOMES = {
     "contact": ["ContactSolution", "solve_contact"],
     "stress": ["subsurface_stress", "von_mises"],
     "surfaces": ["Surface", "SurfaceDescription", "describe_surface", "generate_surface", "read_surface"],
-    "laws": ["register"],
+    "extensions": ["register"],
     "lubrication": ["Cavitation", "FilmSolution", "Lubricant", "march_line_film", "solve_line_film"],
     "friction": ["MixedSolution", "solve_mixed", "stribeck_curve"],
     "wear": ["find_particles", "run_in"],

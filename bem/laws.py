@@ -4,8 +4,7 @@ A law is a frozen dataclass that derives from its family's class (`bem.lubricati
 see `FAMILIES`): a `name`, its parameters as fields made by `parameter`, its formula as the method that the family asks
 for. `register` enters it. Constructors, scenes, schema, messages and the guide take names and parameters from here.
 
-Laws from outside the package are registered by a script, by an entry point of group `bem.laws` of an installed package,
-or by a file or module named in the environment variable BEM_LAWS (several are separated as in PATH).
+Laws from outside the package are registered as all extensions are, see `bem.extensions`.
 """
 
 from __future__ import annotations
@@ -13,20 +12,14 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import importlib
-import importlib.util
 import math
-import os
 import re
-import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from importlib.metadata import entry_points
 from typing import Any, ClassVar, TypeVar
 
 from bem.errors import InputError
-
-ENTRY_POINTS = "bem.laws"
-ENVIRONMENT = "BEM_LAWS"
+from bem.extensions import load_extensions
 
 FAMILIES = {
     "viscosity_law": "bem.lubrication.viscosity",
@@ -166,6 +159,11 @@ class Law:
         fields = {field.name: field for field in dataclasses.fields(cls)}
         return tuple(key for key in cls.parameters() if fields[key].default is _REQUIRED)
 
+    @classmethod
+    def enter(cls) -> None:
+        """As `register`."""
+        register(cls)
+
     def values(self) -> dict[str, Any]:
         """The parameters' values by name."""
         return {key: getattr(self, key) for key in self.parameters()}
@@ -301,34 +299,5 @@ def _load(family: str, *, plugins: bool) -> None:
     if family not in _loaded:
         _loaded.add(family)
         importlib.import_module(FAMILIES[family])
-    if plugins and ENTRY_POINTS not in _loaded:
-        _loaded.add(ENTRY_POINTS)
-        for source, load in _plugins():
-            try:
-                found = load()
-            except Exception as error:  # a user's file may raise anything
-                _loaded.discard(ENTRY_POINTS)
-                raise InputError(f"laws from {source}: cannot be loaded ({type(error).__name__}: {error})") from error
-            if isinstance(found, type):
-                register(found)
-
-
-def _plugins() -> Iterator[tuple[str, Any]]:
-    for point in sorted(entry_points(group=ENTRY_POINTS), key=lambda one: one.name):
-        yield f"entry point {point.name} = {point.value}", point.load
-    for place in filter(None, os.environ.get(ENVIRONMENT, "").split(os.pathsep)):
-        yield f"{ENVIRONMENT}={place}", lambda place=place: _import(place)
-
-
-def _import(place: str) -> Any:
-    """A module by name, or a file ending in .py under its own name."""
-    if not place.endswith(".py"):
-        return importlib.import_module(place)
-    name = os.path.basename(place).removesuffix(".py")
-    specification = importlib.util.spec_from_file_location(name, place)
-    if specification is None or specification.loader is None or not os.path.isfile(place):
-        raise FileNotFoundError("no such file")
-    module = importlib.util.module_from_spec(specification)
-    sys.modules.setdefault(name, module)
-    specification.loader.exec_module(module)
-    return module
+    if plugins:
+        load_extensions()

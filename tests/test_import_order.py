@@ -9,6 +9,7 @@ ROOT = Path(__file__).resolve().parents[1] / "bem"
 
 ORDER = [
     {"errors", "lazy", "representation", "small_files", "compiled"},
+    {"extensions"},
     {"grid", "materials", "threads", "fftw", "laws"},
     {"kernels", "reference_solutions"},
     {"transforms"},

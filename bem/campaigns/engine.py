@@ -30,6 +30,7 @@ from bem.scenes.context import Outcome
 from bem.scenes.kinds import get_kind
 from bem.scenes.planner import Plan, available_memory, machine_rate
 from bem.scenes.records import pack, unpack, without
+from bem.surfaces.formats import modules_of_formats
 from bem.threads import get_threads, set_threads
 
 _RECORD = "_record"
@@ -188,7 +189,7 @@ def _results(
     board: Board,
 ) -> Iterator[tuple[int, Result]]:
     """Results of the jobs in the order in which they end."""
-    modules = tuple(dict.fromkeys((type(campaign.scene).__module__, *modules_of_laws())))
+    modules = tuple(dict.fromkeys((type(campaign.scene).__module__, *modules_of_laws(), *modules_of_formats())))
     sent = [dataclasses.replace(job, threads=get_threads(), modules=modules) for job in jobs]
     if scheduler is not None and jobs:
         from bem.campaigns.cluster import compute_on_cluster

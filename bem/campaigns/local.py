@@ -18,6 +18,7 @@ from multiprocessing.connection import Connection, Pipe, wait
 from typing import Any, Protocol
 
 from bem.campaigns.context import Watcher
+from bem.extensions import load_extensions
 
 ATTEMPTS = 3
 """How often a job may take its process down (memory, a crash) before it is given up."""
@@ -150,6 +151,7 @@ def serve(descriptor: int) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal interrupts all; the parent decides
     _end_with_parent()
     connection = Connection(descriptor)
+    load_extensions()  # a job may hold what they define
     with suppress(EOFError, OSError):  # whoever started this is gone, and has no use for the rest
         while True:
             job = pickle.loads(connection.recv_bytes())

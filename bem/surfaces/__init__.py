@@ -18,6 +18,7 @@ from bem.surfaces.filter import (
     resample,
     scale_to_rms,
 )
+from bem.surfaces.formats import SurfaceFormat
 from bem.surfaces.generate import generate_surface
 from bem.surfaces.read import read_surface, write_surface
 from bem.surfaces.surface import Surface
@@ -27,6 +28,7 @@ __all__ = [
     "RadialSpectrum",
     "Surface",
     "SurfaceDescription",
+    "SurfaceFormat",
     "autocorrelation",
     "crop",
     "describe_surface",

@@ -22,6 +22,7 @@ import numpy as np
 from bem.errors import InputError, ResultsError, SurfaceFileError
 from bem.grid import FloatArray
 from bem.surfaces.filter import DETRENDINGS, detrend, fill_missing
+from bem.surfaces.formats import SurfaceFormat, format_of
 from bem.surfaces.surface import Surface
 
 METRES = {
@@ -53,7 +54,7 @@ def read_surface(
     path : a file of any instrument format that SurfaceTopography reads (.al3d, .di, .opd, .x3p, .tmd, .sur, .gwy, ...);
         or a plain map: .npz with `heights` (nx, ny) [m] and `spacing` [m], as `write_surface` writes; .npy; or a table
         of numbers in .txt, .csv or .dat, one line for each ix, with `spacing` given (in .asc, as instruments write
-        it, a line is one iy).
+        it, a line is one iy); or a file of a format of your own (`bem.surfaces.formats`).
     detrend : "plane" (least squares over the points measured), "curvature" (second-order polynomial) or "none".
     fill : True: missing points are filled by the harmonic surface through their neighbours (at most half of the
         map); False: a map with missing points is refused.
@@ -82,7 +83,10 @@ def read_surface(
         raise InputError(messages)
     file = Path(path)
     _check_file(file)
-    if file.suffix.lower() == ".npz":
+    own = format_of(file)
+    if own is not None:
+        heights, cell, notes = _read_registered(file, own, channel)
+    elif file.suffix.lower() == ".npz":
         heights, cell, notes = _read_npz(file)
     elif file.suffix.lower() == ".npy" and spacing is not None:
         heights, cell, notes = _read_npy(file), None, {"format": "npy"}
@@ -185,6 +189,20 @@ def _finish(
         raise SurfaceFileError([f"{file}: {message}" for message in problem.messages]) from problem
     notes = {"file": file.name, **notes, "missing_points": missing, "detrend": method}
     return Surface(np.ascontiguousarray(heights), cell, notes)
+
+
+def _read_registered(
+    file: Path, own: SurfaceFormat, channel: str | int | None
+) -> tuple[FloatArray, tuple[float, float] | None, dict[str, Any]]:
+    if channel is not None:
+        raise SurfaceFileError(f"{file}: has no channel {channel!r}: a {own.name} file holds one map")
+    try:
+        heights, cell, notes = own.read(file)
+        return _as_floats(file, np.asarray(heights)), cell, {"format": own.name, **notes}
+    except SurfaceFileError:
+        raise
+    except Exception as problem:
+        raise _unreadable(file, problem) from problem
 
 
 def _read_npz(file: Path) -> tuple[FloatArray, tuple[float, float] | None, dict[str, Any]]:

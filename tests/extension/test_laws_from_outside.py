@@ -15,6 +15,7 @@ import pytest
 import bem
 from bem import Lubricant, laws
 from bem.errors import InputError
+from bem.extensions import load_file
 from bem.laws import parameter
 from bem.lubrication.viscosity import ViscosityLaw
 from bem.scenes import load_scene
@@ -101,7 +102,7 @@ def outside(tmp_path, monkeypatch):
     path = tmp_path / "my_laws.py"
     path.write_text(OUTSIDE)
     before = {family: set(laws.laws_of(family).values()) for family in laws.FAMILIES}
-    yield laws._import(str(path))
+    yield load_file(str(path))
     sys.modules.pop("my_laws", None)
     for family, kept in before.items():
         for law in set(laws.laws_of(family).values()) - kept:
@@ -274,7 +275,7 @@ def test_a_file_that_cannot_be_loaded_is_named(tmp_path, content):
         (tmp_path / "bad.py").write_text(content)
     done = bem_run(tmp_path, FILM, BEM_LAWS=str(tmp_path / "bad.py"))
     assert done.returncode == 2
-    assert "laws from BEM_LAWS=" in done.stderr
+    assert "extensions from BEM_LAWS=" in done.stderr
     assert "Traceback" not in done.stderr
     assert not (tmp_path / "out").exists()
 

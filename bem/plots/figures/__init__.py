@@ -1,4 +1,5 @@
-"""The figures there are. A module here holds a tuple `FIGURES` of `FigureKind`; a new one needs nothing else.
+"""The figures there are. A module here holds a tuple `FIGURES` of `FigureKind`; a new one needs nothing else. One from
+outside the package is registered by `bem.register(FigureKind(...))`.
 
 `draw(run, figure)` fills an empty matplotlib figure from `run.dataset` (`bem.results.arrays`: values, axes, units),
 `run.summary` and `run.scene` (tables of plain values). It never solves and never writes. `bem.plots.style` has the
@@ -10,10 +11,17 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
+
+from bem.errors import InputError
+from bem.extensions import load_extensions, same_origin
+
+_NAME = re.compile(r"[a-z][a-z0-9-]{0,63}")
 
 
 def _always(run: Any) -> bool:
@@ -46,13 +54,42 @@ class FigureKind:
     animate: Callable[[Any, Path], None] | None = None
     all_cases: bool = False
 
+    def enter(self) -> None:
+        """Enter it, for a figure from outside the package; see `bem.register`.
+
+        Raises
+        ------
+        InputError : a strange name, or one that another registered figure has.
+        """
+        if not _NAME.fullmatch(self.name):
+            raise InputError(f"register: the figure's name {self.name!r} must be lower-case letters, digits and -")
+        other = _registered.get(self.name)
+        if other is not None and not same_origin(other.draw, self.draw):
+            raise InputError(f"register: the figure {self.name!r} is taken by {other.draw.__module__}")
+        _registered[self.name] = self
+
     def fits(self, run: Any) -> bool:
         """Whether this figure can be drawn from `run`."""
         return all(name in run.dataset.variables for name in self.needs) and self.applies(run)
 
 
+_registered: dict[str, FigureKind] = {}
+
+
 def all_figures() -> dict[str, FigureKind]:
     """All figures by name."""
+    load_extensions()
+    package = _of_the_package()
+    taken = sorted(set(package) & set(_registered))
+    if taken:
+        raise InputError(
+            [f"register: the figure {name!r} is taken by {package[name].draw.__module__}" for name in taken]
+        )
+    return {**package, **_registered}
+
+
+@cache
+def _of_the_package() -> dict[str, FigureKind]:
     found: dict[str, FigureKind] = {}
     for module in sorted(item.name for item in pkgutil.iter_modules(__path__)):
         loaded = importlib.import_module(f"bem.plots.figures.{module}")

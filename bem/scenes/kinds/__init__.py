@@ -1,4 +1,5 @@
-"""Kinds of scene. One file here is one kind: nothing else has to know of it.
+"""Kinds of scene. One file here is one kind: nothing else has to know of it. A file of yours is one as well if it ends
+in `bem.register(KIND)`, see `bem.extensions`; its figures it registers likewise.
 
 To add the kind `wear`, write `bem/scenes/kinds/wear.py` (a kind `running-in` lives in `running_in.py`) with
 
@@ -71,15 +72,21 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
+from bem.errors import InputError
+from bem.extensions import load_extensions, same_origin
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Context
 from bem.scenes.planner import Plan
 from bem.scenes.records import Record
+
+_NAME = re.compile(r"[a-z][a-z0-9-]{0,63}")
 
 
 def _unchanged(scene: Any) -> Any:
@@ -116,9 +123,36 @@ class Kind:
     volumes: Callable[[Any], tuple[str, ...]] = field(default=_no_volumes)
     always_lists: bool = False
 
+    def enter(self) -> None:
+        """Enter it, for a kind from outside the package; see `bem.register`.
+
+        Raises
+        ------
+        InputError : a strange name, one that another kind has, a model whose `kind` is another or that is no scene.
+        """
+        if not _NAME.fullmatch(self.name):
+            raise InputError(f"register: the kind's name {self.name!r} must be lower-case letters, digits and -")
+        if not (isinstance(self.model, type) and issubclass(self.model, SceneModel)):
+            raise InputError(f"register: the model of kind {self.name!r} does not derive from SceneModel")
+        if self.model.model_fields["kind"].default != self.name:
+            raise InputError(f'register: {self.model.__name__} needs kind: Literal["{self.name}"] = "{self.name}"')
+        other = _registered.get(self.name)
+        if self.name in _of_the_package() or (other is not None and not same_origin(other.model, self.model)):
+            raise InputError(f"register: the kind {self.name!r} is taken")
+        _registered[self.name] = self
+
+
+_registered: dict[str, Kind] = {}
+
 
 def kind_names() -> tuple[str, ...]:
-    """Names of all kinds, without loading them."""
+    """Names of all kinds, without loading those of the package."""
+    load_extensions()
+    return tuple(sorted({*_of_the_package(), *_registered}))
+
+
+@cache
+def _of_the_package() -> tuple[str, ...]:
     return tuple(sorted(module.name.replace("_", "-") for module in pkgutil.iter_modules(__path__)))
 
 
@@ -126,6 +160,8 @@ def get_kind(name: str) -> Kind:
     """The kind of that name; KeyError if there is none."""
     if name not in kind_names():
         raise KeyError(name)
+    if name in _registered:
+        return _registered[name]
     kind = importlib.import_module(f"bem.scenes.kinds.{name.replace('-', '_')}").KIND
     assert isinstance(kind, Kind)
     assert kind.name == name, f"kind {kind.name!r} must live in {kind.name.replace('-', '_')}.py"
