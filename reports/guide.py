@@ -217,6 +217,28 @@ def _laws() -> Iterator[tuple[str, str, str, str]]:
             yield family, name, " ".join((law.__doc__ or "").split()), ". ".join(words)
 
 
+EXTENSIONS = (
+    (
+        "a law: viscosity, density, shear, boundary friction, criterion, growth, film property",
+        "a frozen dataclass of the family, parameters and a formula",
+        "@bem.register above it",
+    ),
+    (
+        "a kind of scene",
+        "its model, plan, run, record (the docstring of bem.scenes.kinds says what goes in; "
+        "tests/extension has a whole one)",
+        "bem.register(Kind(...))",
+    ),
+    ("a figure", "draw(run, figure) and the variables that it needs", "bem.register(FigureKind(...))"),
+    (
+        "a format of surface files",
+        "a function that reads one; the file's ending or its beginning",
+        "bem.register(SurfaceFormat(...))",
+    ),
+)
+"""What may be added from outside the package, one way for all."""
+
+
 def _contributing() -> list[Section]:
     parts = (
         (
@@ -234,7 +256,7 @@ def _contributing() -> list[Section]:
             EXAMPLES["law-load"],
         ),
         ("A wear criterion", "One file likewise.", EXAMPLES["criterion"]),
-        ("A reader", "One file and a test.", EXAMPLES["reader"]),
+        ("A format of surface files", "One file likewise.", EXAMPLES["reader"]),
         ("A kernel and its gate", "The kernel, its gate, and an entry in the registry.", EXAMPLES["kernel"]),
     )
     intro = text(
@@ -246,7 +268,7 @@ def _contributing() -> list[Section]:
         "file in bem/cli/. make test-fast and make lint before every commit."
     )
     return [
-        Section("Contributing", intro),
+        Section("Contributing", intro + table(("to add", "one file with", "entered by"), EXTENSIONS)),
         *(Section(title, text(words) + _code(snippet), level=3) for title, words, snippet in parts),
     ]
 

@@ -19,6 +19,7 @@ from bem.runs import plan_scene
 from bem.scenes import get_kind, kind_names, library
 from bem.scenes.load import load_scene
 from bem.scenes.ranges import parse_axes
+from bem.surfaces import formats
 from reports import guide
 from reports.builder import render
 
@@ -140,11 +141,12 @@ def test_python_examples_run(tmp_path, monkeypatch, name):
 
 @contextlib.contextmanager
 def own_laws():
-    """Laws registered inside are gone afterwards."""
+    """Laws and formats registered inside are gone afterwards."""
     before = {family: dict(laws.laws_of(family)) for family in laws.FAMILIES}
     try:
         yield
     finally:
+        formats._formats.clear()
         for family, kept in before.items():
             for law in set(laws.laws_of(family).values()) - set(kept.values()):
                 laws.unregister(law)
