@@ -110,7 +110,7 @@ def read(path):
     head, _, body = path.read_bytes().partition(b"\\n")
     nx, ny, step = (int(word) for word in head.split()[1:])
     counts = np.frombuffer(body, dtype="<i2").reshape(nx, ny)
-    return np.where(counts == -32768, np.nan, counts * 1e-9), (step * 1e-9, step * 1e-9), {"instrument": "ours"}
+    return np.where(counts == -32768, np.nan, counts * 1e-9), (step / 1e9, step / 1e9), {"instrument": "ours"}
 
 
 bem.register(SurfaceFormat("profilometer", read, recognises=lambda head: head.startswith(b"PROFILOMETER ")))
@@ -194,7 +194,7 @@ def test_a_format_of_files_in_a_scene_and_for_bem_surface(tmp_path):
         assert done.returncode == 0, done.stderr
         summary = json.loads((tmp_path / (name + ".out") / "summary.json").read_text())
         found.append([summary[key] for key in ("contact_area_fraction", "mean_contact_pressure_Pa", "load_N")])
-        described = command(tmp_path, "surface", name, "--detrend", "none", BEM_LAWS=place)
+        described = command(tmp_path, "surface", "describe", name, "--detrend", "none", BEM_LAWS=place)
         assert described.returncode == 0, described.stderr
         found.append([line for line in described.stdout.splitlines() if "Sq" in line])
         assert found[-1]
@@ -215,7 +215,7 @@ def test_a_format_of_files_in_python(tmp_path, profilometer):
     counts[2, 1] = -32768
     (tmp_path / "a.bin").write_bytes(b"PROFILOMETER 6 4 100\n" + counts.tobytes())
     surface = read_surface(tmp_path / "a.bin", detrend="none")
-    assert surface.spacing == pytest.approx((1e-7, 1e-7), rel=1e-15)
+    assert surface.spacing == (1e-7, 1e-7)
     assert surface.metadata["format"] == "profilometer"
     assert surface.metadata["instrument"] == "ours"
     assert surface.metadata["missing_points"] == 1
