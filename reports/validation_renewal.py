@@ -67,13 +67,12 @@ def renew(chosen: Sequence[Job], *, folder: Path = RUNS, say: Callable[[str], No
         say(f"{job.name}: about {show_seconds(seconds[job])} on a quiet machine")
         try:
             run = _run(job, folder / job.name)
-        except BemError as error:
-            failed.append(f"{job.name}: {error}")
-            continue
-        if run.summary["status"] == "converged":
-            keep(job, run)
-        else:
-            failed.append(f"{job.name}: {run.summary['status']}: {run.summary['where']}")
+            if run.summary["status"] == "converged":
+                keep(job, run)
+            else:
+                failed.append(f"{job.name}: {run.summary['status']}: {run.summary['where']}")
+        except Exception as error:
+            failed.append(f"{job.name}: {type(error).__name__}: {error}")
     return failed
 
 
@@ -138,5 +137,6 @@ def _history(run: FinishedRun) -> dict[str, Any]:
     radius = run.dataset["radius"]
     if "repetition" in radius.dims:
         radius = radius.mean("repetition")  # cycles without particles are left out
-    values = 1e9 * np.atleast_2d(radius.transpose(..., "cycle").to_numpy())
+    values = 1e9 * radius.transpose(..., "cycle").to_numpy()
+    values = values.reshape(-1, values.shape[-1])  # cases in a row, one where the scene has no axis
     return {"cycle_radius_nm": [[None if np.isnan(v) else round(float(v), 1) for v in row] for row in values]}

@@ -1,10 +1,13 @@
 """A stored result is stale when its scene or the code that its kind runs has changed; renewal runs just those."""
 
 import json
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
+import xarray
 
-from reports import validation_origin
+from reports import validation_origin, validation_renewal
 from reports.validation_origin import code_hash, modules, origin, scene_hash, stale
 from reports.validation_renewal import Job, jobs, renew
 from reports.validation_values import EXPERIMENTS, STORED
@@ -101,3 +104,25 @@ def test_every_kept_result_can_be_renewed():
     assert {*STORED.glob("*.json"), *EXPERIMENTS.glob("*.json")} <= targets
     for name, job in jobs().items():
         assert scene_hash(job.scene, job.settings), name
+
+
+def test_cycles_of_a_wear_run_are_kept_case_by_case_mean_over_repetitions():
+    radius = np.full((2, 1, 2, 3), np.nan)
+    radius[0, 0] = [[1e-9, 2e-9, np.nan], [3e-9, 2e-9, np.nan]]
+    array = xarray.DataArray(radius, dims=("load", "variant", "repetition", "cycle"))
+    run = SimpleNamespace(summary={"kind": "wear"}, dataset={"radius": array})
+    assert validation_renewal._history(run) == {"cycle_radius_nm": [[2.0, 2.0, None], [None, None, None]]}
+
+
+def test_whatever_goes_wrong_with_one_leaves_the_others(small, tmp_path, monkeypatch):
+    keep = validation_renewal.keep
+
+    def broken(job, run):
+        if job.name == "broken":
+            raise ValueError("no such dimension")
+        return keep(job, run)
+
+    monkeypatch.setattr(validation_renewal, "keep", broken)
+    other = Job("broken", small.scene, small.settings, tmp_path / "kept" / "broken.json")
+    assert renew([other, small], folder=tmp_path / "runs") == ["broken: ValueError: no such dimension"]
+    assert small.target.exists()
