@@ -5,6 +5,7 @@ A new command is a new file with `def register(app: typer.Typer) -> None`. `ORDE
 
 from __future__ import annotations
 
+import atexit
 import io
 import os
 import signal
@@ -78,6 +79,7 @@ def main() -> None:
     Nothing that takes time is imported before the `try`: an interrupt is one from the first moment.
     """
     try:
+        atexit.register(_done)
         signal.signal(signal.SIGTERM, _interrupt)
         sys.unraisablehook = _unraisable
         for stream in (sys.stdout, sys.stderr):  # a name or a unit that the terminal cannot spell is no reason to stop
@@ -112,6 +114,13 @@ def _leave_interrupted() -> None:
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(_INTERRUPTED)
+
+
+def _done() -> None:
+    """What was asked for is done: an interrupt while Python takes itself down must not make a failure of it. CPython
+    gives such signals back to the system there, unless they are ignored."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM):
+        signal.signal(number, signal.SIG_IGN)
 
 
 def _interrupt(*_: object) -> None:

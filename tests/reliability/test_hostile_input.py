@@ -165,3 +165,24 @@ def test_an_interrupt_is_an_interrupt_whenever_it_comes(code, name):
     assert b"Traceback" not in done.stderr
     assert done.stderr.decode().count("bem: interrupted") == 1
     assert signal.Signals[name]
+
+
+AT_THE_END = """
+import os, signal, sys
+class Late:
+    def __del__(self, kill=os.kill, pid=os.getpid(), number=signal.{signal}):
+        kill(pid, number)
+late = Late()  # goes when the modules go
+import bem.cli
+bem.cli.build = lambda: lambda standalone_mode: print("done")
+bem.cli.main()
+"""
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+def test_an_interrupt_after_all_is_done_spoils_nothing(name):
+    """CPython takes up to a second to end a run, and had given its signals back to the system by then."""
+    done = command(AT_THE_END.replace("{signal}", name))
+    assert done.stdout == b"done\n"
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == b""

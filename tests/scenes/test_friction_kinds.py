@@ -19,6 +19,7 @@ from bem.lubrication import Lubricant
 from bem.materials import CATALOGUE, Body
 from bem.runs import plan_scene
 from bem.scenes.kinds.asperities import SQUARE_LATTICE
+from bem.scenes.kinds.running_in import _hertz_strip
 from bem.surfaces import generate_surface
 from bem.wear.mixed import MixedContact
 
@@ -214,6 +215,14 @@ class Interrupting(Silent):
     def progress(self, done, total, what, figures):
         if (what, done) == ("cycles", 11):  # one cycle beyond the checkpoint
             raise StopHereError
+
+
+@pytest.mark.parametrize(("half_width", "rows"), [(0.1, 2), (1.0, 2), (2.0, 4), (100.0, 8)])
+def test_worn_depth_of_a_contact_narrower_than_a_cell(half_width, rows):
+    # loads of a few millinewtons on the thesis' grid: no cell's centre is within the contact, and the mean was NaN
+    strip = _hertz_strip(Grid((8, 8), (1.0, 1.0)).x, half_width)
+    assert strip.sum() == rows
+    assert (strip == strip[::-1]).all()
 
 
 def test_running_in_resumes_to_the_same_bits(tmp_path):

@@ -338,6 +338,12 @@ def _frame_cycles(count: int) -> list[int]:
     return sorted({1, count, *(round(v) for v in np.geomspace(1, count, 24))})
 
 
+def _hertz_strip(x: FloatArray, half_width: float) -> NDArray[np.bool_]:
+    """The rows of cells within Hertz' contact; of one narrower than a cell, those next to the axis."""
+    nearest = float(np.abs(x).min()) * (1 + 1e-9)  # on either side of it
+    return np.abs(x) <= max(half_width, nearest)
+
+
 def _record(
     scene: RunningInScene,
     setup: MixedSetup,
@@ -353,7 +359,7 @@ def _record(
     particles = result.particles[result.particles["body"] == scene.sizes.body(body)]
     last, end = rows[-scene.cycles.averaged :], int(cycles["cycle"][-1])
     late = particles[particles["cycle"] > end - scene.cycles.settled]
-    strip = np.abs(grid.x) <= setup.line.half_width(setup.load)  # the same before and after, at all speeds
+    strip = _hertz_strip(grid.x, setup.line.half_width(setup.load))  # the same before and after, at all speeds
     film = step.film if step.film is not None else step.table.under(float(rows["film_load"][-1]))
     separation = step.separation if step.separation is not None else film.thickness[:, 0]
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
