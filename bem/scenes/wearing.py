@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from bem.grid import FloatArray
+from bem.grid import FloatArray, Grid
 from bem.scenes.common import PositiveLength, Table
 from bem.scenes.laws import LawKey
+from bem.scenes.planner import Step, convolution_memory, padded_points, stress_kernel_seconds
 from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Length
 from bem.wear.criterion import VonMises, WearCriterion
@@ -45,6 +46,35 @@ class WearScenePart(Table):
     wears: Literal["softer", "lower", "upper", "both"] = "softer"
     shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] = 3
     within_layer: bool = Field(default=True, strict=True)
+
+
+def cycle_steps(
+    grid: Grid, cycles: int, depths: int, deepest: int, convolutions: int, contacts: str
+) -> tuple[Step, Step, Step]:
+    """Contact, stresses and pieces of a case of so many cycles.
+
+    depths : computed in a usual cycle; deepest : in the first ones. convolutions : of the contacts of a cycle.
+    contacts : what is solved, in words.
+    """
+    points = padded_points(grid.shape, grid.periodic)
+    return (
+        Step(
+            "contact",
+            f"{cycles} cycles a case, {contacts}",
+            transforms=2.0 * convolutions * cycles,
+            points=points,
+            memory=convolution_memory(grid.shape, grid.periodic),
+        ),
+        Step(
+            "stresses",
+            "from the surface down to the first depth at which nothing yields",
+            transforms=7.0 * depths * cycles,
+            points=points,
+            seconds=stress_kernel_seconds(grid.cells, deepest),
+            memory=8.0 * (points / 4 * 12 * deepest + grid.cells * (deepest + 8)),
+        ),
+        Step("pieces", "runs of yielded voxels along depth", seconds=0.004 * cycles, memory=8.0 * grid.cells * 8),
+    )
 
 
 class SizesScene(Table):

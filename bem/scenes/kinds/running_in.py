@@ -23,10 +23,18 @@ from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.kinds.friction import check_load, check_patch, half_width, load_of
 from bem.scenes.lubrication import FilmMeshScene, LubricatedScene, OilScene, SpeedsScene
-from bem.scenes.planner import Plan, Step, convolution_memory, padded_points, stress_kernel_seconds
+from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Ratio
-from bem.scenes.wearing import Count, IntArray, SizesScene, WearDepthsScene, WearScenePart, size_statistics
+from bem.scenes.wearing import (
+    Count,
+    IntArray,
+    SizesScene,
+    WearDepthsScene,
+    WearScenePart,
+    cycle_steps,
+    size_statistics,
+)
 
 if TYPE_CHECKING:
     from bem.friction.film_table import FilmTable
@@ -143,9 +151,9 @@ def plan(scene: RunningInScene) -> Plan:
         raise InputError(
             "lower.material: neither body has a yield_stress or a hardness, so nothing can wear; allowed: one of them"
         )
-    points = padded_points(grid.shape, grid.periodic)
     depths = min(scene.depths.count, _DEPTHS_NEEDED)
     deepest = min(scene.depths.count, 4 * _DEPTHS_NEEDED)  # in the first cycles
+    contacts = "two or three contacts each, from the last pressure; none in full film"
     return Plan(
         (
             Step("surfaces", "a pair for each case", transforms=40.0, points=grid.cells),
@@ -157,22 +165,14 @@ def plan(scene: RunningInScene) -> Plan:
                 memory=16.0 * scene.sharing.film_points**2,
             ),
             Step("a film for every balance", "films are interpolated in the tables", skipped=True),
-            Step(
-                "contact",
-                f"{cycles} cycles a case, two or three contacts each, from the last pressure; none in full film",
-                transforms=2.0 * _CONVOLUTIONS * cycles,
-                points=points,
-                memory=convolution_memory(grid.shape, grid.periodic),
+            *cycle_steps(
+                grid,
+                cycles,
+                depths,
+                deepest,
+                _CONVOLUTIONS,
+                "two or three contacts each, from the last pressure; none in full film",
             ),
-            Step(
-                "stresses",
-                "from the surface down to the first depth at which nothing yields",
-                transforms=7.0 * depths * cycles,
-                points=points,
-                seconds=stress_kernel_seconds(grid.cells, deepest),
-                memory=8.0 * (points / 4 * 12 * deepest + grid.cells * (deepest + 8)),
-            ),
-            Step("pieces", "runs of yielded voxels along depth", seconds=0.004 * cycles, memory=8.0 * grid.cells * 8),
             Step("figures and report", "pictures of the results", seconds=5.0, memory=2e8, per="run"),
         )
     )

@@ -24,10 +24,8 @@ from bem.scenes.laws import LawKey
 from bem.scenes.planner import (
     Plan,
     Step,
-    convolution_memory,
     layered_kernel_seconds,
     padded_points,
-    stress_kernel_seconds,
 )
 from bem.scenes.records import Figure, Series
 from bem.scenes.units import Length, Ratio, WearCoefficient
@@ -38,6 +36,7 @@ from bem.scenes.wearing import (
     SizesScene,
     WearDepthsScene,
     WearScenePart,
+    cycle_steps,
     mean_sizes,
     particle_rows,
     volume_mean_radius,
@@ -277,21 +276,7 @@ def plan(scene: WearScene) -> Plan:
                 points=points,
                 memory=8.0 * points / 4,
             ),
-            Step(
-                "contact",
-                f"{cycles} cycles a case, each from the last pressure",
-                transforms=2.0 * _CONVOLUTIONS * cycles,
-                points=points,
-                memory=convolution_memory(grid.shape, grid.periodic),
-            ),
-            Step(
-                "stresses",
-                "from the surface down to the first depth at which nothing yields",
-                transforms=7.0 * depths * cycles,
-                points=points,
-                seconds=stress_kernel_seconds(grid.cells, deepest),
-                memory=8.0 * (points / 4 * 12 * deepest + grid.cells * (deepest + 8)),
-            ),
+            *cycle_steps(grid, cycles, depths, deepest, _CONVOLUTIONS, "each from the last pressure"),
             Step(
                 "kernels of an earlier run",
                 "not kept on disk: made once for all cycles, in a few per cent of the run's time",
@@ -302,7 +287,6 @@ def plan(scene: WearScene) -> Plan:
                 "no piece that reaches the surface gets past a depth at which nothing yields",
                 skipped=True,
             ),
-            Step("pieces", "runs of yielded voxels along depth", seconds=0.004 * cycles, memory=8.0 * grid.cells * 8),
             Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8, per="run"),
         )
     )
