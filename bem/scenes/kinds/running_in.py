@@ -165,14 +165,7 @@ def plan(scene: RunningInScene) -> Plan:
                 memory=16.0 * scene.sharing.film_points**2,
             ),
             Step("a film for every balance", "films are interpolated in the tables", skipped=True),
-            *cycle_steps(
-                grid,
-                cycles,
-                depths,
-                deepest,
-                _CONVOLUTIONS,
-                "two or three contacts each, from the last pressure; none in full film",
-            ),
+            *cycle_steps(grid, cycles, depths, deepest, _CONVOLUTIONS, contacts),
             Step("figures and report", "pictures of the results", seconds=5.0, memory=2e8, per="run"),
         )
     )
