@@ -68,7 +68,7 @@ def angle(u: float, v: float, z: float, r: float) -> float:
 
 
 @nb.njit(**COMPILE)
-def slant(u: float, v: float, z: float, r: float) -> float:
+def chi_xx(u: float, v: float, z: float, r: float) -> float:
     """arctan(v/u) - arctan(z v / (u r)) as one angle: the corner form of d2/du2 of the integral of ln(R + z)."""
     return np.arctan2(u * v * (u * u + v * v) / (r + z), u * u * r + z * v * v) if r > 0.0 else 0.0
 

@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, cut, log_ratio, rule, slant
+from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, rule
 from bem.kernels.loads import DISPLACEMENT_PARITY, Load, clear_odd
 from bem.materials import Material
 
@@ -56,7 +56,7 @@ def _chi_x(x0: float, x1: float, y0: float, y1: float, z: float) -> float:
         v = y1 if j else y0
         r0 = np.sqrt(x0 * x0 + v * v + z * z)
         r1 = np.sqrt(x1 * x1 + v * v + z * z)
-        term = x1 * slant(x1, v, z, r1) - x0 * slant(x0, v, z, r0)
+        term = x1 * chi_xx(x1, v, z, r1) - x0 * chi_xx(x0, v, z, r0)
         if v != 0.0:
             # v ln[(r1 + z) / (r0 + z)], also where the rectangle is so long that both are nearly v
             term += v * np.log1p((x1 - x0) * (x1 + x0) / ((r1 + r0) * (r0 + z)))
@@ -89,7 +89,7 @@ def _corners(x: float, y: float, z: float, a: float, b: float, nu: float, tangen
         v_y1 = log_ratio(x1, x0, across)
     newton = x1 * v_x1 - x0 * v_x0 + y1 * v_y1 - y0 * v_y0
     solid = 0.0  # -V_z
-    slants = 0.0  # chi_xx
+    chi_sum = 0.0  # chi_xx
     omega = 0.0  # F_xy
     logs = 0.0  # chi_xy
     for i in range(2):
@@ -100,15 +100,15 @@ def _corners(x: float, y: float, z: float, a: float, b: float, nu: float, tangen
             r = np.sqrt(u * u + v * v + z * z)
             solid += sign * angle(u, v, z, r)
             if tangential:
-                slants += sign * slant(u, v, z, r)
+                chi_sum += sign * chi_xx(u, v, z, r)
                 omega -= sign * r
                 if z > 0.0:
                     logs += sign * np.log(r + z)
     newton -= z * solid
     v_x = v_x1 - v_x0
     if tangential:
-        f_xx = -(x1 * v_x1 - x0 * v_x0) + z * slants
-        out[0] += 2.0 * newton + 2.0 * nu * f_xx - z * slants
+        f_xx = -(x1 * v_x1 - x0 * v_x0) + z * chi_sum
+        out[0] += 2.0 * newton + 2.0 * nu * f_xx - z * chi_sum
         out[1] += 2.0 * nu * (omega + z * logs) - z * logs
         out[2] += (1.0 - 2.0 * nu) * _chi_x(x0, x1, y0, y1, z)
         if z > 0.0:

@@ -365,10 +365,10 @@ def _find_place(q, above, thickness, inside, carried, c, place):  # type: ignore
 
 
 @numba.njit(cache=True, error_model="numpy")
-def fill(q, above, medium, media, remainder, pressed, drawn, out):  # type: ignore[no-untyped-def]
+def fill(q, above, medium, media, remainder, pressed, sheared, out):  # type: ignore[no-untyped-def]
     """Fill `out` (ROWS, n) for the wavenumbers q (n,) at the distance `above` below the top of a medium.
 
-    `pressed`: the rows under pressure; `drawn`: those under tractions. The others are left as they are.
+    `pressed`: the rows under pressure; `sheared`: those under tractions. The others are left as they are.
     """
     bottom = media.shape[0] - 1
     kept = np.zeros((media.shape[0], _KEPT), out.dtype)
@@ -385,13 +385,13 @@ def fill(q, above, medium, media, remainder, pressed, drawn, out):  # type: igno
         _find_place(q[i], above, thickness, inside, carried, c, place)
         if bottom > 0:
             _climb(q[i], media, reflected, kept)
-        for load in range(0 if pressed else 1, 2 if drawn else 1):
+        for load in range(0 if pressed else 1, 2 if sheared else 1):
             u, w, tau, sigma = _in_plane(q[i], medium, carried, remainder, media, place, kept, load, waves)
             row = 6 * load
             column[row], column[row + 1], column[row + 2], column[row + 3] = u, w, g * tau, g * sigma
             column[row + 4] = g * ((c - 1.0) * sigma - c * u)
             column[row + 5] = g * (c - 1.0) * (sigma - u)
-        if drawn:
+        if sheared:
             _anti_plane(q[i], medium, remainder, media, place, kept, impedances, column)
-        for row in range(0 if pressed else 6, ROWS if drawn else 6):
+        for row in range(0 if pressed else 6, ROWS if sheared else 6):
             out[row, i] = column[row]

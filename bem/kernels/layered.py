@@ -20,7 +20,7 @@ R = (Zu - Z)^-1 (Z - Zd), which comes back on top as R' = P^T R P with P = exp(-
 through a thinner one by exp(-M q h), because there the waves of different moduli cancel. Then displacements are
 carried down from the load. Only decaying exponentials occur and nothing overflows. With one layer the closed form of
 the literature for the normal displacement comes out of it. Across the plane (anti-plane shear) all is positive sums of
-the kind Z = G (Z + G tanh q h)/(G + Z tanh q h). This room and `layer_waves` alone know how many layers there are.
+the kind Z = G (Z + G tanh q h)/(G + Z tanh q h). This module and `layer_waves` alone know how many layers there are.
 
 Everything here is analytic in q, and the core takes complex q: the free-space coefficients turn the path of integration
 into the complex plane. The largest stress and displacement are right to some 1e-13 (`tests/kernels/test_layered.py`,
@@ -149,8 +149,8 @@ def wave_functions(
     above = depth - (body.interfaces[medium - 1] if medium else 0.0)
     q = np.ascontiguousarray(wavenumber).ravel()
     out = np.zeros((ROWS, q.size), dtype=q.dtype)
-    pressed, drawn = load is not Load.TANGENTIAL, load is not Load.NORMAL
-    layer_waves.fill(q, float(above), medium, _media(body), remainder, pressed, drawn, out)
+    pressed, sheared = load is not Load.TANGENTIAL, load is not Load.NORMAL
+    layer_waves.fill(q, float(above), medium, _media(body), remainder, pressed, sheared, out)
     return out
 
 

@@ -61,7 +61,7 @@ def _pressed(c: float, s: float, g0: float, g1: float, g2: float, g3: float) -> 
 
 
 @nb.njit(**COMPILE)
-def _drawn(c: float, s: float, g0: float, g1: float, g2: float, g3: float, g4: float, g5: float) -> Six:
+def _sheared(c: float, s: float, g0: float, g1: float, g2: float, g3: float, g4: float, g5: float) -> Six:
     c2, s2 = (c - s) * (c + s), 2.0 * s * c
     c3, s3 = c2 * c - s2 * s, s2 * c + c2 * s
     xy = s3 * g5 - 0.5 * s * (g3 - g4)
@@ -81,7 +81,7 @@ def _add_point(kind: int, x: float, y: float, r: float, g: FloatArray, weight: f
     if kind == STRESS_NORMAL:
         stress = _pressed(c, s, g[0], g[1], g[2], g[3])
     else:
-        stress = _drawn(c, s, g[0], g[1], g[2], g[3], g[4], g[5])
+        stress = _sheared(c, s, g[0], g[1], g[2], g[3], g[4], g[5])
     for component in range(6):
         out[component] += weight * stress[component]
 
@@ -91,48 +91,48 @@ def _add_point(kind: int, x: float, y: float, r: float, g: FloatArray, weight: f
 # six components, y of the cells, y, r and place in the panel of a point, and six tables there.
 _CELL, _Y, _R, _T, _G = 6 * BLOCK, 7 * BLOCK, 8 * BLOCK, 9 * BLOCK, 10 * BLOCK
 _SUM = 16 * BLOCK
-_ROOM = 17 * BLOCK
+_SCRATCH = 17 * BLOCK
 
 
 @nb.njit(**COMPILE)
 def _add_side_by_side(
-    kind: int, x: float, count: int, tables: int, panel: FloatArray, weight: float, room: FloatArray
+    kind: int, x: float, count: int, tables: int, panel: FloatArray, weight: float, scratch: FloatArray
 ) -> None:
     """Add `weight` times the response at `count` points (x, `_Y`) that share a panel; `panel` (powers, tables)."""
     highest = panel.shape[0] - 1
     for table in range(tables):
         value = panel[highest, table]
         for k in range(count):
-            room[_SUM + k] = value
+            scratch[_SUM + k] = value
         for power in range(highest - 1, -1, -1):
             value = panel[power, table]
             for k in range(count):
-                room[_SUM + k] = room[_SUM + k] * room[_T + k] + value
+                scratch[_SUM + k] = scratch[_SUM + k] * scratch[_T + k] + value
         at = _G + table * BLOCK
         for k in range(count):
-            room[at + k] = room[_SUM + k]
+            scratch[at + k] = scratch[_SUM + k]
     if kind == SURFACE_NORMAL:
         for k in range(count):
-            room[k] += weight * room[_G + k]
+            scratch[k] += weight * scratch[_G + k]
     elif kind == SURFACE_TANGENTIAL:
         for k in range(count):
-            c, _ = _along(x, room[_Y + k], room[_R + k])
-            room[k] -= weight * c * room[_G + k]
+            c, _ = _along(x, scratch[_Y + k], scratch[_R + k])
+            scratch[k] -= weight * c * scratch[_G + k]
     elif kind == STRESS_NORMAL:
         for k in range(count):
-            c, s = _along(x, room[_Y + k], room[_R + k])
+            c, s = _along(x, scratch[_Y + k], scratch[_R + k])
             stress = _pressed(
-                c, s, room[_G + k], room[_G + BLOCK + k], room[_G + 2 * BLOCK + k], room[_G + 3 * BLOCK + k]
+                c, s, scratch[_G + k], scratch[_G + BLOCK + k], scratch[_G + 2 * BLOCK + k], scratch[_G + 3 * BLOCK + k]
             )
-            add_six(weight, stress, k, room)
+            add_six(weight, stress, k, scratch)
     else:
         for k in range(count):
-            c, s = _along(x, room[_Y + k], room[_R + k])
-            stress = _drawn(
-                c, s, room[_G + k], room[_G + BLOCK + k], room[_G + 2 * BLOCK + k], room[_G + 3 * BLOCK + k],
-                room[_G + 4 * BLOCK + k], room[_G + 5 * BLOCK + k],
+            c, s = _along(x, scratch[_Y + k], scratch[_R + k])
+            stress = _sheared(
+                c, s, scratch[_G + k], scratch[_G + BLOCK + k], scratch[_G + 2 * BLOCK + k],
+                scratch[_G + 3 * BLOCK + k], scratch[_G + 4 * BLOCK + k], scratch[_G + 5 * BLOCK + k],
             )  # fmt: skip
-            add_six(weight, stress, k, room)
+            add_six(weight, stress, k, scratch)
 
 
 @nb.njit(**COMPILE)
@@ -145,7 +145,7 @@ def _add_block(
     along_y: int,
     count: int,
     table: RadialTable,
-    room: FloatArray,
+    scratch: FloatArray,
 ) -> None:
     """Add the integrals over the first `count` cells of a block, all at `x`, to its sums."""
     edges, coefficients = table.edges, table.coefficients
@@ -156,19 +156,19 @@ def _add_block(
             shift = b * _NODES[along_y, j]
             weight = a * b * _WEIGHTS[along_x, i] * _WEIGHTS[along_y, j]
             for k in range(count):
-                py = room[_CELL + k] + shift
-                room[_Y + k] = py
-                room[_R + k] = np.sqrt(px * px + py * py)
+                py = scratch[_CELL + k] + shift
+                scratch[_Y + k] = py
+                scratch[_R + k] = np.sqrt(px * px + py * py)
             start = 0
             while start < count:
-                r = room[_R + start]
+                r = scratch[_R + start]
                 stop = start + 1
                 if r < end:
                     low = panel_of(r, edges)
                     lower, upper = edges[low], edges[low + 1]
-                    while stop < count and lower <= room[_R + stop] < upper:
+                    while stop < count and lower <= scratch[_R + stop] < upper:
                         stop += 1
-                    part = room[start:]  # counted from zero: what may be negative is not vectorised
+                    part = scratch[start:]  # counted from zero: what may be negative is not vectorised
                     for k in range(stop - start):
                         part[_T + k] = (2.0 * part[_R + k] - lower - upper) / (upper - lower)
                     tables = coefficients.shape[2]
@@ -256,7 +256,7 @@ def _add_cells(
     components, nx, ny = out.shape
     stack = np.empty((400, 4))
     g = np.empty(table.coefficients.shape[2])
-    room = np.zeros(_ROOM)
+    scratch = np.zeros(_SCRATCH)
     row = np.empty((components, ny))
     a, b = 0.5 * sides[0], 0.5 * sides[1]
     for i in range(nx):
@@ -277,15 +277,15 @@ def _add_cells(
                         y = (start + count + q * period[1]) * sides[1]
                         if _rules(x, y, a, b, table) != rules:
                             break
-                        room[_CELL + count] = y
+                        scratch[_CELL + count] = y
                         count += 1
                     for c in range(components):
                         for k in range(count):
-                            room[c * BLOCK + k] = row[c, start + k]
-                    _add_block(kind, x, a, b, *rules, count, table, room)
+                            scratch[c * BLOCK + k] = row[c, start + k]
+                    _add_block(kind, x, a, b, *rules, count, table, scratch)
                     for c in range(components):
                         for k in range(count):
-                            row[c, start + k] = room[c * BLOCK + k]
+                            row[c, start + k] = scratch[c * BLOCK + k]
                     start += count
         out[:, i] += row
 

@@ -81,7 +81,7 @@ _TAIL_NODES = 0.5 * (_LEGENDRE[0] + 1)
 _TAIL_WEIGHTS = 0.5 * _LEGENDRE[1]
 
 # what is summed: six stresses, or one displacement
-_STRESS, _PRESSURE_LIFT, _TRACTION_LIFT = 0, 1, 2
+_STRESS, _PRESSURE_DISPLACEMENT, _TRACTION_DISPLACEMENT = 0, 1, 2
 
 
 class _Response(NamedTuple):
@@ -121,107 +121,113 @@ class _Means(NamedTuple):
 
 
 @nb.njit(**COMPILE)
-def _add_pair(what: _Response, shift: float, weight: float, count: int, room: FloatArray) -> None:
+def _add_pair(what: _Response, shift: float, weight: float, count: int, scratch: FloatArray) -> None:
     """Add `weight` times the point forces at +-`shift` along the periodic axis to a block of points."""
     if what.kind == _STRESS:
         pressure, traction = weight * what.pressure, weight * what.traction
         for side in (-1.0, 1.0):
             at = -side * shift
             right, on = (at, 0.0) if what.swap else (0.0, at)
-            subsurface.add_points(right, on, what.z, what.nu, pressure, traction, count, room)
+            subsurface.add_points(right, on, what.z, what.nu, pressure, traction, count, scratch)
         return
     for k in range(count):
-        x, y = room[X_AT + k], room[Y_AT + k]
+        x, y = scratch[X_AT + k], scratch[Y_AT + k]
         free, along = (y, x) if what.swap else (x, y)
         plus = (along + shift) ** 2 + free * free
         minus = (along - shift) ** 2 + free * free
-        if what.kind == _PRESSURE_LIFT:
-            room[k] += weight * (1.0 / np.sqrt(plus) + 1.0 / np.sqrt(minus))
+        if what.kind == _PRESSURE_DISPLACEMENT:
+            scratch[k] += weight * (1.0 / np.sqrt(plus) + 1.0 / np.sqrt(minus))
         elif what.swap:
-            room[k] += weight * 2.0 * along * (along * along + free * free - shift * shift) / (plus * minus)
+            scratch[k] += weight * 2.0 * along * (along * along + free * free - shift * shift) / (plus * minus)
         else:
-            room[k] += weight * free * (1.0 / plus + 1.0 / minus)
+            scratch[k] += weight * free * (1.0 / plus + 1.0 / minus)
 
 
 @nb.njit(**COMPILE)
 def _add_tail(
-    what: _Response, free: float, along: FloatArray, weight: float, room: FloatArray, out: FloatArray
+    what: _Response, free: float, along: FloatArray, weight: float, scratch: FloatArray, out: FloatArray
 ) -> None:
     """Add all point forces at +-k periods, k >= first, to `out` (parts, points along)."""
     count = along.size
     across = np.full(count, free)
     if what.swap:
-        subsurface.block_of(along, across, room)
+        subsurface.block_of(along, across, scratch)
     else:
-        subsurface.block_of(across, along, room)
+        subsurface.block_of(across, along, scratch)
     for k in range(what.first, _EXPLICIT):
-        _add_pair(what, float(k), weight, count, room)
+        _add_pair(what, float(k), weight, count, scratch)
     start = _EXPLICIT - 0.5
     for i in range(_EULER_NODES.size):
         t = _EULER_NODES[i]
         w = weight * _EULER_WEIGHTS[i]
-        _add_pair(what, start + t, w, count, room)
-        _add_pair(what, start - t, -w, count, room)
-    _add_integral(what, start, free, along, weight, room)
+        _add_pair(what, start + t, w, count, scratch)
+        _add_pair(what, start - t, -w, count, scratch)
+    _add_integral(what, start, free, along, weight, scratch)
     for c in range(out.shape[0]):
         for k in range(count):
-            out[c, k] += room[c * BLOCK + k]
+            out[c, k] += scratch[c * BLOCK + k]
 
 
 @nb.njit(**COMPILE)
 def _add_integral(
-    what: _Response, start: float, free: float, along: FloatArray, weight: float, room: FloatArray
+    what: _Response, start: float, free: float, along: FloatArray, weight: float, scratch: FloatArray
 ) -> None:
     """Add the integral of the pairs of point forces from `start` on to a block of points."""
-    if what.kind == _PRESSURE_LIFT:
+    if what.kind == _PRESSURE_DISPLACEMENT:
         for k in range(along.size):
             for t in (start + along[k], start - along[k]):
-                room[k] -= weight * np.log((t + np.sqrt(t * t + free * free)) / what.reference)
+                scratch[k] -= weight * np.log((t + np.sqrt(t * t + free * free)) / what.reference)
         return
     stretch = np.sqrt(start * start + free * free + what.z * what.z)
     for i in range(_TAIL_NODES.size):
         left = 1.0 - _TAIL_NODES[i]
         w = weight * _TAIL_WEIGHTS[i] * stretch / (left * left)
-        _add_pair(what, start + stretch * _TAIL_NODES[i] / left, w, along.size, room)
+        _add_pair(what, start + stretch * _TAIL_NODES[i] / left, w, along.size, scratch)
 
 
 @nb.njit(**COMPILE)
-def _add_line(what: _Response, free: float, half: float, share: float, out: FloatArray, strip: FloatArray) -> None:
-    """Add 2 pi times the stress (or V, or chi_x) of a strip |free'| < half; `share`: loaded fraction of a period."""
+def _add_line(what: _Response, free: float, half: float, fraction: float, out: FloatArray, strip: FloatArray) -> None:
+    """Add 2 pi times the stress (or V, or chi_x) of a strip |free'| < half; `fraction`: loaded fraction of a period."""
     if what.kind == _STRESS:
         strip[:] = 0.0
         across = 0.0 if what.swap else what.traction
         add_strip(free, what.z, half, what.nu, what.pressure, across, what.traction - across, strip)
         # the strip's x is the free axis
         x, y = (1, 0) if what.swap else (0, 1)
-        out[0] += 2.0 * share * strip[x]
-        out[1] += 2.0 * share * strip[y]
-        out[2] += 2.0 * share * strip[2]
-        out[3] += 2.0 * share * strip[3 + x]
-        out[4] += 2.0 * share * strip[3 + y]
-        out[5] += 2.0 * share * strip[5]
-    elif what.kind == _PRESSURE_LIFT:
-        out[0] -= 2.0 * share * what.reference * log_strip(free / what.reference, half / what.reference)
+        out[0] += 2.0 * fraction * strip[x]
+        out[1] += 2.0 * fraction * strip[y]
+        out[2] += 2.0 * fraction * strip[2]
+        out[3] += 2.0 * fraction * strip[3 + x]
+        out[4] += 2.0 * fraction * strip[3 + y]
+        out[5] += 2.0 * fraction * strip[5]
+    elif what.kind == _PRESSURE_DISPLACEMENT:
+        out[0] -= 2.0 * fraction * what.reference * log_strip(free / what.reference, half / what.reference)
     elif not what.swap:
-        out[0] += share * np.pi * 2.0 * min(max(free, -half), half)
+        out[0] += fraction * np.pi * 2.0 * min(max(free, -half), half)
 
 
 @nb.njit(**COMPILE)
 def _add_cell(
-    what: _Response, free: float, along: FloatArray, half: float, half_along: float, room: FloatArray, out: FloatArray
+    what: _Response,
+    free: float,
+    along: FloatArray,
+    half: float,
+    half_along: float,
+    scratch: FloatArray,
+    out: FloatArray,
 ) -> None:
     """Add one uniformly loaded cell to `out` (parts, points along)."""
     across = np.full(along.size, free)
     x, y, a, b = (along, across, half_along, half) if what.swap else (across, along, half, half_along)
     if what.kind == _STRESS:
-        subsurface.add_rectangles(x, y, what.z, a, b, what.nu, what.pressure, what.traction, room, out)
+        subsurface.add_rectangles(x, y, what.z, a, b, what.nu, what.pressure, what.traction, scratch, out)
         return
-    lift = np.zeros(3)
+    displacement = np.zeros(3)
     for k in range(along.size):
         # at nu = 0: 4 pi G uz = 2 V under pressure, chi_x under traction
-        lift[:] = 0.0
-        half_space.add_rectangle(x[k], y[k], what.z, a, b, 0.0, what.kind == _TRACTION_LIFT, lift)
-        out[0, k] += 0.5 * lift[2] if what.kind == _PRESSURE_LIFT else lift[2]
+        displacement[:] = 0.0
+        half_space.add_rectangle(x[k], y[k], what.z, a, b, 0.0, what.kind == _TRACTION_DISPLACEMENT, displacement)
+        out[0, k] += 0.5 * displacement[2] if what.kind == _PRESSURE_DISPLACEMENT else displacement[2]
 
 
 @nb.njit(**COMPILE)
@@ -233,7 +239,7 @@ def _within_reach(what: _Response, free: float, half: float) -> tuple[float, flo
 
 @nb.njit(**COMPILE)
 def _sample_cell(
-    what: _Response, cells: _Cells, free: float, ends: tuple[float, float], nodes: FloatArray, room: FloatArray,
+    what: _Response, cells: _Cells, free: float, ends: tuple[float, float], nodes: FloatArray, scratch: FloatArray,
     out: FloatArray,
 ) -> None:  # fmt: skip
     """Add the tail over the part of a cell between `ends` at the nodes to `out` (parts, nodes)."""
@@ -244,7 +250,7 @@ def _sample_cell(
         centre = low + (piece + 0.5) * width
         for g in range(cells.points):
             source = centre + 0.5 * width * NODES[cells.points, g]
-            _add_tail(what, free - source, nodes, width * WEIGHTS[cells.points, g], room, out)
+            _add_tail(what, free - source, nodes, width * WEIGHTS[cells.points, g], scratch, out)
 
 
 @nb.njit(**COMPILE)
@@ -269,7 +275,7 @@ def _fill(what: _Response, cells: _Cells, means: _Means, tail: FloatArray, out: 
     samples = np.zeros((parts, means.nodes.size))
     line = np.zeros(parts)
     strip = np.zeros(6)
-    room = np.zeros(8 * BLOCK)
+    scratch = np.zeros(8 * BLOCK)
     row = np.zeros((parts, out.shape[2]))
     offsets = np.arange(out.shape[2]) * cells.step_along
     for i in range(out.shape[1]):
@@ -287,11 +293,11 @@ def _fill(what: _Response, cells: _Cells, means: _Means, tail: FloatArray, out: 
             samples[:] = tail[:, i, :]
         else:
             samples[:] = 0.0
-            _sample_cell(what, cells, free, (low, high), means.nodes, room, samples)
+            _sample_cell(what, cells, free, (low, high), means.nodes, scratch, samples)
         middle = 0.5 * (low + high)
         row[:] = 0.0
         for k in range(1 - what.first, what.first):
-            _add_cell(what, free - middle, offsets + k, 0.5 * (high - low), 0.5 * cells.step_along, room, row)
+            _add_cell(what, free - middle, offsets + k, 0.5 * (high - low), 0.5 * cells.step_along, scratch, row)
         _add_means(means, samples, row)
         for c in range(parts):
             for j in range(row.shape[1]):
@@ -305,10 +311,10 @@ def _sample(
     """The tail over each cell along the free axis, (parts, free offsets, nodes), from samples at `free_nodes`."""
     parts = out.shape[0]
     samples = np.zeros((parts, nodes.size))
-    room = np.zeros(8 * BLOCK)
+    scratch = np.zeros(8 * BLOCK)
     for s in range(free_nodes.size):
         samples[:] = 0.0
-        _add_tail(what, free_nodes[s], nodes, 1.0, room, samples)
+        _add_tail(what, free_nodes[s], nodes, 1.0, scratch, samples)
         for i in range(out.shape[1]):
             w = free_means[i, s]
             if w != 0.0:
@@ -408,7 +414,7 @@ def surface_table(grid: Grid, material: Material, load: Load) -> FloatArray:
     """Normal surface displacement [m/Pa] of a loaded cell and its images, shape (nx, ny); datum: see the module."""
     along = 0 if grid.periodic[0] else 1
     traction = load is Load.TANGENTIAL
-    kind = _TRACTION_LIFT if traction else _PRESSURE_LIFT
+    kind = _TRACTION_DISPLACEMENT if traction else _PRESSURE_DISPLACEMENT
     table: FloatArray = _table(grid, kind, 0.0, 0.0, 1.0, 1.0, [SURFACE_PARITY[load][along]])[0]
     nu = material.poissons_ratio
     factor = (1 - 2 * nu) if traction else 2 * (1 - nu)

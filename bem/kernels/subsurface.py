@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bem.grid import FloatArray
-from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, cut, log_ratio, rule, slant
+from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, rule
 from bem.kernels.half_space import check_points
 from bem.kernels.loads import STRESS_PARITY, Load, clear_odd
 
@@ -107,44 +107,44 @@ Y_AT = 7 * BLOCK
 
 
 @nb.njit(**COMPILE)
-def block_of(x: FloatArray, y: FloatArray, room: FloatArray) -> None:
-    """Begin a block of at most `BLOCK` points (x, y) in `room` (8 BLOCK,): no sums yet."""
-    room[:X_AT] = 0.0
+def block_of(x: FloatArray, y: FloatArray, scratch: FloatArray) -> None:
+    """Begin a block of at most `BLOCK` points (x, y) in `scratch` (8 BLOCK,): no sums yet."""
+    scratch[:X_AT] = 0.0
     for k in range(x.size):
-        room[X_AT + k] = x[k]
-        room[Y_AT + k] = y[k]
+        scratch[X_AT + k] = x[k]
+        scratch[Y_AT + k] = y[k]
 
 
 @nb.njit(**COMPILE)
-def add_six(weight: float, stress: Six, k: int, room: FloatArray) -> None:
+def add_six(weight: float, stress: Six, k: int, scratch: FloatArray) -> None:
     """Add `weight` times six stresses to the sums of point k of a block."""
-    room[k] += weight * stress[0]
-    room[BLOCK + k] += weight * stress[1]
-    room[2 * BLOCK + k] += weight * stress[2]
-    room[3 * BLOCK + k] += weight * stress[3]
-    room[4 * BLOCK + k] += weight * stress[4]
-    room[5 * BLOCK + k] += weight * stress[5]
+    scratch[k] += weight * stress[0]
+    scratch[BLOCK + k] += weight * stress[1]
+    scratch[2 * BLOCK + k] += weight * stress[2]
+    scratch[3 * BLOCK + k] += weight * stress[3]
+    scratch[4 * BLOCK + k] += weight * stress[4]
+    scratch[5 * BLOCK + k] += weight * stress[5]
 
 
 @nb.njit(**COMPILE)
 def add_points(
-    right: float, on: float, z: float, nu: float, pressure: float, traction: float, count: int, room: FloatArray
+    right: float, on: float, z: float, nu: float, pressure: float, traction: float, count: int, scratch: FloatArray
 ) -> None:
     """`add_point` of point forces at (right, on) to the sums of each of the first `count` points of a block."""
     if pressure != 0.0:
         for k in range(count):
-            add_six(pressure, _pressure_point(room[X_AT + k] - right, room[Y_AT + k] - on, z, nu), k, room)
+            add_six(pressure, _pressure_point(scratch[X_AT + k] - right, scratch[Y_AT + k] - on, z, nu), k, scratch)
     if traction != 0.0:
         for k in range(count):
-            add_six(traction, _traction_point(room[X_AT + k] - right, room[Y_AT + k] - on, z, nu), k, room)
+            add_six(traction, _traction_point(scratch[X_AT + k] - right, scratch[Y_AT + k] - on, z, nu), k, scratch)
 
 
 @nb.njit(**COMPILE)
-def end_block(count: int, room: FloatArray, out: FloatArray) -> None:
+def end_block(count: int, scratch: FloatArray, out: FloatArray) -> None:
     """Add the sums of a block to `out` (6, count)."""
     for c in range(6):
         for k in range(count):
-            out[c, k] += room[c * BLOCK + k]
+            out[c, k] += scratch[c * BLOCK + k]
 
 
 @nb.njit(**COMPILE)
@@ -157,8 +157,8 @@ def _corners(
     solid = 0.0  # -V_z
     arc_x = 0.0  # -z V_xx
     arc_y = 0.0  # -z V_yy
-    slant_x = 0.0  # chi_xx
-    slant_y = 0.0  # chi_yy
+    chi_xx_sum = 0.0  # chi_xx
+    chi_yy_sum = 0.0  # chi_yy
     z_xz = 0.0  # -z V_xz
     z_yz = 0.0  # -z V_yz
     z_xy = 0.0  # z V_xy
@@ -182,16 +182,16 @@ def _corners(
                 z_yz += sign * zz * u * av
                 z_xy += sign * z / r
             if pressure != 0.0:
-                slant_x += sign * slant(u, v, z, r)
-                slant_y += sign * slant(v, u, z, r)
+                chi_xx_sum += sign * chi_xx(u, v, z, r)
+                chi_yy_sum += sign * chi_xx(v, u, z, r)
                 chi_xy += sign * np.log(r + z)
             if traction != 0.0 and r > 0.0:
                 slope = sign * (2.0 * nu + z / r) / (r + z)
                 mixed_x += slope * v
                 mixed_y += slope * u
     if pressure != 0.0:
-        out[0] += pressure * (arc_x - 2.0 * nu * solid - k * slant_x)
-        out[1] += pressure * (arc_y - 2.0 * nu * solid - k * slant_y)
+        out[0] += pressure * (arc_x - 2.0 * nu * solid - k * chi_xx_sum)
+        out[1] += pressure * (arc_y - 2.0 * nu * solid - k * chi_yy_sum)
         out[2] -= pressure * (solid + arc_x + arc_y)
         out[3] += pressure * z_yz
         out[4] += pressure * z_xz
@@ -208,6 +208,8 @@ def _corners(
         out[5] += traction * (v_y - mixed_y)
 
 
+# A point, half sides, Poisson's ratio, two loads and the sums: plain numbers, which the compiler keeps in registers
+# through the rule's points; a record would be taken apart at every call. So it is for `add_rectangles`.
 @nb.njit(**COMPILE)
 def _piece(
     n: int,
@@ -256,10 +258,10 @@ def add_rectangles(
     nu: float,
     pressure: float,
     traction: float,
-    room: FloatArray,
+    scratch: FloatArray,
     out: FloatArray,
 ) -> None:
-    """`add_rectangle` at each of the points (x, y), (n,) each, to `out` (6, n); `room` (8 BLOCK,) is written over.
+    """`add_rectangle` at each of the points (x, y), (n,) each, to `out` (6, n); `scratch` (8 BLOCK,) is written over.
 
     Far points in a row that are served by the same rule go through it side by side.
     """
@@ -274,13 +276,13 @@ def add_rectangles(
             continue
         while stop < min(x.size, start + BLOCK) and rule(x[stop], y[stop], z, a, b) == n:
             stop += 1
-        block_of(x[start:stop], y[start:stop], room)
+        block_of(x[start:stop], y[start:stop], scratch)
         for i in range(n):
             for j in range(n):
                 w = area * WEIGHTS[n, i] * WEIGHTS[n, j]
                 right, on = a * NODES[n, i], b * NODES[n, j]
-                add_points(right, on, z, nu, w * pressure, w * traction, stop - start, room)
-        end_block(stop - start, room, out[:, start:stop])
+                add_points(right, on, z, nu, w * pressure, w * traction, stop - start, scratch)
+        end_block(stop - start, scratch, out[:, start:stop])
         start = stop
 
 
@@ -310,14 +312,14 @@ def _table(
     dx: float, dy: float, z: float, nu: float, pressure: float, traction: float, first: int, out: FloatArray
 ) -> None:
     scale = max(dx, dy)
-    room = np.zeros(8 * BLOCK)
+    scratch = np.zeros(8 * BLOCK)
     x = np.zeros(out.shape[2])
     y = (np.arange(out.shape[2]) + first) * (dy / scale)
     row = np.zeros((6, out.shape[2]))
     for i in range(out.shape[1]):
         x[:] = i * (dx / scale)
         row[:] = 0.0
-        add_rectangles(x, y, z / scale, 0.5 * dx / scale, 0.5 * dy / scale, nu, pressure, traction, room, row)
+        add_rectangles(x, y, z / scale, 0.5 * dx / scale, 0.5 * dy / scale, nu, pressure, traction, scratch, row)
         for c in range(6):
             for j in range(out.shape[2]):
                 out[c, i, j] = row[c, j] / _TWO_PI

@@ -181,8 +181,8 @@ def _decay(
     if below.size == 0:
         return math.nan
     i = int(below[0])
-    share = (correlation[i - 1] - level) / (correlation[i - 1] - correlation[i])
-    return float((i - 1 + share) * spacing[axis])
+    fraction = (correlation[i - 1] - level) / (correlation[i - 1] - correlation[i])
+    return float((i - 1 + fraction) * spacing[axis])
 
 
 def _geometric_mean(a: float, b: float) -> float:

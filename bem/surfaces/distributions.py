@@ -32,8 +32,8 @@ def standard_quantiles(count: int, skewness: float, kurtosis: float) -> FloatArr
             values = _johnson_unbounded(probability, s, k, omega)
         else:
             lower = 3 + 1.5 * s * s
-            share = (k - lower) / (lognormal_kurtosis - lower) if lognormal_kurtosis > lower + 1e-9 else 0.0
-            values = (1 - share) * _gamma(probability, s) + share * _lognormal(probability, omega)
+            fraction = (k - lower) / (lognormal_kurtosis - lower) if lognormal_kurtosis > lower + 1e-9 else 0.0
+            values = (1 - fraction) * _gamma(probability, s) + fraction * _lognormal(probability, omega)
     values = sign * values
     if sign < 0:
         values = values[::-1]

@@ -18,7 +18,7 @@ from bem.surfaces.surface import Surface, check_map
 
 DETRENDINGS = ("plane", "curvature", "none")
 MOST_MISSING = 0.5
-"""Largest share of missing points that is filled; beyond it a map is mostly invention."""
+"""Largest fraction of missing points that is filled; beyond it a map is mostly invention."""
 
 
 class MirrorWarning(UserWarning):

@@ -233,8 +233,8 @@ def _covariance(jacobian: FloatArray) -> tuple[FloatArray, FloatArray]:
     felt = strength > _UNFELT * max(strength.max(), 1e-300)
     inverse = np.where(felt, 1 / np.where(felt, strength, 1.0) ** 2, 0.0)
     covariance = (directions.T * inverse) @ directions
-    share = (directions[~felt] ** 2).sum(axis=0)
-    return covariance, share > 1e-3
+    fraction = (directions[~felt] ** 2).sum(axis=0)
+    return covariance, fraction > 1e-3
 
 
 def _check(data: list[Measurement], names: tuple[str, ...]) -> None:

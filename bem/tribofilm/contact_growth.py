@@ -182,8 +182,8 @@ class GrowthTable:
         """The two samples around a thickness, with their weights in linear interpolation (for maps)."""
         self(thickness)
         low, high = self._bracket(thickness)
-        share = (thickness - low.thickness) / (high.thickness - low.thickness)
-        return (low, 1 - share), (high, share)
+        fraction = (thickness - low.thickness) / (high.thickness - low.thickness)
+        return (low, 1 - fraction), (high, fraction)
 
     def _bracket(self, thickness: float) -> tuple[ContactSample, ContactSample]:
         index = bisect_right(self.samples, thickness, key=lambda s: s.thickness)
@@ -207,7 +207,7 @@ class GrowthTable:
 
     @staticmethod
     def _interpolate(low: ContactSample, high: ContactSample, thickness: float) -> float:
-        share = (thickness - low.thickness) / (high.thickness - low.thickness)
+        fraction = (thickness - low.thickness) / (high.thickness - low.thickness)
         if low.growth <= 0 or high.growth <= 0:
-            return (1 - share) * low.growth + share * high.growth
-        return float(np.exp((1 - share) * np.log(low.growth) + share * np.log(high.growth)))
+            return (1 - fraction) * low.growth + fraction * high.growth
+        return float(np.exp((1 - fraction) * np.log(low.growth) + fraction * np.log(high.growth)))

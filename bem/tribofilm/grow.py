@@ -115,8 +115,8 @@ def film_map(
             when = 0.5 * (begin + end) + 0.5 * (end - begin) * node
             thickness = float(np.interp(when, history.time, history.thickness))
             kept = float(0.5 * (end - begin) * weight * survival(history.time[-1] - when, wear_coefficient, lag))
-            for sample, share in table.weights(thickness):
-                total[sample.thickness] = total.get(sample.thickness, 0.0) + kept * share
+            for sample, fraction in table.weights(thickness):
+                total[sample.thickness] = total.get(sample.thickness, 0.0) + kept * fraction
     remains = initial_thickness * survival(history.time[-1] - history.time[0], wear_coefficient, lag)
     result = np.full(table.samples[0].growth_map.shape, max(remains, 0.0))
     for sample in table.samples:

@@ -33,7 +33,7 @@ class PropertyLaw(Law):
 
     def lowest(self, thickness: float, temperature: float) -> float:
         """Lowest value from no film to this thickness [Pa]; by default of 400 thicknesses."""
-        return min(self(share * thickness, temperature) for share in (0.0, *np.geomspace(1e-6, 1.0, 399)))
+        return min(self(fraction * thickness, temperature) for fraction in (0.0, *np.geomspace(1e-6, 1.0, 399)))
 
     def highest(self, temperature: float) -> float:
         """Highest value at any thickness [Pa]; by default of 400 thicknesses up to 1 mm."""
@@ -89,8 +89,8 @@ class FadingSubstrate(PropertyLaw):
             1 - self.temperature_slope * (temperature - self.reference_temperature),
             self.lowest_factor,
         )
-        share = math.exp(-max(thickness, 0.0) / self.length)
-        return self.substrate * share + self.film * factor * (1 - share)
+        fraction = math.exp(-max(thickness, 0.0) / self.length)
+        return self.substrate * fraction + self.film * factor * (1 - fraction)
 
     def lowest(self, thickness: float, temperature: float) -> float:
         """Lowest value from no film to this thickness [Pa]: it rises or falls all the way."""
