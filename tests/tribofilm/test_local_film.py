@@ -72,3 +72,5 @@ def test_wrong_arguments_are_named():
         grow_local_film(np.array([0.0, 1.0]), contact(), wear_coefficient=-1.0)
     with pytest.raises(InputError, match="tolerance"):
         grow_local_film(np.array([0.0, 1.0]), contact(), wear_coefficient=1.0, tolerance=0.0)
+    with pytest.raises(InputError, match="concentration_constant"):
+        grow_local_film(np.array([0.0, 1.0]), contact(), wear_coefficient=1.0, concentration_constant=-1.0)
