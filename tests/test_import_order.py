@@ -21,6 +21,7 @@ ORDER = [
     {"friction"},
     {"wear"},
     {"tribofilm"},
+    {"accuracy"},
     {"scenes"},
     {"results"},
     {"campaigns"},

@@ -13,7 +13,7 @@ from bem.campaigns.cases import REPETITION, Campaign, Case, campaign_of
 from bem.errors import Status
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Outcome, Variable
-from bem.scenes.records import Figure, Record, Series, described, mean, spread
+from bem.scenes.records import Figure, Record, Series, described, error_key, mean, spread
 
 _WORST = (Status.CONVERGED, Status.MAX_ITERATIONS, Status.STALLED, Status.INFEASIBLE)
 _FAILURES_NAMED = 5
@@ -74,6 +74,7 @@ def _summary(
     each = repeated or 1
     told = {name: item for name, item in known.items() if isinstance(item, Figure) and _is_told(name, item, records)}
     common = {name: item for name, item in told.items() if item.dimensions == (name,)}
+    barred = _barred(records)
     groups = []
     for index, place in enumerate(np.ndindex(*(len(axis) for axis in outer))):
         own = {
@@ -82,7 +83,7 @@ def _summary(
             if axis.always
         }
         members = records[index * each : (index + 1) * each]
-        groups.append(own | _figures({n: item for n, item in told.items() if n not in common}, members))
+        groups.append(own | _figures({n: item for n, item in told.items() if n not in common}, members, barred))
     summary: dict[str, Any] = {}
     for name, item in common.items():
         summary[item.key(name)] = item.shown(next(getattr(r, name) for r in records if r is not None))
@@ -98,18 +99,29 @@ def _is_told(name: str, figure: Figure, records: Sequence[Record | None]) -> boo
     return not figure.optional or any(getattr(record, name) is not None for record in records if record is not None)
 
 
-def _figures(told: Mapping[str, Figure], records: Sequence[Record | None]) -> dict[str, Any]:
-    """The figures of one case over its repetitions: mean, spread and each, or the value where there is only one."""
+def _barred(records: Sequence[Record | None]) -> set[str]:
+    """Figures that have error bars, or null for one, in any case."""
+    return {name for record in records if record is not None for name in record.errors}
+
+
+def _figures(told: Mapping[str, Figure], records: Sequence[Record | None], barred: set[str]) -> dict[str, Any]:
+    """The figures of one case over its repetitions: mean, spread and each, or the value where there is only one; the
+    error of a mean is the mean of errors, which are of one sign, with the scatter apart."""
     found: dict[str, Any] = {}
     for name, figure in told.items():
         values = [None if record is None else figure.shown(getattr(record, name)) for record in records]
         key = figure.key(name)
+        errors = [None if record is None else figure.shown_error(record.errors.get(name)) for record in records]
         if len(values) == 1:
             found[key] = values[0]
+            if name in barred:
+                found[error_key(key)] = errors[0]
         else:
             found[key] = _over(mean, values)
             found[f"{key}_spread"] = _over(spread, values)
             found[f"{key}_each"] = values
+            if name in barred:
+                found[error_key(key)] = _over(mean, errors)
     return found
 
 
@@ -155,6 +167,12 @@ def _variables(
             stacked = _stacked(values)
             variables[name] = Variable(
                 (*axes, *dimensions), stacked.reshape((*campaign.shape, *stacked.shape[1:])), unit, text
+            )
+        errors = [None if record is None else record.errors.get(name) for record in records]
+        if name in variables and any(error is not None for error in errors):
+            stacked = _stacked(errors)
+            variables[error_key(name)] = Variable(
+                (*axes, *dimensions), stacked.reshape((*campaign.shape, *stacked.shape[1:])), unit, f"error of {text}"
             )
     return variables
 

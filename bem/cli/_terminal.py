@@ -150,9 +150,9 @@ def show_warnings(warnings: Sequence[str]) -> None:
 
 def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     """The figures of a run."""
-    from bem.plots.report import spelled
+    from bem.plots.report import with_error
 
-    rows = [spelled(name, summary[name]) for name in headline if summary.get(name) is not None]
+    rows = [with_error(name, summary) for name in headline if summary.get(name) is not None]
     rows.append(("status", summary["status"]))
     rows.append(("time", f"{summary['wall_time_s']:.1f} s"))
     table(("figure", "value"), rows, title=f"{summary['scene']} ({summary['kind']})")

@@ -6,14 +6,14 @@ import base64
 import json
 import math
 import platform
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from bem.plots.draw import Drawn
-from bem.plots.tables import figure_tables, is_list, name_and_unit
+from bem.plots.tables import figure_tables, is_error, is_list, name_and_unit
 from bem.results.atomic import write_text
 from bem.results.directory import REPORT
 
@@ -30,13 +30,13 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
     template = environment.from_string((resources.files("bem.plots") / "templates" / "report.html").read_text("utf-8"))
     summary = run.summary
     first = [name for name in headline if summary.get(name) is not None]
-    rest = [name for name in summary if name not in first and name not in _HIDDEN]
+    rest = [name for name in summary if name not in first and name not in _HIDDEN and not is_error(name, summary)]
     scene_text = (run.path / "scene.toml").read_text("utf-8")
     page = template.render(
         summary=summary,
         scene=run.scene,
         converged=summary["status"] == "converged",
-        headline=[spelled(name, summary[name]) for name in first if not is_list(summary[name])],
+        headline=summary_rows(summary, [name for name in first if not is_list(summary[name])]),
         headline_tables=figure_tables(summary, first),
         figures=summary_rows(summary, [name for name in rest if not is_list(summary[name])]),
         figure_tables=figure_tables(summary, rest),
@@ -52,8 +52,20 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
 
 
 def summary_rows(summary: dict[str, Any], names: Sequence[str]) -> list[tuple[str, str]]:
-    """Name and value of figures, spelt for people."""
-    return [spelled(name, summary[name]) for name in names]
+    """Name and value of figures, with their error bars, spelt for people."""
+    return [with_error(name, summary) for name in names]
+
+
+def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
+    """Name and value of a figure as `spelled`, with its error where it has one: `1.2 GPa ± 0.013`, in the same unit."""
+    text, shown = spelled(name, summary[name])
+    value, error = summary[name], summary.get(f"{name}_error")
+    if not isinstance(error, float) or not isinstance(value, float) or value == 0:
+        return text, f"{shown} (no error bar)" if f"{name}_error" in summary and error is None else shown
+    number, *unit = shown.split(" ")
+    factor = float(number.rstrip("%")) / value if float(number.rstrip("%")) else 1.0
+    percent = "%" if number.endswith("%") else ""
+    return text, " ".join([f"{number} ± {error * abs(factor):.2g}{percent}", *unit])
 
 
 def spelled(name: str, value: Any) -> tuple[str, str]:

@@ -15,7 +15,7 @@ UNITS = {
     "nm_s": "nm/s", "m_s": "m/s", "N_m": "N/m", "J": "J", "um3": "µm³", "m3": "m³", "per_m": "1/m",
 }  # fmt: skip
 _PREFIXED = ("m", "Pa", "N", "s")
-_SPREAD = "_spread"
+_SPREAD, _ERROR = "_spread", "_error"
 _TELLING = ("speed_m_s", "time_s", "load_N", "temperature_C", "hardness_Pa", "spacing_um")
 """Figures that say which row it is; texts (a variant's name) do so too."""
 _MOST_COLUMNS, _MOST_ROWS = 7, 200
@@ -46,6 +46,11 @@ def is_list(value: Any) -> bool:
     return isinstance(value, list) and (len(value) > 1 or any(isinstance(item, Mapping) for item in value))
 
 
+def is_error(name: str, among: Mapping[str, Any]) -> bool:
+    """Whether a figure is the error bar of another, beside which it stands."""
+    return name.endswith(_ERROR) and name.removesuffix(_ERROR) in among
+
+
 def figure_tables(summary: Mapping[str, Any], names: Sequence[str], title: str = "") -> list[FigureTable]:
     """Tables of those of the named figures that are lists.
 
@@ -68,13 +73,13 @@ def figure_tables(summary: Mapping[str, Any], names: Sequence[str], title: str =
 
 def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str) -> list[FigureTable]:
     """Lists of one length side by side, in tables of a few columns that repeat the first."""
-    names = [name for name in names if not _is_spread(name, summary)]
+    names = [name for name in names if not _is_spread(name, summary) and not is_error(name, summary)]
     if not names:
         return []
     length = len(summary[names[0]])
     step = -(-length // _MOST_ROWS)
     leading = _leading(summary, length) or list(names[:1])
-    rest = [_column(name, summary[name], summary.get(name + _SPREAD)) for name in names if name not in leading]
+    rest = [_column(name, summary[name], _beside(name, summary)) for name in names if name not in leading]
     first = [_column(name, summary[name], None) for name in leading]
     wide = max(1, _MOST_COLUMNS - len(first))
     found = []
@@ -131,10 +136,16 @@ def _cases(title: str, cases: Sequence[Mapping[str, Any]], known: Mapping[str, A
             found += figure_tables({**known, **case}, list({**known, **case}), f"{title}: {words}" if words else title)
     elif plain:
         table = {key: [case.get(key) for case in cases] for key in plain}
-        columns = [_column(k, v, table.get(k + _SPREAD)) for k, v in table.items() if not _is_spread(k, table)]
+        shown = {k: v for k, v in table.items() if not _is_spread(k, table) and not is_error(k, table)}
+        columns = [_column(k, v, _beside(k, table)) for k, v in shown.items()]
         rows = tuple(zip(*(cells for _, cells in columns), strict=True))
         found.append(FigureTable(title, tuple(head for head, _ in columns), rows))
     return found
+
+
+def _beside(name: str, among: Mapping[str, Any]) -> Any:
+    """What stands behind a figure's values: the spread of repetitions, else its error bars."""
+    return among.get(name + _SPREAD, among.get(name + _ERROR))
 
 
 def _is_spread(name: str, among: Mapping[str, Any]) -> bool:

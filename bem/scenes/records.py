@@ -81,6 +81,13 @@ class Figure:
             return value
         return value * factor / divisor + offset
 
+    def shown_error(self, error: Any) -> Any:
+        """An error of the record in the figure's unit: as `shown`, but a difference knows no offset."""
+        if isinstance(error, np.ndarray):
+            return [self.shown_error(item) for item in error.tolist()]
+        _, factor, divisor, _ = UNITS[self.unit]
+        return None if error is None else float(error) * factor / divisor
+
 
 @dataclass(frozen=True)
 class Series:
@@ -109,10 +116,18 @@ class Record:
     """What every case gives; kinds add fields.
 
     status : the worst status of the case's solvers. where : if not converged, where that happened, in words.
+    errors : error bars of figures by their fields' names, SI; None for a figure that does not converge. Summary and
+        dataset have them beside the figures, under `error_key`; a figure that is not named has no bar.
     """
 
     status: Status = dataclasses.field(default=Status.CONVERGED, kw_only=True)
     where: str = dataclasses.field(default="", kw_only=True)
+    errors: Mapping[str, Any] = dataclasses.field(default_factory=dict, kw_only=True)
+
+
+def error_key(name: str) -> str:
+    """Where the error of a figure (or of a variable of the dataset) stands."""
+    return f"{name}_error"
 
 
 _DESCRIBED: dict[str, Mapping[str, Figure | Series]] = {}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -81,6 +82,7 @@ class ContactOutputs(Table):
     depths: DepthsScene | None = None
     body: Literal["lower", "upper"] = "lower"
     vtk: bool = Field(default=True, strict=True)
+    errors: bool = Field(default=True, strict=True)
 
 
 class ContactScene(SceneModel):
@@ -166,6 +168,7 @@ def plan(scene: ContactScene) -> Plan:
             seconds=1.0,
         ),
         _plan_stresses(scene, grid, stressed, depths),
+        _plan_errors(scene, grid, depths),
         Step(
             "VTK",
             "stress field for ParaView" if vtk else "no stress field to write",
@@ -226,6 +229,21 @@ def _plan_stresses(scene: ContactScene, grid: Grid, body: Body | None, depths: t
         memory=held + spectra + 8 * 8.0 * points,
         kept=held + spectra,
         seconds=0.5,
+    )
+
+
+def _plan_errors(scene: ContactScene, grid: Grid, depths: tuple[float, ...]) -> Step:
+    wanted = scene.outputs.errors
+    points = padded_points(grid.shape, grid.periodic) / 4
+    # From a start nearby; the coarser operator's own spectra, and von Mises at every second depth.
+    return Step(
+        "error bars",
+        "the contact on the grid of twice the cell" if wanted else "outputs.errors is false",
+        skipped=not wanted,
+        transforms=_TRANSFORMS_PER_CONVOLUTION * _convolutions(grid) + 0.5 * len(depths) * 25.0,
+        points=int(points),
+        memory=8.0 * grid.cells * 9.5 / 4 + 20.0 * points,
+        kept=0.0,
     )
 
 
@@ -306,10 +324,17 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     for note in solution.notes:
         context.note(note)
     stresses: dict[str, Any] = dict.fromkeys(_STRESSES)
+    highest: FloatArray | None = None
     if _depths(scene):
         with context.timer("stresses"):
-            stresses |= _stresses(scene, solution.pressure, context)
+            found, highest = _stresses(scene, solution.pressure, context)
+            stresses |= found
     converged = solution.status is Status.CONVERGED
+    errors: Mapping[str, float | None] = {}
+    if scene.outputs.errors and converged:
+        with context.timer("error bars"):
+            rough = any(values.any() for values in heights.values())
+            errors = _errors(scene, undeformed, solution, highest, rough, context)
     return ContactRecord(
         **_figures(solution, grid.area, heights),
         x=grid.x,
@@ -323,6 +348,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         iteration=history[:, 0].astype(np.int64) if len(history) else None,
         residual_history=history[:, 1] if len(history) else None,
         **stresses,
+        errors=errors,
         status=solution.status,
         where="" if converged else f"contact solve: {solution.status.message}, residual {solution.residual:.2g}",
     )
@@ -369,16 +395,10 @@ def _solve(
 
 
 def _figures(solution: ContactSolution, area: float, heights: dict[str, FloatArray]) -> dict[str, Any]:
-    contact_area = float(solution.contact_area)
+    from bem.accuracy import figures_of
+
     figures: dict[str, Any] = {
-        "contact_area_fraction": contact_area / area,
-        "plastic_area_fraction": float(solution.plastic_area) / area,
-        "contact_area": contact_area,
-        "mean_contact_pressure": float(solution.load) / contact_area if contact_area > 0 else 0.0,
-        "max_pressure": float(solution.pressure.max()),
-        "load": float(solution.load),
-        "approach": float(solution.approach),
-        "mean_gap": float(np.maximum(solution.gap, 0).mean()),
+        **figures_of(solution, area),
         "residual": float(solution.residual),
         "iterations": int(solution.iterations),
         "convolutions": float(solution.convolutions),
@@ -396,15 +416,12 @@ _STRESSES = (
 )
 
 
-def _stresses(scene: ContactScene, pressure: FloatArray, context: Context) -> dict[str, Any]:
-    """Von Mises at every depth, the six components where asked for, and the figures of both."""
+def _stresses(scene: ContactScene, pressure: FloatArray, context: Context) -> tuple[dict[str, Any], FloatArray]:
+    """Von Mises at every depth, the six components where asked for, and the figures of both; the highest at each."""
     from bem.stress import subsurface_stress, von_mises, von_mises_planes
 
     grid, depths = build.grid_of(scene.grid), np.array(_depths(scene))
-    below = scene.lower.build() if scene.outputs.body == "lower" else scene.upper.build()
-    assert below is not None
-    # Traction on the lower body acts along +x, on the upper one along -x; z points into the body itself.
-    friction = scene.contact.friction if scene.outputs.body == "lower" else -scene.contact.friction
+    below, friction = _stressed(scene)
     stress = subsurface_stress(pressure, grid, below, depths, friction=friction) if scene.outputs.stresses else None
     limits = _yield_stresses(below, depths)
     mises = context.scratch((len(depths), *grid.shape))
@@ -420,7 +437,7 @@ def _stresses(scene: ContactScene, pressure: FloatArray, context: Context) -> di
         yielded[i] = np.count_nonzero(plane > limits[i]) * grid.cell_area
         release(mises)
         context.progress(i + 1, len(depths), "stresses")
-    return {
+    figures = {
         "max_von_mises": float(highest.max()),
         "max_von_mises_depth": float(depths[int(np.argmax(highest))]),
         "yielded_volume": float(np.trapezoid(yielded, depths)) if np.isfinite(limits).any() else None,
@@ -429,6 +446,51 @@ def _stresses(scene: ContactScene, pressure: FloatArray, context: Context) -> di
         "component": None if stress is None else list(_STRESS_COMPONENTS),
         "stress": stress,
     }
+    return figures, highest
+
+
+def _errors(
+    scene: ContactScene,
+    undeformed: FloatArray,
+    solution: ContactSolution,
+    highest: FloatArray | None,
+    rough: bool,
+    context: Context,
+) -> Mapping[str, float | None]:
+    """Error bars of the figures; where there are none the notes say why."""
+    from bem.accuracy import ContactCase, contact_bars, solve_coarser, stress_bars
+    from bem.convolution import displacement_operator
+
+    grid, control = build.grid_of(scene.grid), scene.contact
+    lower, upper = scene.lower.build(), scene.upper.build()
+    case = ContactCase(
+        displacement_operator(grid, lower if upper is None else (lower, upper), friction=control.friction),
+        undeformed,
+        solution,
+        load=_load(scene, grid.area),
+        approach=control.approach,
+        mean_gap=control.mean_gap,
+        hardness=control.hardness,
+        from_touch=rough,
+    )
+    coarser = solve_coarser(case, control.max_iterations)
+    bars = contact_bars(case, coarser)
+    if highest is not None:
+        below, friction = _stressed(scene)
+        bars = bars | stress_bars(case, coarser, below, np.array(_depths(scene)), highest, friction)
+    for note in bars.notes:
+        context.note(note)
+    return bars.values
+
+
+def _stressed(scene: ContactScene) -> tuple[Body, float]:
+    """The body whose stresses are wanted, and its friction: traction on the lower body acts along +x, on the upper one
+    along -x; z points into the body itself."""
+    if scene.outputs.body == "lower":
+        return scene.lower.build(), scene.contact.friction
+    upper = scene.upper.build()
+    assert upper is not None
+    return upper, -scene.contact.friction
 
 
 def _yield_stresses(body: Body, depths: FloatArray) -> FloatArray:

@@ -1,0 +1,24 @@
+"""How wrong a figure is: error bars from coarser solutions of the same problem.
+
+A bar is an estimate, no bound that is proved: the difference to a coarser solution, divided by what the figure's order
+of convergence makes of it where the coarser grid resolves the surface, the difference itself where it does not, times a
+safety factor; and what the solver's residual may add. Factors are set so that bars cover nine errors in ten of random
+contacts (`reports/experiments/contact_error_bars.py`). A figure that does not converge has no bar, and a note says why.
+"""
+
+from __future__ import annotations
+
+from bem.accuracy.bars import ErrorBars
+from bem.accuracy.contact import Coarser, ContactCase, contact_bars, figures_of, solve_coarser, surface_is_resolved
+from bem.accuracy.stress import stress_bars
+
+__all__ = [
+    "Coarser",
+    "ContactCase",
+    "ErrorBars",
+    "contact_bars",
+    "figures_of",
+    "solve_coarser",
+    "stress_bars",
+    "surface_is_resolved",
+]

@@ -1,0 +1,254 @@
+"""Error bars of a contact: the same bodies on a grid of twice the cell, and what the residual may hide.
+
+The coarser grid takes every second height, the same surface where it is band-limited, and begins from the finer
+pressure. On a free axis its cells are centred on every second of the finer ones, so that it ends elsewhere by half a
+cell: means over the grid are compared over the same points.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from bem.accuracy.bars import ErrorBars, Rule
+from bem.contact import ContactSolution, solve_contact
+from bem.contact.cascade import sample
+from bem.convolution import DisplacementOperator
+from bem.errors import Status
+from bem.grid import FloatArray, Grid
+
+RULES: dict[str, Rule] = {
+    "contact_area": Rule(safety=3.0, rough_safety=1.5),
+    "contact_area_fraction": Rule(safety=3.0, rough_safety=1.5),
+    "plastic_area_fraction": Rule(safety=3.0, rough_safety=1.5),
+    "mean_contact_pressure": Rule(safety=3.0, rough_safety=1.5),
+    "max_pressure": Rule(safety=3.0, rough_safety=1.5),
+    "load": Rule(safety=3.0, rough_safety=1.5),
+    "approach": Rule(safety=3.0, rough_safety=1.5),
+    "mean_gap": Rule(safety=3.0, rough_safety=1.5),
+}
+"""Figures of a contact that have bars."""
+
+_TOLERANCE = 1e-6
+"""Of the coarser solution: far below the differences between the two grids."""
+_RESOLVED = 0.7
+"""Surfaces whose curvature changes from cell to cell by less than this share of itself (rms) are resolved by a grid of
+twice the cell: 2 sin(pi / n) of waves of n cells, about 9 cells to a wave, 5 on the coarser grid."""
+_SPOT = 6.0
+"""Fewest cells across the mean spot (4 area / perimeter) for contact areas to be of second order."""
+_EDGE, _TOUCH = 0.02, 2.0
+"""Misplaced edge in cells, and factor on the height by which a parabola through first touch rises."""
+_STEP, _STEPS = 5.0, 0.25
+"""An edge is sharp where the undeformed gap changes by so many times what it does on both sides; a contact has sharp
+edges where that holds for this share of all edges (by chance on a surface of white noise: 0.05)."""
+
+_FREE_EDGE = "no error bars: the contact reaches a free edge of the grid, where bodies end and pressures have no limit"
+_COARSE = "no error bars: the grid is too small to be compared with one of twice the cell"
+_UNSOLVED = "no error bars: the contact on the grid of twice the cell did not converge"
+_SHARP = "the highest pressure has no error bar: the contact has sharp edges, where the pressure has no limit"
+
+
+@dataclass(frozen=True)
+class ContactCase:
+    """A contact that was solved: operator, undeformed gap (nx, ny) [m], solution, and what was prescribed.
+
+    from_touch : the undeformed gap is zero at first touch, which another grid finds elsewhere.
+    """
+
+    operator: DisplacementOperator
+    undeformed: FloatArray
+    solution: ContactSolution
+    load: float | None = None
+    approach: float | None = None
+    mean_gap: float | None = None
+    hardness: float | None = None
+    from_touch: bool = False
+
+    @property
+    def grid(self) -> Grid:
+        """Where."""
+        return self.operator.grid
+
+
+@dataclass(frozen=True)
+class Coarser:
+    """The same contact on the grid of twice the cell, or why there is none."""
+
+    grid: Grid | None
+    solution: ContactSolution | None
+    why: str = ""
+
+
+def solve_coarser(case: ContactCase, max_iterations: int = 2000) -> Coarser:
+    """Solve the case on the grid of twice the cell, from its own pressure."""
+    if any("reaches the edge" in note for note in case.solution.notes):
+        return Coarser(None, None, _FREE_EDGE)
+    operator = case.operator.coarsened()
+    if operator is None:
+        return Coarser(None, None, _COARSE)
+    grid = operator.grid
+    gap = np.array(sample(case.undeformed, grid.shape, grid.periodic))
+    if case.from_touch:
+        gap -= gap.min()
+    mean_gap = case.mean_gap
+    if mean_gap is not None and not all(grid.periodic):
+        mean_gap = mean_opening(sample(case.solution.gap, grid.shape, grid.periodic))
+    start = np.clip(sample(case.solution.pressure, grid.shape, grid.periodic), 0.0, case.hardness)
+    for pressure in (start, None):
+        solution = solve_contact(
+            gap,
+            operator,
+            load=case.load,
+            approach=case.approach,
+            mean_gap=mean_gap,
+            hardness=case.hardness,
+            tolerance=_TOLERANCE,
+            initial_pressure=pressure,
+            max_iterations=max_iterations,
+        )
+        if solution.status is Status.CONVERGED:
+            return Coarser(grid, solution)
+    return Coarser(None, None, _UNSOLVED)
+
+
+def figures_of(solution: ContactSolution, area: float) -> dict[str, float]:
+    """Headline figures of a contact on a grid of that area [m^2], SI units."""
+    contact_area = float(solution.contact_area)
+    return {
+        "contact_area_fraction": contact_area / area,
+        "plastic_area_fraction": float(solution.plastic_area) / area,
+        "contact_area": contact_area,
+        "mean_contact_pressure": float(solution.load) / contact_area if contact_area > 0 else 0.0,
+        "max_pressure": float(solution.pressure.max()),
+        "load": float(solution.load),
+        "approach": float(solution.approach),
+        "mean_gap": mean_opening(solution.gap),
+    }
+
+
+def contact_bars(case: ContactCase, coarser: Coarser) -> ErrorBars:
+    """Bars of the figures of a contact."""
+    if coarser.solution is None or coarser.grid is None:
+        return ErrorBars.unknown(RULES, coarser.why)
+    fine = figures_of(case.solution, case.grid.area)
+    coarse = figures_of(coarser.solution, case.grid.area)
+    if not all(case.grid.periodic):
+        shared = sample(case.solution.gap, coarser.grid.shape, coarser.grid.periodic)
+        coarse["mean_gap"] += fine["mean_gap"] - mean_opening(shared)
+    resolved = is_resolved(case)
+    further = _further(case)
+    algebraic = _algebraic(case, fine)
+    values: dict[str, float | None] = {}
+    for name, rule in RULES.items():
+        bar = rule.bar(fine[name] - coarse[name], resolved=resolved)
+        values[name] = bar + further.get(name, 0.0) + algebraic[name]
+    notes: tuple[str, ...] = ()
+    if has_sharp_edges(case):
+        values["max_pressure"], notes = None, (_SHARP,)
+    return ErrorBars(values, notes)
+
+
+def is_resolved(case: ContactCase) -> bool:
+    """Whether figures converge with their order from the grid of twice the cell on: surface and spots are resolved."""
+    solution = case.solution
+    across = 4 * solution.contact_area / solution.contact_perimeter if solution.contact_perimeter > 0 else math.inf
+    return surface_is_resolved(case.undeformed, case.grid) and across > _SPOT * math.sqrt(case.grid.cell_area)
+
+
+def surface_is_resolved(gap: FloatArray, grid: Grid) -> bool:
+    """Whether a grid of twice the cell resolves the surface: its curvature changes little from cell to cell."""
+    turns, bends = 0.0, 0.0
+    for axis in (0, 1):
+        if grid.shape[axis] < 4:
+            continue
+        second = np.diff(gap, 2, axis=axis) / grid.spacing[axis] ** 2
+        bends += float(np.mean(second**2))
+        turns += float(np.mean(np.diff(second, axis=axis) ** 2))
+    return turns <= _RESOLVED**2 * bends
+
+
+def has_sharp_edges(case: ContactCase) -> bool:
+    """Whether the contact ends at steps of the undeformed gap, as under a punch."""
+    inside = case.solution.pressure > 0
+    edges, sharp = 0, 0
+    for axis in (0, 1):
+        if case.grid.shape[axis] < 4:
+            continue
+        steps = np.moveaxis(np.abs(np.diff(case.undeformed, axis=axis)), axis, 0)
+        ends = np.moveaxis(np.diff(inside.astype(np.int8), axis=axis) != 0, axis, 0)[1:-1]
+        edges += int(ends.sum())
+        sharp += int((ends & (steps[1:-1] > _STEP * np.maximum(steps[:-2], steps[2:]))).sum())
+    return sharp > _STEPS * edges
+
+
+def mean_opening(gap: FloatArray) -> float:
+    """Mean of the positive part of a gap."""
+    return float(np.maximum(gap, 0).mean())
+
+
+def _further(case: ContactCase) -> dict[str, float]:
+    """What a difference between grids may miss as it passes zero: peaks between cells, the rule for means on free axes,
+    and a contact's edge, which is placed within a hundredth of a cell or two."""
+    solution = case.solution
+    cap = math.inf if case.hardness is None else case.hardness
+    edge = _EDGE * solution.contact_perimeter * math.sqrt(case.grid.cell_area)
+    share = edge / solution.contact_area if solution.contact_area > 0 else 0.0
+    plastic = share * solution.plastic_area / case.grid.area
+    mean = solution.load / solution.contact_area if solution.contact_area > 0 else 0.0
+    return {
+        "max_pressure": min(_rise(solution.pressure, case.grid), cap - float(solution.pressure.max())),
+        "approach": _TOUCH * _rise(-case.undeformed, case.grid) if case.from_touch else 0.0,
+        "mean_gap": _ends(case),
+        "contact_area": edge,
+        "contact_area_fraction": edge / case.grid.area,
+        "plastic_area_fraction": plastic,
+        "mean_contact_pressure": share * mean,
+    }
+
+
+def _rise(field: FloatArray, grid: Grid) -> float:
+    """By how much a parabola through the highest value and its neighbours rises above it."""
+    place = np.unravel_index(int(np.argmax(field)), field.shape)
+    top, rise = float(field[place]), 0.0
+    for axis in (0, 1):
+        line = field[:, place[1]] if axis == 0 else field[place[0]]
+        n, i = line.size, int(place[axis])
+        if n < 3 or (not grid.periodic[axis] and i in (0, n - 1)):
+            continue
+        before, behind = float(line[i - 1]), float(line[(i + 1) % n])
+        bend = 2 * top - before - behind
+        rise += (behind - before) ** 2 / (8 * bend) if bend > 0 else 0.0
+    return rise
+
+
+def _ends(case: ContactCase) -> float:
+    """Error of the mean over cells as an integral [m]: the midpoint rule's (Euler and Maclaurin), h^2 / 24 times the
+    change of slope between the ends of a free axis."""
+    error = 0.0
+    for axis in (0, 1):
+        n, spacing = case.grid.shape[axis], case.grid.spacing[axis]
+        if case.grid.periodic[axis] or n < 3:
+            continue
+        opened = np.moveaxis(np.maximum(case.solution.gap, 0), axis, 0)
+        turn = (opened[-1] - opened[-2] - opened[1] + opened[0]) / spacing
+        error += abs(float(turn.mean())) * spacing**2 / 24 / (n * spacing)
+    return error
+
+
+def _algebraic(case: ContactCase, fine: Mapping[str, float]) -> dict[str, float]:
+    """What surfaces that miss contact by the residual change at most: as much of the approach and of gaps, and the
+    pressure that waves of two cells of that height take, E* q h / 2."""
+    size = float(np.std(case.undeformed)) or float(np.abs(case.solution.displacement).max())
+    height = case.solution.residual * size
+    wavenumber = math.pi / math.sqrt(case.grid.cell_area)
+    pressure = 0.5 * case.operator.modulus_at(wavenumber) * wavenumber * height
+    mean = fine["mean_contact_pressure"]
+    share = min(pressure / mean, 1.0) if mean > 0 else 0.0
+    lengths = {"approach": height, "mean_gap": 2 * height}
+    pressures = {"max_pressure": pressure, "mean_contact_pressure": pressure}
+    loads = {"load": (case.solution.residual if case.load is not None else share) * fine["load"]}
+    known = lengths | pressures | loads
+    return {name: known.get(name, share * fine[name]) for name in RULES}

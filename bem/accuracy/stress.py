@@ -1,0 +1,74 @@
+"""Error bars of the highest von Mises stress below a contact, and of its depth."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bem.accuracy.bars import ErrorBars, Rule
+from bem.accuracy.contact import Coarser, ContactCase, is_resolved
+from bem.grid import FloatArray
+from bem.materials import Body
+from bem.stress import von_mises_planes
+
+NAMES = ("max_von_mises", "max_von_mises_depth")
+_VON_MISES = Rule(safety=3.0, rough_safety=1.5)
+
+_CAPPED = (
+    "the highest von Mises stress has no error bar: it lies at the surface of a capped contact, where it has no limit"
+)
+_SHALLOWEST = (
+    "the highest von Mises stress has no error bar: it lies at the shallowest depth; begin outputs.depths nearer the "
+    "surface"
+)
+_DEEPEST = "the highest von Mises stress has no error bar: it lies at the deepest depth; take deeper outputs.depths"
+_FEW = "the highest von Mises stress has no error bar: fewer than three depths cannot show a highest one"
+
+
+def stress_bars(
+    case: ContactCase, coarser: Coarser, body: Body, depths: FloatArray, highest: FloatArray, friction: float = 0.0
+) -> ErrorBars:
+    """Bars from the coarser pressure at every second depth, and from the depths next to the highest stress.
+
+    Parameters
+    ----------
+    body, friction : as `bem.stress.von_mises_planes` takes them. depths : [m], (n,), rising.
+    highest : von Mises stress of each depth [Pa], (n,).
+    """
+    if coarser.solution is None or coarser.grid is None:
+        return ErrorBars(dict.fromkeys(NAMES))
+    if len(depths) < 3:
+        return ErrorBars.unknown(NAMES, _FEW)
+    k = int(np.argmax(highest))
+    if k == len(depths) - 1:
+        return ErrorBars.unknown(NAMES, _DEEPEST)
+    near = depths[k] < np.sqrt(case.grid.cell_area)
+    if case.hardness is not None and near and (case.solution.pressure >= case.hardness).any():
+        return ErrorBars.unknown(NAMES, _CAPPED)
+    if k == 0 and depths[0] > 0:
+        return ErrorBars.unknown(NAMES, _SHALLOWEST)
+    kept = sorted({*range(k % 2, len(depths), 2), max(k - 1, 0), k + 1})
+    there = von_mises_planes(
+        coarser.solution.pressure,
+        coarser.grid,
+        body,
+        depths[kept],
+        friction=friction,
+        out=np.empty(coarser.grid.shape),
+    )
+    coarse = np.array([plane.max() for plane in there])
+    resolved = is_resolved(case)
+    top, error = _highest_between(depths, highest, k)
+    stress = _VON_MISES.bar(highest[k] - coarse.max(), resolved=resolved) + top
+    moved = abs(depths[k] - depths[kept[int(np.argmax(coarse))]])
+    return ErrorBars({"max_von_mises": float(stress), "max_von_mises_depth": float(error + moved)})
+
+
+def _highest_between(depths: FloatArray, highest: FloatArray, k: int) -> tuple[float, float]:
+    """By how much a parabola through the highest stress and its neighbours rises above it [Pa], and how far the highest
+    may lie from its depth: half-way to the neighbour it leans to [m]."""
+    if k == 0:
+        return 0.0, float(depths[1] - depths[0]) / 2
+    z, s = depths[k - 1 : k + 2] - depths[k], highest[k - 1 : k + 2] - highest[k]
+    bend, slope = np.polyfit(z, s, 2)[:2] if np.ptp(s) > 0 else (0.0, 0.0)
+    rise = -slope * slope / (4 * bend) if bend < 0 else 0.0
+    return float(rise), float(max(-z[0], z[2])) / 2

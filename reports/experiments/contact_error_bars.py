@@ -1,0 +1,217 @@
+"""Error bars of random contacts against references four times finer: how many cover, and by how much they are larger.
+
+    python -m reports.experiments.contact_error_bars [CASES]
+
+Contacts are drawn from a seed: free, periodic and mixed axes; elastic, capped and coated; balls and cylinders, smooth
+and rough, surfaces of 4 to 30 cells to the shortest wave and self-affine ones down to the cell; by load, approach or
+mean gap. A surface is the sum of waves through its heights, so that the finer grid sees the same one. The result is
+stored in `reports/results/contact_error_bars.json`.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
+from bem.accuracy import ContactCase, contact_bars, figures_of, solve_coarser, stress_bars
+from bem.accuracy.contact import is_resolved
+from bem.errors import Status
+from bem.stress import von_mises_planes
+from bem.surfaces import generate_surface
+
+RESULT = Path(__file__).resolve().parents[1] / "results" / "contact_error_bars.json"
+FINER = 4
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A contact that any grid can take: bodies, curvatures [1/m], waves, and what is prescribed."""
+
+    words: str
+    grid: Grid
+    body: Body
+    curvature: tuple[float, float]
+    heights: FloatArray
+    given: dict[str, float]
+    hardness: float | None
+    depths: int
+
+    def refined(self, factor: int) -> Grid:
+        """Each cell cut into factor x factor."""
+        (nx, ny), (dx, dy) = self.grid.shape, self.grid.spacing
+        return Grid((factor * nx, factor * ny), (dx / factor, dy / factor), periodic=self.grid.periodic)
+
+    def gap(self, factor: int) -> FloatArray:
+        """Undeformed gap on the refined grid, from first touch where the surface is rough [m]."""
+        grid = self.refined(factor)
+        x, y = grid.x[:, None], grid.y[None, :]
+        gap = 0.5 * (self.curvature[0] * x**2 + self.curvature[1] * y**2) - waves_through(self.heights, factor)
+        return gap - gap.min() if self.heights.any() else gap
+
+    def case(self, factor: int, tolerance: float = 1e-8) -> ContactCase:
+        """Solved on the refined grid."""
+        gap = self.gap(factor)
+        operator = displacement_operator(self.refined(factor), self.body)
+        solution = solve_contact(gap, operator, hardness=self.hardness, tolerance=tolerance, **self.given)
+        rough = bool(self.heights.any())
+        return ContactCase(operator, gap, solution, hardness=self.hardness, from_touch=rough, **self.given)
+
+    def stresses(self, case: ContactCase, factor: int) -> tuple[FloatArray, FloatArray]:
+        """Depths [m] and the highest von Mises stress of each [Pa]."""
+        count = (self.depths - 1) * factor + 1
+        depths = min(self.grid.lengths) / 4 * (np.arange(count) / (count - 1)) ** 2
+        found = von_mises_planes(case.solution.pressure, case.grid, self.body, depths, out=np.empty(case.grid.shape))
+        return depths, np.array([plane.max() for plane in found])
+
+
+def waves_through(heights: FloatArray, factor: int) -> FloatArray:
+    """The waves through heights on the centres of cells, on the centres of factor x factor parts of these."""
+    for axis in (0, 1):
+        n = heights.shape[axis]
+        waves = np.moveaxis(np.fft.fft(heights, axis=axis), axis, 0)
+        number = np.fft.fftfreq(n, 1 / n)
+        position = (np.arange(n * factor) + 0.5) / factor - 0.5
+        if n % 2 == 0:
+            waves = waves * (np.abs(number) < n / 2)[:, None]
+        back = np.exp(2j * np.pi * np.outer(position, number) / n) / n
+        heights = np.moveaxis(np.real(back @ waves), 0, axis)
+    return heights
+
+
+def draw(rng: np.random.Generator) -> Problem:
+    """A random contact."""
+    periodic = [(False, False), (True, True), (True, True), (False, True)][rng.integers(4)]
+    cells = int(rng.integers(32, 65))
+    grid = Grid((cells, cells if all(periodic) else int(rng.integers(32, 65))), (1e-7, 1e-7), periodic=periodic)
+    material = Material("steel", youngs_modulus=200e9, poissons_ratio=0.3)
+    behaviour = str(rng.choice(["elastic", "capped", "layered"], p=[0.5, 0.25, 0.25]))
+    body = Body(material)
+    if behaviour == "layered":
+        coat = Material("coat", youngs_modulus=200e9 * 10 ** rng.uniform(-0.5, 0.5), poissons_ratio=0.25)
+        body = Body(material, layers=(Layer(coat, float(rng.uniform(2, 12)) * 1e-7),))
+    surface = "rough" if all(periodic) else str(rng.choice(["smooth", "rough", "rough"]))
+    slope = 10 ** rng.uniform(-2, -0.8)
+    heights, shortest = np.zeros(grid.shape), 0.0
+    if surface == "rough":
+        shortest = (
+            2.0 if rng.random() < 0.3 else float(10 ** rng.uniform(math.log10(4), math.log10(min(30, cells / 3))))
+        )
+        heights = generate_surface(
+            grid,
+            seed=int(rng.integers(1 << 30)),
+            hurst=float(rng.uniform(0.4, 1.0)),
+            cutoff_wavelength=shortest * 1e-7,
+            rms_slope=slope,
+        )
+        heights = waves_through(heights, 1)
+    modulus = material.plane_strain_modulus
+    length = min(grid.lengths)
+    # a parabola of contact radius 0.1 to 0.3 of the grid along free axes
+    radius = float(rng.uniform(0.1, 0.3)) * length
+    bend = slope * float(rng.uniform(0.3, 3)) / radius
+    curvature = (0.0 if periodic[0] else bend, 0.0 if periodic[1] else bend)
+    if all(periodic):
+        load = float(10 ** rng.uniform(-2, -0.2)) * grid.area * modulus * slope / 2
+    elif any(periodic):
+        load = math.pi / 4 * radius**2 * bend * modulus * grid.lengths[1]
+    else:
+        load = 4 / 3 * modulus * radius**3 * bend
+    hardness = None
+    if behaviour == "capped":
+        share = float(rng.uniform(0.3, 0.9))
+        hardness = share * modulus * (slope if surface == "rough" else 2 * radius * bend / math.pi)
+    words = f"{surface} {shortest:.1f} {behaviour} {periodic}"
+    depths = 12 if rng.random() < 0.4 else 0
+    problem = Problem(words, grid, body, curvature, heights, {"load": load}, hardness, depths)
+    control = str(rng.choice(["load", "approach", "mean_gap"], p=[0.7, 0.15, 0.15]))
+    if control != "load":
+        solution = problem.case(1).solution
+        value = solution.approach if control == "approach" else float(np.maximum(solution.gap, 0).mean())
+        problem = Problem(f"{words} {control}", grid, body, curvature, heights, {control: value}, hardness, depths)
+    return problem
+
+
+def rows_of(problem: Problem) -> list[dict[str, Any]]:
+    """Bar and true error of every figure of a contact."""
+    case = problem.case(1)
+    coarser = solve_coarser(case)
+    bars = contact_bars(case, coarser)
+    fine = problem.case(FINER, 1e-7)
+    statuses = {case.solution.status, fine.solution.status}
+    if coarser.solution is None or statuses != {Status.CONVERGED}:
+        return []
+    found, truth = figures_of(case.solution, case.grid.area), figures_of(fine.solution, case.grid.area)
+    coarse = figures_of(coarser.solution, case.grid.area)
+    if problem.depths:
+        depths, highest = problem.stresses(case, 1)
+        there, reference = problem.stresses(fine, FINER)
+        bars = bars | stress_bars(case, coarser, problem.body, depths, highest)
+        for figures, z, s in ((found, depths, highest), (truth, there, reference)):
+            figures |= {"max_von_mises": float(s.max()), "max_von_mises_depth": float(z[int(np.argmax(s))])}
+    across = 4 * case.solution.contact_area / max(case.solution.contact_perimeter, 1e-30) / 1e-7
+    return [
+        {
+            "figure": name,
+            "contact": problem.words,
+            "resolved": is_resolved(case),
+            "cells_across": round(across, 2),
+            "value": found[name],
+            "difference": abs(found[name] - coarse.get(name, math.nan)),
+            "error": abs(found[name] - truth[name]),
+            "bar": bar,
+        }
+        for name, bar in bars.values.items()
+    ]
+
+
+def judged(rows: list[dict[str, Any]]) -> dict[str, dict[str, float]]:
+    """For each figure: how many bars, which share covers, the median of bar over error, how many have none. What is
+    prescribed or absent (no error, no bar to speak of) is not counted."""
+    result = {}
+    for name in dict.fromkeys(row["figure"] for row in rows):
+        own = [row for row in rows if row["figure"] == name]
+        known = [r for r in own if r["bar"] is not None and r["error"] > 1e-7 * abs(r["value"])]
+        if not known:
+            continue
+        ratios = [r["bar"] / r["error"] for r in known]
+        result[name] = {
+            "bars": len(known),
+            "covered": sum(ratio >= 1 for ratio in ratios) / len(known),
+            "median_ratio": float(np.median(ratios)),
+            "without": sum(r["bar"] is None for r in own),
+            "median_relative_error": float(
+                np.median([r["error"] / abs(r["value"]) for r in known if r["value"]] or [0])
+            ),
+        }
+    return result
+
+
+def run(cases: int, seed: int = 14) -> list[dict[str, Any]]:
+    """Rows of so many contacts."""
+    rng, rows = np.random.default_rng(seed), []
+    for _ in range(cases):
+        rows += rows_of(draw(rng))
+    return rows
+
+
+def main() -> None:
+    """Draw, solve, judge, store."""
+    cases = int(sys.argv[1]) if len(sys.argv) > 1 else 240
+    rows = run(cases)
+    verdict = judged(rows)
+    for name, row in verdict.items():
+        print(name, {key: round(value, 5) for key, value in row.items()})
+    RESULT.write_text(json.dumps({"cases": cases, "seed": 14, "figures": verdict, "rows": rows}, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,66 @@
+"""Error bars beside the figures of a run: in the summary, the dataset, the terminal and the report."""
+
+import numpy as np
+
+from bem.campaigns.collect import outcome_of
+from bem.plots.report import with_error
+from bem.runs import run_scene
+from bem.scenes.context import PlainContext
+from bem.scenes.kinds import get_kind
+from bem.scenes.load import load_scene
+
+SCENE = {
+    "kind": "contact",
+    "grid": {"shape": [48, 48], "lengths": ["48 um", "48 um"]},
+    "lower": {"material": "steel-disk"},
+    "shape": {"kind": "sphere", "radius": "1 mm"},
+    "contact": {"load": "0.1 N"},
+}
+
+
+def outcome(**changes):
+    kind = get_kind("contact")
+    scene = kind.resolve(load_scene({**SCENE, **changes}))
+    context = PlainContext()
+    return outcome_of(scene, kind.run(scene, context)), context
+
+
+def test_every_headline_figure_has_its_error():
+    found, _ = outcome(outputs={"von_mises": True})
+    summary = found.summary
+    for name in get_kind("contact").headline:
+        if name != "residual" and summary[name] is not None:
+            assert summary[f"{name}_error"] is not None, name
+            assert np.isfinite(summary[f"{name}_error"]), name
+    keys = list(summary)
+    assert keys.index("approach_m_error") == keys.index("approach_m") + 1
+    error = found.variables["approach_error"]
+    assert error.units == "m"
+    assert float(error.values) == summary["approach_m_error"]
+
+
+def test_errors_can_be_left_out():
+    found, context = outcome(outputs={"errors": False})
+    assert not [key for key in found.summary if key.endswith("_error")]
+    assert "error bars" not in context.seconds
+
+
+def test_figures_are_spelt_with_their_errors():
+    summary = {"max_pressure_Pa": 1.2346e9, "max_pressure_Pa_error": 2.34e7, "load_N": 1.0, "approach_m": 3e-9}
+    assert with_error("max_pressure_Pa", summary) == ("max pressure", "1.235 ± 0.023 GPa")
+    assert with_error("load_N", summary) == ("load", "1 N")
+    assert with_error("approach_m", {**summary, "approach_m_error": None})[1] == "3 nm (no error bar)"
+    assert with_error(
+        "contact_area_fraction", {"contact_area_fraction": 0.1, "contact_area_fraction_error": 0.002}
+    ) == (
+        "contact area fraction",
+        "10.0000% ± 0.2%",
+    )
+
+
+def test_the_report_shows_errors_beside_figures(tmp_path):
+    run = run_scene(SCENE, tmp_path / "run", figures=True)
+    page = (tmp_path / "run" / "report.html").read_text()
+    assert "±" in page
+    assert "approach m error" not in page
+    assert run.summary["approach_m_error"] > 0

@@ -1,0 +1,104 @@
+"""Error bars of contacts: what covers, and what has none."""
+
+import numpy as np
+import pytest
+
+from bem import Body, Grid, Material, displacement_operator, solve_contact
+from bem.accuracy import ContactCase, contact_bars, figures_of, solve_coarser, stress_bars, surface_is_resolved
+from bem.errors import Status
+
+STEEL = Material("steel", youngs_modulus=200e9, poissons_ratio=0.3)
+
+
+def case_of(gap, grid, **given):
+    operator = displacement_operator(grid, Body(STEEL))
+    return ContactCase(operator, gap, solve_contact(gap, operator, **given), **given)
+
+
+def ball(cells, load=1.0, radius=1e-3, periodic=(False, False)):
+    grid = Grid((cells, cells), (1.0e-4 / cells,) * 2, periodic=periodic)
+    gap = grid.x[:, None] ** 2 / (2 * radius) + grid.y**2 / (2 * radius)
+    return case_of(gap, grid, load=load)
+
+
+@pytest.mark.parametrize("cells", [31, 48, 64, 101])
+def test_bars_of_a_ball_cover_hertz(cells):
+    case = ball(cells)
+    bars = contact_bars(case, solve_coarser(case)).values
+    found = figures_of(case.solution, case.grid.area)
+    modulus = STEEL.plane_strain_modulus
+    a = (0.75 * 1.0 * 1e-3 / modulus) ** (1 / 3)
+    truth = {
+        "contact_area": np.pi * a**2,
+        "mean_contact_pressure": 1.0 / (np.pi * a**2),
+        "max_pressure": 1.5 / (np.pi * a**2),
+        "approach": a**2 / 1e-3,
+    }
+    for name, value in truth.items():
+        assert abs(found[name] - value) <= bars[name], name
+        # a bar says something: here all of these are known to some per cent
+        assert bars[name] < 0.1 * value, name
+    # a prescribed load has no error but the residual's
+    assert bars["load"] <= 1e-8
+
+
+def test_bars_shrink_with_the_cell():
+    bars = [contact_bars(case, solve_coarser(case)).values for case in (ball(32), ball(128))]
+    for name in ("contact_area", "max_pressure", "approach"):
+        assert bars[1][name] < 0.5 * bars[0][name], name
+
+
+def test_the_coarser_contact_costs_a_fraction():
+    case = ball(128)
+    before = case.operator.count.weighted
+    assert solve_coarser(case).solution.status is Status.CONVERGED
+    assert case.operator.count.weighted - before < 0.5 * case.solution.convolutions
+
+
+def test_a_punch_has_no_bar_for_its_highest_pressure():
+    grid = Grid((64, 64), (1e-6, 1e-6))
+    x, y = grid.x[:, None], grid.y
+    gap = np.where((abs(x) < 12e-6) & (abs(y) < 12e-6), 0.0, 1e-3)
+    case = case_of(gap, grid, load=1.0)
+    bars = contact_bars(case, solve_coarser(case))
+    assert bars.values["max_pressure"] is None
+    assert any("sharp edges" in note for note in bars.notes)
+    assert bars.values["approach"] > 0
+
+
+def test_a_contact_at_a_free_edge_has_no_bars():
+    grid = Grid((32, 32), (1e-6, 1e-6))
+    case = case_of(np.zeros(grid.shape), grid, load=1.0)
+    bars = contact_bars(case, solve_coarser(case))
+    assert set(bars.values.values()) == {None}
+    (note,) = bars.notes
+    assert "free edge" in note
+
+
+def test_highest_stress_of_a_ball_is_covered():
+    case = ball(64)
+    a = (0.75 * 1.0 * 1e-3 / STEEL.plane_strain_modulus) ** (1 / 3)
+    depths = np.linspace(0, 2 * a, 15)
+    from bem.stress import von_mises_planes
+
+    planes = von_mises_planes(case.solution.pressure, case.grid, Body(STEEL), depths)
+    highest = np.array([plane.max() for plane in planes])
+    bars = stress_bars(case, solve_coarser(case), Body(STEEL), depths, highest).values
+    # Johnson, Contact Mechanics, section 3.4: for nu = 0.3 the largest shear stress, half of it, is 0.310 p0 at 0.48 a
+    p0 = 1.5 / (np.pi * a**2)
+    assert abs(highest.max() - 0.620 * p0) <= bars["max_von_mises"] + 0.0005 * p0
+    assert abs(depths[highest.argmax()] - 0.481 * a) <= bars["max_von_mises_depth"]
+    assert bars["max_von_mises"] < 0.05 * p0
+    deep = stress_bars(case, solve_coarser(case), Body(STEEL), depths[:3], highest[:3])
+    assert deep.values["max_von_mises"] is None
+    assert "deepest" in deep.notes[0]
+
+
+def test_what_a_grid_of_twice_the_cell_resolves():
+    grid = Grid((120, 120), (1.0, 1.0), periodic=(True, True))
+    for cells, resolved in ((4, False), (6, False), (12, True), (30, True)):
+        waves = np.sin(2 * np.pi * grid.x / cells)[:, None] + 0 * grid.y
+        assert surface_is_resolved(waves, grid) is resolved
+    assert surface_is_resolved(grid.x[:, None] ** 2 + grid.y**2, grid)
+    # small waves on a large ball are still seen
+    assert not surface_is_resolved(grid.x[:, None] ** 2 * 1e-3 + (-1.0) ** np.arange(120), grid)
