@@ -25,18 +25,21 @@ class ErrorBars:
 
 @dataclass(frozen=True)
 class Rule:
-    """How a difference between a grid and one of twice the cell becomes a bar.
+    """How a difference between a grid and one of twice the cell becomes a bar, in factors set by experiment.
 
-    order : of convergence, used where the coarser grid resolves the surface; elsewhere the difference counts whole.
-    safety, rough_safety : factors on it in the two cases.
+    resolved : on the difference where the coarser grid resolves the surface; 1/3 is that of second order.
+    rough : on it elsewhere.
+    edge, rough_edge : of the share of a contact that lies within a cell of its edge: what stays where a difference
+        happens to pass zero.
     """
 
-    order: float = 2.0
-    safety: float = 1.0
-    rough_safety: float = 1.0
+    resolved: float
+    rough: float
+    edge: float = 0.0
+    rough_edge: float = 0.0
 
-    def bar(self, difference: float, *, resolved: bool) -> float:
-        """The discretisation error of the finer of the two."""
+    def bar(self, difference: float, at_edge: float, *, resolved: bool) -> float:
+        """The discretisation error of the finer of the two; `at_edge` is the figure times the share at the edge."""
         if resolved:
-            return self.safety * abs(difference) / (2.0**self.order - 1)
-        return self.rough_safety * abs(difference)
+            return self.resolved * abs(difference) + self.edge * abs(at_edge)
+        return self.rough * abs(difference) + self.rough_edge * abs(at_edge)

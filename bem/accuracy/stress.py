@@ -5,13 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from bem.accuracy.bars import ErrorBars, Rule
-from bem.accuracy.contact import Coarser, ContactCase, is_resolved
+from bem.accuracy.contact import Coarser, ContactCase, is_resolved, share_at_edge
 from bem.grid import FloatArray
 from bem.materials import Body
 from bem.stress import von_mises_planes
 
 NAMES = ("max_von_mises", "max_von_mises_depth")
-_VON_MISES = Rule(safety=3.0, rough_safety=1.5)
+_VON_MISES = Rule(0.5, 1.0, edge=0.03, rough_edge=0.02)
+_JUMP = 1.3
+"""Factor on the depth's bar where the surface is not resolved: the highest stress may lie under another spot."""
 
 _CAPPED = (
     "the highest von Mises stress has no error bar: it lies at the surface of a capped contact, where it has no limit"
@@ -58,9 +60,10 @@ def stress_bars(
     coarse = np.array([plane.max() for plane in there])
     resolved = is_resolved(case)
     top, error = _highest_between(depths, highest, k)
-    stress = _VON_MISES.bar(highest[k] - coarse.max(), resolved=resolved) + top
+    stress = _VON_MISES.bar(highest[k] - coarse.max(), share_at_edge(case) * highest[k], resolved=resolved) + top
     moved = abs(depths[k] - depths[kept[int(np.argmax(coarse))]])
-    return ErrorBars({"max_von_mises": float(stress), "max_von_mises_depth": float(error + moved)})
+    depth = (error + moved) * (1.0 if resolved else _JUMP)
+    return ErrorBars({"max_von_mises": float(stress), "max_von_mises_depth": float(depth)})
 
 
 def _highest_between(depths: FloatArray, highest: FloatArray, k: int) -> tuple[float, float]:
