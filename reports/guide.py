@@ -42,7 +42,10 @@ def build() -> Page:
 def _using() -> list[Section]:
     files = (
         ("scene.toml", "the scene as it was understood, in SI units; it runs again and gives the same bits"),
-        ("summary.json", "the figures; units are in the names"),
+        (
+            "summary.json",
+            "the figures; units are in the names; `K_error` is the estimated error of `K`, null if unknown",
+        ),
         ("results.nc", "all arrays with units: xarray, h5py, any netCDF reader"),
         ("volume.vtu", "stresses below the surface for ParaView"),
         ("figures/, report.html", "pictures as PNG (`--pdf`: as PDF too), and one page with all"),

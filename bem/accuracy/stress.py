@@ -23,7 +23,6 @@ _SHALLOWEST = (
     "surface"
 )
 _DEEPEST = "the highest von Mises stress has no error bar: it lies at the deepest depth; take deeper outputs.depths"
-_FEW = "the highest von Mises stress has no error bar: fewer than three depths cannot show a highest one"
 
 
 def stress_bars(
@@ -38,17 +37,16 @@ def stress_bars(
     """
     if coarser.solution is None or coarser.grid is None:
         return ErrorBars(dict.fromkeys(NAMES))
-    if len(depths) < 3:
-        return ErrorBars.unknown(NAMES, _FEW)
-    k = int(np.argmax(highest))
-    if k == len(depths) - 1:
+    k, few = int(np.argmax(highest)), len(depths) < 3  # one or two depths are where stresses are wanted, not a search
+    if k == len(depths) - 1 and not few:
         return ErrorBars.unknown(NAMES, _DEEPEST)
     near = depths[k] < np.sqrt(case.grid.cell_area)
     if case.hardness is not None and near and (case.solution.pressure >= case.hardness).any():
         return ErrorBars.unknown(NAMES, _CAPPED)
-    if k == 0 and depths[0] > 0:
+    if k == 0 and depths[0] > 0 and not few:
         return ErrorBars.unknown(NAMES, _SHALLOWEST)
-    kept = sorted({*range(k % 2, len(depths), 2), max(k - 1, 0), k + 1})
+    near_k = {max(k - 1, 0), min(k + 1, len(depths) - 1)}
+    kept = sorted({*range(k % 2, len(depths), 2), *near_k})
     there = von_mises_planes(
         coarser.solution.pressure,
         coarser.grid,
@@ -59,7 +57,7 @@ def stress_bars(
     )
     coarse = np.array([plane.max() for plane in there])
     resolved = is_resolved(case)
-    top, error = _highest_between(depths, highest, k)
+    top, error = (0.0, 0.0) if few else _highest_between(depths, highest, k)
     stress = _VON_MISES.bar(highest[k] - coarse.max(), share_at_edge(case) * highest[k], resolved=resolved) + top
     moved = abs(depths[k] - depths[kept[int(np.argmax(coarse))]])
     depth = (error + moved) * (1.0 if resolved else _JUMP)

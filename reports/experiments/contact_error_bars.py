@@ -129,6 +129,7 @@ def draw(rng: np.random.Generator) -> Problem:
     if behaviour == "capped":
         share = float(rng.uniform(0.3, 0.9))
         hardness = share * modulus * (slope if surface == "rough" else 2 * radius * bend / math.pi)
+        load = min(load, 0.8 * hardness * grid.area)
     words = f"{surface} {shortest:.1f} {behaviour} {periodic}"
     depths = 12 if rng.random() < 0.4 else 0
     problem = Problem(words, grid, body, curvature, heights, {"load": load}, hardness, depths)

@@ -92,6 +92,10 @@ def test_highest_stress_of_a_ball_is_covered():
     deep = stress_bars(case, solve_coarser(case), Body(STEEL), depths[:3], highest[:3])
     assert deep.values["max_von_mises"] is None
     assert "deepest" in deep.notes[0]
+    # one depth that is asked for is no search for the deepest
+    single = stress_bars(case, solve_coarser(case), Body(STEEL), depths[3:4], highest[3:4])
+    assert not single.notes
+    assert 0 < single.values["max_von_mises"] < 0.05 * p0
 
 
 def test_what_a_grid_of_twice_the_cell_resolves():
