@@ -44,7 +44,7 @@ def _using() -> list[Section]:
         ("scene.toml", "the scene as it was understood, in SI units; it runs again and gives the same bits"),
         (
             "summary.json",
-            "the figures; units are in the names; `K_error` is the estimated error of `K`, null if unknown",
+            "the figures; with units in their names; `K_error` is the estimated error of `K`",
         ),
         ("results.nc", "all arrays with units: xarray, h5py, any netCDF reader"),
         ("volume.vtu", "stresses below the surface for ParaView"),
