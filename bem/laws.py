@@ -27,6 +27,7 @@ FAMILIES = {
     "shear_law": "bem.lubrication.shear",
     "boundary_friction": "bem.friction.boundary",
     "criterion": "bem.wear.criterion",
+    "removal": "bem.wear.removal",
     "growth": "bem.tribofilm.growth",
     "film_property": "bem.tribofilm.properties",
 }

@@ -16,6 +16,7 @@ from bem.scenes.planner import Step, convolution_memory, padded_points, stress_k
 from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Length
 from bem.wear.criterion import VonMises, WearCriterion
+from bem.wear.removal import Cap, RemovalLaw
 
 Count = Annotated[int, Field(strict=True, ge=1)]
 IntArray = NDArray[np.int_]
@@ -42,7 +43,7 @@ class WearScenePart(Table):
     refine: Annotated[int, Field(strict=True, ge=1, le=100)] = 10
     refinement: Literal["monotone_cubic", "linear", "exact"] = "monotone_cubic"
     connectivity: Literal[6, 18, 26] = 6
-    removal: Literal["cap", "top_run"] = "cap"
+    removal: Annotated[RemovalLaw, LawKey("removal")] = Cap()
     wears: Literal["softer", "lower", "upper", "both"] = "softer"
     shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] = 3
     within_layer: bool = Field(default=True, strict=True)

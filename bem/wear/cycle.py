@@ -19,7 +19,8 @@ from bem.laws import make_laws
 from bem.materials import Body
 from bem.stress import subsurface_stress, von_mises_limit, von_mises_planes
 from bem.wear.criterion import VonMises, WearCriterion
-from bem.wear.segmentation import CONNECTIVITIES, REFINEMENTS, REMOVALS, Segmentation, refine_depths, segment
+from bem.wear.removal import RemovalLaw
+from bem.wear.segmentation import CONNECTIVITIES, REFINEMENTS, Segmentation, refine_depths, segment
 
 LOWER, UPPER = 0, 1
 
@@ -35,7 +36,7 @@ class WearModel:
     refine, refinement : fine voxels per depth interval and how stress is interpolated between depths; "exact" computes
         the stress at every fine depth and is the check of the others.
     connectivity : 6, 18 or 26 neighbours.
-    removal : "cap" (a piece takes the material above it along) or "top_run".
+    removal : "cap" (a piece takes the material above it along) or "top_run", or a law of your own.
     wears : "softer" (lower yield stress; the lower body where equal), "lower", "upper" or "both".
     shift : cells that the counterface slides along +x per cycle.
     within_layer : pieces of a coated body end at the interface at the latest; the film is taken as replenished.
@@ -46,7 +47,7 @@ class WearModel:
     refine: int = 10
     refinement: str = "monotone_cubic"
     connectivity: int = 6
-    removal: str = "cap"
+    removal: str | RemovalLaw = "cap"
     wears: str = "softer"
     shift: int = 3
     within_layer: bool = True
@@ -56,7 +57,6 @@ class WearModel:
         for key, allowed in (
             ("refinement", [*REFINEMENTS, "exact"]),
             ("connectivity", list(CONNECTIVITIES)),
-            ("removal", list(REMOVALS)),
             ("wears", ["softer", "lower", "upper", "both"]),
         ):
             if getattr(self, key) not in allowed:
@@ -66,12 +66,13 @@ class WearModel:
         if self.shift != int(self.shift):
             messages.append(f"WearModel: shift {self.shift!r} must be a whole number of cells")
         try:
-            made = make_laws("WearModel", {"criterion": self.criterion}, {})["criterion"]
+            made = make_laws("WearModel", {"criterion": self.criterion, "removal": self.removal}, {})
         except InputError as error:
             raise InputError([*messages, *error.messages]) from None
         if messages:
             raise InputError(messages)
-        object.__setattr__(self, "criterion", made)
+        for key, law in made.items():
+            object.__setattr__(self, key, law)
 
     @property
     def law(self) -> WearCriterion:

@@ -18,11 +18,12 @@ from numpy.typing import NDArray
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
+from bem.laws import make_laws
 from bem.particles.particle import Particle
-from bem.wear.yielded_runs import connect, find_runs, gather_columns, remove, yielding_columns
+from bem.wear.removal import RemovalLaw
+from bem.wear.yielded_runs import connect, find_runs, gather_columns, yielding_columns
 
 REFINEMENTS = {"linear": 1, "monotone_cubic": 3}
-REMOVALS = {"cap": 0, "top_run": 1}
 CONNECTIVITIES = (6, 18, 26)
 
 
@@ -51,7 +52,7 @@ def segment(
     refine: int = 10,
     refinement: str = "monotone_cubic",
     connectivity: int = 6,
-    removal: str = "cap",
+    removal: str | RemovalLaw = "cap",
 ) -> Segmentation:
     """Find the connected regions above yield that reach the free surface.
 
@@ -66,7 +67,8 @@ def segment(
         which nothing yields ends every piece above it) or "linear".
     connectivity : 6 (faces), 18 (faces and edges) or 26 (corners too).
     removal : "cap": a piece takes with it all that lies above its yielded part in the same column; two pieces that meet
-        in a column leave as one. "top_run": only the part connected to the surface within the column leaves.
+        in a column leave as one. "top_run": only the part connected to the surface within the column leaves. Or a law
+        of `bem.wear.removal`.
 
     Raises
     ------
@@ -74,7 +76,9 @@ def segment(
     """
     stack = np.asarray(equivalent_stress, dtype=np.float64)
     levels = np.asarray(depths, dtype=np.float64)
-    _check(stack, levels, refine, refinement, connectivity, removal)
+    _check(stack, levels, refine, refinement, connectivity)
+    law = make_laws("segment", {"removal": removal}, {})["removal"]
+    assert isinstance(law, RemovalLaw)
     nz, nx, ny = stack.shape
     strength = np.broadcast_to(np.asarray(yield_stress, dtype=np.float64), (nx, ny))
     if not (np.isfinite(strength).all() and (strength > 0).all()):
@@ -90,7 +94,7 @@ def segment(
     columns, cubic = gather_columns(flat, candidates), REFINEMENTS[refinement] == 3
     runs = find_runs(candidates, columns, levels, limits[candidates], refine, cubic)
     parent = connect(runs, (nx, ny), (bool(periodic[0]), bool(periodic[1])), connectivity)
-    count = remove(runs, parent, REMOVALS[removal] == 0, labels.reshape(-1), thickness.reshape(-1))
+    count = law.remove(runs, parent, labels.reshape(-1), thickness.reshape(-1))
     reaches_bottom = np.zeros(count + 1, dtype=np.bool_)
     run_column = np.repeat(candidates, np.diff(runs.first))
     reaches_bottom[labels.reshape(-1)[run_column[runs.bottom == (nz - 1) * refine]]] = True
@@ -107,7 +111,7 @@ def find_particles(
     refine: int = 10,
     refinement: str = "monotone_cubic",
     connectivity: int = 6,
-    removal: str = "cap",
+    removal: str | RemovalLaw = "cap",
     cycle: int = 0,
 ) -> list[Particle]:
     """Wear particles of one cycle: regions above yield that reach the free surface, with the cap above them.
@@ -186,9 +190,7 @@ def refine_depths(depths: FloatArray, refine: int) -> FloatArray:
     return fine
 
 
-def _check(
-    stack: FloatArray, depths: FloatArray, refine: int, refinement: str, connectivity: int, removal: str
-) -> None:
+def _check(stack: FloatArray, depths: FloatArray, refine: int, refinement: str, connectivity: int) -> None:
     messages = []
     if stack.ndim != 3:
         messages.append(f"equivalent stress: expected (depths, nx, ny), got shape {stack.shape}")
@@ -204,7 +206,6 @@ def _check(
         messages.append(f"refine {refine!r} must be an integer >= 1")
     for key, value, allowed in (
         ("refinement", refinement, list(REFINEMENTS)),
-        ("removal", removal, list(REMOVALS)),
         ("connectivity", connectivity, list(CONNECTIVITIES)),
     ):
         if value not in allowed:

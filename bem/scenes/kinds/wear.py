@@ -42,6 +42,7 @@ from bem.scenes.wearing import (
     volume_mean_radius,
 )
 from bem.wear.criterion import WearCriterion
+from bem.wear.removal import RemovalLaw
 
 if TYPE_CHECKING:
     from bem.wear import RunningIn
@@ -129,7 +130,7 @@ class WearVariantScene(Table):
     connectivity: Literal[6, 18, 26] | None = None
     refinement: Literal["monotone_cubic", "linear", "exact"] | None = None
     criterion: Annotated[WearCriterion, LawKey("criterion")] | None = None
-    removal: Literal["cap", "top_run"] | None = None
+    removal: Annotated[RemovalLaw, LawKey("removal")] | None = None
 
 
 class WearScene(SceneModel):

@@ -1,0 +1,60 @@
+"""Removal: what leaves with the yielded runs of a piece that reaches the free surface.
+
+To add a law, derive from `RemovalLaw` and register it, here or in a file of your own. Its runs and what joins them are
+those of `bem.wear.yielded_runs`. Verified in tests/wear/test_segmentation.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.grid import FloatArray
+from bem.laws import Law, register
+
+if TYPE_CHECKING:
+    from bem.wear.yielded_runs import Runs
+
+
+@dataclass(frozen=True)
+class RemovalLaw(Law):
+    """Which runs leave, as which pieces."""
+
+    family: ClassVar[str] = "removal"
+
+    def remove(self, runs: Runs, parent: NDArray[np.int64], labels: NDArray[np.int32], thickness: FloatArray) -> int:
+        """Fill the labels (1, 2, ... of pieces, 0 where nothing leaves) and the thickness [m] that leaves, of all
+        columns of the grid, flat, both zero at first; return the number of pieces. `parent` is the union-find of the
+        runs that touch, and may be changed."""
+        raise NotImplementedError
+
+
+@register
+@dataclass(frozen=True)
+class Cap(RemovalLaw):
+    """A piece takes all that lies above its yielded part in a column along; two that meet in a column leave as one."""
+
+    name: ClassVar[str] = "cap"
+
+    def remove(self, runs: Runs, parent: NDArray[np.int64], labels: NDArray[np.int32], thickness: FloatArray) -> int:
+        """As `RemovalLaw`."""
+        from bem.wear.yielded_runs import remove  # compiled loops are not loaded for a name
+
+        return remove(runs, parent, True, labels, thickness)
+
+
+@register
+@dataclass(frozen=True)
+class TopRun(RemovalLaw):
+    """Only what yields without a break from the surface down leaves."""
+
+    name: ClassVar[str] = "top_run"
+
+    def remove(self, runs: Runs, parent: NDArray[np.int64], labels: NDArray[np.int32], thickness: FloatArray) -> int:
+        """As `RemovalLaw`."""
+        from bem.wear.yielded_runs import remove
+
+        return remove(runs, parent, False, labels, thickness)
