@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from enum import Enum
 
+from bem.errors import InputError
+
 
 class Cavitation(Enum):
     """Model of the ruptured film.
@@ -19,6 +21,15 @@ class Cavitation(Enum):
     MASS_CONSERVING = "mass_conserving"
 
 
-def unknown_cavitation(value: object) -> str:
-    """Message about something that is not a `Cavitation`."""
-    return f"cavitation: {value!r} must be one of {', '.join(f'Cavitation.{one.name}' for one in Cavitation)}"
+def cavitation_of(value: object) -> Cavitation:
+    """The model, or the one of that name.
+
+    Raises
+    ------
+    InputError : neither.
+    """
+    try:
+        return Cavitation(value)
+    except ValueError:
+        names = ", ".join(repr(one.value) for one in Cavitation)
+        raise InputError(f"cavitation: {value!r} is unknown; choose from {names}") from None

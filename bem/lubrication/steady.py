@@ -11,7 +11,7 @@ from scipy.interpolate import PchipInterpolator
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
-from bem.lubrication.cavitation import Cavitation, unknown_cavitation
+from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_friction import friction_forces
@@ -63,7 +63,7 @@ def solve_line_film(
     position: FloatArray | None = None,
     initial: FilmSolution | None = None,
     max_iterations: int = 40,
-    cavitation: Cavitation = Cavitation.SWIFT_STIEBER,
+    cavitation: Cavitation | str = Cavitation.SWIFT_STIEBER,
 ) -> FilmSolution:
     """Steady film between a cylinder and a flat: Reynolds' equation with cavitation and elastic deflection.
 
@@ -83,9 +83,10 @@ def solve_line_film(
     position : ascending abscissae [m] at which to return pressure and thickness; the mesh itself by default.
     initial : an earlier solution of a similar case: its film and mesh are the start.
     max_iterations : Newton steps of one solve.
-    cavitation : `Cavitation.MASS_CONSERVING` also says how full the gap is behind the exit, `film_fraction`. Pressure
-        and thickness are the same as with SWIFT_STIEBER: with a flooded inlet both rupture where p = dp/dx = 0, and
-        behind a cylinder the gap only opens, so no film forms again. In time (`march_line_film`) the two differ.
+    cavitation : a `Cavitation` or its name; `Cavitation.MASS_CONSERVING` also says how full the gap is behind the
+        exit, `film_fraction`. Pressure and thickness are the same as with SWIFT_STIEBER: with a flooded inlet both
+        rupture where p = dp/dx = 0, and behind a cylinder the gap only opens, so no film forms again.
+        In time (`march_line_film`) the two differ.
 
     Returns
     -------
@@ -103,8 +104,7 @@ def solve_line_film(
     L = 6 to 10 the pressure spike has no limit: it grows with the mesh as the inverse root of a cell, while the film
     thickness converges.
     """
-    if not isinstance(cavitation, Cavitation):
-        raise InputError(unknown_cavitation(cavitation))
+    cavitation = cavitation_of(cavitation)
     scales, reversed_ = _check(load, radius, contact_modulus, speeds, lubricant, points, tolerance, position)
     problem = scaled_problem(scales, scales.load, lubricant)
     outcome = None

@@ -11,7 +11,7 @@ import numpy as np
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
-from bem.lubrication.cavitation import Cavitation, unknown_cavitation
+from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_scales import Scales, line_scales, scaled_problem
@@ -22,6 +22,11 @@ from bem.lubrication.validity import Case, notes_on
 
 FAR = 50.0
 MAX_HALVINGS = 8
+
+
+_SETTLING = (0.3, 0.03, 1e-3)
+"""Times that a first film is given to settle on the march's mesh where its steady film is not found, in the time that
+the oil takes through half the contact."""
 
 
 def march_line_film(
@@ -36,7 +41,7 @@ def march_line_film(
     tolerance: float = 1e-7,
     initial: FilmSolution | None = None,
     initial_thickness: float | None = None,
-    cavitation: Cavitation = Cavitation.SWIFT_STIEBER,
+    cavitation: Cavitation | str = Cavitation.SWIFT_STIEBER,
 ) -> list[FilmSolution]:
     """Film of a line contact at each of `times`, of second order in the time step (BDF2, L-stable).
 
@@ -60,7 +65,9 @@ def march_line_film(
 
     Returns
     -------
-    A FilmSolution per time, with `time` and `volume_imbalance` (relative to the flow and squeeze of the step).
+    A FilmSolution per time, with `time` and `volume_imbalance` (relative to the flow and squeeze of the step). A steady
+    first film is solved on the march's own mesh; one that is given is taken as it is, and `notes` say by how much it
+    misses the load there.
     If a step fails in spite of halving, the last solution has another status and the list ends there.
 
     Raises
@@ -87,15 +94,19 @@ def march_line_film(
         messages.append(f"lubricant: {type(lubricant).__name__} is not a Lubricant")
     if not (isinstance(points, (int, np.integer)) and 101 <= points <= 5000):
         messages.append(f"points: {points!r} must be an integer from 101 to 5000")
-    if not isinstance(cavitation, Cavitation):
-        messages.append(unknown_cavitation(cavitation))
+    try:
+        cavitation = cavitation_of(cavitation)
+    except InputError as error:
+        messages += error.messages
     if initial is not None and initial_thickness is not None:
         messages.append("initial, initial_thickness: give one of them")
     if initial_thickness is not None and not (math.isfinite(initial_thickness) and initial_thickness > 0):
         messages.append(f"initial_thickness: {initial_thickness!r} must be positive and finite [m]")
     if messages:
         raise InputError(messages[:10])
+    assert isinstance(cavitation, Cavitation)
     first = float(sum(pairs[0]))
+    given = initial is not None or initial_thickness is not None
     if initial is None and initial_thickness is None:
         if first == 0:
             raise InputError(
@@ -121,7 +132,8 @@ def march_line_film(
         mesh, scales, lubricant, radius, contact_modulus, max(loads), reference, load, speeds, tolerance, cavitation
     )
     film = march.start(initial, initial_thickness)
-    solutions = [march.solution(film, float(steps[0]), 0, 0.0, 0.0, True)]
+    film, opening = march.first(film, float(steps[0]), given)
+    solutions = [opening]
     past: tuple[float, Film] | None = None
     for before, after in itertools.pairwise(steps):
         reached, past, done = march.advance(past, float(before), film, float(after), 0)
@@ -195,6 +207,29 @@ class _March:
         if self.cavitation is Cavitation.MASS_CONSERVING and initial is not None:
             fraction = self.filled(initial, film)
         return Film(pressure, film, datum, fraction * density * film, full, fraction)
+
+    def first(self, film: Film, time: float, given: bool) -> tuple[Film, FilmSolution]:
+        """The film that the march starts from and what is said of it: a steady one is balanced on this mesh."""
+        if given:
+            solution = self.solution(film, time, 0, 0.0, 0.0, True)
+            missed = solution.load / self.load(time) - 1
+            if solution.load > 0 and abs(missed) > self.tolerance:
+                note = f"the first film is the one given: on this mesh it carries the load {100 * missed:+.2g} %"
+                solution = replace(solution, notes=(*solution.notes, note))
+            return film, solution
+        entrainment = sum(self.speeds(time)) / self.reference_speed
+        still = np.zeros_like(film.mass)
+        # steady; too far off for Newton, a little later, where load and flow are in balance at any rate
+        for settling in (math.inf, *_SETTLING):
+            outcome = time_step(
+                self.at(time), self.mesh, film, entrainment, 1 / settling, still - film.mass / settling, self.tolerance,
+                cavitation=self.cavitation,
+            )  # fmt: skip
+            if outcome.converged:
+                break
+        kept = outcome.film if outcome.converged else film
+        done = outcome.converged
+        return kept, self.solution(kept, time, outcome.iterations, outcome.residual, outcome.imbalance, done)
 
     def filled(self, initial: FilmSolution, film: FloatArray) -> FloatArray:
         """Filled fraction of the gap at the start: behind the exit of a steady film, what flows through it."""

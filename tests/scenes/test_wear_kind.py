@@ -150,6 +150,8 @@ def test_killed_ten_times_it_ends_in_the_same_bits(scene_file, tmp_path):
 
     with xarray.open_dataset(whole / "results.nc") as a, xarray.open_dataset(torn / "results.nc") as b:
         for name in a.variables:
+            if name.endswith("_seconds"):
+                continue  # what it took, not what it gave
             assert np.array_equal(a[name].values, b[name].values, equal_nan=a[name].dtype.kind == "f"), name
     first, second = (json.loads((folder / "summary.json").read_text()) for folder in (whole, torn))
     for key in first:
