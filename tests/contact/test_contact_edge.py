@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from test_contact_closed_forms import order
 
 from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
 from bem.reference_solutions.hertz import sphere_contact
-from tests.contact.test_contact_closed_forms import order
 
 UNIT = Material("unit", youngs_modulus=1.0, poissons_ratio=0.0)
 
