@@ -32,6 +32,7 @@ def stress_bars(
 
     Parameters
     ----------
+    case, coarser : the contact and its coarser solution, as `bem.accuracy.contact` makes them.
     body, friction : as `bem.stress.von_mises_planes` takes them. depths : [m], (n,), rising.
     highest : von Mises stress of each depth [Pa], (n,).
     """

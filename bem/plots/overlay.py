@@ -16,7 +16,7 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.plots.style import prefix
 
-AXES = ("speed", "time", "cycle", "depth", "interference", "iteration", "film_x", "x")
+AXES = ("time", "cycle", "speed", "depth", "interference", "iteration", "film_x", "x")
 """Dimensions that a line may run along, the first that a variable has."""
 COUNTED = ("particle",)
 """Dimensions without an order of their own: a line counts them up by size."""

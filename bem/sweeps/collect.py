@@ -45,6 +45,8 @@ def dataset_variables(
     ----------
     kind : of the scene; its record says what figures are, its axes what lists run over.
     scene : resolved, of any point.
+    coordinates : the swept keys with their values.
+    summaries : of the points in the order of the coordinates' product; None where there is no result.
     """
     keys = tuple(item.axis.key for item in coordinates)
     shape = tuple(len(item.values) for item in coordinates)

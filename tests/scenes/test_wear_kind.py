@@ -123,7 +123,7 @@ def test_the_plan_says_what_is_skipped(scene_file):
 
 @pytest.mark.slow
 def test_killed_ten_times_it_ends_in_the_same_bits(scene_file, tmp_path):
-    path = scene_file(count="100", settled="20")
+    path = scene_file(count="600", settled="20")  # some ten seconds: long enough to be killed in
     bem = [sys.executable, "-m", "bem", "run", str(path)]
     whole, torn = tmp_path / "whole", tmp_path / "torn"
     subprocess.run([*bem, "--out", str(whole)], check=True, capture_output=True, timeout=300)
@@ -134,7 +134,7 @@ def test_killed_ten_times_it_ends_in_the_same_bits(scene_file, tmp_path):
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         try:
             # some in the middle of start-up, some in the cycles, some while files are written
-            process.wait(timeout=float(random.uniform(0.5, 4.0)) if kills < 10 else 300)
+            process.wait(timeout=float(random.uniform(0.5, 3.0)) if kills < 10 else 300)
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
