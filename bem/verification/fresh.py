@@ -100,7 +100,9 @@ def _harmonic(rng: np.random.Generator) -> Parameters:
 
 
 def _rectangle(rng: np.random.Generator) -> Parameters:
-    return _layer(rng, most=1) | {"load": str(rng.choice(["normal", "tangential"])), "width": _uniform(rng, 0.3, 1.0)}
+    """Widths in sixteenths: all points at which the reference is asked are then middles of the gate's cells."""
+    width = round(16 * _uniform(rng, 0.3, 1.0)) / 16
+    return _layer(rng, most=1) | {"load": str(rng.choice(["normal", "tangential"])), "width": width}
 
 
 def _indenter(rng: np.random.Generator) -> Parameters:

@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -123,3 +124,14 @@ def test_one_problem_from_the_reference_itself(tmp_path):
     assert [row for row in found if not row.passed] == []
     with pytest.raises(ResultsError, match="reference failed"):
         fresh.solve(fresh.Drawn("bad", "harmonic", {"nu": 0.7}), tmp_path / "bad.json")
+
+
+def test_points_of_a_drawn_rectangle_are_middles_of_the_cells_of_its_gate():
+    """A width that was none ended the draw in a ValueError."""
+    from bem.verification.fresh import _rectangle
+    from bem.verification.rectangle import STEP
+
+    for seed in range(50):
+        width = _rectangle(np.random.default_rng(seed))["width"]
+        steps = width * np.array([0.4, 0.8, 1.2, 3.0, 4.0, 6.0, 10.0]) / STEP  # where fem_reference.rectangle asks
+        assert np.abs(steps - np.round(steps)).max() < 1e-9
