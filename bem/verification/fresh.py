@@ -119,6 +119,8 @@ def _round(rng: np.random.Generator) -> Parameters:
 def _row(rng: np.random.Generator) -> Parameters:
     """Loads up to nine tenths of what flattens the row if all of the body were as soft as its softest part."""
     body = _layer(rng, most=1)
+    if body:  # the reference takes no thicker ones: two wavelengths are all layer
+        body["layer"][2] = min(body["layer"][2], 2.0)
     softest = min(1.0, *body["layer"][::3]) if body else 1.0
     loads = sorted({float(f"{softest * rng.uniform(0.05, 0.9):.3g}") for _ in range(3)})
     return body | _indenter(rng) | {"loads": loads}
