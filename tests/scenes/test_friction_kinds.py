@@ -212,9 +212,35 @@ class StopHereError(Exception):
 
 
 class Interrupting(Silent):
+    def __init__(self, what="cycles", done=11):  # one cycle beyond the checkpoint
+        self.stop = (what, done)
+
     def progress(self, done, total, what, figures):
-        if (what, done) == ("cycles", 11):  # one cycle beyond the checkpoint
+        if (what, done) == self.stop:
             raise StopHereError
+
+
+LAW = {"kind": "pressure_dependent", "shear_strength": 1e6, "pressure_coefficient": 0.1}
+
+
+@pytest.mark.parametrize("friction", [0.15, LAW], ids=["coefficient", "law"])
+@pytest.mark.parametrize("model", ["capped", "uncoupled"])
+def test_a_curve_killed_between_speeds_goes_on_to_the_same_bits(tmp_path, model, friction, monkeypatch):
+    speeds = ["0.003 m/s", "0.02 m/s", "0.1 m/s", "0.5 m/s"]
+    data = scene_with(FRICTION, speeds=speeds, sharing={"models": [model]}, contact={"boundary_friction": friction})
+    scene, outcome, whole = run(data)
+    solved = []
+    monkeypatch.setattr("bem.friction.solve_mixed", lambda **given: solved.append(0) or solve_mixed(**given))
+    for done in (1, 3):
+        with pytest.raises(StopHereError):
+            compute(campaign_of(scene), tmp_path, watcher=Interrupting("speeds", done))
+    assert len(solved) == 3  # none twice
+    resumed = compute(campaign_of(scene), tmp_path)
+    assert len(solved) == len(speeds)
+    assert resumed.outcome.summary == outcome.summary
+    assert resumed.notes == whole.notes
+    for name, variable in outcome.variables.items():
+        assert np.array_equal(variable.values, resumed.outcome.variables[name].values), name
 
 
 @pytest.mark.parametrize(("half_width", "rows"), [(0.1, 2), (1.0, 2), (2.0, 4), (100.0, 8)])

@@ -5,9 +5,9 @@ A case is one curve: one load, one surface, one contact model; each speed starts
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from itertools import product
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -23,6 +23,7 @@ from bem.scenes.common import BodyScene, LineGridScene, PositiveLength, SceneMod
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.lubrication import FilmMeshScene, LubricatedScene, OilScene, SpeedsScene
+from bem.scenes.packing import packed, unpacked
 from bem.scenes.planner import Plan, Step, convolution_memory, padded_points
 from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Ratio
@@ -268,28 +269,86 @@ class CurveRecord(Record):
     film_thickness: Annotated[FloatArray, _shown(("film_x",), "m", "film thickness")]
 
 
+@dataclass(frozen=True)
+class _Point:
+    """The numbers of one speed, by the fields of the record."""
+
+    speed: float
+    friction: float
+    boundary_part: float
+    film_part: float
+    contact_load: float
+    film_load: float
+    minimum_film: float
+    lambda_ratio: float
+    contact_area_fraction: float
+    film_solves: float
+    contact_solves: float
+    status: Status
+
+    @classmethod
+    def of(cls, solution: MixedSolution) -> _Point:
+        """Those of a solution."""
+        area = 0.0 if solution.contact is None else solution.contact.contact_area
+        return cls(
+            speed=solution.speeds[0],
+            friction=solution.friction,
+            boundary_part=solution.boundary_force / solution.load,
+            film_part=solution.film_force / solution.load,
+            contact_load=solution.contact_load,
+            film_load=solution.film_load,
+            minimum_film=solution.minimum_film,
+            lambda_ratio=solution.lambda_ratio,
+            contact_area_fraction=area / solution.grid.area,
+            film_solves=float(solution.evaluations),
+            contact_solves=float(solution.contact_solves),
+            status=solution.status,
+        )
+
+
+@dataclass(frozen=True)
+class _Curve:
+    """A curve so far: the numbers of its speeds, the solution that makes pictures, and the one the next starts from."""
+
+    points: tuple[_Point, ...] = ()
+    shown: MixedSolution | None = None
+    last: MixedSolution | None = None
+
+    def then(self, solution: MixedSolution) -> _Curve:
+        """With one speed more; shown is where film and contact share most evenly, or the first of full films."""
+        shown = solution if self.shown is None or _evenness(solution) < _evenness(self.shown) else self.shown
+        return _Curve((*self.points, _Point.of(solution)), shown, solution)
+
+
+def _evenness(solution: MixedSolution) -> float:
+    return 1.0 if solution.full_film else abs(solution.contact_load / solution.load - 0.5)
+
+
 def run(scene: FrictionScene, context: Context) -> CurveRecord:
-    """One curve, speed by speed."""
+    """One curve, speed by speed, with a checkpoint after each."""
     from bem.friction import solve_mixed
 
     grid, (model,) = build.grid_of(scene.grid), scene.sharing.models
+    lubricant, boundary_friction = scene.oil.build(), scene.contact.boundary_friction
+    bodies = (scene.lower.build(), scene.upper.build())
     with context.timer("surfaces"):
         height = build.heights_of(scene.lower.surface, grid, context.seed("lower"), context.note)
         height = height + build.heights_of(scene.upper.surface, grid, context.seed("upper"), context.note)
-    pairs = scene.speeds.build()
-    solutions: list[MixedSolution] = []
-    for speeds in pairs:
+    pairs, saved = scene.speeds.build(), context.saved()
+    made_again = (grid, lubricant, boundary_friction)
+    curve = _Curve() if saved is None else unpacked(saved["curve"], made_again)
+    for speeds in pairs[len(curve.points) :]:
         with context.timer("load sharing"), _in_words_of_the_scene():
             own = solve_mixed(
                 height=height,
                 grid=grid,
-                bodies=(scene.lower.build(), scene.upper.build()),
+                bodies=bodies,
                 radius=scene.contact.radius,
                 width=scene.contact.width,
                 load=load_of(scene),
                 speeds=speeds,
-                lubricant=scene.oil.build(),
-                boundary_friction=scene.contact.boundary_friction,
+                lubricant=lubricant,
+                boundary_friction=boundary_friction,
                 hardness=scene.contact.hardness if model in ("capped", "uncoupled") else None,
                 tolerance=scene.sharing.tolerance,
                 contact_tolerance=scene.sharing.contact_tolerance,
@@ -298,14 +357,16 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
                 contact_model="uncoupled" if model.startswith("uncoupled") else "coupled",
                 asperity_separation=scene.sharing.asperity_separation,
                 striated_exit=scene.sharing.striated_exit,
-                initial=solutions[-1] if solutions else None,
+                initial=curve.last,
             )
-        solutions.append(own)
         for note in own.notes:
             # the film's model is the same at all speeds: said once
             context.note(f"film: {note}" if note in own.film.notes else f"speed {speeds[0]:g} m/s: {note}")
-        context.progress(len(solutions), len(pairs), "speeds", friction=own.friction)
-    return _record(grid, solutions, height)
+        curve = curve.then(own)
+        if len(curve.points) < len(pairs):
+            context.save({"curve": packed(curve, made_again)})
+        context.progress(len(curve.points), len(pairs), "speeds", friction=own.friction)
+    return _record(grid, curve, height)
 
 
 @contextmanager
@@ -317,43 +378,31 @@ def _in_words_of_the_scene() -> Iterator[None]:
         raise InputError([m.replace("position: ", "film: the film grid ", 1) for m in error.messages]) from None
 
 
-def _record(grid: Grid, solutions: list[MixedSolution], height: FloatArray) -> CurveRecord:
+def _record(grid: Grid, curve: _Curve, height: FloatArray) -> CurveRecord:
     """A row for each speed; fields of the middle speed in touch."""
-    mixed = [i for i, s in enumerate(solutions) if not s.full_film]
-    s = solutions[min(mixed, key=lambda i: abs(solutions[i].contact_load / solutions[i].load - 0.5)) if mixed else 0]
-    film_pressure, film_thickness = s.film.at(grid.x)
-    bad = [one for one in solutions if one.status is not Status.CONVERGED]
-
-    def over(value: Callable[[MixedSolution], float]) -> FloatArray:
-        return np.array([value(one) for one in solutions])
-
+    shown = curve.shown
+    assert shown is not None
+    film_pressure, film_thickness = shown.film.at(grid.x)
+    bad = [one for one in curve.points if one.status is not Status.CONVERGED]
+    numbers = [field.name for field in fields(_Point) if field.name != "status"]
+    over_speed: dict[str, Any] = {name: np.array([getattr(one, name) for one in curve.points]) for name in numbers}
     return CurveRecord(
-        speed=over(lambda s: s.speeds[0]),
-        friction=over(lambda s: s.friction),
-        boundary_part=over(lambda s: s.boundary_force / s.load),
-        film_part=over(lambda s: s.film_force / s.load),
-        contact_load=over(lambda s: s.contact_load),
-        film_load=over(lambda s: s.film_load),
-        minimum_film=over(lambda s: s.minimum_film),
-        lambda_ratio=over(lambda s: s.lambda_ratio),
-        contact_area_fraction=over(lambda s: 0.0 if s.contact is None else s.contact.contact_area / grid.area),
-        film_solves=over(lambda s: float(s.evaluations)),
-        contact_solves=over(lambda s: float(s.contact_solves)),
+        **over_speed,
         rms_height=float(height.std()),
-        shown_speed=np.array(s.speeds[0]),
+        shown_speed=np.array(shown.speeds[0]),
         x=grid.x,
         y=grid.y,
         height=height,
-        displacement=getattr(s.contact, "displacement", np.zeros(grid.shape)),
-        pressure=s.contact_pressure,
-        separation=s.separation,
+        displacement=getattr(shown.contact, "displacement", np.zeros(grid.shape)),
+        pressure=shown.contact_pressure,
+        separation=shown.separation,
         film_thickness_patch=film_thickness,
         film_pressure_patch=film_pressure,
-        film_x=s.film.position,
-        film_pressure=s.film.pressure,
-        film_thickness=s.film.thickness,
+        film_x=shown.film.position,
+        film_pressure=shown.film.pressure,
+        film_thickness=shown.film.thickness,
         status=bad[0].status if bad else Status.CONVERGED,
-        where="; ".join(f"speed {one.speeds[0]:g} m/s: {one.status.value}" for one in bad[:5]),
+        where="; ".join(f"speed {one.speed:g} m/s: {one.status.value}" for one in bad[:5]),
     )
 
 
