@@ -339,8 +339,8 @@ def rectangle_grid(
     """A quarter of a block under a loaded rectangle: |x| <= half_length, |y| <= half_width.
 
     Few cells, meant for elements of degree four: one a level and direction over the load, two beyond it, two in
-    depth, of which a quarter lie in the layer if there is one. The box reaches BLOCK_REACH, and by WIDER further
-    for each of `boxes`, the mesh inside staying the same.
+    depth, and one in the layer if there is one, where all meshes must differ: two that do not agree on what neither
+    resolves. The box reaches BLOCK_REACH, and by WIDER further for each of `boxes`, the mesh inside staying the same.
     """
     beyond = []
     reach = BLOCK_REACH
@@ -356,5 +356,5 @@ def rectangle_grid(
         depth = (progression(0.0, BLOCK_REACH, 2 * level, 200.0), *beyond)
         return BlockGrid(across(half_length), across(half_width), depth)
     below = progression(thickness, BLOCK_REACH, 3 * level // 2, 200.0)
-    layer = uniform(0.0, thickness, (level + 1) // 2)
+    layer = uniform(0.0, thickness, level)
     return BlockGrid(across(half_length), across(half_width), (layer, below, *beyond), layers=1)

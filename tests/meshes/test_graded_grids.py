@@ -104,6 +104,27 @@ def test_a_mesh_is_whole_tagged_and_always_the_same(builder):
     np.testing.assert_array_equal(points, again[1])
 
 
+@pytest.mark.parametrize(
+    ("at_level", "levels"),
+    [
+        (lambda level: half_space_grid(thickness=0.3, level=level), (1, 2, 3)),
+        (lambda level: half_space_grid(thickness=(0.3, 0.1), level=level), (1, 2, 3)),
+        (lambda level: harmonic_grid(thickness=0.5, level=level), (1, 2, 3)),
+        (lambda level: rectangle_grid(half_length=1.0, half_width=0.5, level=level), (2, 3, 4)),
+        (lambda level: rectangle_grid(half_length=1.0, half_width=0.5, level=level, thickness=0.9), (2, 3, 4)),
+    ],
+    ids=["half-space", "stack", "harmonic", "rectangle", "rectangle on a layer"],
+)
+def test_every_part_of_a_mesh_is_finer_at_the_next_level(at_level, levels):
+    """Error bars come from the difference of meshes: where two are alike in a layer, the bar there is blind."""
+    for coarse, fine in zip(levels, levels[1:], strict=False):
+        grids = at_level(coarse), at_level(fine)
+        for axis in ("x", "y", "z"):
+            if hasattr(grids[0], axis):
+                parts = zip(getattr(grids[0], axis), getattr(grids[1], axis), strict=True)
+                assert all(a.cells < b.cells for a, b in parts), (coarse, fine, axis)
+
+
 def test_wider_boxes_leave_the_mesh_inside_alone():
     narrow, wide = (half_space_grid(thickness=0.3, level=2, boxes=n) for n in (0, 2))
     assert wide.x[: len(narrow.x)] == narrow.x
