@@ -1,5 +1,7 @@
 """Graded grids: numbers, nesting, tags, determinism."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -117,7 +119,7 @@ def test_a_mesh_is_whole_tagged_and_always_the_same(builder):
 )
 def test_every_part_of_a_mesh_is_finer_at_the_next_level(at_level, levels):
     """Error bars come from the difference of meshes: where two are alike in a layer, the bar there is blind."""
-    for coarse, fine in zip(levels, levels[1:], strict=False):
+    for coarse, fine in itertools.pairwise(levels):
         grids = at_level(coarse), at_level(fine)
         for axis in ("x", "y", "z"):
             if hasattr(grids[0], axis):
