@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.lubrication.line_kernel import LineOperator
-from bem.lubrication.line_linear import DEFLECTION
+from bem.lubrication.line_kernel import DEFLECTION, LineOperator
 
 SPIKE_REACH = 60
 """Nodes on either side of a spike that are solved for alone."""
@@ -152,6 +151,14 @@ def eased(
     better = pressure.copy()
     better[first:last] = p[inner]
     return better
+
+
+def longest_step(film: FloatArray, change: FloatArray, share: float) -> float:
+    """Length of a step, one at most, that takes no more than a share of any film."""
+    shrinking = change < 0
+    if not shrinking.any():
+        return 1.0
+    return min(1.0, share * float(np.min(-film[shrinking] / change[shrinking])))
 
 
 def mean_fluidity(log_viscosity: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -13,9 +13,13 @@ from functools import cached_property
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from bem.grid import FloatArray
+from bem.lubrication.line_mesh import trapezoidal_weights
 
+DEFLECTION = 4 / math.pi
+"""Times the weights and the pressures in similarity variables (`line_newton`): by how much a film is thinner."""
 HIERARCHICAL_FROM = 300
 """Cells from which weights are kept hierarchically; below, dense matrices are as fast."""
 LEAF = 64
@@ -77,71 +81,90 @@ def _fill(out: FloatArray, targets: FloatArray, nodes: FloatArray, first: int) -
 
 
 @njit(cache=True)
+def _mean(nodes: FloatArray, i: int, k: int, log_unit: float) -> float:
+    """The kernel ln(|x - x'|/unit) at node i, averaged over the hat of interior node k."""
+    before, after = nodes[k] - nodes[k - 1], nodes[k + 1] - nodes[k]
+    return _weight(nodes[i] - nodes[k], before, after) / (0.5 * (before + after)) - log_unit
+
+
+@njit(cache=True)
+def _missing_row(
+    out: FloatArray, nodes: FloatArray, i: int, first: int, log_unit: float, of_row: FloatArray, right: FloatArray
+) -> None:
+    """Node i's row of the kernel over columns first, first + 1, ... less what the products have of it."""
+    for j in range(len(out)):
+        value = _mean(nodes, i, first + j, log_unit)
+        for r in range(len(of_row)):
+            value -= of_row[r] * right[r, j]
+        out[j] = value
+
+
+@njit(cache=True)
+def _missing_column(
+    out: FloatArray, nodes: FloatArray, k: int, first: int, log_unit: float, left: FloatArray, of_column: FloatArray
+) -> None:
+    """Node k's column of the kernel at rows first, first + 1, ... less what the products have of it."""
+    for i in range(len(out)):
+        value = _mean(nodes, first + i, k, log_unit)
+        for r in range(len(of_column)):
+            value -= left[r, i] * of_column[r]
+        out[i] = value
+
+
+@njit(cache=True)
+def _largest_unused(values: FloatArray, used: NDArray[np.bool_]) -> int:
+    """Where `values` is largest among those not used yet; -1 where all are."""
+    best, found = -1.0, -1
+    for i in range(len(values)):
+        if not used[i] and abs(values[i]) > best:
+            best, found = abs(values[i]), i
+    return found
+
+
+@njit(cache=True)
 def _cross(
     nodes: FloatArray,
-    row0: int,
-    row1: int,
-    col0: int,
-    col1: int,
+    rows: tuple[int, int],
+    columns: tuple[int, int],
     pivot: int,
     unit: float,
-    tolerance: float,
-    rough: float,
+    tolerances: tuple[float, float],
     rank: int,
 ) -> tuple[int, FloatArray, FloatArray]:
-    """Adaptive cross approximation of the kernel ln(|x - x'|/unit), averaged over hats, between rows and columns.
+    """Adaptive cross approximation of the kernel ln(|x - x'|/unit) between ranges of rows and of columns, with hats at
+    the columns, from row `pivot` on.
 
-    Returns how many of the products are good to the tolerance `rough`, and all of them: (rank, rows), (rank, cols).
+    Returns how many of the products are good to the second of the tolerances, and all of them, good to the first:
+    (rank, rows), (rank, columns).
     """
-    rows, cols = row1 - row0, col1 - col0
-    rank = min(rank, rows, cols)
-    left = np.zeros((rank, rows))
-    right = np.zeros((rank, cols))
+    row0, col0, height, width = rows[0], columns[0], rows[1] - rows[0], columns[1] - columns[0]
+    rank = min(rank, height, width)
+    left, right = np.zeros((rank, height)), np.zeros((rank, width))
     log_unit = math.log(unit)
-    used = np.zeros(rows, dtype=np.bool_)
+    used = np.zeros(height, dtype=np.bool_)
     squared = 0.0
-    row = pivot - row0
-    done, short = 0, 0
-    while done < rank:
+    row, done, short = pivot - row0, 0, 0
+    while done < rank and row >= 0:
         used[row] = True
-        for j in range(cols):
-            k = col0 + j
-            before, after = nodes[k] - nodes[k - 1], nodes[k + 1] - nodes[k]
-            value = _weight(nodes[row0 + row] - nodes[k], before, after) / (0.5 * (before + after)) - log_unit
-            for r in range(done):
-                value -= left[r, row] * right[r, j]
-            right[done, j] = value
+        _missing_row(right[done], nodes, row0 + row, col0, log_unit, left[:done, row], right)
         col = int(np.argmax(np.abs(right[done])))
         top = right[done, col]
         if top == 0.0:
             break
-        k = col0 + col
-        before, after = nodes[k] - nodes[k - 1], nodes[k + 1] - nodes[k]
-        for i in range(rows):
-            value = _weight(nodes[row0 + i] - nodes[k], before, after) / (0.5 * (before + after)) - log_unit
-            for r in range(done):
-                value -= left[r, i] * right[r, col]
-            left[done, i] = value / top
+        _missing_column(left[done], nodes, col0 + col, row0, log_unit, left, right[:done, col])
+        left[done] /= top
         new = np.sum(left[done] ** 2) * np.sum(right[done] ** 2)
         squared += new
         for r in range(done):
             squared += 2 * np.sum(left[r] * left[done]) * np.sum(right[r] * right[done])
         done += 1
-        if short == 0 and new <= rough**2 * squared:
+        if short == 0 and new <= tolerances[1] ** 2 * squared:
             short = done
-        if new <= tolerance**2 * squared:
+        if new <= tolerances[0] ** 2 * squared:
             break
-        best, row = -1.0, -1
-        for i in range(rows):
-            if not used[i] and abs(left[done - 1, i]) > best:
-                best, row = abs(left[done - 1, i]), i
-        if row < 0:
-            break
-    for j in range(cols):
-        k = col0 + j
-        mean = 0.5 * (nodes[k + 1] - nodes[k - 1])
-        for r in range(done):
-            right[r, j] *= mean
+        row = _largest_unused(left[done - 1], used)
+    for j in range(width):
+        right[:done, j] *= 0.5 * (nodes[col0 + j + 1] - nodes[col0 + j - 1])
     return (short if short > 0 else done), left[:done], right[:done]
 
 
@@ -227,13 +250,16 @@ class LineOperator:
     @cached_property
     def quadrature(self) -> FloatArray:
         """Trapezoidal weights of the mesh before stretching."""
-        width = np.diff(self.nodes)
-        return 0.5 * (np.append(width, 0.0) + np.append(0.0, width))
+        return trapezoidal_weights(self.nodes)
 
     @cached_property
     def depth(self) -> int:
-        """Number of levels."""
-        return max(1, math.ceil(math.log2((len(self.nodes) - 2) / LEAF)))
+        """Number of levels: leaves of about `LEAF` nodes, fewer where the last of them would be empty."""
+        interior = len(self.nodes) - 2
+        levels = max(1, math.ceil(math.log2(interior / LEAF)))
+        while (2**levels - 1) * math.ceil(interior / 2**levels) >= interior:
+            levels -= 1
+        return levels
 
     @cached_property
     def leaf(self) -> int:
@@ -289,7 +315,7 @@ class LineOperator:
             rows = (start - 1, stop) if even else (start, stop + 1)
             pivot = stop - 1 if even else start
             rank, left, right = _cross(
-                self.nodes, *rows, first, last, pivot, self.unit, CROSS_TOLERANCE, ROUGH_TOLERANCE, LARGEST_RANK
+                self.nodes, rows, (first, last), pivot, self.unit, (CROSS_TOLERANCE, ROUGH_TOLERANCE), LARGEST_RANK
             )
             short = max(short, rank)
             found.append((k, rows[0] - (start - 1), left.T, right.T))

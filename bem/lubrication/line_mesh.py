@@ -14,6 +14,20 @@ GROWTH = 0.14
 """Largest change of cell width per distance: keeps the upwind extrapolation of second order."""
 
 
+def trapezoidal_weights(nodes: FloatArray) -> FloatArray:
+    """Weights (n+1,) of the integral of what is linear between ascending nodes (n+1,)."""
+    width = np.diff(nodes)
+    return 0.5 * (np.append(width, 0.0) + np.append(0.0, width))
+
+
+def upwind_extrapolation(width: FloatArray) -> FloatArray:
+    """How much of the difference between the two nodes upstream reaches from the nearer one to the middle of a cell
+    (n,), where the flow runs with the numbering; nothing in the first cell, which has but one."""
+    out = np.zeros(len(width))
+    out[1:] = 0.5 * width[1:] / width[:-1]
+    return out
+
+
 def cell_densities(
     offset: FloatArray, pressure: FloatArray, film: FloatArray, fluidity: FloatArray, exit_position: float
 ) -> tuple[FloatArray, FloatArray]:

@@ -23,13 +23,22 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from bem.grid import FloatArray
-from bem.lubrication.line_flow import Flow, Parts, Problem, eased
-from bem.lubrication.line_kernel import LineOperator
-from bem.lubrication.line_linear import DEFLECTION, Change, Equations, solve
-from bem.lubrication.line_mesh import FAR_INLET, cell_densities, cell_sizes, redistribute
+from bem.lubrication.line_equations import Equations
+from bem.lubrication.line_flow import Flow, Parts, Problem, eased, longest_step
+from bem.lubrication.line_kernel import DEFLECTION, LineOperator
+from bem.lubrication.line_linear import Change, solve
+from bem.lubrication.line_mesh import (
+    FAR_INLET,
+    cell_densities,
+    cell_sizes,
+    redistribute,
+    trapezoidal_weights,
+    upwind_extrapolation,
+)
 
 SHARP_FROM = 1500
 """Cells from which a spike is solved for by itself first: a step of them all costs more than ten of those."""
+SHORTEST_STEP = 1e-3
 
 
 @dataclass(frozen=True)
@@ -72,110 +81,165 @@ def inlet_load(position: float) -> tuple[float, float]:
     return 4 / position**2, 8 / abs(position) ** 3
 
 
+@dataclass(frozen=True)
+class Discretisation:
+    """What stays the same during an iteration: the flow through the cells and the film (n+1,) it is measured by, that
+    of the start; offsets of the nodes (n+1,) with their trapezoidal weights, and the elastic operator."""
+
+    flow: Flow
+    scale: FloatArray
+    offset: FloatArray
+    quadrature: FloatArray
+    operator: LineOperator
+
+    @property
+    def problem(self) -> Problem:
+        """What is solved."""
+        return self.flow.problem
+
+
+@dataclass(frozen=True)
+class Iterate:
+    """Pressure and film at the nodes, datum and exit, by how much the film is not that of the pressure, and the errors
+    of the equations: of the flow through each cell, and of the load."""
+
+    pressure: FloatArray
+    film: FloatArray
+    datum: float
+    exit: float
+    mismatch: FloatArray
+    error: FloatArray
+    parts: Parts
+
+
 def newton(problem: Problem, start: State, tolerance: float, max_iterations: int = 40) -> Outcome:
     """Solve from `start`, whose film (positive) and pressure need not belong together."""
-    offset, operator = start.offset, start.operator
-    cells = len(offset) - 1
-    width = np.diff(offset)
-    quadrature = np.zeros(cells + 1)
-    quadrature[1:] += 0.5 * width
-    quadrature[:-1] += 0.5 * width
-    extrapolation = np.zeros(cells)
-    extrapolation[1:] = 0.5 * width[1:] / width[:-1]
-
-    pressure, film, exit_ = start.pressure.copy(), start.film, start.exit
-    pressure[-1] = 0.0
-    pressure[0] = inlet_pressure(exit_ + offset[0])[0]
-    scale = film.copy()
-    mismatch = film - (0.5 * (exit_ + offset) ** 2 - DEFLECTION * (operator @ pressure))
-    datum, mismatch = float(mismatch[-1]), mismatch - mismatch[-1]
-
-    flow = Flow(problem, width, extrapolation, scale[:-1])
-
-    def elastic(pressure: FloatArray, datum: float, exit_: float, mismatch: FloatArray) -> FloatArray:
-        film: FloatArray = datum + 0.5 * (exit_ + offset) ** 2 - DEFLECTION * (operator @ pressure) + mismatch
-        return film
-
-    def residual(pressure: FloatArray, film: FloatArray, inlet: float) -> tuple[FloatArray, Parts]:
-        through, parts = flow.residual(pressure, film, float(film[-1]))
-        return np.append(through, 1 - (quadrature @ pressure + inlet_load(inlet)[0]) / problem.load), parts
-
-    def step(error: FloatArray, parts: Parts, film: FloatArray, pressure: FloatArray) -> Change:
-        """Newton step in (P_1 .. P_{n-1}, H0, X_e), and the change of film it brings besides the mismatch."""
-        inlet = exit_ + offset[0]
-        inlet_slope, load_slope = inlet_pressure(inlet)[1], inlet_load(inlet)[1]
-        before, here, after, low, diagonal, high = flow.derivatives(film, parts)
-        equations = Equations(
-            before=before,
-            here=here,
-            after=after,
-            exit=1 / scale[:-1],
-            low=low,
-            diagonal=diagonal,
-            high=high,
-            load=-quadrature / problem.load,
-            load_exit=-(quadrature[0] * inlet_slope + load_slope) / problem.load,
-            position=exit_ + offset,
-            inlet_slope=inlet_slope,
-            units=(float(pressure.max()), float(film[-1]), 0.01 * abs(float(offset[0]))),
-            right=-error,
-            mismatch=mismatch,
-        )
-        return solve(operator, equations)
-
-    error, parts = residual(pressure, film, exit_ + offset[0])
-    iterations, converged = 0, False
+    mesh, at = _begun(problem, start)
+    iterations = 0
     while True:
-        largest = max(float(np.abs(error).max()), float(np.abs(mismatch / scale).max()))
-        if iterations and largest <= tolerance:
-            converged = True
+        relative = _relative_mismatch(mesh, at)
+        largest = max(float(np.abs(at.error).max()), float(np.abs(relative).max()))
+        converged = iterations > 0 and largest <= tolerance
         if converged or iterations == max_iterations or not np.isfinite(largest):
             break
-        change = step(error, parts, film, pressure)
-        film_change = change.film - mismatch
-        if not (np.isfinite(film_change).all() and np.isfinite(change.pressure).all()):
+        following = _improved(mesh, at)
+        if following is None:
             break
-        size = error @ error + (mismatch / scale) @ (mismatch / scale)
-        shrinking = film_change < 0
-        length = 1.0
-        if shrinking.any():
-            length = min(1.0, 0.9 * float(np.min(-film[shrinking] / film_change[shrinking])))
-        easing = cells >= SHARP_FROM
-        while length > 1e-3:
-            new_pressure = pressure.copy()
-            new_pressure[1:-1] += length * change.pressure
-            new_exit = exit_ + length * change.exit
-            new_datum = datum + length * change.datum
-            new_inlet = new_exit + offset[0]
-            if new_inlet < 0:
-                new_pressure[0] = inlet_pressure(new_inlet)[0]
-                new_mismatch = (1 - length) * mismatch
-                new_film = elastic(new_pressure, new_datum, new_exit, new_mismatch)
-                if new_film.min() > 0:
-                    new_error, new_parts = residual(new_pressure, new_film, new_inlet)
-                    off = (new_mismatch / scale) @ (new_mismatch / scale)
-                    new_size = new_error @ new_error + off
-                    better = eased(flow, operator, new_pressure, new_film, new_error[:-1]) if easing else None
-                    if better is not None:
-                        its_film = elastic(better, new_datum, new_exit, new_mismatch)
-                        easing = bool(its_film.min() > 0)
-                        if easing:
-                            its_error, its_parts = residual(better, its_film, new_inlet)
-                            easing = bool(its_error @ its_error + off < new_size)
-                        if easing:
-                            new_pressure, new_film, new_error, new_parts = better, its_film, its_error, its_parts
-                            new_size = new_error @ new_error + off
-                    if new_size < (1 - 0.05 * length) ** 2 * size:
-                        break
-            length *= 0.5
-        else:
-            break
-        pressure, film, datum, exit_, mismatch = new_pressure, new_film, new_datum, new_exit, new_mismatch
-        error, parts = new_error, new_parts
+        at = following
         iterations += 1
-    plain = datum + DEFLECTION * operator.log_unit * float(quadrature @ pressure)
-    state = State(offset, operator, pressure, film, plain, exit_)
+    datum = at.datum + DEFLECTION * mesh.operator.log_unit * float(mesh.quadrature @ at.pressure)
+    state = State(mesh.offset, mesh.operator, at.pressure, at.film, datum, at.exit)
     return Outcome(state, iterations, largest, converged)
+
+
+def _begun(problem: Problem, start: State) -> tuple[Discretisation, Iterate]:
+    """The start with the pressures its ends must have; what its film misses is the first mismatch."""
+    offset, width = start.offset, np.diff(start.offset)
+    pressure, film = start.pressure.copy(), start.film
+    pressure[-1] = 0.0
+    pressure[0] = inlet_pressure(start.exit + offset[0])[0]
+    scale = film.copy()
+    flow = Flow(problem, width, upwind_extrapolation(width), scale[:-1])
+    mesh = Discretisation(flow, scale, offset, trapezoidal_weights(offset), start.operator)
+    missed = film - (0.5 * (start.exit + offset) ** 2 - DEFLECTION * (start.operator @ pressure))
+    error, parts = _errors(mesh, pressure, film, start.exit)
+    return mesh, Iterate(pressure, film, float(missed[-1]), start.exit, missed - missed[-1], error, parts)
+
+
+def _errors(mesh: Discretisation, pressure: FloatArray, film: FloatArray, exit_: float) -> tuple[FloatArray, Parts]:
+    """Of the flow through the cells (n,) and of the load, and what the derivatives share with them."""
+    through, parts = mesh.flow.residual(pressure, film, float(film[-1]))
+    load = mesh.quadrature @ pressure + inlet_load(exit_ + mesh.offset[0])[0]
+    return np.append(through, 1 - load / mesh.problem.load), parts
+
+
+def _relative_mismatch(mesh: Discretisation, at: Iterate) -> FloatArray:
+    """The mismatch over the film that the flow is measured by."""
+    return at.mismatch / mesh.scale
+
+
+def _size(mesh: Discretisation, at: Iterate) -> float:
+    """What a step must reduce: squares of the errors and of the mismatch."""
+    relative = _relative_mismatch(mesh, at)
+    return float(at.error @ at.error + relative @ relative)
+
+
+def _improved(mesh: Discretisation, at: Iterate) -> Iterate | None:
+    """A Newton step, as long as films stay positive and the errors become smaller; None where there is none."""
+    change = solve(mesh.operator, _equations(mesh, at))
+    film_change = change.film - at.mismatch
+    if not (np.isfinite(film_change).all() and np.isfinite(change.pressure).all()):
+        return None
+    size = _size(mesh, at)
+    length = longest_step(at.film, film_change, 0.9)
+    easing = len(mesh.flow.width) >= SHARP_FROM
+    while length > SHORTEST_STEP:
+        trial = _moved(mesh, at, change, length)
+        if trial is not None:
+            if easing:
+                trial, easing = _spike_eased(mesh, trial)
+            if _size(mesh, trial) < (1 - 0.05 * length) ** 2 * size:
+                return trial
+        length *= 0.5
+    return None
+
+
+def _equations(mesh: Discretisation, at: Iterate) -> Equations:
+    """Those of the Newton step in (P_1 .. P_{n-1}, H0, X_e)."""
+    load, inlet = mesh.problem.load, at.exit + mesh.offset[0]
+    inlet_slope, load_slope = inlet_pressure(inlet)[1], inlet_load(inlet)[1]
+    before, here, after, low, diagonal, high = mesh.flow.derivatives(at.film, at.parts)
+    return Equations(
+        before=before,
+        here=here,
+        after=after,
+        exit=1 / mesh.flow.scale,
+        low=low,
+        diagonal=diagonal,
+        high=high,
+        load=-mesh.quadrature / load,
+        load_exit=-(mesh.quadrature[0] * inlet_slope + load_slope) / load,
+        position=at.exit + mesh.offset,
+        inlet_slope=inlet_slope,
+        units=(float(at.pressure.max()), float(at.film[-1]), 0.01 * abs(float(mesh.offset[0]))),
+        right=-at.error,
+        mismatch=at.mismatch,
+    )
+
+
+def _moved(mesh: Discretisation, at: Iterate, change: Change, length: float) -> Iterate | None:
+    """The iterate a step of that length away; None where its inlet or a film is not one."""
+    exit_, datum = at.exit + length * change.exit, at.datum + length * change.datum
+    inlet = exit_ + mesh.offset[0]
+    if not inlet < 0:
+        return None
+    pressure = at.pressure.copy()
+    pressure[1:-1] += length * change.pressure
+    pressure[0] = inlet_pressure(inlet)[0]
+    return _iterate(mesh, pressure, datum, exit_, (1 - length) * at.mismatch)
+
+
+def _iterate(
+    mesh: Discretisation, pressure: FloatArray, datum: float, exit_: float, mismatch: FloatArray
+) -> Iterate | None:
+    """The iterate of these; None where a film is not positive."""
+    film = datum + 0.5 * (exit_ + mesh.offset) ** 2 - DEFLECTION * (mesh.operator @ pressure) + mismatch
+    if not film.min() > 0:
+        return None
+    error, parts = _errors(mesh, pressure, film, exit_)
+    return Iterate(pressure, film, datum, exit_, mismatch, error, parts)
+
+
+def _spike_eased(mesh: Discretisation, at: Iterate) -> tuple[Iterate, bool]:
+    """The iterate with the flow around its spike put right where that makes the errors smaller, and whether it is
+    worth while to try that again."""
+    pressure = eased(mesh.flow, mesh.operator, at.pressure, at.film, at.error[:-1])
+    if pressure is None:
+        return at, True
+    better = _iterate(mesh, pressure, at.datum, at.exit, at.mismatch)
+    if better is None or not _size(mesh, better) < _size(mesh, at):
+        return at, False
+    return better, True
 
 
 def remesh(problem: Problem, state: State, cells: int, smallest: float | None) -> State:

@@ -22,15 +22,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation
-from bem.lubrication.line_flow import Problem, mean_fluidity
-from bem.lubrication.line_kernel import logarithmic_weights
-from bem.lubrication.line_linear import DEFLECTION
-from bem.lubrication.line_rupture import RUPTURES, Iterate, Rupture
+from bem.lubrication.line_flow import Problem, longest_step, mean_fluidity
+from bem.lubrication.line_kernel import DEFLECTION, logarithmic_weights
+from bem.lubrication.line_mesh import trapezoidal_weights, upwind_extrapolation
+from bem.lubrication.line_rupture import RUPTURES, Indices, Iterate, Nodes, Rupture
 
 
 @dataclass(frozen=True)
@@ -56,7 +55,7 @@ class Film:
     film: FloatArray
     datum: float
     mass: FloatArray
-    full: NDArray[np.bool_]
+    full: Nodes
     fraction: FloatArray
 
 
@@ -92,16 +91,7 @@ def fixed_mesh(half_width: float, far: float, cells: int) -> FixedMesh:
 
 def mesh_of(position: FloatArray, shape: FloatArray, weights: FloatArray) -> FixedMesh:
     """The mesh with given nodes, film of undeformed bodies and kernel weights."""
-    n = len(position) - 1
-    spacing = np.diff(position)
-    quadrature = np.zeros(n + 1)
-    quadrature[1:] += 0.5 * spacing
-    quadrature[:-1] += 0.5 * spacing
-
-    ahead = np.zeros(n)
-    ahead[1:] = 0.5 * spacing[1:] / spacing[:-1]
-    behind = np.zeros(n)
-    behind[:-1] = 0.5 * spacing[:-1] / spacing[1:]
+    spacing, quadrature = np.diff(position), trapezoidal_weights(position)
     return FixedMesh(
         position=position,
         shape=shape,
@@ -109,8 +99,8 @@ def mesh_of(position: FloatArray, shape: FloatArray, weights: FloatArray) -> Fix
         volume=quadrature.copy(),
         quadrature=quadrature,
         spacing=spacing,
-        ahead=ahead,
-        behind=behind,
+        ahead=upwind_extrapolation(spacing),
+        behind=upwind_extrapolation(spacing[::-1])[::-1],
     )
 
 
@@ -134,8 +124,8 @@ class Step:
     leading: float
     history: FloatArray
     rupture: Rupture
-    upstream: NDArray[np.intp]
-    farther: NDArray[np.intp]
+    upstream: Indices
+    farther: Indices
     extrapolation: FloatArray
 
     @property
@@ -258,16 +248,14 @@ def balance_of(step: Step, at: Iterate) -> Balance:
     )
 
 
-def _residual(step: Step, at: Iterate, balance: Balance, full: NDArray[np.bool_]) -> float:
+def _residual(step: Step, at: Iterate, balance: Balance, full: Nodes) -> float:
     """The worst of load, negative pressure, balance and complementarity."""
     worst = [abs(balance.load_error), max(-float(at.pressure.min()) / balance.highest, 0.0)]
     share = at.pressure / balance.highest
     return max(worst + step.rupture.violations(share, at.fraction, balance.scaled, full))
 
 
-def _carrying(
-    step: Step, at: Iterate, balance: Balance, full: NDArray[np.bool_], seen: list[bytes], *, settle: bool
-) -> NDArray[np.bool_]:
+def _carrying(step: Step, at: Iterate, balance: Balance, full: Nodes, seen: list[bytes], *, settle: bool) -> Nodes:
     """The nodes that carry pressure next; `seen` are those of earlier iterates, and gets these."""
     found = step.rupture.carrying(at.pressure / balance.highest, at.fraction, balance.scaled)
     found[0] = found[-1] = False
@@ -300,7 +288,7 @@ def _derivatives(step: Step, at: Iterate, balance: Balance) -> tuple[FloatArray,
     return by_film, by_pressure, by_fraction
 
 
-def _newton(step: Step, at: Iterate, balance: Balance, full: NDArray[np.bool_]) -> Iterate | None:
+def _newton(step: Step, at: Iterate, balance: Balance, full: Nodes) -> Iterate | None:
     """One step of Newton's method for the pressures of full nodes, the fractions of empty ones and the datum; as long
     as the film stays positive. None where the equations have no solution."""
     mesh, highest = step.mesh, balance.highest
@@ -334,10 +322,7 @@ def _newton(step: Step, at: Iterate, balance: Balance, full: NDArray[np.bool_]) 
     filled[empty] = change[unknown:-1]
     datum = change[-1] * unit
     thicker: FloatArray = datum - DEFLECTION * (mesh.weights @ dropped)
-    shrinking = thicker < 0
-    length = 1.0
-    if shrinking.any():
-        length = min(1.0, 0.8 * float(np.min(-at.film[shrinking] / thicker[shrinking])))
+    length = longest_step(at.film, thicker, 0.8)
     return Iterate(
         pressure=at.pressure + length * dropped,
         film=at.film + length * thicker,
@@ -350,7 +335,7 @@ def _outcome(
     step: Step,
     at: Iterate,
     balance: Balance,
-    full: NDArray[np.bool_],
+    full: Nodes,
     iterations: int,
     residual: float,
     converged: bool,
@@ -364,7 +349,7 @@ def _outcome(
     return StepOutcome(film, iterations, residual, converged, imbalance)
 
 
-def _upstream_nodes(mesh: FixedMesh, entrainment: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _upstream_nodes(mesh: FixedMesh, entrainment: float) -> tuple[Indices, Indices]:
     """The node upstream of every face, and the one upstream of that (at the ends the same)."""
     faces = np.arange(len(mesh.spacing))
     if entrainment >= 0:
@@ -408,9 +393,9 @@ def _applied(bands: FloatArray, values: FloatArray) -> FloatArray:
 @njit(cache=True)
 def _assemble(
     matrix: FloatArray,
-    rows: NDArray[np.intp],
-    columns: NDArray[np.intp],
-    place: NDArray[np.intp],
+    rows: Indices,
+    columns: Indices,
+    place: Indices,
     by_film: FloatArray,
     weights: FloatArray,
     by_pressure: FloatArray,

@@ -15,8 +15,7 @@ from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_friction import friction_forces
-from bem.lubrication.line_kernel import logarithmic_weights
-from bem.lubrication.line_linear import DEFLECTION
+from bem.lubrication.line_kernel import DEFLECTION, logarithmic_weights
 from bem.lubrication.line_newton import (
     Outcome,
     State,

@@ -11,6 +11,8 @@ import bem.lubrication.line_linear as line_linear
 import bem.lubrication.line_newton as line_newton
 from bem import solve_line_film
 from bem.benchmarks.line_film import similarity_case
+from bem.lubrication.line_elimination import eliminate
+from bem.lubrication.line_equations import by_film
 from bem.lubrication.line_kernel import LineOperator, logarithmic_weights
 
 
@@ -44,7 +46,7 @@ def test_weights_are_integrals_of_hats(target, node):
     assert weight == pytest.approx(float(exact), rel=1e-13)
 
 
-@pytest.mark.parametrize("cells", [301, 777, 2000])
+@pytest.mark.parametrize("cells", [301, 777, 2000, 2059])
 def test_hierarchical_product_is_the_dense_one(cells):
     operator = LineOperator.of(graded(cells))
     assert operator.hierarchical
@@ -54,6 +56,24 @@ def test_hierarchical_product_is_the_dense_one(cells):
     np.testing.assert_allclose(operator @ pressure, dense, rtol=0, atol=1e-10 * np.abs(dense).max())
     stretched = LineOperator.of(3.7 * graded(cells))
     np.testing.assert_allclose(operator.stretched(3.7) @ pressure, stretched @ pressure, rtol=1e-9)
+
+
+def test_no_leaf_is_empty():
+    """Equal leaves: of 2058 nodes, 64 leaves of 33 would leave nothing to the last one."""
+    for interior in [*range(299, 2100), *range(2100, 20000, 97), 19998]:
+        operator = LineOperator(np.arange(interior + 2.0), 1.0)
+        leaves = 2**operator.depth
+        assert (leaves - 1) * operator.leaf < interior <= leaves * operator.leaf
+        # two or four times the leaf asked for, where equal leaves need it
+        assert operator.leaf <= 4 * line_kernel.LEAF
+
+
+def test_any_allowed_number_of_points_gives_the_film():
+    case, _ = similarity_case(3, 2)
+    films = [solve_line_film(**case, points=points) for points in (2000, 2060, 8000)]
+    for film in films[1:]:
+        # second order: 2000 points are off by 3e-6
+        assert film.minimum_thickness == pytest.approx(films[0].minimum_thickness, rel=1e-5)
 
 
 @pytest.mark.parametrize(("rough", "allowed"), [(1e-11, 1e-7), (1e-6, 1e-3)])
@@ -73,8 +93,8 @@ def test_hierarchical_newton_steps_are_the_dense_ones(monkeypatch, load, piezo, 
     def both(operator, equations):
         if operator.hierarchical:
             right = equations.right.copy()
-            right[:-1] += line_linear._by_film(equations, equations.mismatch)
-            one = line_linear._hierarchical(operator, equations, right)
+            right[:-1] += by_film(equations, equations.mismatch)
+            one = eliminate(operator, equations, right)
             other = line_linear._dense(operator, equations, right)
             compared.append(float(np.abs(one - other).max() / np.abs(other).max()))
         return plain(operator, equations)
@@ -93,7 +113,7 @@ def test_hierarchical_newton_steps_are_the_dense_ones(monkeypatch, load, piezo, 
 def test_dense_equations_stand_in_where_the_hierarchical_ones_fail(monkeypatch):
     case, _ = similarity_case(3, 2)
     right = solve_line_film(**case, points=401)
-    monkeypatch.setattr(line_linear, "_hierarchical", lambda operator, equations, right: np.zeros_like(right))
+    monkeypatch.setattr(line_linear, "eliminate", lambda operator, equations, right: np.zeros_like(right))
     film = solve_line_film(**case, points=401)
     assert film.iterations == right.iterations
     assert film.minimum_thickness == pytest.approx(right.minimum_thickness, rel=1e-9)  # rounding, conditioned

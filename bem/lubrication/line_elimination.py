@@ -1,0 +1,170 @@
+"""Newton's equations of a line contact with hierarchical weights: block elimination from the leaves up.
+
+Woodbury's formula joins every pair of neighbours; H0, X_e and the exit's film are a border. Row i goes with P_i: in the
+Hertz zone the Couette flow out of cell i is that of nodes i and i - 1, where pressure drives the flow it is integrated
+from the exit backwards, which is the stable direction. So every diagonal block is the film problem of a piece of the
+contact and well conditioned.
+
+Nodes 1 .. n-1 are filled up to leaves of equal size; what is filled up has a one on the diagonal and nothing else.
+What this buys is the benchmark's row `line-film-equations`: it is the same film for a fraction of the multiplications
+of a dense matrix from a thousand nodes on (the default is two thousand).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bem.grid import FloatArray
+from bem.lubrication.line_equations import Equations
+from bem.lubrication.line_kernel import DEFLECTION, Level, LineOperator
+
+BORDER = 4
+"""Columns that are solved for besides those of the levels: right side, datum, exit, the exit's film."""
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Coefficients of rows 1 .. n-1, filled up: of the films at nodes i - 1, i, i + 1, and of the pressures there in
+    their unit. elastic : what a unit of pressure times a weight does to a film."""
+
+    before: FloatArray
+    here: FloatArray
+    after: FloatArray
+    low: FloatArray
+    diagonal: FloatArray
+    high: FloatArray
+    elastic: float
+
+    def of_films(self, weights: FloatArray, clusters: int) -> FloatArray:
+        """What pressures do to the rows through the films: weights (clusters, rows + 2, k), one row more at each end,
+        to (clusters, rows, k)."""
+        shape = (clusters, -1, 1)
+        out: FloatArray = self.elastic * (
+            self.before.reshape(shape) * weights[:, :-2]
+            + self.here.reshape(shape) * weights[:, 1:-1]
+            + self.after.reshape(shape) * weights[:, 2:]
+        )
+        return out
+
+
+def eliminate(operator: LineOperator, equations: Equations, right: FloatArray) -> FloatArray:
+    """The solution (n+1,), in the equations' units, of the equations with another right side."""
+    rows = _rows(operator, equations)
+    answers = _answers(operator, equations)
+    border = _border(operator, equations, right, answers)
+    factors = [_coupling(level, rows) for level in reversed(operator.levels)]
+    columns = np.concatenate([border, *(left for left, _ in factors)], axis=1)
+    columns = _leaves(operator, rows, columns)
+    for _, transposed in factors:
+        columns = _joined(transposed, columns)
+    return _closed(operator, equations, right, answers, columns[: len(equations.here) - 1])
+
+
+def _rows(operator: LineOperator, e: Equations) -> Rows:
+    unit, inner, slots = e.units[0], len(e.here) - 1, operator.leaf * 2**operator.depth
+
+    def filled(values: FloatArray) -> FloatArray:
+        out = np.zeros(slots)
+        out[:inner] = values
+        return out
+
+    before, here, after = filled(e.before[1:]), filled(e.here[1:]), filled(e.after[1:])
+    low, diagonal, high = filled(e.low[1:] * unit), filled(e.diagonal[1:] * unit), filled(e.high[1:] * unit)
+    diagonal[inner:] = 1.0
+    high[inner - 1] = 0.0  # P_n stays zero
+    return Rows(before, here, after, low, diagonal, high, -DEFLECTION * unit * operator.factor)
+
+
+def _answers(operator: LineOperator, e: Equations) -> FloatArray:
+    """How the films answer to datum and exit, the inlet's pressure included: (n+1, 2)."""
+    _, unit_h, unit_x = e.units
+    out = np.empty((len(e.position), 2))
+    out[:, 0] = unit_h
+    out[:, 1] = (e.position - DEFLECTION * e.inlet_slope * operator.factor * operator.ends[:, 0]) * unit_x
+    return out
+
+
+def _border(operator: LineOperator, e: Equations, right: FloatArray, answers: FloatArray) -> FloatArray:
+    """The columns of right side, datum, exit and the exit's film: (slots, BORDER)."""
+    inner = len(e.here) - 1
+    out = np.zeros((operator.leaf * 2**operator.depth, BORDER))
+    out[:inner, 0] = right[1:-1]
+    out[:inner, 1:3] = (
+        e.here[1:, None] * answers[1:-1] + e.after[1:, None] * answers[2:] + e.before[1:, None] * answers[:-2]
+    )
+    out[0, 2] += e.low[1] * e.inlet_slope * e.units[2]
+    out[:inner, 3] = e.exit[1:]
+    return out
+
+
+def _coupling(level: Level, rows: Rows) -> tuple[FloatArray, FloatArray]:
+    """Thin factors of what the clusters of a level do to their neighbours: (slots, rank) of the rows, and of the
+    columns (clusters, size, rank). The last of them is the one row next to the neighbour that is not a product: its
+    own pressure and film one node on."""
+    (clusters, width, _), rank = level.right.shape, level.short
+    left = np.empty((clusters, width, rank + 1))
+    left[:, :, :-1] = rows.of_films(level.left[:, :, :rank], clusters)
+    left[:, :, -1] = 0.0
+    left[0::2, -1, -1] = 1.0  # its next node lies in the neighbour,
+    left[1::2, 0, -1] = 1.0  # its last one too
+    right = np.empty((clusters, width, rank + 1))
+    right[:, :, :-1] = level.right[:, :, :rank]
+    last, first = np.arange(0, clusters, 2) * width + width - 1, np.arange(1, clusters, 2) * width
+    right[1::2, :, -1] = rows.elastic * rows.after[last, None] * level.edge[1::2]
+    right[1::2, 0, -1] += rows.high[last]
+    right[0::2, :, -1] = rows.elastic * rows.before[first, None] * level.edge[0::2]
+    right[0::2, -1, -1] += rows.low[first]
+    return left.reshape(-1, rank + 1), right
+
+
+def _leaves(operator: LineOperator, rows: Rows, columns: FloatArray) -> FloatArray:
+    """The columns solved for with the diagonal blocks alone."""
+    leaves, size = 2**operator.depth, operator.leaf
+    blocks = rows.of_films(operator.blocks, leaves)
+    index = np.arange(size)
+    blocks[:, index, index] += rows.diagonal.reshape(leaves, size)
+    blocks[:, index[:-1], index[1:]] += rows.high.reshape(leaves, size)[:, :-1]
+    blocks[:, index[1:], index[:-1]] += rows.low.reshape(leaves, size)[:, 1:]
+    return np.asarray(np.linalg.solve(blocks, columns.reshape(leaves, size, -1)).reshape(leaves * size, -1))
+
+
+def _joined(right: FloatArray, columns: FloatArray) -> FloatArray:
+    """The columns, solved for with the clusters of a level alone, solved for with its pairs; without those of the
+    level, which come next after the border."""
+    clusters, width, rank = right.shape
+    own = np.ascontiguousarray(columns[:, BORDER : BORDER + rank]).reshape(clusters, width, rank)
+    kept = np.concatenate([columns[:, :BORDER], columns[:, BORDER + rank :]], axis=1).reshape(clusters, width, -1)
+    transposed = right.transpose(0, 2, 1)
+    coupling, seen = transposed @ own, transposed @ kept
+    system = np.zeros((clusters // 2, 2 * rank, 2 * rank))
+    unit = np.arange(2 * rank)
+    system[:, unit, unit] = 1.0
+    # z_1 = V_2' x_2 multiplies the left cluster's factor, z_2 = V_1' x_1 the right one's
+    system[:, :rank, rank:] = coupling[1::2]
+    system[:, rank:, :rank] = coupling[0::2]
+    known = np.concatenate([seen[1::2], seen[0::2]], axis=1)
+    mixed = np.linalg.solve(system, known).reshape(clusters, rank, -1)
+    return np.asarray((kept - own @ mixed).reshape(clusters * width, -1))
+
+
+def _closed(
+    operator: LineOperator, e: Equations, right: FloatArray, answers: FloatArray, solved: FloatArray
+) -> FloatArray:
+    """The border: flow through the first cell, the load, and what the exit's film is."""
+    unit_p, _, unit_x = e.units
+    rows = -DEFLECTION * unit_p * operator.factor * operator.rows[:, 1:-1]
+    first_row = e.here[0] * rows[0] + e.after[0] * rows[1]
+    first_row[0] += e.high[0] * unit_p
+    last_rows = np.stack([first_row, e.load[1:-1] * unit_p, rows[2]])
+    corner = np.zeros((3, 3))
+    corner[0, :2] = e.here[0] * answers[0] + e.after[0] * answers[1]
+    corner[0, 1] += e.diagonal[0] * e.inlet_slope * unit_x
+    corner[0, 2] = e.exit[0]
+    corner[1, 1] = e.load_exit * unit_x
+    corner[2, :2] = answers[-1]
+    corner[2, 2] = -1.0
+    product = last_rows @ solved
+    scalars = np.linalg.solve(corner - product[:, 1:], np.array([right[0], right[-1], 0.0]) - product[:, 0])
+    return np.concatenate([solved[:, 0] - solved[:, 1:] @ scalars, scalars[:2]])
