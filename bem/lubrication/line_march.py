@@ -1,0 +1,253 @@
+"""Steps in time of a line-contact film: the first film, one step to the next time, and what is said of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bem.errors import Status
+from bem.grid import FloatArray
+from bem.lubrication.cavitation import Cavitation
+from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_flow import Problem
+from bem.lubrication.line_rupture import Nodes
+from bem.lubrication.line_scales import Scales
+from bem.lubrication.line_step import Film, FixedMesh, StepOutcome, elastic_film, time_step
+from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.steady import lowest_film
+from bem.lubrication.validity import Case, notes_on
+
+MAX_HALVINGS = 8
+SETTLING = (0.3, 0.03, 1e-3)
+"""Times that a first film is given to settle on the march's mesh where its steady film is not found, in the time that
+the oil takes through half the contact."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """What is lubricated: radius [m], contact modulus [Pa], oil."""
+
+    radius: float
+    contact_modulus: float
+    lubricant: Lubricant
+
+
+@dataclass(frozen=True)
+class Operation:
+    """What acts, as functions of time [s]: load per unit length [N/m], speeds of flat and cylinder [m/s]."""
+
+    load: Callable[[float], float]
+    speeds: Callable[[float], Sequence[float]]
+
+
+@dataclass(frozen=True)
+class Scaling:
+    """Moes' units for a load [N/m] and an entrainment speed [m/s], and the problem in them at that load."""
+
+    scales: Scales
+    load: float
+    speed: float
+    problem: Problem
+
+    @property
+    def clock(self) -> float:
+        """Unit of time [s]: of the oil through a unit of length."""
+        return 2 * self.scales.length / self.speed
+
+
+@dataclass(frozen=True)
+class March:
+    """What stays the same during a march. tolerance : of a step."""
+
+    contact: Contact
+    operation: Operation
+    scaling: Scaling
+    mesh: FixedMesh
+    tolerance: float
+    cavitation: Cavitation
+
+    def problem_at(self, time: float) -> Problem:
+        """The problem at the load of a time."""
+        scaling = self.scaling
+        return replace(scaling.problem, load=scaling.scales.load * self.operation.load(time) / scaling.load)
+
+    def step(self, time: float, film: Film, leading: float, history: FloatArray) -> StepOutcome:
+        """The film at a time where d(rho H)/dt is `leading * rho H + history`, from a film near it."""
+        first, second = self.operation.speeds(time)
+        return time_step(
+            self.problem_at(time),
+            self.mesh,
+            film,
+            (first + second) / self.scaling.speed,
+            leading,
+            history,
+            self.tolerance,
+            cavitation=self.cavitation,
+        )
+
+
+@dataclass(frozen=True)
+class Reached:
+    """A time [s] and the film there; the time and film a step earlier, None at the start."""
+
+    time: float
+    film: Film
+    earlier: tuple[float, Film] | None = None
+
+
+def film_of_gap(march: March, thickness: float) -> Film:
+    """The film of undeformed bodies with a gap [m] at x = 0, full of oil."""
+    x = march.mesh.position
+    pressure, datum = np.zeros_like(x), thickness / march.scaling.scales.film
+    film = elastic_film(march.mesh, pressure, datum)
+    return _filled(march, pressure, film, datum, np.ones(len(x), dtype=bool), np.ones_like(x))
+
+
+def film_of_solution(march: March, initial: FilmSolution) -> Film:
+    """A solution on the march's mesh: its pressure as it is, the datum that brings the film nearest to its own."""
+    x, scales = march.mesh.position, march.scaling.scales
+    own = initial.position / scales.length
+    pressure = np.interp(x, own, initial.pressure / scales.pressure, left=0.0, right=0.0)
+    # far upstream of the solution's positions the film is flooded; what is missing there is below 1e-3
+    pressure[0] = pressure[-1] = 0.0
+    film = elastic_film(march.mesh, pressure, 0.0)
+    inside = (x > own[0]) & (x < own[-1]) & (pressure > 0.02 * pressure.max())
+    known = np.interp(x[inside], own, initial.thickness / scales.film)
+    datum = float(np.mean(known - film[inside]))
+    film = film + datum
+    if film.min() <= 0:
+        datum += 0.5 * initial.minimum_thickness / scales.film - float(film.min())
+        film = elastic_film(march.mesh, pressure, datum)
+    fraction = np.ones_like(x)
+    if march.cavitation is Cavitation.MASS_CONSERVING:
+        fraction = _fraction_of(march, initial, film)
+    return _filled(march, pressure, film, datum, pressure > 0, fraction)
+
+
+def _filled(
+    march: March, pressure: FloatArray, film: FloatArray, datum: float, full: Nodes, fraction: FloatArray
+) -> Film:
+    density = march.scaling.problem.density(pressure)[0]
+    return Film(pressure, film, datum, fraction * density * film, full, fraction)
+
+
+def _fraction_of(march: March, initial: FilmSolution, film: FloatArray) -> FloatArray:
+    """Filled fraction of the gap at the start: behind the exit of a steady film, what flows through it."""
+    x, length = march.mesh.position, march.scaling.scales.length
+    if initial.film_fraction is not None and initial.time is not None:
+        return np.interp(x, initial.position / length, initial.film_fraction)
+    exit_ = initial.exit_position / length
+    behind = x > exit_ if sum(initial.speeds) > 0 else x < exit_
+    return np.where(behind, np.minimum(np.interp(exit_, x, film) / film, 1.0), 1.0)
+
+
+def given_start(march: March, film: Film, time: float) -> tuple[Reached, FilmSolution]:
+    """The march from a film as it is, and by how much it misses the load."""
+    solution = _solution(march, film, time)
+    missed = solution.load / march.operation.load(time) - 1
+    if solution.load > 0 and abs(missed) > march.tolerance:
+        note = f"the first film is the one given: on this mesh it carries the load {100 * missed:+.2g} %"
+        solution = replace(solution, notes=(*solution.notes, note))
+    return Reached(time, film), solution
+
+
+def steady_start(march: March, film: Film, time: float) -> tuple[Reached, FilmSolution]:
+    """The march from the steady film on its own mesh, looked for near a film."""
+    still = np.zeros_like(film.mass)
+    # steady; too far off for Newton, a little later, where load and flow are in balance at any rate
+    for settling in (math.inf, *SETTLING):
+        outcome = march.step(time, film, 1 / settling, still - film.mass / settling)
+        if outcome.converged:
+            break
+    kept = outcome.film if outcome.converged else film
+    return Reached(time, kept), _solution(march, kept, time, outcome)
+
+
+def advance(march: March, at: Reached, time: float, depth: int = 0) -> tuple[Reached, FilmSolution]:
+    """One step to a time, of second order (BDF2) but for the first, or as many halves as it takes; where that is not
+    enough, the solution is not converged."""
+    step = (time - at.time) / march.scaling.clock
+    if at.earlier is None:
+        leading = 1 / step
+        history = -at.film.mass / step
+    else:
+        ratio = (time - at.time) / (at.time - at.earlier[0])
+        leading = (1 + 2 * ratio) / (1 + ratio) / step
+        history = (-(1 + ratio) * at.film.mass + ratio**2 / (1 + ratio) * at.earlier[1].mass) / step
+    outcome = march.step(time, at.film, leading, history)
+    if outcome.converged or depth == MAX_HALVINGS:
+        return Reached(time, outcome.film, (at.time, at.film)), _solution(march, outcome.film, time, outcome)
+    middle, halfway = advance(march, at, 0.5 * (at.time + time), depth + 1)
+    if halfway.status is not Status.CONVERGED:
+        return middle, halfway
+    reached, solution = advance(march, middle, time, depth + 1)
+    return reached, replace(solution, iterations=solution.iterations + halfway.iterations)
+
+
+def _solution(march: March, film: Film, time: float, outcome: StepOutcome | None = None) -> FilmSolution:
+    """What is said of a film at a time; without an outcome it was not solved for."""
+    scales, contact = march.scaling.scales, march.contact
+    x = march.mesh.position * scales.length
+    pressure, thickness = film.pressure * scales.pressure, film.film * scales.film
+    first, second = (float(u) for u in march.operation.speeds(time))
+    case = Case(x, pressure, thickness, (first, second), contact.lubricant, contact.radius, contact.contact_modulus)
+    force = _full_force(case)
+    exit_, streamers = _ruptured(march, film, case)
+    return FilmSolution(
+        position=x,
+        pressure=pressure,
+        thickness=thickness,
+        minimum_thickness=lowest_film(march.mesh.position, film.film) * scales.film,
+        central_thickness=float(np.interp(0.0, x, thickness)),
+        load=_integral(x, pressure),
+        shear_force=force,
+        striated_shear_force=force + streamers,
+        exit_position=exit_,
+        inlet_load_fraction=0.0,
+        iterations=outcome.iterations if outcome else 0,
+        residual=outcome.residual if outcome else 0.0,
+        status=Status.CONVERGED if outcome is None or outcome.converged else Status.STALLED,
+        speeds=(first, second),
+        lubricant=contact.lubricant,
+        time=time,
+        volume_imbalance=outcome.imbalance if outcome else 0.0,
+        film_fraction=film.fraction if march.cavitation is Cavitation.MASS_CONSERVING else None,
+        notes=notes_on(case),
+    )
+
+
+def _integral(x: FloatArray, values: FloatArray) -> float:
+    return float(np.sum(0.5 * np.diff(x) * (values[1:] + values[:-1])))
+
+
+def _full_force(case: Case) -> float:
+    """Friction force on the flat in the full film, along -x [N/m]: that of sliding, and half of h dp/dx."""
+    x, lubricant, (first, second) = case.position, case.lubricant, case.speeds
+    newtonian = lubricant.viscosity_at(case.pressure) * (first - second) / case.thickness
+    stress = np.where(case.pressure > 0, lubricant.shear_stress(newtonian, case.pressure), 0.0)
+    force = _integral(x, stress)
+    force += 0.25 * float(np.sum((case.thickness[1:] + case.thickness[:-1]) * np.diff(case.pressure)))
+    # upstream of the mesh h = x^2/2R: integrals of mu (u1 - u2)/h and, as h p' = 6 mu (u1 + u2)/h there, of h p'/2
+    tail = 2 * case.radius / float(x[-1]) * lubricant.viscosity
+    return force + tail * (first - second + 3 * (first + second))
+
+
+def _ruptured(march: March, film: Film, case: Case) -> tuple[float, float]:
+    """Where the film ruptures [m], and the force of the streamers behind it [N/m], which cover h_rupture / h of the
+    surface, or the fraction of the gap that is filled."""
+    x, thickness, (first, second) = case.position, case.thickness, case.speeds
+    full = film.pressure > 0
+    ends = np.flatnonzero(full)
+    if not len(ends):
+        return 0.0, 0.0
+    last = ends[-1] if first + second >= 0 else ends[0]
+    exit_ = float(x[last])
+    behind = (x > exit_) if first + second >= 0 else (x < exit_)
+    cover = np.where(behind, thickness[last] / thickness, 0.0)
+    if march.cavitation is Cavitation.MASS_CONSERVING:
+        cover = np.where(full, 0.0, film.fraction)
+    newtonian = case.lubricant.viscosity * (first - second) / thickness
+    return exit_, _integral(x, case.lubricant.shear_stress(newtonian, 0.0) * cover)
