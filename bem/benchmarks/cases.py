@@ -126,6 +126,16 @@ CASES = {
             "nodes",
             "error of the minimum film",
         ),
+        Case(
+            "line-film-dense",
+            "The same with dense matrices for Newton's equations",
+            functools.partial(line_film, dense=True),
+            (500, 1000, 2000),
+            (500,),
+            125,
+            "nodes",
+            "error of the minimum film",
+        ),
         _cells(
             "load-sharing",
             "One mixed-lubrication point",

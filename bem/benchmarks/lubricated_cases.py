@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,18 +12,27 @@ from bem.benchmarks.measure import Outcome, Timed
 from bem.grid import FloatArray, Grid
 from bem.materials import Body, Material
 
+if TYPE_CHECKING:
+    from bem.lubrication import FilmSolution
+
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 FILM = {"load": 900.0, "radius": 2e-3, "contact_modulus": 115.4e9, "speeds": (0.1, 0.0)}
 
 
-def line_film(points: float) -> Timed:
-    """A line-contact film of `points` nodes; the error is that against the limit of finer meshes."""
-    from bem.lubrication import FilmSolution, Lubricant, solve_line_film
+def line_film(points: float, dense: bool = False) -> Timed:
+    """A line-contact film of `points` nodes, its equations solved for as always or by dense matrices; the error is that
+    against the limit of finer meshes."""
+    from bem.lubrication import Lubricant, line_kernel, solve_line_film
 
     oil = Lubricant(0.36, pressure_viscosity=25e-9)
 
     def solve() -> FilmSolution:
-        return solve_line_film(**FILM, lubricant=oil, points=int(points))  # type: ignore[arg-type]
+        usual = line_kernel.HIERARCHICAL_FROM
+        line_kernel.HIERARCHICAL_FROM = 10**9 if dense else usual
+        try:
+            return solve_line_film(**FILM, lubricant=oil, points=int(points))  # type: ignore[arg-type]
+        finally:
+            line_kernel.HIERARCHICAL_FROM = usual
 
     def judge(film: FilmSolution) -> Outcome:
         minimum, central, shear = _film_reference()
@@ -33,10 +42,32 @@ def line_film(points: float) -> Timed:
                 "central_film": abs(film.central_thickness / central - 1),
                 "shear_force": abs(film.shear_force / shear - 1),
             },
-            {"newton_steps": float(film.iterations)},
+            {"newton_steps": float(film.iterations)} | _work(film, dense),
         )
 
     return Timed(solve, judge)
+
+
+def _work(film: FilmSolution, dense: bool) -> dict[str, float]:
+    """Millions of multiplications for Newton's equations on the last mesh, and megabytes of their weights."""
+    from bem.lubrication.line_elimination import BORDER
+    from bem.lubrication.steady import KeptSteady
+
+    assert isinstance(film.state, KeptSteady)
+    operator = film.state.state.operator
+    nodes = len(operator.nodes)
+    if dense or not operator.hierarchical:
+        return {"megaflop": (nodes**3 / 3 + 4 * nodes**2) / 1e6, "weights_MB": 8e-6 * nodes**2}
+    leaves, size = 2**operator.depth, operator.leaf
+    ranks = [level.short + 1 for level in operator.levels]
+    columns = BORDER + sum(ranks)
+    work = leaves * (size**3 / 3 + size**2 * (columns + 3))
+    for level, rank in zip(reversed(operator.levels), reversed(ranks), strict=True):
+        clusters = level.right.shape[0]
+        columns -= rank
+        work += 2 * leaves * size * rank * (columns + 2) + clusters / 2 * ((2 * rank) ** 3 / 3 + 4 * rank**2 * columns)
+    held = operator.blocks.nbytes + sum(v.left.nbytes + v.right.nbytes + v.edge.nbytes for v in operator.levels)
+    return {"megaflop": work / 1e6, "weights_MB": held / 1e6}
 
 
 @functools.cache

@@ -6,8 +6,10 @@ from the exit backwards, which is the stable direction. So every diagonal block 
 contact and well conditioned.
 
 Nodes 1 .. n-1 are filled up to leaves of equal size; what is filled up has a one on the diagonal and nothing else.
-What this buys is the benchmark's row `line-film-equations`: it is the same film for a fraction of the multiplications
-of a dense matrix from a thousand nodes on (the default is two thousand).
+What it buys (the benchmark's rows `line-film` and `line-film-dense`): the same film in the same steps, at the default of
+2000 nodes for 20 instead of 2,700 million multiplications a step and 4 MB of weights instead of 32, in a tenth of the
+time; at 1000 for 7 instead of 340, in a third. At 500 and less they are as good. Verified in
+tests/lubrication/test_line_operator.py.
 """
 
 from __future__ import annotations

@@ -50,7 +50,7 @@ MOES_LOADS = (1e-5, 1e4)
 MAX_INLET_SHARE = 0.01
 
 
-def solve_line_film(
+def solve_line_film(  # reason: the signature is a promise to users' scripts
     *,
     load: float,
     radius: float,

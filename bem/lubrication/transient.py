@@ -31,7 +31,7 @@ from bem.lubrication.steady import check_speeds, solve_line_film, typical_half_w
 FAR = 50.0
 
 
-def march_line_film(
+def march_line_film(  # reason: the signature is a promise to users' scripts; frozen groups are made of it at once
     times: FloatArray,
     *,
     load: Callable[[float], float],

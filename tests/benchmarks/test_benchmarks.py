@@ -53,6 +53,15 @@ def test_errors_of_closed_forms_fall_with_the_mesh():
         assert fine < 0.4 * coarse
 
 
+def test_hierarchical_equations_give_the_dense_film_for_less_work():
+    """What the hierarchical weights of a line film buy: the same film and steps, a twentieth of the multiplications."""
+    usual, dense = (measure(name, 1000, 1, CASES[name].prepare, 1) for name in ("line-film", "line-film-dense"))
+    assert usual.error == pytest.approx(dense.error, abs=1e-8)  # both to the film's own tolerance
+    assert usual.counts["newton_steps"] == dense.counts["newton_steps"]
+    assert usual.counts["megaflop"] < 0.1 * dense.counts["megaflop"]
+    assert usual.counts["weights_MB"] < 0.4 * dense.counts["weights_MB"]
+
+
 def test_counters_leave_no_trace():
     from bem.contact import passes
     from bem.transforms import PaddedTransform
