@@ -6,9 +6,9 @@ from the exit backwards, which is the stable direction. So every diagonal block 
 contact and well conditioned.
 
 Nodes 1 .. n-1 are filled up to leaves of equal size; what is filled up has a one on the diagonal and nothing else.
-What it buys (the benchmark's rows `line-film` and `line-film-dense`): the same film in the same steps, at the default of
-2000 nodes for 20 instead of 2,700 million multiplications a step and 4 MB of weights instead of 32, in a tenth of the
-time; at 1000 for 7 instead of 340, in a third. At 500 and less they are as good. Verified in
+What it buys (the benchmark's rows `line-film` and `line-film-dense`): the same film in the same steps, at the default
+of 2000 nodes for 20 instead of 2,700 million multiplications a step and 4 MB of weights instead of 32, in a tenth of
+the time; at 1000 for 7 instead of 340, in a third. At 500 it is as good. Verified in
 tests/lubrication/test_line_operator.py.
 """
 
