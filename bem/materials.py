@@ -15,6 +15,14 @@ from bem.representation import tabled
 HARDNESS_TO_YIELD = 2.8
 """Hardness over yield stress in uniaxial tension; Tabor, *The Hardness of Metals* (1951); the thesis' paper C."""
 
+_UNITS = {
+    "hardness": "Pa",
+    "yield_stress": "Pa",
+    "thermal_conductivity": "W/(m K)",
+    "density": "kg/m^3",
+    "heat_capacity": "J/(kg K)",
+}
+
 
 def _is_number(value: object) -> bool:
     return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
@@ -36,6 +44,9 @@ class Material:
     poissons_ratio : nu, between -1 and 0.5, both excluded.
     hardness : H [Pa], the highest pressure a contact cell can carry; None for purely elastic.
     yield_stress : sigma_y [Pa] in uniaxial tension; hardness / 2.8 where not given.
+    thermal_conductivity : k [W/(m K)]; None where no heat is asked for, as the next two.
+    density : rho [kg/m^3].
+    heat_capacity : c [J/(kg K)], per mass.
 
     Raises
     ------
@@ -47,6 +58,9 @@ class Material:
     poissons_ratio: float
     hardness: float | None = None
     yield_stress: float | None = None
+    thermal_conductivity: float | None = None
+    density: float | None = None
+    heat_capacity: float | None = None
 
     def __init__(
         self,
@@ -56,7 +70,17 @@ class Material:
         poissons_ratio: float,
         hardness: float | None = None,
         yield_stress: float | None = None,
+        thermal_conductivity: float | None = None,
+        density: float | None = None,
+        heat_capacity: float | None = None,
     ) -> None:
+        optional = {
+            "hardness": hardness,
+            "yield_stress": yield_stress,
+            "thermal_conductivity": thermal_conductivity,
+            "density": density,
+            "heat_capacity": heat_capacity,
+        }
         messages = []
         if not _is_positive(youngs_modulus):
             messages.append(f"Material {name!r}: youngs_modulus {youngs_modulus!r} must be positive and finite [Pa]")
@@ -64,18 +88,27 @@ class Material:
             messages.append(
                 f"Material {name!r}: poissons_ratio {poissons_ratio!r} must lie between -1 and 0.5, both excluded"
             )
-        for key, value in (("hardness", hardness), ("yield_stress", yield_stress)):
-            if value is not None and not _is_positive(value):
-                messages.append(f"Material {name!r}: {key} {value!r} must be positive and finite [Pa], or left out")
+        messages += [
+            f"Material {name!r}: {key} {value!r} must be positive and finite [{_UNITS[key]}], or left out"
+            for key, value in optional.items()
+            if value is not None and not _is_positive(value)
+        ]
         if messages:
             raise InputError(messages)
         if yield_stress is None and hardness is not None:
-            yield_stress = hardness / HARDNESS_TO_YIELD
+            optional["yield_stress"] = hardness / HARDNESS_TO_YIELD
         object.__setattr__(self, "name", name)
         object.__setattr__(self, "youngs_modulus", float(youngs_modulus))
         object.__setattr__(self, "poissons_ratio", float(poissons_ratio))
-        object.__setattr__(self, "hardness", None if hardness is None else float(hardness))
-        object.__setattr__(self, "yield_stress", None if yield_stress is None else float(yield_stress))
+        for key, value in optional.items():
+            object.__setattr__(self, key, None if value is None else float(value))
+
+    @property
+    def thermal_diffusivity(self) -> float | None:
+        """kappa = k / (rho c) [m^2/s]; None where one of the three is not known."""
+        if self.thermal_conductivity is None or self.density is None or self.heat_capacity is None:
+            return None
+        return self.thermal_conductivity / (self.density * self.heat_capacity)
 
     @property
     def shear_modulus(self) -> float:
@@ -238,6 +271,16 @@ class CatalogueEntry:
     source: str
 
 
+@dataclass(frozen=True)
+class _Thermal:
+    """Conductivity [W/(m K)], density [kg/m^3], heat capacity [J/(kg K)] near room temperature, and their source."""
+
+    conductivity: float
+    density: float
+    heat_capacity: float
+    source: str
+
+
 def _entry(
     name: str,
     source: str,
@@ -245,16 +288,36 @@ def _entry(
     ratio: float,
     hardness: float | None = None,
     yield_stress: float | None = None,
+    thermal: _Thermal | None = None,
 ) -> CatalogueEntry:
     material = Material(
-        name, youngs_modulus=modulus, poissons_ratio=ratio, hardness=hardness, yield_stress=yield_stress
+        name,
+        youngs_modulus=modulus,
+        poissons_ratio=ratio,
+        hardness=hardness,
+        yield_stress=yield_stress,
+        thermal_conductivity=thermal.conductivity if thermal else None,
+        density=thermal.density if thermal else None,
+        heat_capacity=thermal.heat_capacity if thermal else None,
     )
-    return CatalogueEntry(material, source)
+    return CatalogueEntry(material, f"{source}; heat: {thermal.source}" if thermal else source)
 
 
 _THESIS = (
     "A. Akchurin, Generation of Wear Particles in Lubricated Contacts during Running-In, PhD thesis, Twente (2017)"
 )
+
+_STEEL = _Thermal(46.6, 7810.0, 475.0, "AISI 52100, manufacturers' data sheets")
+_BRASS = _Thermal(116.0, 8440.0, 377.0, "CuZn37 (C27200), Copper Development Association")
+_NITRIDE = _Thermal(30.0, 3240.0, 680.0, "mid-range of manufacturers' data for bearing grades (20 to 38 W/(m K))")
+_DLC = _Thermal(
+    1.0, 1800.0, 970.0, "a-C:H: M. Shamsa et al., Appl. Phys. Lett. 89 (2006) 161921 (k), Robertson (rho), c of carbon"
+)
+_ALUMINA = _Thermal(30.0, 3900.0, 880.0, "99.5 % Al2O3, manufacturers' data sheets")
+_CARBIDE = _Thermal(100.0, 14950.0, 210.0, "WC-6Co, manufacturers' data sheets (80 to 110 W/(m K))")
+_ALUMINIUM = _Thermal(237.0, 2700.0, 897.0, "CRC Handbook of Chemistry and Physics")
+_GLASS = _Thermal(1.0, 2480.0, 860.0, "Ashby, mid-range")
+_PTFE = _Thermal(0.25, 2170.0, 1030.0, "Ashby, mid-range")
 
 CATALOGUE: dict[str, CatalogueEntry] = {
     entry.material.name: entry
@@ -265,12 +328,30 @@ CATALOGUE: dict[str, CatalogueEntry] = {
             207e9,
             0.3,
             7.0e9,
+            thermal=_STEEL,
         ),
-        _entry("steel-cylinder", f"{_THESIS}: cylinder of papers A, C, E (6 GPa)", 210e9, 0.3, 6.0e9),
-        _entry("steel-disk", f"{_THESIS}: steel disk of paper C (1.8 GPa, H = 2.8 sigma_y)", 210e9, 0.3, 1.8e9, 0.64e9),
-        _entry("steel-disk-110HV", f"{_THESIS}: soft disk of papers B and D (110 HV)", 210e9, 0.3, 1.08e9, 0.386e9),
-        _entry("brass-disk", f"{_THESIS}: brass disk of paper C", 88e9, 0.3, 2.64e9, 0.94e9),
-        _entry("brass-transfer-film", f"{_THESIS}: brass film on the cylinder, paper C (2.96 GPa)", 88e9, 0.3, 2.96e9),
+        _entry("steel-cylinder", f"{_THESIS}: cylinder of papers A, C, E (6 GPa)", 210e9, 0.3, 6.0e9, thermal=_STEEL),
+        _entry(
+            "steel-disk",
+            f"{_THESIS}: steel disk of paper C (1.8 GPa, H = 2.8 sigma_y)",
+            210e9,
+            0.3,
+            1.8e9,
+            0.64e9,
+            _STEEL,
+        ),
+        _entry(
+            "steel-disk-110HV", f"{_THESIS}: soft disk of papers B and D (110 HV)", 210e9, 0.3, 1.08e9, 0.386e9, _STEEL
+        ),
+        _entry("brass-disk", f"{_THESIS}: brass disk of paper C", 88e9, 0.3, 2.64e9, 0.94e9, _BRASS),
+        _entry(
+            "brass-transfer-film",
+            f"{_THESIS}: brass film on the cylinder, paper C (2.96 GPa)",
+            88e9,
+            0.3,
+            2.96e9,
+            thermal=_BRASS,
+        ),
         _entry("tribofilm", f"{_THESIS}: ZDDP film of paper E (15 GPa, 2 GPa); nu is assumed", 15e9, 0.3, 2.0e9),
         _entry(
             "silicon-nitride",
@@ -278,6 +359,7 @@ CATALOGUE: dict[str, CatalogueEntry] = {
             310e9,
             0.27,
             14.7e9,
+            thermal=_NITRIDE,
         ),
         _entry(
             "dlc",
@@ -285,16 +367,47 @@ CATALOGUE: dict[str, CatalogueEntry] = {
             200e9,
             0.25,
             20e9,
+            thermal=_DLC,
         ),
         _entry(
-            "alumina", "dense 99.5 % Al2O3: M. F. Ashby, Materials Selection in Mechanical Design", 380e9, 0.24, 15e9
+            "alumina",
+            "dense 99.5 % Al2O3: M. F. Ashby, Materials Selection in Mechanical Design",
+            380e9,
+            0.24,
+            15e9,
+            thermal=_ALUMINA,
         ),
-        _entry("tungsten-carbide", "WC-6Co: M. F. Ashby, Materials Selection in Mechanical Design", 620e9, 0.22, 15e9),
         _entry(
-            "aluminium", "pure, annealed: E and nu of G. W. C. Kaye and T. H. Laby; about 25 HV", 70e9, 0.345, 0.25e9
+            "tungsten-carbide",
+            "WC-6Co: M. F. Ashby, Materials Selection in Mechanical Design",
+            620e9,
+            0.22,
+            15e9,
+            thermal=_CARBIDE,
         ),
-        _entry("glass", "soda-lime glass: M. F. Ashby, Materials Selection in Mechanical Design", 70e9, 0.22, 5.5e9),
-        _entry("ptfe", "filled-free PTFE at room temperature: manufacturers' data, elastic only", 0.5e9, 0.46),
+        _entry(
+            "aluminium",
+            "pure, annealed: E and nu of G. W. C. Kaye and T. H. Laby; about 25 HV",
+            70e9,
+            0.345,
+            0.25e9,
+            thermal=_ALUMINIUM,
+        ),
+        _entry(
+            "glass",
+            "soda-lime glass: M. F. Ashby, Materials Selection in Mechanical Design",
+            70e9,
+            0.22,
+            5.5e9,
+            thermal=_GLASS,
+        ),
+        _entry(
+            "ptfe",
+            "filled-free PTFE at room temperature: manufacturers' data, elastic only",
+            0.5e9,
+            0.46,
+            thermal=_PTFE,
+        ),
     )
 }
 """Materials by name, each with the source of its constants. Hardness varies with treatment: check it."""

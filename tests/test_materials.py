@@ -2,7 +2,7 @@
 
 import pytest
 
-from bem import Body, Grid, InputError, Layer, Material, contact_modulus, dundurs_beta
+from bem import CATALOGUE, Body, Grid, InputError, Layer, Material, contact_modulus, dundurs_beta
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 
@@ -18,6 +18,9 @@ STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
         ("poissons_ratio", 0.5),
         ("hardness", "1 GPa"),
         ("yield_stress", -1.0),
+        ("thermal_conductivity", 0.0),
+        ("density", "7800 kg/m^3"),
+        ("heat_capacity", float("nan")),
     ],
 )
 def test_one_message_names_the_key_and_the_value(key, value):
@@ -52,3 +55,25 @@ def test_things_of_another_kind(make):
     with pytest.raises(InputError) as raised:
         make()
     assert len(raised.value.messages) == 1
+
+
+def test_diffusivity_needs_all_three_constants():
+    constants = {"thermal_conductivity": 46.0, "density": 7800.0, "heat_capacity": 470.0}
+    solid = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, **constants)
+    assert solid.thermal_diffusivity == 46.0 / (7800.0 * 470.0)
+    for key in constants:
+        part = {name: value for name, value in constants.items() if name != key}
+        assert Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, **part).thermal_diffusivity is None
+
+
+@pytest.mark.parametrize("name", sorted(CATALOGUE))
+def test_thermal_constants_of_the_catalogue_are_those_of_solids(name):
+    """Heat capacity per volume of dense solids lies within 1 and 4 MJ/(m^3 K) (Dulong and Petit)."""
+    entry = CATALOGUE[name]
+    solid = entry.material
+    if solid.thermal_conductivity is None:
+        assert "heat:" not in entry.source
+        return
+    assert "heat: " in entry.source
+    assert 1e6 < solid.density * solid.heat_capacity < 4e6
+    assert 0.1 < solid.thermal_conductivity < 500

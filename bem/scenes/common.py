@@ -10,7 +10,7 @@ from pydantic_core import PydanticCustomError
 
 from bem.materials import CATALOGUE, Body, Layer, Material
 from bem.scenes.ranges import values_of_keys
-from bem.scenes.units import Force, Length, Pressure, Ratio
+from bem.scenes.units import Density, Force, HeatCapacity, Length, Pressure, Ratio, ThermalConductivity
 
 PositiveLength = Annotated[Length, Field(gt=0)]
 PositivePressure = Annotated[Pressure, Field(gt=0)]
@@ -45,6 +45,9 @@ class MaterialScene(Table):
     poissons_ratio: Annotated[Ratio, Field(gt=-1, lt=0.5)]
     hardness: PositivePressure | None = None
     yield_stress: PositivePressure | None = None
+    thermal_conductivity: Annotated[ThermalConductivity, Field(gt=0)] | None = None
+    density: Annotated[Density, Field(gt=0)] | None = None
+    heat_capacity: Annotated[HeatCapacity, Field(gt=0)] | None = None
     source: str = ""
 
     @model_validator(mode="before")
@@ -69,6 +72,9 @@ class MaterialScene(Table):
             "poissons_ratio": material.poissons_ratio,
             "hardness": material.hardness,
             "yield_stress": material.yield_stress,
+            "thermal_conductivity": material.thermal_conductivity,
+            "density": material.density,
+            "heat_capacity": material.heat_capacity,
             "source": entry.source,
         }
         if own:
@@ -85,6 +91,9 @@ class MaterialScene(Table):
             poissons_ratio=self.poissons_ratio,
             hardness=self.hardness,
             yield_stress=self.yield_stress,
+            thermal_conductivity=self.thermal_conductivity,
+            density=self.density,
+            heat_capacity=self.heat_capacity,
         )
 
 

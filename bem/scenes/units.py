@@ -23,7 +23,25 @@ _LONG_EXPONENT = re.compile(r"\d{2,}|\*\*\s*\S*\*\*|\^\s*\S*\^")
 _COMMON_UNITS = (
     *("m", "mm", "um", "nm", "angstrom", "m^2", "um^2", "mm^2", "m^3", "nm^3", "angstrom^3", "1/m"),
     *("N", "mN", "uN", "nN", "kN", "N/m", "Pa", "kPa", "MPa", "GPa", "1/Pa", "1/MPa", "1/GPa", "Pa*s", "mPa*s", "cP"),
-    *("s", "ms", "min", "hour", "1/s", "m/s", "mm/s", "um/s", "nm/s", "K", "degC", "J", "eV", "J/K", "kg/m^3"),
+    *(
+        "s",
+        "ms",
+        "min",
+        "hour",
+        "1/s",
+        "m/s",
+        "mm/s",
+        "um/s",
+        "nm/s",
+        "K",
+        "degC",
+        "J",
+        "eV",
+        "J/K",
+        "kg/m^3",
+        "W/(m*K)",
+        "J/(kg*K)",
+    ),
     *("%", "deg", "rad"),
 )
 
@@ -171,6 +189,8 @@ PressureViscosity = Annotated[float, Dimension("1/Pa", "a pressure-viscosity coe
 Temperature = Annotated[float, Dimension("K", "a temperature", "60 degC")]
 Energy = Annotated[float, Dimension("J", "an energy", "0.8 eV")]
 Density = Annotated[float, Dimension("kg/m^3", "a density", "870 kg/m^3")]
+ThermalConductivity = Annotated[float, Dimension("W/(m*K)", "a thermal conductivity", "46 W/(m*K)")]
+HeatCapacity = Annotated[float, Dimension("J/(kg*K)", "a heat capacity per mass", "470 J/(kg*K)")]
 Angle = Annotated[float, Dimension("rad", "an angle", "30 deg")]
 WearCoefficient = Annotated[float, Dimension("m^2/N", "a specific wear rate", "350e-7 mm^3/(N*m)")]
 Ratio = Annotated[float, Dimension("", "a number", "0.3")]

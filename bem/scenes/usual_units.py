@@ -14,6 +14,7 @@ _LENGTH, _MASS, _TIME, _HEAT = "[length]", "[mass]", "[time]", "[temperature]"
 _FORCE = {_LENGTH: 1, _MASS: 1, _TIME: -2}
 _PRESSURE = {_LENGTH: -1, _MASS: 1, _TIME: -2}
 _ENERGY = {_LENGTH: 2, _MASS: 1, _TIME: -2}
+_POWER = {_LENGTH: 2, _MASS: 1, _TIME: -3}
 
 _UNITS: dict[str, tuple[dict[str, int], str]] = {
     **{name: ({_LENGTH: 1}, factor) for name, factor in (
@@ -32,6 +33,7 @@ _UNITS: dict[str, tuple[dict[str, int], str]] = {
     **{name: (_ENERGY, factor) for name, factor in (
         ("J", "1"), ("kJ", "1e3"), ("mJ", "1e-3"), ("eV", "1.602176634e-19"),
     )},
+    **{name: (_POWER, factor) for name, factor in (("W", "1"), ("mW", "1e-3"), ("kW", "1e3"))},
     "cP": ({_LENGTH: -1, _MASS: 1, _TIME: -1}, "1e-3"),
     "kg": ({_MASS: 1}, "1"),
     "g": ({_MASS: 1}, "1e-3"),
