@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
+from reports import independent
 from reports.builder import COLOURS, Page, Section, figure, table, text
 from reports.validation_lines import CHECKS, CHOICES
 from reports.validation_origin import rooms, stale
@@ -110,6 +111,7 @@ def build() -> Page:
     headers = ("item", "thesis", "ours", "verdict", "accepted", "remark")
     for title, lines in tables.items():
         sections.append(Section(title, table(headers, lines) + figures_for(title)))
+    sections.append(Section("Independent figures", independent.body()))
     sections.append(Section("What was chosen, and why", table(("what", "choice", "reason"), CHOICES)))
     sections.append(Section("Stored results", results_table()))
     return Page(

@@ -95,3 +95,15 @@ def test_derived_numbers():
     }
     assert criterion_over_archard(summary, 10.0, 350e-7) == pytest.approx(1e-9 / (0.04 * 3e-7) / 350e-7)
     assert particles_per_mm_and_newton(summary, 10.0, 350e-7) == pytest.approx(350e-7 / 1e-10 * 1e-3)
+
+
+def test_figures_of_others_are_stored_and_the_rigid_limit_of_rolling_holds():
+    """Resistance to rolling against quadrature of Reynolds' equation; 2e-4 is its stored mesh error at twice the
+    points, M = 0.01 is within 1e-4 of the limit."""
+    from reports import independent
+    from reports.experiments.independent_figures import rigid_constant, rolling
+
+    page = independent.body()
+    assert "Not run" not in page
+    assert page.count("agrees") == 4
+    assert rolling(0.01, 8.0, 500) / (0.01 * 1e-11**1.5) ** 0.5 == pytest.approx(rigid_constant(), rel=5e-4)
