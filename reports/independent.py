@@ -89,8 +89,8 @@ def _self_affine(rows: Rows) -> str:
     lines = [
         (
             "area over pressure, light loads",
-            "1.60 (Persson 2001) to 2.51 (Bush, Gibson and Thomas 1975); about 2 by others' boundary elements and Green's "
-            "functions (Prodanov, Dapp and Mueser 2014; Yastrebov, Anciaux and Molinari 2017)",
+            "1.60 (Persson 2001) to 2.51 (Bush, Gibson and Thomas 1975); about 2 by boundary elements and "
+            "Green's functions (Prodanov, Dapp and Mueser 2014; Yastrebov, Anciaux and Molinari 2017)",
             f"{min(slopes):.2f} to {max(slopes):.2f}",
             _verdict(all(math.sqrt(8 / math.pi) < s < math.sqrt(2 * math.pi) for s in slopes)),
         ),

@@ -1,4 +1,4 @@
-"""Figures that nobody here wrote, beside ours: rolling resistance, area and gap of self-affine surfaces, plastic contact.
+"""Figures that nobody here wrote beside ours: rolling resistance, area and gap of self-affine surfaces, capped contact.
 
     python -m reports.experiments.independent_figures
 
