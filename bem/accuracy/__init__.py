@@ -10,15 +10,21 @@ from __future__ import annotations
 
 from bem.accuracy.bars import ErrorBars
 from bem.accuracy.contact import Coarser, ContactCase, contact_bars, figures_of, solve_coarser, surface_is_resolved
+from bem.accuracy.film import FilmCase, OtherFilm, film_bars, film_figures, solve_coarser_film
 from bem.accuracy.stress import stress_bars
 
 __all__ = [
     "Coarser",
     "ContactCase",
     "ErrorBars",
+    "FilmCase",
+    "OtherFilm",
     "contact_bars",
     "figures_of",
+    "film_bars",
+    "film_figures",
     "solve_coarser",
+    "solve_coarser_film",
     "stress_bars",
     "surface_is_resolved",
 ]

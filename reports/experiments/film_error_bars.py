@@ -1,0 +1,100 @@
+"""Error bars of random steady line films against references of four times the points: how many cover, and by how much
+they are larger.
+
+    python -m reports.experiments.film_error_bars [CASES]
+
+Films are drawn from a seed: Moes' loads M from 0.5 to 2000 and L from 1 to 20, slide-roll ratios 0 to 2, meshes of 100
+to 500 points, Roelands' and Barus' viscosities, compressible and incompressible, rolling either way. The result is
+stored in `reports/results/film_error_bars.json`.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem import Lubricant, solve_line_film
+from bem.accuracy import FilmCase, film_bars, film_figures, solve_coarser_film
+from bem.accuracy.film import spike_is_unresolved
+from bem.errors import Status
+from reports.experiments.contact_error_bars import judged
+
+RESULT = Path(__file__).resolve().parents[1] / "results" / "film_error_bars.json"
+FINER = 4
+
+
+def draw(rng: np.random.Generator) -> tuple[str, dict[str, Any]]:
+    """A random film, in words and as the arguments of `bem.solve_line_film`."""
+    load = 10 ** rng.uniform(math.log10(0.5), math.log10(2000))
+    material = rng.uniform(1, 20)
+    modulus, radius = 10 ** rng.uniform(9.5, 11.1), 10 ** rng.uniform(-2.5, -1)
+    pressure_viscosity, viscosity = rng.uniform(0.8, 2.5) * 1e-8, 10 ** rng.uniform(-2, 0)
+    # Moes' L = alpha E' U^(1/4), M = w / sqrt(E' R mu (u1 + u2)), U = mu (u1 + u2) / (E' R)
+    entrainment = (material / (pressure_viscosity * 2 * modulus)) ** 4 * 2 * modulus * radius / viscosity
+    sliding = rng.uniform(0, 2)
+    way = rng.choice([1.0, -1.0])
+    density = str(rng.choice(["incompressible", "dowson_higginson"]))
+    law = str(rng.choice(["roelands", "barus"]))
+    points = int(10 ** rng.uniform(2, math.log10(500)))
+    words = f"M {load:.3g} L {material:.3g} slide-roll {sliding:.2f} {density} {law} {points} points"
+    return words, {
+        "load": load * math.sqrt(2 * modulus * radius * viscosity * entrainment),
+        "radius": radius,
+        "contact_modulus": modulus,
+        "speeds": (way * entrainment / 2 * (1 + sliding / 2), way * entrainment / 2 * (1 - sliding / 2)),
+        "lubricant": Lubricant(
+            viscosity, pressure_viscosity=pressure_viscosity, viscosity_law=law, density_law=density
+        ),
+        "points": points,
+    }
+
+
+def rows_of(words: str, given: dict[str, Any]) -> list[dict[str, Any]]:
+    """Bar and true error of every figure of a film."""
+    case = FilmCase(solve_line_film(**given), **given)
+    other = solve_coarser_film(case)
+    bars = film_bars(case, other)
+    reference = solve_line_film(**{**given, "points": FINER * given["points"]}, initial=case.solution)
+    if {case.solution.status, reference.status} != {Status.CONVERGED}:
+        return []
+    found, truth, there = (film_figures(one, case.radius) for one in (case.solution, reference, other.solution))
+    return [
+        {
+            "figure": name,
+            "film": words,
+            "spike_at_the_reference": spike_is_unresolved(replace(case, solution=reference)),
+            "value": found[name],
+            "difference": abs(found[name] - there[name]),
+            "error": abs(found[name] - truth[name]),
+            "bar": bar,
+        }
+        for name, bar in bars.values.items()
+    ]
+
+
+def run(cases: int, seed: int = 14) -> list[dict[str, Any]]:
+    """Rows of so many films."""
+    rng, rows = np.random.default_rng(seed), []
+    for _ in range(cases):
+        rows += rows_of(*draw(rng))
+    return rows
+
+
+def main() -> None:
+    """Draw, solve, judge, store."""
+    cases = int(sys.argv[1]) if len(sys.argv) > 1 else 100
+    rows = run(cases)
+    verdict = judged(rows)
+    for name, row in verdict.items():
+        print(name, {key: round(value, 5) for key, value in row.items()})
+    RESULT.write_text(json.dumps({"cases": cases, "seed": 14, "figures": verdict, "rows": rows}, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()
