@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass, field
+import weakref
 from typing import Any, cast
 
 import numpy as np
-from numba import njit
 from numpy.typing import DTypeLike, NDArray
 
 from bem.fftw import pyfftw
 from bem.threads import get_threads, share
+from bem.transforms import loops
 from bem.transforms.count import COUNT
-from bem.transforms.products import Multiplier, multiply
+from bem.transforms.loops import ALIGNMENT, Room, Scratch
+from bem.transforms.plans import library
+from bem.transforms.products import Multiplier, unit_factor
 
 FloatArray = NDArray[Any]
 ComplexArray = NDArray[Any]
 
-_ALIGNMENT = 64
 _BLOCK_BYTES = 1 << 18
 COMPLEX: dict[np.dtype[Any], np.dtype[Any]] = {
     np.dtype(np.float64): np.dtype(np.complex128),
@@ -26,12 +27,10 @@ COMPLEX: dict[np.dtype[Any], np.dtype[Any]] = {
 }
 """Precisions of fields, and those of their spectra."""
 
-_PLANNER = threading.Lock()
-
 
 def _stride(length: int, itemsize: int) -> int:
     """Row length in memory: whole cache lines, and not a multiple of 2 kB (rows would share cache sets)."""
-    line = _ALIGNMENT // itemsize
+    line = ALIGNMENT // itemsize
     stride = -(-length // line) * line
     if stride * itemsize % 2048 == 0 and stride > line:
         stride += line
@@ -42,18 +41,6 @@ def _block(rows: int, row_bytes: int, granule: int) -> int:
     """Rows in a block: about a quarter of a megabyte, in whole cache lines of the transposed array."""
     wanted = max(1, _BLOCK_BYTES // max(1, row_bytes))
     return min(rows, max(granule, wanted // granule * granule))
-
-
-@dataclass
-class _Worker:
-    """Plans and scratch of one thread; FFTW objects hold pointers, so threads may not share them."""
-
-    rows_in: FloatArray
-    rows_out: FloatArray
-    rows_spectrum: ComplexArray
-    columns: ComplexArray
-    columns_out: ComplexArray
-    plans: dict[tuple[str, int], Any] = field(default_factory=dict)
 
 
 class PaddedTransform:
@@ -67,50 +54,60 @@ class PaddedTransform:
         self.spectrum_shape = (padded[1] // 2 + 1, padded[0])
         self._half_stride = _stride(shape[0], self.complex_dtype.itemsize)
         self._spectrum_stride = _stride(padded[0], self.complex_dtype.itemsize)
-        self._real_stride = -(-padded[1] * self.dtype.itemsize // _ALIGNMENT) * (_ALIGNMENT // self.dtype.itemsize)
-        self._half = pyfftw.empty_aligned(
-            (self.spectrum_shape[0], self._half_stride), self.complex_dtype, n=_ALIGNMENT
-        )[:, : shape[0]]
-        line = _ALIGNMENT // self.complex_dtype.itemsize
+        self._real_stride = -(-padded[1] * self.dtype.itemsize // ALIGNMENT) * (ALIGNMENT // self.dtype.itemsize)
+        line = ALIGNMENT // self.complex_dtype.itemsize
         self._row_block = _block(shape[0], self._real_stride * self.dtype.itemsize, line)
         self._column_block = _block(self.spectrum_shape[0], self._spectrum_stride * self.complex_dtype.itemsize, 1)
         self._row_blocks = -(-shape[0] // self._row_block)
         self._column_blocks = -(-self.spectrum_shape[0] // self._column_block)
-        # in single precision FFTW's own scattered writes are slower than a transposition in whole cache lines
-        self._transposes = self.dtype == np.float32
-        self._workers: list[_Worker] = []
-        self._lock = threading.RLock()
-        self._scale = np.full((), 1.0 / (padded[0] * padded[1]), self.dtype)[()]
+        self.lock = threading.RLock()
+        self._unit = unit_factor(self.dtype)
+        self._scratch: list[Scratch] = []
+        half = pyfftw.empty_aligned((self.spectrum_shape[0], self._half_stride), self.complex_dtype, n=ALIGNMENT)
+        plans = np.zeros((4, 2), np.int64)
+        self.room = Room(
+            nx=shape[0],
+            ny=shape[1],
+            px=padded[0],
+            row_block=self._row_block,
+            column_block=self._column_block,
+            spectra=self.spectrum_shape[0],
+            fits=padded[1] == shape[1] == self._real_stride,
+            # in single precision FFTW's own scattered writes are slower than a transposition in whole cache lines
+            transposes=bool(self.dtype == np.float32),
+            whole=padded[0] == shape[0],
+            scale=np.full((), 1.0 / (padded[0] * padded[1]), self.dtype)[()],
+            executors=library(self.dtype).executors(),
+            plans=plans,
+            half=half,
+        )
 
     @property
     def nbytes(self) -> int:
         """Memory of buffers."""
-        scratch = sum(
-            w.rows_in.nbytes + w.rows_out.nbytes + w.rows_spectrum.nbytes + 2 * w.columns.nbytes for w in self._workers
-        )
-        return self.spectrum_shape[0] * self._half_stride * self.complex_dtype.itemsize + scratch
+        return int(self.room.half.nbytes) + sum(array.nbytes for scratch in self._scratch for array in scratch)
 
     def empty_spectrum(self) -> ComplexArray:
         """An uninitialised array for a spectrum, aligned and strided so that no copy is needed."""
-        full = pyfftw.empty_aligned((self.spectrum_shape[0], self._spectrum_stride), self.complex_dtype, n=_ALIGNMENT)
+        full = pyfftw.empty_aligned((self.spectrum_shape[0], self._spectrum_stride), self.complex_dtype, n=ALIGNMENT)
         return cast(ComplexArray, full[:, : self.padded[0]])
 
     def zeros_field(self) -> FloatArray:
         """A contiguous field of zeros, aligned so that rows of whole cache lines need no copy."""
-        return cast(FloatArray, pyfftw.zeros_aligned(self.shape, self.dtype, n=_ALIGNMENT))
+        return cast(FloatArray, pyfftw.zeros_aligned(self.shape, self.dtype, n=ALIGNMENT))
 
     def empty_field(self) -> FloatArray:
         """The same with values that mean nothing, for results."""
-        return cast(FloatArray, pyfftw.empty_aligned(self.shape, self.dtype, n=_ALIGNMENT))
+        return cast(FloatArray, pyfftw.empty_aligned(self.shape, self.dtype, n=ALIGNMENT))
 
     def forward(self, values: FloatArray, out: ComplexArray | None = None) -> ComplexArray:
         """Spectrum (py // 2 + 1, px) of a field (nx, ny) padded with zeros."""
         out = self.empty_spectrum() if out is None else out
-        with self._lock:
-            self._prepare()
-            self._rows_forward(values)
-            self._columns_pass(None, out, None)
-            COUNT.forward += 1
+        with self.lock:
+            self.ready()
+            self._each(loops.rows_forward, self._row_blocks, self._plain(values))
+            self._each(loops.columns_out, self._column_blocks, out)
+        self._count(forward=1, rows=self.shape[0], columns=self.spectrum_shape[0])
         return out
 
     def inverse(
@@ -118,167 +115,116 @@ class PaddedTransform:
     ) -> FloatArray:
         """The first (nx, ny) of the field whose spectrum is `spectrum` times `factor`; `spectrum` is kept."""
         out = np.empty(self.shape, self.dtype) if out is None else out
-        with self._lock:
-            self._prepare()
-            self._columns_pass(spectrum, None, factor)
-            self._rows_inverse(out)
-            COUNT.inverse += 1
+        plain = out if self._is_plain(out) else np.empty(self.shape, self.dtype)
+        parts = self._unit if factor is None else factor.factor(self.dtype)
+        with self.lock:
+            self.ready()
+            self._each(loops.columns_in, self._column_blocks, parts, spectrum)
+            self._each(loops.rows_back, self._row_blocks, plain)
+        self._count(inverse=1, rows=self.shape[0], columns=self.spectrum_shape[0])
+        if plain is not out:
+            out[...] = plain
         return out
 
     def convolve(self, values: FloatArray, factor: Multiplier, out: FloatArray | None = None) -> FloatArray:
         """Forward, times `factor`, and back, without ever storing a whole padded spectrum. `out` may be `values`."""
         out = np.empty(self.shape, self.dtype) if out is None else out
-        with self._lock:
-            self._prepare()
-            self._rows_forward(values)
-            self._columns_pass(None, None, factor)
-            self._rows_inverse(out)
-            COUNT.forward += 1
-            COUNT.inverse += 1
+        values = self._plain(values)
+        plain = out if self._is_plain(out) else np.empty(self.shape, self.dtype)
+        parts = factor.factor(self.dtype)
+        with self.lock:
+            scratch = self.ready()
+            if get_threads() == 1:
+                loops.convolve(self.room, scratch, parts, values, plain)
+            else:
+                self._each(loops.rows_forward, self._row_blocks, values)
+                self._each(loops.columns_through, self._column_blocks, parts)
+                self._each(loops.rows_back, self._row_blocks, plain)
+        self.counted(1)
+        if plain is not out:
+            out[...] = plain
         return out
 
-    def _prepare(self) -> None:
-        while len(self._workers) < get_threads():
+    def counted(self, convolutions: int) -> None:
+        """Add convolutions to this process's count: here, or by a compiled loop that called `loops.convolve`."""
+        self._count(
+            forward=convolutions,
+            inverse=convolutions,
+            rows=2 * convolutions * self.shape[0],
+            columns=2 * convolutions * self.spectrum_shape[0],
+        )
+
+    def ready(self) -> Scratch:
+        """Plans, and scratch for every thread; returns the first one's. The caller holds `lock`."""
+        while len(self._scratch) < get_threads():
             rows = (self._row_block, self._real_stride)
             spectra = (self._row_block, _stride(self.spectrum_shape[0], self.complex_dtype.itemsize))
             columns = (self._column_block, self._spectrum_stride)
-            self._workers.append(
-                _Worker(
-                    pyfftw.zeros_aligned(rows, self.dtype, n=_ALIGNMENT)[:, : self.padded[1]],
-                    pyfftw.zeros_aligned(rows, self.dtype, n=_ALIGNMENT)[:, : self.padded[1]],
-                    pyfftw.zeros_aligned(spectra, self.complex_dtype, n=_ALIGNMENT)[:, : self.spectrum_shape[0]],
-                    pyfftw.zeros_aligned(columns, self.complex_dtype, n=_ALIGNMENT)[:, : self.padded[0]],
-                    pyfftw.zeros_aligned(columns, self.complex_dtype, n=_ALIGNMENT)[:, : self.padded[0]],
+            self._scratch.append(
+                Scratch(
+                    pyfftw.zeros_aligned(rows, self.dtype, n=ALIGNMENT),
+                    pyfftw.zeros_aligned(rows, self.dtype, n=ALIGNMENT),
+                    pyfftw.zeros_aligned(spectra, self.complex_dtype, n=ALIGNMENT),
+                    pyfftw.zeros_aligned(columns, self.complex_dtype, n=ALIGNMENT),
+                    pyfftw.zeros_aligned(columns, self.complex_dtype, n=ALIGNMENT),
                 )
             )
+        if not self.room.plans.any():
+            self._plan(self._scratch[0])
+        return self._scratch[0]
 
-    def _plan(self, worker: _Worker, kind: str, rows: int) -> Any:
-        plan = worker.plans.get((kind, rows))
-        if plan is None:
-            half = self._half[:, :rows].T
-            if kind == "rows forward":
-                target = worker.rows_spectrum[:rows] if self._transposes else half
-                arguments = (worker.rows_in[:rows], target, "FFTW_FORWARD")
-            elif kind == "rows backward":
-                arguments = (half, worker.rows_out[:rows], "FFTW_BACKWARD")
-            else:
-                # from one array into another: plans made without timing are a quarter faster so than in place
-                direction = "FFTW_FORWARD" if kind == "columns forward" else "FFTW_BACKWARD"
-                arguments = (worker.columns[:rows], worker.columns_out[:rows], direction)
-            flags = ("FFTW_ESTIMATE",) if kind == "rows forward" else ("FFTW_ESTIMATE", "FFTW_DESTROY_INPUT")
-            with _PLANNER:
-                plan = pyfftw.FFTW(
-                    arguments[0], arguments[1], axes=(1,), direction=arguments[2], flags=flags, threads=1
+    def _plan(self, scratch: Scratch) -> None:
+        """Plans for whole blocks and for the last one; they go when this transform does."""
+        fftw, room = library(self.dtype), self.room
+        plans, half, columns = room.plans, room.half.ctypes.data, scratch.columns.ctypes.data
+        rows_in, rows_out = scratch.rows.ctypes.data, scratch.rows_out.ctypes.data
+        real, spectra, stride = self._real_stride, scratch.rows_spectrum.shape[1], self._half_stride
+        for last in range(2):
+            rows, lines = self._row_block, self._column_block
+            if last:
+                rows, lines = (
+                    self.shape[0] - (self._row_blocks - 1) * rows,
+                    room.spectra - (self._column_blocks - 1) * lines,
                 )
-            worker.plans[kind, rows] = plan
-        return plan
+            across, out = (
+                ((1, 1, real, spectra), scratch.rows_spectrum.ctypes.data)
+                if room.transposes
+                else ((1, stride, real, 1), half)
+            )
+            plans[0, last] = fftw.real_to_complex(self.padded[1], rows, across, (rows_in, out))
+            plans[1, last] = fftw.complex_to_real(self.padded[1], rows, (stride, 1, 1, real), (half, rows_out))
+            # from one array into another: plans made without timing are a quarter faster so than in place
+            along = (1, 1, self._spectrum_stride, self._spectrum_stride)
+            done = (columns, scratch.columns_out.ctypes.data)
+            plans[2, last] = fftw.complex(room.px, lines, along, done, back=False)
+            plans[3, last] = fftw.complex(room.px, lines, along, done, back=True)
+        weakref.finalize(self, _destroy, fftw.destroy, plans.ravel().tolist())
 
-    def _rows_forward(self, values: FloatArray) -> None:
-        width = self.shape[1]
-        direct = self._fits(values)
-
-        def work(number: int, block: int) -> None:
-            worker = self._workers[number]
-            start = block * self._row_block
-            stop = min(self.shape[0], start + self._row_block)
-            plan = self._plan(worker, "rows forward", stop - start)
-            if direct:
-                source = values[start:stop]
-            else:
-                source = worker.rows_in[: stop - start]
-                source[:, :width] = values[start:stop]
-            if self._transposes:
-                spectra = worker.rows_spectrum[: stop - start]
-                plan.update_arrays(source, spectra)
-                plan.execute()
-                _transpose(spectra, self._half, start)
-            else:
-                plan.update_arrays(source, self._half[:, start:stop].T)
-                plan.execute()
-
-        share(work, self._row_blocks)
-        COUNT.rows += self.shape[0]
-
-    def _rows_inverse(self, out: FloatArray) -> None:
-        width = self.shape[1]
-        direct = self._fits(out)
+    def _each(self, loop: Any, blocks: int, *arguments: Any) -> None:
+        """A compiled pass over blocks that the threads share."""
+        if get_threads() == 1 or blocks == 1:
+            loop(self.room, self._scratch[0], *arguments, 0, blocks)
+            return
 
         def work(number: int, block: int) -> None:
-            worker = self._workers[number]
-            start = block * self._row_block
-            stop = min(self.shape[0], start + self._row_block)
-            plan = self._plan(worker, "rows backward", stop - start)
-            target = out[start:stop] if direct else worker.rows_out[: stop - start]
-            plan.update_arrays(self._half[:, start:stop].T, target)
-            plan.execute()
-            if not direct:
-                out[start:stop] = target[:, :width]
+            loop(self.room, self._scratch[number], *arguments, block, block + 1)
 
-        share(work, self._row_blocks)
-        COUNT.rows += self.shape[0]
+        share(work, blocks)
 
-    def _fits(self, values: FloatArray) -> bool:
-        """Whether the plan for scratch rows can run on these rows in place."""
-        return (
-            self.padded[1] == self.shape[1]
-            and values.dtype == self.dtype
-            and values.strides == (self._real_stride * self.dtype.itemsize, self.dtype.itemsize)
-            and pyfftw.is_byte_aligned(values, n=_ALIGNMENT)
-        )
+    def _is_plain(self, values: FloatArray) -> bool:
+        return values.dtype == self.dtype and values.flags.c_contiguous and values.flags.writeable
 
-    def _columns_pass(self, source: ComplexArray | None, out: ComplexArray | None, factor: Multiplier | None) -> None:
-        """Along x, block by block: forward unless `source` is given, times `factor`, back unless `out` is given."""
-        if factor is not None:
-            factor = factor.astype(self.dtype)
+    def _plain(self, values: FloatArray) -> FloatArray:
+        """Contiguous and in this precision, as the compiled passes take it."""
+        return values if self._is_plain(values) else np.array(values, self.dtype, order="C")
 
-        def work(number: int, block: int) -> None:
-            worker = self._workers[number]
-            start = block * self._column_block
-            stop = min(self.spectrum_shape[0], start + self._column_block)
-            rows = stop - start
-            half = self._half[start:stop]
-            scratch, result = worker.columns[:rows], worker.columns_out[:rows]
-            if source is None:
-                _pad(half, scratch)
-                self._plan(worker, "columns forward", rows).execute()
-                if out is not None:
-                    out[start:stop] = result
-                    return
-            given = result if source is None else source[start:stop]
-            scale = self._scale
-            if factor is not None:
-                multiply(given, scratch, factor, scale, start, stop)
-            else:
-                np.multiply(given, scale, out=scratch)
-            self._plan(worker, "columns backward", rows).execute()
-            _crop(result, half)
-
-        share(work, self._column_blocks)
-        COUNT.columns += self.spectrum_shape[0] * (1 if out is not None or source is not None else 2)
+    def _count(self, *, forward: int = 0, inverse: int = 0, rows: int = 0, columns: int = 0) -> None:
+        COUNT.forward += forward
+        COUNT.inverse += inverse
+        COUNT.rows += rows
+        COUNT.columns += columns
 
 
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _transpose(spectra, half, start):  # type: ignore[no-untyped-def]
-    rows, length = spectra.shape
-    for block in range(0, length, 8):
-        for j in range(block, min(length, block + 8)):
-            for i in range(rows):
-                half[j, start + i] = spectra[i, j]
-
-
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _pad(half, scratch):  # type: ignore[no-untyped-def]
-    rows, width = half.shape
-    for i in range(rows):
-        for j in range(width):
-            scratch[i, j] = half[i, j]
-        for j in range(width, scratch.shape[1]):
-            scratch[i, j] = 0
-
-
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _crop(result, half):  # type: ignore[no-untyped-def]
-    rows, width = half.shape
-    for i in range(rows):
-        for j in range(width):
-            half[i, j] = result[i, j]
+def _destroy(destroy: Any, plans: list[int]) -> None:
+    for plan in plans:
+        destroy(plan)

@@ -1,14 +1,16 @@
-"""Spectra that others are multiplied by: sums of kernels, stored as a quarter, applied block by block."""
+"""Spectra that others are multiplied by: sums of kernels, stored as a quarter."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
-from numba import njit
+import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from bem.errors import InputError
+from bem.transforms.loops import ONE, Factor
 
 FloatArray = NDArray[Any]
 ComplexArray = NDArray[Any]
@@ -30,6 +32,26 @@ class Multiplier:
     def nbytes(self) -> int:
         """Memory of the arrays."""
         return sum(part.nbytes for part in (self.real, self.imaginary) if part is not None)
+
+    def factor(self, dtype: np.dtype[Any]) -> Factor:
+        """The parts in a precision as the compiled passes take them; kept."""
+        found = self._factors.get(dtype.char)
+        if found is None:
+            real, imaginary = (
+                np.empty((0, 0), dtype) if part is None else np.ascontiguousarray(part, dtype)
+                for part in (self.real, self.imaginary)
+            )
+            found = self._factors[dtype.char] = Factor(
+                real,
+                imaginary,
+                0 if self.real is None else self.real_parity,
+                0 if self.imaginary is None else self.imaginary_parity,
+            )
+        return found
+
+    @cached_property
+    def _factors(self) -> dict[str, Factor]:
+        return {}
 
     def astype(self, dtype: DTypeLike) -> Multiplier:
         """The same in another precision."""
@@ -64,64 +86,7 @@ def multiplier(parts: list[tuple[FloatArray, tuple[int, int], float]]) -> Multip
     return Multiplier(real, imaginary, parities[0], parities[1])
 
 
-@njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")  # type: ignore[untyped-decorator]
-def _multiply_real(source, target, real, parity, scale, half):  # type: ignore[no-untyped-def]
-    rows, length = source.shape
-    for i in range(rows):
-        for j in range(half):
-            target[i, j] = source[i, j] * (real[i, j] * scale)
-        if parity > 0:
-            for j in range(half, length):
-                target[i, j] = source[i, j] * (real[i, length - j] * scale)
-        else:
-            for j in range(half, length):
-                target[i, j] = source[i, j] * (-real[i, length - j] * scale)
-
-
-@njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")  # type: ignore[untyped-decorator]
-def _multiply_imaginary(source, target, imaginary, parity, scale, half):  # type: ignore[no-untyped-def]
-    rows, length = source.shape
-    for i in range(rows):
-        for j in range(half):
-            a = imaginary[i, j] * scale
-            z = source[i, j]
-            target[i, j] = complex(-a * z.imag, a * z.real)
-        for j in range(half, length):
-            a = imaginary[i, length - j] * scale
-            if parity < 0:
-                a = -a
-            z = source[i, j]
-            target[i, j] = complex(-a * z.imag, a * z.real)
-
-
-@njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")  # type: ignore[untyped-decorator]
-def _multiply_complex(source, target, real, imaginary, parity_real, parity_imaginary, scale, half):  # type: ignore[no-untyped-def]
-    rows, length = source.shape
-    mirrored_real = scale if parity_real > 0 else -scale
-    mirrored_imaginary = scale if parity_imaginary > 0 else -scale
-    for i in range(rows):
-        for j in range(half):
-            a = real[i, j] * scale
-            b = imaginary[i, j] * scale
-            z = source[i, j]
-            target[i, j] = complex(a * z.real - b * z.imag, a * z.imag + b * z.real)
-        for j in range(half, length):
-            a = real[i, length - j] * mirrored_real
-            b = imaginary[i, length - j] * mirrored_imaginary
-            z = source[i, j]
-            target[i, j] = complex(a * z.real - b * z.imag, a * z.imag + b * z.real)
-
-
-def multiply(source: ComplexArray, target: ComplexArray, factor: Multiplier, scale: Any, start: int, stop: int) -> None:
-    """Rows `start` to `stop` of a spectrum, `source`, times the factor and `scale`, into `target`."""
-    half = source.shape[1] // 2 + 1
-    real = None if factor.real is None else factor.real[start:stop]
-    imaginary = None if factor.imaginary is None else factor.imaginary[start:stop]
-    if real is None and imaginary is None:
-        target[...] = 0
-    elif imaginary is None:
-        _multiply_real(source, target, real, factor.real_parity, scale, half)
-    elif real is None:
-        _multiply_imaginary(source, target, imaginary, factor.imaginary_parity, scale, half)
-    else:
-        _multiply_complex(source, target, real, imaginary, factor.real_parity, factor.imaginary_parity, scale, half)
+def unit_factor(dtype: np.dtype[Any]) -> Factor:
+    """The multiplier that is one everywhere."""
+    nothing = np.empty((0, 0), dtype)
+    return Factor(nothing, nothing, ONE, 0)

@@ -1,0 +1,231 @@
+"""The compiled passes of a padded transform over blocks of rows or columns, transforms included.
+
+A whole convolution is one call (`convolve`), so that a small grid does not wait for Python, and another compiled loop
+may call it. Threads share the blocks of each pass; what a block does never depends on who does it.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from numba import njit
+from numpy.typing import NDArray
+
+from bem.transforms.plans import execute
+
+_plain: Any = njit(cache=True, nogil=True)
+_contracted: Any = njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
+
+ALIGNMENT = 64
+
+ONE = 2
+"""In place of the real part's parity: the multiplier is one."""
+
+
+class Room(NamedTuple):
+    """What all threads share: lengths, blocks, plans, and the half-way array (py // 2 + 1, stride).
+
+    `executors` : addresses of FFTW's functions, real to complex, complex, complex to real. `plans` : (4, 2), addresses
+    for rows forward, rows back, columns forward, columns back; for a whole block and for the last one. `fits` : rows of
+    a field are rows of scratch. `transposes` : rows go out by a pass of their own instead of FFTW's scattered writes.
+    `whole` : columns are not padded, so they need no copy either.
+    """
+
+    nx: int
+    ny: int
+    px: int
+    row_block: int
+    column_block: int
+    spectra: int
+    fits: bool
+    transposes: bool
+    whole: bool
+    scale: Any
+    executors: NDArray[Any]
+    plans: NDArray[Any]
+    half: NDArray[Any]
+
+
+class Scratch(NamedTuple):
+    """One thread's: blocks of rows in (zero beyond the field) and out, of their spectra, and of columns likewise."""
+
+    rows: NDArray[Any]
+    rows_out: NDArray[Any]
+    rows_spectrum: NDArray[Any]
+    columns: NDArray[Any]
+    columns_out: NDArray[Any]
+
+
+class Factor(NamedTuple):
+    """A multiplier's parts; parity 0 says that a part is zero, `ONE` that it is one, and its array is empty."""
+
+    real: NDArray[Any]
+    imaginary: NDArray[Any]
+    real_parity: int
+    imaginary_parity: int
+
+
+@_plain
+def convolve(room, scratch, factor, values, out):  # type: ignore[no-untyped-def]
+    """A field padded, transformed, times the factor and back, by one thread; `out` may be `values`."""
+    row_blocks = -(-room.nx // room.row_block)
+    rows_forward(room, scratch, values, 0, row_blocks)
+    columns_through(room, scratch, factor, 0, -(-room.spectra // room.column_block))
+    rows_back(room, scratch, out, 0, row_blocks)
+
+
+@_plain
+def rows_forward(room, scratch, values, first, last):  # type: ignore[no-untyped-def]
+    """Blocks of rows of a contiguous field, transformed along y and written transposed."""
+    direct = room.fits and values.ctypes.data % ALIGNMENT == 0
+    half, rows = room.half, scratch.rows
+    for block in range(first, last):
+        start = block * room.row_block
+        count = min(room.nx, start + room.row_block) - start
+        plan = room.plans[0, 0 if count == room.row_block else 1]
+        if direct:
+            source = values[start:].ctypes.data
+        else:
+            for i in range(count):
+                for j in range(room.ny):
+                    rows[i, j] = values[start + i, j]
+            source = rows.ctypes.data
+        if room.transposes:
+            execute(room.executors[0], plan, source, scratch.rows_spectrum.ctypes.data)
+            _transpose(scratch.rows_spectrum, half, start, count, room.spectra)
+        else:
+            execute(room.executors[0], plan, source, half[0, start:].ctypes.data)
+
+
+@_plain
+def _transpose(spectra, half, start, rows, length):  # type: ignore[no-untyped-def]
+    for block in range(0, length, 8):
+        for j in range(block, min(length, block + 8)):
+            for i in range(rows):
+                half[j, start + i] = spectra[i, j]
+
+
+@_plain
+def rows_back(room, scratch, out, first, last):  # type: ignore[no-untyped-def]
+    """Blocks of rows of a contiguous field from their transposed spectra, which are destroyed."""
+    direct = room.fits and out.ctypes.data % ALIGNMENT == 0
+    rows = scratch.rows_out
+    for block in range(first, last):
+        start = block * room.row_block
+        count = min(room.nx, start + room.row_block) - start
+        plan = room.plans[1, 0 if count == room.row_block else 1]
+        source = room.half[0, start:].ctypes.data
+        if direct:
+            execute(room.executors[2], plan, source, out[start:].ctypes.data)
+            continue
+        execute(room.executors[2], plan, source, rows.ctypes.data)
+        for i in range(count):
+            for j in range(room.ny):
+                out[start + i, j] = rows[i, j]
+
+
+@_plain
+def columns_through(room, scratch, factor, first, last):  # type: ignore[no-untyped-def]
+    """Blocks of columns: along x, times the factor, and back."""
+    for block in range(first, last):
+        start = block * room.column_block
+        count = min(room.spectra, start + room.column_block) - start
+        _columns_forward(room, scratch, start, count)
+        multiply(room, factor, scratch.columns_out, scratch.columns, start, 0, count)
+        _columns_back(room, scratch, start, count)
+
+
+@_plain
+def columns_out(room, scratch, spectrum, first, last):  # type: ignore[no-untyped-def]
+    """Blocks of columns into a spectrum."""
+    for block in range(first, last):
+        start = block * room.column_block
+        count = min(room.spectra, start + room.column_block) - start
+        _columns_forward(room, scratch, start, count)
+        for i in range(count):
+            for j in range(room.px):
+                spectrum[start + i, j] = scratch.columns_out[i, j]
+
+
+@_plain
+def columns_in(room, scratch, factor, spectrum, first, last):  # type: ignore[no-untyped-def]
+    """Blocks of columns from a spectrum times the factor."""
+    for block in range(first, last):
+        start = block * room.column_block
+        count = min(room.spectra, start + room.column_block) - start
+        multiply(room, factor, spectrum, scratch.columns, start, start, count)
+        _columns_back(room, scratch, start, count)
+
+
+@_plain
+def _columns_forward(room, scratch, start, count):  # type: ignore[no-untyped-def]
+    """From the half-way array to `columns_out`."""
+    plan = room.plans[2, 0 if count == room.column_block else 1]
+    if room.whole:
+        source = room.half[start:].ctypes.data
+    else:
+        columns = scratch.columns
+        for i in range(count):
+            for j in range(room.nx):
+                columns[i, j] = room.half[start + i, j]
+            for j in range(room.nx, room.px):
+                columns[i, j] = 0
+        source = columns.ctypes.data
+    execute(room.executors[1], plan, source, scratch.columns_out.ctypes.data)
+
+
+@_plain
+def _columns_back(room, scratch, start, count):  # type: ignore[no-untyped-def]
+    """From `columns` to the half-way array."""
+    plan = room.plans[3, 0 if count == room.column_block else 1]
+    if room.whole:
+        execute(room.executors[1], plan, scratch.columns.ctypes.data, room.half[start:].ctypes.data)
+        return
+    execute(room.executors[1], plan, scratch.columns.ctypes.data, scratch.columns_out.ctypes.data)
+    for i in range(count):
+        for j in range(room.nx):
+            room.half[start + i, j] = scratch.columns_out[i, j]
+
+
+@_contracted
+def multiply(room, factor, given, target, start, offset, count):  # type: ignore[no-untyped-def]
+    """Columns `start`... times the factor and the inverse transform's own scale; `given` begins at `offset`."""
+    real, imaginary, scale, length = factor.real, factor.imaginary, room.scale, room.px
+    half = length // 2 + 1
+    if factor.real_parity == ONE:
+        for i in range(count):
+            for j in range(length):
+                target[i, j] = given[offset + i, j] * scale
+    elif factor.real_parity == 0 and factor.imaginary_parity == 0:
+        for i in range(count):
+            for j in range(length):
+                target[i, j] = 0
+    elif factor.imaginary_parity == 0:
+        for i in range(count):
+            for j in range(half):
+                target[i, j] = given[offset + i, j] * (real[start + i, j] * scale)
+            mirrored = scale if factor.real_parity > 0 else -scale
+            for j in range(half, length):
+                target[i, j] = given[offset + i, j] * (real[start + i, length - j] * mirrored)
+    elif factor.real_parity == 0:
+        mirrored = scale if factor.imaginary_parity > 0 else -scale
+        for i in range(count):
+            for j in range(length):
+                k, sign = (j, scale) if j < half else (length - j, mirrored)
+                a = imaginary[start + i, k] * sign
+                z = given[offset + i, j]
+                target[i, j] = complex(-a * z.imag, a * z.real)
+    else:
+        mirrored_real = scale if factor.real_parity > 0 else -scale
+        mirrored_imaginary = scale if factor.imaginary_parity > 0 else -scale
+        for i in range(count):
+            for j in range(half):
+                a = real[start + i, j] * scale
+                b = imaginary[start + i, j] * scale
+                z = given[offset + i, j]
+                target[i, j] = complex(a * z.real - b * z.imag, a * z.imag + b * z.real)
+            for j in range(half, length):
+                a = real[start + i, length - j] * mirrored_real
+                b = imaginary[start + i, length - j] * mirrored_imaginary
+                z = given[offset + i, j]
+                target[i, j] = complex(a * z.real - b * z.imag, a * z.imag + b * z.real)
