@@ -43,9 +43,9 @@ def is_cold() -> bool:
     folders = Path(named).glob("*") if named else [_HERE / "transforms" / "__pycache__"]
     version = f"py{sys.version_info[0]}{sys.version_info[1]}"
     try:
-        changed = (_HERE / "transforms" / "padded.py").stat().st_mtime
+        changed = (_HERE / "transforms" / "loops.py").stat().st_mtime
         return not any(
-            index.stat().st_mtime >= changed for folder in folders for index in folder.glob(f"padded.*.{version}*.nbi")
+            index.stat().st_mtime >= changed for folder in folders for index in folder.glob(f"loops.*.{version}*.nbi")
         )
     except OSError:
         return True

@@ -127,5 +127,5 @@ def test_a_plan_says_that_loops_are_not_compiled_yet(tmp_path):
     assert "bem warm-up" in cold
     warm = tmp_path / "warm" / "bem"
     warm.mkdir(parents=True)
-    (warm / f"padded._pad-1.py{sys.version_info[0]}{sys.version_info[1]}.nbi").write_text("")
+    (warm / f"loops.convolve-1.py{sys.version_info[0]}{sys.version_info[1]}.nbi").write_text("")
     assert "not compiled yet" not in plan(NUMBA_CACHE_DIR=str(tmp_path / "warm"))
