@@ -23,13 +23,14 @@ def stress_of_sphere(cells: float, *, mises_only: bool = False, warm: bool = Fal
     """256 x 256 x 64 at 256 cells: depths grow with the side. The error is against Hamilton's closed form."""
     from bem import stress as module
     from bem.reference_solutions.hamilton import sphere_stress
-    from bem.stress import set_stress_memory, subsurface_stress, von_mises, von_mises_field
+    from bem.stress import set_stress_memory, stress_memory, subsurface_stress, von_mises, von_mises_field
 
     n = int(cells)
     grid, pressure = _hertz_pressure(n)
     # from 0.1 radii down: at the surface the staircase of the loaded cells is what one sees, not the kernel
     depths = np.linspace(0.1, 2.0, max(2, n // 4))
     function = von_mises_field if mises_only else subsurface_stress
+    unpacked = len(depths) * 12 * 8.0 * (n + 1) ** 2  # pressure and traction, six real parts each
 
     def solve() -> FloatArray:
         return function(pressure, grid, UNIT, depths, friction=0.3)
@@ -49,7 +50,7 @@ def stress_of_sphere(cells: float, *, mises_only: bool = False, warm: bool = Fal
         module.COUNT.reset()
         return Outcome(
             {"stress_error": float(np.abs(plane - wanted).max())},
-            {"depths": float(len(depths))},
+            {"depths": float(len(depths)), "spectra_MB": stress_memory() / 1e6, "unpacked_MB": unpacked / 1e6},
         )
 
     return Timed(solve, judge, None if warm else forget)
