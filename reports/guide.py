@@ -40,6 +40,10 @@ def build() -> Page:
 
 
 def _using() -> list[Section]:
+    return [_first_steps(), _own_surfaces(), _sweeps(), _from_python()]
+
+
+def _first_steps() -> Section:
     files = (
         ("scene.toml", "the scene as it was understood, in SI units; it runs again and gives the same bits"),
         (
@@ -58,50 +62,57 @@ def _using() -> list[Section]:
         ("4", "results cannot be written or read: disk full, folder in use, damaged file"),
         ("130", "interrupted; the same command with --resume goes on"),
     )
-    return [
-        Section(
-            "First steps",
-            _code(EXAMPLES["first-steps"])
-            + table(("file of a run", "what it is"), files)
-            + table(("exit code", "meaning"), codes),
+    return Section(
+        "First steps",
+        _code(EXAMPLES["first-steps"])
+        + table(("file of a run", "what it is"), files)
+        + table(("exit code", "meaning"), codes),
+    )
+
+
+def _own_surfaces() -> Section:
+    return Section(
+        "Your own surfaces",
+        text(
+            "Any common instrument's file will do. Read it, look at its statistics, then give its path in a scene: "
+            "paths are relative to the scene file. A measured map is levelled, filled where points are "
+            "missing, cut, "
+            "filtered and resampled to the grid, in that order."
+        )
+        + _code(EXAMPLES["own-surfaces"])
+        + text(
+            "The map must be at least as large as the grid, or be mirrored; a wave needs several "
+            "cells. Two maps of "
+            "different spacing are brought to the finer one."
         ),
-        Section(
-            "Your own surfaces",
-            text(
-                "Any common instrument's file will do. Read it, look at its statistics, then give its path in a scene: "
-                "paths are relative to the scene file. A measured map is levelled, filled where points are "
-                "missing, cut, "
-                "filtered and resampled to the grid, in that order."
-            )
-            + _code(EXAMPLES["own-surfaces"])
-            + text(
-                "The map must be at least as large as the grid, or be mirrored; a wave needs several "
-                "cells. Two maps of "
-                "different spacing are brought to the finer one."
-            ),
+    )
+
+
+def _sweeps() -> Section:
+    return Section(
+        "Sweeps",
+        text(
+            "Every combination of values of any keys. Points run on all cores, or on a Dask cluster; a worker that "
+            "dies is replaced. With --resume a sweep goes on and values may be added: no finished "
+            "point is computed "
+            "again. All figures end up in sweep.nc with the swept keys as dimensions, in sweep.csv and in a figure."
+        )
+        + _code(EXAMPLES["sweep"])
+        + text(
+            "In Python it is bem.sweeps.run_sweep; values are ranges first:last:count, log:first:last:count, "
+            "whole numbers first:last, lists, or @FILE with a value on each line. An index reaches into lists, "
+            "variants[0].cells; the same keys stand behind --set."
         ),
-        Section(
-            "Sweeps",
-            text(
-                "Every combination of values of any keys. Points run on all cores, or on a Dask cluster; a worker that "
-                "dies is replaced. With --resume a sweep goes on and values may be added: no finished "
-                "point is computed "
-                "again. All figures end up in sweep.nc with the swept keys as dimensions, in sweep.csv and in a figure."
-            )
-            + _code(EXAMPLES["sweep"])
-            + text(
-                "In Python it is bem.sweeps.run_sweep; values are ranges first:last:count, log:first:last:count, "
-                "whole numbers first:last, lists, or @FILE with a value on each line. An index reaches into lists, "
-                "variants[0].cells; the same keys stand behind --set."
-            ),
-        ),
-        Section(
-            "From Python",
-            text("The same without files; everything public is importable from bem.")
-            + _code(EXAMPLES["python"])
-            + _code(EXAMPLES["python-run"]),
-        ),
-    ]
+    )
+
+
+def _from_python() -> Section:
+    return Section(
+        "From Python",
+        text("The same without files; everything public is importable from bem.")
+        + _code(EXAMPLES["python"])
+        + _code(EXAMPLES["python-run"]),
+    )
 
 
 def _scenes() -> list[Section]:

@@ -6,6 +6,7 @@ Everything is drawn from `reports/results/performance.json`, which `bem bench --
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -37,7 +38,7 @@ GROUPS = (
     ("Capped and coated contact", ("contact-capped", "contact-layered")),
     ("Contact with a closed form", ("hertz-sphere", "hertz-cylinder", "sinusoid")),
     ("Stresses below the surface", ("stress", "stress-warm", "von-mises-warm")),
-    ("Line-contact film", ("line-film",)),
+    ("Line-contact film", ("line-film", "line-film-dense")),
     ("Load sharing and the Stribeck curve", ("load-sharing", "stribeck")),
     ("A wear cycle", ("wear-cycle",)),
     ("A tribofilm run", ("tribofilm",)),
@@ -232,66 +233,63 @@ def build() -> Page:
         missing = text("No run is stored yet: bem bench --json reports/results/performance.json makes one.")
         return Page("performance", "Run time against error", "Nothing measured yet.", [Section("Nothing yet", missing)])
     run = runs[-1]
-    sections = [
-        Section(
-            "Goals and what was measured",
-            text(
-                "Times are processor times of one thread unless said otherwise: medians of repeats, after kernels and "
-                "plans are made. Where a column is empty the point was not part of the run."
-            )
-            + table(("goal", "wanted", "measured", ""), goal_rows(run)),
-        )
-    ]
-    for title, names in GROUPS:
-        if any(p.case in names for p in run.points):
-            drawing = work_precision(run, names, title)
-            exponents = [
-                (CASES[name].title, time_exponent(points), CASES[name].size_name)
-                for name, points in by_case(run).items()
-                if name in names and len(points) > 1
-            ]
-            caption = f"{title}: error over processor time and memory; numbers are sizes, bars the extremes."
-            body = figure(drawing, caption)
-            if exponents:
-                body += table(("case", "time grows with size to the power", "size"), exponents)
-            sections.append(Section(title, body))
-    sections.append(_finite_element_section(run))
-    if run.peers:
-        sections.append(
-            Section(
-                "Beside other codes",
-                text(
-                    "The same surface in the same run. Each code's residual is recomputed from its pressure by one "
-                    "routine (sum p |g| / sum p over the rms height); bem is timed at the first tolerance whose "
-                    "pressure is at least as good."
-                )
-                + table(PEER_HEADERS, peer_rows(run)),
-            )
-        )
-    notes = [(name, *(times.get(n) for n in (512, 1024, 2048))) for name, times in NOTES_TIMES.items()]
-    mine = [_find(run, "contact-periodic", n) for n in (512, 1024, 2048)]
-    notes.append(("bem, this run, to 1e-8", *(None if p is None else p.cpu_median for p in mine)))
-    sections.append(
-        Section(
-            "Earlier measurement of the peers",
-            table(("code, s", "512", "1024", "2048"), notes, caption="On a quiet machine, to a residual near 1e-6."),
-        )
-    )
-    sections.append(Section("Where the time goes", _split(run)))
-    sections.append(Section("All points", table(POINT_HEADERS, point_rows(run))))
-    sections.append(
+    sections = [_goals(run), *_work_sections(run), _finite_element_section(run), *_peer_sections(run)]
+    sections += [
+        Section("Where the time goes", _split(run)),
+        Section("All points", table(POINT_HEADERS, point_rows(run))),
         Section(
             "Where each part holds",
             text("Held by tests/stress; beyond these ranges the answer is a status or an error, never a wrong number.")
             + table(("part", "holds", "beyond"), LIMITS),
-        )
-    )
+        ),
+    ]
     if len(runs) > 1:
         sections.append(Section("Since the run before", _changes(runs[-2], run)))
     facts = {"commit": run.commit, "measured": run.date} | {f"measured on: {k}": v for k, v in run.machine.items()}
     facts["measured with"] = ", ".join(f"{name} {number}" for name, number in run.versions.items())
     lead = "Error against run time and memory, goals beside what was measured, other codes, and where each part holds."
     return Page("performance", "Run time against error", lead, sections, facts)
+
+
+def _goals(run: Run) -> Section:
+    words = text(
+        "Times are processor times of one thread unless said otherwise: medians of repeats, after kernels and "
+        "plans are made. Where a column is empty the point was not part of the run."
+    )
+    return Section("Goals and what was measured", words + table(("goal", "wanted", "measured", ""), goal_rows(run)))
+
+
+def _work_sections(run: Run) -> Iterator[Section]:
+    """Error over time and memory of each group of cases, and how time grows."""
+    for title, names in GROUPS:
+        if not any(p.case in names for p in run.points):
+            continue
+        caption = f"{title}: error over processor time and memory; numbers are sizes, bars the extremes."
+        body = figure(work_precision(run, names, title), caption)
+        exponents = [
+            (CASES[name].title, time_exponent(points), CASES[name].size_name)
+            for name, points in by_case(run).items()
+            if name in names and len(points) > 1
+        ]
+        if exponents:
+            body += table(("case", "time grows with size to the power", "size"), exponents)
+        yield Section(title, body)
+
+
+def _peer_sections(run: Run) -> Iterator[Section]:
+    """Other codes in the same run, and as measured before."""
+    if run.peers:
+        words = text(
+            "The same surface in the same run. Each code's residual is recomputed from its pressure by one "
+            "routine (sum p |g| / sum p over the rms height); bem is timed at the first tolerance whose "
+            "pressure is at least as good."
+        )
+        yield Section("Beside other codes", words + table(PEER_HEADERS, peer_rows(run)))
+    notes = [(name, *(times.get(n) for n in (512, 1024, 2048))) for name, times in NOTES_TIMES.items()]
+    mine = [_find(run, "contact-periodic", n) for n in (512, 1024, 2048)]
+    notes.append(("bem, this run, to 1e-8", *(None if p is None else p.cpu_median for p in mine)))
+    headers, caption = ("code, s", "512", "1024", "2048"), "On a quiet machine, to a residual near 1e-6."
+    yield Section("Earlier measurement of the peers", table(headers, notes, caption=caption))
 
 
 def _split(run: Run) -> str:

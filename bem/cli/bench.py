@@ -10,81 +10,76 @@ import typer
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
+    app.command(short_help="Run time and memory against error.")(bench)
 
-    @app.command(short_help="Run time and memory against error.")
-    def bench(
-        only: Annotated[
-            list[str] | None, typer.Option("--only", metavar="NAME", help="A case; may be repeated. Without it, all.")
-        ] = None,
-        quick: Annotated[bool, typer.Option("--quick", help="Small sizes, a look in a minute.")] = False,
-        size: Annotated[
-            list[float] | None,
-            typer.Option("--size", help="Sizes in place of a case's own, whatever --limit says; may be repeated."),
-        ] = None,
-        limit: Annotated[
-            float,
-            typer.Option(
-                "--limit", min=1, help="Largest number of cells a side among a case's own sizes (4096 takes minutes)."
-            ),
-        ] = 2048,
-        threads: Annotated[
-            list[int] | None,
-            typer.Option(min=1, max=1024, help="Threads; may be repeated. Without it 1, and 2 where it matters."),
-        ] = None,
-        repeats: Annotated[int, typer.Option(min=1, max=1000, help="Timed solves of each point.")] = 5,
-        floor: Annotated[
-            bool, typer.Option("--floor/--no-floor", help="Measure what the machine can do at best.")
-        ] = True,
-        peers: Annotated[
-            bool, typer.Option("--peers", help="Also time tamaas, ContactMechanics and ASPHER, installed from PyPI.")
-        ] = False,
-        peers_folder: Annotated[Path, typer.Option(help="Environment of the peers.")] = Path(".venv-peers"),
-        peers_size: Annotated[
-            list[int] | None, typer.Option(help="Cells a side for the peers; 512 without it.")
-        ] = None,
-        json_: Annotated[
-            Path | None, typer.Option("--json", metavar="FILE", help="Append the run to this history.")
-        ] = None,
-        figure: Annotated[Path | None, typer.Option(help="Draw error against time and memory into this file.")] = None,
-        compare: Annotated[
-            tuple[str, str] | None,
-            typer.Option(
-                "--compare", metavar="A B", help="Compare two commits (or -2 -1) of the history, run nothing."
-            ),
-        ] = None,
-    ) -> None:
-        """Run time and memory against error, beside what the machine can do at best.
 
-        Times are processor times: medians of repeats with their quartile range. Exit code 1 where a point failed.
-        """
-        from bem.benchmarks.history import append_run
-        from bem.benchmarks.run import check_names, run_cases
-        from bem.benchmarks.show import draw_run, print_comparison, print_run
-        from bem.cli._terminal import table
+def bench(  # reason: the arguments are the options
+    only: Annotated[
+        list[str] | None, typer.Option("--only", metavar="NAME", help="A case; may be repeated. Without it, all.")
+    ] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="Small sizes, a look in a minute.")] = False,
+    size: Annotated[
+        list[float] | None,
+        typer.Option("--size", help="Sizes in place of a case's own, whatever --limit says; may be repeated."),
+    ] = None,
+    limit: Annotated[
+        float,
+        typer.Option(
+            "--limit", min=1, help="Largest number of cells a side among a case's own sizes (4096 takes minutes)."
+        ),
+    ] = 2048,
+    threads: Annotated[
+        list[int] | None,
+        typer.Option(min=1, max=1024, help="Threads; may be repeated. Without it 1, and 2 where it matters."),
+    ] = None,
+    repeats: Annotated[int, typer.Option(min=1, max=1000, help="Timed solves of each point.")] = 5,
+    floor: Annotated[bool, typer.Option("--floor/--no-floor", help="Measure what the machine can do at best.")] = True,
+    peers: Annotated[
+        bool, typer.Option("--peers", help="Also time tamaas, ContactMechanics and ASPHER, installed from PyPI.")
+    ] = False,
+    peers_folder: Annotated[Path, typer.Option(help="Environment of the peers.")] = Path(".venv-peers"),
+    peers_size: Annotated[list[int] | None, typer.Option(help="Cells a side for the peers; 512 without it.")] = None,
+    json_: Annotated[
+        Path | None, typer.Option("--json", metavar="FILE", help="Append the run to this history.")
+    ] = None,
+    figure: Annotated[Path | None, typer.Option(help="Draw error against time and memory into this file.")] = None,
+    compare: Annotated[
+        tuple[str, str] | None,
+        typer.Option("--compare", metavar="A B", help="Compare two commits (or -2 -1) of the history, run nothing."),
+    ] = None,
+) -> None:
+    """Run time and memory against error, beside what the machine can do at best.
 
-        if compare is not None:
-            print_comparison(json_ or Path("bench.json"), *compare, table)
-            return
-        names = check_names(only)
-        run = run_cases(
-            names,
-            quick=quick,
-            sizes=size,
-            limit=limit,
-            threads=threads,
-            repeats=repeats,
-            with_floor=floor,
-            peers=(peers_folder, tuple(peers_size or [512])) if peers else None,
-            say=lambda words: typer.echo(words, err=True),
-        )
-        print_run(run, table)
-        if json_ is not None:
-            append_run(json_, run)
-            print(f"history: {json_}")
-        if figure is not None:
-            draw_run(run, figure)
-            print(f"figure: {figure}")
-        if run.failures:
-            for what, why in run.failures.items():
-                typer.echo(f"bem: {what} failed: {why}", err=True)
-            raise typer.Exit(1)
+    Times are processor times: medians of repeats with their quartile range. Exit code 1 where a point failed.
+    """
+    from bem.benchmarks.history import append_run
+    from bem.benchmarks.run import check_names, run_cases
+    from bem.benchmarks.show import draw_run, print_comparison, print_run
+    from bem.cli._terminal import table
+
+    if compare is not None:
+        print_comparison(json_ or Path("bench.json"), *compare, table)
+        return
+    names = check_names(only)
+    run = run_cases(
+        names,
+        quick=quick,
+        sizes=size,
+        limit=limit,
+        threads=threads,
+        repeats=repeats,
+        with_floor=floor,
+        peers=(peers_folder, tuple(peers_size or [512])) if peers else None,
+        say=lambda words: typer.echo(words, err=True),
+    )
+    print_run(run, table)
+    if json_ is not None:
+        append_run(json_, run)
+        print(f"history: {json_}")
+    if figure is not None:
+        draw_run(run, figure)
+        print(f"figure: {figure}")
+    if run.failures:
+        for what, why in run.failures.items():
+            typer.echo(f"bem: {what} failed: {why}", err=True)
+        raise typer.Exit(1)

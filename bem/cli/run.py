@@ -33,11 +33,11 @@ SetOption = Annotated[
 ]
 
 
-def register(app: typer.Typer) -> None:
+def register(app: typer.Typer) -> None:  # reason: the command in it; its arguments are the options
     """Add the command."""
 
     @app.command()
-    def run(
+    def run(  # reason: the arguments are the options
         scene: SceneArgument,
         out: Annotated[
             Path | None, typer.Option(help="The run's folder; without it the next free runs/NAME-001.")

@@ -10,7 +10,7 @@ import typer
 from bem.cli.run import SceneArgument, SetOption
 
 
-def register(app: typer.Typer) -> None:
+def register(app: typer.Typer) -> None:  # reason: the command in it; its arguments are the options
     """Add the command."""
 
     @app.command(short_help="Run a scene at every combination of values of its keys.")

@@ -30,7 +30,7 @@ from bem.lubrication.steady import check_entrainment
 from bem.materials import Body
 
 
-def solve_mixed(
+def solve_mixed(  # reason: the signature is a promise to users' scripts; behind it is one set-up
     *,
     height: FloatArray,
     grid: Grid,

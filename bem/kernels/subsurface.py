@@ -208,10 +208,8 @@ def _corners(
         out[5] += traction * (v_y - mixed_y)
 
 
-# A point, half sides, Poisson's ratio, two loads and the sums: plain numbers, which the compiler keeps in registers
-# through the rule's points; a record would be taken apart at every call. So it is for `add_rectangles`.
 @nb.njit(**COMPILE)
-def _piece(
+def _piece(  # reason: plain numbers stay in registers through the rule's points; a record is taken apart at every call
     n: int,
     x: float,
     y: float,
@@ -249,7 +247,7 @@ def add_rectangle(
 
 
 @nb.njit(**COMPILE)
-def add_rectangles(
+def add_rectangles(  # reason: as `_piece`, for the compiler
     x: FloatArray,
     y: FloatArray,
     z: float,

@@ -25,7 +25,7 @@ RECTANGLES = ("axis_aligned", "minimum_area")
 BORDERS = ("exclude", "include")
 
 
-def particles_from_height_map(
+def particles_from_height_map(  # reason: a promise to users' scripts: what to see, how to level, what to keep
     heights: FloatArray,
     spacing: tuple[float, float],
     *,
@@ -67,7 +67,6 @@ def particles_from_height_map(
     ------
     InputError : heights that are not a finite map, names or values out of range.
     """
-    # the arguments are the entry point's promise: what to see, how to level, what to keep
     array, cell = check_map(heights, spacing)
     _check(threshold, background, separate, border, rectangle, smallest_columns, smallest_radius, connectivity)
     level = level_background(array, cell, threshold=threshold, method=background, lines=level_lines)

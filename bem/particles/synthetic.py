@@ -44,7 +44,7 @@ class SyntheticMap:
     position: FloatArray = field(repr=False)
 
 
-def synthetic_afm_map(
+def synthetic_afm_map(  # reason: each argument is a property of the map, with a default from the thesis' sample
     *,
     seed: int,
     shape: tuple[int, int] = (1024, 1024),
@@ -74,7 +74,6 @@ def synthetic_afm_map(
     ------
     InputError : sizes out of range, or more particles than find room.
     """
-    # the arguments are the entry point's promise; each has a default from the thesis' sample
     _check(count, (number_mean_radius, volume_mean_radius), (width_over_thickness, length_over_width), plate_rms)
     grid = Grid(shape, (lengths[0] / shape[0], lengths[1] / shape[1]))
     radius = _radii(count, number_mean_radius, volume_mean_radius)[::-1]  # largest placed first

@@ -4,13 +4,13 @@ The step is the power of two that leaves 48 bits to the row's largest number: wh
 it, different from number to number, so that a stress computed from them differs by some 1e-15 of the largest pressure,
 as the transforms themselves do. Zeros stay zeros, and a spectrum that was packed once comes back the same every time.
 
-What it buys (the benchmark's row `stress` counts it: `spectra_MB` for `unpacked_MB`), on 256 x 256 free cells: 2.39 MB
-a depth for 3.17 without traction, 4.38 for 6.34 with it (4.78 where a body is coated). 122 depths with traction fit into
-the default 512 MiB instead of 84: a sweep through 100 that is repeated computes no spectrum anew instead of 16 and takes
-0.6 times as long, for half as long again the first time; and six stresses at 64 depths stay within 0.5 GB with all they
-need (tests/frugality/test_allocations.py). It does not save traffic: a number is read in six bytes and written and read
-once more in eight, 22 bytes instead of 8 beside the 50 or so that its inverse transform moves. Line contacts of up to
-360 cells across, as in the built-in scenes, are too small to be packed.
+What it buys (the benchmark's row `stress` counts it, `spectra_MB` for `unpacked_MB`) on 256 x 256 free cells: 2.39 MB
+a depth for 3.17 without traction, 4.38 for 6.34 with it (4.78 where a body is coated). 122 depths with traction fit
+into the default 512 MiB instead of 84, so that a repeated sweep through 100 computes no spectrum anew instead of 16 and
+takes 0.6 times as long; the first one takes half as long again. Six stresses at 64 depths stay within 0.5 GB with all
+they need (tests/frugality/test_allocations.py). It does not save traffic: a number is read in six bytes and written and
+read once more in eight, 22 bytes instead of 8 beside the 50 or so that its inverse transform moves. Line contacts of up
+to 360 cells across, as in the built-in scenes, are too small to be packed.
 """
 
 from __future__ import annotations

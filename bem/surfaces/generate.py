@@ -32,7 +32,7 @@ SAMPLE_LENGTH_TOLERANCE = 0.15
 """Relative tolerance of the correlation lengths of a surface with prescribed skewness and kurtosis."""
 
 
-def generate_surface(
+def generate_surface(  # reason: the arguments are a promise to users' scripts; behind it they are one record
     grid: Grid,
     *,
     rms_height: float | None = None,
@@ -71,7 +71,6 @@ def generate_surface(
     InputError : arguments out of range or that exclude each other; kurtosis below skewness^2 + 1, which no distribution
         has; skewness and kurtosis that this spectrum on this grid cannot have.
     """
-    # the arguments are the entry point's promise; behind it they are one record
     request = Request(
         rms_height=rms_height,
         seed=seed,

@@ -208,7 +208,7 @@ def initial_state(lower_heights: FloatArray, upper_heights: FloatArray) -> Runni
     )
 
 
-def run_in(
+def run_in(  # reason: the arguments are a promise to users' scripts; behind it surfaces, a set-up, a model, a state
     lower_heights: FloatArray,
     upper_heights: FloatArray,
     *,
@@ -247,7 +247,6 @@ def run_in(
     InputError : shapes that do not match, a wearing body without yield stress.
     ConvergenceError : a contact that did not converge; says in which cycle.
     """
-    # fifteen arguments are the entry point's promise; behind it they are surfaces, a set-up, a model and a state
     choices = model if model is not None else WearModel()
     setup = WearSetup(
         grid=grid,

@@ -1,0 +1,67 @@
+"""Functions and files stay small enough to be read at a sitting; what is larger says why where it stands."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+MOST_LINES = 60  # of a function, its docstring not counted
+MOST_ARGUMENTS = 9
+LARGEST_FILE = 450
+REASON = "# reason: "
+
+# being rebuilt; entries go as they land
+ROOMS_TO_COME = ("bem/contact/",)
+FUNCTIONS_TO_COME = {("bem/runs.py", "run_scene"), ("bem/scenes/kinds/contact.py", "plan")}
+FILES_TO_COME = {f"bem/scenes/kinds/{name}.py" for name in ("contact", "wear", "running_in", "friction")}
+
+
+def sources():
+    for folder in ("bem", "reports", "fem_reference"):
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            yield path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")
+
+
+def large_functions(source):
+    """(name, lines, arguments, whether a reason stands there) of functions that are too large."""
+    text = source.splitlines()
+    for node in ast.walk(ast.parse(source)):
+        if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            continue
+        described = ast.get_docstring(node, clean=False)
+        lines = node.end_lineno - node.lineno + 1 - (len(described.splitlines()) if described else 0)
+        arguments = len(node.args.posonlyargs) + len(node.args.args) + len(node.args.kwonlyargs)
+        if lines > MOST_LINES or arguments > MOST_ARGUMENTS:
+            said = any(REASON in line for line in text[node.lineno - 1 : node.body[0].lineno])
+            yield node.name, lines, arguments, said
+
+
+def test_large_functions_say_why():
+    wanting = [
+        f"{path}: {name} has {lines} lines and {arguments} arguments"
+        for path, source in sources()
+        if not path.startswith(ROOMS_TO_COME)
+        for name, lines, arguments, said in large_functions(source)
+        if not said and (path, name) not in FUNCTIONS_TO_COME
+    ]
+    assert not wanting, f"make them shorter, or write '{REASON}...' on the line of the def: {wanting}"
+
+
+def test_no_file_is_long():
+    long = [path for path, source in sources() if source.count("\n") > LARGEST_FILE and path not in FILES_TO_COME]
+    assert not long, f"more than {LARGEST_FILE} lines; divide them by what they know"
+
+
+@pytest.mark.parametrize(
+    ("source", "found"),
+    [
+        ("def short(a): pass", []),
+        ("def wide(a, b, c, d, e, *, f, g, h, i, j): pass", [("wide", 1, 10, False)]),
+        ("def wide(  # reason: a promise\n    a, b, c, d, e, f, g, h, i, j\n): pass", [("wide", 3, 10, True)]),
+        ("def long():\n" + "    x = 1\n" * 60, [("long", 61, 0, False)]),
+        ('def told():\n    """A\n    B\n    C"""\n' + "    x = 1\n" * 59, []),
+    ],
+)
+def test_the_measure_itself(source, found):
+    assert list(large_functions(source)) == found
