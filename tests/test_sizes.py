@@ -18,7 +18,7 @@ FILES_TO_COME = {f"bem/scenes/kinds/{name}.py" for name in ("contact", "wear", "
 
 
 def sources():
-    for folder in ("bem", "reports", "fem_reference"):
+    for folder in ("bem", "reports", "fem_reference", "meshes"):
         for path in sorted((ROOT / folder).rglob("*.py")):
             yield path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")
 
