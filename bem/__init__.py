@@ -35,7 +35,7 @@ _HOMES = {
     "particles": ["Particle", "particle_statistics", "particles_from_height_map"],
     "scenes": ["load_scene"],
     "results": ["FinishedRun", "open_run"],
-    "runs": ["plan_scene", "run_scene"],
+    "runs": ["FinishedSweep", "plan_scene", "run_scene", "run_sweep"],
     "tribofilm": ["grow_tribofilm"],
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}

@@ -99,7 +99,7 @@ def _sweeps() -> Section:
         )
         + _code(EXAMPLES["sweep"])
         + text(
-            "In Python it is bem.sweeps.run_sweep; values are ranges first:last:count, log:first:last:count, "
+            "In Python it is bem.run_sweep; values are ranges first:last:count, log:first:last:count, "
             "whole numbers first:last, lists, or @FILE with a value on each line. An index reaches into lists, "
             "variants[0].cells; the same keys stand behind --set."
         ),

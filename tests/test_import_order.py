@@ -27,7 +27,7 @@ ORDER = [
     {"campaigns"},
     {"plots"},
     {"runs"},
-    {"sweeps", "warm_up"},
+    {"warm_up"},
     {"verification", "benchmarks"},
     {"cli"},
 ]

@@ -71,7 +71,7 @@ def campaign_of(scene: SceneModel) -> Campaign:
     inner = [_own_axes(kind, base) for base in bases]
     if len({tuple(len(axis) for axis in axes) for axes in inner}) > 1:
         raise InputError("over: its values change how long the scene's own lists are; allowed: lists of one length")
-    axes = (*_axes_of_over(scene, bases), *_common(inner))
+    axes = (*axes_of_keys(scene.over or {}, bases), *_common(inner))
     if math.prod(len(axis) for axis in axes) > _MOST_CASES:
         raise InputError(f"scene: {math.prod(map(len, axes))} cases; allowed: {_MOST_CASES} in all combinations")
     cases = []
@@ -103,32 +103,32 @@ def _common(inner: Sequence[Sequence[Axis]]) -> list[Axis]:
     return found
 
 
-def _axes_of_over(scene: SceneModel, bases: Sequence[SceneModel]) -> list[Axis]:
-    """Keys of `over` with their values as the scenes understood them, in SI units; texts where they are no numbers."""
+def axes_of_keys(over: Mapping[str, Sequence[Any]], scenes: Sequence[SceneModel]) -> list[Axis]:
+    """Keys with their values as the scenes at all combinations understood them, in SI units; as they were written
+    where these are no different numbers.
+
+    over : the keys with what was given. scenes : resolved, the last key running fastest.
+    """
     axes: list[Axis] = []
-    counts = [len(values) for values in (scene.over or {}).values()]
-    for number, (key, given) in enumerate((scene.over or {}).items()):
+    counts = [len(values) for values in over.values()]
+    for number, (key, given) in enumerate(over.items()):
         step = math.prod(counts[number + 1 :])
-        tables = [scene_table(bases[i * step]) for i in range(len(given))]
-        values, unit = axis_values(key, [str(value) for value in given], tables), "1"
-        if not isinstance(values[0], str):
-            unit = unit_at(bases[0], key)
+        found = [_value(scene_table(scenes[i * step]), key) for i in range(len(given))]
+        numbers = all(isinstance(value, int | float) and not isinstance(value, bool) for value in found)
+        if numbers and len(set(found)) == len(found):
+            values, unit = tuple(found), unit_at(scenes[0], key)
+        else:
+            values, unit = tuple(str(value).strip("\"'") for value in given), "1"
         axes.append(Axis(key, values, Figure("", key), lambda scene, i: scene, unit=unit))
     return axes
 
 
-def axis_values(key: str, given: Sequence[str], tables: Sequence[Mapping[str, Any]]) -> tuple[Any, ...]:
-    """What stands at a swept key in the tables of the scenes; what was written where these are no different numbers."""
-    found: list[Any] = []
-    for table in tables:
-        value = value_at(table, parse_key(key) or ())
-        if isinstance(value, list) and value and all(item == value[0] for item in value):
-            value = value[0]
-        found.append(value)
-    numbers = all(isinstance(value, int | float) and not isinstance(value, bool) for value in found)
-    if numbers and len(set(found)) == len(found):
-        return tuple(found)
-    return tuple(text.strip("\"'") for text in given)
+def _value(table: Mapping[str, Any], key: str) -> Any:
+    """What stands at a key; one value where it stands for both axes."""
+    value = value_at(table, parse_key(key) or ())
+    if isinstance(value, list) and value and all(item == value[0] for item in value):
+        return value[0]
+    return value
 
 
 def label_of(axes: Sequence[Axis], place: Sequence[int | None]) -> str:
@@ -138,9 +138,9 @@ def label_of(axes: Sequence[Axis], place: Sequence[int | None]) -> str:
 
 
 def _words(axis: Axis, i: int) -> str:
-    value, unit = axis.figure.shown(axis.values[i]), axis.figure.unit.replace("_", "/") or axis.unit.replace("1", "")
+    value, unit = axis.figure.shown(axis.values[i]), axis.figure.written or axis.unit.replace("1", "")
     number = f"{value:.6g}" if isinstance(value, float) else str(value)
-    return f"{axis.name} {number} {'degC' if unit == 'C' else unit}".rstrip()
+    return f"{axis.name} {number} {unit}".rstrip()
 
 
 def _repetitions(scene: SceneModel) -> Axis | None:

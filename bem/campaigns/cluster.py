@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Iterable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bem.campaigns.context import Silent
-from bem.campaigns.local import Job
 from bem.errors import InputError, ResultsError
 
+if TYPE_CHECKING:
+    from bem.campaigns.jobs import Sent
 
-def compute_on_cluster(jobs: Iterable[Job], scheduler: str) -> Iterator[tuple[int, Any]]:
+
+def compute_on_cluster(jobs: Iterable[Sent], scheduler: str) -> Iterator[tuple[int, Any]]:
     """Do jobs on the workers of a scheduler such as `tcp://10.0.0.1:8786`, yielding index and result of each.
 
     A job whose worker dies goes to another one, and on from its checkpoint where both see the same disk. Progress is
@@ -52,7 +54,7 @@ def compute_on_cluster(jobs: Iterable[Job], scheduler: str) -> Iterator[tuple[in
             client.cancel(list(futures), force=True)
 
 
-def _compute(job: Job) -> Any:
+def _compute(job: Sent) -> Any:
     return job.compute(Silent())
 
 

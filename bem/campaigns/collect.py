@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from bem.campaigns.cases import REPETITION, Campaign, Case, campaign_of
 from bem.errors import Status
+from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Outcome, Variable
 from bem.scenes.records import Figure, Record, Series, described, error_key, mean, spread
@@ -135,26 +136,34 @@ def _over(statistic: Any, values: list[Any]) -> Any:
     return statistic(values)
 
 
+def coordinates(axes: Sequence[Axis]) -> dict[str, Variable]:
+    """The values of the axes."""
+    return {axis.name: Variable((axis.name,), np.array(axis.values), axis.si, axis.figure.text) for axis in axes}
+
+
+def laid_out(
+    axes: Sequence[Axis], values: list[Any], unit: str, text: str, dimensions: tuple[str, ...] = ()
+) -> Variable:
+    """What all cases gave of one thing, over the axes: texts, numbers, or arrays with dimensions of their own."""
+    names, shape = tuple(axis.name for axis in axes), tuple(len(axis) for axis in axes)
+    if any(isinstance(value, str) for value in values):
+        texts = np.array(["" if value is None else str(value) for value in values])
+        return Variable(names, texts.reshape(shape), "1", text)
+    stacked = _stacked(values)
+    return Variable((*names, *dimensions), stacked.reshape((*shape, *stacked.shape[1:])), unit, text)
+
+
 def _variables(
     campaign: Campaign, known: Mapping[str, Figure | Series], records: Sequence[Record | None]
 ) -> dict[str, Variable]:
-    variables: dict[str, Variable] = {}
-    axes = tuple(axis.name for axis in campaign.axes)
-    for axis in campaign.axes:
-        variables[axis.name] = Variable((axis.name,), np.array(axis.values), axis.si, axis.figure.text)
+    variables = coordinates(campaign.axes)
     odd = _odd_dimensions(known, records)
     for name, item in known.items():
         values = [None if record is None else getattr(record, name) for record in records]
         if all(value is None for value in values):
             continue
-        if isinstance(item, Figure):
-            dimensions, unit, text = item.dimensions, item.si, item.text
-            if any(isinstance(value, str) for value in values):
-                texts = np.array(["" if value is None else str(value) for value in values])
-                variables[name] = Variable(axes, texts.reshape(campaign.shape), "1", text)
-                continue
-        else:
-            dimensions, unit, text = item.dimensions, item.unit, item.text
+        dimensions, text = item.dimensions, item.text
+        unit = item.si if isinstance(item, Figure) else item.unit
         if isinstance(item, Series) and item.rows:
             variables |= _rows(name, item, values, variables)
         elif (isinstance(item, Series) and item.of != "each") or odd & set(dimensions):
@@ -164,16 +173,10 @@ def _variables(
         elif dimensions == (name,):
             variables[name] = Variable(dimensions, _coordinate(values), unit, text)
         else:
-            stacked = _stacked(values)
-            variables[name] = Variable(
-                (*axes, *dimensions), stacked.reshape((*campaign.shape, *stacked.shape[1:])), unit, text
-            )
+            variables[name] = laid_out(campaign.axes, values, unit, text, dimensions)
         errors = [None if record is None else record.errors.get(name) for record in records]
         if name in variables and any(error is not None for error in errors):
-            stacked = _stacked(errors)
-            variables[error_key(name)] = Variable(
-                (*axes, *dimensions), stacked.reshape((*campaign.shape, *stacked.shape[1:])), unit, f"error of {text}"
-            )
+            variables[error_key(name)] = laid_out(campaign.axes, errors, unit, f"error of {text}", dimensions)
     return variables
 
 

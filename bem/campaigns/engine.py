@@ -8,11 +8,8 @@ on from its own state, so a campaign killed at any moment ends, resumed, in the 
 from __future__ import annotations
 
 import dataclasses
-import importlib
-import os
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import nullcontext
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -20,22 +17,16 @@ from typing import Any
 from bem.campaigns.cases import Campaign, Case
 from bem.campaigns.collect import Given, collect
 from bem.campaigns.context import CaseContext, Silent, Watcher
-from bem.campaigns.disk import marked, sees
-from bem.campaigns.local import compute_locally
+from bem.campaigns.jobs import Staff, hand_out, words_of
 from bem.errors import BemError, ConvergenceError, InputError, ResultsError, Status
-from bem.laws import modules_of_laws
 from bem.results.checkpoint import load_checkpoint, save_checkpoint
 from bem.results.directory import CASES, CHECKPOINT
 from bem.scenes.context import Outcome
 from bem.scenes.kinds import get_kind
-from bem.scenes.planner import Plan, available_memory, machine_rate
+from bem.scenes.planner import Plan
 from bem.scenes.records import pack, unpack, without
-from bem.surfaces.formats import modules_of_formats
-from bem.threads import get_threads, set_threads
 
 _RECORD = "_record"
-_WORTH_A_PROCESS = 4.0
-"""Seconds of work that pay for starting a process, which takes two."""
 
 
 @dataclass(frozen=True)
@@ -52,38 +43,28 @@ class Result:
 
 @dataclass(frozen=True)
 class CaseJob:
-    """A case to be computed anywhere.
+    """A case to be computed anywhere, see `bem.campaigns.jobs.Job`.
 
     Parameters
     ----------
-    index, case : which, and what.
+    index, case, plan : which, what, and how much work it is.
     file : of its checkpoint, None where there is none.
     first, last : whether it is the first, the last of its campaign.
     epoch : clock time [s] at which the run would have begun had it not been interrupted.
-    threads : for its run; None leaves them as they are.
-    token : of the run's folder where the worker may not see it, see `disk`.
-    modules : to import first, of laws and kinds from outside the package.
     """
 
     index: int
     case: Case
+    plan: Plan | None
     file: Path | None
     first: bool
     last: bool
     epoch: float
-    threads: int | None = None
-    token: str = ""
-    modules: tuple[str, ...] = ()
 
     def compute(self, watcher: Watcher) -> Result:
         """Run the case, going on from its checkpoint; errors that a scene can cause come back as words."""
-        for name in self.modules:
-            importlib.import_module(name)
-        if self.threads is not None:
-            set_threads(self.threads)
-        file = self.file if not self.token or (self.file and sees(self.file.parent.parent, self.token)) else None
-        state = None if file is None else load_checkpoint(file)
-        context = CaseContext(self.case, file, state, watcher, self.epoch)
+        state = None if self.file is None else load_checkpoint(self.file)
+        context = CaseContext(self.case, self.file, state, watcher, self.epoch)
         try:
             record = get_kind(self.case.scene.kind).run(self.case.scene, context)
         except ResultsError:
@@ -92,18 +73,19 @@ class CaseJob:
             return _failed(error, context.notes, context.seconds)
         return Result(pack(without(record, first=self.first, last=self.last)), context.notes, context.seconds)
 
+    def elsewhere(self) -> CaseJob:
+        """Without a checkpoint."""
+        return dataclasses.replace(self, file=None)
+
     def lost(self, why: str) -> Result:
         """Its process died."""
         return Result(None, error=why, status=Status.STALLED, exception=ConvergenceError)
 
 
 def _failed(error: BemError | MemoryError, notes: list[str], seconds: dict[str, float]) -> Result:
-    if isinstance(error, MemoryError):
-        words = "out of memory; fewer --workers or a smaller grid"
-        return Result(None, notes, seconds, words, Status.STALLED, ConvergenceError)
-    words = " | ".join(getattr(error, "messages", None) or [str(error)])
+    kind = ConvergenceError if isinstance(error, MemoryError) else type(error)
     status = Status.INFEASIBLE if isinstance(error, InputError) else Status.STALLED
-    return Result(None, notes, seconds, words, status, type(error))
+    return Result(None, notes, seconds, words_of(error), status, kind)
 
 
 @dataclass(frozen=True)
@@ -156,10 +138,13 @@ def compute(
             missing.append(case)
     del states
     last = len(files) - 1
+    plans: Sequence[Plan | None] = [None] * len(files) if plan is None else plan.of_cases
     jobs = [
-        CaseJob(case.index, case, files[case.index], case.index == 0, case.index == last, epoch) for case in missing
+        CaseJob(case.index, case, plans[case.index], files[case.index], case.index == 0, case.index == last, epoch)
+        for case in missing
     ]
-    for index, result in _results(jobs, campaign, plan, workers, scheduler, board):
+    staff = Staff(workers, scheduler, module=type(campaign.scene).__module__, folder=folder)
+    for index, result in hand_out(jobs, staff, board.watching, board.note):
         file = files[index]
         if file is not None and len(files) > 1 and result.record is not None:
             about = {"_notes": result.notes, "_seconds": result.seconds, "_wall_time_s": time.time() - epoch}
@@ -178,53 +163,6 @@ def _file(folder: Path | None, campaign: Campaign, case: Case) -> Path | None:
         return folder / CHECKPOINT
     (folder / CASES).mkdir(exist_ok=True)
     return folder / CASES / f"{case.index:05d}.bin"
-
-
-def _results(
-    jobs: Sequence[CaseJob],
-    campaign: Campaign,
-    plan: Plan | None,
-    workers: int | None,
-    scheduler: str | None,
-    board: Board,
-) -> Iterator[tuple[int, Result]]:
-    """Results of the jobs in the order in which they end."""
-    modules = tuple(dict.fromkeys((type(campaign.scene).__module__, *modules_of_laws(), *modules_of_formats())))
-    sent = [dataclasses.replace(job, threads=get_threads(), modules=modules) for job in jobs]
-    if scheduler is not None and jobs:
-        from bem.campaigns.cluster import compute_on_cluster
-
-        folder = jobs[0].file.parent.parent if jobs[0].file and len(campaign.cases) > 1 else None
-        with nullcontext("none") if folder is None else marked(folder) as token:
-            yield from compute_on_cluster([dataclasses.replace(job, token=token) for job in sent], scheduler)
-        return
-    memory = 0.0 if plan is None else plan.memory
-    count = staff(workers, len(jobs) if workers else _worth(len(jobs), plan), memory, board.note) if jobs else 0
-    if count > 1 and "__main__" not in modules:  # what a script itself defines is known to no other process
-        yield from compute_locally(sent, count, board.watching)
-        return
-    for job in jobs:
-        yield job.index, job.compute(board.watching(job.index))
-
-
-def _worth(jobs: int, plan: Plan | None) -> int:
-    """How many processes the work is worth, at most one a job."""
-    if plan is None or jobs < 2:
-        return 1
-    seconds = plan.seconds(machine_rate(get_threads())) * jobs / plan.cases
-    return max(1, min(jobs, int(seconds / _WORTH_A_PROCESS)))
-
-
-def staff(workers: int | None, jobs: int, memory: float, note: Callable[[str], None]) -> int:
-    """How many processes: as asked, or one per core as far as the memory [bytes] that each needs allows."""
-    if workers is not None:
-        return min(workers, jobs)
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1)
-    wanted = min(max(1, cores // get_threads()), jobs)
-    fitting = max(1, int(available_memory() // max(memory, 1.0)))
-    if fitting < wanted:
-        note(f"{fitting} processes instead of {wanted}: more would not fit into memory")
-    return min(wanted, fitting)
 
 
 def _together(campaign: Campaign, results: Sequence[Result], epoch: float) -> Computed:

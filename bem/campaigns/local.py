@@ -15,28 +15,17 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from multiprocessing.connection import Connection, Pipe, wait
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from bem.campaigns.context import Watcher
 from bem.extensions import load_extensions
 
+if TYPE_CHECKING:
+    from bem.campaigns.jobs import Sent
+
 ATTEMPTS = 3
 """How often a job may take its process down (memory, a crash) before it is given up."""
 _SERVE = "from bem.campaigns.local import serve; serve({descriptor})"
-
-
-class Job(Protocol):
-    """Work that can be sent to another process; `compute` gives what can be sent back."""
-
-    @property
-    def index(self) -> int:
-        """Which job this is."""
-
-    def compute(self, watcher: Watcher) -> Any:
-        """Do it."""
-
-    def lost(self, why: str) -> Any:
-        """What stands in the place of its result when its process died again and again."""
 
 
 Tell = Callable[[int], Watcher]
@@ -56,9 +45,9 @@ class _Worker:
             env={**os.environ, "PYTHONPATH": os.pathsep.join(paths), "OPENBLAS_NUM_THREADS": "1"},
         )
         theirs.close()  # so that the death of the process is the end of the pipe
-        self.job: Job | None = None
+        self.job: Sent | None = None
 
-    def give(self, job: Job) -> None:
+    def give(self, job: Sent) -> None:
         self.job = job
         with suppress(OSError):  # it died while idle: the end of its pipe says so in the next round
             self.connection.send(job)
@@ -69,7 +58,7 @@ class _Worker:
         self.process.wait()
 
 
-def compute_locally(jobs: Iterable[Job], workers: int, tell: Tell) -> Iterator[tuple[int, Any]]:
+def compute_locally(jobs: Iterable[Sent], workers: int, tell: Tell) -> Iterator[tuple[int, Any]]:
     """Do jobs in that many processes, yielding the index and the result of each as it ends.
 
     A process that dies is replaced and its job given out again, three times in all. Leaving the iteration early ends
@@ -101,10 +90,8 @@ def compute_locally(jobs: Iterable[Job], workers: int, tell: Tell) -> Iterator[t
                         waiting.append(job)
                         continue
                     code = worker.process.returncode
-                    message = (
-                        "done",
-                        job.lost(f"its process died {ATTEMPTS} times (exit code {code}), out of memory?"),
-                    )
+                    why = f"its process died {ATTEMPTS} times (exit code {code}), out of memory?"
+                    message = ("done", job.lost(why))
                 if message[0] == "done":
                     worker.job = None
                     if waiting and worker in staff:
@@ -117,7 +104,7 @@ def compute_locally(jobs: Iterable[Job], workers: int, tell: Tell) -> Iterator[t
             worker.end()
 
 
-def _hand_out(worker: _Worker, waiting: deque[Job], attempts: dict[int, int]) -> None:
+def _hand_out(worker: _Worker, waiting: deque[Sent], attempts: dict[int, int]) -> None:
     job = waiting.popleft()
     attempts[job.index] = attempts.get(job.index, 0) + 1
     worker.give(job)

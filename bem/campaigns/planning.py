@@ -25,8 +25,8 @@ def plan(campaign: Campaign) -> Plan:
     """
     plans: list[Plan] = []
     refused: list[InputError] = []
-    distinct = [case for case in campaign.cases if case.repetition == 0]
-    for case in distinct:
+    repetitions = next((len(axis) for axis in campaign.axes if axis.name == REPETITION), 1)
+    for case in campaign.cases[::repetitions]:  # the last axis: those of one scene follow one another
         try:
             plans.append(campaign.kind.plan(case.scene))
         except InputError as error:
@@ -36,10 +36,10 @@ def plan(campaign: Campaign) -> Plan:
         kind = type(refused[0]) if len({type(error) for error in refused}) == 1 else InputError
         more = [f"and {len(messages) - _CASES_NAMED} more"] if len(messages) > _CASES_NAMED else []
         raise kind([*messages[:_CASES_NAMED], *more])
-    repetitions = next((len(axis) for axis in campaign.axes if axis.name == REPETITION), 1)
     names = dict.fromkeys(step.name for one in plans for step in one.steps)
     steps = [_together([s for one in plans for s in one.steps if s.name == name], repetitions) for name in names]
-    return Plan(tuple(steps), cases=len(campaign.cases))
+    each = tuple(one for one in plans for _ in range(repetitions))
+    return Plan(tuple(steps), cases=len(campaign.cases), of_cases=each)
 
 
 def _together(steps: Sequence[Step], repetitions: int) -> Step:

@@ -56,8 +56,7 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
         from bem.cli._terminal import Terminal
 
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers share the cores already
-        from bem.sweeps import run_sweep
-        from bem.sweeps.run import DATASET, FIGURE, TABLE
+        from bem.runs.sweep import DATASET, FIGURE, TABLE, run_sweep
 
         with Terminal() as terminal:
             try:

@@ -29,7 +29,7 @@ def draw_sweep(
 
     Parameters
     ----------
-    variables : as `bem.sweeps.collect.dataset_variables` gives them.
+    variables : as `bem.runs.table.dataset_variables` gives them.
     spacings : the swept keys in order, with "list", "linear" or "logarithmic".
     headline : names of figures, most important first; others follow where these are not numbers over the keys.
     path : file to write, without ending.

@@ -78,23 +78,50 @@ def scenes_over(scene: SceneModel) -> list[SceneModel]:
     """
     if scene.over is None or scene.source is None:
         return [scene]
+    return scenes_at({key: item for key, item in scene.source.items() if key != "over"}, scene.over)
+
+
+def scenes_at(data: Mapping[str, Any], over: Mapping[str, Sequence[Any]]) -> list[SceneModel]:
+    """The scenes of a table with other values at some keys, in all combinations, the last key running fastest.
+
+    Raises
+    ------
+    InputError : what is wrong with any of them, with the values that make it so.
+    """
     found, messages = [], []
-    for values in product(*scene.over.values()):
-        data = {key: item for key, item in scene.source.items() if key != "over"}
-        words = ", ".join(f"{key} = {show(value)}" for key, value in zip(scene.over, values, strict=True))
+    for values in product(*over.values()):
+        own = dict(data)
         try:
-            for key, value in zip(scene.over, values, strict=True):
+            for key, value in zip(over, values, strict=True):
                 parsed = parse_key(key)
                 if parsed is None:
                     raise InputError(f'over: "{key}" is no key; allowed: dotted keys such as contact.load')
-                plain = _plain(value) if isinstance(value, str) else value
-                put(data, parsed, plain, pair=_is_pair(data, parsed))
-            found.append(scene_from_table(data))
+                put(own, parsed, _plain(value) if isinstance(value, str) else value, pair=_is_pair(own, parsed))
+            found.append(scene_from_table(own))
         except InputError as error:
-            messages += [f"over: at {words}: {message}" for message in error.messages]
+            messages += [f"over: at {words_at(over, values)}: {message}" for message in error.messages]
     if messages:
         raise InputError(capped(list(dict.fromkeys(messages))))
     return found
+
+
+def words_at(over: Iterable[str], values: Sequence[Any]) -> str:
+    """Keys with one value each, for messages."""
+    shown = (show(_plain(value) if isinstance(value, str) else value) for value in values)
+    return ", ".join(f"{key} = {value}" for key, value in zip(over, shown, strict=True))
+
+
+def read_table(source: str | os.PathLike[str] | Mapping[str, Any], settings: Sequence[str] = ()) -> dict[str, Any]:
+    """The table of a scene, with settings, its paths made absolute; as `load_scene`, which checks it too.
+
+    Raises
+    ------
+    InputError : it cannot be read, or a setting cannot be put into it.
+    """
+    data, folder = _read(source, settings)
+    table = _absolute(data, folder.resolve())
+    assert isinstance(table, dict)
+    return table
 
 
 def unit_at(scene: SceneModel, key: str) -> str:

@@ -49,10 +49,11 @@ class Step:
 
 @dataclass(frozen=True)
 class Plan:
-    """The steps of a run in order: the work of all its cases, the memory of one."""
+    """The steps of a run in order: the work of all its cases, the memory of one; and the plans of each."""
 
     steps: tuple[Step, ...]
     cases: int = 1
+    of_cases: tuple[Plan, ...] = ()
 
     @property
     def memory(self) -> float:
@@ -63,6 +64,10 @@ class Plan:
                 peak = max(peak, held + step.memory)
                 held += step.memory if step.kept is None else step.kept
         return peak
+
+    def work(self, rate: float) -> float:
+        """Estimated processor time of the cases alone [s], without what a run does once."""
+        return math.fsum(step_seconds(step, rate) for step in self.steps if step.per != "run")
 
     def seconds(self, rate: float) -> float:
         """Estimated processor time [s] on a machine with that transform rate [flop/s], the start included."""

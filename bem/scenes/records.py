@@ -34,6 +34,8 @@ UNITS: dict[str, tuple[str, float, float, float]] = {
     "N_m": ("N/m", 1, 1, 0), "per_m": ("1/m", 1, 1, 0),
 }  # fmt: skip
 """How units end the names of figures: the SI unit, and factor, divisor and offset from it."""
+_WRITTEN = {"C": "degC", "nm_s": "nm/s", "m_s": "m/s", "N_m": "N/m", "per_m": "1/m", "m2": "m^2", "m3": "m^3",
+            "um3": "um^3", "mm3": "mm^3", "percent": "%"}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,11 @@ class Figure:
     def si(self) -> str:
         """The SI unit of the value in the record."""
         return UNITS[self.unit][0]
+
+    @property
+    def written(self) -> str:
+        """The unit of what is shown, as one writes it; empty for none."""
+        return _WRITTEN.get(self.unit, self.unit)
 
     def key(self, name: str) -> str:
         """Name in the summary: the field's with the unit behind it."""

@@ -57,8 +57,8 @@ def cluster(tmp_path):
 
 @pytest.mark.slow
 def test_sweep_survives_a_killed_worker_and_equals_the_local_one(tmp_path, cluster):
+    from bem import run_sweep
     from bem.results.dataset import read_dataset
-    from bem.sweeps import run_sweep
 
     address, workers = cluster
     (tmp_path / "small.toml").write_text(SCENE)

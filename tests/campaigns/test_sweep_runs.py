@@ -9,16 +9,18 @@ import sys
 import time
 from contextlib import suppress
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from bem.campaigns import engine
+from bem.campaigns.jobs import processes
 from bem.errors import InputError, ResultsError
 from bem.results import RunDirectory, open_run
 from bem.results.dataset import read_dataset
-from bem.sweeps import run_sweep
-from bem.sweeps.point import compute
+from bem.runs import run_sweep
+from bem.runs.point import Done, Point, store
+from bem.runs.scene import run_planned
 
 SCENE = {
     "kind": "contact",
@@ -48,14 +50,8 @@ def workers_of(parent):
 @pytest.fixture
 def here(monkeypatch):
     """Points computed in this process, and counted."""
-    counted = []
-
-    def locally(points, workers, tell):
-        for point in points:
-            counted.append(point.folder)
-            yield point.index, compute(point)
-
-    monkeypatch.setattr("bem.campaigns.local.compute_locally", locally)
+    counted, compute = [], Point.compute
+    monkeypatch.setattr(Point, "compute", lambda self, watcher: counted.append(self.name) or compute(self, watcher))
     return counted
 
 
@@ -150,7 +146,7 @@ def test_values_that_are_no_numbers(tmp_path, here):
 def test_bad_points_are_found_before_any_work(tmp_path, here):
     with pytest.raises(InputError) as caught:
         run_sweep(SCENE, ["contact.behaviour=elastic,capd", "seed=1:2"], tmp_path / "s")
-    assert "at contact.behaviour=capd, seed=1" in caught.value.messages[0]
+    assert 'at contact.behaviour = "capd", seed = 1' in caught.value.messages[0]  # as the table [over] says it
     assert "capped" in caught.value.messages[0]
     with pytest.raises(InputError, match="kind"):
         run_sweep({"kind": "contct"}, ["seed=1:2"], tmp_path / "s")
@@ -160,16 +156,12 @@ def test_bad_points_are_found_before_any_work(tmp_path, here):
 
 
 def test_a_point_that_fails_does_not_end_the_sweep(tmp_path, here, monkeypatch):
-    import bem.runs
-
-    whole = bem.runs.run_scene
-
-    def some(source, out, **more):
-        if source["seed"] == 2:
+    def some(directory, scene, *more):
+        if scene.seed == 2:
             raise InputError("lower.surface: cannot be generated")
-        return whole(source, out, **more)
+        return run_planned(directory, scene, *more)
 
-    monkeypatch.setattr("bem.runs.run_scene", some)
+    monkeypatch.setattr("bem.runs.point.run_planned", some)
     watcher = Telling()
     done = run_sweep(SCENE, ["seed=1:3"], tmp_path / "s", watcher=watcher)
     assert done.computed == 2
@@ -177,7 +169,7 @@ def test_a_point_that_fails_does_not_end_the_sweep(tmp_path, here, monkeypatch):
     assert "cannot be generated" in watcher.notes[0]
     assert np.isnan(done.dataset["load_N"].sel(seed=2))
     assert "cannot be generated" in (tmp_path / "s" / "sweep.csv").read_text()
-    monkeypatch.setattr("bem.runs.run_scene", whole)
+    monkeypatch.setattr("bem.runs.point.run_planned", run_planned)
     assert run_sweep(SCENE, ["seed=1:3"], tmp_path / "s", resume=True).computed == 1
 
 
@@ -190,26 +182,23 @@ def test_two_sweeps_in_one_folder_refuse_each_other(tmp_path, here):
 
 
 def test_a_worker_that_does_not_see_the_folder_sends_its_files(tmp_path, monkeypatch):
-    import dataclasses
+    compute, sent = Point.compute, []
 
-    def elsewhere(points, workers, tell):
-        for point in points:
-            hidden = dataclasses.replace(point, root="/nonexistent")
-            done = compute(hidden)
-            assert done.files
-            yield point.index, done
+    def hidden(self, watcher):
+        sent.append(compute(self.elsewhere(), watcher))
+        assert {"summary.json", "scene.toml", "results.nc"} <= set(sent[-1].files)
+        return sent[-1]
 
-    monkeypatch.setattr("bem.campaigns.local.compute_locally", elsewhere)
+    monkeypatch.setattr(Point, "compute", hidden)
     done = run_sweep(SCENE, ["seed=1:2"], tmp_path / "s")
-    assert done.computed == 2
+    assert done.computed == len(sent) == 2
     assert np.isfinite(done.dataset["load_N"]).all()
+    assert [open_run(tmp_path / "s" / one.name).summary for one in sent] == [one.summary for one in sent]
 
 
 def test_a_worker_cannot_write_outside_its_folder(tmp_path):
-    from bem.sweeps.point import Done, store
-
     with pytest.raises(ResultsError, match="outside"):
-        store(Done(0, files={"../../escaped": b"x"}), tmp_path / "a" / "b")
+        store(Done("", files={"../../escaped": b"x"}), tmp_path / "a" / "b")
     assert not (tmp_path / "escaped").exists()
 
 
@@ -265,14 +254,20 @@ def test_interrupted_command_resumes(tmp_path):
 
 
 def test_fewer_processes_where_memory_is_short(monkeypatch):
-    monkeypatch.setattr(engine, "available_memory", lambda: 10.0)
+    monkeypatch.setattr("bem.campaigns.jobs.available_memory", lambda: 10.0)
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: range(8), raising=False)
     watcher = Telling()
-    assert engine.staff(None, 100, 4.0, watcher.note) == 2
+
+    def count(workers, jobs, memory, seconds=1e9):
+        plan = SimpleNamespace(memory=memory)
+        return processes(workers, [SimpleNamespace(plan=plan)] * jobs, seconds, 1, watcher.note)
+
+    assert count(None, 100, 4.0) == 2
     assert "memory" in watcher.notes[0]
-    assert engine.staff(None, 100, 1.0, watcher.note) == 8
-    assert engine.staff(None, 3, 1.0, watcher.note) == 3
-    assert engine.staff(5, 100, 1e9, watcher.note) == 5
+    assert count(None, 100, 1.0) == 8
+    assert count(None, 3, 1.0) == 3
+    assert count(5, 100, 1e9) == 5
+    assert count(None, 100, 1.0, seconds=9.0) == 2, "a process must be worth starting"
 
 
 STRIBECK = {
@@ -294,7 +289,7 @@ STRIBECK = {
 def test_curves_have_the_speed_as_a_dimension_and_overlay_by_the_swept_value(tmp_path, here, monkeypatch):
     drawn = []
     monkeypatch.setattr(
-        "bem.sweeps.run.draw_sweep", lambda variables, spacings, *_: drawn.append((variables, spacings))
+        "bem.runs.sweep.draw_sweep", lambda variables, spacings, *_: drawn.append((variables, spacings))
     )
     done = run_sweep(STRIBECK, ["oil.viscosity=0.18 Pa*s,0.36 Pa*s"], tmp_path / "s")
     data = done.dataset

@@ -67,7 +67,7 @@ def counting(monkeypatch):
 
     plan = Plan((Step("adding", "it is all there is"),))
     kind = Kind("contact", "counting", CountingScene, lambda scene: plan, run, CountingRecord)
-    for module in ("bem.runs", "bem.scenes.load", "bem.campaigns.cases", "bem.campaigns.engine"):
+    for module in ("bem.runs.scene", "bem.scenes.load", "bem.campaigns.cases", "bem.campaigns.engine"):
         monkeypatch.setattr(f"{module}.get_kind", lambda name: kind)
     return control
 
@@ -75,7 +75,7 @@ def counting(monkeypatch):
 def set_clock(monkeypatch, now):
     """A clock that the test turns."""
     clock = SimpleNamespace(now=now)
-    for module in ("bem.runs", "bem.campaigns.engine", "bem.campaigns.context"):
+    for module in ("bem.runs.scene", "bem.campaigns.engine", "bem.campaigns.context"):
         monkeypatch.setattr(f"{module}.time", SimpleNamespace(time=lambda: clock.now, perf_counter=lambda: clock.now))
     return clock
 

@@ -12,6 +12,7 @@ from typing import Any
 import bem
 from bem.campaigns import Computed, campaign_of, compute, plan
 from bem.campaigns.context import Silent, Watcher
+from bem.campaigns.jobs import Staff
 from bem.errors import ConvergenceError, InputError, Status
 from bem.results.directory import RESULTS, RunDirectory, plain
 from bem.results.read import FinishedRun, open_run
@@ -78,50 +79,65 @@ def run_scene(
     ResultsError : the results cannot be written.
     KeyboardInterrupt : passed on; the folder can be resumed.
     """
-    if workers is not None and workers < 1:
-        raise InputError(f"workers = {workers}: not positive; allowed: 1 or more")
+    check_workers(workers)
     scene, planned = plan_scene(source, settings)
     check_memory(planned)
-    watcher = watcher or Silent()
+    formats = () if not figures else ("png", "pdf") if pdf else ("png",)
     with RunDirectory.start(
         None if out is None else Path(out), scene.name, dump_scene(scene), resume=resume, overwrite=overwrite
     ) as directory:
-        if directory.resumed and directory.finished:
-            return open_run(directory.path)
-        campaign = campaign_of(scene)
-        try:
-            facts = examine(campaign.base)
-            notes = scene_warnings(facts)
-            for text in notes:
-                watcher.note(text)
-            computed = compute(
-                campaign,
-                directory.path,
-                plan=planned,
-                workers=workers,
-                scheduler=scheduler,
-                watcher=watcher,
-            )
-        except InputError as error:
-            if directory.begun:
-                raise ConvergenceError(
-                    f"{'; '.join(error.messages)}. What was computed before is kept in {directory.home}: the same "
-                    "command with --resume goes on from there, a changed scene needs another --out"
-                ) from error
-            directory.discard()
-            raise
-        computed.notes[:0] = [text for text in notes if text not in computed.notes]
-        for text in outcome_warnings(facts, computed.outcome):
-            computed.notes.append(text)
-            watcher.note(text)
-        formats = () if not figures else ("png", "pdf") if pdf else ("png",)
-        _write(directory, scene, computed, formats, watcher)
+        if not (directory.resumed and directory.finished):
+            run_planned(directory, scene, planned, Staff(workers, scheduler), formats, watcher or Silent())
     return open_run(directory.path)
+
+
+def check_workers(workers: int | None) -> None:
+    """InputError if a number of workers is given that is none."""
+    if workers is not None and workers < 1:
+        raise InputError(f"workers = {workers}: not positive; allowed: 1 or more")
+
+
+def run_planned(
+    directory: RunDirectory,
+    scene: SceneModel,
+    planned: Plan,
+    staff: Staff,
+    formats: tuple[str, ...],
+    watcher: Watcher,
+) -> dict[str, Any]:
+    """Compute and write all of a run into its folder; its summary. Raises as `run_scene`."""
+    campaign = campaign_of(scene)
+    try:
+        facts = examine(campaign.base)
+        notes = scene_warnings(facts)
+        for text in notes:
+            watcher.note(text)
+        computed = compute(
+            campaign,
+            directory.path,
+            plan=planned,
+            workers=staff.workers,
+            scheduler=staff.scheduler,
+            watcher=watcher,
+        )
+    except InputError as error:
+        if directory.begun:
+            raise ConvergenceError(
+                f"{'; '.join(error.messages)}. What was computed before is kept in {directory.home}: the same "
+                "command with --resume goes on from there, a changed scene needs another --out"
+            ) from error
+        directory.discard()
+        raise
+    computed.notes[:0] = [text for text in notes if text not in computed.notes]
+    for text in outcome_warnings(facts, computed.outcome):
+        computed.notes.append(text)
+        watcher.note(text)
+    return _write(directory, scene, computed, formats, watcher)
 
 
 def _write(
     directory: RunDirectory, scene: SceneModel, computed: Computed, formats: tuple[str, ...], watcher: Watcher
-) -> None:
+) -> dict[str, Any]:
     """Arrays, volumes, figures in these formats with the report (neither without any); the summary last."""
     from bem.results.arrays import to_arrays
     from bem.results.dataset import write_variables
@@ -168,6 +184,7 @@ def _write(
             write_report(run, drawn, headline)
     summary["wall_time_s"] = time.time() - computed.epoch
     directory.finish(summary)
+    return summary
 
 
 @contextmanager

@@ -1,0 +1,161 @@
+"""Jobs handed out: to this process, to processes on all cores, or to a Dask cluster, the longest first.
+
+Everything that computes many things comes through here: the cases of a scene (`engine`) and the points of a sweep
+(`bem.runs.sweep`). What is handed out where, and when, never shows in a result.
+"""
+
+from __future__ import annotations
+
+import importlib
+import math
+import os
+from collections.abc import Callable, Generator, Sequence
+from contextlib import nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+from bem.campaigns.context import Watcher
+from bem.campaigns.disk import marked, sees
+from bem.campaigns.local import compute_locally
+from bem.errors import BemError
+from bem.laws import modules_of_laws
+from bem.scenes.planner import Plan, available_memory, machine_rate
+from bem.surfaces.formats import modules_of_formats
+from bem.threads import get_threads, set_threads
+
+_WORTH_A_PROCESS = 4.0
+"""Seconds of work that pay for starting a process, which takes two."""
+
+
+class Job(Protocol):
+    """Work that can be sent to another process; `compute` gives what can be sent back."""
+
+    @property
+    def index(self) -> int:
+        """Which job this is."""
+
+    @property
+    def plan(self) -> Plan | None:
+        """What it takes; None is next to nothing."""
+
+    def compute(self, watcher: Watcher) -> Any:
+        """Do it."""
+
+    def elsewhere(self) -> Job:
+        """The same job for a process that does not see this disk."""
+
+    def lost(self, why: str) -> Any:
+        """What stands in the place of its result when its process died again and again."""
+
+
+@dataclass(frozen=True)
+class Staff:
+    """Who computes.
+
+    workers : processes on this machine; as many as cores, memory and work allow where None.
+    scheduler : address of a Dask scheduler, instead of processes.
+    threads : of each; None leaves this process's number.
+    module : of the scene's kind; nobody else can know what "__main__" defines.
+    folder : in which jobs are kept, for workers to find out whether they see it; None where nothing is kept.
+    """
+
+    workers: int | None = None
+    scheduler: str | None = None
+    threads: int | None = None
+    module: str = "bem"
+    folder: Path | None = None
+
+
+@dataclass(frozen=True)
+class Sent:
+    """A job on its way: `modules` are imported first, `token` is the secret of `folder` (see `disk`), "" if seen."""
+
+    job: Job
+    threads: int
+    modules: tuple[str, ...]
+    folder: Path | None = None
+    token: str = ""
+
+    @property
+    def index(self) -> int:
+        """See `Job`."""
+        return self.job.index
+
+    def compute(self, watcher: Watcher) -> Any:
+        """See `Job`."""
+        for name in self.modules:
+            importlib.import_module(name)
+        set_threads(self.threads)
+        here = not self.token or (self.folder is not None and sees(self.folder, self.token))
+        return (self.job if here else self.job.elsewhere()).compute(watcher)
+
+    def lost(self, why: str) -> Any:
+        """See `Job`."""
+        return self.job.lost(why)
+
+
+def hand_out(
+    jobs: Sequence[Job], staff: Staff, watching: Callable[[int], Watcher], note: Callable[[str], None]
+) -> Generator[tuple[int, Any], None, None]:
+    """Do all jobs, yielding index and result of each as it ends; closing the iterator ends what runs.
+
+    watching : the watcher of the job with that index. note : of all together.
+
+    Raises
+    ------
+    InputError : no scheduler answers. ResultsError : it is gone. RuntimeError : a mistake in the program.
+    """
+    before = get_threads()
+    threads = staff.threads or before
+    modules = tuple(dict.fromkeys((staff.module, *modules_of_laws(), *modules_of_formats())))
+    seconds = _seconds(jobs, threads)
+    longest_first = sorted(jobs, key=lambda job: -seconds[job.index])  # so that no long one is left for the end
+    if staff.scheduler is not None and jobs:
+        from bem.campaigns.cluster import compute_on_cluster
+
+        with nullcontext("none") if staff.folder is None else marked(staff.folder) as token:
+            sent = [Sent(job, threads, modules, staff.folder, token) for job in longest_first]
+            yield from compute_on_cluster(sent, staff.scheduler)
+        return
+    count = processes(staff.workers, jobs, math.fsum(seconds.values()), threads, note)
+    if count > 1 and "__main__" not in modules:
+        yield from compute_locally([Sent(job, threads, modules) for job in longest_first], count, watching)
+        return
+    set_threads(threads)
+    try:
+        for job in jobs:
+            yield job.index, job.compute(watching(job.index))
+    finally:
+        set_threads(before)
+
+
+def _seconds(jobs: Sequence[Job], threads: int) -> dict[int, float]:
+    """Estimated time of each job [s]; zero of a single one, about which there is nothing to decide."""
+    plans = {job.index: job.plan for job in jobs}
+    if len(jobs) < 2 or not any(plans.values()):
+        return dict.fromkeys(plans, 0.0)
+    rate = machine_rate(threads)
+    return {index: 0.0 if plan is None else plan.work(rate) for index, plan in plans.items()}
+
+
+def processes(
+    workers: int | None, jobs: Sequence[Job], seconds: float, threads: int, note: Callable[[str], None]
+) -> int:
+    """How many processes: as asked, or one per core as far as `seconds` of work are worth it and memory allows."""
+    if workers is not None:
+        return min(workers, len(jobs))
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1)
+    wanted = max(1, min(cores // threads, len(jobs), int(seconds / _WORTH_A_PROCESS)))
+    memory = max((job.plan.memory for job in jobs if job.plan is not None), default=1.0)
+    fitting = max(1, int(available_memory() // memory))
+    if fitting < wanted:
+        note(f"{fitting} processes instead of {wanted}: more would not fit into memory")
+    return min(wanted, fitting)
+
+
+def words_of(error: BemError | MemoryError) -> str:
+    """What went wrong with a job, in words, several mistakes in one line."""
+    if isinstance(error, MemoryError):
+        return "out of memory; fewer --workers or a smaller grid"
+    return " | ".join(getattr(error, "messages", None) or [str(error)])

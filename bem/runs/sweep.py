@@ -1,0 +1,217 @@
+"""A sweep from its definition to its files: plan every point, compute what is missing, collect, draw."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import bem
+from bem.campaigns import campaign_of
+from bem.campaigns.cases import axes_of_keys
+from bem.campaigns.context import Silent, Watcher
+from bem.campaigns.jobs import Staff, hand_out
+from bem.errors import InputError, ResultsError
+from bem.plots.sweep import draw_sweep
+from bem.results import RunDirectory
+from bem.results.atomic import reason, write_text
+from bem.results.dataset import read_dataset, write_variables
+from bem.results.directory import SCENE
+from bem.runs.point import Point, finished_summary, store
+from bem.runs.scene import check_workers, plan_scene
+from bem.runs.table import dataset_variables, table_text
+from bem.scenes import get_kind
+from bem.scenes.axes import Axis
+from bem.scenes.common import SceneModel
+from bem.scenes.load import dump_scene, read_table, scene_from_table, scenes_at, words_at
+from bem.scenes.planner import Plan, check_memory
+from bem.scenes.ranges import parse_axes
+from bem.scenes.validate import capped
+
+if TYPE_CHECKING:
+    import xarray
+
+DEFINITION, DATASET, TABLE, FIGURE = "sweep.json", "sweep.nc", "sweep.csv", "sweep"
+_POINTS = "points"
+
+
+@dataclass(frozen=True)
+class FinishedSweep:
+    """A sweep on disk.
+
+    Parameters
+    ----------
+    path : its folder, with `sweep.nc`, `sweep.csv`, figures and a run folder for each point under `points/`.
+    computed : how many points this call computed; the others were there.
+    failed : what went wrong, by the folder of the point.
+    not_converged : folders of points whose solver did not converge.
+    """
+
+    path: Path
+    computed: int
+    failed: dict[str, str]
+    not_converged: tuple[str, ...]
+
+    @property
+    def dataset(self) -> xarray.Dataset:
+        """All summaries, with the swept keys as dimensions."""
+        return read_dataset(self.path / DATASET)
+
+
+def run_sweep(
+    source: str | os.PathLike[str] | Mapping[str, Any],
+    over: Sequence[str],
+    out: str | os.PathLike[str] | None = None,
+    *,
+    settings: Sequence[str] = (),
+    workers: int | None = None,
+    scheduler: str | None = None,
+    threads: int = 1,
+    resume: bool = False,
+    watcher: Watcher | None = None,
+) -> FinishedSweep:
+    """Run a scene at every combination of values.
+
+    Parameters
+    ----------
+    source : as `bem.scenes.load_scene` takes it.
+    over : swept keys: `key=first:last:count`, `key=log:first:last:count`, `key=first:last` (whole numbers) or
+        `key=value,value,...` or `key=@FILE` (a value on each line); units as in scenes, an index into lists as in
+        `variants[0].name`.
+    out : the sweep's folder; `sweeps/NAME` where not given.
+    settings : `key=value` changes to the scene.
+    workers : processes on this machine; as many as cores (and memory) allow where not given.
+    scheduler : address of a Dask scheduler, instead of processes on this machine.
+    threads : threads of each run.
+    resume : go on in a folder that holds a sweep. Points are known by their resolved scene, so values may be added to
+        a finished sweep, and no finished point is computed again.
+    watcher : told of progress and notes.
+
+    Returns
+    -------
+    FinishedSweep : points that failed are in it; they do not end the sweep.
+
+    Raises
+    ------
+    InputError : a bad scene or range, or a scheduler that does not answer; nothing is written.
+    ResultsError : the folder is in use, holds a sweep already, or cannot be written.
+    KeyboardInterrupt : passed on; the sweep can be resumed.
+    """
+    swept = parse_axes(over)
+    check_workers(workers)
+    planned = _plan_points(source, {axis.key: axis.values for axis in swept}, settings)
+    scenes = [scene for scene, _ in planned]
+    axes = axes_of_keys({axis.key: axis.values for axis in swept}, scenes)
+    names = [f"{_POINTS}/{hashlib.sha256(dump_scene(scene).encode()).hexdigest()[:16]}" for scene in scenes]
+    folder = Path("sweeps") / scenes[0].name if out is None else Path(out)
+    held = RunDirectory(folder)
+    definition = {
+        "scene": scenes[0].name,
+        "version": bem.__version__,
+        "settings": list(settings),
+        "over": {axis.key: list(axis.values) for axis in swept},
+    }
+    try:
+        _take(folder, definition, resume)
+    except BaseException:
+        held.discard()
+        raise
+    with held:
+        summaries = {name: finished_summary(folder / name) for name in dict.fromkeys(names)}
+        root = folder.resolve()
+        missing = [
+            Point(names.index(name), *planned[names.index(name)], root, name)
+            for name, summary in summaries.items()
+            if summary is None
+        ]
+        staff = Staff(workers, scheduler, threads, type(scenes[0]).__module__, root)
+        computed, failed = _compute(missing, len(summaries), staff, watcher or Silent())
+        summaries |= computed
+        in_order = [summaries[name] for name in names]
+        _collect(folder, scenes[0], axes, in_order, {axis.key: axis.spacing for axis in swept})
+        write_text(folder / TABLE, table_text(axes, in_order, names, failed))
+    stuck = [name for name, summary in summaries.items() if summary and summary.get("status") != "converged"]
+    return FinishedSweep(folder, len(missing) - len(failed), failed, tuple(stuck))
+
+
+def _plan_points(
+    source: str | os.PathLike[str] | Mapping[str, Any], over: Mapping[str, Sequence[str]], settings: Sequence[str]
+) -> list[tuple[SceneModel, Plan]]:
+    """The resolved scenes of all points with their plans; mistakes of all points at once."""
+    table = read_table(source, settings)
+    scene_from_table(table)  # a mistake of the scene itself is said once, not for every point
+    planned, messages = [], []
+    for scene, values in zip(scenes_at(table, over), product(*over.values()), strict=True):
+        try:
+            resolved, plan = plan_scene(scene)
+            check_memory(plan)
+            planned.append((resolved, plan))
+        except InputError as error:
+            messages += [f"over: at {words_at(over, values)}: {message}" for message in error.messages]
+    if messages:
+        raise InputError(capped(messages))
+    return planned
+
+
+def _take(folder: Path, definition: Mapping[str, Any], resume: bool) -> None:
+    """Write the definition, unless the folder holds something else."""
+    path = folder / DEFINITION
+    if (folder / SCENE).exists():
+        raise ResultsError(f"{folder}: holds a single run; give another --out")
+    if path.exists() and not resume:
+        raise ResultsError(f"{folder}: holds a sweep already; --resume goes on in it (and may add values)")
+    write_text(path, json.dumps(definition, indent=1, ensure_ascii=False) + "\n")
+    try:
+        (folder / _POINTS).mkdir(exist_ok=True)
+    except OSError as error:
+        raise ResultsError(f"{folder / _POINTS}: cannot be made ({reason(error)})") from error
+
+
+def _compute(
+    missing: Sequence[Point], total: int, staff: Staff, watcher: Watcher
+) -> tuple[dict[str, dict[str, Any] | None], dict[str, str]]:
+    """Compute points; their summaries, and what went wrong, by folder."""
+    summaries: dict[str, dict[str, Any] | None] = {}
+    failed: dict[str, str] = {}
+    before = total - len(missing)
+    if missing:
+        watcher.progress(before, total, "points", {})
+    with closing(hand_out(missing, staff, lambda index: Silent(), watcher.note)) as results:  # ends all work at once
+        for _, done in results:
+            if done.files and staff.folder is not None:
+                store(done, staff.folder / done.name)
+            summaries[done.name] = done.summary
+            if done.error:
+                failed[done.name] = done.error
+                watcher.note(f"{done.name}: {done.error}")
+            figures = {"failed": float(len(failed))} if failed else {}
+            watcher.progress(before + len(summaries), total, "points", figures)
+    return summaries, failed
+
+
+def _collect(
+    folder: Path,
+    scene: SceneModel,
+    axes: Sequence[Axis],
+    summaries: Sequence[Mapping[str, Any] | None],
+    spacings: Mapping[str, str],
+) -> None:
+    """Dataset and figures."""
+    attributes = {
+        "title": f"sweep of {scene.name} over {', '.join(axis.name for axis in axes)}",
+        "Conventions": "CF-1.11",
+        "scene": scene.name,
+        "kind": scene.kind,
+        "version": bem.__version__,
+    }
+    kind = get_kind(scene.kind)
+    variables = dataset_variables(kind, axes, campaign_of(scene).axes, summaries)
+    write_variables(folder / DATASET, variables, attributes)
+    if any(summary is not None for summary in summaries):
+        draw_sweep(variables, spacings, kind.headline, folder / FIGURE)
