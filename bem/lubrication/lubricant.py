@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -15,7 +15,17 @@ from bem.lubrication.density import DensityLaw
 from bem.lubrication.shear import ShearLaw
 from bem.lubrication.viscosity import ViscosityLaw
 
+if TYPE_CHECKING:
+    from bem.lubrication.oils import Oil
+
 _LARGEST_LOGARITHM = 600.0
+_UNITS = {
+    "temperature": "K",
+    "density": "kg/m^3",
+    "heat_capacity": "J/(kg K)",
+    "thermal_conductivity": "W/(m K)",
+    "temperature_viscosity": "1/K",
+}
 
 
 @dataclass(frozen=True)
@@ -31,6 +41,10 @@ class Lubricant:
     shear_law : "limited", "newtonian", "eyring", "carreau", another name or a law; used for friction and not for the
         film. All of these but "newtonian" carry no more than a limiting shear stress in proportion to pressure; below
         that "limited" is Newtonian.
+    temperature : that of the oil [K], for a reader; None where it is not known, as the next four.
+    density : at ambient pressure [kg/m^3]. heat_capacity : per mass [J/(kg K)]. thermal_conductivity : [W/(m K)].
+    temperature_viscosity : beta, -d ln(viscosity)/dT at ambient pressure [1/K].
+    oil : the oil it is of at that temperature, which knows it at others; see `of` and `bem.lubrication.oils`.
     parameters : of the laws, by name: `shear_stress_limit` [Pa] of eyring and carreau, `carreau_exponent`,
         `limiting_shear_coefficient`, `ambient_shear_strength` [Pa], those of your own laws. They are attributes, too.
 
@@ -44,6 +58,12 @@ class Lubricant:
     viscosity_law: ViscosityLaw
     density_law: DensityLaw
     shear_law: ShearLaw
+    temperature: float | None = None
+    density: float | None = None
+    heat_capacity: float | None = None
+    thermal_conductivity: float | None = None
+    temperature_viscosity: float | None = None
+    oil: Oil | None = None
 
     def __init__(
         self,
@@ -53,6 +73,12 @@ class Lubricant:
         viscosity_law: str | ViscosityLaw = "roelands",
         density_law: str | DensityLaw = "incompressible",
         shear_law: str | ShearLaw = "limited",
+        temperature: float | None = None,
+        density: float | None = None,
+        heat_capacity: float | None = None,
+        thermal_conductivity: float | None = None,
+        temperature_viscosity: float | None = None,
+        oil: Oil | None = None,
         **parameters: float | None,
     ) -> None:
         messages = []
@@ -65,6 +91,18 @@ class Lubricant:
             messages.append(
                 f"Lubricant: pressure_viscosity {pressure_viscosity!r} must be zero or positive, and finite [1/Pa]"
             )
+        heat = {
+            "temperature": temperature,
+            "density": density,
+            "heat_capacity": heat_capacity,
+            "thermal_conductivity": thermal_conductivity,
+            "temperature_viscosity": temperature_viscosity,
+        }
+        messages += [
+            f"Lubricant: {key} {value!r} must be positive and finite [{_UNITS[key]}], or left out"
+            for key, value in heat.items()
+            if value is not None and not (_is_number(value) and value > 0)
+        ]
         chosen = {"viscosity_law": viscosity_law, "density_law": density_law, "shear_law": shear_law}
         laws: dict[str, Any] = {}
         try:
@@ -77,8 +115,41 @@ class Lubricant:
         if messages:
             raise InputError(messages)
         values = {"viscosity": float(viscosity), "pressure_viscosity": float(pressure_viscosity), **laws}
-        for key, value in values.items():
+        values |= {key: None if value is None else float(value) for key, value in heat.items()}
+        for key, value in (values | {"oil": oil}).items():
             object.__setattr__(self, key, value)
+
+    @classmethod
+    def of(
+        cls,
+        name: str,
+        *,
+        temperature: float,
+        viscosity_index: float | None = None,
+        base: str | None = None,
+        **laws: Any,
+    ) -> Lubricant:
+        """An oil of the catalogue at a temperature.
+
+        Parameters
+        ----------
+        name : name or grade, such as "ISO VG 68", "SAE 5W-30", "PAO 4"; `bem oils` lists them.
+        temperature : [K].
+        viscosity_index, base : of a grade, see `bem.lubrication.oils.find_oil`.
+        laws : other arguments of `Lubricant`; `pressure_viscosity` in place of the oil's own.
+
+        Raises
+        ------
+        InputError : an unknown oil, with the nearest known one; a temperature at which it is no liquid.
+        """
+        from bem.lubrication.oils.catalogue import find_oil
+
+        return find_oil(name, viscosity_index=viscosity_index, base=base).at(temperature, **laws)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What to say of the oil at its temperature: figures extrapolated, flash point, too thick to flow."""
+        return () if self.oil is None or self.temperature is None else self.oil.notes(self.temperature)
 
     def __getattr__(self, key: str) -> float:
         """A parameter of one of the laws."""

@@ -195,4 +195,4 @@ CHECKS: list[Callable[[Case], str | None]] = [
 
 def notes_on(case: Case) -> tuple[str, ...]:
     """What a reader of the film must know, a sentence each, in the order of the checks."""
-    return tuple(note for check in CHECKS if (note := check(case)) is not None)
+    return case.lubricant.notes + tuple(note for check in CHECKS if (note := check(case)) is not None)

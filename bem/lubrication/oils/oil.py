@@ -1,0 +1,167 @@
+"""An oil: what it is at any temperature, and where each figure is from."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from bem.errors import InputError
+from bem.lubrication.oils.over_temperature import CELSIUS, OverTemperature
+from bem.lubrication.oils.pressure import PressureViscosity
+
+if TYPE_CHECKING:
+    from bem.lubrication.lubricant import Lubricant
+
+COLDEST = 213.15
+"""-60 degrees Celsius [K]: no oil of the catalogue is measured there."""
+HOTTEST = 573.15
+"""300 degrees Celsius [K]: oils crack."""
+FLOWS = 150.0
+"""Viscosity [Pa s] beyond which gears starve, the limit of SAE J306."""
+EXTRAPOLATED = 30.0
+"""How far beyond the measured temperatures a viscosity law is used without a word [K]: 40 and 100 degrees Celsius
+measured are good from 10 to 130."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A figure that is linear in temperature: `value` at `at` [K], `slope` per K; `source` in words."""
+
+    at: float
+    value: float
+    slope: float
+    source: str
+
+    def __call__(self, temperature: float) -> float:
+        """The figure at a temperature [K]."""
+        return self.value + self.slope * (temperature - self.at)
+
+
+@dataclass(frozen=True)
+class Oil:
+    """An oil at ambient pressure, over temperature.
+
+    name : such as "ISO VG 68". base : "mineral", "pao", "ester", "pag" or "water-glycol", or a word of your own.
+    viscosity : law of the kinematic viscosity. viscosity_source : of its points.
+    density, heat_capacity, thermal_conductivity : lines [kg/m^3, J/(kg K), W/(m K)]; None where it is not known.
+    pressure_viscosity : correlation of the coefficient, or one that is given; None where it is not known.
+    freezing_point, flash_point, boiling_point, largest_service : [K], None where not known. limits_source : theirs.
+    """
+
+    name: str
+    base: str
+    viscosity: OverTemperature
+    viscosity_source: str
+    density: Line
+    heat_capacity: Line | None = None
+    thermal_conductivity: Line | None = None
+    pressure_viscosity: PressureViscosity | None = None
+    freezing_point: float | None = None
+    flash_point: float | None = None
+    boiling_point: float | None = None
+    largest_service: float | None = None
+    limits_source: str = ""
+
+    def check(self, temperature: float) -> None:
+        """Refuse a temperature [K] at which it is no liquid.
+
+        Raises
+        ------
+        InputError : below its freezing or pour point or -60 degC, above its boiling point or 300 degC, or no number.
+        """
+        low = self.freezing_point or COLDEST
+        high = min(self.boiling_point or HOTTEST, HOTTEST)
+        if not (isinstance(temperature, (int, float)) and math.isfinite(temperature)):
+            raise InputError(f"{self.name}: temperature {temperature!r} must be a finite number [K]")
+        if low <= temperature <= high:
+            return
+        why = {
+            True: "it is solid or does not pour below" if self.freezing_point else "no oil is measured below",
+            False: "it boils above" if self.boiling_point and self.boiling_point <= HOTTEST else "oils crack above",
+        }[temperature < low]
+        limit = low if temperature < low else high
+        hint = "; a number without a unit is in K" if 0 <= temperature < 200 else ""
+        raise InputError(
+            f"{self.name}: temperature {_celsius(temperature)}: {why} {_celsius(limit)}; allowed: {_celsius(low)} to "
+            f"{_celsius(high)}{hint}"
+        )
+
+    def dynamic_viscosity(self, temperature: float) -> float:
+        """Dynamic viscosity [Pa s] at a temperature [K]."""
+        return self.viscosity.kinematic(temperature) * self.density(temperature)
+
+    def temperature_viscosity(self, temperature: float) -> float:
+        """-d ln(dynamic viscosity)/dT [1/K] at a temperature [K]."""
+        return -self.viscosity.logarithm(temperature)[1] - self.density.slope / self.density(temperature)
+
+    def pressure_coefficient(self, temperature: float) -> float:
+        """Pressure-viscosity coefficient [1/Pa] at a temperature [K].
+
+        Raises
+        ------
+        InputError : an oil of which none is known.
+        """
+        if self.pressure_viscosity is None:
+            raise InputError(
+                f"{self.name}: no pressure-viscosity coefficient with a source is known of {self.base} fluids; give "
+                "pressure_viscosity"
+            )
+        return self.pressure_viscosity.at(
+            self.dynamic_viscosity(temperature),
+            self.density(temperature),
+            self.viscosity.walther_slope(temperature),
+        )
+
+    def notes(self, temperature: float) -> tuple[str, ...]:
+        """What to say of the oil at a temperature [K]: extrapolated viscosities, flash point, service limit."""
+        law, found = self.viscosity, []
+        mu = self.dynamic_viscosity(temperature)
+        if not law.lowest - EXTRAPOLATED <= temperature <= law.highest + EXTRAPOLATED:
+            found.append(
+                f"its viscosity at {_celsius(temperature)} is extrapolated from {_celsius(law.lowest)} to "
+                f"{_celsius(law.highest)}"
+            )
+        if mu > FLOWS:
+            found.append(f"it is too thick to flow to a contact: more than {FLOWS:g} Pa s (SAE J306)")
+        if self.flash_point is not None and temperature > self.flash_point:
+            found.append(f"it is above its flash point, {_celsius(self.flash_point)}")
+        if self.largest_service is not None and temperature > self.largest_service:
+            found.append(f"it does not last above {_celsius(self.largest_service)}: its water evaporates")
+        if self.pressure_viscosity is not None:
+            found.append(self.pressure_viscosity.note(mu, self.density(temperature), temperature) or "")
+        return tuple(f"{self.name}: {text}" for text in found if text)
+
+    def at(self, temperature: float, **laws: Any) -> Lubricant:
+        """The lubricant that it is at a temperature [K].
+
+        Parameters
+        ----------
+        temperature : [K].
+        laws : further arguments of `bem.Lubricant`: viscosity, density and shear law and their parameters;
+            `pressure_viscosity` in place of the oil's own.
+
+        Raises
+        ------
+        InputError : a temperature at which it is no liquid, an oil without a pressure-viscosity coefficient, and those
+            of `bem.Lubricant`.
+        """
+        from bem.lubrication.lubricant import Lubricant
+
+        self.check(temperature)
+        given = laws.pop("pressure_viscosity", None)
+        return Lubricant(
+            self.dynamic_viscosity(temperature),
+            pressure_viscosity=self.pressure_coefficient(temperature) if given is None else given,
+            temperature=temperature,
+            density=self.density(temperature),
+            heat_capacity=None if self.heat_capacity is None else self.heat_capacity(temperature),
+            thermal_conductivity=None if self.thermal_conductivity is None else self.thermal_conductivity(temperature),
+            temperature_viscosity=self.temperature_viscosity(temperature),
+            oil=self,
+            **laws,
+        )
+
+
+def _celsius(temperature: float) -> str:
+    return f"{temperature - CELSIUS:.6g} degC"

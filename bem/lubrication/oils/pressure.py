@@ -1,0 +1,61 @@
+"""Pressure-viscosity coefficient over viscosity: named correlations, each with what it was measured on."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+GPA = 1e-9
+"""One 1/GPa in 1/Pa."""
+_REACH = 2.0
+"""How many times thinner or thicker than the oils it was made from a correlation is used without a word."""
+
+
+@dataclass(frozen=True)
+class PressureViscosity:
+    """alpha [1/GPa] = factor x viscosity^exponent x B^slope_exponent, or a + b lg(viscosity); B is Walther's slope.
+
+    name : of the correlation, or "given". dynamic : whether the viscosity is dynamic [mPa s], else kinematic [mm^2/s].
+    logarithm : (a, b) in place of the powers. viscosity, temperature : ranges that it was made from [the unit, K].
+    error : the largest that was seen, relative. source : in words.
+    """
+
+    name: str
+    source: str
+    dynamic: bool = True
+    factor: float = 0.0
+    exponent: float = 0.0
+    slope_exponent: float = 0.0
+    logarithm: tuple[float, float] | None = None
+    viscosity: tuple[float, float] = (0.0, math.inf)
+    temperature: tuple[float, float] = (0.0, math.inf)
+    error: float = 0.0
+
+    @classmethod
+    def given(cls, value: float, source: str = "given") -> PressureViscosity:
+        """The same at all temperatures [1/Pa]."""
+        return cls("given", source, factor=value / GPA)
+
+    def _argument(self, dynamic: float, density: float) -> float:
+        return 1e3 * dynamic if self.dynamic else 1e6 * dynamic / density
+
+    def at(self, dynamic: float, density: float, walther_slope: float) -> float:
+        """alpha [1/Pa] at a dynamic viscosity [Pa s], density [kg/m^3] and Walther slope."""
+        value = self._argument(dynamic, density)
+        if self.logarithm is not None:
+            return GPA * max(self.logarithm[0] + self.logarithm[1] * math.log10(value), 0.0)
+        return float(GPA * self.factor * value**self.exponent * walther_slope**self.slope_exponent)
+
+    def note(self, dynamic: float, density: float, temperature: float) -> str | None:
+        """What to say of a state [Pa s, kg/m^3, K] that the correlation was not made for."""
+        value = self._argument(dynamic, density)
+        unit = "mPa s" if self.dynamic else "mm^2/s"
+        (thin, thick), (cold, hot) = self.viscosity, self.temperature
+        # ranges of one temperature are of oils measured there: the viscosity stands for the temperature
+        outside = cold < hot and not cold - 10.0 <= temperature <= hot + 10.0
+        if thin / _REACH <= value <= _REACH * thick and not outside:
+            return None
+        return (
+            f'its pressure-viscosity coefficient is extrapolated: the correlation "{self.name}" was made from '
+            f"{thin:g} to {thick:g} {unit}" + (f" at {cold - 273.15:.0f} to {hot - 273.15:.0f} degC" if outside else "")
+        )
