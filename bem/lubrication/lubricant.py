@@ -65,7 +65,7 @@ class Lubricant:
     temperature_viscosity: float | None = None
     oil: Oil | None = None
 
-    def __init__(
+    def __init__(  # reason: what an oil is, named as users write it; a promise
         self,
         viscosity: float,
         *,
