@@ -35,8 +35,11 @@ class FilmSolution:
     central_thickness : thickness at x = 0 [m].
     load : per unit length [N/m], what the pressure carries (the flooded inlet upstream of the mesh included).
     shear_force : friction force per unit length [N/m], integral of `shear_stress` over the full film: what the
-        cylinder feels along +x and, by equilibrium, the flat along -x. Positive where the flat moves faster. The full
-        film ends where the pressure does (Swift-Stieber exit); `striated_shear_force` adds the streamers behind it.
+        cylinder feels along +x and, by equilibrium, the flat along -x. Its sliding part has the sign of u1 - u2. Its
+        rolling part, integral h/2 dp/dx = -1/(2R) integral p x, has that of u1 + u2 and is the larger one near pure
+        rolling, in rigid films far beyond: a cylinder a little faster than the flat still finds the flat dragged back.
+        The full film ends where the pressure does (Swift-Stieber exit); `striated_shear_force` adds the streamers
+        behind it.
     striated_shear_force : the same with the oil behind the exit, which covers the fraction h_exit/h of the surface.
     exit_position : where the film ruptures [m].
     inlet_load_fraction : share of the load that lies upstream of the first position.

@@ -38,7 +38,7 @@ class WearModel:
     connectivity : 6, 18 or 26 neighbours.
     removal : "cap" (a piece takes the material above it along) or "top_run", or a law of your own.
     wears : "softer" (lower yield stress; the lower body where equal), "lower", "upper" or "both".
-    shift : cells that the counterface slides along +x per cycle.
+    shift : cells that the counterface slides along x per cycle, the way that friction says; negative is against it.
     within_layer : pieces of a coated body end at the interface at the latest; the film is taken as replenished.
     """
 

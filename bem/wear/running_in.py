@@ -231,11 +231,12 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
     Parameters
     ----------
     lower_heights, upper_heights : (nx, ny) heights out of each body [m]. The body that does not wear (the upper one
-        where both do) is the counterface: it slides along +x by `model.shift` cells per cycle and may have more rows
-        than the grid, which then pass through the contact; it is taken as periodic along x.
+        where both do) is the counterface: it slides by `model.shift` cells per cycle, the upper body the way its
+        friction drags the lower one (`sliding_direction`), and may have more rows than the grid, which then pass
+        through the contact; it is taken as periodic along x.
     grid : of the contact, usually free in x and periodic in y. bodies : (lower, upper).
     load : on the grid [N]. depths : (nz,) [m], increasing. gap : macroscopic, of the smooth bodies [m]; None is flat.
-    friction : traction over pressure, along +x on the lower body.
+    friction : traction over pressure, along +x on the lower body where positive, along -x where negative.
     hardness : cap of the contact pressure [Pa]; None takes the softer surface's.
     cycles : how many, counted from the start of the run. model : the replaceable parts. stop : rule to end sooner.
     contact_step : the contact of one cycle; None is the dry contact of these arguments, `wear.mixed.MixedContact` is
@@ -289,7 +290,7 @@ def advance(
     """One cycle: the counterface slides, bodies touch, pieces leave."""
     cycle = state.cycle + 1
     rows = setup.grid.shape[0]
-    offset = state.offset + (model.shift if state.cycle else 0)
+    offset = state.offset + (sliding_direction(state, setup, counterface) * model.shift if state.cycle else 0)
     facing = list(state.heights)
     facing[counterface] = _window(state.heights[counterface], offset, rows)
     start = None if state.pressure is None else _slide(state.pressure, offset - state.offset, setup.grid.periodic[0])
@@ -328,6 +329,17 @@ def advance(
             np.array([(elapsed - stress_time - pieces_time, stress_time, pieces_time)], dtype=TIME_FIELDS),
         ),
     )
+
+
+def sliding_direction(state: RunningInState, setup: WearSetup, counterface: int) -> int:
+    """1 where the counterface slides along +x over the other body, on which the grid lies, -1 where along -x.
+
+    Friction drags the lower body the way in which the upper one slides over it, u2 - u1: that of the last cycle that
+    had any, before the first one that of the setup; the upper body slides along +x where there is none.
+    """
+    acting = state.cycles["friction"][state.cycles["friction"] != 0]
+    upper = -1 if (acting[-1] if acting.size else setup.friction) < 0 else 1
+    return upper if counterface == UPPER else -upper
 
 
 def _check_heights(state: RunningInState, grid: Grid, counterface: int) -> None:

@@ -171,6 +171,23 @@ def test_both_bodies_feel_the_same_force():
     assert film.striated_shear_force > film.shear_force
 
 
+def test_shear_force_near_rolling_has_the_sign_of_the_entrainment():
+    """Sliding adds a part that is odd in u1 - u2 to the rolling part, -1/(2R) integral p x by parts of h/2 dp/dx."""
+    oil = Lubricant(0.04, pressure_viscosity=2e-8, shear_law="newtonian")
+
+    def force(difference, direction=1):
+        speeds = tuple(direction * 0.5 * (1 + side * difference) for side in (1, -1))
+        return solve_line_film(load=200.0, radius=0.01, contact_modulus=np.inf, speeds=speeds, lubricant=oil)
+
+    rolling, slower, faster = force(0.0), force(-0.3), force(0.3)
+    assert slower.shear_force > 0  # the flat is slower than the cylinder, and still dragged along -x
+    assert force(-0.3, -1).shear_force == -slower.shear_force
+    assert slower.shear_force + faster.shear_force == pytest.approx(2 * rolling.shear_force, rel=1e-12)
+    by_parts = -np.trapezoid(rolling.pressure * rolling.position, rolling.position) / (2 * 0.01)
+    # what lies upstream of the mesh is a few per cent of it
+    assert by_parts == pytest.approx(rolling.shear_force, rel=0.04)
+
+
 def test_shear_force_of_rigid_sliding_by_quadrature():
     """Couette and Poiseuille parts of Martin's film by scipy, from -infinity to the exit."""
     from scipy.integrate import quad

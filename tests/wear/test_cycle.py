@@ -140,6 +140,43 @@ def test_the_counterface_slides_and_may_be_longer_than_the_grid():
         assert np.array_equal(heights, longer[(np.arange(48) - 5 * step) % 96])
 
 
+@pytest.mark.parametrize("turned", [False, True], ids=["mirrored", "upside down"])
+def test_which_way_the_counterface_slides_follows_from_friction(turned):
+    """A contact in a mirror has friction along -x. Turned upside down (half a turn about y) bodies change places, x its
+    sign, and friction on the lower one is along +x as before. Both are the same experiment."""
+    lower, upper = surfaces()
+    once = run_in(lower, upper, cycles=4, **ARGUMENTS)
+    arguments, (low, high) = dict(ARGUMENTS), (lower[::-1], upper[::-1])
+    if turned:
+        arguments["bodies"], (low, high) = (HARD, SOFT), (high, low)
+    else:
+        arguments["friction"] = -ARGUMENTS["friction"]
+    again = run_in(low, high, cycles=4, **arguments)
+    worn, still = again.lower_heights, again.upper_heights
+    if turned:
+        worn, still = still, worn
+    assert once.cycles["volume"][-1] > 0  # beyond the first cycle, when nothing has slid yet
+    # the contact is solved to 1e-6 of the roughness, and where it ends a piece ends by as much
+    np.testing.assert_allclose(again.cycles["volume"], once.cycles["volume"], rtol=1e-3)
+    np.testing.assert_allclose(worn[::-1], once.lower_heights, rtol=0, atol=1e-3 * np.ptp(lower - once.lower_heights))
+    assert np.array_equal(still[::-1], upper)
+
+
+def test_without_friction_the_upper_body_slides_along_x():
+    lower, upper = surfaces()
+    seen = []
+    contact = dry_contact(setup(friction=0.0))
+
+    def step(heights, start):
+        seen.append(heights - lower)
+        return contact(heights, start)
+
+    run_in(lower, upper, cycles=2, contact_step=step, model=WearModel(shift=4), **(ARGUMENTS | {"friction": 0.0}))
+    worn = seen[1] - np.roll(upper, 4, axis=0)
+    assert worn.max() < 1e-20  # nothing but what was lost
+    assert worn.min() < 0
+
+
 @pytest.mark.parametrize("wears", ["lower", "upper", "both", "softer"])
 def test_the_bodies_that_should_wear_do(wears):
     lower, upper = surfaces()
