@@ -14,7 +14,7 @@ ORDER = [
     {"kernels", "reference_solutions"},
     {"transforms"},
     {"convolution"},
-    {"stress"},
+    {"stress", "heat"},
     {"contact"},
     {"surfaces", "lubrication"},
     {"particles"},

@@ -1,0 +1,80 @@
+"""What of a body matters to heat, and checks of what users hand over."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from numbers import Real
+
+from bem.errors import InputError
+from bem.materials import Body
+
+_NEEDED = {"thermal_conductivity": "W/(m K)", "density": "kg/m^3", "heat_capacity": "J/(kg K)"}
+
+
+@dataclass(frozen=True)
+class Conductor:
+    """A half-space that moves along x.
+
+    conductivity [W/(m K)]; diffusivity [m^2/s]; speed over the heat [m/s]; bulk temperature [K].
+    """
+
+    conductivity: float
+    diffusivity: float
+    speed: float
+    bulk: float
+
+    @property
+    def wavenumber(self) -> float:
+        """U / (2 kappa) [1/m], with the sign of the speed; times a length it is a Peclet number."""
+        return self.speed / (2 * self.diffusivity)
+
+
+def conductors_of(
+    owner: str, bodies: Body | Sequence[Body], speeds: float | Sequence[float], bulk: float | Sequence[float]
+) -> tuple[Conductor, ...]:
+    """One or two half-spaces; one message per mistake.
+
+    Raises
+    ------
+    InputError : neither a body nor a pair, speeds or bulk temperatures that do not go with them or are not finite, a
+        body with layers, a material without its three thermal constants.
+    """
+    found = (bodies,) if isinstance(bodies, Body) else tuple(bodies) if isinstance(bodies, Sequence) else ()
+    if len(found) not in (1, 2) or not all(isinstance(body, Body) for body in found):
+        raise InputError(f"{owner}: bodies {bodies!r} must be a Body or a pair of them")
+    messages: list[str] = []
+    velocities = _numbers(owner, "speeds", speeds, len(found), "m/s", messages)
+    temperatures = _numbers(owner, "bulk", bulk, len(found), "K", messages)
+    for number, body in enumerate(found):
+        what = f"{owner}: body {number + 1} ({body.material.name})"
+        if body.layers:
+            messages.append(
+                f"{what} has {len(body.layers)} layer(s), which are not included in heat conduction; leave them out "
+                "(Body(body.material)) to take the half-space alone: a layer of thickness t and conductivity k adds up "
+                "to heat x t / k to the temperature of its surface"
+            )
+        for key, unit in _NEEDED.items():
+            if getattr(body.material, key) is None:
+                messages.append(f"{what}: its Material needs {key}, positive and finite [{unit}]")
+    if messages:
+        raise InputError(messages)
+    return tuple(
+        Conductor(body.material.thermal_conductivity or 0.0, body.material.thermal_diffusivity or 0.0, speed, bulk_k)
+        for body, speed, bulk_k in zip(found, velocities, temperatures, strict=True)
+    )
+
+
+def _numbers(owner: str, key: str, given: object, count: int, unit: str, messages: list[str]) -> tuple[float, ...]:
+    """`count` finite numbers; of one body a plain number will do, or the first of a pair."""
+    values = (given,) if isinstance(given, Real) else tuple(given) if isinstance(given, Sequence) else ()
+    if key == "bulk" and count == 1:
+        values = values[:1]
+    numbers = [v for v in values if isinstance(v, Real) and not isinstance(v, bool) and math.isfinite(v)]
+    if len(values) != count or len(numbers) != count:
+        messages.append(
+            f"{owner}: {key} {given!r} must be {count} finite number{'s'[: count - 1]} [{unit}], one a body"
+        )
+        return (0.0,) * count
+    return tuple(float(number) for number in numbers)

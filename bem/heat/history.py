@@ -1,0 +1,135 @@
+"""Surface temperature over time of heat made over one or two half-spaces that may move under it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bem.errors import InputError, Status
+from bem.grid import FloatArray, Grid
+from bem.heat.bodies import Conductor, conductors_of
+from bem.heat.operators import HeatOperator, approximate_inverse, heat_operator, periodic_operator
+from bem.heat.pair import Pair, assembled, solve_pair
+from bem.heat.solution import TemperatureSolution
+from bem.heat.steady import TOLERANCE
+from bem.materials import Body
+from bem.transforms.products import multiply
+
+_NAME = "surface_temperature_history"
+
+
+@dataclass
+class _Past:
+    """One body: its operator for each lag, and the spectra of the heat that has entered it, oldest first."""
+
+    grid: Grid
+    body: Conductor
+    step: float
+    lags: list[HeatOperator] = field(default_factory=list)
+    spectra: list[NDArray[Any]] = field(default_factory=list)
+
+    def operator(self, lag: int) -> HeatOperator:
+        """Rise that heat made `lag` steps ago leaves at the end of this step."""
+        while len(self.lags) <= lag:
+            make = periodic_operator if all(self.grid.periodic) else heat_operator
+            since = len(self.lags)
+            self.lags.append(make(self.grid, self.body, since * self.step, (since + 1) * self.step))
+        return self.lags[lag]
+
+    def temperature(self) -> FloatArray:
+        """Bulk and what all earlier steps leave at the end of this one."""
+        before = np.full(self.grid.shape, self.body.bulk)
+        if not self.spectra:
+            return before
+        transform = self.operator(0).transform
+        total, part = np.zeros_like(transform.empty_spectrum()), transform.empty_spectrum()
+        for lag, spectrum in enumerate(reversed(self.spectra), start=1):
+            multiply(spectrum, part, self.operator(lag).factor, 1.0, 0, len(part))
+            total += part
+        return before + transform.inverse(total)
+
+    def enter(self, heat: FloatArray) -> None:
+        """Keep what has entered during this step."""
+        self.spectra.append(self.operator(0).transform.forward(heat))
+
+
+def surface_temperature_history(
+    times: ArrayLike,
+    heat: ArrayLike | Callable[[float], ArrayLike],
+    grid: Grid,
+    bodies: Body | Sequence[Body],
+    *,
+    speeds: float | Sequence[float],
+    bulk: float | Sequence[float] = (0.0, 0.0),
+    tolerance: float = TOLERANCE,
+) -> list[TemperatureSolution]:
+    """Surface temperature over time, as `surface_temperature` but from bulk temperature on.
+
+    The heat is constant over each step, over which Green's function is integrated exactly; work and memory: the first
+    grows with the square of the number of steps, the second holds a padded spectrum for each step and body.
+
+    Parameters
+    ----------
+    times : (n + 1,) [s], rising in equal steps; both bodies are at bulk temperature at the first.
+    heat : flux made, (n, nx, ny) [W/m^2] during each step; or a function of time, taken in the middle of each.
+    grid : free, periodic, or periodic along y only.
+    bodies, speeds, bulk, tolerance : as of `surface_temperature`; layers are not included.
+
+    Returns
+    -------
+    n solutions, at the end of each step.
+
+    Raises
+    ------
+    InputError : as `surface_temperature`, times that are not rising in equal steps, a grid periodic along x only.
+    """
+    conductors = conductors_of(_NAME, bodies, speeds, bulk)
+    step, fluxes = _steps(times, heat, grid)
+    if grid.periodic[0] and not grid.periodic[1]:
+        raise InputError(
+            f"{_NAME}: a grid periodic along x (the motion) and free along y is not included; make it periodic along "
+            "both, or free along x"
+        )
+    past = [_Past(grid, body, step) for body in conductors]
+    inverse = approximate_inverse(grid, conductors, 0.25 * np.pi / step)
+    found: list[TemperatureSolution] = []
+    for flux in fluxes:
+        before = [one.temperature() for one in past]
+        if len(past) == 1:
+            surface = before[0] + past[0].operator(0)(flux)
+            solution = assembled(flux, flux[None], surface[None], conductors, 1, 0.0, Status.CONVERGED)
+        else:
+            pair = Pair(conductors, tuple(one.operator(0) for one in past), inverse)
+            guess = found[-1].partition * flux if found and np.isfinite(found[-1].share) else None
+            solution = solve_pair(flux, pair, before, guess, tolerance)
+        for one, into in zip(past, solution.heat, strict=True):
+            one.enter(into)
+        found.append(solution)
+    return found
+
+
+def _steps(
+    times: ArrayLike, heat: ArrayLike | Callable[[float], ArrayLike], grid: Grid
+) -> tuple[float, list[FloatArray]]:
+    """Length of a step and the flux of each."""
+    instants = np.asarray(times, dtype=np.float64)
+    if instants.ndim != 1 or instants.size < 2 or not np.isfinite(instants).all():
+        raise InputError(f"{_NAME}: times must be two or more finite instants [s], got shape {instants.shape}")
+    steps = np.diff(instants)
+    if not (steps.min() > 0 and np.allclose(steps, steps[0], rtol=1e-6, atol=0)):
+        raise InputError(
+            f"{_NAME}: times must rise in equal steps, got steps of {steps.min():g} to {steps.max():g} s; "
+            "numpy.linspace(begin, end, steps + 1) makes them"
+        )
+    if callable(heat):
+        maps = [heat(float(t)) for t in 0.5 * (instants[1:] + instants[:-1])]
+    else:
+        maps = list(np.asarray(heat))
+    if len(maps) != steps.size:
+        raise InputError(f"{_NAME}: heat has {len(maps)} maps for {steps.size} steps (one less than times)")
+    step = float(instants[-1] - instants[0]) / steps.size
+    return step, [grid.check_field(one, f"{_NAME}: heat during step {n + 1}") for n, one in enumerate(maps)]

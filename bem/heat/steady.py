@@ -1,0 +1,95 @@
+"""Steady surface temperature of heat that stands still over one or two moving half-spaces."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bem.errors import InputError, Status
+from bem.grid import Grid
+from bem.heat.bodies import Conductor, conductors_of
+from bem.heat.operators import approximate_inverse, heat_operator
+from bem.heat.pair import Pair, assembled, solve_pair
+from bem.heat.solution import TemperatureSolution
+from bem.materials import Body
+
+TOLERANCE = 1e-8
+
+
+def surface_temperature(
+    heat: ArrayLike,
+    grid: Grid,
+    bodies: Body | Sequence[Body],
+    *,
+    speeds: float | Sequence[float],
+    bulk: float | Sequence[float] = (0.0, 0.0),
+    tolerance: float = TOLERANCE,
+) -> TemperatureSolution:
+    """Surface temperature of heat made in a contact: Jaeger's moving source for any map, speed and pair of materials.
+
+    Steady, on bare half-spaces. Of one body all heat enters it; of a pair the heat of every cell is shared so that both
+    surfaces are equally hot where it is made; elsewhere they exchange none.
+
+    Parameters
+    ----------
+    heat : flux made (nx, ny) [W/m^2], such as friction x pressure x sliding speed.
+    grid : free along x; along y free or periodic.
+    bodies : one Body or a pair, whose materials have `thermal_conductivity`, `density` and `heat_capacity`.
+    speeds : over the contact [m/s], along +x (negative: along -x), one a body.
+    bulk : temperature far below the surface [K], one a body; with zeros the result is the rise.
+    tolerance : largest difference of the two surfaces where heat is made, over the largest rise.
+
+    Returns
+    -------
+    TemperatureSolution : temperature, partition, maximum, status, ...
+
+    Raises
+    ------
+    InputError : an argument that cannot be used; a body with layers; a grid on which no steady temperature exists
+        (periodic along x, or along y under a body at rest): the heat in it would warm the body for ever.
+
+    Carslaw and Jaeger, Conduction of Heat in Solids (1959), sections 10.2 and 10.7; J. C. Jaeger, Proc. R. Soc. NSW 76
+    (1942) 203.
+    """
+    conductors = conductors_of("surface_temperature", bodies, speeds, bulk)
+    field = grid.check_field(heat, "surface_temperature: heat")
+    _check_grid(grid, conductors)
+    if not 0 < tolerance < 1:
+        raise InputError(f"surface_temperature: tolerance {tolerance!r} must lie between 0 and 1, both excluded")
+    if len(conductors) == 1:
+        (body,) = conductors
+        surface = body.bulk + heat_operator(grid, body)(field)
+        return assembled(field, field[None], surface[None], conductors, 1, 0.0, Status.CONVERGED)
+    first = heat_operator(grid, conductors[0])
+    alike = _response(conductors[0]) == _response(conductors[1])
+    pair = Pair(
+        conductors,
+        (first, first if alike else heat_operator(grid, conductors[1])),
+        approximate_inverse(grid, conductors),
+    )
+    before = [np.full(grid.shape, body.bulk) for body in conductors]
+    return solve_pair(field, pair, before, None, tolerance)
+
+
+def _response(body: Conductor) -> tuple[float, float]:
+    return body.conductivity, body.wavenumber
+
+
+def _check_grid(grid: Grid, bodies: Sequence[Conductor]) -> None:
+    """Refuse what has no steady state."""
+    advice = (
+        "make the grid free along that axis, wide enough for the heat to spread, or ask for the temperature after a "
+        "time: surface_temperature_history"
+    )
+    if grid.periodic[0]:
+        raise InputError(
+            "surface_temperature: the grid is periodic along x, so that the same heat is made on every period behind "
+            f"another for ever and no steady temperature exists; {advice}"
+        )
+    if grid.periodic[1] and any(body.speed == 0 for body in bodies):
+        raise InputError(
+            "surface_temperature: the grid is periodic along y and a body does not move (speed 0): under a line of "
+            f"heat at rest no steady temperature exists; {advice}, or give the body the speed that it has"
+        )
