@@ -17,7 +17,6 @@ from bem.heat.pair import Pair, assembled, solve_pair
 from bem.heat.solution import TemperatureSolution
 from bem.heat.steady import TOLERANCE
 from bem.materials import Body
-from bem.transforms.products import multiply
 
 _NAME = "surface_temperature_history"
 
@@ -46,10 +45,10 @@ class _Past:
         if not self.spectra:
             return before
         transform = self.operator(0).transform
-        total, part = np.zeros_like(transform.empty_spectrum()), transform.empty_spectrum()
+        total = transform.empty_spectrum()
+        total[...] = 0
         for lag, spectrum in enumerate(reversed(self.spectra), start=1):
-            multiply(spectrum, part, self.operator(lag).factor, 1.0, 0, len(part))
-            total += part
+            self.operator(lag).add_product(spectrum, total)
         return before + transform.inverse(total)
 
     def enter(self, heat: FloatArray) -> None:

@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import erfc
 
 from bem.grid import FloatArray, Grid
@@ -29,6 +30,15 @@ class HeatOperator:
     def __call__(self, heat: FloatArray) -> FloatArray:
         """The convolution."""
         return self.transform.convolve(heat, self.factor)
+
+    def add_product(self, spectrum: NDArray[np.complex128], total: NDArray[np.complex128]) -> None:
+        """Add the rise that heat of a spectrum makes to a spectrum, both (py // 2 + 1, px)."""
+        assert self.factor.real is not None
+        half = self.factor.real.shape[1]
+        mirror = slice(total.shape[1] - half, 0, -1)  # wavenumber px - k of a kernel is that of k, conjugate
+        factor = self.factor.real if self.factor.imaginary is None else self.factor.real + 1j * self.factor.imaginary
+        total[:, :half] += factor * spectrum[:, :half]
+        total[:, half:] += factor[:, mirror].conj() * spectrum[:, half:]
 
 
 def padded_shape(grid: Grid) -> tuple[int, int]:
