@@ -33,6 +33,8 @@ ORDER = (
     "compare",
     "new",
     "schema",
+    "oils",
+    "materials",
     "surface",
     "particles",
     "calibrate",

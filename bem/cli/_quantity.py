@@ -3,24 +3,33 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from bem.errors import InputError
+
+if TYPE_CHECKING:
+    from bem.scenes.units import Dimension
 
 
 def length(text: str | None, option: str) -> float | None:
     """`"45 nm"` or a number in metres; None stays None."""
     if text is None:
         return None
-    from pydantic_core import PydanticCustomError
-
     from bem.scenes.units import LENGTH
+
+    return quantity(text, LENGTH, option)
+
+
+def quantity(text: str, dimension: Dimension, option: str) -> float:
+    """`"60 degC"` and the like, or a number in SI units."""
+    from pydantic_core import PydanticCustomError
 
     try:
         return float(text)
     except ValueError:
         pass
     try:
-        return LENGTH.parse(text)
+        return dimension.parse(text)
     except PydanticCustomError as error:
         raise InputError(f'{option} "{text}": {error.message()}') from None
 

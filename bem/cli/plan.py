@@ -55,11 +55,14 @@ def register(app: typer.Typer) -> None:
 def _show_contacts(facts: Any) -> None:
     """Bodies and surfaces, what all contacts have in common, then a row for each contact that differs."""
     from bem.cli._terminal import table
-    from bem.scenes.checks.overview import bodies, common, differing
+    from bem.scenes.checks.overview import bodies, common, differing, oil
 
-    for rows, title in ((bodies(facts), "bodies"), (common(facts), "grid and smooth contact")):
-        if rows:
-            table(("", ""), rows, title=title)
+    if rows := bodies(facts):
+        table(("", ""), rows, title="bodies")
+    if (given := getattr(facts.scene, "oil", None)) is not None:
+        table(("", "", ""), oil(given.build()), title="oil", wide_only=(2,))
+    if rows := common(facts):
+        table(("", ""), rows, title="grid and smooth contact")
     names, contacts = differing(facts)
     if contacts:
         table(names, contacts, title="contacts that are computed")

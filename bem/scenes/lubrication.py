@@ -3,51 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import Field, model_validator
 
 from bem.friction.boundary import BoundaryFriction, boundary_law
-from bem.lubrication.density import DensityLaw, Incompressible
-from bem.lubrication.shear import LimitedShear, ShearLaw
-from bem.lubrication.viscosity import Roelands, ViscosityLaw
 from bem.scenes.common import Force, PositiveLength, PositivePressure, Table, problem
-from bem.scenes.laws import LawKey, LawOrNumber, LawTable
-from bem.scenes.units import Pressure, PressureViscosity, Ratio, Speed, Viscosity
-
-if TYPE_CHECKING:
-    from bem.lubrication import Lubricant
-
-_NO_FILM = "a positive viscosity; an oil without viscosity makes no film (a dry contact is kind contact or wear)"
-
-
-class OilScene(LawTable):
-    """The oil at the temperature of the contact; see `bem.Lubricant`. The laws' parameters stand beside them."""
-
-    viscosity: Viscosity
-    pressure_viscosity: Annotated[PressureViscosity, Field(ge=0)] = 0.0
-    viscosity_law: Annotated[ViscosityLaw, LawKey("viscosity_law", beside=True)] = Roelands()
-    density_law: Annotated[DensityLaw, LawKey("density_law", beside=True)] = Incompressible()
-    shear_law: Annotated[ShearLaw, LawKey("shear_law", beside=True)] = LimitedShear()
-
-    @model_validator(mode="after")
-    def _complete(self) -> OilScene:
-        if self.viscosity <= 0:
-            raise problem(f"viscosity {self.viscosity:g} Pa s", _NO_FILM)
-        return self
-
-    def build(self) -> Lubricant:
-        """As `bem.Lubricant`."""
-        from bem.lubrication import Lubricant
-
-        return Lubricant(
-            self.viscosity,
-            pressure_viscosity=self.pressure_viscosity,
-            viscosity_law=self.viscosity_law,
-            density_law=self.density_law,
-            shear_law=self.shear_law,
-        )
+from bem.scenes.laws import LawOrNumber
+from bem.scenes.units import Pressure, Ratio, Speed
 
 
 class SpeedsScene(Table):

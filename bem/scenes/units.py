@@ -118,6 +118,8 @@ class Dimension:
 
 def convert(digits: str, unit: str, dimension: Dimension) -> float:
     """`digits` of `unit` in the SI unit of `dimension`, rounded once: "45 nm" is exactly 45e-9."""
+    if dimension.unit == "K" and unit.strip() == "C":  # what a temperature is written in; a charge elsewhere
+        unit = "degC"
     try:
         found, factor = _unit(unit)
     except LookupError:
@@ -185,8 +187,11 @@ Time = Annotated[float, Dimension("s", "a time", "45 min")]
 Rate = Annotated[float, Dimension("1/s", "a rate", "6.9e-4 1/s")]
 InverseLength = Annotated[float, Dimension("1/m", "an inverse length", "1.24e7 1/m")]
 Viscosity = Annotated[float, Dimension("Pa*s", "a dynamic viscosity", "0.36 Pa*s")]
+KinematicViscosity = Annotated[float, Dimension("m^2/s", "a kinematic viscosity", "68 mm^2/s")]
+Softening = Annotated[float, Dimension("1/K", "a rate over temperature", "0.04 1/K")]
 PressureViscosity = Annotated[float, Dimension("1/Pa", "a pressure-viscosity coefficient", "25 1/GPa")]
-Temperature = Annotated[float, Dimension("K", "a temperature", "60 degC")]
+TEMPERATURE = Dimension("K", "a temperature", "60 degC")
+Temperature = Annotated[float, TEMPERATURE]
 Energy = Annotated[float, Dimension("J", "an energy", "0.8 eV")]
 Density = Annotated[float, Dimension("kg/m^3", "a density", "870 kg/m^3")]
 ThermalConductivity = Annotated[float, Dimension("W/(m*K)", "a thermal conductivity", "46 W/(m*K)")]

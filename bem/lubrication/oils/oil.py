@@ -139,7 +139,7 @@ class Oil:
         ----------
         temperature : [K].
         laws : further arguments of `bem.Lubricant`: viscosity, density and shear law and their parameters;
-            `pressure_viscosity` in place of the oil's own.
+            `pressure_viscosity`, `density` and the like in place of the oil's own.
 
         Raises
         ------
@@ -149,18 +149,21 @@ class Oil:
         from bem.lubrication.lubricant import Lubricant
 
         self.check(temperature)
-        given = laws.pop("pressure_viscosity", None)
-        return Lubricant(
-            self.dynamic_viscosity(temperature),
-            pressure_viscosity=self.pressure_coefficient(temperature) if given is None else given,
-            temperature=temperature,
-            density=self.density(temperature),
-            heat_capacity=None if self.heat_capacity is None else self.heat_capacity(temperature),
-            thermal_conductivity=None if self.thermal_conductivity is None else self.thermal_conductivity(temperature),
-            temperature_viscosity=self.temperature_viscosity(temperature),
-            oil=self,
-            **laws,
-        )
+        given = {key: value for key, value in laws.items() if value is not None}
+        if "pressure_viscosity" not in given:
+            given["pressure_viscosity"] = self.pressure_coefficient(temperature)
+        own = {
+            "temperature": temperature,
+            "density": self.density(temperature),
+            "heat_capacity": None if self.heat_capacity is None else self.heat_capacity(temperature),
+            "thermal_conductivity": None
+            if self.thermal_conductivity is None
+            else self.thermal_conductivity(temperature),
+            "temperature_viscosity": self.temperature_viscosity(temperature),
+            "oil": self,
+        }
+        values = own | given
+        return Lubricant(self.viscosity.kinematic(temperature) * values["density"], **values)
 
 
 def _celsius(temperature: float) -> str:

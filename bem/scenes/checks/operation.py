@@ -49,7 +49,8 @@ def speed_beyond_machines(facts: Facts) -> Iterator[str]:
 @scene_check
 def implausible_viscosity(facts: Facts) -> Iterator[str]:
     """Oils have 1 mPa s (hot) to 100 Pa s (VG 1500 in the cold), liquid gases 0.1 mPa s; 1 cP is 1 mPa s."""
-    oil = getattr(facts.scene, "oil", None)
+    table = getattr(facts.scene, "oil", None)
+    oil = None if table is None else table.build()
     if oil is not None and not _VISCOSITIES[0] <= oil.viscosity <= _VISCOSITIES[1]:
         thick = oil.viscosity > _VISCOSITIES[1]
         yield (
@@ -66,13 +67,20 @@ def implausible_pressure_viscosity(facts: Facts) -> Iterator[str]:
     Hamrock, Schmid & Jacobson, Fundamentals of Fluid Film Lubrication (2004), chapter 4.
     """
     oil = getattr(facts.scene, "oil", None)
-    value = 0.0 if oil is None else oil.pressure_viscosity
+    value = 0.0 if oil is None else oil.build().pressure_viscosity
     if value and not _PRESSURE_VISCOSITIES[0] <= value <= _PRESSURE_VISCOSITIES[1]:
         hint = f' ("{value:g} 1/GPa"?)' if value > 1e-3 else ""
         yield (
             f"oil.pressure_viscosity {value:g} 1/Pa is {value * 1e9:.3g} 1/GPa; mineral oils have 15 to 35 1/GPa, "
             f"water 0.5{hint}"
         )
+
+
+@scene_check
+def oil_outside_its_range(facts: Facts) -> Iterator[str]:
+    """Viscosities extrapolated, an oil above its flash point or too thick to flow."""
+    oil = getattr(facts.scene, "oil", None)
+    yield from () if oil is None else oil.build().notes
 
 
 @scene_check

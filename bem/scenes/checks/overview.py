@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bem.materials import Body, Material
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.words import percent, si, times
+
+if TYPE_CHECKING:
+    from bem.lubrication import Lubricant
 
 _MOST_CASES = 12
 _CASE = "case"
@@ -51,6 +54,52 @@ def common(facts: Facts) -> Rows:
         for name in _names(columns)
         if name != _CASE and columns[0].get(name) and len({column.get(name, "") for column in columns}) == 1
     ]
+
+
+def oil(lubricant: Lubricant) -> list[tuple[str, str, str]]:
+    """Figures of an oil at its temperature, and where each is from."""
+    made = lubricant.oil
+    law = f"viscosity_law {lubricant.viscosity_law.name}"
+    if made is None:
+        return [
+            ("viscosity", si(lubricant.viscosity, "Pa s"), "given"),
+            ("pressure-viscosity", _per_gpa(lubricant.pressure_viscosity), f"given; {law}"),
+        ]
+    temperature = lubricant.temperature
+    assert temperature is not None
+    rows = [
+        ("oil", made.name, made.viscosity_source),
+        ("temperature", f"{temperature - 273.15:.4g} degC", ""),
+        ("viscosity", si(lubricant.viscosity, "Pa s"), made.viscosity.words),
+        ("kinematic", f"{1e6 * made.viscosity.kinematic(temperature):.4g} mm^2/s", ""),
+        ("softening", f"{100 * (lubricant.temperature_viscosity or 0.0):.2g} %/K", "-d ln(viscosity)/dT, of the same"),
+    ]
+    alpha = made.pressure_viscosity
+    own = alpha is not None and lubricant.pressure_viscosity == made.pressure_coefficient(temperature)
+    source = alpha.source if own and alpha is not None else "given"
+    rows.append(("pressure-viscosity", _per_gpa(lubricant.pressure_viscosity), f"{source}; {law}"))
+    for name, value, line, unit in (
+        ("density", lubricant.density, made.density, "kg/m^3"),
+        ("heat capacity", lubricant.heat_capacity, made.heat_capacity, "J/(kg K)"),
+        ("conductivity", lubricant.thermal_conductivity, made.thermal_conductivity, "W/(m K)"),
+    ):
+        if value is not None:
+            found = line.source if line is not None and value == line(temperature) else "given"
+            rows.append((name, f"{value:.4g} {unit}", found))
+    limits = [
+        f"{name} {value - 273.15:.4g} degC"
+        for name, value in (
+            ("solid below", made.freezing_point),
+            ("flashes at", made.flash_point),
+            ("boils at", made.boiling_point),
+        )
+        if value is not None
+    ]
+    return [*rows, *([("limits", ", ".join(limits), made.limits_source)] if limits else [])]
+
+
+def _per_gpa(value: float) -> str:
+    return f"{1e9 * value:.4g} 1/GPa"
 
 
 def differing(facts: Facts) -> tuple[list[str], list[list[str]]]:

@@ -15,7 +15,7 @@ from bem.grid import FloatArray
 from bem.scenes.common import BodyScene, Force, PositiveLength, SceneModel, Table, UpperBodyScene, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
-from bem.scenes.lubrication import OilScene
+from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Length, Speed, Time

@@ -22,7 +22,8 @@ from bem.scenes.axes import Axis, changed, listed, variants
 from bem.scenes.common import BodyScene, LineGridScene, PositiveLength, SceneModel, Table, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
-from bem.scenes.lubrication import FilmMeshScene, LubricatedScene, OilScene, SpeedsScene
+from bem.scenes.lubrication import FilmMeshScene, LubricatedScene, SpeedsScene
+from bem.scenes.oil import OilScene
 from bem.scenes.packing import packed, unpacked
 from bem.scenes.planner import Plan, Step, convolution_memory, padded_points
 from bem.scenes.records import Figure, Record, Series

@@ -22,7 +22,8 @@ from bem.scenes.common import BodyScene, LineGridScene, PositivePressure, SceneM
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.kinds.friction import check_load, check_patch, half_width, load_of
-from bem.scenes.lubrication import FilmMeshScene, LubricatedScene, OilScene, SpeedsScene
+from bem.scenes.lubrication import FilmMeshScene, LubricatedScene, SpeedsScene
+from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series
 from bem.scenes.units import Ratio

@@ -1,0 +1,67 @@
+"""`bem materials`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+
+    @app.command(short_help="The materials of the catalogue with their constants and sources.")
+    def materials(
+        name: Annotated[str | None, typer.Argument(metavar="MATERIAL", help="One of them; without one, all.")] = None,
+    ) -> None:
+        """The materials that scenes know by name, a line each; of one material every constant and where it is from.
+
+        \b
+        Examples:
+          bem materials
+          bem materials silicon-nitride
+        """
+        from bem.cli._terminal import table
+        from bem.errors import InputError
+        from bem.materials import CATALOGUE
+        from bem.scenes.validate import nearest
+
+        if name is None:
+            head = ("material", "E GPa", "nu", "hardness GPa", "yield MPa", "W/(m K)", "source")
+            rows = [(key, *_numbers(key)[:5], CATALOGUE[key].source) for key in sorted(CATALOGUE)]
+            table(head, rows, right=(1, 2, 3, 4, 5), wide_only=(6,))
+            return
+        if name not in CATALOGUE:
+            known = ", ".join(sorted(CATALOGUE))
+            raise InputError(f'MATERIAL "{name}": not in the catalogue{nearest(name, CATALOGUE)}; allowed: {known}')
+        labels = (
+            ("Young's modulus", "GPa"),
+            ("Poisson's ratio", ""),
+            ("hardness", "GPa"),
+            ("yield stress", "MPa"),
+            ("thermal conductivity", "W/(m K)"),
+            ("density", "kg/m^3"),
+            ("heat capacity", "J/(kg K)"),
+        )
+        rows = [
+            (label, f"{value} {unit}".strip())
+            for (label, unit), value in zip(labels, _numbers(name), strict=True)
+            if value
+        ]
+        table(("", ""), [*rows, ("source", CATALOGUE[name].source)], title=name)
+
+
+def _numbers(name: str) -> tuple[str, ...]:
+    from bem.materials import CATALOGUE
+
+    one = CATALOGUE[name].material
+    values = (
+        (one.youngs_modulus, 1e9),
+        (one.poissons_ratio, 1.0),
+        (one.hardness, 1e9),
+        (one.yield_stress, 1e6),
+        (one.thermal_conductivity, 1.0),
+        (one.density, 1.0),
+        (one.heat_capacity, 1.0),
+    )
+    return tuple("" if value is None else f"{value / unit:.4g}" for value, unit in values)

@@ -1,0 +1,69 @@
+"""`bem oils`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+
+    @app.command(short_help="The oils of the catalogue, or all about one of them, with sources.")
+    def oils(
+        name: Annotated[
+            str | None, typer.Argument(metavar="OIL", help="A name or grade; without one, all of them.")
+        ] = None,
+        temperature: Annotated[str, typer.Option("--temperature", metavar="T", help="Such as 60C.")] = "40 degC",
+        viscosity_index: Annotated[float | None, typer.Option(help="In place of the grade's usual one.")] = None,
+        base: Annotated[str | None, typer.Option(help="Of an ISO grade: mineral, pao, ester, pag.")] = None,
+    ) -> None:
+        """The oils that `oil = { grade = "...", temperature = "..." }` and `Lubricant.of` know, a line each; of one oil
+        every figure at a temperature, and where it is from.
+
+        \b
+        Examples:
+          bem oils
+          bem oils "ISO VG 68" --temperature "60 C"
+          bem oils "ISO VG 220" --base pao
+        """
+        from bem.cli._quantity import quantity
+        from bem.cli._terminal import show_warnings, table
+        from bem.lubrication.oils.catalogue import find_oil, oil_names
+        from bem.scenes.checks.overview import oil as described
+        from bem.scenes.units import TEMPERATURE
+
+        at = quantity(temperature, TEMPERATURE, "--temperature")
+        if name is None:
+            head = ("oil", "base", "mm^2/s at 40", "at 100 degC", "index", "1/GPa at 40", "source")
+            table(head, [_row(one) for one in oil_names()], right=(2, 3, 4, 5), wide_only=(6,))
+            return
+        found = find_oil(name, viscosity_index=viscosity_index, base=base)
+        known = found.pressure_viscosity is not None
+        lubricant = found.at(at) if known else found.at(at, pressure_viscosity=0.0)
+        rows = described(lubricant)
+        if not known:
+            rows = [row if row[0] != "pressure-viscosity" else (row[0], "not known", "give it") for row in rows]
+        table(("", "", "source"), rows, title=f"{found.name} ({found.base})")
+        show_warnings(lubricant.notes)
+
+
+def _row(name: str) -> tuple[str, ...]:
+    from bem.lubrication.oils.catalogue import find_oil
+    from bem.lubrication.oils.viscosity_index import viscosity_index
+
+    if name.startswith("water-glycol"):
+        return (
+            name,
+            "water-glycol",
+            name.split()[-1],
+            "",
+            "given",
+            "given",
+            "ISO 3448; index and alpha from its maker",
+        )
+    oil = find_oil(name)
+    at_40, at_100 = (1e6 * oil.viscosity.kinematic(t) for t in (313.15, 373.15))
+    index, alpha = viscosity_index(at_40, at_100), 1e9 * oil.pressure_coefficient(313.15)
+    return (name, oil.base, f"{at_40:.4g}", f"{at_100:.4g}", f"{index:.0f}", f"{alpha:.3g}", oil.viscosity_source)
