@@ -26,6 +26,8 @@ from bem.threads import get_threads, set_threads
 
 _WORTH_A_PROCESS = 4.0
 """Seconds of work that pay for starting a process, which takes two."""
+_ALIKE = 0.75
+"""Jobs are alike where the shortest is this part of the longest, by their plans."""
 
 
 class Job(Protocol):
@@ -120,7 +122,9 @@ def hand_out(
         return
     count = processes(staff.workers, jobs, math.fsum(seconds.values()), threads, note)
     if count > 1 and "__main__" not in modules:
-        yield from compute_locally([Sent(job, threads, modules) for job in longest_first], count, watching)
+        at_end = _threads_at_end([seconds[job.index] for job in longest_first], count)
+        sent = [Sent(job, threads * n, modules) for job, n in zip(longest_first, at_end, strict=True)]
+        yield from compute_locally(sent, count, watching)
         return
     set_threads(threads)
     try:
@@ -137,6 +141,16 @@ def _seconds(jobs: Sequence[Job], threads: int) -> dict[int, float]:
         return dict.fromkeys(plans, 0.0)
     rate = machine_rate(threads)
     return {index: 0.0 if plan is None else plan.work(rate) for index, plan in plans.items()}
+
+
+def _threads_at_end(seconds: Sequence[float], count: int) -> list[int]:
+    """Of every job in turn, how many times the threads: those of a last round that is not full share the idle cores.
+
+    Only where jobs are alike; of others nobody knows who will be idle when. No result depends on its threads.
+    """
+    left = len(seconds) % count
+    alike = min(seconds) >= _ALIKE * max(seconds)
+    return [count // left if alike and i >= len(seconds) - left else 1 for i in range(len(seconds))]
 
 
 def processes(

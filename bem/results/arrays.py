@@ -108,7 +108,7 @@ def _values(path: Path, name: str) -> NDArray[Any]:
 
     try:
         with h5py.File(path, "r") as file:
-            stored = file[name]
+            stored = file.get(f"_nc4_non_coord_{name}", file[name])  # one named like a dimension that is not its own
             if h5py.check_string_dtype(stored.dtype) is not None:
                 return np.asarray(stored.asstr()[...]).astype(str)
             return np.asarray(stored[...])

@@ -82,7 +82,7 @@ def run_scene(
     check_workers(workers)
     scene, planned = plan_scene(source, settings)
     check_memory(planned)
-    formats = () if not figures else ("png", "pdf") if pdf else ("png",)
+    formats = ("vtu", *(("png", "pdf") if pdf else ("png",))) if figures else ("vtu",)
     with RunDirectory.start(
         None if out is None else Path(out), scene.name, dump_scene(scene), resume=resume, overwrite=overwrite
     ) as directory:
@@ -105,7 +105,10 @@ def run_planned(
     formats: tuple[str, ...],
     watcher: Watcher,
 ) -> dict[str, Any]:
-    """Compute and write all of a run into its folder; its summary. Raises as `run_scene`."""
+    """Compute and write all of a run; pictures as named in `formats` ("vtu", "png", "pdf"). Its summary.
+
+    Raises as `run_scene`.
+    """
     campaign = campaign_of(scene)
     try:
         facts = examine(campaign.base)
@@ -138,7 +141,7 @@ def run_planned(
 def _write(
     directory: RunDirectory, scene: SceneModel, computed: Computed, formats: tuple[str, ...], watcher: Watcher
 ) -> dict[str, Any]:
-    """Arrays, volumes, figures in these formats with the report (neither without any); the summary last."""
+    """Arrays, volumes, figures with the report (neither without a format of figures); the summary last."""
     from bem.results.arrays import to_arrays
     from bem.results.dataset import write_variables
     from bem.results.vtk import write_volumes
@@ -149,7 +152,7 @@ def _write(
     attributes["axes"] = " ".join(outcome.axes)
     with _timed(seconds, "writing results"):
         write_variables(directory.path / RESULTS, outcome.variables, attributes)
-        if outcome.volumes and not outcome.axes:
+        if outcome.volumes and not outcome.axes and "vtu" in formats:
             write_volumes(directory.path, outcome.variables, outcome.volumes)
     summary = {
         **about,
@@ -166,7 +169,7 @@ def _write(
     if tell is not None:
         with suppress(OSError):  # nobody may be listening any more; the run goes on
             tell({**summary, "wall_time_s": time.time() - computed.epoch}, headline)
-    if formats:
+    if drawn_as := [ending for ending in formats if ending != "vtu"]:
         from bem.plots.draw import draw_all
         from bem.plots.report import write_report
 
@@ -179,7 +182,7 @@ def _write(
             watcher.note(text)
 
         with _timed(seconds, "figures and report"):
-            drawn = draw_all(run, kind.figures, directory.figures, formats, on_failure=failed)
+            drawn = draw_all(run, kind.figures, directory.figures, drawn_as, on_failure=failed)
             summary["wall_time_s"] = time.time() - computed.epoch
             write_report(run, drawn, headline)
     summary["wall_time_s"] = time.time() - computed.epoch

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bem.campaigns import campaign_of, compute, plan
+from bem.campaigns import campaign_of, compute, jobs, plan
 from bem.campaigns.engine import Board, notes_of
 from bem.campaigns.local import compute_locally
 from bem.errors import ConvergenceError, InputError
@@ -82,6 +82,18 @@ def test_two_workers_each_get_cases_and_the_bits_are_the_same(alone, tmp_path, m
     assert sorted(given) == [0, 1, 2, 3]
     assert len(by_worker) == 2
     assert content(both) == content(alone)
+
+
+def test_the_last_of_three_has_both_cores_and_the_same_bits(tmp_path, monkeypatch):
+    threads = []
+    outright = jobs.compute_locally
+    monkeypatch.setattr(
+        jobs, "compute_locally", lambda sent, *how: threads.extend(one.threads for one in sent) or outright(sent, *how)
+    )
+    three = {"settings": ['cylinder.loads=["2.5 N", "5 N", "10 N"]', "repetitions=1"], "figures": False}
+    both = run_scene(SCENE, tmp_path / "both", workers=2, **three)
+    assert threads == [1, 1, 2]
+    assert content(both) == content(run_scene(SCENE, tmp_path / "one", workers=1, **three))
 
 
 def test_dataset_has_the_axes_as_dimensions(alone):

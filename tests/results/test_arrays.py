@@ -42,6 +42,14 @@ def test_what_is_read_is_what_xarray_reads(tmp_path):
         assert float(arrays["approach"]) == 3.0
 
 
+def test_a_variable_may_be_called_like_the_dimension_of_another(tmp_path):
+    path = tmp_path / "results.nc"
+    write_variables(path, VARIABLES | {"name": Variable(("x",), np.arange(4.0), "m", "other")}, {})
+    np.testing.assert_array_equal(read_arrays(path)["name"].values, np.arange(4.0))
+    np.testing.assert_array_equal(read_dataset(path)["name"].values, np.arange(4.0))
+    assert read_dataset(path)["name"].dims == ("x",)
+
+
 def test_values_are_read_when_they_are_asked_for(tmp_path, monkeypatch):
     path = tmp_path / "results.nc"
     write_variables(path, VARIABLES, {})
