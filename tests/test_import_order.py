@@ -1,6 +1,7 @@
 """Imports in `bem` run one way, and nothing in it sees the oracle."""
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
@@ -60,3 +61,20 @@ def test_imports_run_one_way(path):
             other = rest.split(".")[0]
             if other in RANK and other != room:
                 assert RANK[other] < RANK[room], f"{room} may not import {other}"
+
+
+ROOMS = sorted(path.parent.name for path in ROOT.glob("*/__init__.py"))
+UNSAID = {"contact", "accuracy", "campaigns", "runs"}  # being rebuilt; entries go as they land
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_says_what_it_knows_and_where_it_is_verified(room):
+    said = ast.get_docstring(ast.parse((ROOT / room / "__init__.py").read_text()))
+    if room in UNSAID:
+        return
+    assert said.count("\n") < 20
+    assert re.search(r"(Sees|Knows|Pure functions)", said)
+    places = re.findall(r"tests/[\w/]+(?:\.py)?", said.partition("Verified in")[2])
+    assert places
+    for place in places:
+        assert (ROOT.parent / place).exists(), place

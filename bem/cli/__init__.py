@@ -1,6 +1,9 @@
 """The command line. Every module here adds one command; heavy imports wait until a command runs.
 
 A new command is a new file with `def register(app: typer.Typer) -> None`. `ORDER` only sorts the help text.
+
+Thin: reads options, calls one public function, prints. Sees everything, and nothing sees it. Verified in
+tests/test_cli_commands.py, tests/reliability (bad input, killed runs) and tests/packaging (what a start imports).
 """
 
 from __future__ import annotations

@@ -1,4 +1,11 @@
-"""Particles: what they are, and the statistics of simulated and measured ones (thesis, paper B)."""
+"""Wear particles: what one is, statistics of simulated and measured ones, height maps (thesis, paper B).
+
+`particle` is the record; `statistics` its means by number, area and volume; `height_map` finds particles on a plate,
+`synthetic` makes such a map up; `archard`, `film_ratio` and `sedimentation` are the formulas of evaluation.
+
+Sees surfaces, no contact and no wear loop. Verified in tests/particles on maps whose particles are known and against
+closed forms of the distributions.
+"""
 
 from bem.particles.archard import (
     archard_volume,

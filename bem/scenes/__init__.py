@@ -1,4 +1,12 @@
-"""Scenes: validated files that say what is wanted, the planner, and the kinds of scene there are."""
+"""Scenes: validated files that say what is wanted, the planner, and the kinds of scene there are.
+
+`load` reads a scene and writes it resolved, `validate` turns mistakes into messages, `units` reads quantities, `build`
+makes bodies, surfaces and grids of it, `checks` warns of what an expert would, `planner` estimates; `kinds` has a file
+for each kind, `library` the built-in scenes, `records` what a case gives.
+
+Sees the solvers through its kinds, and no folder of results. Verified in tests/scenes, tests/gallery (every built-in
+scene) and tests/reliability (hostile and random scenes).
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,12 @@
-"""Tribofilms: stress-activated growth, wear, and the substrate worn with them (thesis, paper E). Names are loaded when
-they are first used, so that the laws alone cost no solver."""
+"""Tribofilms: stress-activated growth, wear, and the substrate worn with them (thesis, paper E).
+
+`growth` and `properties` are the laws, `evolution` one point over time, `local` a field of them, `grow` with the
+contact that the film changes (`contact_growth`, `balance`), `calibrate` fits constants to measurements. Names are
+loaded when first used, so that the laws cost no solver.
+
+Sees contacts and operators, no lubrication and no scene. Verified in tests/tribofilm: closed forms of growth and steady
+thickness, stiff limits, constants found again; against paper E in the validation page.
+"""
 
 from typing import TYPE_CHECKING
 
