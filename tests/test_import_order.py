@@ -74,7 +74,7 @@ def test_a_room_says_what_it_knows_and_where_it_is_verified(room):
         return
     assert said.count("\n") < 20
     assert re.search(r"(Sees|Knows|Pure functions)", said)
-    places = re.findall(r"tests/[\w/]+(?:\.py)?", said.partition("Verified in")[2])
+    places = re.findall(r"tests/[\w/]+(?:\.py)?", said.partition("Verified")[2])
     assert places
     for place in places:
         assert (ROOT.parent / place).exists(), place
