@@ -5,5 +5,5 @@ compares two, `show` prints and draws, `floor` and `peers` measure what the mach
 makes the committed table of line-contact films.
 
 Sees every solver, closed forms to judge them by, and no command line. Verified in tests/benchmarks: cases run at their
-smallest size, errors fall with the mesh, counters leave no trace; the last stored run is the page `performance`.
+smallest size, errors fall with the mesh, counters leave no trace; reports show the last stored run.
 """

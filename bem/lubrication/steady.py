@@ -164,7 +164,7 @@ def _from_neighbour(
     if spike_cell(problem, state, min(cells, MIDDLE)) < SPIKE_CELLS[0] and (
         len(state.offset) != cells + 1 or SPIKE_SHIFT * change * spike_cells_to_exit(state) > MAX_SHIFT
     ):
-        return _ladder(problem, state, ATTEMPTS[0][0], cells, tolerance, limit)
+        return _refined(problem, state, ATTEMPTS[0][0], cells, tolerance, limit)
     if len(state.offset) != cells + 1:
         state = remesh(problem, state, cells, SPIKE_CELLS[-1])
     outcome = newton(problem, state, tolerance, min(limit, 20))
@@ -218,7 +218,7 @@ def _from_scratch(
             else:
                 step = math.sqrt(step)
         if last.converged and load == problem.load:
-            final = _ladder(problem, last.state, coarse, cells, tolerance, limit)
+            final = _refined(problem, last.state, coarse, cells, tolerance, limit)
             spent += final.iterations
             if final.converged:
                 return replace(final, iterations=spent)
@@ -229,7 +229,7 @@ def _from_scratch(
     return replace(last, iterations=spent, residual=residual, converged=False)
 
 
-def _ladder(problem: Problem, state: State, coarse: int, cells: int, tolerance: float, limit: int) -> Outcome:
+def _refined(problem: Problem, state: State, coarse: int, cells: int, tolerance: float, limit: int) -> Outcome:
     """From a coarse solution to the wanted number of cells, a spike refined little by little."""
     middle = min(cells, MIDDLE)
     stages: list[tuple[int, float | None]] = [(coarse, None)]

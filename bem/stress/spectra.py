@@ -89,7 +89,7 @@ class SweepCache:
         with self.lock:
             if key in self.kept:
                 return
-            self._make_room(self.limit - nbytes, sweep - 1)
+            self._evict(self.limit - nbytes, sweep - 1)
             if self.used + nbytes <= self.limit:
                 self.kept[key] = _Kept(value, nbytes, sweep)
                 self.used += nbytes
@@ -98,9 +98,9 @@ class SweepCache:
         """Another limit [bytes]."""
         with self.lock:
             self.limit = limit
-            self._make_room(limit, self.sweep + 1)
+            self._evict(limit, self.sweep + 1)
 
-    def _make_room(self, target: int, before: int) -> None:
+    def _evict(self, target: int, before: int) -> None:
         """Drop values last used before a sweep, oldest first, until `target` bytes are held."""
         if self.used <= target:
             return
@@ -190,18 +190,18 @@ class Factors:
         """Memory of the arrays."""
         return sum(part.nbytes for pair in self.parts for part in pair if part is not None)
 
-    def multiplier(self, component: int, room: FloatArray) -> Multiplier:
-        """The spectrum of one of t, d, e, yz, xz, xy, in `room` (3, rows, columns) where it has to be unpacked."""
+    def multiplier(self, component: int, workspace: FloatArray) -> Multiplier:
+        """The spectrum of one of t, d, e, yz, xz, xy, in `workspace` (3, rows, columns) where it has to be unpacked."""
         real, imaginary = (
-            part.unpack(room[index]) if isinstance(part, Packed) else part
+            part.unpack(workspace[index]) if isinstance(part, Packed) else part
             for index, part in enumerate(self.parts[component])
         )
         if component == _E and self.traction is not None:
             xz, trace = self.parts[_XZ][1], self.parts[_T][1]
             assert isinstance(xz, Packed)
             assert isinstance(trace, Packed)
-            imaginary = xz.unpack(room[1])
-            _join_traction(imaginary, trace.unpack(room[2]), 1.5 * self.traction)
+            imaginary = xz.unpack(workspace[1])
+            _join_traction(imaginary, trace.unpack(workspace[2]), 1.5 * self.traction)
         return Multiplier(real, imaginary, *self.parities[component])
 
 

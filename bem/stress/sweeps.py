@@ -212,7 +212,7 @@ class Sweep:
     friction: float
     transform: PaddedTransform
     spectrum: NDArray[Any]
-    room: FloatArray
+    workspace: FloatArray
     number: int
 
     @classmethod
@@ -223,12 +223,12 @@ class Sweep:
         padded = padded_lengths(grid)
         transform = transform_of(grid.shape, padded)
         spectrum = transform.forward(field) if places else transform.empty_spectrum()
-        room = np.empty((3 if packs(grid) else 0, padded[1] // 2 + 1, padded[0] // 2 + 1))
-        return cls(grid, body, places, coefficient, transform, spectrum, room, SPECTRA.begin())
+        workspace = np.empty((3 if packs(grid) else 0, padded[1] // 2 + 1, padded[0] // 2 + 1))
+        return cls(grid, body, places, coefficient, transform, spectrum, workspace, SPECTRA.begin())
 
     def inverse(self, factors: Factors, component: int, out: FloatArray) -> None:
         """One of t, d, e, yz, xz, xy at the grid's points."""
-        self.transform.inverse(self.spectrum, factors.multiplier(component, self.room), out)
+        self.transform.inverse(self.spectrum, factors.multiplier(component, self.workspace), out)
 
     def factors(self, index: int) -> Factors:
         """Spectra of t, d, e, yz, xz, xy at a depth."""

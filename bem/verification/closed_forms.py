@@ -294,8 +294,8 @@ def wave() -> list[Curve]:
         sliding = subsurface_stress(pressure, grid, body, [depth], friction=1.0)[:, 0] - normal
         along = {"wavenumber": q, "amplitude": 1.0, "poissons_ratio": nu}
         for name, values, exact in (
-            ("pressure", normal, _turned(sinusoidal_stress(phase, depth, **along), cosine, sine)),
-            ("traction", sliding, _turned(_traction_wave(phase, depth, q, nu, cosine, sine), cosine, sine)),
+            ("pressure", normal, _rotated(sinusoidal_stress(phase, depth, **along), cosine, sine)),
+            ("traction", sliding, _rotated(_traction_wave(phase, depth, q, nu, cosine, sine), cosine, sine)),
         ):
             found += [
                 curve(
@@ -325,7 +325,7 @@ def _traction_wave(phase: FloatArray, depth: float, q: float, nu: float, cosine:
     return total
 
 
-def _turned(stress: FloatArray, cosine: float, sine: float) -> FloatArray:
+def _rotated(stress: FloatArray, cosine: float, sine: float) -> FloatArray:
     """From the wave's axes (e, t, z), t = z x e, to x, y, z."""
     ee, tt, zz, tz, ez, et = stress
     c, s = cosine, sine
