@@ -32,6 +32,9 @@ from bem.flow.multigrid import Network, solve
 from bem.flow.percolation import open_pieces
 from bem.grid import FloatArray
 
+NEGLIGIBLE = 1e-4
+"""Share of the mean h^3 below which a flow's error is measured by that, and not by the flow: rounding is."""
+
 
 @dataclass(frozen=True, eq=False)
 class CellFlow:
@@ -48,8 +51,9 @@ class CellFlow:
     mean_gap, open_fraction : of all cells.
     through_x, through_y : whether fluid hangs together from patch to patch.
     iterations : of conjugate gradients, all problems together.
-    residual : largest of the problems: what all cells lack or have too much, over what flows through the patch;
-        recomputed from the solution.
+    residual : largest of the problems: what all cells lack or have too much, over what flows through a section of the
+        patch (over 1e-4 of what would if it could flow straight, where less than that flows); recomputed from the
+        solution.
     status : converged if the residual is at most the tolerance.
     """
 
@@ -161,22 +165,21 @@ def _pressure_flow(
     own = links[axis]
     cube = np.where(inside, own.cube, 0.0)
     driven = own.net(cube)
-    straight, across = float(cube.sum()) * own.step, inside.shape[1 - axis] * own.width
+    straight = float(cube.sum()) * own.width / inside.shape[axis]
+    least = NEGLIGIBLE * straight
 
     def through(potential: FloatArray) -> float:
-        # flow through any cross-section, by the means of flow over all of them
-        return float(straight * own.width - (driven[inside] * potential).sum()) / (inside.shape[axis] * own.step)
+        # flow through a section, the mean over all of them
+        turned = float((driven[inside] * potential).sum()) / (inside.shape[axis] * own.step)
+        return max(straight - turned, least)
 
-    potential, iterations, left = _solved(
-        links, inside, driven, lambda found: tolerance * max(through(found), 0.0), most
-    )
+    potential, iterations, left = _solved(links, inside, driven, lambda found: tolerance * through(found), most)
     flow, dragged = np.zeros(2), np.zeros(2)
     for other, link in enumerate(links):
         drop = link.difference(potential) / link.step + (1.0 if other == axis else 0.0)
         drop = np.where(inside & (link.cube > 0), drop, 0.0)
         flow[other], dragged[other] = (link.cube * drop).mean(), (link.gap * drop).mean()
-    carried = flow[axis] * across
-    return _Column(flow, dragged, iterations, left / carried if carried > 0 else np.inf)
+    return _Column(flow, dragged, iterations, left / through(potential[inside]))
 
 
 def _sliding_shear(gap: FloatArray, links: tuple[Links, Links], least: float, tolerance: float, most: int) -> _Column:
