@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from bem.benchmarks.campaign_cases import wear_campaign
+from bem.benchmarks.campaign_cases import sweep_of_spheres, wear_campaign
 from bem.benchmarks.contact_cases import (
     FREE,
     SEMI,
@@ -33,7 +33,7 @@ from bem.benchmarks.surface_change_cases import one_wear_cycle, stress_of_sphere
 @dataclass(frozen=True)
 class Case:
     """A curve. `sizes` in full, `quick` for a look; `size_name` says what the size is; `error_name` what the error is.
-    `threads` : whether a run measures two threads too.
+    `threads` : whether a run measures two threads too. `most_repeats` : where a solve takes long.
     """
 
     name: str
@@ -45,6 +45,7 @@ class Case:
     size_name: str
     error_name: str
     threads: bool = False
+    most_repeats: int = 100
 
 
 def _cells(name: str, title: str, prepare: Callable[[float], Timed], **change: Any) -> Case:
@@ -167,13 +168,24 @@ CASES = {
         ),
         Case(
             "campaign",
-            "Eight wear loops on all cores, against one",
+            "A wear scene of 15 cases, from Enter to the report, all cores against one",
             wear_campaign,
-            (10, 40),
+            (10, 200),
             (10,),
-            1,
+            2,
             "cycles",
             "arrays that differ",
+            most_repeats=1,
+        ),
+        Case(
+            "sweep",
+            "A sweep of small spheres: what points cost beside physics",
+            sweep_of_spheres,
+            (30, 100),
+            (30,),
+            2,
+            "points",
+            "points that are missing",
         ),
         _cells(
             "tribofilm",

@@ -67,7 +67,7 @@ def run_cases(
     for name, size, count in wanted_points:
         say(f"{name}: {size:g} {CASES[name].size_name}, {count} thread{'s' if count > 1 else ''}")
         try:
-            points.append(measure_apart(name, size, count, repeats))
+            points.append(measure_apart(name, size, count, min(repeats, CASES[name].most_repeats)))
         except (RuntimeError, subprocess.TimeoutExpired) as error:
             failures[f"{name} {size:g} ({count})"] = str(error)
         except KeyboardInterrupt:

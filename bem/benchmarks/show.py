@@ -51,7 +51,7 @@ def point_rows(run: Run) -> list[tuple[str, ...]]:
     rows: list[tuple[str, ...]] = []
     for points in by_case(run, None).values():
         for p in points:
-            counts = ", ".join(f"{name} {value:.4g}" for name, value in p.counts.items())
+            counts = ", ".join(f"{name} {value:.4g}" for name, value in (p.counts | p.values).items())
             rows.append(
                 (
                     p.case,
@@ -69,7 +69,18 @@ def point_rows(run: Run) -> list[tuple[str, ...]]:
     return rows
 
 
-POINT_HEADERS = ("case", "size", "threads", "error", "CPU ms", "spread", "wall ms", "first ms", "MiB", "counts")
+POINT_HEADERS = (
+    "case",
+    "size",
+    "threads",
+    "error",
+    "CPU ms",
+    "spread",
+    "wall ms",
+    "first ms",
+    "MiB",
+    "counts and values",
+)
 
 
 def split_rows(run: Run) -> list[tuple[str, ...]]:

@@ -1,12 +1,14 @@
 """Sweeps on this machine: every point once, workers that die, folders in use, what comes out."""
 
 import csv
+import importlib
 import json
 import os
 import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from contextlib import suppress
 from pathlib import Path
 from types import SimpleNamespace
@@ -89,6 +91,27 @@ def test_dataset_table_and_figure(tmp_path, here):
     for name in ("sweep.png", "sweep.pdf"):
         assert (tmp_path / "s" / name).stat().st_size > 5000
     assert not (tmp_path / "s" / ".campaign-token").exists()
+
+
+def test_what_a_point_costs_besides_its_physics(tmp_path, here, monkeypatch):
+    """Validated and planned once, five files, nothing read back; resumed, each is read once."""
+    counted = Counter()
+
+    def count(place, name):
+        module, _, function = place.rpartition(".")
+        outright = getattr(importlib.import_module(module), function)
+        monkeypatch.setattr(place, lambda *given, **more: counted.update([name]) or outright(*given, **more))
+
+    count("bem.scenes.load.validate", "scenes")
+    count("bem.runs.scene.plan", "plans")
+    count("bem.runs.point.open_run", "reads")
+    count("os.replace", "files")
+    run_sweep(SCENE, ["seed=1:4"], tmp_path / "s")
+    # one scene more for mistakes of its own; files of the sweep: definition, dataset, table, two figures
+    assert counted == {"scenes": 4 + 1, "plans": 4, "files": 4 * 5 + 5}
+    counted.clear()
+    run_sweep(SCENE, ["seed=1:4"], tmp_path / "s", resume=True)
+    assert counted == {"scenes": 4 + 1, "plans": 4, "files": 5, "reads": 4}
 
 
 def test_keys_reach_into_lists(tmp_path, here):
