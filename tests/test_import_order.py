@@ -17,7 +17,7 @@ ORDER = [
     {"convolution"},
     {"stress", "heat"},
     {"contact"},
-    {"surfaces", "lubrication", "flow"},
+    {"surfaces", "lubrication"},
     {"particles"},
     {"friction"},
     {"wear"},

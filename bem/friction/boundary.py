@@ -1,4 +1,4 @@
-"""Boundary friction: the shear stress of surfaces in contact over their pressure and sliding speed.
+"""Boundary friction: the shear stress of surfaces in contact over their pressure, sliding speed and temperature.
 
 To add a law, derive from `BoundaryFriction` and register it, here or in a file of your own. A number in its place is a
 constant coefficient.
@@ -14,21 +14,50 @@ that one operator serves all of them; stresses below the surface take the contac
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import dataclasses
+import itertools
+import math
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, cast
 
 import numpy as np
 
+from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.laws import Law, make_laws, parameter, register
+
+BOLTZMANN = 1.380649e-23
+"""[J/K]"""
 
 
 @dataclass(frozen=True)
 class BoundaryFriction(Law):
-    """Shear stress of surfaces in contact."""
+    """Shear stress of surfaces in contact.
+
+    needs_temperature : whether the law is one over temperature, which `at_temperature` then tells it.
+    temperature : of the surfaces [K]; None where it was not told.
+    """
 
     family: ClassVar[str] = "boundary_friction"
+    needs_temperature: ClassVar[bool] = False
+    temperature: float | None = dataclasses.field(default=None, kw_only=True)
+
+    def at_temperature(self, temperature: float | None) -> BoundaryFriction:
+        """The law at the temperature of the surfaces [K], where it depends on it.
+
+        Raises
+        ------
+        InputError : a law over temperature, and none is known.
+        """
+        if not self.needs_temperature:
+            return self
+        if temperature is None:
+            raise InputError(
+                f"boundary_friction: the {self.name} law needs the temperature of the oil; give it one "
+                '(oil.temperature, or Lubricant.of("ISO VG 68", temperature=333.15))'
+            )
+        return dataclasses.replace(self, temperature=temperature)
 
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
         """Magnitude [Pa], shape (...), where surfaces in contact under pressures (...) [Pa], all positive, slide over
@@ -96,6 +125,158 @@ class PressureDependentShear(BoundaryFriction):
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
         """tau_0 + a p."""
         return self.shear_strength + self.pressure_coefficient * pressure
+
+
+@register
+@dataclass(frozen=True)
+class PressureLimitedShear(PressureDependentShear):
+    """tau = tau_0 + a p, but no more than the softer surface's own shear strength: beyond it the solid shears.
+
+    Bowden and Tabor, *The Friction and Lubrication of Solids* (1950); the strength is about yield stress / sqrt(3), or
+    hardness / 4.8.
+    """
+
+    name: ClassVar[str] = "pressure_limited"
+    largest_shear_stress: float = parameter("shear strength of the softer surface", "Pa", above=0)
+
+    def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
+        """tau_0 + a p, cut."""
+        return np.minimum(super().shear_stress(pressure, sliding_speed), self.largest_shear_stress)
+
+
+@register
+@dataclass(frozen=True)
+class SpeedDependentFriction(BoundaryFriction):
+    """In proportion to the pressure, with a coefficient that falls with the sliding speed u: f_k + (f_s - f_k)
+    exp(-(u/u_s)^n), Stribeck's curve as a law; Armstrong-Helouvry, *Control of machines with friction* (1991).
+
+    With f_s < f_k it rises, as that of boundary films of friction modifiers.
+    """
+
+    name: ClassVar[str] = "speed_dependent"
+    static_friction: float = parameter("f_s, coefficient of friction at rest", at_least=0, at_most=2)
+    kinetic_friction: float = parameter("f_k, coefficient at high speed", at_least=0, at_most=2)
+    speed_scale: float = parameter("u_s, sliding speed over which it changes", "m/s", above=0)
+    speed_exponent: float = parameter("n", default=1.0, above=0, at_most=4)
+
+    def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
+        """The coefficient above times pressure."""
+        decay = math.exp(-((sliding_speed / self.speed_scale) ** self.speed_exponent))
+        return (self.kinetic_friction + (self.static_friction - self.kinetic_friction) * decay) * pressure
+
+
+@register
+@dataclass(frozen=True)
+class TemperatureDependentFriction(BoundaryFriction):
+    """In proportion to the pressure, with a coefficient f_0 exp(-c (T - T_0)) at the oil's temperature."""
+
+    name: ClassVar[str] = "temperature_dependent"
+    needs_temperature: ClassVar[bool] = True
+    friction: float = parameter("f_0, coefficient of friction at T_0", at_least=0)
+    softening: float = parameter("c, positive where it falls with temperature", "1/K", at_least=-0.1, at_most=0.1)
+    reference_temperature: float = parameter("T_0", "K", above=0)
+
+    def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
+        """The coefficient above times pressure."""
+        return self.friction * math.exp(-self.softening * (_told(self) - self.reference_temperature)) * pressure
+
+
+@register
+@dataclass(frozen=True)
+class ActivatedShear(BoundaryFriction):
+    """tau = [Q + p W + k_B T ln(u/u_0)] / F, thermally activated shear of a molecular film, never below zero; Briscoe
+    and Evans, Proc. R. Soc. A 380 (1982) 389.
+
+    It rises with pressure and the logarithm of the speed and falls with temperature as long as u < u_0.
+    """
+
+    name: ClassVar[str] = "activated"
+    needs_temperature: ClassVar[bool] = True
+    activation_energy: float = parameter("Q, barrier without pressure and shear", "J", at_least=0)
+    pressure_volume: float = parameter("W, activation volume of the pressure", "m^3", at_least=0)
+    shear_volume: float = parameter("F, activation volume of the shear stress", "m^3", above=0)
+    reference_speed: float = parameter("u_0, speed without a barrier", "m/s", above=0)
+
+    def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
+        """The stress above."""
+        thermal = BOLTZMANN * _told(self) * math.log(sliding_speed / self.reference_speed)
+        stress = (self.activation_energy + self.pressure_volume * pressure + thermal) / self.shear_volume
+        return np.maximum(stress, 0.0)
+
+
+@dataclass(frozen=True)
+class _FrictionTable(BoundaryFriction):
+    """Coefficients of friction at ascending values of one variable, linear between them, the same beyond the ends."""
+
+    coefficients: tuple[float, ...] = parameter("coefficients of friction", at_least=0, at_most=2, several=True)
+
+    def _values(self) -> tuple[float, ...]:
+        raise NotImplementedError
+
+    def rules(self) -> Iterable[str]:
+        """As many values as coefficients, ascending."""
+        values = self._values()
+        if len(values) != len(self.coefficients) or len(values) < 2:
+            yield f"a table of {len(values)} values and {len(self.coefficients)} coefficients; give two or more of each"
+        if any(b <= a for a, b in itertools.pairwise(values)):
+            yield "the values of the table do not rise"
+
+    def _at(self, value: FloatArray | float) -> FloatArray:
+        return np.asarray(np.interp(value, self._values(), self.coefficients), dtype=np.float64)
+
+
+@register
+@dataclass(frozen=True)
+class FrictionOverPressure(_FrictionTable):
+    """A measured coefficient over the contact pressure, at every place its own."""
+
+    name: ClassVar[str] = "table_over_pressure"
+    pressures: tuple[float, ...] = parameter("pressures of the table", "Pa", at_least=0, several=True)
+
+    def _values(self) -> tuple[float, ...]:
+        return self.pressures
+
+    def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
+        """The table's coefficient at the pressure, times pressure."""
+        return self._at(pressure) * pressure
+
+
+@register
+@dataclass(frozen=True)
+class FrictionOverSpeed(_FrictionTable):
+    """A measured coefficient over the sliding speed."""
+
+    name: ClassVar[str] = "table_over_speed"
+    sliding_speeds: tuple[float, ...] = parameter("sliding speeds of the table", "m/s", at_least=0, several=True)
+
+    def _values(self) -> tuple[float, ...]:
+        return self.sliding_speeds
+
+    def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
+        """The table's coefficient at the speed, times pressure."""
+        return self._at(sliding_speed) * pressure
+
+
+@register
+@dataclass(frozen=True)
+class FrictionOverTemperature(_FrictionTable):
+    """A measured coefficient over the oil's temperature."""
+
+    name: ClassVar[str] = "table_over_temperature"
+    needs_temperature: ClassVar[bool] = True
+    temperatures: tuple[float, ...] = parameter("temperatures of the table", "K", above=0, several=True)
+
+    def _values(self) -> tuple[float, ...]:
+        return self.temperatures
+
+    def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
+        """The table's coefficient at the temperature, times pressure."""
+        return self._at(_told(self)) * pressure
+
+
+def _told(law: BoundaryFriction) -> float:
+    """The temperature that a law over temperature was told [K]; InputError where it was not."""
+    return cast(float, law.at_temperature(law.temperature).temperature)
 
 
 BoundaryFrictionGiven = float | str | Mapping[str, object] | BoundaryFriction

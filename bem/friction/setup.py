@@ -67,7 +67,11 @@ class MixedSetup:
         for name in ("radius", "width", "load"):
             object.__setattr__(self, name, float(getattr(self, name)))
         friction = self.boundary_friction
-        made = float(friction) if _real(friction) else boundary_law(friction)  # type: ignore[arg-type]
+        made = (
+            float(friction)  # type: ignore[arg-type]
+            if _real(friction)
+            else boundary_law(friction).at_temperature(self.lubricant.temperature)
+        )
         object.__setattr__(self, "boundary_friction", made)
         if not isinstance(self.bodies, Body):
             pair = tuple(self.bodies)
@@ -100,7 +104,9 @@ class MixedSetup:
         if not isinstance(value, (str, Mapping, BoundaryFriction)):
             return [f"boundary_friction: {value!r} must be zero or positive, or a law"]
         try:
-            boundary_law(value)
+            law = boundary_law(value)
+            if isinstance(self.lubricant, Lubricant):
+                law.at_temperature(self.lubricant.temperature)
         except InputError as error:
             return list(error.messages)
         return []

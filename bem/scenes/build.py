@@ -6,7 +6,7 @@ import math
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,14 +15,12 @@ from bem.errors import InputError
 from bem.grid import Grid
 from bem.laws import Law
 from bem.materials import Body
-from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, SceneModel, ShapeScene, SmoothSurface
+from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, ShapeScene, SmoothSurface
 
 if TYPE_CHECKING:
-    from bem.scenes.context import Context
     from bem.surfaces import Surface
 
 FloatArray = NDArray[np.float64]
-Scene = TypeVar("Scene", bound=SceneModel)
 _NO_SIZE = "grid: no size is given; allowed: shape with spacing or lengths, or a measured surface to take them from"
 AnySurface = SmoothSurface | GeneratedSurface | MeasuredSurface
 
@@ -94,43 +92,21 @@ def shape_of(scene: ShapeScene, grid: Grid) -> FloatArray:
     return gap if gap.shape == grid.shape else np.array(np.broadcast_to(gap, grid.shape), order="C")
 
 
-def both_heights(scene: Any, grid: Grid, context: Context) -> tuple[FloatArray, FloatArray]:
-    """Heights of the lower and the upper body of a scene on a grid [m], as `heights_of` gives them."""
-    lower, upper = (
-        heights_of(getattr(scene, name).surface, grid, context.seed(name), context.note) for name in ("lower", "upper")
-    )
-    return lower, upper
-
-
-def with_grid(scene: Scene) -> Scene:
-    """The scene with its grid filled in where measured surfaces decide it; see `resolved_grid`."""
-    table: Any = scene
-    return scene.model_copy(update={"grid": resolved_grid(table.grid, table.lower.surface, table.upper.surface)})
-
-
-def softer_hardness(lower: Body, upper: Body | None) -> float | None:
-    """The smaller hardness of the two touching materials [Pa]; None where neither has one."""
-    found = [body.surface_material.hardness for body in (lower, upper) if body is not None]
-    return min((value for value in found if value is not None), default=None)
-
-
-def with_hardness(scene: Scene, table: str = "contact", *, needed: bool) -> Scene:
-    """The scene with the softer body's hardness where its table of the contact gives none.
+def softer_hardness(lower: Body, upper: Body | None) -> float:
+    """The smaller hardness of the two touching materials [Pa].
 
     Raises
     ------
-    InputError : neither body has one, and it is needed.
+    InputError : neither has one.
     """
-    given: Any = getattr(scene, table)
-    if given.hardness is not None:
-        return scene
-    hardness = softer_hardness(scene.lower.build(), scene.upper.build())  # type: ignore[attr-defined]
-    if hardness is None and needed:
+    found = [body.surface_material.hardness for body in (lower, upper) if body is not None]
+    known = [value for value in found if value is not None]
+    if not known:
         raise InputError(
-            f"{table}.hardness: missing for a capped contact, and neither material has a hardness; "
-            f"allowed: {table}.hardness, or hardness in a material"
+            'contact.hardness: missing while behaviour is "capped" and neither material has a hardness; '
+            "allowed: contact.hardness, or hardness in a material"
         )
-    return scene.model_copy(update={table: given.model_copy(update={"hardness": hardness})})
+    return min(known)
 
 
 def show_layers(body: Body) -> str:

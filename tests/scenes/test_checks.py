@@ -187,6 +187,10 @@ CASES = {
         (("film-start-stop", 'oil.pressure_viscosity="25 1/MPa"'), "2.5e+04 1/GPa"),
         "film-start-stop",
     ),
+    "oil_outside_its_range": (
+        (("film-start-stop", 'oil={ grade = "ISO VG 680", temperature = "-30 C" }'), "too thick to flow"),
+        ("film-start-stop", 'oil={ grade = "ISO VG 68", temperature = "60 C" }'),
+    ),
     "implausible_temperature": (
         (("tribofilm-macro", "rubbing.temperatures=[60]"), '"60 degC"'),
         ("tribofilm-macro", "rubbing.temperatures=[333]"),

@@ -219,7 +219,7 @@ def _lubricated(scene: Any) -> list[Case]:
                         bodies["lower"], bodies["upper"], (contact.radius, math.inf), load=per_length
                     ),
                     cap=contact.hardness or min(getattr(scene, "hardnesses", None) or [0.0]) or None,
-                    friction=contact.nominal_friction(load, modulus, scene.speeds.build()[0]),
+                    friction=contact.nominal_friction(load, modulus, scene.speeds.build()[0], scene.oil.temperature),
                     depths=() if depths is None else tuple(float(d) for d in depths.build()),
                     width=contact.width,
                     slide=slide,
