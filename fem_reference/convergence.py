@@ -96,19 +96,19 @@ class Method:
     Parameters
     ----------
     grid : called with level= and, for the wider boxes, boxes=.
-    solve : the solution on a mesh. curves : its figures. degree : of the elements.
+    solve : the solution on a mesh, with `cells` and `dofs`. curves : its figures. degree : of the elements.
     levels : of the meshes, rising.
     box_order : by curve, k of the leading error 1/R^k of a box; None where the body is not cut off by one.
     checks : equilibrium of the finest solution.
     """
 
     grid: Callable[..., Builder]
-    solve: Callable[[Builder], Solution]
-    curves: Callable[[Solution], list[Curve]]
+    solve: Callable[[Builder], Any]
+    curves: Callable[[Any], list[Curve]]
     degree: int
     levels: Sequence[int] = (1, 2, 3)
     box_order: Callable[[Curve], float] | None = lambda curve: 1.0
-    checks: Callable[[Solution], dict[str, dict[str, float]]] = lambda solution: {}
+    checks: Callable[[Any], dict[str, dict[str, float]]] = lambda solution: {}
 
 
 @dataclass(frozen=True)
@@ -192,7 +192,7 @@ def picture(builder: Any, span: float = 3.0) -> dict[str, Any]:
     lines = {}
     for name in ("x", "z"):
         nodes = sorted({node for interval in getattr(builder, name) for node in interval.nodes()})
-        inside = [node for node in nodes if node <= span]
+        inside = [node for node in nodes if abs(node) <= span]
         lines[name] = [float(f"{node:.6g}") for node in inside]
     counts = builder.layers if isinstance(builder, PlaneGrid) else (builder.layers,) if builder.layers else ()
     depths = [builder.z[last - 1].end for last in accumulate(counts)]

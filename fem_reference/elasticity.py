@@ -236,13 +236,13 @@ def _reaction(problem: _Assembled, form: WeakForm, field: Any) -> Array:
     return np.array([float(np.sum(worked * np.asarray(motion))) for motion in form.rigid])
 
 
-def factor_and_solve(matrix: Any, right: Any, solution: Any) -> None:
-    """Solve with MUMPS' Cholesky factorisation and one step of iterative refinement; RuntimeError when it fails."""
+def factor_and_solve(matrix: Any, right: Any, solution: Any, kind: str = "cholesky") -> None:
+    """Solve with MUMPS' factorisation (or "lu") and one step of iterative refinement; RuntimeError when it fails."""
     solver = PETSc.KSP().create(PETSc.COMM_SELF)
     solver.setOperators(matrix)
     solver.setType("preonly")
     preconditioner = solver.getPC()
-    preconditioner.setType("cholesky")
+    preconditioner.setType(kind)
     preconditioner.setFactorSolverType("mumps")
     solver.setUp()
     solver.solve(right, solution)

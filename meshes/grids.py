@@ -128,7 +128,7 @@ class PlaneGrid:
     Parameters
     ----------
     x, z : the intervals of each axis, joined end to end; z begins at the surface, 0.
-    loaded : how many x intervals, from the first, carry the load.
+    loaded : how many x intervals carry the load, from the first or, with `before`, after that many others.
     layers : how many z intervals belong to each layer, from the surface down.
 
     Facets: ``axis`` at the least x, ``end`` at the greatest, ``loaded`` and ``surface`` at z = 0, ``bottom`` at the
@@ -139,6 +139,7 @@ class PlaneGrid:
     z: tuple[Interval, ...]
     loaded: int = 1
     layers: tuple[int, ...] = ()
+    before: int = 0
     dimension: int = field(default=2, init=False)
 
     def build(self, model: Any) -> None:
@@ -157,8 +158,10 @@ class PlaneGrid:
         facets = {
             "axis": [lines[1, (0, k)] for k in range(len(self.z))],
             "end": [lines[1, (len(self.x), k)] for k in range(len(self.z))],
-            "loaded": [lines[0, (i, 0)] for i in range(self.loaded)],
-            "surface": [lines[0, (i, 0)] for i in range(self.loaded, len(self.x))],
+            "loaded": [lines[0, (i, 0)] for i in range(self.before, self.before + self.loaded)],
+            "surface": [
+                lines[0, (i, 0)] for i in range(len(self.x)) if not self.before <= i < self.before + self.loaded
+            ],
             "bottom": [lines[0, (i, len(self.z))] for i in range(len(self.x))],
         }
         _tag_and_mesh(model, 2, cells, facets)
@@ -319,6 +322,26 @@ def harmonic_grid(*, thickness: Sequence[float] | float | None, level: int) -> P
     deep += min(bottom, 4.0)
     z.append(graded(bottom, max(deep, bottom + 1.0), min(0.08, 2 * stack[-1]), 1.4, level))
     return PlaneGrid(x, tuple(z), loaded=1, layers=tuple(counts))
+
+
+def moving_band_grid(*, peclet: float, level: int) -> PlaneGrid:
+    """The plane under a band -1 <= x <= 1 over which a body moves along +x; lengths in half-widths of the band.
+
+    Upstream the temperature falls like exp(-2 peclet distance), in depth like exp(-peclet z^2 / (2 x)): the box ends
+    where both are below 1e-15. Cells are small at both edges of the band and at the surface, over the width 1 / peclet
+    in which heat is conducted against the motion.
+    """
+    edge = 5 * EDGE / max(1.0, peclet)
+    ahead, wake = max(1.0, 20 / peclet), 5 + 20 / peclet
+    deep = max(12 * math.sqrt((1 + wake) / peclet), 40 / peclet)
+    x = (
+        graded(-1 - ahead, -1.0, edge, GROWTH, level, fine_at_end=True),
+        graded(-1.0, 0.0, edge, GROWTH, level),
+        graded(0.0, 1.0, edge, GROWTH, level, fine_at_end=True),
+        graded(1.0, wake, edge, GROWTH, level),
+    )
+    z = (graded(0.0, 0.5, edge, GROWTH, level), graded(0.5, deep, 0.5 * (GROWTH - 1), GROWTH, level))
+    return PlaneGrid(x, z, loaded=2, before=1)
 
 
 def progression(start: float, end: float, cells: int, spread: float, *, fine_at_end: bool = False) -> Interval:

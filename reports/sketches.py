@@ -21,7 +21,8 @@ def draw(ax: Any, case: StoredCase) -> None:
     ax.set_ylim(-2.6, 2.1)
     ax.fill_between([-3, 3], -2.4, 0, color=BODY, lw=0)
     _stack(ax, parameters.get("layer") or (), case.problem == "harmonic")
-    ax.text(-2.9, -2.2, f"E, ν = {parameters['nu']:g}", fontsize=6.5, va="center")
+    words = f"E, ν = {parameters['nu']:g}" if "nu" in parameters else "k, κ"
+    ax.text(-2.9, -2.2, words, fontsize=6.5, va="center")
     ax.plot([-3, 3], [0, 0], "k-", lw=0.8)
     _axes(ax)
     load = _direction(case)
@@ -36,7 +37,7 @@ def draw(ax: Any, case: StoredCase) -> None:
         ax.text(0, 1.6, "p cos(q x), wavelength 2π / q", fontsize=7, ha="center", color=LOAD)
     else:
         x = np.linspace(-1, 1, 9)
-        hertz = parameters.get("pressure") == "hertz"
+        hertz = "hertz" in (parameters.get("pressure"), parameters.get("profile"))
         profile = np.sqrt(1 - x**2) if hertz else np.ones(9)
         fine = np.linspace(-1, 1, 101)
         top = np.sqrt(1 - fine**2) if hertz else np.ones(101)
@@ -45,6 +46,9 @@ def draw(ax: Any, case: StoredCase) -> None:
         ax.annotate("", (-1, 1.25), (1, 1.25), arrowprops={"arrowstyle": "<->", "lw": 0.7, "shrinkA": 0, "shrinkB": 0})
         width = {"rectangle": "2a along x, {:.3g} along y".format(2 * parameters.get("width", 1))}
         ax.text(0, 1.35, width.get(case.problem, "2a, a = 1"), fontsize=7, ha="center")
+    if case.problem.startswith("heat"):
+        ax.set_title("disc: heat" if case.problem == "heat-disc" else "band: heat, the body moves along x", fontsize=8)
+        return
     kind = {"normal": "pressure", "tangential": "traction along x", "antiplane": "traction along y"}[load]
     shape = {"disc": "disc", "disc-tangential": "disc", "strip": "strip", "rectangle": "rectangle", "harmonic": "wave"}
     if case.problem in shape:

@@ -5,8 +5,8 @@ The heat is at rest on the grid, the bodies move under it along x. `coefficients
 what of a body matters, `pair` shares the heat between two bodies so that their surfaces are as hot where it is made,
 `steady` and `history` are what users call, `notes` what they should not believe. Layers are not included.
 
-Sees grids, materials and transforms, no contact. Verified in tests/heat against the closed forms of
-`bem.reference_solutions.heat_sources`.
+Sees grids, materials and transforms, no contact. Verified against finite elements in `bem.verification.heat` and
+against the closed forms of `bem.reference_solutions.heat_sources` in tests/heat.
 """
 
 from typing import TYPE_CHECKING

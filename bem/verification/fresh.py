@@ -60,7 +60,8 @@ def _draw(seed: int, number: int) -> Drawn:
     problems = list(_PROBLEMS)
     weights = np.array([_PROBLEMS[name][1] for name in problems])
     problem = problems[rng.choice(len(problems), p=weights / weights.sum())]
-    parameters = {"nu": _poisson(rng)} | _PROBLEMS[problem][0](rng)
+    nu = {"nu": _poisson(rng)}
+    parameters = ({} if problem.startswith("heat") else nu) | _PROBLEMS[problem][0](rng)
     return Drawn(f"fresh-{seed}-{number}", problem, parameters)
 
 
@@ -126,6 +127,14 @@ def _row(rng: np.random.Generator) -> Parameters:
     return body | _indenter(rng) | {"loads": loads}
 
 
+def _heated_disc(rng: np.random.Generator) -> Parameters:
+    return {"profile": str(rng.choice(["uniform", "hertz"]))}
+
+
+def _heated_band(rng: np.random.Generator) -> Parameters:
+    return {"peclet": _logarithmic(rng, 0.5, 500)}
+
+
 _PROBLEMS: dict[str, tuple[Callable[[np.random.Generator], Parameters], float]] = {
     "disc": (_disc, 3.0),
     "disc-tangential": (_disc, 2.0),
@@ -135,8 +144,10 @@ _PROBLEMS: dict[str, tuple[Callable[[np.random.Generator], Parameters], float]] 
     "contact-sphere": (_round, 2.0),
     "contact-cylinder": (_round, 2.0),
     "contact-row": (_row, 2.0),
+    "heat-disc": (_heated_disc, 0.2),
+    "heat-band": (_heated_band, 2.0),
 }
-"""Problem -> what is drawn, and how often: a rectangle takes ten times as long as any other."""
+"""Problem -> what is drawn, and how often: a rectangle takes ten times as long as any other, heated discs are two."""
 
 
 def gates(drawn: Sequence[Drawn], folder: Path) -> list[Gate]:

@@ -20,6 +20,8 @@ FAMILIES = {
     "contact-sphere": "contact",
     "contact-cylinder": "contact",
     "contact-row": "contact",
+    "heat-disc": "heat",
+    "heat-band": "heat",
 }
 """Problem of a stored case -> module that computes bem's side."""
 

@@ -15,7 +15,7 @@ from fem_reference.results import Quantity, Result
 from fem_reference.richardson import estimate, observed_order
 
 STORED = Path(__file__).resolve().parents[2] / "bem" / "verification" / "fem_results"
-LINEAR = ("disc", "disc-tangential", "harmonic", "rectangle", "strip")
+LINEAR = ("disc", "disc-tangential", "harmonic", "heat-band", "heat-disc", "rectangle", "strip")
 FILES = sorted(path for path in STORED.glob("*.json") if json.loads(path.read_text())["problem"] in LINEAR)
 
 
@@ -130,7 +130,8 @@ def test_stored_cases_are_what_they_claim(path):
     assert results.picture_segments(result)
     for check in result.checks.values():
         assert abs(check["value"] - check["expected"]) <= check["tolerance"]
-    largest = max(abs(v) for q in result.quantities if "displacement" in q.name for v in q.values)
+    lengths = [q for q in result.quantities if "displacement" in q.name]
+    largest = max((abs(v) for q in lengths for v in q.values), default=0.0)
     for curve in result.quantities:
         size = max(abs(value) for value in curve.values)
         assert size > 0
@@ -141,6 +142,10 @@ def test_stored_cases_are_what_they_claim(path):
         elif curve.name.startswith("stress"):
             # 0.5 % of the load, the scale on which a stress field is read
             assert max(curve.error_bar) <= 5e-3 * max(size, 1.0), curve
+        else:
+            assert curve.name == "surface_temperature"
+            # plane meshes of degree four: 3e-5 at the sharp edges of Peclet 100, below 1e-6 else
+            assert max(curve.error_bar) <= 1e-4 * size, curve
 
 
 LAYERED = [path for path in FILES if any("interface" in q.along for q in results.read(path).quantities)]
@@ -182,6 +187,12 @@ def test_textbook_values():
     z = np.array(strip.coordinates)[:, 2]
     angle = 2 * np.arctan(1 / z)
     assert strip.values == pytest.approx(-(angle + np.sin(angle)) / np.pi, abs=2e-5)
+
+
+def test_textbook_temperatures():
+    """Carslaw and Jaeger (1959), 10.5: the middles of a uniform and of a semi-ellipsoidal disc at rest."""
+    assert only("heat-disc-uniform", "surface_temperature").values[0] == pytest.approx(1.0, rel=2e-6)  # bar of the box
+    assert only("heat-disc-hertz", "surface_temperature").values[0] == pytest.approx(math.pi / 4, rel=2e-6)
 
 
 def test_a_short_wave_sees_the_layer_only():

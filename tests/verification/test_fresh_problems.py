@@ -33,7 +33,8 @@ def test_a_seed_gives_the_same_problems_and_more_of_them_start_alike():
 def test_draws_cover_every_family_and_the_ranges():
     drawn = fresh.draw(400, 1)
     assert {item.problem for item in drawn} == set(registry.FAMILIES)
-    substrates = [item.parameters["nu"] for item in drawn]
+    substrates = [item.parameters["nu"] for item in drawn if "nu" in item.parameters]
+    assert {item.problem for item in drawn if "nu" not in item.parameters} == {"heat-disc", "heat-band"}
     layers = [item.parameters["layer"] for item in drawn if "layer" in item.parameters]
     assert 0.05 <= min(substrates) < 0.08
     assert 0.46 < max(substrates) <= 0.49
