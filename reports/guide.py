@@ -36,7 +36,9 @@ EFFECTS: dict[str, str] = prose("options")
 
 def build() -> Page:
     """The guide as one page."""
-    return Page("guide", "Guide", _WORDS["lead"], [*_using(), *_scenes(), *_options(), *_theory(), *_contributing()])
+    return Page(
+        "guide", "Guide", _WORDS["lead"], [*_using(), *_scenes(), *_options(), *_theory(), *_contributing(), *_kinds()]
+    )
 
 
 def _using() -> list[Section]:
@@ -239,8 +241,7 @@ EXTENSIONS = (
     ),
     (
         "a kind of scene",
-        "its model, plan, run, record (the docstring of bem.scenes.kinds says what goes in; "
-        "tests/extension has a whole one)",
+        "its model, plan, run, record; see below",
         "bem.register(Kind(...))",
     ),
     ("a figure", "draw(run, figure) and the variables that it needs", "bem.register(FigureKind(...))"),
@@ -277,13 +278,35 @@ def _contributing() -> list[Section]:
         "A kernel knows no solver, a solver knows no file format, a plot never solves, the command "
         "line is thin; imports "
         "run one way, and a test holds that. Every tolerance says why it is what it is. A kind of scene is one file in "
-        "bem/scenes/kinds/ (its docstring says what goes in), a figure one function in "
+        "bem/scenes/kinds/, a figure one function in "
         "bem/plots/figures/, a command one "
         "file in bem/cli/. make test-fast and make lint before every commit."
     )
     return [
         Section("Contributing", intro + table(("to add", "one file with", "entered by"), EXTENSIONS)),
         *(Section(title, text(words) + _code(snippet), level=3) for title, words, snippet in parts),
+    ]
+
+
+def _kinds() -> list[Section]:
+    """How to write a kind of scene."""
+    words = prose("kinds")
+    return [
+        Section(
+            "A kind of scene",
+            text(words["intro"])
+            + table(("part of Kind(...)", "what it is"), list(words["parts"].items()))
+            + text("What run is given beside the scene:")
+            + table(("call", "what it does"), list(words["context"].items())),
+            level=3,
+        ),
+        Section(
+            "A whole one, in closed form",
+            text("The tests run this file, and the scene behind it, from outside the package.")
+            + _code(words["example"]["kind"])
+            + _code(words["example"]["scene"]),
+            level=3,
+        ),
     ]
 
 

@@ -17,7 +17,7 @@ ORDER = [
     {"convolution"},
     {"stress", "heat"},
     {"contact"},
-    {"surfaces", "lubrication"},
+    {"surfaces", "lubrication", "flow"},
     {"particles"},
     {"friction"},
     {"wear"},

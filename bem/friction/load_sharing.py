@@ -19,6 +19,7 @@ import numpy as np
 from bem.errors import InputError
 from bem.friction.balance import Balance, BalanceStart, Regime, share_load
 from bem.friction.boundary import BoundaryFrictionGiven
+from bem.friction.curves import relative_difference
 from bem.friction.film import PatchFilm, SolvedFilm
 from bem.friction.forces import coupling_notes, friction_forces, lambda_ratio, validity_notes
 from bem.friction.rough_contact import RoughContact, rough_contact
@@ -173,9 +174,7 @@ def largest_difference(coupled: Sequence[MixedSolution], uncoupled: Sequence[Mix
     """
     if not coupled or [s.speeds for s in coupled] != [s.speeds for s in uncoupled]:
         raise InputError("largest_difference: the curves must be at the same speeds")
-    pairs = [(one.friction, other.friction) for one, other in zip(coupled, uncoupled, strict=True)]
-    one, other = max(pairs, key=lambda pair: abs(pair[0] - pair[1]))
-    return abs(other - one) / other
+    return relative_difference([s.friction for s in coupled], [s.friction for s in uncoupled])
 
 
 def solve_setup(

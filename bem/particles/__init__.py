@@ -8,7 +8,9 @@ closed forms of the distributions.
 """
 
 from bem.particles.archard import (
+    ArchardWear,
     archard_volume,
+    archard_wear,
     particle_coefficient,
     particle_number,
     profile_wear_volume,
@@ -19,14 +21,16 @@ from bem.particles.film_ratio import dowson_higginson_minimum_film, lambda_ratio
 from bem.particles.height_map import level_background, particles_from_height_map
 from bem.particles.particle import Particle
 from bem.particles.sedimentation import relative_centrifugal_force, sedimentation_time
-from bem.particles.statistics import ParticleStatistics, particle_statistics, size_summary
+from bem.particles.statistics import ParticleStatistics, particle_statistics, size_summary, volume_mean_radius
 from bem.particles.synthetic import SyntheticMap, synthetic_afm_map
 
 __all__ = [
+    "ArchardWear",
     "Particle",
     "ParticleStatistics",
     "SyntheticMap",
     "archard_volume",
+    "archard_wear",
     "dowson_higginson_minimum_film",
     "lambda_ratio",
     "level_background",
@@ -41,4 +45,5 @@ __all__ = [
     "size_summary",
     "specific_wear_rate",
     "synthetic_afm_map",
+    "volume_mean_radius",
 ]

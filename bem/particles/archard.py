@@ -7,6 +7,7 @@ W = k F s: wear volume W [m^3], load F [N], sliding distance s [m], specific wea
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -93,6 +94,25 @@ def particle_coefficient(specific_wear_rate: float, mean_particle_volume: float)
     _not_negative(specific_wear_rate=specific_wear_rate)
     _positive(mean_particle_volume=mean_particle_volume)
     return specific_wear_rate / mean_particle_volume
+
+
+@dataclass(frozen=True)
+class ArchardWear:
+    """Wear volume [m^3], how many particles it is, and particles per newton and metre of sliding."""
+
+    volume: float
+    number: float
+    coefficient: float
+
+
+def archard_wear(specific_wear_rate: float, load: float, distance: float, mean_particle_volume: float) -> ArchardWear:
+    """All three at once, in SI units; see `archard_volume`, `particle_number` and `particle_coefficient`."""
+    volume = archard_volume(specific_wear_rate, load, distance)
+    return ArchardWear(
+        volume,
+        particle_number(volume, mean_particle_volume),
+        particle_coefficient(specific_wear_rate, mean_particle_volume),
+    )
 
 
 def _difference(before: ArrayLike, after: ArrayLike) -> FloatArray:

@@ -158,6 +158,12 @@ def size_summary(particles: Sequence[Particle] | NDArray[np.void], *, smallest_r
     }
 
 
+def volume_mean_radius(volume: FloatArray) -> float:
+    """Mean equivalent radius [m] of particles of these volumes (n,) [m^3], each counted by its volume; 0 of none."""
+    total = float(volume.sum())
+    return float((volume * np.cbrt(3 * volume / (4 * np.pi))).sum() / total) if total > 0 else 0.0
+
+
 def _sizes(particles: Sequence[Particle] | NDArray[np.void]) -> FloatArray:
     """(4, n): equivalent radius, length, width, thickness."""
     if isinstance(particles, np.ndarray) and {"volume", "length", "width", "thickness"} <= set(

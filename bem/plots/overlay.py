@@ -15,12 +15,13 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.plots.style import prefix
+from bem.scenes.records import TELLING
 
 AXES = ("time", "cycle", "speed", "depth", "interference", "iteration", "film_x", "x")
 """Dimensions that a line may run along, the first that a variable has."""
 COUNTED = ("particle",)
 """Dimensions without an order of their own: a line counts them up by size."""
-CASES = ("speed", "load", "temperature", "hardness", "model", "variant")
+CASES = (*TELLING, "model", "variant")
 """What tells cases apart, beside dimensions of their own; any of them may be a case's place on the axis."""
 _LEFT_OUT = ("sample", "component", "frame")
 _PLACES = ("x", "film_x")

@@ -9,15 +9,13 @@ from typing import Any
 import numpy as np
 
 from bem.plots.labels import label, prefix
+from bem.scenes.records import TELLING, unit_of
 
-UNITS = {
-    "m": "m", "m2": "m²", "nm": "nm", "um": "µm", "Pa": "Pa", "N": "N", "s": "s", "C": "°C", "K": "K",
-    "nm_s": "nm/s", "m_s": "m/s", "N_m": "N/m", "J": "J", "um3": "µm³", "m3": "m³", "per_m": "1/m",
-}  # fmt: skip
 _PREFIXED = ("m", "Pa", "N", "s")
 _SPREAD, _ERROR = "_spread", "_error"
-_TELLING = ("speed_m_s", "time_s", "load_N", "temperature_C", "hardness_Pa", "spacing_um")
+_TELLING = tuple(f"{name}_{unit}" for name, unit in TELLING.items())
 """Figures that say which row it is; texts (a variant's name) do so too."""
+_SIGNS = (("^2", "²"), ("^3", "³"), ("degC", "°C"), ("um", "µm"))
 _MOST_COLUMNS, _MOST_ROWS = 7, 200
 _ROUND_OFF = 1e-6  # a spread below this share of its mean is none
 
@@ -33,11 +31,9 @@ class FigureTable:
 
 def name_and_unit(name: str) -> tuple[str, str]:
     """`mean_contact_pressure_Pa` -> `mean contact pressure`, `Pa`."""
-    words, unit = name, ""
-    for ending in sorted(UNITS, key=len, reverse=True):
-        if name.endswith("_" + ending):
-            words, unit = name[: -len(ending) - 1], UNITS[ending]
-            break
+    words, unit = unit_of(name)
+    for written, sign in _SIGNS:
+        unit = unit.replace(written, sign)
     return " ".join(words.split("_")).replace("von mises", "von Mises"), unit
 
 

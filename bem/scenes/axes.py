@@ -10,7 +10,7 @@ A kind knows one case. `Kind.axes(scene)` says in which keys a scene holds sever
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -73,6 +73,19 @@ def variants(scene: Any, change: Callable[[Any, Any], Any], unnamed: str = "", a
 
     names = tuple(item.name for item in found) or (unnamed,)
     return Axis("variant", names, Figure("", "variant"), pick, always=bool(found) or always)
+
+
+def given(variant: BaseModel) -> dict[str, Any]:
+    """What a named table of `variants` changes: its keys that are given."""
+    values = {key: getattr(variant, key) for key in type(variant).model_fields if key != "name"}
+    return {key: value for key, value in values.items() if value is not None}
+
+
+def with_keys(table: Model, values: Mapping[str, Any]) -> Model:
+    """A table of a scene with other values at dotted keys."""
+    for key, value in values.items():
+        table = changed(table, key, value)
+    return table
 
 
 def changed(table: Model, key: str, value: Any) -> Model:

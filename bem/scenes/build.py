@@ -6,7 +6,7 @@ import math
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,12 +15,14 @@ from bem.errors import InputError
 from bem.grid import Grid
 from bem.laws import Law
 from bem.materials import Body
-from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, ShapeScene, SmoothSurface
+from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, SceneModel, ShapeScene, SmoothSurface
 
 if TYPE_CHECKING:
+    from bem.scenes.context import Context
     from bem.surfaces import Surface
 
 FloatArray = NDArray[np.float64]
+Scene = TypeVar("Scene", bound=SceneModel)
 _NO_SIZE = "grid: no size is given; allowed: shape with spacing or lengths, or a measured surface to take them from"
 AnySurface = SmoothSurface | GeneratedSurface | MeasuredSurface
 
@@ -92,21 +94,43 @@ def shape_of(scene: ShapeScene, grid: Grid) -> FloatArray:
     return gap if gap.shape == grid.shape else np.array(np.broadcast_to(gap, grid.shape), order="C")
 
 
-def softer_hardness(lower: Body, upper: Body | None) -> float:
-    """The smaller hardness of the two touching materials [Pa].
+def both_heights(scene: Any, grid: Grid, context: Context) -> tuple[FloatArray, FloatArray]:
+    """Heights of the lower and the upper body of a scene on a grid [m], as `heights_of` gives them."""
+    lower, upper = (
+        heights_of(getattr(scene, name).surface, grid, context.seed(name), context.note) for name in ("lower", "upper")
+    )
+    return lower, upper
+
+
+def with_grid(scene: Scene) -> Scene:
+    """The scene with its grid filled in where measured surfaces decide it; see `resolved_grid`."""
+    table: Any = scene
+    return scene.model_copy(update={"grid": resolved_grid(table.grid, table.lower.surface, table.upper.surface)})
+
+
+def softer_hardness(lower: Body, upper: Body | None) -> float | None:
+    """The smaller hardness of the two touching materials [Pa]; None where neither has one."""
+    found = [body.surface_material.hardness for body in (lower, upper) if body is not None]
+    return min((value for value in found if value is not None), default=None)
+
+
+def with_hardness(scene: Scene, table: str = "contact", *, needed: bool) -> Scene:
+    """The scene with the softer body's hardness where its table of the contact gives none.
 
     Raises
     ------
-    InputError : neither has one.
+    InputError : neither body has one, and it is needed.
     """
-    found = [body.surface_material.hardness for body in (lower, upper) if body is not None]
-    known = [value for value in found if value is not None]
-    if not known:
+    given: Any = getattr(scene, table)
+    if given.hardness is not None:
+        return scene
+    hardness = softer_hardness(scene.lower.build(), scene.upper.build())  # type: ignore[attr-defined]
+    if hardness is None and needed:
         raise InputError(
-            'contact.hardness: missing while behaviour is "capped" and neither material has a hardness; '
-            "allowed: contact.hardness, or hardness in a material"
+            f"{table}.hardness: missing for a capped contact, and neither material has a hardness; "
+            f"allowed: {table}.hardness, or hardness in a material"
         )
-    return min(known)
+    return scene.model_copy(update={table: given.model_copy(update={"hardness": hardness})})
 
 
 def show_layers(body: Body) -> str:

@@ -1,17 +1,41 @@
-"""The tables that scenes with an oil film share."""
+"""What scenes with an oil film share: their tables, and the rough line contact that load sharing works on.
+
+Knows tables, and how they become set-ups of `bem.friction` and `bem.lubrication`; no solver. Verified in
+tests/scenes/test_friction_kinds.py and test_film_kind.py.
+"""
 
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from pydantic import Field, model_validator
 
+from bem.errors import InfeasibleError, InputError
 from bem.friction.boundary import BoundaryFriction, boundary_law
-from bem.scenes.common import Force, PositiveLength, PositivePressure, Table, problem
+from bem.grid import Grid
+from bem.materials import Body, contact_modulus
+from bem.reference_solutions.hertz import cylinder_contact
+from bem.scenes import build
+from bem.scenes.axes import Axis, changed
+from bem.scenes.common import (
+    BodyScene,
+    Force,
+    LineGridScene,
+    PositiveLength,
+    PositivePressure,
+    SceneModel,
+    Table,
+    problem,
+)
 from bem.scenes.laws import LawOrNumber
+from bem.scenes.oil import OilScene
+from bem.scenes.records import Figure
 from bem.scenes.units import Pressure, Ratio, Speed
+
+if TYPE_CHECKING:
+    from bem.friction.setup import MixedSetup
 
 
 class SpeedsScene(Table):
@@ -140,3 +164,94 @@ class FilmMeshScene(Table):
     def positions(self) -> Any:
         """Abscissae [m], or None."""
         return None if self.start is None or self.end is None else np.linspace(self.start, self.end, self.count)
+
+
+class LineContactScene(SceneModel):
+    """A rough cylinder on a rough flat with oil between them."""
+
+    lower: BodyScene
+    upper: BodyScene
+    contact: LubricatedScene
+    oil: OilScene
+    speeds: SpeedsScene
+    grid: LineGridScene = LineGridScene()
+
+    @property
+    def bodies(self) -> tuple[Body, Body]:
+        """As `bem.Body`."""
+        return self.lower.build(), self.upper.build()
+
+    @property
+    def modulus(self) -> float:
+        """Contact modulus of the substrates [Pa]."""
+        return contact_modulus(*(body.material for body in self.bodies))
+
+    @property
+    def load(self) -> float:
+        """The load of a case on the whole width [N]."""
+        (load,) = self.contact.forces(self.modulus)
+        return float(load)
+
+    def load_axis(self) -> Axis:
+        """The loads on the whole width, given as such or by their Hertz pressures."""
+        key = "loads" if self.contact.loads is not None else "hertz_pressures"
+        values = getattr(self.contact, key)
+        loads = tuple(self.contact.forces(self.modulus))
+        return Axis("load", loads, Figure("N", "load"), lambda scene, i: changed(scene, f"contact.{key}", [values[i]]))
+
+    def check(self, film: FilmMeshScene | None = None) -> Grid:
+        """The grid of a case, if film and surfaces can be expected to carry the load on it.
+
+        Raises
+        ------
+        InputError : a patch that does not fit the contact or the film's mesh.
+        InfeasibleError : a load beyond hardness times the patch.
+        """
+        grid, load, hardness = build.grid_of(self.grid), self.load, self.contact.hardness
+        smooth = cylinder_contact(
+            radius=self.contact.radius, contact_modulus=self.modulus, load=load / self.contact.width
+        )
+        _check_patch(grid, film or FilmMeshScene(), smooth.half_width)
+        area = grid.lengths[0] * self.contact.width
+        if hardness is not None and load > hardness * area:
+            raise InfeasibleError(
+                f"contact.loads: {load:g} N is beyond hardness x area of the patch, {hardness * area:g} N, and the "
+                "film cannot carry more than the surfaces under it; allowed: a smaller load or a larger patch"
+            )
+        return grid
+
+    def setup(self, **accuracy: Any) -> MixedSetup:
+        """As `bem.friction.setup.MixedSetup`; what its fields say of models and accuracy comes from the kind."""
+        from bem.friction.setup import MixedSetup
+
+        given: dict[str, Any] = {"hardness": self.contact.hardness} | accuracy
+        return MixedSetup(
+            grid=build.grid_of(self.grid),
+            bodies=self.bodies,
+            radius=self.contact.radius,
+            width=self.contact.width,
+            load=self.load,
+            lubricant=self.oil.build(),
+            boundary_friction=self.contact.boundary_friction,
+            **given,
+        )
+
+
+def _check_patch(grid: Grid, film: FilmMeshScene, half_width: float) -> None:
+    """Whether the rough patch fits the contact and the film's grid; InputError if not."""
+    reach = 0.5 * grid.lengths[0]
+    messages = []
+    if grid.periodic[0]:
+        messages.append("grid.periodic: the patch lies under a cylinder; allowed: [false, true] or [false, false]")
+    if reach < half_width:
+        messages.append(
+            f"grid: the rough patch reaches {reach:.3g} m to either side, less than the contact's half-width "
+            f"{half_width:.3g} m; allowed: at least that"
+        )
+    if film.start is not None and film.end is not None and (film.start > grid.x[0] or film.end < grid.x[-1]):
+        messages.append(
+            f"film: the rough patch, {grid.x[0]:.3g} to {grid.x[-1]:.3g} m, is larger than the film grid, "
+            f"{film.start:.3g} to {film.end:.3g} m; allowed: film.start and film.end beyond the patch"
+        )
+    if messages:
+        raise InputError(messages)

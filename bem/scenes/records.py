@@ -18,7 +18,7 @@ import math
 import typing
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 
@@ -49,6 +49,7 @@ class Figure:
     dimensions : of an array, such as ("speed",); the summary then has a list.
     optional : left out of the summary where no case has it, instead of null.
     name : in the summary, where it is not that of the field (with the unit behind it).
+    headline : whether it is shown first, on the terminal and in the report.
     """
 
     unit: str = ""
@@ -56,6 +57,7 @@ class Figure:
     dimensions: tuple[str, ...] = ()
     optional: bool = False
     name: str = ""
+    headline: bool = False
 
     def __post_init__(self) -> None:
         if self.unit not in UNITS:
@@ -132,6 +134,39 @@ class Record:
     errors: Mapping[str, Any] = dataclasses.field(default_factory=dict, kw_only=True)
 
 
+TELLING = {
+    "speed": "m_s", "time": "s", "load": "N", "temperature": "C", "hardness": "Pa", "spacing": "um",
+}  # fmt: skip
+"""Figures that say which case or row it is, and their units; texts (a model, a variant) do so too."""
+
+
+def unit_of(key: str) -> tuple[str, str]:
+    """A key of the summary as the figure's name and its unit as it is written: `film_wear_rate`, `nm/s`."""
+    for unit in sorted(UNITS, key=len, reverse=True):
+        if unit and key.endswith(f"_{unit}") and not key.endswith(f"_and_{unit}"):
+            return key[: -len(unit) - 1], _WRITTEN.get(unit, unit)
+    return key, ""
+
+
+Made = TypeVar("Made", bound=Record)
+
+
+def filled(record: type[Made], *sources: Any, **own: Any) -> Made:
+    """The record with `own` in it; its other fields are what the sources have under their names, the first that has it.
+
+    sources : solutions, grids (their attributes), tables and mappings (their columns and keys). A field without a value
+    anywhere keeps its default; one without default is a `TypeError`.
+    """
+    for source in sources:
+        wanted = described(record).keys() - own.keys()
+        if isinstance(source, Mapping | np.ndarray):
+            has = source.keys() if isinstance(source, Mapping) else set(source.dtype.names or ())
+            own |= {name: source[name] for name in wanted & has}
+        else:
+            own |= {name: getattr(source, name) for name in wanted & set(dir(source))}
+    return record(**own)
+
+
 def error_key(name: str) -> str:
     """Where the error of a figure (or of a variable of the dataset) stands."""
     return f"{name}_error"
@@ -158,6 +193,12 @@ def described(record: type[Record]) -> Mapping[str, Figure | Series]:
 def figures(record: type[Record]) -> Mapping[str, str]:
     """The fields of a record that are figures, by their names in the summary."""
     return {item.key(name): name for name, item in described(record).items() if isinstance(item, Figure)}
+
+
+def headline(record: type[Record]) -> tuple[str, ...]:
+    """Names in the summary of those figures of a record that are shown first."""
+    known = described(record).items()
+    return tuple(item.key(name) for name, item in known if isinstance(item, Figure) and item.headline)
 
 
 def pack(record: Record) -> dict[str, Any]:

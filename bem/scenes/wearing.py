@@ -1,23 +1,36 @@
-"""What the kinds with wear share: depths, the wear model's parts, how sizes of particles are reported."""
+"""What the kinds with wear share: depths, the wear model's parts, the loop over cycles with its checkpoint, how sizes
+of particles are reported.
+
+Knows tables, plans and records; the loop itself is `bem.wear.run_in`. Verified in tests/scenes/test_wear_kind.py and
+test_friction_kinds.py.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
+from pydantic import Field, model_validator
 
+from bem.errors import InputError
 from bem.grid import FloatArray, Grid
-from bem.scenes.common import PositiveLength, Table
+from bem.scenes import plans
+from bem.scenes.common import PositiveLength, Table, problem
+from bem.scenes.context import Context
 from bem.scenes.laws import LawKey
-from bem.scenes.planner import Step, convolution_memory, padded_points, stress_kernel_seconds
+from bem.scenes.planner import Step, padded_points, stress_kernel_seconds
 from bem.scenes.records import Figure, Record, Series
-from bem.scenes.units import Length
+from bem.scenes.units import Length, WearCoefficient
 from bem.wear.criterion import VonMises, WearCriterion
 from bem.wear.removal import Cap, RemovalLaw
 
+if TYPE_CHECKING:
+    from bem.wear import RunningIn, RunningInState
+
+_CHECKPOINT_EVERY = 10  # cycles
 Count = Annotated[int, Field(strict=True, ge=1)]
 IntArray = NDArray[np.int_]
 _QUANTITIES = ("equivalent_radius", "length", "width", "thickness")
@@ -49,23 +62,59 @@ class WearScenePart(Table):
     within_layer: bool = Field(default=True, strict=True)
 
 
-def cycle_steps(
-    grid: Grid, cycles: int, depths: int, deepest: int, convolutions: int, contacts: str
-) -> tuple[Step, Step, Step]:
-    """Contact, stresses and pieces of a case of so many cycles.
+class LastCycles(Table):
+    """How many cycles, and over how many of the last ones means are taken."""
 
-    depths : computed in a usual cycle; deepest : in the first ones. convolutions : of the contacts of a cycle.
-    contacts : what is solved, in words.
+    count: Count = 200
+    settled: Count = 50
+
+    @model_validator(mode="after")
+    def _enough(self) -> Self:
+        for name in ("averaged", "settled"):
+            if getattr(self, name, 0) > self.count:
+                raise problem(f"{name} {getattr(self, name)} is more than count {self.count}", f"{name} <= count")
+        return self
+
+
+class WearRateScene(Table):
+    """Archard's law: the wear volume that the criterion cannot give, and so the number of particles."""
+
+    specific_wear_rate: Annotated[WearCoefficient, Field(gt=0)]
+    distance: PositiveLength
+
+    def figures(self, load: float, mean_particle_volume: float) -> dict[str, float]:
+        """What records hold of it, for a load [N] and particles of a mean volume [m^3]."""
+        from bem.particles import archard_wear
+
+        wear = archard_wear(self.specific_wear_rate, load, self.distance, mean_particle_volume)
+        values = (wear.volume, wear.number, 1e-3 * wear.coefficient)
+        return dict(zip(ARCHARD_FIGURES, values, strict=True))
+
+
+ARCHARD_FIGURES = ("wear_volume", "particle_number", "particles_per_mm_and_N")
+
+
+def cycle_steps(
+    scene: Any, grid: Grid, *, convolutions: int, contacts: str, usual: int, first: int
+) -> tuple[Step, Step, Step]:
+    """Contact, stresses and pieces of a case.
+
+    convolutions : of the contacts of a cycle. contacts : what is solved, in words.
+    usual, first : depths before one at which nothing yields, in a usual cycle and in the first ones.
+
+    Raises
+    ------
+    InputError : neither body has a yield stress.
     """
-    points = padded_points(grid.shape, grid.periodic)
+    strengths = [body.build().surface_material.yield_stress for body in (scene.lower, scene.upper)]
+    if all(value is None for value in strengths):
+        raise InputError(
+            "lower.material: neither body has a yield_stress or a hardness, so nothing can wear; allowed: one of them"
+        )
+    points, cycles = padded_points(grid.shape, grid.periodic), scene.cycles.count
+    depths, deepest = min(scene.depths.count, usual), min(scene.depths.count, first)
     return (
-        Step(
-            "contact",
-            f"{cycles} cycles a case, {contacts}",
-            transforms=2.0 * convolutions * cycles,
-            points=points,
-            memory=convolution_memory(grid.shape, grid.periodic),
-        ),
+        plans.contacts(grid, convolutions * cycles, f"{cycles} cycles a case, {contacts}"),
         Step(
             "stresses",
             "from the surface down to the first depth at which nothing yields",
@@ -76,6 +125,44 @@ def cycle_steps(
         ),
         Step("pieces", "runs of yielded voxels along depth", seconds=0.004 * cycles, memory=8.0 * grid.cells * 8),
     )
+
+
+def wear_loop(
+    scene: Any,
+    context: Context,
+    heights: tuple[FloatArray, FloatArray],
+    *,
+    watch: Callable[[RunningInState], Mapping[str, float]],
+    keep: Callable[[], Mapping[str, Any]] = dict,
+    **contact: Any,
+) -> RunningIn:
+    """The wear loop of a case, from its checkpoint where there is one.
+
+    heights : of both bodies at the start [m]. watch : called after every cycle; gives the figures beside the progress.
+    keep : what the checkpoint holds then besides the loop's own state, under names other than "wear".
+    contact : further arguments of `bem.wear.run_in`.
+    """
+    from bem.wear import WearModel, pack_state, run_in, unpack_state
+
+    saved, count = context.saved(), scene.cycles.count
+
+    def after(now: RunningInState) -> None:
+        figures = watch(now)
+        if now.cycle % _CHECKPOINT_EVERY == 0 or now.cycle == count:
+            context.save({"wear": pack_state(now), **keep()})
+        context.progress(now.cycle, count, "cycles", **figures)
+
+    with context.timer("cycles"):
+        return run_in(
+            *heights,
+            bodies=(scene.lower.build(), scene.upper.build()),
+            depths=scene.depths.build(),
+            cycles=count,
+            model=WearModel(**scene.wear.model_dump()),
+            state=None if saved is None else unpack_state(saved["wear"]),
+            callback=after,
+            **contact,
+        )
 
 
 class SizesScene(Table):
@@ -89,9 +176,17 @@ class SizesScene(Table):
     smallest: Annotated[Length, Field(ge=0)] = 25e-9
     particles_of: Literal["wearing", "lower", "upper"] = "wearing"
 
-    def body(self, wearing: int) -> int:
-        """The body whose particles are reported, given the one that wears."""
-        return {"wearing": wearing, "lower": 0, "upper": 1}[self.particles_of]
+    def particles(self, result: RunningIn) -> NDArray[np.void]:
+        """The particles that are reported of a wear loop."""
+        body = {"wearing": result.wearing[0], "lower": 0, "upper": 1}[self.particles_of]
+        return result.particles[result.particles["body"] == body]
+
+
+def sliding_heights(
+    initial: tuple[FloatArray, FloatArray], result: RunningIn, grid: Grid
+) -> tuple[FloatArray, FloatArray]:
+    """Heights of the wearing body on the grid [m], unworn and run in."""
+    return initial[result.wearing[0]], result.worn_heights()[: grid.shape[0]]
 
 
 def particle_rows(unit: str, text: str) -> Series:
@@ -101,7 +196,10 @@ def particle_rows(unit: str, text: str) -> Series:
 
 def _reported(quantity: str) -> Figure:
     return Figure(
-        "nm", f"{quantity} of the particles, the reported mean", name=f"particle_{quantity.replace(' ', '_')}"
+        "nm",
+        f"{quantity} of the particles, the reported mean",
+        name=f"particle_{quantity.replace(' ', '_')}",
+        headline=True,
     )
 
 
@@ -156,9 +254,3 @@ def size_statistics(particles: NDArray[np.void], smallest: float) -> dict[str, d
         name: {quantity: getattr(each, f"mean_{quantity}") for quantity in _QUANTITIES}
         for name, each in statistics.items()
     }
-
-
-def volume_mean_radius(volume: FloatArray) -> float:
-    """Equivalent radius [m], each particle counted by its volume; 0 of none."""
-    total = float(volume.sum())
-    return float((volume * np.cbrt(3 * volume / (4 * np.pi))).sum() / total) if total > 0 else 0.0

@@ -35,6 +35,16 @@ class FilmBalance:
             return np.zeros_like(thickness)
         return np.asarray(np.exp(-self.concentration_constant * thickness))
 
+    def thickest(self, fastest_growth: float, duration: float) -> float:
+        """A bound on the thickness [m] after a time [s] of growth no faster than that [m/s].
+
+        Initial thickness and all that can have grown; without a lag no thicker than where wear balances that.
+        """
+        grown = self.initial_thickness + fastest_growth * duration
+        if self.wear_coefficient > 0 and not self.lag > 0:
+            return min(grown, max(self.initial_thickness, fastest_growth / self.wear_coefficient))
+        return grown
+
 
 def checked_times(times: FloatArray, balance: FilmBalance, tolerance: float) -> FloatArray:
     """The times (nt,) [s] of a film under this balance.

@@ -58,6 +58,11 @@ class FilmHistory:
     concentration: FloatArray
     evaluations: int
 
+    def wear_depth(self, start: float, end: float) -> float:
+        """Depth of substrate worn between two times [s], within those of the history [m]."""
+        before, after = np.interp((start, end), self.time, self.substrate_wear)
+        return float(after) - float(before)
+
 
 def evolve_film(
     times: FloatArray,

@@ -33,9 +33,7 @@ class TribofilmGrowth:
 
     def wear_depth(self, start: float, end: float) -> float:
         """Depth of substrate worn between two times [s], within those of the history [m]."""
-        return float(np.interp(end, self.history.time, self.history.substrate_wear)) - float(
-            np.interp(start, self.history.time, self.history.substrate_wear)
-        )
+        return self.history.wear_depth(start, end)
 
     def __repr__(self) -> str:
         return (

@@ -22,6 +22,7 @@ from bem.errors import ConvergenceError
 from bem.grid import FloatArray
 from bem.tribofilm.balance import FilmBalance, checked_times
 from bem.tribofilm.contact_growth import ContactSample, FilmContact, solve_film_contact
+from bem.tribofilm.evolution import FilmHistory
 
 _SAFETY, _SHRINK, _STRETCH = 0.9, 0.2, 3.0
 _THIN = 1e-10
@@ -34,7 +35,7 @@ class LocalFilm:
 
     time (nt,) [s]; thickness, grown, worn, substrate_wear (nt,): means over the nominal area [m];
     film_map (nx, ny): local thickness at the end [m]; pressure (nx, ny): of the last contact [Pa];
-    contacts: how many were solved; rejected: how many steps were repeated with a shorter one.
+    contacts: how many were solved; rejected: how many steps were repeated with a shorter one; balance: of the film.
     """
 
     time: FloatArray
@@ -46,6 +47,22 @@ class LocalFilm:
     pressure: FloatArray
     contacts: int
     rejected: int
+    balance: FilmBalance
+
+    @property
+    def history(self) -> FilmHistory:
+        """The means over time as those of `grow_tribofilm`; rates of growth are differences of what has grown."""
+        return FilmHistory(
+            self.time,
+            self.thickness,
+            self.grown,
+            self.worn,
+            self.substrate_wear,
+            growth_rate=np.gradient(self.grown, self.time),
+            wear_rate=self.balance.wear_coefficient * self.thickness,
+            concentration=self.balance.concentration(self.thickness),
+            evaluations=self.contacts,
+        )
 
 
 def grow_local_film(
@@ -98,7 +115,16 @@ def grow_local_film(
         rows.append((thickness, grown, initial_thickness + grown - thickness, substrate))
     means, grown_means, worn_means, wear_means = np.array(rows).T
     return LocalFilm(
-        when, means, grown_means, worn_means, wear_means, films.film, films.contact.pressure, contacts.solved, rejected
+        when,
+        means,
+        grown_means,
+        worn_means,
+        wear_means,
+        films.film,
+        films.contact.pressure,
+        contacts.solved,
+        rejected,
+        balance,
     )
 
 

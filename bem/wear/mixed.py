@@ -6,8 +6,10 @@ The film depends on the load it carries and on nothing else, so one table of fil
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +22,7 @@ from bem.friction.rough_contact import RoughContact, boundary_traction, rough_co
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 from bem.wear.cycle import ContactOutcome
+from bem.wear.running_in import pack_table, unpack_table
 
 MIXED_FIELDS = np.dtype(
     [
@@ -160,9 +163,44 @@ class MixedContact:
         )
 
 
+def pack_balance(step: MixedContact) -> dict[str, Any]:
+    """Where the next balance starts and the rows so far, as plain arrays and numbers, for a checkpoint."""
+    return {"film_load": step.state.film_load, "slope": step.state.slope, "rows": pack_table(step.rows)}
+
+
+def unpack_balance(packed: dict[str, Any]) -> dict[str, Any]:
+    """The arguments `state` and `rows` of the `MixedContact` that was packed."""
+    return {
+        "state": MixedState(packed["film_load"], packed["slope"]),
+        "rows": unpack_table(packed["rows"], MIXED_FIELDS),
+    }
+
+
 def film_table(setup: MixedSetup, speeds: Sequence[float]) -> FilmTable:
     """The films of a set-up at a pair of speeds (u1, u2) [m/s]."""
     return FilmTable(setup.grid.x, setup.line, load=setup.load, speeds=speeds, points=setup.film_points)
 
 
-__all__ = ["MIXED_FIELDS", "MixedContact", "MixedState", "film_table"]
+_LAST_TABLES: deque[tuple[Any, FilmTable]] = deque(maxlen=8)
+
+
+def shared_film_table(setup: MixedSetup, speeds: Sequence[float]) -> FilmTable:
+    """The films of a set-up at a pair of speeds (u1, u2) [m/s], of this process's last ones where they are there: what
+    is in a table never depends on what was asked of it before."""
+    key = (setup.line, tuple(speeds), setup.load, setup.film_points, setup.grid.shape, setup.grid.spacing)
+    for known, table in _LAST_TABLES:
+        if known == key:
+            return table
+    _LAST_TABLES.append((key, film_table(setup, speeds)))
+    return _LAST_TABLES[-1][1]
+
+
+__all__ = [
+    "MIXED_FIELDS",
+    "MixedContact",
+    "MixedState",
+    "film_table",
+    "pack_balance",
+    "shared_film_table",
+    "unpack_balance",
+]

@@ -32,6 +32,7 @@ from bem.wear.cycle import (
     dry_contact,
     wear_cycle,
 )
+from bem.wear.outcome import contact_strip
 from bem.wear.segmentation import describe_pieces
 
 PARTICLE_FIELDS = np.dtype(
@@ -421,8 +422,7 @@ def _cycle_row(
     particles: NDArray[np.void],
     worn: FloatArray,
 ) -> NDArray[np.void]:
-    touched = contact.pressure.any(axis=1)
-    strip = worn[touched] if touched.any() else worn
+    strip = worn[contact_strip(contact.pressure)]
     return np.array(
         [
             (

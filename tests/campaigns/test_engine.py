@@ -18,7 +18,7 @@ from bem.campaigns.local import compute_locally
 from bem.errors import ConvergenceError, InputError
 from bem.results import open_run
 from bem.runs import plan_scene, run_scene
-from bem.scenes import load_scene
+from bem.scenes import load_scene, wearing
 from bem.scenes.kinds import wear
 
 TIMES = ("wall_time_s", "seconds_by_stage")
@@ -129,7 +129,7 @@ def test_a_single_case_starts_no_process(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("stop", [("cycles", 2), ("cycles", 7), ("cases", 2)])
 def test_stopped_between_and_inside_cases_it_ends_in_the_same_bits(alone, tmp_path, stop, monkeypatch):
-    monkeypatch.setattr(wear, "_CHECKPOINT_EVERY", 1)
+    monkeypatch.setattr(wearing, "_CHECKPOINT_EVERY", 1)
 
     def interrupt(what, done):
         if (what, done) == stop:

@@ -9,6 +9,7 @@ import pytest
 from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_surface, solve_mixed, stribeck_curve
 from bem.convolution import COUNT
 from bem.friction import largest_difference
+from bem.friction.curves import Curve, relative_difference
 from bem.friction.setup import MixedSetup
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
@@ -190,6 +191,17 @@ def test_striated_exit_adds_a_little():
     assert 1.02 < striated.friction / plain.friction < 1.2
 
 
+def test_the_point_shown_shares_most_evenly(curve):
+    found = Curve()
+    for point in curve:
+        found = found.then(point)
+    shares = [abs(point.contact_load / point.load - 0.5) for point in curve if not point.full_film]
+    assert abs(found.shown.contact_load / found.shown.load - 0.5) == min(shares)
+    assert found.last is curve[-1]
+    assert [point.friction for point in found.points] == [point.friction for point in curve]
+    assert Curve().then(curve[-1]).shown.full_film
+
+
 def test_uncoupled_baseline(curve):
     for separation in ("volume", "film"):
         baseline = stribeck_curve(SPEEDS, **CASE, contact_model="uncoupled", asperity_separation=separation)
@@ -198,6 +210,8 @@ def test_uncoupled_baseline(curve):
         assert 0 < difference < 0.5
         assert baseline[-1].friction == pytest.approx(curve[-1].friction, rel=1e-12)  # full film: the same
     assert largest_difference(curve, curve) == 0
+    # half and a third less than the baseline: the larger absolute difference is 0.1 of 0.3
+    assert relative_difference([0.1, 0.2], [0.15, 0.3]) == pytest.approx(1 / 3, rel=1e-14)
     with pytest.raises(InputError, match="same speeds"):
         largest_difference(curve, curve[:2])
 

@@ -65,11 +65,11 @@ def test_time_and_memory_of_a_plan_grow_with_the_grid():
 
 @pytest.mark.parametrize("name", ["rough-contact", "hertz-sphere", "sinusoid", "coated-sphere"])
 def test_convolutions_of_a_contact_are_as_many_as_planned_within_a_factor_of_two(name):
-    from bem.scenes.kinds.contact import _convolutions
+    from bem.scenes.plans import convolutions
 
     scene, _ = plan_scene(name, ["grid.shape=128", "outputs.von_mises=false", "outputs.stresses=false"])
     outcome = compute(campaign_of(scene)).outcome
-    planned = _convolutions(build.grid_of(scene.grid))
+    planned = convolutions(build.grid_of(scene.grid))
     assert planned / 2 <= outcome.summary["convolutions"] <= 2 * planned
 
 

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from bem import InputError, Particle, particle_statistics
 from bem.particles import (
     archard_volume,
+    archard_wear,
     dowson_higginson_minimum_film,
     lambda_ratio,
     particle_coefficient,
@@ -146,6 +147,9 @@ def test_archard_forms_agree():
     assert specific_wear_rate(volume, 10.0, 142.0) == pytest.approx(3.5e-14)
     one = 4 / 3 * math.pi * (150e-9) ** 3
     assert particle_number(volume, one) == pytest.approx(particle_coefficient(3.5e-14, one) * 10 * 142)
+    wear = archard_wear(3.5e-14, 10.0, 142.0, one)
+    assert (wear.volume, wear.number) == (volume, particle_number(volume, one))
+    assert wear.coefficient == particle_coefficient(3.5e-14, one)
     for call in (
         lambda: archard_volume(-1.0, 1.0, 1.0),
         lambda: specific_wear_rate(1.0, 0.0, 1.0),

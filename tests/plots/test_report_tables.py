@@ -4,7 +4,8 @@ import json
 from types import SimpleNamespace
 
 from bem.plots.report import write_report
-from bem.plots.tables import figure_tables
+from bem.plots.tables import figure_tables, name_and_unit
+from bem.scenes.records import UNITS
 
 SUMMARY = {
     "speed_m_s": [0.01, 0.1, 1.0],
@@ -30,6 +31,16 @@ def test_a_row_for_each_speed_with_spread_and_unit():
     assert table.rows[2][2] == "–"
 
 
+def test_units_of_names_are_those_of_records():
+    assert name_and_unit("film_wear_rate_nm_s") == ("film wear rate", "nm/s")
+    assert name_and_unit("wear_volume_mm3") == ("wear volume", "mm³")
+    assert name_and_unit("sedimentation_time_h") == ("sedimentation time", "h")
+    assert name_and_unit("worn_volume_per_cycle_um3") == ("worn volume per cycle", "µm³")
+    assert name_and_unit("particles_per_mm_and_N") == ("particles per mm and N", "")  # no force
+    for unit in UNITS:
+        assert unit == "" or name_and_unit(f"figure_{unit}")[1]
+
+
 def test_cases_are_told_apart_and_have_the_speed_beside_them():
     capped, other, difference = figure_tables(
         SUMMARY | {"friction": [0.11, 0.05, 0.02]}, ["curves", "largest_difference"]
@@ -37,7 +48,7 @@ def test_cases_are_told_apart_and_have_the_speed_beside_them():
     assert (capped.title, other.title) == ("curves: 5 N, capped", "curves: 5 N, uncoupled elastic")
     assert other.head == ("speed (m/s)", "friction")
     assert other.rows[0] == ("0.01", "0.3")
-    assert difference.head == ("load (N)", "model", "d percent")  # no column for a variant without a name
+    assert difference.head == ("load (N)", "model", "d (%)")  # no column for a variant without a name
     assert difference.rows == (("5", "capped", "3 ± 0.5"),)
 
 

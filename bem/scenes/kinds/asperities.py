@@ -1,6 +1,6 @@
 """Kind `asperities`: a regular array of equal spherical asperities against a flat (thesis, paper A, figures 3 and 4).
 
-All asperities of an endless array carry the same, so one asperity on a doubly periodic cell is the whole array.
+A case is one spacing; `bem.friction.asperity_array` does the work.
 """
 
 from __future__ import annotations
@@ -13,23 +13,19 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from bem.errors import InputError, Status
+from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.materials import contact_modulus
+from bem.scenes import plans
 from bem.scenes.axes import Axis, listed
 from bem.scenes.common import BodyScene, Cells, PositiveLength, SceneModel, Table, UpperBodyScene, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
-from bem.scenes.planner import Plan, Step, convolution_memory
-from bem.scenes.records import Figure, Record, Series
+from bem.scenes.planner import Plan, Step
+from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.units import Length
 
-_LOADS = 14
-SQUARE_LATTICE = 3.900264920001956
-"""Potential of a square lattice of unit charges, in a background that makes it neutral, at one of them, itself left
-out, times the spacing and -1; 4 zeta(1/2) beta(1/2)."""
-SQUARE_PATCH = 4 * math.asinh(1.0)
-"""Integral of 1/r over a unit square, r from its centre."""
+_CONVOLUTIONS = 20  # of each contact
 
 
 class ArrayScene(Table):
@@ -73,18 +69,16 @@ def grid_at(scene: AsperitiesScene, spacing: float) -> Grid:
 
 def plan(scene: AsperitiesScene) -> Plan:
     """What will be computed."""
-    largest = grid_at(scene, max(scene.array.spacings))
+    from bem.friction.asperity_array import LOADS
+
+    grid = grid_at(scene, max(scene.array.spacings))
     return Plan(
         (
-            Step(
-                "contacts",
-                f"{_LOADS} loads for each spacing, one asperity each",
-                transforms=2.0 * 20 * _LOADS,
-                points=float(largest.cells),
-                memory=convolution_memory(largest.shape, largest.periodic),
+            plans.contacts(
+                grid, _CONVOLUTIONS * LOADS, f"{LOADS} loads for each spacing, one asperity each", name="contacts"
             ),
             Step("the other asperities of the array", "all carry the same, by symmetry", skipped=True),
-            Step("figures and report", "pictures of the results", seconds=3.0, memory=2e8, per="run"),
+            plans.figures(grid.cells),
         )
     )
 
@@ -115,65 +109,35 @@ class AsperityRecord(Record):
 
 def run(scene: AsperitiesScene, context: Context) -> AsperityRecord:
     """Loads over depths at one spacing."""
-    from bem.contact import solve_contact
     from bem.convolution import displacement_operator
+    from bem.friction.asperity_array import LOADS, press_array
 
     array, (spacing,) = scene.array, scene.array.spacings
     lower, upper = scene.lower.build(), scene.upper.build()
-    modulus = contact_modulus(lower.material, None if upper is None else upper.material)
-    depth = np.array(sorted(array.interferences))
-    hertz = 4 / 3 * modulus * math.sqrt(array.radius) * depth**1.5
-    loads = 4 / 3 * modulus * math.sqrt(array.radius) * np.geomspace(0.02 * depth[0], 1.6 * depth[-1], _LOADS) ** 1.5
     grid = grid_at(scene, spacing)
-    x, y = grid.x[:, None], grid.y[None, :]
-    # the parabola that Hertz' sphere is; below the foot stands the flat
-    gap = np.minimum((x**2 + y**2) / (2 * array.radius), array.height)
-    operator = displacement_operator(grid, lower if upper is None else (lower, upper))
-    approach, status = [], Status.CONVERGED
-    pressure: FloatArray | None = None
     with context.timer("contacts"):
-        for number, load in enumerate(loads):
-            solution = solve_contact(gap, operator, load=load, initial_pressure=pressure)
-            pressure = solution.pressure
-            approach.append(solution.approach - float(gap.min()))
-            if solution.status is not Status.CONVERGED:
-                status = solution.status
-            context.progress(number + 1, _LOADS, "contacts")
-    assert pressure is not None
-    inward = np.array(approach)
-    # a finite square array sinks in as a whole by the mean pressure's own deflection at its middle
-    sunk = SQUARE_PATCH * array.window * loads / spacing**2 / (math.pi * modulus)
-    mean_plane, from_flat = (_at_depths(depth, values, loads, spacing) for values in (inward, inward + sunk))
-    return AsperityRecord(
-        load_over_hertz=float(mean_plane[-1] / hertz[-1]),
-        load_over_hertz_finite_array=float(from_flat[-1] / hertz[-1]),
-        hertz_load=hertz,
-        interference=depth,
-        asperity_load=mean_plane,
-        asperity_load_window=from_flat,
-        x=grid.x,
-        y=grid.y,
-        pressure=pressure,
-        status=status,
-        where="" if status is Status.CONVERGED else "a contact",
-    )
-
-
-def _at_depths(depth: FloatArray, inward: FloatArray, loads: FloatArray, spacing: float) -> FloatArray:
-    """Loads at the depths asked for [N].
-
-    Raises
-    ------
-    InputError : depths that the loads do not reach.
-    """
-    from scipy.interpolate import PchipInterpolator
-
-    if not (np.diff(inward) > 0).all() or inward[0] > depth[0] or inward[-1] < depth[-1]:
-        raise InputError(
-            f"array.interferences: {depth[0]:.3g} to {depth[-1]:.3g} m cannot be reached at a spacing of "
-            f"{spacing:.3g} m; allowed: {max(inward[0], 0):.3g} to {inward[-1]:.3g} m"
+        found = press_array(
+            displacement_operator(grid, lower if upper is None else (lower, upper)),
+            radius=array.radius,
+            height=array.height,
+            contact_modulus=contact_modulus(lower.material, None if upper is None else upper.material),
+            depths=np.array(sorted(array.interferences)),
+            window=array.window,
+            callback=lambda done: context.progress(done, LOADS, "contacts"),
         )
-    return np.asarray(PchipInterpolator(inward, loads ** (2 / 3))(depth) ** 1.5)
+    return filled(
+        AsperityRecord,
+        found,
+        grid,
+        load_over_hertz=float(found.mean_plane[-1] / found.alone[-1]),
+        load_over_hertz_finite_array=float(found.from_flat[-1] / found.alone[-1]),
+        hertz_load=found.alone,
+        interference=found.depth,
+        asperity_load=found.mean_plane,
+        asperity_load_window=found.from_flat,
+        status=found.status,
+        where="" if found.status is Status.CONVERGED else "a contact",
+    )
 
 
 def summarise(scene: AsperitiesScene, axes: Any, records: Sequence[AsperityRecord | None]) -> dict[str, Any]:

@@ -15,7 +15,8 @@ from pydantic import Field, model_validator
 from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
-from bem.scenes import build
+from bem.scenes import build, plans
+from bem.scenes.axes import changed
 from bem.scenes.common import (
     BodyScene,
     DepthsScene,
@@ -29,24 +30,15 @@ from bem.scenes.common import (
     exactly_one,
     problem,
 )
-from bem.scenes.context import LARGE, Context, release
+from bem.scenes.context import Context, release
 from bem.scenes.kinds import Kind
-from bem.scenes.planner import Plan, Step, padded_points, show_bytes
-from bem.scenes.records import Figure, Record, Series
+from bem.scenes.planner import Plan
+from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.units import Length, Ratio
 
 if TYPE_CHECKING:
     from bem.contact import ContactSolution
-
-_TRANSFORMS_PER_CONVOLUTION = 3.2
-"""Time of a convolution and what the contact solver does besides, in transforms: measured, 256 to 1024 cells."""
-_LIBRARIES = 2.2e8
-"""Bytes of the interpreter with the solver's libraries."""
-
-
-def _map(unit: str, text: str) -> Series:
-    return Series(("x", "y"), unit, text)
-
+    from bem.stress import StressBelow
 
 _STRESS_COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 
@@ -107,14 +99,13 @@ class ContactScene(SceneModel):
 
 def resolve(scene: ContactScene) -> ContactScene:
     """Fill in the grid where measured surfaces decide it, and the hardness of the softer surface."""
-    update: dict[str, Any] = {"grid": build.resolved_grid(scene.grid, scene.lower.surface, scene.upper.surface)}
-    if scene.contact.behaviour == "capped" and scene.contact.hardness is None:
-        hardness = build.softer_hardness(scene.lower.build(), scene.upper.build())
-        update["contact"] = scene.contact.model_copy(update={"hardness": hardness})
+    scene = build.with_grid(scene)
+    if scene.contact.behaviour == "capped":
+        scene = build.with_hardness(scene, needed=True)
     if _wants_stresses(scene) and scene.outputs.depths is None:
-        deepest = min(build.grid_of(update["grid"]).lengths) / 4
-        update["outputs"] = scene.outputs.model_copy(update={"depths": DepthsScene(deepest=deepest, count=24)})
-    return scene.model_copy(update=update)
+        deepest = min(build.grid_of(scene.grid).lengths) / 4
+        scene = changed(scene, "outputs.depths", DepthsScene(deepest=deepest, count=24))
+    return scene
 
 
 def plan(scene: ContactScene) -> Plan:
@@ -124,9 +115,34 @@ def plan(scene: ContactScene) -> Plan:
     ------
     InfeasibleError : a load beyond hardness x area. InputError : surfaces that cannot be generated on the grid.
     """
-    grid = build.grid_of(scene.grid)
-    build.check_surfaces(grid, lower=scene.lower.surface, upper=scene.upper.surface)
+    grid, outputs = build.grid_of(scene.grid), scene.outputs
+    surfaces = plans.surfaces(grid, scene.lower.surface, scene.upper.surface)
+    _check_load(scene, grid)
     lower, upper = scene.lower.build(), scene.upper.build()
+    depths = len(_depths(scene))
+    return Plan(
+        (
+            surfaces,
+            plans.layered_kernels(grid, lower, upper),
+            plans.traction_kernels(grid, lower, upper, scene.contact.friction),
+            plans.contact(grid, f"{scene.contact.behaviour}, {_control(scene)}"),
+            plans.stresses(
+                grid,
+                lower if outputs.body == "lower" else upper,
+                outputs.body,
+                depths,
+                fields=7 if outputs.stresses else 1,
+                loads=1 if scene.contact.friction == 0 else 2,
+            ),
+            plans.error_bars(grid, depths, outputs.errors),
+            plans.vtk(outputs.vtk and depths > 0),
+            plans.figures(grid.cells),
+        )
+    )
+
+
+def _check_load(scene: ContactScene, grid: Grid) -> None:
+    """Refuse a load beyond hardness times the grid's area; InfeasibleError."""
     load, hardness = _load(scene, grid.area), scene.contact.hardness
     if load is not None and hardness is not None and load > hardness * grid.area:
         key, value = ("load", f"{load:g} N") if scene.contact.load else ("mean_pressure", f"{load / grid.area:g} Pa")
@@ -134,158 +150,34 @@ def plan(scene: ContactScene) -> Plan:
             f"contact.{key} = {value}: beyond hardness x area = {hardness:g} Pa x {grid.area:g} m^2 = "
             f"{hardness * grid.area:g} N; allowed: a smaller load, a larger grid or a higher hardness"
         )
-    points = padded_points(grid.shape, grid.periodic)
-    coupled = build.traction_couples(lower, upper, scene.contact.friction)
-    depths = _depths(scene)
-    stressed = lower if scene.outputs.body == "lower" else upper
-    vtk = scene.outputs.vtk and bool(depths)
-    steps = (
-        _plan_surfaces(scene, grid),
-        Step(
-            "layered kernels",
-            _layered(lower, upper) or "no body is coated",
-            skipped=not _layered(lower, upper),
-            transforms=60,
-            points=points,
-            memory=8.0 * points / 4,
-        ),
-        Step(
-            "traction kernels",
-            _coupling_reason(coupled, scene.contact.friction),
-            skipped=not coupled,
-            transforms=20,
-            points=points,
-            memory=8.0 * points / 4,
-        ),
-        Step(
-            "contact",
-            f"{scene.contact.behaviour}, {_control(scene)}",
-            transforms=_TRANSFORMS_PER_CONVOLUTION * _convolutions(grid),
-            points=points,
-            # Measured from 2048 to 4096 cells: fields of the solver and of its coarser grids, spectra and buffers.
-            memory=_LIBRARIES + 8.0 * grid.cells * 9.5 + 20.0 * points,
-            kept=_LIBRARIES + 8.0 * grid.cells * 4.2 + 8.0 * points,
-            seconds=1.0,
-        ),
-        _plan_stresses(scene, grid, stressed, depths),
-        _plan_errors(scene, grid, depths),
-        Step(
-            "VTK",
-            "stress field for ParaView" if vtk else "no stress field to write",
-            skipped=not vtk,
-            seconds=1.0,
-            memory=1e8,
-            kept=0.0,
-        ),
-        Step(
-            "figures and report",
-            "pictures of the results, and the libraries for them",
-            per="run",
-            seconds=4.0,
-            memory=2.2e8 + 8.0 * grid.cells * 2,
-        ),
-    )
-    return Plan(steps)
 
 
-def _plan_surfaces(scene: ContactScene, grid: Grid) -> Step:
-    surfaces = {name: getattr(scene, name).surface for name in ("lower", "upper")}
-    rough = {name: surface for name, surface in surfaces.items() if surface.kind != "smooth"}
-    # A surface that is not Gaussian is found by iteration.
-    iterated = sum(s.kind == "generated" and (s.skewness, s.kurtosis) != (0.0, 3.0) for s in rough.values())
-    return Step(
-        "surfaces",
-        f"heights of {' and '.join(rough)}" if rough else "both bodies are smooth",
-        skipped=not rough,
-        transforms=60.0 * len(rough) + 300.0 * iterated,
-        points=grid.cells,
-        memory=8.0 * grid.cells * 14,
-        kept=8.0 * grid.cells * (1 + len(rough)),
-        seconds=0.3,
-    )
+def _map(unit: str, text: str) -> Series:
+    return Series(("x", "y"), unit, text)
 
 
-def _plan_stresses(scene: ContactScene, grid: Grid, body: Body | None, depths: tuple[float, ...]) -> Step:
-    points = padded_points(grid.shape, grid.periodic)
-    periodic = all(grid.periodic)
-    fields = 7 if scene.outputs.stresses else 1
-    loads = 1 if scene.contact.friction == 0 else 2
-    # Six real spectra a load and depth: half arrays where periodic, quarters elsewhere, kept up to half a gigabyte.
-    spectra = min(2.0**29, len(depths) * loads * 6 * 8 * points * (0.5 if periodic else 0.25))
-    coated = body is not None and not body.homogeneous
-    volume = 8.0 * grid.cells * len(depths)
-    on_disk = volume >= LARGE
-    held = volume * (fields - on_disk)
-    where = f"; {show_bytes(volume)} of them on disk, not in memory" if on_disk else ""
-    return Step(
-        "stresses below",
-        f"{len(depths)} depths in the {scene.outputs.body} body{where}"
-        if depths
-        else "neither stresses nor von Mises are asked for",
-        skipped=not depths,
-        # Time of the kernels and of six components at one depth, in transforms: measured.
-        transforms=len(depths) * (25.0 if periodic else 40.0) * (2.5 if coated else 1.0),
-        points=points,
-        memory=held + spectra + 8 * 8.0 * points,
-        kept=held + spectra,
-        seconds=0.5,
-    )
-
-
-def _plan_errors(scene: ContactScene, grid: Grid, depths: tuple[float, ...]) -> Step:
-    wanted = scene.outputs.errors
-    points = padded_points(grid.shape, grid.periodic) / 4
-    # From a start nearby; the coarser operator's own spectra, and von Mises at every second depth.
-    return Step(
-        "error bars",
-        "the contact on the grid of twice the cell" if wanted else "outputs.errors is false",
-        skipped=not wanted,
-        transforms=_TRANSFORMS_PER_CONVOLUTION * _convolutions(grid) + 0.5 * len(depths) * 25.0,
-        points=int(points),
-        memory=8.0 * grid.cells * 9.5 / 4 + 20.0 * points,
-        kept=0.0,
-    )
-
-
-def _convolutions(grid: Grid) -> float:
-    """Convolutions of a solve, coarse levels included: about 18 at 256 cells a side, growing slowly with them."""
-    return 18.0 * max(1.0, max(grid.shape) / 256) ** 0.2
-
-
-def _layered(lower: Body, upper: Body | None) -> str:
-    return " and ".join(
-        f"{build.show_layers(body)} on the {name} body"
-        for name, body in (("lower", lower), ("upper", upper))
-        if body is not None and not body.homogeneous
-    )
-
-
-def _coupling_reason(coupled: bool, friction: float) -> str:
-    if coupled:
-        return "friction between elastically dissimilar bodies (Dundurs' beta is not zero)"
-    return "no friction" if friction == 0 else "Dundurs' beta is zero: traction does not move the gap"
-
-
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class ContactRecord(Record):
     """A solved contact, and the stresses below it where they are asked for."""
 
-    contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid")]
-    plastic_area_fraction: Annotated[float, Figure("", "area at the hardness over that of the grid")]
+    load: Annotated[float, Figure("N", "load", headline=True)]
+    contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid", headline=True)]
+    plastic_area_fraction: Annotated[float, Figure("", "area at the hardness over that of the grid", headline=True)]
     contact_area: Annotated[float, Figure("m2", "real contact area")]
-    mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
-    max_pressure: Annotated[float, Figure("Pa", "highest pressure")]
-    load: Annotated[float, Figure("N", "load")]
-    approach: Annotated[float, Figure("m", "approach from first touch")]
+    mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area", headline=True)]
+    max_pressure: Annotated[float, Figure("Pa", "highest pressure", headline=True)]
+    approach: Annotated[float, Figure("m", "approach from first touch", headline=True)]
     mean_gap: Annotated[float, Figure("m", "mean of the open gap")]
-    residual: Annotated[float, Figure("", "relative residual")]
+    residual: Annotated[float, Figure("", "relative residual", headline=True)]
     iterations: Annotated[int, Figure("", "iterations")]
     convolutions: Annotated[float, Figure("", "convolutions")]
-    lower_Sq: Annotated[float | None, Figure("m", "Sq of the lower surface", optional=True)]
-    upper_Sq: Annotated[float | None, Figure("m", "Sq of the upper surface", optional=True)]
-    max_von_mises: Annotated[float | None, Figure("Pa", "highest von Mises stress", optional=True)]
-    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)]
-    yielded_volume: Annotated[float | None, Figure("m3", "volume beyond the yield stress", optional=True)]
+    lower_Sq: Annotated[float | None, Figure("m", "Sq of the lower surface", optional=True)] = None
+    upper_Sq: Annotated[float | None, Figure("m", "Sq of the upper surface", optional=True)] = None
+    max_von_mises: Annotated[float | None, Figure("Pa", "highest von Mises stress", optional=True, headline=True)] = (
+        None
+    )
+    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)] = None
+    yielded_volume: Annotated[float | None, Figure("m3", "volume beyond the yield stress", optional=True)] = None
     x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding")]
     y: Annotated[FloatArray, Series(("y",), "m", "y")]
     pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
@@ -293,65 +185,66 @@ class ContactRecord(Record):
     gap: Annotated[FloatArray, _map("m", "gap between the deformed surfaces")]
     contact_state: Annotated[NDArray[np.int8], _map("1", "0 open, 1 elastic, 2 capped")]
     undeformed_gap: Annotated[FloatArray, _map("m", "gap before deformation, zero at first touch")]
-    plastic_depth: Annotated[FloatArray | None, _map("m", "overlap of the surfaces where capped")]
-    lower_height: Annotated[FloatArray | None, _map("m", "height of the lower surface")]
-    upper_height: Annotated[FloatArray | None, _map("m", "height of the upper surface")]
-    iteration: Annotated[NDArray[np.int64] | None, Series(("iteration",), "1", "iteration")]
+    plastic_depth: Annotated[FloatArray | None, _map("m", "overlap of the surfaces where capped")] = None
+    lower_height: Annotated[FloatArray | None, _map("m", "height of the lower surface")] = None
+    upper_height: Annotated[FloatArray | None, _map("m", "height of the upper surface")] = None
+    iteration: Annotated[NDArray[np.int64] | None, Series(("iteration",), "1", "iteration")] = None
     residual_history: Annotated[
         FloatArray | None, Series(("iteration",), "1", "relative residual of the contact solver")
-    ]
-    depth: Annotated[FloatArray | None, Series(("depth",), "m", "depth below the surface")]
-    von_mises: Annotated[FloatArray | None, Series(("depth", "x", "y"), "Pa", "von Mises stress")]
-    component: Annotated[list[str] | None, Series(("component",), "1", "component of the stress")]
-    stress: Annotated[FloatArray | None, Series(("component", "depth", "x", "y"), "Pa", "stress, positive in tension")]
+    ] = None
+    depth: Annotated[FloatArray | None, Series(("depth",), "m", "depth below the surface")] = None
+    von_mises: Annotated[FloatArray | None, Series(("depth", "x", "y"), "Pa", "von Mises stress")] = None
+    component: Annotated[list[str] | None, Series(("component",), "1", "component of the stress")] = None
+    stress: Annotated[
+        FloatArray | None, Series(("component", "depth", "x", "y"), "Pa", "stress, positive in tension")
+    ] = None
 
 
 def run(scene: ContactScene, context: Context) -> ContactRecord:
     """Solve the contact and, where asked for, the stresses below it."""
+    from bem.accuracy import figures_of
+    from bem.contact.state import contact_state
+
     grid = build.grid_of(scene.grid)
     with context.timer("surfaces"):
-        heights = {
-            name: build.heights_of(body.surface, grid, context.seed(name), context.note)
-            for name, body in (("lower", scene.lower), ("upper", scene.upper))
-        }
-    undeformed = build.shape_of(scene.shape, grid)
-    for values in heights.values():
-        undeformed -= values
-    if any(values.any() for values in heights.values()):
+        lower, upper = build.both_heights(scene, grid, context)
+    rough = {name: heights for name, heights in (("lower", lower), ("upper", upper)) if heights.any()}
+    undeformed = build.shape_of(scene.shape, grid) - lower - upper
+    if rough:
         undeformed -= undeformed.min()  # approach counts from first touch; smooth shapes touch at zero already
     with context.timer("contact"):
         solution, history = _solve(scene, grid, undeformed, context)
     for note in solution.notes:
         context.note(note)
-    stresses: dict[str, Any] = dict.fromkeys(_STRESSES)
-    highest: FloatArray | None = None
+    below: StressBelow | None = None
     if _depths(scene):
         with context.timer("stresses"):
-            found, highest = _stresses(scene, solution.pressure, context)
-            stresses |= found
+            below = _stresses(scene, grid, solution.pressure, context)
     converged = solution.status is Status.CONVERGED
     errors: Mapping[str, float | None] = {}
     if scene.outputs.errors and converged:
         with context.timer("error bars"):
-            rough = any(values.any() for values in heights.values())
-            errors = _errors(scene, undeformed, solution, highest, rough, context)
-    return ContactRecord(
-        **_figures(solution, grid.area, heights),
-        x=grid.x,
-        y=grid.y,
-        pressure=solution.pressure,
-        displacement=solution.displacement,
-        gap=solution.gap,
-        contact_state=_contact_state(solution.pressure, scene.contact.hardness),
+            errors = _errors(scene, undeformed, solution, below, bool(rough), context)
+    return filled(
+        ContactRecord,
+        figures_of(solution, grid.area),
+        {f"{name}_Sq": float(heights.std()) for name, heights in rough.items()},
+        {f"{name}_height": heights for name, heights in rough.items()},
+        {} if below is None else below,
+        {"iteration": history[:, 0].astype(np.int64), "residual_history": history[:, 1]} if len(history) else {},
+        grid,
+        contact_state=contact_state(solution.pressure, scene.contact.hardness),
         undeformed_gap=undeformed,
         plastic_depth=solution.plastic_depth if np.any(solution.plastic_depth) else None,
-        iteration=history[:, 0].astype(np.int64) if len(history) else None,
-        residual_history=history[:, 1] if len(history) else None,
-        **stresses,
+        depth=None if below is None else below.depths,
+        component=None if below is None or below.stress is None else list(_STRESS_COMPONENTS),
+        **{name: getattr(solution, name) for name in _SOLVED},
         errors=errors,
-        status=solution.status,
         where="" if converged else f"contact solve: {solution.status.message}, residual {solution.residual:.2g}",
     )
+
+
+_SOLVED = ("pressure", "displacement", "gap", "residual", "iterations", "convolutions", "status")
 
 
 def _solve(
@@ -394,66 +287,26 @@ def _solve(
     return solution, told_of
 
 
-def _figures(solution: ContactSolution, area: float, heights: dict[str, FloatArray]) -> dict[str, Any]:
-    from bem.accuracy import figures_of
+def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Context) -> StressBelow:
+    """Stresses in the body asked for, at every depth; von Mises on disk where it is very large."""
+    from bem.stress import stress_below
 
-    figures: dict[str, Any] = {
-        **figures_of(solution, area),
-        "residual": float(solution.residual),
-        "iterations": int(solution.iterations),
-        "convolutions": float(solution.convolutions),
-    }
-    for name, values in heights.items():
-        rough = bool(values.any())
-        figures[f"{name}_height"] = values if rough else None
-        figures[f"{name}_Sq"] = float(np.sqrt(np.mean((values - values.mean()) ** 2))) if rough else None
-    return figures
+    depths, (body, friction) = np.array(_depths(scene)), _stressed(scene)
+    field = context.scratch((len(depths), *grid.shape))
 
+    def after(done: int) -> None:
+        release(field)
+        context.progress(done, len(depths), "stresses")
 
-_STRESSES = (
-    *("max_von_mises", "max_von_mises_depth", "yielded_volume"),
-    *("depth", "von_mises", "component", "stress"),
-)
-
-
-def _stresses(scene: ContactScene, pressure: FloatArray, context: Context) -> tuple[dict[str, Any], FloatArray]:
-    """Von Mises at every depth, the six components where asked for, and the figures of both; the highest at each."""
-    from bem.stress import subsurface_stress, von_mises, von_mises_planes
-
-    grid, depths = build.grid_of(scene.grid), np.array(_depths(scene))
-    below, friction = _stressed(scene)
-    stress = subsurface_stress(pressure, grid, below, depths, friction=friction) if scene.outputs.stresses else None
-    limits = _yield_stresses(below, depths)
-    mises = context.scratch((len(depths), *grid.shape))
-    highest, yielded = np.empty(len(depths)), np.empty(len(depths))
-    planes: Any = (
-        von_mises_planes(pressure, grid, below, depths, friction=friction, out=np.empty(grid.shape))
-        if stress is None
-        else (von_mises(stress[:, i]) for i in range(len(depths)))
-    )
-    for i, plane in enumerate(planes):
-        mises[i] = plane
-        highest[i] = plane.max()
-        yielded[i] = np.count_nonzero(plane > limits[i]) * grid.cell_area
-        release(mises)
-        context.progress(i + 1, len(depths), "stresses")
-    figures = {
-        "max_von_mises": float(highest.max()),
-        "max_von_mises_depth": float(depths[int(np.argmax(highest))]),
-        "yielded_volume": float(np.trapezoid(yielded, depths)) if np.isfinite(limits).any() else None,
-        "depth": depths,
-        "von_mises": mises,
-        "component": None if stress is None else list(_STRESS_COMPONENTS),
-        "stress": stress,
-    }
-    return figures, highest
+    wanted = scene.outputs.stresses
+    return stress_below(pressure, grid, body, depths, friction=friction, components=wanted, out=field, after=after)
 
 
 def _errors(
     scene: ContactScene,
     undeformed: FloatArray,
     solution: ContactSolution,
-    highest: FloatArray | None,
+    below: StressBelow | None,
     rough: bool,
     context: Context,
 ) -> Mapping[str, float | None]:
@@ -475,9 +328,9 @@ def _errors(
     )
     coarser = solve_coarser(case, control.max_iterations)
     bars = contact_bars(case, coarser)
-    if highest is not None:
-        below, friction = _stressed(scene)
-        bars = bars | stress_bars(case, coarser, below, np.array(_depths(scene)), highest, friction)
+    if below is not None:
+        body, friction = _stressed(scene)
+        bars = bars | stress_bars(case, coarser, body, below.depths, below.highest, friction)
     for note in bars.notes:
         context.note(note)
     return bars.values
@@ -491,19 +344,6 @@ def _stressed(scene: ContactScene) -> tuple[Body, float]:
     upper = scene.upper.build()
     assert upper is not None
     return upper, -scene.contact.friction
-
-
-def _yield_stresses(body: Body, depths: FloatArray) -> FloatArray:
-    """The yield stress at each depth [Pa]; infinite where none is known."""
-    here = (body.material_at(depth) for depth in depths.tolist())
-    return np.array([np.inf if material.yield_stress is None else material.yield_stress for material in here])
-
-
-def _contact_state(pressure: FloatArray, hardness: float | None) -> NDArray[np.int8]:
-    state = (pressure > 0).astype(np.int8)
-    if hardness is not None:
-        state[pressure >= hardness] = 2
-    return state
 
 
 def _fields(solution: Any) -> dict[str, Any]:
@@ -563,15 +403,5 @@ KIND = Kind(
         "von-mises-depth",
         "convergence",
         "surface-maps",
-    ),
-    headline=(
-        "load_N",
-        "contact_area_fraction",
-        "plastic_area_fraction",
-        "mean_contact_pressure_Pa",
-        "max_pressure_Pa",
-        "approach_m",
-        "max_von_mises_Pa",
-        "residual",
     ),
 )

@@ -12,6 +12,7 @@ from pydantic import Field, model_validator
 
 from bem.errors import Status
 from bem.grid import FloatArray
+from bem.scenes import plans
 from bem.scenes.common import BodyScene, Force, PositiveLength, SceneModel, Table, UpperBodyScene, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
@@ -115,7 +116,7 @@ def plan(scene: FilmScene) -> Plan:
                 memory=8.0 * n * n * 6,
             ),
             Step("rough contact", "both surfaces are smooth", skipped=True),
-            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8, per="run"),
+            plans.figures(),
         )
     )
 
@@ -126,11 +127,11 @@ class FilmTimeRecord(Record):
 
     times_reported: Annotated[FloatArray, Figure("s", "time", ("reported",), name="time")]
     minimum_film_reported: Annotated[FloatArray, Figure("nm", "minimum film", ("reported",), name="minimum_film")]
-    thinnest_film: Annotated[float, Figure("nm", "thinnest film of all times")]
-    thinnest_film_time: Annotated[float, Figure("s", "when it is that thin")]
-    film_at_end: Annotated[float, Figure("nm", "minimum film at the end")]
+    thinnest_film: Annotated[float, Figure("nm", "thinnest film of all times", headline=True)]
+    thinnest_film_time: Annotated[float, Figure("s", "when it is that thin", headline=True)]
+    film_at_end: Annotated[float, Figure("nm", "minimum film at the end", headline=True)]
     largest_friction_force: Annotated[float, Figure("N", "largest friction force")]
-    volume_imbalance: Annotated[float, Figure("", "volume that appears or goes, over that in the film")]
+    volume_imbalance: Annotated[float, Figure("", "volume that appears or goes, over that in the film", headline=True)]
     newton_steps: Annotated[int, Figure("", "Newton steps")]
     time: Annotated[FloatArray, Series(("time",), "s", "time")]
     film_x: Annotated[FloatArray, Series(("film_x",), "m", "x, along sliding")]
@@ -217,5 +218,4 @@ KIND = Kind(
     run=run,
     record=FilmTimeRecord,
     figures=("film-over-time", "film-profiles", "film-pressures", "film-fraction"),
-    headline=("thinnest_film_nm", "thinnest_film_time_s", "film_at_end_nm", "volume_imbalance"),
 )

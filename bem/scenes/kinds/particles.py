@@ -9,12 +9,14 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from bem.grid import FloatArray, Grid
+from bem.scenes import plans
 from bem.scenes.common import Cells, MeasuredSurface, PositiveLength, SceneModel, Table, exactly_one
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Record, Series
-from bem.scenes.units import Density, Force, Length, Ratio, Time, Viscosity, WearCoefficient
+from bem.scenes.records import Figure, Record, Series, filled
+from bem.scenes.units import Density, Force, Length, Ratio, Time, Viscosity
+from bem.scenes.wearing import WearRateScene
 
 
 class SyntheticMapScene(Table):
@@ -39,12 +41,10 @@ class SeparationScene(Table):
     smallest_radius: Annotated[Length, Field(ge=0)] = 0.0
 
 
-class ArchardScene(Table):
+class ArchardScene(WearRateScene):
     """Specific wear rate, load and sliding distance: how many particles that makes."""
 
-    specific_wear_rate: Annotated[WearCoefficient, Field(gt=0)]
     load: Annotated[Force, Field(gt=0)]
-    distance: PositiveLength
 
 
 class SedimentationScene(Table):
@@ -93,7 +93,7 @@ def plan(scene: ParticlesScene) -> Plan:
                 skipped=scene.sedimentation is None,
             ),
             Step("contact and stresses", "the particles are measured, not computed", skipped=True),
-            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8, per="run"),
+            plans.figures(int(cells)),
         )
     )
 
@@ -123,27 +123,31 @@ def _column(unit: str, text: str) -> Series:
     return Series(("particle",), unit, text, rows=True)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class ParticlesRecord(Record):
     """The particles of a map."""
 
-    count: Annotated[int, Figure("", "particles")]
-    number_mean_radius: Annotated[float, Figure("nm", "equivalent radius, mean by number")]
+    count: Annotated[int, Figure("", "particles", headline=True)]
+    number_mean_radius: Annotated[float, Figure("nm", "equivalent radius, mean by number", headline=True)]
     number_std_radius: Annotated[float, Figure("nm", "its standard deviation by number")]
-    area_mean_radius: Annotated[float, Figure("nm", "equivalent radius, mean by area")]
+    area_mean_radius: Annotated[float, Figure("nm", "equivalent radius, mean by area", headline=True)]
     area_std_radius: Annotated[float, Figure("nm", "its standard deviation by area")]
-    volume_mean_radius: Annotated[float, Figure("nm", "equivalent radius, mean by volume")]
+    volume_mean_radius: Annotated[float, Figure("nm", "equivalent radius, mean by volume", headline=True)]
     volume_std_radius: Annotated[float, Figure("nm", "its standard deviation by volume")]
-    length: Annotated[float, Figure("nm", "mean length by number")]
-    width: Annotated[float, Figure("nm", "mean width by number")]
-    thickness: Annotated[float, Figure("nm", "mean thickness by number")]
+    length: Annotated[float, Figure("nm", "mean length by number", headline=True)]
+    width: Annotated[float, Figure("nm", "mean width by number", headline=True)]
+    thickness: Annotated[float, Figure("nm", "mean thickness by number", headline=True)]
     threshold: Annotated[float, Figure("nm", "height above the plate from which there is a particle")]
-    width_over_thickness: Annotated[float | None, Figure("", "mean of width over thickness", optional=True)]
-    wear_volume: Annotated[float | None, Figure("mm3", "worn volume by Archard's law", optional=True)]
-    particle_number: Annotated[float | None, Figure("", "number of particles in it", optional=True)]
-    particles_per_mm_and_N: Annotated[float | None, Figure("", "particles per mm and N", optional=True)]
-    sedimentation_time: Annotated[float | None, Figure("h", "time until they have settled", optional=True)]
-    sedimented: Annotated[bool | None, Figure("", "whether that time is available", optional=True)]
+    width_over_thickness: Annotated[float | None, Figure("", "mean of width over thickness", optional=True)] = None
+    wear_volume: Annotated[float | None, Figure("mm3", "worn volume by Archard's law", optional=True)] = None
+    particle_number: Annotated[float | None, Figure("", "number of particles in it", optional=True)] = None
+    particles_per_mm_and_N: Annotated[
+        float | None, Figure("", "particles per mm and N", optional=True, headline=True)
+    ] = None
+    sedimentation_time: Annotated[
+        float | None, Figure("h", "time until they have settled", optional=True, headline=True)
+    ] = None
+    sedimented: Annotated[bool | None, Figure("", "whether that time is available", optional=True)] = None
     x: Annotated[FloatArray, Series(("x",), "m", "x")]
     y: Annotated[FloatArray, Series(("y",), "m", "y")]
     level_height: Annotated[FloatArray, Series(("x", "y"), "m", "height above the plate")]
@@ -168,57 +172,41 @@ def run(scene: ParticlesScene, context: Context) -> ParticlesRecord:
         level = level_background(
             heights, spacing, threshold=choices.threshold, method=choices.background, lines=choices.level_lines
         )
-    by = {weight: particle_statistics(found, weight=weight) for weight in ("number", "area", "volume")}
+    number, area, volume = (particle_statistics(found, weight=weight) for weight in ("number", "area", "volume"))
     means: dict[str, Any] = {}
-    for weight, statistics in by.items():
-        means[f"{weight}_mean_radius"] = statistics.mean_equivalent_radius
-        means[f"{weight}_std_radius"] = statistics.std_equivalent_radius
-    columns: dict[str, Any] = {
-        f"particle_{name}": np.array([getattr(p, name) for p in found], dtype=np.float64)
-        for name in ("volume", "equivalent_radius", "length", "width", "thickness")
-    }
-    for axis, name in enumerate("xy"):
-        columns[f"particle_{name}"] = np.array([p.position[axis] for p in found], dtype=np.float64)
-    grid = Grid(heights.shape, spacing)
-    return ParticlesRecord(
+    for statistics in (number, area, volume):
+        means[f"{statistics.weight}_mean_radius"] = statistics.mean_equivalent_radius
+        means[f"{statistics.weight}_std_radius"] = statistics.std_equivalent_radius
+    archard = scene.archard.figures(scene.archard.load, number.mean_volume) if scene.archard and found else {}
+    return filled(
+        ParticlesRecord,
+        means,
+        archard,
+        _sedimentation(scene),
+        {f"particle_{name}": np.array([float(getattr(p, name)) for p in found]) for name in _COLUMNS},
+        {f"particle_{name}": np.array([float(p.position[axis]) for p in found]) for axis, name in enumerate("xy")},
+        Grid(heights.shape, spacing),
         count=len(found),
-        **means,
-        length=by["number"].mean_length,
-        width=by["number"].mean_width,
-        thickness=by["number"].mean_thickness,
+        length=number.mean_length,
+        width=number.mean_width,
+        thickness=number.mean_thickness,
         threshold=choices.threshold,
         width_over_thickness=float(np.mean([p.width / p.thickness for p in found])) if found else None,
-        **_archard(scene, by["number"], len(found)),
-        **_sedimentation(scene),
-        x=grid.x,
-        y=grid.y,
         level_height=level,
-        **columns,
     )
 
 
-def _archard(scene: ParticlesScene, statistics: Any, count: int) -> dict[str, Any]:
-    names = ("wear_volume", "particle_number", "particles_per_mm_and_N")
-    if scene.archard is None or count == 0:
-        return dict.fromkeys(names)
-    from bem.particles import archard_volume, particle_coefficient, particle_number
-
-    rate = scene.archard.specific_wear_rate
-    volume = archard_volume(rate, scene.archard.load, scene.archard.distance)
-    mean = statistics.total_volume / statistics.count
-    values = (volume, particle_number(volume, mean), 1e-3 * particle_coefficient(rate, mean))
-    return dict(zip(names, values, strict=True))
+_COLUMNS = ("volume", "equivalent_radius", "length", "width", "thickness")
 
 
 def _sedimentation(scene: ParticlesScene) -> dict[str, Any]:
+    """Time that particles take to settle [s], and whether there is so much, where a centrifuge is given."""
     if scene.sedimentation is None:
-        return {"sedimentation_time": None, "sedimented": None}
+        return {}
     from bem.particles import sedimentation_time
 
-    needed, available = (
-        sedimentation_time(**scene.sedimentation.model_dump(exclude={"available"})),
-        scene.sedimentation.available,
-    )
+    needed = sedimentation_time(**scene.sedimentation.model_dump(exclude={"available"}))
+    available = scene.sedimentation.available
     return {"sedimentation_time": needed, "sedimented": None if available is None else needed <= available}
 
 
@@ -230,15 +218,4 @@ KIND = Kind(
     run=run,
     record=ParticlesRecord,
     figures=("particle-map", "particle-sizes"),
-    headline=(
-        "count",
-        "number_mean_radius_nm",
-        "area_mean_radius_nm",
-        "volume_mean_radius_nm",
-        "length_nm",
-        "width_nm",
-        "thickness_nm",
-        "particles_per_mm_and_N",
-        "sedimentation_time_h",
-    ),
 )

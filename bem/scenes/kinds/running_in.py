@@ -14,53 +14,41 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.scenes import build
+from bem.scenes import build, plans
 from bem.scenes.axes import Axis, changed
-from bem.scenes.common import BodyScene, LineGridScene, PositivePressure, SceneModel, Table, problem
+from bem.scenes.common import PositivePressure, Table, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
-from bem.scenes.kinds.friction import check_load, check_patch, half_width, load_of
-from bem.scenes.lubrication import FilmMeshScene, LubricatedScene, SpeedsScene
-from bem.scenes.oil import OilScene
+from bem.scenes.lubrication import LineContactScene, SpeedsScene
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Record, Series
+from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.units import Ratio
 from bem.scenes.wearing import (
     Count,
     IntArray,
+    LastCycles,
     SizesScene,
     WearDepthsScene,
     WearScenePart,
     cycle_steps,
     size_statistics,
+    sliding_heights,
+    wear_loop,
 )
 
 if TYPE_CHECKING:
-    from bem.friction.film_table import FilmTable
-    from bem.friction.setup import MixedSetup
-    from bem.wear import RunningIn
+    from bem.wear import RunningIn, RunningInState
     from bem.wear.mixed import MixedContact
 
 _CONVOLUTIONS = 80  # of the two or three contacts of a cycle
 _DEPTHS_NEEDED = 6
-_CHECKPOINT_EVERY = 10
 
 
-class RunningInCycles(Table):
+class RunningInCycles(LastCycles):
     """How many cycles; run-in friction is the mean of the last `averaged`, particles those of the last `settled`."""
 
-    count: Count = 200
     averaged: Count = 10
-    settled: Count = 50
-
-    @model_validator(mode="after")
-    def _enough(self) -> RunningInCycles:
-        for name in ("averaged", "settled"):
-            if getattr(self, name) > self.count:
-                raise problem(f"{name} {getattr(self, name)} is more than count {self.count}", f"{name} <= count")
-        return self
 
 
 class RunningInSharing(Table):
@@ -74,16 +62,10 @@ class RunningInSharing(Table):
     film_points: Annotated[int, Field(strict=True, ge=100, le=5000)] = 400
 
 
-class RunningInScene(SceneModel):
+class RunningInScene(LineContactScene):
     """A rough cylinder slides on a rough flat in oil; what yields and reaches the surface leaves."""
 
     kind: Literal["running-in"] = "running-in"
-    lower: BodyScene
-    upper: BodyScene
-    contact: LubricatedScene
-    oil: OilScene
-    speeds: SpeedsScene
-    grid: LineGridScene = LineGridScene()
     depths: WearDepthsScene
     wear: WearScenePart = WearScenePart()
     cycles: RunningInCycles = RunningInCycles()
@@ -102,13 +84,8 @@ class RunningInScene(SceneModel):
 
 def resolve(scene: RunningInScene) -> RunningInScene:
     """Fill in the grid and the softer surface's hardness."""
-    grid = build.resolved_grid(scene.grid, scene.lower.surface, scene.upper.surface)
-    contact = scene.contact
-    if contact.hardness is None and not scene.hardnesses:
-        contact = contact.model_copy(
-            update={"hardness": build.softer_hardness(scene.lower.build(), scene.upper.build())}
-        )
-    return scene.model_copy(update={"grid": grid, "contact": contact})
+    scene = build.with_grid(scene)
+    return scene if scene.hardnesses else build.with_hardness(scene, needed=True)
 
 
 def with_hardness(scene: RunningInScene, hardness: float) -> RunningInScene:
@@ -143,21 +120,10 @@ def plan(scene: RunningInScene) -> Plan:
     ------
     InputError : a patch that does not fit, a wearing body without yield stress. InfeasibleError : too much load.
     """
-    grid, load, cycles = build.grid_of(scene.grid), load_of(scene), scene.cycles.count
-    check_patch(grid, FilmMeshScene(), half_width(scene, load))
-    build.check_surfaces(grid, lower=scene.lower.surface, upper=scene.upper.surface)
-    check_load(scene, load)
-    strengths = [body.build().surface_material.yield_stress for body in (scene.lower, scene.upper)]
-    if all(value is None for value in strengths):
-        raise InputError(
-            "lower.material: neither body has a yield_stress or a hardness, so nothing can wear; allowed: one of them"
-        )
-    depths = min(scene.depths.count, _DEPTHS_NEEDED)
-    deepest = min(scene.depths.count, 4 * _DEPTHS_NEEDED)  # in the first cycles
-    contacts = "two or three contacts each, from the last pressure; none in full film"
+    grid = scene.check()
     return Plan(
         (
-            Step("surfaces", "a pair for each case", transforms=40.0, points=grid.cells),
+            plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
             Step(
                 "film tables",
                 "about 20 films for each speed, shared by all cycles and repetitions",
@@ -166,8 +132,15 @@ def plan(scene: RunningInScene) -> Plan:
                 memory=16.0 * scene.sharing.film_points**2,
             ),
             Step("a film for every balance", "films are interpolated in the tables", skipped=True),
-            *cycle_steps(grid, cycles, depths, deepest, _CONVOLUTIONS, contacts),
-            Step("figures and report", "pictures of the results", seconds=5.0, memory=2e8, per="run"),
+            *cycle_steps(
+                scene,
+                grid,
+                convolutions=_CONVOLUTIONS,
+                contacts="two or three contacts each, from the last pressure; none in full film",
+                usual=_DEPTHS_NEEDED,
+                first=4 * _DEPTHS_NEEDED,
+            ),
+            plans.figures(grid.cells),
         )
     )
 
@@ -184,19 +157,22 @@ def _shown(unit: str, text: str) -> Series:
 class RunningInRecord(Record):
     """A lubricated wear loop: friction before and after, particles, histories, the last film and surface."""
 
-    friction_initial: Annotated[float, Figure("", "friction in the first cycle")]
-    friction_run_in: Annotated[float, Figure("", "friction, mean of the last cycles")]
+    friction_initial: Annotated[float, Figure("", "friction in the first cycle", headline=True)]
+    friction_run_in: Annotated[float, Figure("", "friction, mean of the last cycles", headline=True)]
+    particle_equivalent_radius: Annotated[
+        float, Figure("nm", "equivalent radius of the particles, settled", headline=True)
+    ]
+    Sq_initial: Annotated[float, Figure("nm", "Sq in Hertz' strip, unworn", headline=True)]
+    Sq_final: Annotated[float, Figure("nm", "Sq in Hertz' strip, run in", headline=True)]
+    contact_load: Annotated[float, Figure("N", "load carried by contact, run in", headline=True)]
+    film_load: Annotated[float, Figure("N", "load carried by the film, run in", headline=True)]
+    lambda_ratio: Annotated[float, Figure("", "film under the whole load over roughness, run in", headline=True)]
     friction: Annotated[float, Figure("", "friction, mean of the last cycles")]
     boundary_friction_part: Annotated[float, Figure("", "boundary part of the run-in friction")]
     film_friction_part: Annotated[float, Figure("", "film part of the run-in friction")]
-    contact_load: Annotated[float, Figure("N", "load carried by contact, run in")]
     contact_load_initial: Annotated[float, Figure("N", "load carried by contact in the first cycle")]
-    film_load: Annotated[float, Figure("N", "load carried by the film, run in")]
     minimum_film: Annotated[float, Figure("nm", "minimum film thickness, run in")]
-    lambda_ratio: Annotated[float, Figure("", "film under the whole load over roughness, run in")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over patch, run in")]
-    Sq_initial: Annotated[float, Figure("nm", "Sq in Hertz' strip, unworn")]
-    Sq_final: Annotated[float, Figure("nm", "Sq in Hertz' strip, run in")]
     worn_depth: Annotated[float, Figure("nm", "mean depth worn in Hertz' strip")]
     particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled")]
     particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle")]
@@ -204,7 +180,6 @@ class RunningInRecord(Record):
     film_table_error: Annotated[float, Figure("", "error of the film that is interpolated in the table")]
     evaluations_per_cycle: Annotated[float, Figure("", "films per cycle")]
     convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle")]
-    particle_equivalent_radius: Annotated[float, Figure("nm", "equivalent radius of the particles, settled")]
     number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number")]
     volume_mean_radius: Annotated[float, Figure("nm", "the same, mean by volume")]
     cycle: Annotated[IntArray, _over("1", "cycle")]
@@ -231,102 +206,40 @@ class RunningInRecord(Record):
 
 def run(scene: RunningInScene, context: Context) -> RunningInRecord:
     """One wear loop."""
-    from bem.wear import WearModel, pack_state, run_in, unpack_state
-    from bem.wear.mixed import MIXED_FIELDS, MixedContact, MixedState
-    from bem.wear.running_in import RunningInState, pack_table, unpack_table
+    from bem.wear.mixed import MixedContact, pack_balance, shared_film_table, unpack_balance
 
-    setup, (speeds,) = _setup(scene), scene.speeds.build()
-    grid = setup.grid
+    sharing, (speeds,), saved = scene.sharing, scene.speeds.build(), context.saved()
+    setup = scene.setup(**sharing.model_dump())
     with context.timer("surfaces"):
-        initial = [
-            build.heights_of(body.surface, grid, context.seed(name), context.note)
-            for name, body in (("lower", scene.lower), ("upper", scene.upper))
-        ]
-    saved = context.saved()
+        initial = build.both_heights(scene, setup.grid, context)
     frames = [] if saved is None else [np.asarray(frame) for frame in saved["frames"]]
-    step = MixedContact(
-        setup,
-        speeds,
-        table=_shared_table(scene, setup, speeds),
-        state=None if saved is None else MixedState(saved["film_load"], saved["slope"]),
-        rows=None if saved is None else unpack_table(saved["rows"], MIXED_FIELDS),
-    )
+    balance = {} if saved is None else unpack_balance(saved)
+    step = MixedContact(setup, speeds, table=shared_film_table(setup, speeds), **balance)
 
-    def watch(now: RunningInState) -> None:
+    def watch(now: RunningInState) -> dict[str, float]:
         if now.cycle in _frame_cycles(scene.cycles.count) and now.pressure is not None:
             frames.append(now.pressure)
-        if now.cycle % _CHECKPOINT_EVERY == 0:
-            balance = {"film_load": step.state.film_load, "slope": step.state.slope, "rows": pack_table(step.rows)}
-            context.save({"wear": pack_state(now), "frames": list(frames), **balance})
         row = step.rows[-1]
-        context.progress(
-            now.cycle,
-            scene.cycles.count,
-            "cycles",
-            friction=float(row["friction"]),
-            contact_share=float(row["contact_load"]) / setup.load,
-        )
+        return {"friction": float(row["friction"]), "contact_share": float(row["contact_load"]) / setup.load}
 
-    with context.timer("cycles"):
-        result = run_in(
-            initial[0],
-            initial[1],
-            grid=grid,
-            bodies=(scene.lower.build(), scene.upper.build()),
-            load=setup.load * grid.lengths[1] / scene.contact.width,
-            depths=scene.depths.build(),
-            friction=scene.contact.nominal_friction(
-                setup.load, setup.line.contact_modulus, speeds, scene.oil.temperature
-            ),
-            hardness=scene.contact.hardness,
-            cycles=scene.cycles.count,
-            model=WearModel(**scene.wear.model_dump()),
-            contact_step=step,
-            state=None if saved is None else unpack_state(saved["wear"]),
-            callback=watch,
-        )
+    result = wear_loop(
+        scene,
+        context,
+        initial,
+        watch=watch,
+        keep=lambda: {"frames": list(frames), **pack_balance(step)},
+        grid=setup.grid,
+        load=setup.load * setup.grid.lengths[1] / setup.width,
+        friction=scene.contact.nominal_friction(setup.load, setup.line.contact_modulus, speeds, scene.oil.temperature),
+        hardness=scene.contact.hardness,
+        contact_step=step,
+    )
     for note in step.notes:
         # the film's model is the same in all cases: said once
         context.note(f"film: {note}" if note in step.film_notes else note)
     with context.timer("films"):
         film_error = step.table.error(float(step.rows["film_load"][-1]))
-    return _record(scene, setup, initial, result, step, frames, film_error)
-
-
-def _setup(scene: RunningInScene) -> MixedSetup:
-    from bem.friction.setup import MixedSetup
-
-    return MixedSetup(
-        grid=build.grid_of(scene.grid),
-        bodies=(scene.lower.build(), scene.upper.build()),
-        radius=scene.contact.radius,
-        width=scene.contact.width,
-        load=load_of(scene),
-        lubricant=scene.oil.build(),
-        boundary_friction=scene.contact.boundary_friction,
-        hardness=scene.contact.hardness,
-        film_points=scene.sharing.film_points,
-        tolerance=scene.sharing.tolerance,
-        contact_tolerance=scene.sharing.contact_tolerance,
-    )
-
-
-_TABLES: dict[str, FilmTable] = {}
-"""Films of the last speeds of this process: what is in a table never depends on what was asked of it before."""
-_MOST_TABLES = 8
-
-
-def _shared_table(scene: RunningInScene, setup: MixedSetup, speeds: tuple[float, float]) -> FilmTable:
-    """The films of the set-up at these speeds; those of other cases with the same contact and oil, where there are."""
-    from bem.wear.mixed import film_table
-
-    line = (setup.radius, setup.width, setup.load, setup.line.contact_modulus, setup.film_points)
-    key = repr((scene.oil, line, speeds, setup.grid.shape, setup.grid.spacing))
-    if key not in _TABLES:
-        while len(_TABLES) >= _MOST_TABLES:
-            del _TABLES[next(iter(_TABLES))]
-        _TABLES[key] = film_table(setup, speeds)
-    return _TABLES[key]
+    return _record(scene, initial, result, step, frames, film_error)
 
 
 def _frame_cycles(count: int) -> list[int]:
@@ -334,70 +247,65 @@ def _frame_cycles(count: int) -> list[int]:
     return sorted({1, count, *(round(v) for v in np.geomspace(1, count, 24))})
 
 
-def _hertz_strip(x: FloatArray, half_width: float) -> NDArray[np.bool_]:
-    """The rows of cells within Hertz' contact; of one narrower than a cell, those next to the axis."""
-    nearest = float(np.abs(x).min()) * (1 + 1e-9)  # on either side of it
-    return np.abs(x) <= max(half_width, nearest)
-
-
 def _record(
     scene: RunningInScene,
-    setup: MixedSetup,
-    initial: list[FloatArray],
+    initial: tuple[FloatArray, FloatArray],
     result: RunningIn,
     step: MixedContact,
     frames: list[FloatArray],
     film_error: float,
 ) -> RunningInRecord:
     """The figures of a wear loop and what is kept of it."""
-    grid, body, cycles, rows = setup.grid, result.wearing[0], result.cycles, step.rows
-    before, after = initial[body], result.worn_heights()[: grid.shape[0]]
-    particles = result.particles[result.particles["body"] == scene.sizes.body(body)]
-    last, end = rows[-scene.cycles.averaged :], int(cycles["cycle"][-1])
-    late = particles[particles["cycle"] > end - scene.cycles.settled]
-    strip = _hertz_strip(grid.x, setup.line.half_width(setup.load))  # the same before and after, at all speeds
+    from bem.wear.outcome import hertz_strip, strip_wear
+
+    setup, cycles, rows = step.setup, result.cycles, step.rows
+    grid, averaged, settled = setup.grid, scene.cycles.averaged, scene.cycles.settled
+    before, after = sliding_heights(initial, result, grid)
+    # the same strip before and after, at all speeds
+    strip = strip_wear(before, after, hertz_strip(grid.x, setup.line.half_width(setup.load)))
+    of = scene.sizes.particles(result)
+    late, end = of[of["cycle"] > len(cycles) - settled], len(cycles) - averaged
+    mean = {name: float(rows[name][-averaged:].mean()) for name in MEANS}
     film = step.film if step.film is not None else step.table.under(float(rows["film_load"][-1]))
-    separation = step.separation if step.separation is not None else film.thickness[:, 0]
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
-    for name in ("rms_height", "volume", "particles"):
-        over[f"{name}_over_cycles"] = cycles[name].astype(np.float64)
+    over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume", "particles")}
     assert result.pressure is not None
-    return RunningInRecord(
+    return filled(
+        RunningInRecord,
+        mean,
+        _radii(scene, late),
+        over,
+        grid,
         friction_initial=float(rows["friction"][0]),
-        friction_run_in=float(last["friction"].mean()),
-        friction=float(last["friction"].mean()),
-        boundary_friction_part=float(last["boundary_force"].mean()) / setup.load,
-        film_friction_part=float(last["film_force"].mean()) / setup.load,
-        contact_load=float(last["contact_load"].mean()),
+        friction_run_in=mean["friction"],
+        boundary_friction_part=mean["boundary_force"] / setup.load,
+        film_friction_part=mean["film_force"] / setup.load,
         contact_load_initial=float(rows["contact_load"][0]),
-        film_load=float(last["film_load"].mean()),
-        minimum_film=float(last["minimum_film"].mean()),
-        lambda_ratio=float(last["lambda_ratio"].mean()),
-        contact_area_fraction=float(cycles["contact_area"][-scene.cycles.averaged :].mean() / grid.area),
-        Sq_initial=float(before[strip].std()),
-        Sq_final=float(after[strip].std()),
-        worn_depth=float((before - after)[strip].mean()),
-        particles_per_cycle=late.size / scene.cycles.settled,
-        particles_first_cycle=float((particles["cycle"] == 1).sum()),
-        particles_last_cycles=float((particles["cycle"] > end - scene.cycles.averaged).sum()),
+        contact_area_fraction=float(cycles["contact_area"][-averaged:].mean() / grid.area),
+        Sq_initial=strip.rms_before,
+        Sq_final=strip.rms_after,
+        worn_depth=strip.depth,
+        particles_per_cycle=late.size / settled,
+        particles_first_cycle=float((of["cycle"] == 1).sum()),
+        particles_last_cycles=float((of["cycle"] > end).sum()),
         film_table_error=film_error,
         evaluations_per_cycle=float(rows["evaluations"].mean()),
         convolutions_per_cycle=float(cycles["convolutions"].mean()),
-        **_radii(scene, late),
         cycle=np.arange(1, len(rows) + 1),
         contact_share=rows["contact_load"] / setup.load,
-        **over,
-        x=grid.x,
-        y=grid.y,
         film_thickness_patch=film.thickness[:, 0],
         film_pressure_patch=film.pressure[:, 0],
-        separation=separation,
+        separation=step.separation if step.separation is not None else film.thickness[:, 0],
         height_before=before,
         height_after=after,
         pressure=result.pressure,
         frame=np.array(_frame_cycles(scene.cycles.count)[: len(frames)]),
         pressure_frames=np.array(frames),
     )
+
+
+MEANS = ("friction", "boundary_force", "film_force", "contact_load", "film_load", "minimum_film", "lambda_ratio")
+"""Columns of `MIXED_FIELDS` whose means over the last cycles are figures."""
 
 
 def _radii(scene: RunningInScene, particles: NDArray[np.void]) -> dict[str, Any]:
@@ -414,7 +322,7 @@ def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[Run
     """What is the same for all cases, and the hardness of least friction where several were tried."""
     summary: dict[str, Any] = {
         "cycles": scene.cycles.count,
-        "load_N": load_of(scene),
+        "load_N": scene.load,
         "reported_mean": scene.sizes.report,
     }
     if len(scene.hardnesses) > 2:
@@ -448,15 +356,5 @@ KIND = Kind(
         "pressure-map",
         "running-in-frames",
     ),
-    headline=(
-        "speed_m_s",
-        "friction_initial",
-        "friction_run_in",
-        "particle_equivalent_radius_nm",
-        "Sq_initial_nm",
-        "Sq_final_nm",
-        "contact_load_N",
-        "film_load_N",
-        "lambda_ratio",
-    ),
+    headline=("speed_m_s",),
 )

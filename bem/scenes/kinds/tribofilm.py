@@ -6,7 +6,7 @@ A case is one film: one load, one temperature, one variant, one pair of surfaces
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
@@ -15,28 +15,22 @@ from pydantic import Field, model_validator
 from bem.errors import InfeasibleError
 from bem.grid import FloatArray, Grid
 from bem.materials import contact_modulus
-from bem.scenes import build
-from bem.scenes.axes import Axis, changed, listed, variants
-from bem.scenes.common import (
-    BodyScene,
-    Force,
-    GridScene,
-    SceneModel,
-    ShapeScene,
-    Table,
-    problem,
-)
+from bem.reference_solutions.hertz import sphere_contact
+from bem.scenes import build, plans
+from bem.scenes.axes import Axis, given, listed, variants, with_keys
+from bem.scenes.common import BodyScene, Force, GridScene, SceneModel, ShapeScene, Table, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.laws import LawKey
-from bem.scenes.planner import Plan, Step, convolution_memory, layered_kernel_seconds, padded_points
-from bem.scenes.records import Figure, Record, Series
+from bem.scenes.planner import Plan, Step, layered_kernel_seconds, padded_points
+from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.units import Energy, InverseLength, Length, Rate, Ratio, Speed, Temperature, Time, Volume
+from bem.tribofilm.balance import FilmBalance
 from bem.tribofilm.growth import GrowthLaw, StressActivatedGrowth
 from bem.tribofilm.properties import Constant, PropertyLaw
 
 if TYPE_CHECKING:
-    from bem.tribofilm import FilmContact
+    from bem.tribofilm import ContactSample, FilmContact, LocalFilm, TribofilmGrowth
 
 _CONVOLUTIONS = 14  # of one warm-started contact, coarse levels included
 _CONTACTS = 50  # solved per film: the table is refined only as far as the film gets
@@ -82,6 +76,11 @@ class FilmScene(Table):
         assert self.activation_energy is not None
         assert self.activation_volume is not None
         return StressActivatedGrowth(self.prefactor, self.activation_energy, self.activation_volume)
+
+    def balance(self) -> FilmBalance:
+        """As `bem.tribofilm.balance.FilmBalance`."""
+        constant = self.concentration_constant or np.inf
+        return FilmBalance(self.wear_coefficient, self.lag, constant, self.initial_thickness)
 
 
 class VariantScene(Table):
@@ -139,18 +138,9 @@ class TribofilmScene(SceneModel):
         return self
 
 
-def resolve(scene: TribofilmScene) -> TribofilmScene:
-    """Fill in the grid where measured surfaces decide it."""
-    grid = build.resolved_grid(scene.grid, scene.lower.surface, scene.upper.surface)
-    return scene.model_copy(update={"grid": grid})
-
-
 def variant_of(scene: TribofilmScene, variant: VariantScene) -> TribofilmScene:
     """The scene with a variant's changes in it."""
-    for key in ("wear_coefficient", "lag", "activation_volume", "activation_energy"):
-        if getattr(variant, key) is not None:
-            scene = changed(scene, f"film.{key}", getattr(variant, key))
-    return scene
+    return with_keys(scene, {f"film.{key}": value for key, value in given(variant).items()})
 
 
 def axes(scene: TribofilmScene) -> tuple[Axis, ...]:
@@ -169,30 +159,22 @@ def plan(scene: TribofilmScene) -> Plan:
     ------
     InfeasibleError : a load that the film cannot carry on the grid where it is softest.
     """
-    grid = build.grid_of(scene.grid)
-    build.check_surfaces(grid, lower=scene.lower.surface, upper=scene.upper.surface)
+    grid, film = build.grid_of(scene.grid), scene.film
+    surfaces = plans.surfaces(grid, scene.lower.surface, scene.upper.surface)
     _check_load(scene, grid)
-    points = padded_points(grid.shape, grid.periodic)
-    stiff = scene.film.youngs_modulus
-    lags = scene.rubbing.duration / scene.film.lag if scene.film.lag > 0 else 0.0  # integrated one by one
-    same = isinstance(stiff, Constant) and stiff.value == scene.lower.build().material.youngs_modulus
+    lags = scene.rubbing.duration / film.lag if film.lag > 0 else 0.0  # integrated one by one
+    same = film.youngs_modulus == Constant(scene.lower.build().material.youngs_modulus)
     return Plan(
         (
-            Step("surfaces", "heights of both bodies", transforms=40, points=grid.cells, memory=8.0 * grid.cells * 8),
+            surfaces,
             Step(
                 "layered kernels",
                 "one thickness per contact that is solved" if not same else "the film is as stiff as what it grows on",
                 # closed forms where the grid is doubly periodic; elsewhere a quarter of the first one, as measured
                 seconds=0.0 if all(grid.periodic) else 0.25 * layered_kernel_seconds(grid.cells) * _CONTACTS,
-                memory=8.0 * points / 4,
+                memory=8.0 * padded_points(grid.shape, grid.periodic) / 4 + 16.0 * grid.cells * _CONTACTS,
             ),
-            Step(
-                "contact",
-                f"about {_CONTACTS} for each film, from the last pressure",
-                transforms=2.0 * _CONVOLUTIONS * _CONTACTS,
-                points=points,
-                memory=convolution_memory(grid.shape, grid.periodic) + 16.0 * grid.cells * _CONTACTS,
-            ),
+            plans.contacts(grid, _CONVOLUTIONS * _CONTACTS, f"about {_CONTACTS} for each film, from the last pressure"),
             Step(
                 "contacts at other times",
                 f"growth follows thickness alone: it is interpolated to {scene.reuse_tolerance:g}",
@@ -204,7 +186,7 @@ def plan(scene: TribofilmScene) -> Plan:
                 "implicit integration with error control, lag by lag",
                 seconds=0.25 + 3e-3 * lags,
             ),
-            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8, per="run"),
+            plans.figures(grid.cells),
         )
     )
 
@@ -212,19 +194,14 @@ def plan(scene: TribofilmScene) -> Plan:
 def _check_load(scene: TribofilmScene, grid: Grid) -> None:
     """Refuse a load beyond the softest hardness that the film can get times the grid's area, before any work.
 
-    A film is never thicker than it would be at its fastest growth: initial thickness + growth x time, and without a lag
-    no thicker than where wear balances that. Contacts are solved up to twice as thick.
+    At any thickness the pressure is at most the hardest that the film ever is; contacts are solved up to twice as thick
+    as the film gets.
     """
     film, (load,), (temperature,) = scene.film, scene.rubbing.loads, scene.rubbing.temperatures
-    hardness = film.hardness
-    other = None if scene.upper.material is None else scene.upper.material.hardness
-    # at any thickness the pressure is at most the hardest that the film ever is
-    stress = scene.rubbing.friction * hardness.highest(temperature)
+    stress = scene.rubbing.friction * film.hardness.highest(temperature)
     fastest = float(film.kinetics().rate(np.array(stress), temperature))
-    thickest = film.initial_thickness + fastest * scene.rubbing.duration
-    if film.wear_coefficient > 0 and not film.lag > 0:
-        thickest = min(thickest, max(film.initial_thickness, fastest / film.wear_coefficient))
-    softest = hardness.lowest(2 * thickest, temperature)
+    softest = film.hardness.lowest(2 * film.balance().thickest(fastest, scene.rubbing.duration), temperature)
+    other = None if scene.upper.material is None else scene.upper.material.hardness
     limit = (softest if other is None else min(softest, other)) * grid.area
     if load > limit:
         raise InfeasibleError(
@@ -245,16 +222,20 @@ def _sample(unit: str, text: str) -> Series:
 class FilmRecord(Record):
     """What a film gives: its end, its history, the contacts that were solved for it, maps at the end."""
 
-    film_thickness: Annotated[float, Figure("nm", "mean film thickness at the end")]
+    film_thickness: Annotated[float, Figure("nm", "mean film thickness at the end", headline=True)]
     largest_thickness: Annotated[float, Figure("nm", "largest mean film thickness")]
-    film_wear_rate: Annotated[float, Figure("nm_s", "wear rate of the film at the end")]
-    wear_depth: Annotated[float | None, Figure("nm", "depth of substrate worn between the two reporting times")]
+    film_wear_rate: Annotated[float, Figure("nm_s", "wear rate of the film at the end", headline=True)]
+    wear_depth: Annotated[
+        float | None, Figure("nm", "depth of substrate worn between the two reporting times", headline=True)
+    ]
     total_wear_depth: Annotated[float, Figure("nm", "depth of substrate worn")]
     final_concentration: Annotated[
-        float, Figure("", "concentration of substrate at the surface, at the end", name="concentration")
+        float, Figure("", "concentration of substrate at the surface, at the end", name="concentration", headline=True)
     ]
-    steady_thickness: Annotated[float | None, Figure("nm", "thickness at which growth and wear are equal")]
-    contacts_solved: Annotated[int, Figure("", "contacts that were solved")]
+    steady_thickness: Annotated[
+        float | None, Figure("nm", "thickness at which growth and wear are equal", headline=True)
+    ]
+    contacts_solved: Annotated[int, Figure("", "contacts that were solved", headline=True)]
     time: Annotated[FloatArray, _over_time("s", "time of rubbing")]
     thickness: Annotated[FloatArray, _over_time("m", "mean film thickness")]
     grown: Annotated[FloatArray, _over_time("m", "film grown so far")]
@@ -276,15 +257,32 @@ class FilmRecord(Record):
 
 def run(scene: TribofilmScene, context: Context) -> FilmRecord:
     """Grow one film."""
-    grid = build.grid_of(scene.grid)
     times = np.linspace(0.0, scene.rubbing.duration, scene.rubbing.points)
-    if scene.rubbing.report is not None:
-        times = np.unique(np.concatenate([times, scene.rubbing.report]))
-    contact = _contact(scene, grid, context)
+    report = scene.rubbing.report
+    if report is not None:
+        times = np.unique(np.concatenate([times, report]))
+    contact = _contact(scene, build.grid_of(scene.grid), context)
     with context.timer("films"):
-        if scene.film.feedback == "local":
-            return _local_film(scene, contact, times)
-        return _mean_film(scene, contact, times, context)
+        local = scene.film.feedback == "local"
+        film, samples, own = (_local_film if local else _mean_film)(scene, contact, times, context)
+    history = film.history
+    return filled(
+        FilmRecord,
+        history,
+        {f"sample_{name}": np.array([getattr(sample, name) for sample in samples]) for name in _SAMPLED},
+        contact.grid,
+        film_thickness=float(history.thickness[-1]),
+        largest_thickness=float(history.thickness.max()),
+        film_wear_rate=float(history.wear_rate[-1]),
+        wear_depth=None if report is None else history.wear_depth(*report),
+        total_wear_depth=float(history.substrate_wear[-1]),
+        final_concentration=float(history.concentration[-1]),
+        film_map=film.film_map,
+        **own,
+    )
+
+
+_SAMPLED = ("thickness", "mean_pressure", "hardness", "growth", "contact_area")
 
 
 def _contact(scene: TribofilmScene, grid: Grid, context: Context) -> FilmContact:
@@ -293,12 +291,9 @@ def _contact(scene: TribofilmScene, grid: Grid, context: Context) -> FilmContact
 
     film, (load,), (temperature,) = scene.film, scene.rubbing.loads, scene.rubbing.temperatures
     with context.timer("surfaces"):
-        heights = sum(
-            build.heights_of(body.surface, grid, context.seed(name), context.note)
-            for name, body in (("lower", scene.lower), ("upper", scene.upper))
-        )
+        lower, upper = build.both_heights(scene, grid, context)
     return FilmContact(
-        gap=build.shape_of(scene.shape, grid) - heights,
+        gap=build.shape_of(scene.shape, grid) - (lower + upper),
         grid=grid,
         substrate=scene.lower.build().material,
         counterface=scene.upper.build().material,
@@ -319,99 +314,51 @@ def _nominal_area(scene: TribofilmScene, grid: Grid, load: float) -> FloatArray 
     if scene.film.average != "nominal" or scene.shape.kind != "sphere" or scene.shape.radius is None:
         return None
     modulus = contact_modulus(scene.lower.build().material, scene.upper.build().material)
-    radius = (3 * load * scene.shape.radius / (4 * modulus)) ** (1 / 3)  # Johnson (1985), eq. 4.22
+    radius, _ = sphere_contact(radius=scene.shape.radius, contact_modulus=modulus, load=load).semi_axes
     return (np.hypot(grid.x[:, None], grid.y[None, :]) <= radius).astype(np.float64)
 
 
-def _mean_film(scene: TribofilmScene, contact: FilmContact, times: FloatArray, context: Context) -> FilmRecord:
-    """A film whose growth follows its mean thickness."""
+def _mean_film(
+    scene: TribofilmScene, contact: FilmContact, times: FloatArray, context: Context
+) -> tuple[TribofilmGrowth, Sequence[ContactSample], dict[str, Any]]:
+    """A film whose growth follows its mean thickness, the contacts solved for it, and its own figures."""
     from bem.tribofilm import grow_tribofilm
 
     solved = 0
 
-    def watch(sample: Any) -> None:
+    def watch(sample: ContactSample) -> None:
         nonlocal solved
         solved += 1
         part = min(solved / _CONTACTS, 0.95)
         context.progress(round(1000 * part), 1000, "films", thickness_nm=1e9 * sample.thickness)
 
-    grown = grow_tribofilm(
-        times,
-        contact,
-        wear_coefficient=scene.film.wear_coefficient,
-        lag=scene.film.lag,
-        concentration_constant=scene.film.concentration_constant or np.inf,
-        initial_thickness=scene.film.initial_thickness,
-        reuse_tolerance=scene.reuse_tolerance,
-        callback=watch,
-    )
-    history, report = grown.history, scene.rubbing.report
-    last = min(grown.contacts, key=lambda s: abs(s.thickness - history.thickness[-1]))
-    return _record(
-        contact.grid,
-        times,
-        history,
-        grown.contacts,
-        wear_depth=None if report is None else grown.wear_depth(*report),
-        steady_thickness=None if np.isinf(grown.steady) else grown.steady,
-        contacts_solved=len(grown.contacts),
-        growth_rate=history.growth_rate,
-        wear_rate=history.wear_rate,
-        concentration=history.concentration,
-        film_map=grown.film_map,
-        film_pressure=last.pressure,
-    )
+    reuse = scene.reuse_tolerance
+    grown = grow_tribofilm(times, contact, **asdict(scene.film.balance()), reuse_tolerance=reuse, callback=watch)
+    last = min(grown.contacts, key=lambda sample: abs(sample.thickness - grown.history.thickness[-1]))
+    steady = None if np.isinf(grown.steady) else grown.steady
+    own = {"steady_thickness": steady, "contacts_solved": len(grown.contacts), "film_pressure": last.pressure}
+    return grown, grown.contacts, own
 
 
-def _local_film(scene: TribofilmScene, contact: FilmContact, times: FloatArray) -> FilmRecord:
-    """A film that grows at each point by its own thickness."""
+def _local_film(
+    scene: TribofilmScene, contact: FilmContact, times: FloatArray, context: Context
+) -> tuple[LocalFilm, Sequence[ContactSample], dict[str, Any]]:
+    """The same of a film that grows at each point by its own thickness; it shows no progress: steps choose
+    themselves."""
     from bem.tribofilm import grow_local_film
 
-    samples: list[Any] = []
+    samples: list[ContactSample] = []
+    constants = asdict(scene.film.balance())
+    del constants["lag"]  # there is none
     grown = grow_local_film(
         times,
         contact,
-        wear_coefficient=scene.film.wear_coefficient,
-        concentration_constant=scene.film.concentration_constant or np.inf,
-        initial_thickness=scene.film.initial_thickness,
+        **constants,
         tolerance=scene.film.local_tolerance,
         callback=lambda now, sample: samples.append(sample),
     )
-    constant, report = scene.film.concentration_constant, scene.rubbing.report
-    return _record(
-        contact.grid,
-        times,
-        grown,
-        samples,
-        wear_depth=None if report is None else float(np.diff(np.interp(report, times, grown.substrate_wear))[0]),
-        steady_thickness=None,
-        contacts_solved=grown.contacts,
-        growth_rate=np.gradient(grown.grown, times),
-        wear_rate=scene.film.wear_coefficient * grown.thickness,
-        concentration=np.zeros_like(times) if constant is None else np.exp(-constant * grown.thickness),
-        film_map=grown.film_map,
-        film_pressure=grown.pressure,
-    )
-
-
-def _record(grid: Grid, times: FloatArray, grown: Any, samples: Sequence[Any], **own: Any) -> FilmRecord:
-    """The record of a film with either feedback."""
-    own |= {name: getattr(grown, name) for name in ("thickness", "grown", "worn", "substrate_wear")}
-    own |= {f"sample_{name}": np.array([getattr(s, name) for s in samples]) for name in _SAMPLED}
-    return FilmRecord(
-        film_thickness=float(grown.thickness[-1]),
-        largest_thickness=float(grown.thickness.max()),
-        film_wear_rate=float(own["wear_rate"][-1]),
-        total_wear_depth=float(grown.substrate_wear[-1]),
-        final_concentration=float(own["concentration"][-1]),
-        time=times,
-        x=grid.x,
-        y=grid.y,
-        **own,
-    )
-
-
-_SAMPLED = ("thickness", "mean_pressure", "hardness", "growth", "contact_area")
+    own = {"steady_thickness": None, "contacts_solved": grown.contacts, "film_pressure": grown.pressure}
+    return grown, samples, own
 
 
 def summarise(scene: TribofilmScene, axes: Any, records: Any) -> dict[str, Any]:
@@ -428,7 +375,7 @@ KIND = Kind(
     run=run,
     record=FilmRecord,
     summarise=summarise,
-    resolve=resolve,
+    resolve=build.with_grid,
     figures=(
         "film-thickness",
         "film-wear-rate",
@@ -438,13 +385,5 @@ KIND = Kind(
         "film-map",
         "film-pressure-map",
     ),
-    headline=(
-        "temperature_C",
-        "film_thickness_nm",
-        "film_wear_rate_nm_s",
-        "wear_depth_nm",
-        "concentration",
-        "steady_thickness_nm",
-        "contacts_solved",
-    ),
+    headline=("temperature_C",),
 )

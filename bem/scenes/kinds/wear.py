@@ -9,37 +9,44 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError, InputError
 from bem.grid import FloatArray, Grid
 from bem.materials import contact_modulus
-from bem.scenes import build
-from bem.scenes.axes import Axis, changed, listed, variants
-from bem.scenes.common import BodyScene, Cells, Force, PositiveLength, PositivePressure, SceneModel, Table, problem
+from bem.reference_solutions.hertz import cylinder_contact
+from bem.scenes import build, plans
+from bem.scenes.axes import Axis, given, listed, variants, with_keys
+from bem.scenes.common import (
+    BodyScene,
+    Cells,
+    Force,
+    PositiveLength,
+    PositivePressure,
+    SceneModel,
+    ShapeScene,
+    Table,
+    problem,
+)
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.laws import LawKey
-from bem.scenes.planner import (
-    Plan,
-    Step,
-    layered_kernel_seconds,
-    padded_points,
-)
-from bem.scenes.records import Figure, Series
-from bem.scenes.units import Length, Ratio, WearCoefficient
+from bem.scenes.planner import Plan, Step
+from bem.scenes.records import Figure, Series, filled
+from bem.scenes.units import Length, Ratio
 from bem.scenes.wearing import (
-    Count,
     IntArray,
+    LastCycles,
     MeanSizes,
     SizesScene,
     WearDepthsScene,
+    WearRateScene,
     WearScenePart,
     cycle_steps,
     mean_sizes,
     particle_rows,
-    volume_mean_radius,
+    sliding_heights,
+    wear_loop,
 )
 from bem.wear.criterion import WearCriterion
 from bem.wear.removal import RemovalLaw
@@ -50,7 +57,6 @@ if TYPE_CHECKING:
 _CONVOLUTIONS = 15  # of one warm-started contact solve, coarse levels included
 _DEPTHS_NEEDED = 8  # before a depth is met at which nothing yields, on average
 _DEPTHS_AT_FIRST = 40  # the same in the first cycle, of sharp asperities
-_CHECKPOINT_EVERY = 10
 
 
 class CylinderScene(Table):
@@ -95,26 +101,11 @@ class DomainScene(Table):
         return self
 
 
-class CyclesScene(Table):
+class CyclesScene(LastCycles):
     """How long: `count` cycles, or until settled; means are over the last `settled` cycles."""
 
-    count: Count = 200
-    settled: Count = 50
     stop_when_settled: bool = Field(default=False, strict=True)
     tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = 0.02
-
-    @model_validator(mode="after")
-    def _enough(self) -> CyclesScene:
-        if self.settled > self.count:
-            raise problem(f"settled {self.settled} is more than count {self.count}", "settled <= count")
-        return self
-
-
-class WearRateScene(Table):
-    """Archard's law: the wear volume that the criterion cannot give, and so the number of particles."""
-
-    specific_wear_rate: Annotated[WearCoefficient, Field(gt=0)]
-    distance: PositiveLength
 
 
 class WearVariantScene(Table):
@@ -163,26 +154,28 @@ def variant_of(scene: WearScene, variant: WearVariantScene) -> WearScene:
     ------
     InputError : a roughness for a surface that is not generated, a film thickness without a film.
     """
-    if variant.cells is not None:
-        scene = changed(scene, "domain.cells", (variant.cells, variant.cells))
-    if variant.depths is not None:
-        scene = changed(scene, "depths", variant.depths)
-    for key in ("shift", "connectivity", "refinement", "criterion", "removal"):
-        if getattr(variant, key) is not None:
-            scene = changed(scene, f"wear.{key}", getattr(variant, key))
+    changes = given(variant)
+    thickness = changes.pop("layer_thickness", None)
     for name in ("lower", "upper"):
-        rms_height = getattr(variant, f"{name}_rms_height")
-        if rms_height is not None:
-            if getattr(scene, name).surface.kind == "smooth":
-                raise InputError(f"variants.{name}_rms_height: the {name} surface is smooth; allowed: a rough one")
-            scene = changed(scene, f"{name}.surface.rms_height", rms_height)
-    if variant.layer_thickness is not None:
-        coated = [name for name in ("lower", "upper") if getattr(scene, name).stack]
-        if not coated:
-            raise InputError("variants.layer_thickness: neither body is coated; allowed: a scene with a layer")
-        for name in coated:
-            scene = changed(scene, name, getattr(scene, name).with_outermost(variant.layer_thickness))
-    return scene
+        if f"{name}_rms_height" in changes and getattr(scene, name).surface.kind == "smooth":
+            raise InputError(f"variants.{name}_rms_height: the {name} surface is smooth; allowed: a rough one")
+    if "cells" in changes:
+        changes["cells"] = (changes["cells"],) * 2
+    scene = with_keys(scene, {_VARIED.get(key, f"wear.{key}"): value for key, value in changes.items()})
+    coated = [name for name in ("lower", "upper") if getattr(scene, name).stack]
+    if thickness is not None and not coated:
+        raise InputError("variants.layer_thickness: neither body is coated; allowed: a scene with a layer")
+    bodies = {name: getattr(scene, name) for name in coated if thickness is not None}
+    return with_keys(scene, {name: body.with_outermost(thickness) for name, body in bodies.items()})
+
+
+_VARIED = {
+    "cells": "domain.cells",
+    "depths": "depths",
+    "lower_rms_height": "lower.surface.rms_height",
+    "upper_rms_height": "upper.surface.rms_height",
+}
+"""Where the keys of a variant stand in the scene, if not in `wear`."""
 
 
 def axes(scene: WearScene) -> tuple[Axis, ...]:
@@ -193,19 +186,15 @@ def axes(scene: WearScene) -> tuple[Axis, ...]:
     )
 
 
-def hertz_half_width(scene: WearScene, load: float) -> float:
-    """Half-width of the smooth line contact at a load on the full width [m]; Johnson (1985), eq. 4.43."""
-    modulus = contact_modulus(scene.lower.build().material, scene.upper.build().material)
-    return float(np.sqrt(4 * load / scene.cylinder.width * scene.cylinder.radius / (np.pi * modulus)))
-
-
 def grid_at(scene: WearScene, load: float) -> Grid:
     """The grid at a load."""
-    lengths = scene.domain.lengths
+    lengths, half_widths, cylinder = scene.domain.lengths, scene.domain.half_widths, scene.cylinder
     if lengths is None:
-        assert scene.domain.half_widths is not None
-        side = scene.domain.half_widths * hertz_half_width(scene, scene.domain.half_widths_at or load)
-        lengths = (side, side)
+        assert half_widths is not None
+        per_length = (scene.domain.half_widths_at or load) / cylinder.width
+        modulus = contact_modulus(scene.lower.build().material, scene.upper.build().material)
+        smooth = cylinder_contact(radius=cylinder.radius, contact_modulus=modulus, load=per_length)
+        lengths = (half_widths * smooth.half_width,) * 2
     (nx, ny) = scene.domain.cells
     return Grid(
         scene.domain.cells, (lengths[0] / nx, lengths[1] / ny), periodic=(scene.domain.periodic == "both", True)
@@ -219,13 +208,7 @@ def load_on(scene: WearScene, grid: Grid, load: float) -> float:
 
 def resolve(scene: WearScene) -> WearScene:
     """Fill in the hardness of the softer surface, where either has one."""
-    if scene.cylinder.hardness is not None:
-        return scene
-    known = [scene.lower.build().surface_material.hardness, scene.upper.build().surface_material.hardness]
-    given = [value for value in known if value is not None]
-    if not given:
-        return scene
-    return scene.model_copy(update={"cylinder": scene.cylinder.model_copy(update={"hardness": min(given)})})
+    return build.with_hardness(scene, "cylinder", needed=False)
 
 
 def plan(scene: WearScene) -> Plan:
@@ -236,48 +219,26 @@ def plan(scene: WearScene) -> Plan:
     InfeasibleError : a load beyond hardness times the slice's area. InputError : surfaces that cannot be generated.
     """
     (load,) = scene.cylinder.loads
-    hardness, cycles = scene.cylinder.hardness, scene.cycles.count
-    grid = grid_at(scene, load)
+    hardness, grid = scene.cylinder.hardness, grid_at(scene, load)
     if hardness is not None and load_on(scene, grid, load) > hardness * grid.area:
         raise InfeasibleError(
             f"cylinder.loads: {load:g} N is beyond hardness x area of the domain; allowed: a smaller load, "
             "a larger domain or a higher hardness"
         )
-    build.check_surfaces(grid, lower=scene.lower.surface, upper=scene.upper.surface)
-    points = padded_points(grid.shape, grid.periodic)
-    depths = min(scene.depths.count, _DEPTHS_NEEDED)
-    deepest = min(scene.depths.count, _DEPTHS_AT_FIRST)
-    lower, upper = scene.lower.build(), scene.upper.build()
-    layered = [name for name, body in (("lower", lower), ("upper", upper)) if not body.homogeneous]
-    coupled = build.traction_couples(lower, upper, scene.cylinder.friction)
+    bodies = scene.lower.build(), scene.upper.build()
     return Plan(
         (
-            Step(
-                "surfaces",
-                "a pair for each case",
-                transforms=40.0,
-                points=grid.cells,
-                memory=8.0 * grid.cells * 8,
+            plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
+            plans.layered_kernels(grid, *bodies, depths=min(scene.depths.count, _DEPTHS_NEEDED)),
+            plans.traction_kernels(grid, *bodies, scene.cylinder.friction),
+            *cycle_steps(
+                scene,
+                grid,
+                convolutions=_CONVOLUTIONS,
+                contacts="each from the last pressure",
+                usual=_DEPTHS_NEEDED,
+                first=_DEPTHS_AT_FIRST,
             ),
-            Step(
-                "layered kernels",
-                f"the {' and '.join(layered)} body is coated" if layered else "no body is coated",
-                skipped=not layered,
-                seconds=len(layered) * layered_kernel_seconds(grid.cells, depths),
-                memory=8.0 * points / 4 * 7 * len(layered),
-                per="grid",
-            ),
-            Step(
-                "tangential kernels in the normal gap",
-                "friction between elastically dissimilar bodies"
-                if coupled
-                else "traction does not move the gap of these bodies",
-                skipped=not coupled,
-                transforms=4,
-                points=points,
-                memory=8.0 * points / 4,
-            ),
-            *cycle_steps(grid, cycles, depths, deepest, _CONVOLUTIONS, "each from the last pressure"),
             Step(
                 "kernels of an earlier run",
                 "not kept on disk: made once for all cycles, in a few per cent of the run's time",
@@ -288,23 +249,23 @@ def plan(scene: WearScene) -> Plan:
                 "no piece that reaches the surface gets past a depth at which nothing yields",
                 skipped=True,
             ),
-            Step("figures and report", "pictures of the results", seconds=4.0, memory=2e8, per="run"),
+            plans.figures(grid.cells),
         )
     )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class WearRecord(MeanSizes):
     """What a wear loop gives: means over its settled cycles, tables over cycles and particles, the worn surface."""
 
-    particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled")]
-    Sq_initial: Annotated[float, Figure("nm", "Sq in the contact strip, unworn")]
-    Sq_final: Annotated[float, Figure("nm", "Sq in the contact strip, run in")]
-    contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the slice")]
+    particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled", headline=True)]
+    Sq_initial: Annotated[float, Figure("nm", "Sq in the contact strip, unworn", headline=True)]
+    Sq_final: Annotated[float, Figure("nm", "Sq in the contact strip, run in", headline=True)]
+    contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the slice", headline=True)]
     mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
     worn_volume_per_cycle: Annotated[float, Figure("um3", "volume worn per cycle")]
     first_cycles_radius: Annotated[float, Figure("nm", "volume-mean radius of the particles of the first five cycles")]
-    cycles: Annotated[int, Figure("", "cycles")]
+    cycles: Annotated[int, Figure("", "cycles", headline=True)]
     truncated_particles: Annotated[int, Figure("", "particles cut off by the deepest depth")]
     cell: Annotated[float, Figure("nm", "root of the cell's area")]
     contact_seconds: Annotated[float, Figure("", "seconds in contacts")]
@@ -312,9 +273,9 @@ class WearRecord(MeanSizes):
     particles_seconds: Annotated[float, Figure("", "seconds in pieces")]
     depths_computed_per_cycle: Annotated[float, Figure("", "depths at which stress was computed, per cycle")]
     convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle")]
-    wear_volume: Annotated[float | None, Figure("mm3", "worn volume by Archard's law", optional=True)]
-    particle_number: Annotated[float | None, Figure("", "number of particles in it", optional=True)]
-    particles_per_mm_and_N: Annotated[float | None, Figure("", "particles per mm and N", optional=True)]
+    wear_volume: Annotated[float | None, Figure("mm3", "worn volume by Archard's law", optional=True)] = None
+    particle_number: Annotated[float | None, Figure("", "number of particles in it", optional=True)] = None
+    particles_per_mm_and_N: Annotated[float | None, Figure("", "particles per mm and N", optional=True)] = None
     cycle: Annotated[IntArray, Series(("cycle",), "1", "cycle")]
     radius: Annotated[FloatArray, Series(("cycle",), "m", "volume-mean equivalent radius of the particles")]
     particles: Annotated[FloatArray, Series(("cycle",), "1", "particles per cycle")]
@@ -342,91 +303,75 @@ class WearRecord(MeanSizes):
 
 def run(scene: WearScene, context: Context) -> WearRecord:
     """One wear loop."""
-    from bem.wear import RunningInState, Settled, WearModel, pack_state, run_in, unpack_state
+    from bem.particles import volume_mean_radius
+    from bem.wear import RunningInState, Settled
 
     (load,) = scene.cylinder.loads
-    grid = grid_at(scene, load)
+    grid, radius = grid_at(scene, load), scene.cylinder.radius
     with context.timer("surfaces"):
-        initial = [
-            build.heights_of(body.surface, grid, context.seed(name), context.note)
-            for name, body in (("lower", scene.lower), ("upper", scene.upper))
-        ]
-    saved = context.saved()
+        initial = build.both_heights(scene, grid, context)
 
-    def watch(now: RunningInState) -> None:
-        if now.cycle % _CHECKPOINT_EVERY == 0 or now.cycle == scene.cycles.count:
-            context.save(pack_state(now))
+    def watch(now: RunningInState) -> dict[str, float]:
         last = now.particles[now.particles["cycle"] == now.cycle]
-        context.progress(
-            now.cycle,
-            scene.cycles.count,
-            "cycles",
-            radius_nm=1e9 * volume_mean_radius(last["volume"]),
-            contact_fraction=float(now.cycles[-1]["contact_area"]) / grid.area,
-        )
+        return {
+            "radius_nm": 1e9 * volume_mean_radius(last["volume"]),
+            "contact_fraction": float(now.cycles[-1]["contact_area"]) / grid.area,
+        }
 
-    with context.timer("cycles"):
-        result = run_in(
-            initial[0],
-            initial[1],
-            grid=grid,
-            bodies=(scene.lower.build(), scene.upper.build()),
-            load=load_on(scene, grid, load),
-            depths=scene.depths.build(),
-            gap=_cylinder(scene, grid),
-            friction=scene.cylinder.friction,
-            hardness=scene.cylinder.hardness,
-            cycles=scene.cycles.count,
-            model=WearModel(**scene.wear.model_dump()),
-            stop=Settled(tolerance=scene.cycles.tolerance) if scene.cycles.stop_when_settled else None,
-            state=None if saved is None else unpack_state(saved),
-            callback=watch,
-        )
+    cylinder = ShapeScene(kind="cylinder", radius=radius) if radius else ShapeScene()
+    result = wear_loop(
+        scene,
+        context,
+        initial,
+        watch=watch,
+        grid=grid,
+        load=load_on(scene, grid, load),
+        gap=build.shape_of(cylinder, grid),
+        friction=scene.cylinder.friction,
+        hardness=scene.cylinder.hardness,
+        stop=Settled(tolerance=scene.cycles.tolerance) if scene.cycles.stop_when_settled else None,
+    )
     return _record(scene, load, grid, initial, result)
 
 
-def _cylinder(scene: WearScene, grid: Grid) -> FloatArray:
-    if scene.cylinder.radius == 0:
-        return np.zeros(grid.shape)
-    return np.ascontiguousarray(np.broadcast_to(grid.x[:, None] ** 2 / (2 * scene.cylinder.radius), grid.shape))
-
-
-def _record(scene: WearScene, load: float, grid: Grid, initial: list[FloatArray], result: RunningIn) -> WearRecord:
+def _record(
+    scene: WearScene, load: float, grid: Grid, initial: tuple[FloatArray, FloatArray], result: RunningIn
+) -> WearRecord:
     """The figures of a wear loop, means over its settled cycles, and its tables."""
-    body = result.wearing[0]
-    before, after = initial[body], result.worn_heights()[: grid.shape[0]]
+    from bem.particles import volume_mean_radius
+    from bem.wear.outcome import contact_strip, sizes_over_cycles, strip_wear
+
     cycles, pressure = result.cycles, result.pressure
     assert pressure is not None
-    particles = result.particles[result.particles["body"] == scene.sizes.body(body)]
-    settled = cycles[-scene.cycles.settled :]
+    before, after = sliding_heights(initial, result, grid)
+    strip = strip_wear(before, after, contact_strip(pressure))
+    particles, settled = scene.sizes.particles(result), cycles[-scene.cycles.settled :]
     late = particles[particles["cycle"] > cycles["cycle"][-1] - scene.cycles.settled]
-    strip = pressure.any(axis=1)
-    strip = strip if strip.any() else np.ones_like(strip)
-    radius, number = _per_cycle(cycles["cycle"], particles)
-    tables: dict[str, Any] = {name: cycles[name].astype(np.float64) for name in _PER_CYCLE}
-    tables |= {f"particle_{name}": np.ascontiguousarray(particles[name]) for name in _PER_PARTICLE}
-    tables |= {f"{part}_seconds": float(result.times[part].sum()) for part in ("contact", "stress", "particles")}
-    return WearRecord(
-        **mean_sizes(late, scene.sizes),
+    radius, number = sizes_over_cycles(cycles["cycle"], particles)
+    archard = scene.archard.figures(load, float(late["volume"].mean())) if scene.archard and late.size else {}
+    return filled(
+        WearRecord,
+        mean_sizes(late, scene.sizes),
+        archard,
+        {name: cycles[name].astype(np.float64) for name in _PER_CYCLE},
+        {f"particle_{name}": np.ascontiguousarray(particles[name]) for name in _PER_PARTICLE},
+        {f"{part}_seconds": float(result.times[part].sum()) for part in ("contact", "stress", "particles")},
+        grid,
         particles_per_cycle=float(late.size / len(settled)),
-        Sq_initial=float(before[strip].std()),
-        Sq_final=float(after[strip].std()),
+        Sq_initial=strip.rms_before,
+        Sq_final=strip.rms_after,
         contact_area_fraction=float(settled["contact_area"].mean() / grid.area),
         mean_contact_pressure=float((settled["contact_load"] / settled["contact_area"]).mean()),
         worn_volume_per_cycle=float(settled["volume"].mean()),
         first_cycles_radius=volume_mean_radius(particles[particles["cycle"] <= 5]["volume"]),
-        cycles=int(cycles["cycle"][-1]),
+        cycles=len(cycles),
         truncated_particles=int(late["truncated"].sum()),
         cell=float(np.sqrt(grid.cell_area)),
         depths_computed_per_cycle=float(cycles["depths_computed"].mean()),
         convolutions_per_cycle=float(cycles["convolutions"].mean()),
-        **_archard(scene, load, late),
         cycle=np.arange(1, len(cycles) + 1),
         radius=radius,
         particles=number,
-        **tables,
-        x=grid.x,
-        y=grid.y,
         height_before=before,
         height_after=after,
         pressure=pressure,
@@ -436,27 +381,6 @@ def _record(scene: WearScene, load: float, grid: Grid, initial: list[FloatArray]
 
 _PER_CYCLE = ("volume", "contact_area", "plastic_area", "contact_load", "rms_height", "depths_computed", "convolutions")
 _PER_PARTICLE = ("cycle", "volume", "length", "width", "thickness", "x", "y")
-
-
-def _per_cycle(cycles: IntArray, particles: NDArray[np.void]) -> tuple[FloatArray, FloatArray]:
-    """Volume-mean radius [m] (not-a-number where nothing came off) and number of the particles of each cycle."""
-    volumes = [particles["volume"][particles["cycle"] == cycle] for cycle in cycles]
-    radius = np.array([volume_mean_radius(volume) or np.nan for volume in volumes])
-    return radius, np.array([float(volume.size) for volume in volumes])
-
-
-def _archard(scene: WearScene, load: float, particles: NDArray[np.void]) -> dict[str, Any]:
-    """Worn volume and number of particles by Archard's law, where a wear rate is given and there are particles."""
-    names = ("wear_volume", "particle_number", "particles_per_mm_and_N")
-    if scene.archard is None or not particles.size:
-        return dict.fromkeys(names)
-    from bem.particles import archard_volume, particle_coefficient, particle_number
-
-    rate, mean = scene.archard.specific_wear_rate, float(particles["volume"].mean())
-    volume = archard_volume(rate, load, scene.archard.distance)
-    return dict(
-        zip(names, (volume, particle_number(volume, mean), 1e-3 * particle_coefficient(rate, mean)), strict=True)
-    )
 
 
 def summarise(scene: WearScene, axes: Any, records: Any) -> dict[str, Any]:
@@ -484,16 +408,5 @@ KIND = Kind(
         "worn-surface",
         "particle-shapes",
         "pressure-map",
-    ),
-    headline=(
-        "particle_equivalent_radius_nm",
-        "particle_length_nm",
-        "particle_width_nm",
-        "particle_thickness_nm",
-        "particles_per_cycle",
-        "Sq_initial_nm",
-        "Sq_final_nm",
-        "contact_area_fraction",
-        "cycles",
     ),
 )

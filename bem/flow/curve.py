@@ -1,0 +1,82 @@
+"""A flow factor as a function of separation, from its values at some."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from bem.grid import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Monotone between the values given, and their theory's limits beyond them.
+
+    Piecewise cubic in the logarithms (Fritsch and Carlson's slopes), so that a rise or fall of the table is one of the
+    curve. Where the first values are zero, straight from the last zero to the next value. Beyond the last separation
+    the factor less its limit falls with `decay`, as the second order of perturbation theory has it; before the first
+    one it rises with `growth` if it is a number, else goes on with its slope, or stays if it would fall from infinity.
+
+    Parameters
+    ----------
+    separation : (n,) rising [m]. value : (n,) >= 0. limit : the value of endless separation.
+    """
+
+    separation: FloatArray
+    value: FloatArray
+    limit: float
+    decay: float
+    growth: float | None = None
+
+    @cached_property
+    def _first(self) -> int:
+        """The first value from which on all are positive."""
+        zeros = np.flatnonzero(self.value <= 0)
+        return 0 if zeros.size == 0 else int(zeros[-1]) + 1
+
+    @cached_property
+    def _cubic(self) -> Any:
+        from scipy.interpolate import PchipInterpolator
+
+        x, y = np.log(self.separation[self._first :]), np.log(self.value[self._first :])
+        return PchipInterpolator(x, y) if len(x) > 1 else None
+
+    def __call__(self, separation: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The factor and its derivative with the separation [1/m], both of the shape of `separation` (> 0) [m]."""
+        h = np.asarray(separation, dtype=np.float64)
+        value, slope = np.zeros(h.shape), np.zeros(h.shape)
+        first, last = self._first, len(self.value) - 1
+        if first > last:
+            return value, slope
+        low, high = self.separation[first], self.separation[last]
+        inside = (h >= low) & (h <= high)
+        value[inside], slope[inside] = self._between(h[inside])
+        beyond = h > high
+        power = (high / h[beyond]) ** self.decay
+        value[beyond] = self.limit + (self.value[last] - self.limit) * power
+        slope[beyond] = -self.decay * (self.value[last] - self.limit) * power / h[beyond]
+        below = h < low
+        value[below], slope[below] = self._below(h[below])
+        return value, slope
+
+    def _between(self, h: FloatArray) -> tuple[FloatArray, FloatArray]:
+        if self._cubic is None:
+            return np.full(h.shape, self.value[-1]), np.zeros(h.shape)
+        x = np.log(h)
+        value = np.exp(self._cubic(x))
+        return value, value * self._cubic(x, 1) / h
+
+    def _below(self, h: FloatArray) -> tuple[FloatArray, FloatArray]:
+        low, start = self.separation[self._first], self.value[self._first]
+        if self._first > 0:
+            zero = self.separation[self._first - 1]
+            open_ = h > zero
+            return np.where(open_, start * (h - zero) / (low - zero), 0.0), np.where(open_, start / (low - zero), 0.0)
+        power = self.growth
+        if power is None:
+            power = max(0.0, float(self._cubic(np.log(low), 1))) if self._cubic is not None else 0.0
+        value = start * (h / low) ** power
+        return value, power * value / h

@@ -1,0 +1,279 @@
+"""Flow factors of a patch of rough surface, deformed in its contact, over the separation of the mean planes.
+
+Patir and Cheng's averaged flow (Journal of Lubrication Technology 100 (1978) 12; 101 (1979) 220), for speeds U1, U2 of
+the walls along x, a separation d and the rms height s of both surfaces together,
+
+    q_x = -phi_x d^3 / (12 mu) dp/dx + (U1 + U2)/2 hbar + (U1 - U2)/2 s phi_s,
+    tau = mu (U2 - U1)/d (phi_f + phi_fs) + phi_fp d/2 dp/dx      on the smooth wall 2, where wall 1 is rough,
+
+hbar being the mean gap. They found the factors by flow simulation on small patches with sealed sides; here they are the
+means of the cell problem (`bem.flow.cell_problem`), which needs no sides:
+
+    phi_x = K_xx/d^3,   s phi_s = hbar - M_xx,   phi_f = d <1/h>,   phi_fs = 3 d <h dchi_s/dx>,   phi_fp = M_xx/d.
+
+All roughness is taken to be on wall 1. Roughness on both enters phi_s and phi_fs by the difference of the shares
+of variance, (s1^2 - s2^2)/s^2, as in the 1979 paper: exact to second order in s/d, an approximation in contact.
+
+tau is on the smooth wall, where it is also the friction force by equilibrium; on the rough wall the pressure on its
+slopes carries the rest. <1/h> grows without bound as contact opens; it and phi_fs leave out gaps below
+s/100, Patir and Cheng's own cut.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from bem.contact import solve_contact
+from bem.convolution import DisplacementOperator, displacement_operator
+from bem.errors import InputError, Status
+from bem.flow.cell_problem import CellFlow, cell_flow
+from bem.flow.curve import Curve
+from bem.grid import FloatArray, Grid
+from bem.materials import Body
+from bem.representation import readable
+
+LEAST_GAP = 1e-4
+"""Gaps below this share of the rms height count as closed: less than an atom on any engineering surface; what they
+would let through is 1e-12 of what the rms height does."""
+LEAST_SHEAR_GAP = 1e-2
+"""Gaps below this share of the rms height have no part in the mean shear stress of the fluid."""
+
+
+@readable
+@dataclass(frozen=True, eq=False)
+class FlowFactors:
+    """Flow factors over separation; arrays have one value for each separation.
+
+    Attributes
+    ----------
+    separations : [m], rising: distance of the mean planes of the undeformed surfaces, less what the bodies as a whole
+        approach (a doubly periodic patch has no other deflection of its mean).
+    pressure_x, pressure_y : phi_x and phi_y: pressure flow over that between smooth walls at the separation; exactly 0
+        where fluid does not hang together across the patch.
+    pressure_xy : pressure flow along x for a gradient along y (and the reverse), in the same measure: of skewed lays.
+    shear_x : phi_s, of roughness on wall 1 alone; see the module for both.
+    friction_sliding, friction_shear, friction_pressure : phi_f, phi_fs and phi_fp of the stress on the smooth wall.
+    mean_gap : [m], of the deformed gap. contact_area_fraction : of the patch.
+    flows_through_x, flows_through_y : whether fluid hangs together from patch to patch.
+    pressure_x_error, pressure_y_error, shear_x_error : what cells twice as large say, over 3 (second order); NaN where
+        not asked for.
+    residual : the largest of the contact's and the flow's. iterations : of the flow's conjugate gradients.
+    statuses : outcome at each separation. status : the worst of them.
+    rms_height : s [m]. notes : sentences on what should not be believed.
+    """
+
+    separations: FloatArray
+    pressure_x: FloatArray
+    pressure_y: FloatArray
+    pressure_xy: FloatArray
+    shear_x: FloatArray
+    friction_sliding: FloatArray
+    friction_shear: FloatArray
+    friction_pressure: FloatArray
+    mean_gap: FloatArray
+    contact_area_fraction: FloatArray
+    flows_through_x: FloatArray
+    flows_through_y: FloatArray
+    pressure_x_error: FloatArray
+    pressure_y_error: FloatArray
+    shear_x_error: FloatArray
+    residual: FloatArray
+    iterations: FloatArray
+    statuses: tuple[Status, ...]
+    rms_height: float
+    notes: tuple[str, ...] = ()
+
+    @property
+    def status(self) -> Status:
+        """The first outcome that is not converged, if any."""
+        return next((status for status in self.statuses if status is not Status.CONVERGED), Status.CONVERGED)
+
+    @cached_property
+    def pressure_x_curve(self) -> Curve:
+        """phi_x between and beyond the separations: 1 plus a multiple of d^-2 far away."""
+        return Curve(self.separations, self.pressure_x, 1.0, 2.0)
+
+    @cached_property
+    def pressure_y_curve(self) -> Curve:
+        """phi_y likewise."""
+        return Curve(self.separations, self.pressure_y, 1.0, 2.0)
+
+    @cached_property
+    def shear_x_curve(self) -> Curve:
+        """phi_s likewise: a multiple of 1/d far away; of d near contact, where the rough wall carries all fluid."""
+        return Curve(self.separations, np.maximum(self.shear_x, 0.0), 0.0, 1.0, growth=1.0)
+
+
+def flow_factors(
+    heights: FloatArray,
+    grid: Grid,
+    bodies: Body | tuple[Body, Body] | None,
+    *,
+    separations: Sequence[float] | FloatArray,
+    hardness: float | None = None,
+    tolerance: float = 1e-8,
+    errors: bool = False,
+) -> FlowFactors:
+    """Flow factors of a patch of rough surface at given separations of the mean planes.
+
+    At each separation d the bodies are pressed together until their mean planes are d apart, elastically or capped at
+    the hardness; the flow's cell problem is solved in the gap that is left.
+
+    Parameters
+    ----------
+    heights : (nx, ny) [m], positive out of the body: of one rough surface, or the sum of both surfaces' heights. The
+        patch repeats along both axes, whatever the grid says; its mean is taken out.
+    bodies : one Body (the other rigid), a pair, or None: heights above d are cut off and nothing is deformed, as in
+        Patir and Cheng's simulations.
+    separations : [m], positive, in any order; the table is in rising order.
+    hardness : cap on the contact pressure [Pa]; None for purely elastic. With it the mean gap exceeds d by the mean
+        plastic depth.
+    tolerance : bound on the residual of contact and flow.
+    errors : whether to repeat all with cells twice as large, for the error of the cell; a quarter more work.
+
+    Raises
+    ------
+    InputError : heights, separations or hardness out of range, one message for each.
+    """
+    checked, apart = _checked(heights, grid, separations, hardness, bodies)
+    notes = []
+    if not all(grid.periodic):
+        notes.append("the patch is taken to repeat along both axes; the grid did not say so, and seams may have steps")
+    rms = float(np.sqrt(np.mean(checked**2)))
+    patch = _Patch.of(checked, grid, bodies, hardness, tolerance, rms)
+    rows = [patch.row(d) for d in apart]
+    columns = {name: np.array([row[0][name] for row in rows]) for name in rows[0][0]}
+    coarse = patch.coarsened(bodies) if errors else None
+    for name in ("pressure_x", "pressure_y", "shear_x"):
+        columns[f"{name}_error"] = np.full(len(apart), np.nan)
+    if coarse is not None:
+        other = [coarse.row(d)[0] for d in apart]
+        for name in ("pressure_x", "pressure_y", "shear_x"):
+            columns[f"{name}_error"] = np.abs(columns[name] - [row[name] for row in other]) / 3
+    shut = [f"{1e9 * d:.4g} nm" for d, row in zip(apart, rows, strict=True) if row[0]["pressure_x"] == 0]
+    if shut:
+        notes.append(f"contact bars all flow along x at separations of {', '.join(shut)}: the pressure factor is zero")
+    return FlowFactors(
+        separations=apart, statuses=tuple(row[1] for row in rows), rms_height=rms, notes=tuple(notes), **columns
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Patch:
+    """Heights (nx, ny) [m] with zero mean, and how they are deformed; `rms` [m] is that of the patch first given."""
+
+    heights: FloatArray
+    grid: Grid
+    operator: DisplacementOperator | None
+    hardness: float | None
+    tolerance: float
+    rms: float
+
+    @classmethod
+    def of(
+        cls,
+        heights: FloatArray,
+        grid: Grid,
+        bodies: Body | tuple[Body, Body] | None,
+        hardness: float | None,
+        tolerance: float,
+        rms: float,
+    ) -> _Patch:
+        periodic = Grid(grid.shape, grid.spacing, periodic=(True, True))
+        operator = None if bodies is None else displacement_operator(periodic, bodies)
+        return cls(heights, periodic, operator, hardness, tolerance, rms)
+
+    def coarsened(self, bodies: Body | tuple[Body, Body] | None) -> _Patch | None:
+        """Every second cell along each axis that has more than one; None where their number is odd."""
+        steps = tuple(2 if n > 1 else 1 for n in self.grid.shape)
+        if any(n % step or 1 < n < 8 for n, step in zip(self.grid.shape, steps, strict=True)):
+            return None
+        heights = np.ascontiguousarray(self.heights[:: steps[0], :: steps[1]])
+        (dx, dy), (nx, ny) = self.grid.spacing, heights.shape
+        grid = Grid((nx, ny), (steps[0] * dx, steps[1] * dy))
+        # no new mean: the planes are those of the surface, however it is sampled
+        return _Patch.of(heights, grid, bodies, self.hardness, self.tolerance, self.rms)
+
+    def row(self, separation: float) -> tuple[dict[str, float], Status]:
+        """All factors at one separation [m], by name, and the worst status."""
+        gap, area, residual, status = self.deformed(separation)
+        # of order one, so that nothing depends on the unit
+        flow = cell_flow(
+            gap / separation,
+            self.grid.spacing,
+            tolerance=self.tolerance,
+            least_shear_gap=LEAST_SHEAR_GAP * self.rms / separation,
+        )
+        return self._named(flow, separation, area, max(residual, flow.residual)), (
+            status if status is not Status.CONVERGED else flow.status
+        )
+
+    def deformed(self, separation: float) -> tuple[FloatArray, float, float, Status]:
+        """The gap (nx, ny) [m], zero in contact; contact area over the patch; the contact's residual and status."""
+        if self.operator is None:
+            gap = np.maximum(separation - self.heights, 0.0)
+            area, residual, status = float((gap == 0).mean()), 0.0, Status.CONVERGED
+        else:
+            solution = solve_contact(
+                -self.heights, self.operator, approach=-separation, hardness=self.hardness, tolerance=self.tolerance
+            )
+            gap = np.where(solution.pressure > 0, 0.0, np.maximum(solution.gap, 0.0))
+            area, residual, status = solution.contact_area / self.grid.area, solution.residual, solution.status
+        return np.where(gap < LEAST_GAP * self.rms, 0.0, gap), area, residual, status
+
+    def _named(self, flow: CellFlow, separation: float, area: float, residual: float) -> dict[str, float]:
+        dragged = flow.dragged_flow[0, 0]
+        return {
+            "pressure_x": flow.pressure_flow[0, 0],
+            "pressure_y": flow.pressure_flow[1, 1],
+            "pressure_xy": flow.pressure_flow[0, 1],
+            "shear_x": (flow.mean_gap - dragged) * separation / self.rms if self.rms > 0 else 0.0,
+            "friction_sliding": flow.inverse_gap,
+            "friction_shear": 3 * flow.sliding_shear,
+            "friction_pressure": dragged,
+            "mean_gap": flow.mean_gap * separation,
+            "contact_area_fraction": area,
+            "flows_through_x": flow.through_x,
+            "flows_through_y": flow.through_y,
+            "residual": residual,
+            "iterations": flow.iterations,
+        }
+
+
+def _checked(
+    heights: FloatArray,
+    grid: Grid,
+    separations: Sequence[float] | FloatArray,
+    hardness: float | None,
+    bodies: Body | tuple[Body, Body] | None,
+) -> tuple[FloatArray, FloatArray]:
+    """Heights without their mean, separations in rising order."""
+    if not isinstance(grid, Grid):
+        raise InputError(f"flow_factors: grid {grid!r} must be a Grid")
+    messages: list[str] = []
+    checked, apart = np.zeros(grid.shape), np.zeros(0)
+    try:
+        checked = grid.check_field(heights, "flow_factors: heights")
+    except InputError as error:
+        messages.extend(error.messages)
+    try:
+        apart = np.unique(np.asarray(separations, dtype=np.float64).reshape(-1))
+    except (TypeError, ValueError):
+        messages.append(f"flow_factors: separations {separations!r} must be lengths [m]")
+    else:
+        bad = [float(d) for d in apart if not (math.isfinite(d) and d > 0)]
+        if bad or apart.size == 0:
+            messages.append(
+                f"flow_factors: separations {bad if bad else 'none'}: allowed are one or more positive, finite ones "
+                "[m]; elastic bodies whose mean planes meet have no gap left"
+            )
+    if hardness is not None and bodies is None:
+        messages.append(f"flow_factors: hardness {hardness!r} has no meaning without bodies")
+    if messages:
+        raise InputError(messages)
+    return np.ascontiguousarray(checked - checked.mean()), apart

@@ -1,0 +1,103 @@
+"""Which open cells of a periodic patch hang together, and which of these pieces reach round it.
+
+A piece of open cells carries a mean flow along x only if a path inside it leads from a cell to the same cell of the
+next patch along x. Labels come from a forest of cells with their offsets to the root in cells (union-find, as for the
+winding of percolating clusters: Machta, Choi, Lucke, Schweizer and Chayes, Physical Review E 54 (1996) 1332): a link
+between two cells of one tree whose offsets do not agree closes a path round the patch.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """Pieces of open cells of a periodic patch, cells being joined through their sides.
+
+    Attributes
+    ----------
+    label : (nx, ny), number of the piece a cell is in; -1 where it is closed.
+    around_x, around_y : one for each piece, whether a path in it leads round the patch along x or along y.
+    """
+
+    label: NDArray[np.int64]
+    around_x: NDArray[np.bool_]
+    around_y: NDArray[np.bool_]
+
+    def around(self, axis: int) -> NDArray[np.bool_]:
+        """The cells (nx, ny) of pieces that reach round the patch along the axis."""
+        reach = self.around_x if axis == 0 else self.around_y
+        return np.append(reach, False)[self.label]
+
+
+def open_pieces(is_open: NDArray[np.bool_]) -> Pieces:
+    """The pieces of the open cells (nx, ny) of a patch that repeats along both axes."""
+    nx, ny = is_open.shape
+    parent, _, wound = _forest(np.ascontiguousarray(is_open))
+    roots = parent.reshape(nx, ny)
+    found, label = np.unique(roots[is_open], return_inverse=True)
+    labels = np.full((nx, ny), -1, dtype=np.int64)
+    labels[is_open] = label
+    return Pieces(labels, wound[found, 0], wound[found, 1])
+
+
+@_strict
+def _root(parent, offset, cell):  # type: ignore[no-untyped-def]
+    """The root of the tree, the path to it made short; `offset` [cells] is of a cell from its parent."""
+    root, x, y = cell, 0, 0
+    while parent[root] != root:
+        x += offset[root, 0]
+        y += offset[root, 1]
+        root = parent[root]
+    while parent[cell] != root and cell != root:
+        above, step_x, step_y = parent[cell], offset[cell, 0], offset[cell, 1]
+        parent[cell] = root
+        offset[cell, 0], offset[cell, 1] = x, y
+        x -= step_x
+        y -= step_y
+        cell = above
+    return root
+
+
+@_strict
+def _forest(is_open):  # type: ignore[no-untyped-def]
+    """Root of each cell, offsets [cells] from it, and whether the tree of a root winds along x and along y."""
+    nx, ny = is_open.shape
+    parent = np.arange(nx * ny)
+    offset = np.zeros((nx * ny, 2), np.int64)
+    wound = np.zeros((nx * ny, 2), np.bool_)
+    for i in range(nx):
+        for j in range(ny):
+            if not is_open[i, j]:
+                continue
+            for axis in range(2):
+                k, m = ((i + 1) % nx, j) if axis == 0 else (i, (j + 1) % ny)
+                if not is_open[k, m]:
+                    continue
+                a, b = i * ny + j, k * ny + m
+                step_x, step_y = (1, 0) if axis == 0 else (0, 1)
+                first, second = _root(parent, offset, a), _root(parent, offset, b)
+                # from the first root to the second one, along the link
+                x = (offset[a, 0] if a != first else 0) + step_x - (offset[b, 0] if b != second else 0)
+                y = (offset[a, 1] if a != first else 0) + step_y - (offset[b, 1] if b != second else 0)
+                if first == second:
+                    wound[first, 0] |= x != 0
+                    wound[first, 1] |= y != 0
+                else:
+                    parent[second] = first
+                    offset[second, 0], offset[second, 1] = x, y
+                    wound[first, 0] |= wound[second, 0]
+                    wound[first, 1] |= wound[second, 1]
+    for cell in range(nx * ny):
+        _root(parent, offset, cell)
+    for cell in range(nx * ny):
+        parent[cell] = _root(parent, offset, cell)
+    return parent, offset, wound

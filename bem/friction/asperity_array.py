@@ -1,0 +1,108 @@
+"""Equal spherical asperities in a square array, pressed by a flat: load per asperity over how deep the tops go.
+
+All asperities of an endless array carry the same, so one of them on a doubly periodic cell is the whole array. Thesis,
+paper A, figures 3 and 4. Knows the contact solver; no scene. Verified in tests/friction/test_asperity_array.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from bem.contact import solve_contact
+from bem.convolution import DisplacementOperator
+from bem.errors import InputError, Status
+from bem.grid import FloatArray, Grid
+
+LOADS = 14
+"""Contacts solved for a curve; loads at depths in between are interpolated."""
+SQUARE_LATTICE = 3.900264920001956
+"""Potential of a square lattice of unit charges, in a background that makes it neutral, at one of them, itself left
+out, times the spacing and -1; 4 zeta(1/2) beta(1/2)."""
+SQUARE_PATCH = 4 * math.asinh(1.0)
+"""Integral of 1/r over a unit square, r from its centre."""
+
+
+@dataclass(frozen=True, eq=False)
+class ArrayLoads:
+    """Loads per asperity [N] at depths (n,) [m] of the tops.
+
+    alone : of an asperity alone, by Hertz. mean_plane : depths from the deformed mean plane of the endless array.
+    from_flat : depths from the undeformed flat, of an array that ends. pressure : (nx, ny) at the highest load [Pa].
+    status : the worst of the contacts.
+    """
+
+    depth: FloatArray
+    alone: FloatArray
+    mean_plane: FloatArray
+    from_flat: FloatArray
+    pressure: FloatArray
+    status: Status
+
+
+def press_array(
+    operator: DisplacementOperator,
+    *,
+    radius: float,
+    height: float,
+    contact_modulus: float,
+    depths: FloatArray,
+    window: float,
+    callback: Callable[[int], None] | None = None,
+) -> ArrayLoads:
+    """Press an asperity among its neighbours.
+
+    Parameters
+    ----------
+    operator : of both bodies on the doubly periodic cell of one asperity, as wide as their spacing.
+    radius, height : of the spheres, and how far they stand out of the flat [m]. contact_modulus : E* [Pa].
+    depths : at which loads are wanted, rising [m]. window : side of the square array that ends [m].
+    callback : called with the number of contacts solved, after each.
+
+    Raises
+    ------
+    InputError : depths that the loads do not reach.
+    """
+    grid = operator.grid
+    depth = np.asarray(depths, dtype=np.float64)
+    hertz = 4 / 3 * contact_modulus * math.sqrt(radius)  # Johnson (1985), eq. 4.23
+    loads = hertz * np.geomspace(0.02 * depth[0], 1.6 * depth[-1], LOADS) ** 1.5
+    gap = asperity_gap(grid, radius, height)
+    approach, status = [], Status.CONVERGED
+    pressure: FloatArray | None = None
+    for number, load in enumerate(loads):
+        solution = solve_contact(gap, operator, load=load, initial_pressure=pressure)
+        pressure = solution.pressure
+        approach.append(solution.approach - float(gap.min()))
+        if solution.status is not Status.CONVERGED:
+            status = solution.status
+        if callback is not None:
+            callback(number + 1)
+    assert pressure is not None
+    inward = np.array(approach)
+    # a finite square array sinks in as a whole by the mean pressure's own deflection at its middle
+    spacing = grid.lengths[0]
+    sunk = SQUARE_PATCH * window * loads / spacing**2 / (math.pi * contact_modulus)
+    mean_plane, from_flat = (_at_depths(depth, values, loads, spacing) for values in (inward, inward + sunk))
+    return ArrayLoads(depth, hertz * depth**1.5, mean_plane, from_flat, pressure, status)
+
+
+def asperity_gap(grid: Grid, radius: float, height: float) -> FloatArray:
+    """Gap (nx, ny) [m] under the parabola that Hertz' sphere is; below the foot stands the flat."""
+    x, y = grid.x[:, None], grid.y[None, :]
+    return np.minimum((x**2 + y**2) / (2 * radius), height)
+
+
+def _at_depths(depth: FloatArray, inward: FloatArray, loads: FloatArray, spacing: float) -> FloatArray:
+    """Loads at the depths asked for [N]; InputError for depths that the loads do not reach."""
+    from scipy.interpolate import PchipInterpolator
+
+    if not (np.diff(inward) > 0).all() or inward[0] > depth[0] or inward[-1] < depth[-1]:
+        raise InputError(
+            f"array.interferences: {depth[0]:.3g} to {depth[-1]:.3g} m cannot be reached at a spacing of "
+            f"{spacing:.3g} m; allowed: {max(inward[0], 0):.3g} to {inward[-1]:.3g} m"
+        )
+    return np.asarray(PchipInterpolator(inward, loads ** (2 / 3))(depth) ** 1.5)

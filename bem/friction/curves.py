@@ -1,0 +1,83 @@
+"""Friction curves, speed by speed: the numbers of each point, what is kept of a curve on the way, how two differ.
+
+Knows solved points of load sharing. Verified in tests/friction/test_load_sharing.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bem.errors import Status
+
+if TYPE_CHECKING:
+    from bem.friction.solution import MixedSolution
+
+
+@dataclass(frozen=True)
+class CurvePoint:
+    """The numbers of one speed: [m/s], forces on the whole width [N], parts of the coefficient of friction, lengths
+    [m], ratios, counts."""
+
+    speed: float
+    friction: float
+    boundary_part: float
+    film_part: float
+    contact_load: float
+    film_load: float
+    minimum_film: float
+    lambda_ratio: float
+    contact_area_fraction: float
+    film_solves: float
+    contact_solves: float
+    status: Status
+
+    @classmethod
+    def of(cls, solution: MixedSolution) -> CurvePoint:
+        """Those of a solution."""
+        area = 0.0 if solution.contact is None else solution.contact.contact_area
+        return cls(
+            speed=solution.speeds[0],
+            friction=solution.friction,
+            boundary_part=solution.boundary_force / solution.load,
+            film_part=solution.film_force / solution.load,
+            contact_load=solution.contact_load,
+            film_load=solution.film_load,
+            minimum_film=solution.minimum_film,
+            lambda_ratio=solution.lambda_ratio,
+            contact_area_fraction=area / solution.grid.area,
+            film_solves=float(solution.evaluations),
+            contact_solves=float(solution.contact_solves),
+            status=solution.status,
+        )
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve so far: the numbers of its speeds, the solution that makes pictures, and the one the next starts from."""
+
+    points: tuple[CurvePoint, ...] = ()
+    shown: MixedSolution | None = None
+    last: MixedSolution | None = None
+
+    def then(self, solution: MixedSolution) -> Curve:
+        """With one speed more; shown is where film and contact share most evenly, or the first of full films."""
+        shown = solution if self.shown is None or _evenness(solution) < _evenness(self.shown) else self.shown
+        return Curve((*self.points, CurvePoint.of(solution)), shown, solution)
+
+
+def _evenness(solution: MixedSolution) -> float:
+    return 1.0 if solution.full_film else abs(solution.contact_load / solution.load - 0.5)
+
+
+def relative_difference(coupled: ArrayLike, uncoupled: ArrayLike) -> float:
+    """d = |f_u - f_c| / f_u at the speed where |f_u - f_c| is largest, of two friction curves (n,) at the same speeds.
+
+    Eq. (13) of the thesis' paper A.
+    """
+    one, other = np.asarray(coupled, dtype=np.float64), np.asarray(uncoupled, dtype=np.float64)
+    at = int(np.argmax(np.abs(one - other)))
+    return float(abs(other[at] - one[at]) / other[at])

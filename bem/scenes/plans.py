@@ -1,0 +1,157 @@
+"""Steps of plans that scenes of several kinds take, each with what it was measured to cost.
+
+Knows grids, bodies and surfaces, and which of them need what; no kind of scene. Verified in
+tests/frugality/test_plans.py: counts of transforms and convolutions against runs, steps that follow the scene.
+"""
+
+from __future__ import annotations
+
+from bem.grid import Grid
+from bem.laws import Law
+from bem.materials import Body
+from bem.scenes import build
+from bem.scenes.context import LARGE
+from bem.scenes.planner import Step, convolution_memory, layered_kernel_seconds, padded_points, show_bytes
+
+_LIBRARIES = 2.2e8
+"""Bytes of the interpreter with the solver's libraries."""
+_TRANSFORMS_PER_CONVOLUTION = 3.2
+"""Time of a convolution and what the contact solver does besides, in transforms: measured, 256 to 1024 cells."""
+
+
+def surfaces(grid: Grid, lower: build.AnySurface, upper: build.AnySurface) -> Step:
+    """Heights of both bodies.
+
+    Raises
+    ------
+    InputError : surfaces that cannot be generated on the grid.
+    """
+    build.check_surfaces(grid, lower=lower, upper=upper)
+    rough = {name: s for name, s in (("lower", lower), ("upper", upper)) if s.kind != "smooth"}
+    # a surface that is not Gaussian is found by iteration
+    iterated = sum(s.kind == "generated" and (s.skewness, s.kurtosis) != (0.0, 3.0) for s in rough.values())
+    return Step(
+        "surfaces",
+        f"heights of {' and '.join(rough)}" if rough else "both bodies are smooth",
+        skipped=not rough,
+        transforms=60.0 * len(rough) + 300.0 * iterated,
+        points=grid.cells,
+        memory=8.0 * grid.cells * 14,
+        kept=8.0 * grid.cells * (1 + len(rough)),
+        seconds=0.3,
+    )
+
+
+def layered_kernels(grid: Grid, lower: Body, upper: Body | None, depths: int = 0) -> Step:
+    """Spectra of coated bodies: displacement, and stresses at so many depths."""
+    coated = {
+        name: body for name, body in (("lower", lower), ("upper", upper)) if body is not None and not body.homogeneous
+    }
+    why = " and ".join(f"{build.show_layers(body)} on the {name} body" for name, body in coated.items())
+    return Step(
+        "layered kernels",
+        why or "no body is coated",
+        skipped=not coated,
+        seconds=len(coated) * layered_kernel_seconds(grid.cells, depths),
+        memory=8.0 * padded_points(grid.shape, grid.periodic) / 4 * (7 if depths else 1) * len(coated),
+        per="grid",
+    )
+
+
+def traction_kernels(grid: Grid, lower: Body, upper: Body | None, friction: float | Law, wanted: bool = True) -> Step:
+    """Kernels by which friction moves the normal gap; not `wanted` where asperities are not coupled at all."""
+    coupled = wanted and build.traction_couples(lower, upper, friction)
+    points = padded_points(grid.shape, grid.periodic)
+    if coupled:
+        why = "friction between elastically dissimilar bodies (Dundurs' beta is not zero)"
+    elif not wanted:
+        why = "uncoupled asperities do not feel it"
+    else:
+        why = "no friction" if friction == 0 else "Dundurs' beta is zero: traction does not move the gap"
+    memory = 8.0 * points / 4
+    return Step("traction kernels", why, skipped=not coupled, transforms=20, points=points, memory=memory, per="grid")
+
+
+def convolutions(grid: Grid) -> float:
+    """Convolutions of one solve, coarse levels included: about 18 at 256 cells a side, growing slowly with them."""
+    return 18.0 * max(1.0, max(grid.shape) / 256) ** 0.2
+
+
+def contact(grid: Grid, why: str) -> Step:
+    """One contact, and nothing of it left out."""
+    points = padded_points(grid.shape, grid.periodic)
+    return Step(
+        "contact",
+        why,
+        transforms=_TRANSFORMS_PER_CONVOLUTION * convolutions(grid),
+        points=points,
+        # measured from 2048 to 4096 cells: fields of the solver and of its coarser grids, spectra and buffers
+        memory=_LIBRARIES + 8.0 * grid.cells * 9.5 + 20.0 * points,
+        kept=_LIBRARIES + 8.0 * grid.cells * 4.2 + 8.0 * points,
+        seconds=1.0,
+    )
+
+
+def contacts(grid: Grid, total: float, why: str, *, name: str = "contact", skipped: bool = False) -> Step:
+    """Contacts of one grid that start from one another, of so many convolutions in all."""
+    return Step(
+        name,
+        why,
+        skipped=skipped,
+        transforms=2.0 * total,
+        points=padded_points(grid.shape, grid.periodic),
+        memory=convolution_memory(grid.shape, grid.periodic),
+    )
+
+
+def stresses(grid: Grid, body: Body | None, name: str, depths: int, *, fields: int, loads: int) -> Step:
+    """Stresses below one contact at so many depths in the lower or upper body.
+
+    fields : kept at each depth: 1 is von Mises alone. loads : 1, or 2 with traction.
+    """
+    points = padded_points(grid.shape, grid.periodic)
+    periodic = all(grid.periodic)
+    # six real spectra a load and depth: half arrays where periodic, quarters elsewhere, kept up to half a gigabyte
+    spectra = min(2.0**29, depths * loads * 6 * 8 * points * (0.5 if periodic else 0.25))
+    coated = body is not None and not body.homogeneous
+    volume = 8.0 * grid.cells * depths
+    on_disk = volume >= LARGE
+    held = volume * (fields - on_disk)
+    where = f"; {show_bytes(volume)} of them on disk, not in memory" if on_disk else ""
+    return Step(
+        "stresses below",
+        f"{depths} depths in the {name} body{where}" if depths else "neither stresses nor von Mises are asked for",
+        skipped=not depths,
+        # time of the kernels and of six components at one depth, in transforms: measured
+        transforms=depths * (25.0 if periodic else 40.0) * (2.5 if coated else 1.0),
+        points=points,
+        memory=held + spectra + 8 * 8.0 * points,
+        kept=held + spectra,
+        seconds=0.5,
+    )
+
+
+def error_bars(grid: Grid, depths: int, wanted: bool) -> Step:
+    """A contact and every second depth again on the grid of twice the cell, from a start nearby."""
+    points = padded_points(grid.shape, grid.periodic) / 4
+    return Step(
+        "error bars",
+        "the contact on the grid of twice the cell" if wanted else "outputs.errors is false",
+        skipped=not wanted,
+        transforms=_TRANSFORMS_PER_CONVOLUTION * convolutions(grid) + 0.5 * depths * 25.0,
+        points=int(points),
+        memory=8.0 * grid.cells * 9.5 / 4 + 20.0 * points,
+        kept=0.0,
+    )
+
+
+def vtk(wanted: bool) -> Step:
+    """The file for ParaView."""
+    why = "stress field for ParaView" if wanted else "no stress field to write"
+    return Step("VTK", why, skipped=not wanted, seconds=1.0, memory=1e8, kept=0.0)
+
+
+def figures(cells: int = 0) -> Step:
+    """Pictures and the report, with maps of so many cells."""
+    why = "pictures of the results, and the libraries for them"
+    return Step("figures and report", why, per="run", seconds=4.0, memory=2.2e8 + 8.0 * cells * 2)

@@ -1,0 +1,48 @@
+"""Figures of a finished wear loop: strips of the surface, sizes of particles over cycles.
+
+Knows heights, pressures and the tables of `wear.running_in`; no scene. Verified in tests/wear/test_outcome.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bem.grid import FloatArray
+from bem.particles import volume_mean_radius
+
+
+@dataclass(frozen=True)
+class StripWear:
+    """A surface in a strip along y before and after wear [m]: its rms heights Sq, and the mean depth worn."""
+
+    rms_before: float
+    rms_after: float
+    depth: float
+
+
+def strip_wear(before: FloatArray, after: FloatArray, strip: NDArray[np.bool_]) -> StripWear:
+    """Of heights (nx, ny) [m] in those rows (nx,)."""
+    depth = float((before - after)[strip].mean())
+    return StripWear(float(before[strip].std()), float(after[strip].std()), depth)
+
+
+def contact_strip(pressure: FloatArray) -> NDArray[np.bool_]:
+    """The rows (nx,) of a pressure (nx, ny) that are in contact anywhere; all where none is."""
+    touched = np.asarray((pressure != 0).any(axis=1))
+    return touched if touched.any() else ~touched
+
+
+def hertz_strip(x: FloatArray, half_width: float) -> NDArray[np.bool_]:
+    """The rows at x (nx,) [m] within Hertz' contact; of one narrower than a cell, those next to the axis."""
+    nearest = float(np.abs(x).min()) * (1 + 1e-9)  # on either side of it
+    return np.abs(x) <= max(half_width, nearest)
+
+
+def sizes_over_cycles(cycles: ArrayLike, particles: NDArray[np.void]) -> tuple[FloatArray, FloatArray]:
+    """Volume-mean radius [m] (not-a-number where nothing came off) and number of the particles of each cycle."""
+    volumes = [particles["volume"][particles["cycle"] == cycle] for cycle in np.asarray(cycles)]
+    radius = np.array([volume_mean_radius(volume) or np.nan for volume in volumes])
+    return radius, np.array([float(volume.size) for volume in volumes])

@@ -1,0 +1,48 @@
+"""Figures of a finished wear loop: strips, what is worn in them, sizes over cycles."""
+
+import numpy as np
+import pytest
+
+from bem.grid import Grid
+from bem.wear.outcome import contact_strip, hertz_strip, sizes_over_cycles, strip_wear
+from bem.wear.running_in import PARTICLE_FIELDS
+
+
+@pytest.mark.parametrize(("half_width", "rows"), [(0.1, 2), (1.0, 2), (2.0, 4), (100.0, 8)])
+def test_hertz_strip_of_a_contact_narrower_than_a_cell(half_width, rows):
+    # loads of a few millinewtons on the thesis' grid: no cell's centre is within the contact, and the mean was NaN
+    strip = hertz_strip(Grid((8, 8), (1.0, 1.0)).x, half_width)
+    assert strip.sum() == rows
+    assert (strip == strip[::-1]).all()
+
+
+def test_contact_strip_is_the_rows_that_touch_or_all():
+    pressure = np.zeros((4, 3))
+    assert contact_strip(pressure).all()
+    pressure[2, 1] = 1e9
+    assert contact_strip(pressure).tolist() == [False, False, True, False]
+
+
+def test_strip_wear_sees_the_strip_only():
+    before = np.zeros((4, 2))
+    before[1:3] = [[1.0, -1.0], [1.0, -1.0]]
+    before[0] = 100.0
+    after = before.copy()
+    after[1:3, 0] -= 0.5  # the upper half of a square wave loses half its height
+    strip = np.array([False, True, True, False])
+    found = strip_wear(before, after, strip)
+    # population deviation of +-1 and of 0.5, -1; round-off of four numbers
+    assert (found.rms_before, found.rms_after) == pytest.approx((1.0, 0.75), rel=1e-14)
+    assert found.depth == pytest.approx(0.25, rel=1e-14)
+
+
+def test_sizes_over_cycles_count_each_cycle_by_volume():
+    particles = np.zeros(3, PARTICLE_FIELDS)
+    particles["cycle"] = [1, 1, 3]
+    radii = np.array([1.0, 2.0, 5.0])
+    particles["volume"] = 4 / 3 * np.pi * radii**3
+    radius, number = sizes_over_cycles([1, 2, 3], particles)
+    # mean radius by volume of 1 and 2: (1 + 16) / 9
+    assert radius[[0, 2]] == pytest.approx([17 / 9, 5.0], rel=1e-14)
+    assert np.isnan(radius[1])
+    assert number.tolist() == [2, 0, 1]
