@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import product
 from typing import Any
 
 from bem.grid import Grid
-from bem.materials import Body, Material
+from bem.materials import Body, Material, contact_modulus
 from bem.scenes import build
+from bem.scenes.axes import Axis
 from bem.scenes.checks.hertz import SmoothContact, smooth_contact
 from bem.scenes.checks.surfaces_of import RoughSurface, rough_surface
 from bem.scenes.checks.words import si
 from bem.scenes.common import SceneModel, SmoothSurface
+from bem.scenes.kinds import get_kind
 
 _MOST_SURFACES = 24
 """Surfaces that are looked at; a sweep of variants beyond that shows no more."""
@@ -26,8 +29,8 @@ class Case:
 
     Parameters
     ----------
-    label : which of the scene's contacts, such as "10 N"; empty where there is but one.
     lower, upper : the bodies; a rigid upper one is None.
+    label : which of the scene's contacts, such as "10 N"; empty where there is but one.
     grid : None where the kind has no cells over an area.
     load : on the grid [N]; None where it is not known beforehand.
     smooth : Hertz contact of the substrates, None for a flat.
@@ -41,9 +44,9 @@ class Case:
     surfaces : the scene's tables of the surfaces, by body.
     """
 
-    label: str
     lower: Body
     upper: Body | None
+    label: str = ""
     grid: Grid | None = None
     load: float | None = None
     smooth: SmoothContact | None = None
@@ -136,16 +139,31 @@ def worst(values: Iterable[tuple[float, Case]]) -> tuple[float, Case] | None:
 def examine(scene: SceneModel) -> Facts:
     """The facts of a resolved scene. Surfaces are read, generated and described when they are first asked for.
 
-    A scene of a kind that is not known here, or without bodies, has those of its materials alone.
+    Its cases are those of the kind's axes, each once: what differs in temperature alone is one contact. A scene of a
+    kind that is not known here, or without bodies, has the facts of its materials alone.
     """
     make = _CASES.get(scene.kind)
-    cases = [] if make is None or not hasattr(scene, "lower") else make(scene)
-    labelled = len(cases) > 1
-    return Facts(scene, tuple(case if labelled else _unlabelled(case) for case in cases))
+    if make is None or not hasattr(scene, "lower"):
+        return Facts(scene, ())
+    axes = get_kind(scene.kind).axes(scene)
+    found: list[tuple[tuple[int, ...], Case]] = []
+    for place in product(*(range(len(axis)) for axis in axes)):
+        own: Any = scene
+        for axis, i in zip(axes, place, strict=True):
+            own = axis.pick(own, i)
+        found += [(place, case) for case in make(own) if all(case != known for _, known in found)]
+    telling = [k for k in range(len(axes)) if len({place[k] for place, _ in found}) > 1]
+    several = len({case.label for _, case in found}) > 1
+    cases = []
+    for place, case in found:
+        words = [_words(axes[k], place[k]) for k in telling] + ([case.label] if several else [])
+        cases.append(replace(case, label=", ".join(words)))
+    return Facts(scene, tuple(cases))
 
 
-def _unlabelled(case: Case) -> Case:
-    return Case(**{**case.__dict__, "label": ""})
+def _words(axis: Axis, i: int) -> str:
+    value = axis.values[i]
+    return str(value) if isinstance(value, str) else si(value, axis.si)
 
 
 def _bodies(scene: Any) -> dict[str, Any]:
@@ -179,7 +197,6 @@ def _contact(scene: Any) -> list[Case]:
     wanted = (outputs.von_mises or outputs.stresses) and outputs.depths is not None
     return [
         Case(
-            "",
             grid=grid,
             load=load,
             smooth=smooth,
@@ -195,88 +212,66 @@ def _contact(scene: Any) -> list[Case]:
 
 def _lubricated(scene: Any) -> list[Case]:
     """Kinds `friction` and `running-in`: a cylinder on a flat, a rough patch under it."""
-    from bem.materials import contact_modulus
-
     grid, bodies, contact = build.grid_of(scene.grid), _bodies(scene), scene.contact
     modulus = contact_modulus(bodies["lower"].material, bodies["upper"].material)
+    (load,) = contact.forces(modulus)
+    per_length = load / contact.width
     depths = getattr(scene, "depths", None)
-    slide = scene.wear.shift * grid.spacing[0] if hasattr(scene, "wear") else None
-    cases = []
-    for load in contact.forces(modulus):
-        for variant in getattr(scene, "variants", None) or [None]:
-            label, surfaces = si(load, "N"), dict(bodies["surfaces"])
-            if variant is not None:
-                changes = {k: v for k, v in variant.model_dump(exclude={"name"}).items() if v is not None}
-                surfaces["lower"] = surfaces["lower"].model_copy(update=changes)
-                label += f", {variant.name}"
-            per_length = load / contact.width
-            cases.append(
-                Case(
-                    label,
-                    grid=grid,
-                    load=per_length * grid.lengths[1],
-                    smooth=smooth_contact(
-                        bodies["lower"], bodies["upper"], (contact.radius, math.inf), load=per_length
-                    ),
-                    cap=contact.hardness or min(getattr(scene, "hardnesses", None) or [0.0]) or None,
-                    friction=contact.nominal_friction(load, modulus, scene.speeds.build()[0], scene.oil.temperature),
-                    depths=() if depths is None else tuple(float(d) for d in depths.build()),
-                    width=contact.width,
-                    slide=slide,
-                    shape="cylinder",
-                    **{**bodies, "surfaces": surfaces},
-                )
-            )
-    return cases
+    return [
+        Case(
+            grid=grid,
+            load=per_length * grid.lengths[1],
+            smooth=smooth_contact(bodies["lower"], bodies["upper"], (contact.radius, math.inf), load=per_length),
+            cap=contact.hardness,
+            friction=contact.nominal_friction(load, modulus, scene.speeds.build()[0], scene.oil.temperature),
+            depths=() if depths is None else tuple(float(d) for d in depths.build()),
+            width=contact.width,
+            slide=scene.wear.shift * grid.spacing[0] if hasattr(scene, "wear") else None,
+            shape="cylinder",
+            **bodies,
+        )
+    ]
 
 
 def _wear(scene: Any) -> list[Case]:
-    from bem.scenes.kinds.wear import grid_at, load_on, variant_of
+    from bem.scenes.kinds.wear import grid_at, load_on
 
-    cases = []
-    for load in scene.cylinder.loads:
-        for variant in scene.variants or [None]:
-            own = scene if variant is None else variant_of(scene, variant)
-            grid, bodies = grid_at(own, load), _bodies(own)
-            radii = (own.cylinder.radius or math.inf, math.inf)
-            cases.append(
-                Case(
-                    si(load, "N") + ("" if variant is None else f", {variant.name}"),
-                    grid=grid,
-                    load=load_on(own, grid, load),
-                    smooth=smooth_contact(bodies["lower"], bodies["upper"], radii, load=load / own.cylinder.width),
-                    cap=own.cylinder.hardness,
-                    friction=own.cylinder.friction,
-                    depths=tuple(float(d) for d in own.depths.build()),
-                    width=own.cylinder.width,
-                    slide=own.wear.shift * grid.spacing[0],
-                    shape="cylinder" if own.cylinder.radius else "flat",
-                    **bodies,
-                )
-            )
-    return cases
+    (load,), cylinder = scene.cylinder.loads, scene.cylinder
+    grid, bodies = grid_at(scene, load), _bodies(scene)
+    radii = (cylinder.radius or math.inf, math.inf)
+    return [
+        Case(
+            grid=grid,
+            load=load_on(scene, grid, load),
+            smooth=smooth_contact(bodies["lower"], bodies["upper"], radii, load=load / cylinder.width),
+            cap=cylinder.hardness,
+            friction=cylinder.friction,
+            depths=tuple(float(d) for d in scene.depths.build()),
+            width=cylinder.width,
+            slide=scene.wear.shift * grid.spacing[0],
+            shape="cylinder" if cylinder.radius else "flat",
+            **bodies,
+        )
+    ]
 
 
 def _tribofilm(scene: Any) -> list[Case]:
     from bem.tribofilm.properties import Constant
 
     grid, bodies, radii = build.grid_of(scene.grid), _bodies(scene), _shape(scene.shape)
-    line = math.isinf(radii[1])
+    (load,), hardness = scene.rubbing.loads, scene.film.hardness
+    on_it = load / grid.lengths[1] if math.isinf(radii[1]) else load
     return [
         Case(
-            si(load, "N"),
             grid=grid,
             load=load,
-            smooth=smooth_contact(
-                bodies["lower"], bodies["upper"], radii, load=load / grid.lengths[1] if line else load
-            ),
-            cap=scene.film.hardness.value if isinstance(scene.film.hardness, Constant) else None,
+            smooth=smooth_contact(bodies["lower"], bodies["upper"], radii, load=on_it),
+            cap=hardness.value if isinstance(hardness, Constant) else None,
             friction=scene.rubbing.friction,
             shape=scene.shape.kind,
             wavelength=scene.shape.wavelength,
             **bodies,
         )
-        for load in scene.rubbing.loads
     ]
 
 
@@ -285,22 +280,22 @@ def _film(scene: Any) -> list[Case]:
     load = max(cylinder.load, cylinder.load_end or 0.0)
     radii = (cylinder.radius, math.inf)
     smooth = smooth_contact(bodies["lower"], bodies["upper"], radii, load=load / cylinder.width)
-    return [Case("", smooth=smooth, width=cylinder.width, shape="cylinder", **bodies)]
+    return [Case(smooth=smooth, width=cylinder.width, shape="cylinder", **bodies)]
 
 
 def _asperities(scene: Any) -> list[Case]:
     from bem.scenes.kinds.asperities import grid_at
 
-    bodies, array = _bodies(scene), scene.array
+    (spacing,), array, bodies = scene.array.spacings, scene.array, _bodies(scene)
+    radii = (array.radius, array.radius)
     return [
         Case(
-            f"{si(spacing, 'm')} apart, {si(depth, 'm')} deep",
+            label=f"{si(depth, 'm')} deep",
             grid=grid_at(scene, spacing),
-            smooth=smooth_contact(bodies["lower"], bodies["upper"], (array.radius, array.radius), approach=depth),
+            smooth=smooth_contact(bodies["lower"], bodies["upper"], radii, approach=depth),
             shape="sphere",
             **bodies,
         )
-        for spacing in array.spacings
         for depth in sorted({min(array.interferences), max(array.interferences)})
     ]
 
