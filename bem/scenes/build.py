@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 from bem.errors import InputError
 from bem.grid import Grid
 from bem.laws import Law
-from bem.materials import Body
+from bem.materials import Body, contact_modulus
 from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, SceneModel, ShapeScene, SmoothSurface
 
 if TYPE_CHECKING:
+    from bem.convolution import DisplacementOperator
     from bem.scenes.context import Context
     from bem.surfaces import Surface
 
@@ -100,6 +101,20 @@ def both_heights(scene: Any, grid: Grid, context: Context) -> tuple[FloatArray, 
         heights_of(getattr(scene, name).surface, grid, context.seed(name), context.note) for name in ("lower", "upper")
     )
     return lower, upper
+
+
+def modulus_of(scene: Any) -> float:
+    """Contact modulus of the substrates of a scene's two bodies [Pa]."""
+    lower, upper = scene.lower.build(), scene.upper.build()
+    return contact_modulus(lower.material, None if upper is None else upper.material)
+
+
+def operator_of(scene: Any, grid: Grid, friction: float = 0.0) -> DisplacementOperator:
+    """Displacement of a scene's two bodies together under pressure, and under traction friction x pressure."""
+    from bem.convolution import displacement_operator
+
+    lower, upper = scene.lower.build(), scene.upper.build()
+    return displacement_operator(grid, lower if upper is None else (lower, upper), friction=friction)
 
 
 def with_grid(scene: Scene) -> Scene:

@@ -15,7 +15,7 @@ from pydantic import Field, model_validator
 from bem.errors import InfeasibleError, InputError
 from bem.friction.boundary import BoundaryFriction, boundary_law
 from bem.grid import Grid
-from bem.materials import Body, contact_modulus
+from bem.materials import Body
 from bem.reference_solutions.hertz import cylinder_contact
 from bem.scenes import build
 from bem.scenes.axes import Axis, changed
@@ -184,7 +184,7 @@ class LineContactScene(SceneModel):
     @property
     def modulus(self) -> float:
         """Contact modulus of the substrates [Pa]."""
-        return contact_modulus(*(body.material for body in self.bodies))
+        return build.modulus_of(self)
 
     @property
     def load(self) -> float:

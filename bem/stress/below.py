@@ -62,7 +62,8 @@ def stress_below(
 
     Parameters
     ----------
-    pressure : (nx, ny) [Pa]. depths : (nz,) [m], rising. friction : of the traction along +x.
+    pressure : (nx, ny) on the grid [Pa]. grid, body : where, and whose stresses.
+    depths : (nz,) [m], rising. friction : of the traction along +x.
     components : whether the six are kept. out : (nz, nx, ny) for von Mises, made if not given.
     after : called with the number of planes that are done, after each.
     """

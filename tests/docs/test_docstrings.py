@@ -13,6 +13,8 @@ from pathlib import Path
 import pytest
 
 import bem
+from bem.scenes.kinds import get_kind, kind_names
+from bem.scenes.records import figures
 
 _SECTION = re.compile(r"^(\w[\w ]*)\n-{3,}$", re.MULTILINE)
 
@@ -146,6 +148,7 @@ def names_in_code(tree):
 
 TREES = {path: ast.parse(text) for path, text in SOURCES.items()}
 NAMES = set().union(*map(names_in_code, TREES.values())) | set(keyword.kwlist) | set(dir(builtins)) | _ROOMS
+NAMES |= {key for kind in kind_names() for key in figures(get_kind(kind).record)}  # made of a field and its unit
 NAMES |= {path.stem for path in Path(bem.__path__[0]).rglob("*") if path.suffix}
 
 

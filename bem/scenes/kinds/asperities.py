@@ -15,8 +15,7 @@ from pydantic import Field, model_validator
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
-from bem.materials import contact_modulus
-from bem.scenes import plans
+from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed
 from bem.scenes.common import BodyScene, Cells, PositiveLength, SceneModel, Table, UpperBodyScene, problem
 from bem.scenes.context import Context
@@ -109,18 +108,16 @@ class AsperityRecord(Record):
 
 def run(scene: AsperitiesScene, context: Context) -> AsperityRecord:
     """Loads over depths at one spacing."""
-    from bem.convolution import displacement_operator
     from bem.friction.asperity_array import LOADS, press_array
 
     array, (spacing,) = scene.array, scene.array.spacings
-    lower, upper = scene.lower.build(), scene.upper.build()
     grid = grid_at(scene, spacing)
     with context.timer("contacts"):
         found = press_array(
-            displacement_operator(grid, lower if upper is None else (lower, upper)),
+            build.operator_of(scene, grid),
             radius=array.radius,
             height=array.height,
-            contact_modulus=contact_modulus(lower.material, None if upper is None else upper.material),
+            contact_modulus=build.modulus_of(scene),
             depths=np.array(sorted(array.interferences)),
             window=array.window,
             callback=lambda done: context.progress(done, LOADS, "contacts"),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -32,6 +31,7 @@ from bem.scenes.common import (
 )
 from bem.scenes.context import Context, release
 from bem.scenes.kinds import Kind
+from bem.scenes.packing import packed, unpacked
 from bem.scenes.planner import Plan
 from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.units import Length, Ratio
@@ -251,16 +251,12 @@ def _solve(
     scene: ContactScene, grid: Grid, undeformed: FloatArray, context: Context
 ) -> tuple[ContactSolution, FloatArray]:
     """The contact, from the checkpoint where it was solved before, and (n, 2) iterations and residuals."""
-    from bem.contact import ContactSolution, solve_contact
-    from bem.convolution import displacement_operator
+    from bem.contact import solve_contact
 
     saved = context.saved()
     if saved is not None:
-        fields = saved["solution"]
-        told = {"status": Status(fields["status"]), "notes": tuple(fields.get("notes", ()))}
-        return ContactSolution(**(fields | told)), saved["history"]
-    lower, upper = scene.lower.build(), scene.upper.build()
-    operator = displacement_operator(grid, lower if upper is None else (lower, upper), friction=scene.contact.friction)
+        return unpacked(saved["solution"]), saved["history"]
+    operator = build.operator_of(scene, grid, scene.contact.friction)
     history = []
 
     def watch(iterations: int, residual: float, fraction: float) -> None:
@@ -272,10 +268,7 @@ def _solve(
     solution = solve_contact(
         undeformed,
         operator,
-        load=_load(scene, grid.area),
-        approach=scene.contact.approach,
-        mean_gap=scene.contact.mean_gap,
-        hardness=scene.contact.hardness,
+        **_prescribed(scene, grid),
         tolerance=scene.contact.tolerance,
         max_iterations=scene.contact.max_iterations,
         callback=watch,
@@ -283,8 +276,15 @@ def _solve(
     del operator  # and with it its spectra
     context.progress(100, 100, "contact", residual=solution.residual)
     told_of = np.array(history, dtype=np.float64).reshape(-1, 2)
-    context.save({"solution": _fields(solution), "history": told_of})
+    context.save({"solution": packed(solution), "history": told_of})
     return solution, told_of
+
+
+def _prescribed(scene: ContactScene, grid: Grid) -> dict[str, Any]:
+    """What holds the bodies together, and the cap, as `solve_contact` takes them."""
+    control = scene.contact
+    given = {"approach": control.approach, "mean_gap": control.mean_gap, "hardness": control.hardness}
+    return given | {"load": _load(scene, grid.area)}
 
 
 def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Context) -> StressBelow:
@@ -312,21 +312,11 @@ def _errors(
 ) -> Mapping[str, float | None]:
     """Error bars of the figures; where there are none the notes say why."""
     from bem.accuracy import ContactCase, contact_bars, solve_coarser, stress_bars
-    from bem.convolution import displacement_operator
 
-    grid, control = build.grid_of(scene.grid), scene.contact
-    lower, upper = scene.lower.build(), scene.upper.build()
-    case = ContactCase(
-        displacement_operator(grid, lower if upper is None else (lower, upper), friction=control.friction),
-        undeformed,
-        solution,
-        load=_load(scene, grid.area),
-        approach=control.approach,
-        mean_gap=control.mean_gap,
-        hardness=control.hardness,
-        from_touch=rough,
-    )
-    coarser = solve_coarser(case, control.max_iterations)
+    grid = build.grid_of(scene.grid)
+    operator = build.operator_of(scene, grid, scene.contact.friction)
+    case = ContactCase(operator, undeformed, solution, **_prescribed(scene, grid), from_touch=rough)
+    coarser = solve_coarser(case, scene.contact.max_iterations)
     bars = contact_bars(case, coarser)
     if below is not None:
         body, friction = _stressed(scene)
@@ -344,12 +334,6 @@ def _stressed(scene: ContactScene) -> tuple[Body, float]:
     upper = scene.upper.build()
     assert upper is not None
     return upper, -scene.contact.friction
-
-
-def _fields(solution: Any) -> dict[str, Any]:
-    """The parts of a solution for the checkpoint, not copied."""
-    fields = {field.name: getattr(solution, field.name) for field in dataclasses.fields(solution)}
-    return fields | {"notes": list(solution.notes)}
 
 
 def _wants_stresses(scene: ContactScene) -> bool:

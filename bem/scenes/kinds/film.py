@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 
 from bem.errors import Status
 from bem.grid import FloatArray
-from bem.scenes import plans
+from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, Force, PositiveLength, SceneModel, Table, UpperBodyScene, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
@@ -149,9 +149,7 @@ class FilmTimeRecord(Record):
 def run(scene: FilmScene, context: Context) -> FilmTimeRecord:
     """March through the motion."""
     from bem.lubrication import Cavitation, march_line_film
-    from bem.materials import contact_modulus
 
-    lower, upper = scene.lower.build(), scene.upper.build()
     cylinder, march = scene.cylinder, scene.march
     end = cylinder.load if cylinder.load_end is None else cylinder.load_end
     times = np.linspace(0.0, march.duration, march.steps + 1)
@@ -170,7 +168,7 @@ def run(scene: FilmScene, context: Context) -> FilmTimeRecord:
             load=load,
             speeds=lambda time: (scene.motion.at(time), 0.0),
             radius=cylinder.radius,
-            contact_modulus=contact_modulus(lower.material, None if upper is None else upper.material),
+            contact_modulus=build.modulus_of(scene),
             lubricant=scene.oil.build(),
             points=march.points,
             initial_thickness=march.initial_thickness,

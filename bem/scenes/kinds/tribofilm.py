@@ -14,7 +14,6 @@ from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError
 from bem.grid import FloatArray, Grid
-from bem.materials import contact_modulus
 from bem.reference_solutions.hertz import sphere_contact
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, given, listed, variants, with_keys
@@ -313,9 +312,8 @@ def _nominal_area(scene: TribofilmScene, grid: Grid, load: float) -> FloatArray 
     """Cells inside the smooth Hertz contact of a ball; the whole grid for other shapes."""
     if scene.film.average != "nominal" or scene.shape.kind != "sphere" or scene.shape.radius is None:
         return None
-    modulus = contact_modulus(scene.lower.build().material, scene.upper.build().material)
-    radius, _ = sphere_contact(radius=scene.shape.radius, contact_modulus=modulus, load=load).semi_axes
-    return (np.hypot(grid.x[:, None], grid.y[None, :]) <= radius).astype(np.float64)
+    ball = sphere_contact(radius=scene.shape.radius, contact_modulus=build.modulus_of(scene), load=load)
+    return (np.hypot(grid.x[:, None], grid.y[None, :]) <= ball.semi_axes[0]).astype(np.float64)
 
 
 def _mean_film(

@@ -13,7 +13,6 @@ from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError, InputError
 from bem.grid import FloatArray, Grid
-from bem.materials import contact_modulus
 from bem.reference_solutions.hertz import cylinder_contact
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, given, listed, variants, with_keys
@@ -192,8 +191,7 @@ def grid_at(scene: WearScene, load: float) -> Grid:
     if lengths is None:
         assert half_widths is not None
         per_length = (scene.domain.half_widths_at or load) / cylinder.width
-        modulus = contact_modulus(scene.lower.build().material, scene.upper.build().material)
-        smooth = cylinder_contact(radius=cylinder.radius, contact_modulus=modulus, load=per_length)
+        smooth = cylinder_contact(radius=cylinder.radius, contact_modulus=build.modulus_of(scene), load=per_length)
         lengths = (half_widths * smooth.half_width,) * 2
     (nx, ny) = scene.domain.cells
     return Grid(
