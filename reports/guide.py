@@ -97,7 +97,9 @@ def _sweeps() -> Section:
             "Every combination of values of any keys. Points run on all cores, or on a Dask cluster; a worker that "
             "dies is replaced. With --resume a sweep goes on and values may be added: no finished "
             "point is computed "
-            "again. All figures end up in sweep.nc with the swept keys as dimensions, in sweep.csv and in a figure."
+            "again. All figures end up in sweep.nc with the swept keys as dimensions, in sweep.csv and in a figure. "
+            "Every point is a run in a folder of its own under points/, without pictures and volumes for ParaView: "
+            "bem plot draws those of a point, bem run with its scene.toml makes all."
         )
         + _code(EXAMPLES["sweep"])
         + text(

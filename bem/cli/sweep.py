@@ -32,12 +32,14 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
             bool, typer.Option("--resume", help="Go on in a folder that holds a sweep; values may be added.")
         ] = False,
         workers: Annotated[
-            int | None, typer.Option(min=1, max=1024, help="Processes; without it one per core.")
+            int | None,
+            typer.Option(min=1, max=1024, help="Processes; without it one per core, as far as the work is worth it."),
         ] = None,
         scheduler: Annotated[
             str | None, typer.Option(metavar="ADDRESS", help="Use the Dask cluster of this scheduler instead.")
         ] = None,
         threads: Annotated[int, typer.Option(min=1, max=1024, help="Threads of each run.")] = 1,
+        pdf: Annotated[bool, typer.Option("--pdf", help="Draw the figure as PDF too, for print.")] = False,
     ) -> None:
         """Run a scene at every combination of values: sweep.nc, sweep.csv and a figure.
 
@@ -70,6 +72,7 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
                     threads=threads,
                     resume=resume,
                     watcher=terminal,
+                    pdf=pdf,
                 )
             except KeyboardInterrupt:
                 terminal.say("interrupted; the same command with --resume goes on")

@@ -23,7 +23,7 @@ def draw_sweep(
     spacings: Mapping[str, str],
     headline: Sequence[str],
     path: Path,
-    formats: Sequence[str] = ("png", "pdf"),
+    formats: Sequence[str] = ("png",),
 ) -> list[Path]:
     """Draw up to four of the headline figures.
 
@@ -53,6 +53,7 @@ def draw_sweep(
             target = path.with_name(f"{path.name}.{ending}")
             with replacing(target) as temporary:
                 figure.savefig(temporary, format=ending)
+            figure.set_layout_engine("none")  # the layout is found once for all formats
             paths.append(target)
     return paths
 

@@ -29,6 +29,7 @@ from bem.runs.table import dataset_variables, table_text
 from bem.scenes import get_kind
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
+from bem.scenes.context import Variable
 from bem.scenes.load import dump_scene, read_table, scene_from_table, scenes_at, words_at
 from bem.scenes.planner import Plan, check_memory
 from bem.scenes.ranges import parse_axes
@@ -75,6 +76,7 @@ def run_sweep(
     threads: int = 1,
     resume: bool = False,
     watcher: Watcher | None = None,
+    pdf: bool = False,
 ) -> FinishedSweep:
     """Run a scene at every combination of values.
 
@@ -92,6 +94,7 @@ def run_sweep(
     resume : go on in a folder that holds a sweep. Points are known by their resolved scene, so values may be added to
         a finished sweep, and no finished point is computed again.
     watcher : told of progress and notes.
+    pdf : draw the figure as PDF too, for print.
 
     Returns
     -------
@@ -134,8 +137,12 @@ def run_sweep(
         computed, failed = _compute(missing, len(summaries), staff, watcher or Silent())
         summaries |= computed
         in_order = [summaries[name] for name in names]
-        _collect(folder, scenes[0], axes, in_order, {axis.key: axis.spacing for axis in swept})
+        variables = _collect(folder, scenes[0], axes, in_order)
         write_text(folder / TABLE, table_text(axes, in_order, names, failed))
+        if any(in_order):
+            spacings = {axis.key: axis.spacing for axis in swept}
+            formats = ("png", "pdf") if pdf else ("png",)
+            draw_sweep(variables, spacings, get_kind(scenes[0].kind).headline, folder / FIGURE, formats)
     stuck = [name for name, summary in summaries.items() if summary and summary.get("status") != "converged"]
     return FinishedSweep(folder, len(missing) - len(failed), failed, tuple(stuck))
 
@@ -196,13 +203,9 @@ def _compute(
 
 
 def _collect(
-    folder: Path,
-    scene: SceneModel,
-    axes: Sequence[Axis],
-    summaries: Sequence[Mapping[str, Any] | None],
-    spacings: Mapping[str, str],
-) -> None:
-    """Dataset and figures."""
+    folder: Path, scene: SceneModel, axes: Sequence[Axis], summaries: Sequence[Mapping[str, Any] | None]
+) -> dict[str, Variable]:
+    """The dataset, written."""
     attributes = {
         "title": f"sweep of {scene.name} over {', '.join(axis.name for axis in axes)}",
         "Conventions": "CF-1.11",
@@ -210,8 +213,6 @@ def _collect(
         "kind": scene.kind,
         "version": bem.__version__,
     }
-    kind = get_kind(scene.kind)
-    variables = dataset_variables(kind, axes, campaign_of(scene).axes, summaries)
+    variables = dataset_variables(get_kind(scene.kind), axes, campaign_of(scene).axes, summaries)
     write_variables(folder / DATASET, variables, attributes)
-    if any(summary is not None for summary in summaries):
-        draw_sweep(variables, spacings, kind.headline, folder / FIGURE)
+    return variables
