@@ -31,7 +31,7 @@ from numpy.typing import NDArray
 
 from bem.contact import passes
 from bem.contact.controls import ApproachControl, LoadControl
-from bem.contact.energy import Accepted, accepted, best_share, step_back
+from bem.contact.energy import Accepted, best_share, lowest_point
 from bem.contact.face import solve_on_cells, take_in
 from bem.contact.feasible import between, clip, first_pressure, gradient_step, lift
 from bem.contact.level import Effort, Iterate, Level, LevelResult, Tolerance, Tuning
@@ -77,7 +77,7 @@ def solve_level(
         progress.rounds += 1
         if effort.left <= 0 or progress.rounds >= tuning.rounds:
             return now.result(level)
-        current = now.accepted(level)
+        current = now.reached
         if progress.stalls(now.violation, current.potential(control), current.size):
             return now.result(level)
         before = current if operator.symmetric else None
@@ -99,26 +99,26 @@ def solve_level(
 
 @dataclass(frozen=True)
 class _Round:
-    """A pressure and its true gap: approach, gap on its cells, cells that violate their state, and by how much.
+    """A pressure with its energy and its true gap: cells that violate their state, and by how much all do at most.
 
-    `energy` is known beforehand where the round ended where it was led; else `fresh` is false (see `LevelResult`) or
-    there was no round before.
+    `fresh` as in `LevelResult`: false where the round was taken back to its lowest point.
     """
 
-    iterate: Iterate
-    energy: Accepted | None
+    reached: Accepted
     fresh: bool
-    approach: float
-    residual: FloatArray
     found: NDArray[np.int32]
     violation: float
     goal: float
 
-    def accepted(self, level: Level) -> Accepted:
-        """With its energy."""
-        if self.energy is None:
-            return accepted(level, self.iterate, self.approach)
-        return replace(self.energy, approach=self.approach)
+    @property
+    def iterate(self) -> Iterate:
+        """The pressure."""
+        return self.reached.iterate
+
+    @property
+    def approach(self) -> float:
+        """The approach that goes with it."""
+        return self.reached.approach
 
     def result(self, level: Level) -> LevelResult:
         """As where the level ends."""
@@ -194,20 +194,16 @@ class _Step:
 
 def _judge(level: Level, control: Control, iterate: Iterate, before: Accepted | None, tolerance: Tolerance) -> _Round:
     """The true gap of a pressure, or of the lowest point on the way to it; the displacement is in the buffer."""
-    energy: Accepted | None = None
-    if before is not None:
-        iterate, energy = step_back(level, before, iterate)
+    seen = level.survey(iterate)
+    lowest = None if before is None else lowest_point(level, before, iterate, seen)
+    if lowest is not None:
+        iterate, seen = lowest, level.survey(lowest)
     level.mark(iterate)
-    displacement = level.flat["displacement"]
-    residual = np.empty(iterate.cells.size)
-    total = passes.gather_sum(displacement, level.gap, iterate.cells, residual)
-    approach = _approach(level, control, iterate, total)
-    residual -= approach
-    found, largest = passes.find_violations(displacement, level.gap, level.state, approach)
-    violation = max(largest, float(np.abs(residual).max(initial=0.0)))
-    goal = tolerance.of(approach, displacement, iterate)
-    fresh = before is None or energy is not None
-    return _Round(iterate, energy, fresh, approach, residual, found, violation, goal)
+    approach = _approach(level, control, iterate, seen.total)
+    found, largest = passes.find_violations(level.flat["displacement"], level.gap, level.state, approach)
+    violation = max(largest, seen.deepest - approach, approach - seen.nearest)
+    goal = tolerance.of(approach, seen.reach)
+    return _Round(Accepted.of(iterate, approach, seen), lowest is None, found, violation, goal)
 
 
 def _approach(level: Level, control: Control, iterate: Iterate, total: float) -> float:
@@ -224,15 +220,14 @@ def _approach(level: Level, control: Control, iterate: Iterate, total: float) ->
 
 def _next(level: Level, control: Control, now: _Round, effort: Effort) -> _Step | None:
     """Take in the cells that violate their state, close the gap, and go back into the bounds; None without a cell."""
-    iterate, residual = now.iterate, now.residual
-    if now.found.size:
-        iterate, residual = take_in(level, iterate, now.found, now.approach)
+    iterate, residual, total = take_in(level, now.iterate, now.found, now.approach)
     if iterate.cells.size == 0:
         return None
-    lifted = _at_full_contact(level, control, iterate, float(residual.mean()), now.goal)
+    mean = total / residual.size
+    lifted = _at_full_contact(level, control, iterate, mean, now.goal)
     if lifted:
-        iterate = lift(level, iterate, float(residual.mean()))
-        residual -= residual.mean()
+        iterate = lift(level, iterate, mean)
+        residual -= mean
         if iterate.cells.size < level.gap.size:
             return _Step(iterate, lifted)
     raw = solve_on_cells(level, iterate, residual, control, now.goal, effort)

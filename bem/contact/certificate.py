@@ -46,15 +46,11 @@ def certify(
     deformed = np.empty(grid.shape)
     depth = np.empty(grid.shape)
     largest, reach, force, _, _, volume = passes.assemble(
-        pressure.reshape(-1),
-        displacement.reshape(-1),
-        request.gap.reshape(-1),
-        units.pressure,
-        units.length,
+        (pressure.reshape(-1), displacement.reshape(-1), request.gap.reshape(-1)),
+        (units.pressure, units.length),
         approach,
         request.cap,
-        deformed.reshape(-1),
-        depth.reshape(-1),
+        (deformed.reshape(-1), depth.reshape(-1)),
     )
     load = force * grid.cell_area
     missed = 0.0

@@ -14,6 +14,7 @@ from bem.contact import passes
 from bem.contact.controls import ApproachControl, LoadControl
 from bem.contact.feasible import everywhere
 from bem.contact.level import Iterate, Level
+from bem.contact.passes import Survey
 
 FloatArray = NDArray[np.float64]
 
@@ -39,6 +40,11 @@ class Accepted:
     force: float
     work: float
 
+    @classmethod
+    def of(cls, iterate: Iterate, approach: float, seen: Survey) -> Accepted:
+        """A pressure with what was seen of it."""
+        return cls(iterate, approach, seen.energy, seen.size, seen.force, seen.work)
+
     def potential(self, control: LoadControl | ApproachControl) -> float:
         """The energy that falls under a control: at the approach where that is given."""
         return self.energy - (control.approach * self.force if isinstance(control, ApproachControl) else 0.0)
@@ -49,39 +55,23 @@ class Accepted:
         return rise > _ROUND_OFF * max(self.size, other.size)
 
 
-def accepted(level: Level, iterate: Iterate, approach: float) -> Accepted:
-    """A pressure with its energy, from the displacement in the buffer."""
-    return Accepted(iterate, approach, *_energy(level, iterate))
-
-
-def _energy(level: Level, iterate: Iterate) -> tuple[float, float, float, float]:
-    displacement = level.flat["displacement"]
-    energy, size, force, work = passes.energy(displacement, level.gap, iterate.cells, iterate.values)
-    if iterate.capped.size:
-        values = np.full(iterate.capped.size, level.cap)
-        more = passes.energy(displacement, level.gap, iterate.capped, values)
-        energy, size, force, work = energy + more[0], size + more[1], force + more[2], work + more[3]
-    return energy, size, force, work
-
-
-def step_back(level: Level, before: Accepted, iterate: Iterate) -> tuple[Iterate, Accepted | None]:
+def lowest_point(level: Level, before: Accepted, iterate: Iterate, now: Survey) -> Iterate | None:
     """The lowest point between a round's ends, if the round went well beyond it; the displacement there replaces the
-    one in the buffer, without a convolution. Else the round's end, with its energy.
+    one in the buffer, without a convolution. None where the round's end, which is `now`, will do.
 
     Changes of the sets that are each right by themselves can be too many together: without this they swing ever wider,
     or for long.
     """
     displacement, approach = level.flat["displacement"], before.approach
-    now = accepted(level, iterate, approach)
     # the energy's slope where the round ended, along the way from its beginning
     slope = now.work - _work(level, before.iterate) - approach * (now.force - before.force)
     rise = now.energy - before.energy - approach * (now.force - before.force)
     curvature = 2 * (slope - rise)
     if not curvature > 10 * _ROUND_OFF * max(now.size, before.size):
-        return iterate, now
+        return None
     share = 1 - slope / curvature
     if not _LEAST_SHARE < share < _GREATEST_SHARE:
-        return iterate, now
+        return None
     earlier = level.flat["before"]
     earlier *= 1 - share
     displacement *= share
@@ -94,7 +84,7 @@ def step_back(level: Level, before: Accepted, iterate: Iterate) -> tuple[Iterate
     full[np.intersect1d(before.iterate.capped, iterate.capped, assume_unique=True)] = level.cap
     capped = np.flatnonzero(full >= level.cap)
     inside = np.flatnonzero((full > 0) & (full < level.cap))
-    return Iterate(inside, full[inside], capped), None
+    return Iterate(inside, full[inside], capped)
 
 
 def _work(level: Level, iterate: Iterate) -> float:

@@ -17,8 +17,10 @@ FloatArray = NDArray[np.float64]
 Control = LoadControl | ApproachControl
 
 
-def take_in(level: Level, iterate: Iterate, found: NDArray[np.int32], approach: float) -> tuple[Iterate, FloatArray]:
-    """Add violating cells to those in contact, with the pressure they have."""
+def take_in(
+    level: Level, iterate: Iterate, found: NDArray[np.int32], approach: float
+) -> tuple[Iterate, FloatArray, float]:
+    """Add violating cells to those in contact, with the pressure they have; the gap there, and its sum."""
     state, capped = level.state, iterate.capped
     found_values = np.zeros(found.size)
     if capped.size:
@@ -27,11 +29,11 @@ def take_in(level: Level, iterate: Iterate, found: NDArray[np.int32], approach: 
         capped = capped[state[capped] == CAPPED]
     total = iterate.cells.size + found.size
     cells, values, residual = np.empty(total, np.int64), np.empty(total), np.empty(total)
-    displacement, gap = level.flat["displacement"], level.gap
-    passes.merge(
-        iterate.cells, iterate.values, found, found_values, displacement, gap, approach, cells, values, residual
-    )
-    return Iterate(cells, values, capped), residual
+    surface = (level.flat["displacement"], level.gap, approach)
+    opening = passes.merge(
+        (iterate.cells, iterate.values), (found, found_values), surface, (cells, values, residual)
+    )  # fmt: skip
+    return Iterate(cells, values, capped), residual, opening
 
 
 def solve_on_cells(
@@ -46,6 +48,7 @@ def solve_on_cells(
     quick_in, quick_out = level.flat["quick_in"], level.flat["quick_out"]
     n = cells.size
     direction, preconditioned, response, previous = np.zeros(n), np.empty(n), np.empty(n), np.zeros(n)
+    state, way = (pressure, residual, previous), (direction, response)
     squares = passes.squares(residual)
     lowest, enough = squares * tuning.reduction**2, squares * tuning.least_reduction**2
     self_response = float(level.operator.near_field(0)[0, 0])
@@ -63,15 +66,13 @@ def solve_on_cells(
         if not curvature > 0:
             break
         shift, step = mean / n if balance.kept else 0.0, slope / curvature
-        squares, largest, outside = passes.advance(
-            pressure, residual, previous, direction, response, shift, step, level.cap
-        )
+        squares, largest, outside = passes.advance(state, way, shift, step, level.cap)
         if squares <= lowest or largest <= tuning.final * tolerance:
             break
         # clipping will bring back a residual of about this size: no use in going far below it
         if squares <= enough and largest <= tuning.clipping * self_response * outside:
             break
-    passes.scatter_value(quick_in, cells, 0.0)
+    passes.clear(quick_in, cells)
     return pressure
 
 

@@ -52,10 +52,8 @@ def restore_load(level: Level, control: LoadControl, iterate: Iterate, raw: Floa
     cap = level.cap
     cells, capped = iterate.cells, iterate.capped
     if math.isinf(cap):
-        inside = raw > 0
-        if not inside.all():
-            cells, raw = cells[inside], raw[inside]
-        return Iterate(cells, raw * (control.force / raw.sum()), capped)
+        cells, raw, total = passes.positive(cells, raw)
+        return Iterate(cells, raw * (control.force / total), capped)
     wanted = control.force - cap * capped.size
     if not 0 <= wanted <= cap * cells.size:
         # the cells at the cap alone are too many, or not enough with all others: let them take part in the shift

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from bem.contact import passes
 from bem.contact.long_waves import LongWaves, long_waves
-from bem.contact.passes import CAPPED, CONTACT, FREE
+from bem.contact.passes import Survey
 from bem.contact.preconditioner import SparseInverse, sparse_inverse
 from bem.convolution import DisplacementOperator
 
@@ -46,11 +46,9 @@ class Tolerance:
     length: float
     relative: float
 
-    def of(self, approach: float, displacement: FloatArray, iterate: Iterate) -> float:
-        """The length that holds for a displacement; never below what double precision can resolve."""
-        cells = iterate.cells if iterate.cells.size else iterate.capped
-        size = float(np.abs(displacement[cells]).max(initial=0.0))
-        return max(min(self.length, self.relative * size), _RESOLUTION * (abs(approach) + size))
+    def of(self, approach: float, reach: float) -> float:
+        """The length that holds where displacements reach so far; never below what double precision can resolve."""
+        return max(min(self.length, self.relative * reach), _RESOLUTION * (abs(approach) + reach))
 
 
 @dataclass(frozen=True)
@@ -127,11 +125,10 @@ class Level:
     def displace(self, iterate: Iterate) -> None:
         """Write the displacement of a pressure into the buffer."""
         pressure = self.flat["pressure"]
-        passes.scatter(pressure, iterate.cells, iterate.values)
-        passes.scatter_value(pressure, iterate.capped, self.cap)
+        passes.place(pressure, iterate.cells, iterate.values, iterate.capped, self.cap)
         self.exact.apply(self.pressure, self.displacement)
-        passes.scatter_value(pressure, iterate.cells, 0.0)
-        passes.scatter_value(pressure, iterate.capped, 0.0)
+        passes.clear(pressure, iterate.cells)
+        passes.clear(pressure, iterate.capped)
 
     def keep(self) -> None:
         """Make the displacement the one before, once a round; the next takes the other's buffer."""
@@ -143,9 +140,20 @@ class Level:
 
     def mark(self, iterate: Iterate) -> None:
         """Note the state of every cell."""
-        self.state[:] = FREE
-        passes.scatter_value(self.state, iterate.cells, CONTACT)
-        passes.scatter_value(self.state, iterate.capped, CAPPED)
+        passes.mark(self.state, iterate.cells, iterate.capped)
+
+    def survey(self, iterate: Iterate) -> Survey:
+        """Of the cells between the bounds, with the displacement in the buffer; energy, force and work of all."""
+        displacement = self.flat["displacement"]
+        seen = passes.survey(displacement, self.gap, iterate.cells, iterate.values)
+        if iterate.capped.size == 0:
+            return seen
+        more = passes.survey(displacement, self.gap, iterate.capped, np.full(iterate.capped.size, self.cap))
+        return Survey(
+            *seen[:3],
+            seen.reach if iterate.cells.size else more.reach,
+            *(first + second for first, second in zip(seen[4:], more[4:], strict=True)),
+        )
 
     def preconditioner(self, cells: Indices) -> Callable[[FloatArray, FloatArray], float]:
         """Approximate inverse of the kernel on the cells: (residual, out) -> sum of out."""
@@ -181,6 +189,5 @@ class Level:
     def result(self, iterate: Iterate, approach: float, violation: float, *, fresh: bool) -> LevelResult:
         """A pressure with the displacement in the buffer, handed over: the level is done with its buffers."""
         pressure = self.flat["pressure"]
-        passes.scatter(pressure, iterate.cells, iterate.values)
-        passes.scatter_value(pressure, iterate.capped, self.cap)
+        passes.place(pressure, iterate.cells, iterate.values, iterate.capped, self.cap)
         return LevelResult(pressure, self.flat["displacement"], approach, violation, fresh=fresh)

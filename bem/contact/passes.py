@@ -7,7 +7,7 @@ has the same bits whatever the number of threads.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
@@ -43,20 +43,72 @@ def in_blocks(size: int, results: int, kernel: Callable[..., None], *arguments: 
     return partial
 
 
-def gather_sum(displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], out: FloatArray) -> float:
-    """out = (gap + displacement)[cells]; returns its sum."""
-    return float(in_blocks(cells.size, 1, _gather_sum, displacement, gap, cells, out)[:, 0].sum())
+def _totals(partial: FloatArray) -> list[float]:
+    """Sums over the blocks, in order."""
+    return partial[0].tolist() if len(partial) == 1 else partial.sum(axis=0).tolist()
+
+
+class Survey(NamedTuple):
+    """What a round is judged by, over some cells: sum, largest and smallest of gap + displacement, largest displacement
+    in magnitude; sum of p (gap + displacement / 2), of the magnitudes of its terms, of p, and of p (gap + displacement).
+    """
+
+    total: float
+    deepest: float
+    nearest: float
+    reach: float
+    energy: float
+    size: float
+    force: float
+    work: float
+
+
+def survey(displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], values: FloatArray) -> Survey:
+    """Everything that is asked of the cells with pressure in one pass."""
+    if cells.size == 0:
+        return Survey(0.0, -np.inf, np.inf, 0.0, 0.0, 0.0, 0.0, 0.0)
+    partial = in_blocks(cells.size, 8, _survey, displacement, gap, cells, values)
+    if len(partial) == 1:
+        return Survey(*partial[0].tolist())
+    sums = partial.sum(axis=0).tolist()
+    deepest, nearest, reach = partial[:, 1].max(), partial[:, 2].min(), partial[:, 3].max()
+    return Survey(sums[0], float(deepest), float(nearest), float(reach), *sums[4:])
 
 
 @_fast
-def _gather_sum(start, stop, result, displacement, gap, cells, out):  # type: ignore[no-untyped-def]
+def _survey(start, stop, result, displacement, gap, cells, values):  # type: ignore[no-untyped-def]
     total = 0.0
+    deepest = -np.inf
+    nearest = np.inf
+    reach = 0.0
+    energy = 0.0
+    size = 0.0
+    force = 0.0
+    work = 0.0
     for k in range(start, stop):
         c = cells[k]
-        value = gap[c] + displacement[c]
-        out[k] = value
-        total += value
+        p = values[k]
+        g = gap[c]
+        u = displacement[c]
+        opening = g + u
+        total += opening
+        deepest = max(deepest, opening)
+        nearest = min(nearest, opening)
+        reach = max(reach, abs(u))
+        by_gap = p * g
+        by_displacement = p * u
+        energy += by_gap + 0.5 * by_displacement
+        size += abs(by_gap) + abs(by_displacement)
+        force += p
+        work += by_gap + by_displacement
     result[0] = total
+    result[1] = deepest
+    result[2] = nearest
+    result[3] = reach
+    result[4] = energy
+    result[5] = size
+    result[6] = force
+    result[7] = work
 
 
 def find_violations(
@@ -65,9 +117,12 @@ def find_violations(
     """Cells that should not stay free (they overlap) or at the cap (they open), and the largest violation."""
     found = np.empty(gap.size, np.int32)
     partial = in_blocks(gap.size, 2, _find_violations, displacement, gap, state, approach, found)
-    parts = [found[b * BLOCK : b * BLOCK + int(count)] for b, count in enumerate(partial[:, 0]) if count]
+    if len(partial) == 1:
+        count, largest = partial[0].tolist()
+        return found[: int(count)], largest
+    parts = [found[b * BLOCK : b * BLOCK + int(count)] for b, count in enumerate(partial[:, 0].tolist()) if count]
     cells = np.concatenate(parts) if parts else found[:0]
-    return cells, float(partial[:, 1].max(initial=0.0))
+    return cells, float(partial[:, 1].max())
 
 
 @_fast
@@ -116,10 +171,19 @@ def _separations(start, stop, result, displacement, gap, state):  # type: ignore
 
 
 @_strict
-def merge(cells, values, found, found_values, displacement, gap, approach, all_cells, all_values, residual):  # type: ignore[no-untyped-def]
-    """Two ascending sets of cells with their values as one, and gap + displacement - approach there."""
+def merge(old, new, surface, merged):  # type: ignore[no-untyped-def]
+    """Two ascending sets of cells with their values as one, and gap + displacement - approach there.
+
+    old, new : (cells, values). surface : (displacement, gap, approach). merged : (cells, values, residual), written.
+    Returns the sum of the residual.
+    """
+    cells, values = old
+    found, found_values = new
+    displacement, gap, approach = surface
+    all_cells, all_values, residual = merged
     a = 0
     b = 0
+    total = 0.0
     for k in range(all_cells.size):
         if b == found.size or (a < cells.size and cells[a] < found[b]):
             c = cells[a]
@@ -130,41 +194,15 @@ def merge(cells, values, found, found_values, displacement, gap, approach, all_c
             all_values[k] = found_values[b]
             b += 1
         all_cells[k] = c
-        residual[k] = gap[c] + displacement[c] - approach
-
-
-def energy(
-    displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], values: FloatArray
-) -> tuple[float, float, float, float]:
-    """Sum of p (gap + displacement / 2), of its magnitude, of p, and of p (gap + displacement) over some cells."""
-    energy, size, force, work = in_blocks(cells.size, 4, _energy, displacement, gap, cells, values).sum(axis=0)
-    return float(energy), float(size), float(force), float(work)
-
-
-@_fast
-def _energy(start, stop, result, displacement, gap, cells, values):  # type: ignore[no-untyped-def]
-    total = 0.0
-    size = 0.0
-    force = 0.0
-    work = 0.0
-    for k in range(start, stop):
-        c = cells[k]
-        p = values[k]
-        by_gap = p * gap[c]
-        by_displacement = p * displacement[c]
-        total += by_gap + 0.5 * by_displacement
-        size += abs(by_gap) + abs(by_displacement)
-        force += p
-        work += by_gap + by_displacement
-    result[0] = total
-    result[1] = size
-    result[2] = force
-    result[3] = work
+        opening = gap[c] + displacement[c] - approach
+        residual[k] = opening
+        total += opening
+    return total
 
 
 def work(displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], values: FloatArray) -> float:
     """Sum of p (gap + displacement) over some cells."""
-    return float(in_blocks(cells.size, 1, _work, displacement, gap, cells, values)[:, 0].sum())
+    return _totals(in_blocks(cells.size, 1, _work, displacement, gap, cells, values))[0]
 
 
 @_fast
@@ -176,22 +214,55 @@ def _work(start, stop, result, displacement, gap, cells, values):  # type: ignor
 
 
 @_fast
-def scatter(field, cells, values):  # type: ignore[no-untyped-def]
-    """field[cells] = values."""
+def place(field, cells, values, capped, cap):  # type: ignore[no-untyped-def]
+    """field[cells] = values, field[capped] = cap."""
     for k in range(cells.size):
         field[cells[k]] = values[k]
+    for k in range(capped.size):
+        field[capped[k]] = cap
 
 
 @_fast
-def scatter_value(field, cells, value):  # type: ignore[no-untyped-def]
-    """field[cells] = value."""
+def clear(field, cells):  # type: ignore[no-untyped-def]
+    """field[cells] = 0."""
     for k in range(cells.size):
-        field[cells[k]] = value
+        field[cells[k]] = 0
+
+
+@_fast
+def mark(state, cells, capped):  # type: ignore[no-untyped-def]
+    """The state of every cell."""
+    state[:] = FREE
+    for k in range(cells.size):
+        state[cells[k]] = CONTACT
+    for k in range(capped.size):
+        state[capped[k]] = CAPPED
+
+
+@_fast
+def positive(cells, values):  # type: ignore[no-untyped-def]
+    """The cells with values above zero, these, and their sum; what is given where that is all of them."""
+    kept = 0
+    total = 0.0
+    for k in range(cells.size):
+        if values[k] > 0:
+            kept += 1
+            total += values[k]
+    if kept == cells.size:
+        return cells, values, total
+    kept_cells, kept_values = np.empty(kept, cells.dtype), np.empty(kept)
+    kept = 0
+    for k in range(cells.size):
+        if values[k] > 0:
+            kept_cells[kept] = cells[k]
+            kept_values[kept] = values[k]
+            kept += 1
+    return kept_cells, kept_values, total
 
 
 def squares(values: FloatArray) -> float:
     """Sum of squares."""
-    return float(in_blocks(values.size, 1, _squares, values)[:, 0].sum())
+    return _totals(in_blocks(values.size, 1, _squares, values))[0]
 
 
 @_fast
@@ -206,8 +277,8 @@ def turn(
     preconditioned: FloatArray, rise: FloatArray, share: float, residual: FloatArray, previous: FloatArray
 ) -> tuple[float, float]:
     """z -= share rise; return z.r and z.(r - r_previous)."""
-    full, change = in_blocks(residual.size, 2, _turn, preconditioned, rise, share, residual, previous).sum(axis=0)
-    return float(full), float(change)
+    full, change = _totals(in_blocks(residual.size, 2, _turn, preconditioned, rise, share, residual, previous))
+    return full, change
 
 
 @_fast
@@ -232,8 +303,7 @@ def new_direction(
     residual: FloatArray,
 ) -> float:
     """t = z + beta t, also written to field[cells]; returns t.r."""
-    partial = in_blocks(cells.size, 1, _new_direction, direction, preconditioned, beta, cells, field, residual)
-    return float(partial[:, 0].sum())
+    return _totals(in_blocks(cells.size, 1, _new_direction, direction, preconditioned, beta, cells, field, residual))[0]
 
 
 @_fast
@@ -249,8 +319,8 @@ def _new_direction(start, stop, result, direction, preconditioned, beta, cells, 
 
 def gather_dot(field: NDArray[Any], cells: NDArray[Any], out: FloatArray, direction: FloatArray) -> tuple[float, float]:
     """out = field[cells]; returns its sum and its product with the direction."""
-    total, product = in_blocks(cells.size, 2, _gather_dot, field, cells, out, direction).sum(axis=0)
-    return float(total), float(product)
+    total, product = _totals(in_blocks(cells.size, 2, _gather_dot, field, cells, out, direction))
+    return total, product
 
 
 @_fast
@@ -267,22 +337,27 @@ def _gather_dot(start, stop, result, field, cells, out, direction):  # type: ign
 
 
 def advance(
-    pressure: FloatArray,
-    residual: FloatArray,
-    previous: FloatArray,
-    direction: FloatArray,
-    response: FloatArray,
+    state: tuple[FloatArray, FloatArray, FloatArray],
+    way: tuple[FloatArray, FloatArray],
     mean: float,
     step: float,
     cap: float,
 ) -> tuple[float, float, float]:
-    """p -= step t, r -= step (q - mean), keeping the old r; returns |r|^2, max |r| and how far p left the bounds."""
-    partial = in_blocks(pressure.size, 3, _advance, pressure, residual, previous, direction, response, mean, step, cap)
+    """p -= step t, r -= step (q - mean), keeping the old r; returns |r|^2, max |r| and how far p left the bounds.
+
+    state : (p, r, r before). way : (t, q).
+    """
+    partial = in_blocks(state[0].size, 3, _advance, state, way, mean, step, cap)
+    if len(partial) == 1:
+        squares, largest, outside = partial[0].tolist()
+        return squares, largest, outside
     return float(partial[:, 0].sum()), float(partial[:, 1].max()), float(partial[:, 2].max())
 
 
 @_fast
-def _advance(start, stop, result, pressure, residual, previous, direction, response, mean, step, cap):  # type: ignore[no-untyped-def]
+def _advance(start, stop, result, state, way, mean, step, cap):  # type: ignore[no-untyped-def]
+    pressure, residual, previous = state
+    direction, response = way
     squares = 0.0
     largest = 0.0
     outside = 0.0
@@ -303,8 +378,8 @@ def _advance(start, stop, result, pressure, residual, previous, direction, respo
 
 def shifted_sum(values: FloatArray, shift: float, cap: float) -> tuple[float, int]:
     """Sum of clip(values + shift, 0, cap) and how many of them are strictly inside."""
-    total, inside = in_blocks(values.size, 2, _shifted_sum, values, shift, cap).sum(axis=0)
-    return float(total), int(inside)
+    total, inside = _totals(in_blocks(values.size, 2, _shifted_sum, values, shift, cap))
+    return total, int(inside)
 
 
 @_fast
@@ -363,34 +438,30 @@ def _rescale(start, stop, result, values, datum, factor, out):  # type: ignore[n
 
 
 def assemble(
-    pressure: FloatArray,
-    displacement: FloatArray,
-    gap: FloatArray,
-    to_pressure: float,
-    length: float,
+    fields: tuple[FloatArray, FloatArray, FloatArray],
+    units: tuple[float, float],
     approach: float,
     cap: float,
-    deformed: FloatArray,
-    depth: FloatArray,
+    results: tuple[FloatArray, FloatArray],
 ) -> tuple[float, float, float, int, int, float]:
     """Turn scaled results into SI units in place, and judge them from the pressure's own values.
 
-    Writes the deformed gap and the plastic depth; returns the largest violation of the contact conditions (infinite for
-    a pressure beyond its bounds), the largest displacement, the sum of pressures, the numbers of cells in contact and
-    at the cap, and the sum of positive gaps.
+    fields : (pressure, displacement, gap), the first two scaled by `units` of pressure and length. results : (deformed
+    gap, plastic depth), written. Returns the largest violation of the contact conditions (infinite for a pressure
+    beyond its bounds), the largest displacement, the sum of pressures, the numbers of cells in contact and at the cap,
+    and the sum of positive gaps.
     """
-    partial = in_blocks(
-        gap.size, 6, _assemble, pressure, displacement, gap, to_pressure, length, approach, cap, deformed, depth
-    )
+    partial = in_blocks(fields[0].size, 6, _assemble, fields, units, approach, cap, results)
     largest, reach = partial[:, 0].max(), partial[:, 1].max()
     force, contact, capped, volume = partial[:, 2:].sum(axis=0)
     return float(largest), float(reach), float(force), int(contact), int(capped), float(volume)
 
 
 @_strict
-def _assemble(  # type: ignore[no-untyped-def]
-    start, stop, result, pressure, displacement, gap, to_pressure, length, approach, cap, deformed, depth
-):
+def _assemble(start, stop, result, fields, units, approach, cap, results):  # type: ignore[no-untyped-def]
+    pressure, displacement, gap = fields
+    to_pressure, length = units
+    deformed, depth = results
     largest = 0.0
     reach = 0.0
     force = 0.0
