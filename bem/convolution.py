@@ -215,6 +215,12 @@ class ScaledConvolution:
         self.count.weighted += self.weight
         return self.transform.convolve(values, self.multiplier, out)
 
+    def counted(self, applications: int) -> None:
+        """Add applications that a compiled loop made by itself, with `transforms.loops.convolve`."""
+        self.count.applications += applications
+        self.count.weighted += applications * self.weight
+        self.transform.counted(applications)
+
 
 @dataclass(frozen=True)
 class DisplacementOperator:

@@ -101,7 +101,7 @@ def _region(
     constants = _WAVES if all(grid.periodic) else _CELLS
     count = int(inside.sum())
     excess, length, squares, turns = _sum_squares(
-        inside, strength, opening, undeformed, *grid.spacing, *grid.periodic, 0.75 * modulus, constants
+        (inside, strength, opening, undeformed), grid.spacing, grid.periodic, 0.75 * modulus, constants
     )
     # chords cut off curvature x chord^3 / 12; the curvature of all edges adds up to 2 pi a piece, less that of holes
     segments = 2 * math.pi * turns * (squares / length) / 12 if length > 0 else 0.0
@@ -110,18 +110,20 @@ def _region(
 
 
 @_strict
-def _sum_squares(  # type: ignore[no-untyped-def]
-    inside, strength, opening, shape, dx, dy, wraps_x, wraps_y, factor, constants
-):
+def _sum_squares(given, spacing, wraps, factor, constants):  # type: ignore[no-untyped-def]
     """Over the squares between four centres: area within the polygons beyond a quarter of a cell for each centre inside
     [m^2], length of the edge [m], sum of chord^3 [m^3], Euler's number of the region.
 
-    strength : vanishes like the root of the distance to the edge inside; opening : grows with its power 3/2 outside.
-    shape : the undeformed gap.
+    given : (inside, strength, opening, shape). strength : vanishes like the root of the distance to the edge inside;
+    opening : grows with its power 3/2 outside. shape : the undeformed gap.
     """
+    inside = given[0]
+    dx, dy = spacing
+    wraps_x, wraps_y = wraps
     nx, ny = inside.shape
     blurred = _blur(inside, wraps_x, wraps_y)
-    fields = (inside, strength, opening, shape, blurred)
+    fields = (*given, blurred)
+    place = (spacing, wraps, factor)
     area, length, cubes, corners = 0.0, 0.0, 0.0, 0
     for i in range(nx if wraps_x else nx - 1):
         k = (i + 1) % nx
@@ -132,10 +134,10 @@ def _sum_squares(  # type: ignore[no-untyped-def]
             if number == 0 or number == 4:
                 continue
             # where the edge crosses the four sides, from their lower end; 0.5 where it does not
-            low = _cut(fields, i, j, 0, dx, dy, wraps_x, wraps_y, factor, constants)
-            high = _cut(fields, i, m, 0, dx, dy, wraps_x, wraps_y, factor, constants)
-            left = _cut(fields, i, j, 1, dx, dy, wraps_x, wraps_y, factor, constants)
-            right = _cut(fields, k, j, 1, dx, dy, wraps_x, wraps_y, factor, constants)
+            low = _cut(fields, i, j, 0, place, constants)
+            high = _cut(fields, i, m, 0, place, constants)
+            left = _cut(fields, i, j, 1, place, constants)
+            right = _cut(fields, k, j, 1, place, constants)
             # (u, v): from crossing to crossing, with the region on the left
             if number == 2 and a == c:
                 # a saddle: the mean of both centres joined and parted
@@ -177,9 +179,10 @@ def _sum_squares(  # type: ignore[no-untyped-def]
 
 
 @_strict
-def _cut(fields, i, j, axis, dx, dy, wraps_x, wraps_y, factor, constants):  # type: ignore[no-untyped-def]
+def _cut(fields, i, j, axis, place, constants):  # type: ignore[no-untyped-def]
     """Where the edge crosses the link from (i, j) along `axis`, as a fraction of it; 0.5 where it does not."""
     inside, strength, opening, shape, blurred = fields
+    (dx, dy), (wraps_x, wraps_y), factor = place
     k, m = _step(inside, i, j, axis, 1, wraps_x, wraps_y)
     first = inside[i, j]
     if first == inside[k, m]:

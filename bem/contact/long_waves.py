@@ -15,13 +15,14 @@ every iterate of theirs keeps the whole positive definite, and a residual reduce
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
 from bem.convolution import DisplacementOperator, ScaledConvolution
+from bem.transforms.loops import convolve
 
 FloatArray = NDArray[np.float64]
 
@@ -35,6 +36,17 @@ _ITERATIONS = 20
 """Limit on the coarse grid; reached only where the layer is far stiffer than what it lies on."""
 
 
+class Workspace(NamedTuple):
+    """Fields of the coarse grid between the passes: what is given, and conjugate gradients' own."""
+
+    given: FloatArray
+    solution: FloatArray
+    residual: FloatArray
+    direction: FloatArray
+    response: FloatArray
+    field: NDArray[np.float32]
+
+
 @dataclass(frozen=True)
 class LongWaves:
     """Smooth part of an operator on a coarse grid; `rows`, `columns` say which coarse row or column a cell is in."""
@@ -42,15 +54,12 @@ class LongWaves:
     convolution: ScaledConvolution
     rows: NDArray[np.int64]
     columns: NDArray[np.int64]
-    field: NDArray[np.float32]
+    workspace: Workspace
 
     def on(self, cells: NDArray[Any], row_sums: FloatArray) -> LongWavesOnCells:
         """The middle factor on some cells (flat indices), for a G with these row sums there."""
-        blocks = np.empty(cells.size, np.int32)
-        root = np.zeros(self.field.size)
-        _assign(cells, self.rows, self.columns, self.field.shape[1], row_sums, blocks, root)
-        np.sqrt(root, out=root)
-        inverse_root = np.divide(1.0, root, out=np.zeros(root.size), where=root > 0)
+        width = self.workspace.field.shape[1]
+        blocks, root, inverse_root = _assign(cells, self.rows, self.columns, width, row_sums, self.workspace.given.size)
         return LongWavesOnCells(self, blocks, row_sums, root, inverse_root)
 
 
@@ -65,32 +74,21 @@ class LongWavesOnCells:
     inverse_root: FloatArray
 
     def apply(self, values: FloatArray) -> None:
-        """values = (1 + W F W^T)^-1 values, approximately, in place."""
-        given = np.zeros(self.root.size)
-        _restrict(values, self.blocks, self.weights, given)
-        given *= self.inverse_root
-        given -= self._solve(given)
-        given *= self.inverse_root
-        _subtract(values, self.blocks, self.weights, given)
-
-    def _solve(self, given: FloatArray) -> FloatArray:
-        """Conjugate gradients for (1 + D^1/2 F D^1/2) e = given, on the whole coarse grid."""
-        field = self.smooth.field
-        flat = field.reshape(-1)
-        solution, residual, direction = np.zeros(given.size), given.copy(), np.zeros(given.size)
-        response = np.empty(given.size)
-        squares = float((given * given).sum())
-        enough = _REDUCTION**2 * squares
-        share = 0.0
-        for _ in range(_ITERATIONS):
-            if not squares > enough:
-                break
-            _turn(direction, residual, share, self.root, flat)
-            self.smooth.convolution.apply(field, field)
-            curvature = _respond(flat, self.root, direction, response)
-            last, squares = squares, _advance(solution, residual, direction, response, squares / curvature)
-            share = squares / last
-        return solution
+        """values = (1 + W F W^T)^-1 values, approximately, in place; one thread, transforms included."""
+        convolution = self.smooth.convolution
+        transform = convolution.transform
+        factor = convolution.multiplier.factor(transform.dtype)
+        with transform.lock:
+            applications = _apply(
+                values,
+                (self.blocks, self.weights),
+                (self.root, self.inverse_root),
+                self.smooth.workspace,
+                (transform.room, transform.ready(1), factor),
+                _REDUCTION,
+                _ITERATIONS,
+            )
+        convolution.counted(applications)
 
 
 def long_waves(operator: DisplacementOperator, near: float) -> LongWaves | None:
@@ -110,55 +108,88 @@ def long_waves(operator: DisplacementOperator, near: float) -> LongWaves | None:
         np.arange(n) * m // n if periodic else np.minimum(np.arange(n) >> halvings, m - 1)
         for n, m, periodic in zip(operator.grid.shape, coarse.grid.shape, operator.grid.periodic, strict=True)
     )
-    return LongWaves(convolution, rows, columns, convolution.transform.zeros_field())
+    cells = coarse.grid.cells
+    fields = np.empty((5, cells))
+    return LongWaves(
+        convolution,
+        rows,
+        columns,
+        Workspace(fields[0], fields[1], fields[2], fields[3], fields[4], convolution.transform.zeros_field()),
+    )
 
 
 @njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _assign(cells, rows, columns, width, weights, blocks, diagonal):  # type: ignore[no-untyped-def]
+def _assign(cells, rows, columns, width, weights, size):  # type: ignore[no-untyped-def]
+    """The coarse cell of each cell, the root of the sum of squared weights in each coarse cell, and its inverse."""
     ny = columns.size
+    blocks = np.empty(cells.size, np.int32)
+    root = np.zeros(size)
+    inverse = np.zeros(size)
     for k in range(cells.size):
         i = cells[k] // ny
         b = rows[i] * width + columns[cells[k] - i * ny]
         blocks[k] = b
-        diagonal[b] += weights[k] * weights[k]
+        root[b] += weights[k] * weights[k]
+    for b in range(size):
+        if root[b] > 0:
+            root[b] = np.sqrt(root[b])
+            inverse[b] = 1.0 / root[b]
+    return blocks, root, inverse
 
 
 @njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _restrict(values, blocks, weights, out):  # type: ignore[no-untyped-def]
+def _apply(values, cells, diagonal, workspace, transform, reduction, limit):  # type: ignore[no-untyped-def]
+    """The middle factor; returns how many convolutions it took."""
+    blocks, weights = cells
+    root, inverse_root = diagonal
+    given, solution = workspace.given, workspace.solution
+    given[:] = 0.0
     for k in range(values.size):
-        out[blocks[k]] += weights[k] * values[k]
-
-
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _subtract(values, blocks, weights, field):  # type: ignore[no-untyped-def]
+        given[blocks[k]] += weights[k] * values[k]
+    given *= inverse_root
+    applications = _solve(workspace, root, transform, reduction, limit)
+    for b in range(given.size):
+        given[b] = (given[b] - solution[b]) * inverse_root[b]
     for k in range(values.size):
-        values[k] -= weights[k] * field[blocks[k]]
+        values[k] -= weights[k] * given[blocks[k]]
+    return applications
 
 
 @njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _turn(direction, residual, share, root, field):  # type: ignore[no-untyped-def]
-    for k in range(direction.size):
-        d = residual[k] + share * direction[k]
-        direction[k] = d
-        field[k] = root[k] * d
-
-
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _respond(field, root, direction, response):  # type: ignore[no-untyped-def]
-    curvature = 0.0
-    for k in range(direction.size):
-        value = root[k] * field[k] + direction[k]
-        response[k] = value
-        curvature += value * direction[k]
-    return curvature
-
-
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _advance(solution, residual, direction, response, step):  # type: ignore[no-untyped-def]
+def _solve(workspace, root, transform, reduction, limit):  # type: ignore[no-untyped-def]
+    """Conjugate gradients for (1 + D^1/2 F D^1/2) solution = given, on the whole coarse grid."""
+    given, solution, residual, direction, response, field = workspace
+    room, scratch, factor = transform
+    flat = field.reshape(-1)
     squares = 0.0
-    for k in range(direction.size):
-        solution[k] += step * direction[k]
-        r = residual[k] - step * response[k]
-        residual[k] = r
-        squares += r * r
-    return squares
+    for b in range(given.size):
+        g = given[b]
+        solution[b] = 0.0
+        direction[b] = 0.0
+        residual[b] = g
+        squares += g * g
+    enough = reduction**2 * squares
+    share = 0.0
+    for iteration in range(limit):
+        if not squares > enough:
+            return iteration
+        for b in range(given.size):
+            d = residual[b] + share * direction[b]
+            direction[b] = d
+            flat[b] = root[b] * d
+        convolve(room, scratch, factor, field, field)
+        curvature = 0.0
+        for b in range(given.size):
+            value = root[b] * flat[b] + direction[b]
+            response[b] = value
+            curvature += value * direction[b]
+        step = squares / curvature
+        last = squares
+        squares = 0.0
+        for b in range(given.size):
+            solution[b] += step * direction[b]
+            r = residual[b] - step * response[b]
+            residual[b] = r
+            squares += r * r
+        share = squares / last
+    return limit

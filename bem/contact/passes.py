@@ -45,12 +45,13 @@ def in_blocks(size: int, results: int, kernel: Callable[..., None], *arguments: 
 
 def _totals(partial: FloatArray) -> list[float]:
     """Sums over the blocks, in order."""
-    return partial[0].tolist() if len(partial) == 1 else partial.sum(axis=0).tolist()
+    return partial[0].tolist() if partial.shape[0] == 1 else partial.sum(axis=0).tolist()
 
 
 class Survey(NamedTuple):
-    """What a round is judged by, over some cells: sum, largest and smallest of gap + displacement, largest displacement
-    in magnitude; sum of p (gap + displacement / 2), of the magnitudes of its terms, of p, and of p (gap + displacement).
+    """What a round is judged by, over some cells with pressures p, gaps g and displacements u.
+
+    Sum, largest and smallest of g + u; largest of |u|; sums of p (g + u / 2), of |p g| + |p u|, of p and of p (g + u).
     """
 
     total: float
@@ -68,7 +69,7 @@ def survey(displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], value
     if cells.size == 0:
         return Survey(0.0, -np.inf, np.inf, 0.0, 0.0, 0.0, 0.0, 0.0)
     partial = in_blocks(cells.size, 8, _survey, displacement, gap, cells, values)
-    if len(partial) == 1:
+    if partial.shape[0] == 1:
         return Survey(*partial[0].tolist())
     sums = partial.sum(axis=0).tolist()
     deepest, nearest, reach = partial[:, 1].max(), partial[:, 2].min(), partial[:, 3].max()
@@ -117,7 +118,7 @@ def find_violations(
     """Cells that should not stay free (they overlap) or at the cap (they open), and the largest violation."""
     found = np.empty(gap.size, np.int32)
     partial = in_blocks(gap.size, 2, _find_violations, displacement, gap, state, approach, found)
-    if len(partial) == 1:
+    if partial.shape[0] == 1:
         count, largest = partial[0].tolist()
         return found[: int(count)], largest
     parts = [found[b * BLOCK : b * BLOCK + int(count)] for b, count in enumerate(partial[:, 0].tolist()) if count]
@@ -348,7 +349,7 @@ def advance(
     state : (p, r, r before). way : (t, q).
     """
     partial = in_blocks(state[0].size, 3, _advance, state, way, mean, step, cap)
-    if len(partial) == 1:
+    if partial.shape[0] == 1:
         squares, largest, outside = partial[0].tolist()
         return squares, largest, outside
     return float(partial[:, 0].sum()), float(partial[:, 1].max()), float(partial[:, 2].max())

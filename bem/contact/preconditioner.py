@@ -10,7 +10,7 @@ neighbours are in contact is a bit pattern, and every pattern is solved once per
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
@@ -62,43 +62,47 @@ class SparseInverse:
         columns = np.empty((cells.size, self.offsets.shape[0]), np.int32)
         pattern = np.empty(cells.size, np.int32)
         distant = passes.in_blocks(
-            cells.size,
-            1,
-            _connect,
-            cells,
-            self.position,
-            self.shape[0],
-            self.shape[1],
-            self.periodic[0],
-            self.periodic[1],
-            self.offsets,
-            columns,
-            pattern,
+            cells.size, 1, _connect, cells, self.position, (*self.shape, *self.periodic), self.offsets, columns, pattern
         )
         _solve_patterns(pattern, self.offsets, self.near_field, self.table, self.solved)
-        starts = np.zeros(distant.shape[0] + 1, np.int64)
-        np.cumsum(distant[:, 0].astype(np.int64), out=starts[1:])
-        return SparseInverseOnCells(columns, pattern, self.table, starts)
+        starts = np.zeros(len(distant) + 1, np.int64)
+        if len(distant) > 1:  # a single block leads nowhere out of itself
+            np.cumsum(distant[:, 0].astype(np.int64), out=starts[1:])
+        outside = int(starts[-1])
+        entries = Outside(starts, np.empty(outside, np.int32), np.empty(outside))
+        return SparseInverseOnCells(Rows(columns, pattern, self.table), entries)
 
 
-@dataclass(frozen=True)
-class SparseInverseOnCells:
-    """G on a given set of cells; `starts` numbers the entries of G that lead out of each block of cells."""
+class Rows(NamedTuple):
+    """G's rows: for each cell the numbers of its neighbours, (n, m), and the pattern that says where its values are."""
 
     columns: NDArray[np.int32]
     pattern: NDArray[np.int32]
     table: FloatArray
+
+
+class Outside(NamedTuple):
+    """Entries of G that lead out of their block of cells, numbered by `starts`: whereto, and what is added there."""
+
     starts: NDArray[np.int64]
+    targets: NDArray[np.int32]
+    amounts: FloatArray
+
+
+@dataclass(frozen=True)
+class SparseInverseOnCells:
+    """G on a given set of cells."""
+
+    rows: Rows
+    outside: Outside
 
     def row_sums(self) -> FloatArray:
         """G applied to a constant."""
-        out = np.empty(self.pattern.size)
-        self.spread(np.ones(self.pattern.size), out)
-        return out
+        return np.asarray(_row_sums(self.rows))
 
     def spread(self, residual: FloatArray, out: FloatArray) -> None:
         """out = G residual."""
-        passes.in_blocks(residual.size, 0, _spread, self.columns, self.pattern, self.table, residual, out)
+        passes.in_blocks(residual.size, 0, _spread, self.rows, residual, out)
 
     def collect(self, values: FloatArray, out: FloatArray) -> float:
         """out = G^T values; returns its sum.
@@ -106,27 +110,10 @@ class SparseInverseOnCells:
         Each block adds to its own cells at once; what belongs to the cells of other blocks is kept and added at the
         end, in order.
         """
-        starts = self.starts
-        targets = np.empty(starts[-1], np.int32)
-        amounts = np.empty(starts[-1])
-        partial = passes.in_blocks(
-            values.size,
-            1,
-            _collect,
-            self.columns,
-            self.pattern,
-            self.table,
-            values,
-            out,
-            starts,
-            passes.BLOCK,
-            targets,
-            amounts,
-        )
-        if targets.size == 0:
-            return float(partial[:, 0].sum())
-        _add(out, targets, amounts)
-        return float(partial[:, 0].sum() + amounts.sum())
+        partial = passes.in_blocks(values.size, 1, _collect, self.rows, values, out, self.outside, passes.BLOCK)
+        if partial.shape[0] == 1:
+            return float(partial[0, 0])
+        return float(partial[:, 0].sum() + _add(out, self.outside.targets, self.outside.amounts))
 
 
 def sparse_inverse(
@@ -154,7 +141,8 @@ def _mark(position, cells, numbered):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _connect(start, stop, result, cells, position, nx, ny, wrap_x, wrap_y, offsets, columns, pattern):  # type: ignore[no-untyped-def]
+def _connect(start, stop, result, cells, position, grid, offsets, columns, pattern):  # type: ignore[no-untyped-def]
+    nx, ny, wrap_x, wrap_y = grid
     m = offsets.shape[0]
     reach = 0
     for a in range(m):
@@ -246,7 +234,20 @@ def _solve_patterns(pattern, offsets, near_field, table, solved):  # type: ignor
 
 
 @_fast
-def _spread(start, stop, result, columns, pattern, table, residual, out):  # type: ignore[no-untyped-def]
+def _row_sums(rows):  # type: ignore[no-untyped-def]
+    columns, pattern, table = rows
+    out = np.empty(pattern.size)
+    for k in range(pattern.size):
+        s = 0.0
+        for a in range(columns.shape[1] + 1):
+            s += table[pattern[k], a]
+        out[k] = s
+    return out
+
+
+@_fast
+def _spread(start, stop, result, rows, residual, out):  # type: ignore[no-untyped-def]
+    columns, pattern, table = rows
     m = columns.shape[1]
     if m == 10:  # the usual stencil, unrolled
         for k in range(start, stop):
@@ -265,7 +266,9 @@ def _spread(start, stop, result, columns, pattern, table, residual, out):  # typ
 
 
 @_fast
-def _collect(start, stop, result, columns, pattern, table, values, out, starts, block, targets, amounts):  # type: ignore[no-untyped-def]
+def _collect(start, stop, result, rows, values, out, outside, block):  # type: ignore[no-untyped-def]
+    columns, pattern, table = rows
+    starts, targets, amounts = outside
     m = columns.shape[1]
     place = starts[start // block]
     near = starts[start // block + 1] == place
@@ -299,5 +302,8 @@ def _collect(start, stop, result, columns, pattern, table, values, out, starts, 
 
 @njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
 def _add(out, targets, amounts):  # type: ignore[no-untyped-def]
+    total = 0.0
     for k in range(targets.size):
         out[targets[k]] += amounts[k]
+        total += amounts[k]
+    return total

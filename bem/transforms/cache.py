@@ -33,7 +33,12 @@ class _TransformCache:
             return transform
 
     def trim(self) -> None:
-        while len(self.kept) > 1 and sum(t.nbytes for t in self.kept.values()) > self.limit:
+        while len(self.kept) > 1:
+            held = 0
+            for transform in self.kept.values():
+                held += transform.nbytes
+            if held <= self.limit:
+                return
             self.kept.popitem(last=False)
 
 

@@ -65,6 +65,8 @@ class PaddedTransform:
         self._scratch: list[Scratch] = []
         half = pyfftw.empty_aligned((self.spectrum_shape[0], self._half_stride), self.complex_dtype, n=ALIGNMENT)
         plans = np.zeros((4, 2), np.int64)
+        self.nbytes = int(half.nbytes)
+        """Memory of buffers."""
         self.room = Room(
             nx=shape[0],
             ny=shape[1],
@@ -81,11 +83,6 @@ class PaddedTransform:
             plans=plans,
             half=half,
         )
-
-    @property
-    def nbytes(self) -> int:
-        """Memory of buffers."""
-        return int(self.room.half.nbytes) + sum(array.nbytes for scratch in self._scratch for array in scratch)
 
     def empty_spectrum(self) -> ComplexArray:
         """An uninitialised array for a spectrum, aligned and strided so that no copy is needed."""
@@ -104,7 +101,7 @@ class PaddedTransform:
         """Spectrum (py // 2 + 1, px) of a field (nx, ny) padded with zeros."""
         out = self.empty_spectrum() if out is None else out
         with self.lock:
-            self.ready()
+            self.ready(get_threads())
             self._each(loops.rows_forward, self._row_blocks, self._plain(values))
             self._each(loops.columns_out, self._column_blocks, out)
         self._count(forward=1, rows=self.shape[0], columns=self.spectrum_shape[0])
@@ -118,7 +115,7 @@ class PaddedTransform:
         plain = out if self._is_plain(out) else np.empty(self.shape, self.dtype)
         parts = self._unit if factor is None else factor.factor(self.dtype)
         with self.lock:
-            self.ready()
+            self.ready(get_threads())
             self._each(loops.columns_in, self._column_blocks, parts, spectrum)
             self._each(loops.rows_back, self._row_blocks, plain)
         self._count(inverse=1, rows=self.shape[0], columns=self.spectrum_shape[0])
@@ -132,9 +129,10 @@ class PaddedTransform:
         values = self._plain(values)
         plain = out if self._is_plain(out) else np.empty(self.shape, self.dtype)
         parts = factor.factor(self.dtype)
+        threads = get_threads()
         with self.lock:
-            scratch = self.ready()
-            if get_threads() == 1:
+            scratch = self.ready(threads)
+            if threads == 1:
                 loops.convolve(self.room, scratch, parts, values, plain)
             else:
                 self._each(loops.rows_forward, self._row_blocks, values)
@@ -147,31 +145,33 @@ class PaddedTransform:
 
     def counted(self, convolutions: int) -> None:
         """Add convolutions to this process's count: here, or by a compiled loop that called `loops.convolve`."""
-        self._count(
-            forward=convolutions,
-            inverse=convolutions,
-            rows=2 * convolutions * self.shape[0],
-            columns=2 * convolutions * self.spectrum_shape[0],
-        )
+        COUNT.forward += convolutions
+        COUNT.inverse += convolutions
+        COUNT.rows += 2 * convolutions * self.shape[0]
+        COUNT.columns += 2 * convolutions * self.spectrum_shape[0]
 
-    def ready(self) -> Scratch:
+    def ready(self, threads: int) -> Scratch:
         """Plans, and scratch for every thread; returns the first one's. The caller holds `lock`."""
-        while len(self._scratch) < get_threads():
+        if len(self._scratch) < threads:
+            self._prepare(threads)
+        return self._scratch[0]
+
+    def _prepare(self, threads: int) -> None:
+        while len(self._scratch) < threads:
             rows = (self._row_block, self._real_stride)
             spectra = (self._row_block, _stride(self.spectrum_shape[0], self.complex_dtype.itemsize))
             columns = (self._column_block, self._spectrum_stride)
-            self._scratch.append(
-                Scratch(
-                    pyfftw.zeros_aligned(rows, self.dtype, n=ALIGNMENT),
-                    pyfftw.zeros_aligned(rows, self.dtype, n=ALIGNMENT),
-                    pyfftw.zeros_aligned(spectra, self.complex_dtype, n=ALIGNMENT),
-                    pyfftw.zeros_aligned(columns, self.complex_dtype, n=ALIGNMENT),
-                    pyfftw.zeros_aligned(columns, self.complex_dtype, n=ALIGNMENT),
-                )
+            scratch = Scratch(
+                pyfftw.zeros_aligned(rows, self.dtype, n=ALIGNMENT),
+                pyfftw.zeros_aligned(rows, self.dtype, n=ALIGNMENT),
+                pyfftw.zeros_aligned(spectra, self.complex_dtype, n=ALIGNMENT),
+                pyfftw.zeros_aligned(columns, self.complex_dtype, n=ALIGNMENT),
+                pyfftw.zeros_aligned(columns, self.complex_dtype, n=ALIGNMENT),
             )
-        if not self.room.plans.any():
-            self._plan(self._scratch[0])
-        return self._scratch[0]
+            if not self._scratch:
+                self._plan(scratch)
+            self._scratch.append(scratch)
+            self.nbytes += sum(array.nbytes for array in scratch)
 
     def _plan(self, scratch: Scratch) -> None:
         """Plans for whole blocks and for the last one; they go when this transform does."""
