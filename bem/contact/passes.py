@@ -135,8 +135,7 @@ def _find_violations(start, stop, result, displacement, gap, state, approach, fo
         last = min(first + 256, stop)
         count = 0
         for c in range(first, last):
-            value = approach - gap[c] - displacement[c]
-            count += ((state[c] == 0) & (value > 0)) | ((state[c] == 2) & (value < 0))
+            count += (1.0 - state[c]) * (approach - gap[c] - displacement[c]) > 0
         if count == 0:
             continue
         for c in range(first, last):

@@ -62,14 +62,14 @@ class SparseInverse:
         columns = np.empty((cells.size, self.offsets.shape[0]), np.int32)
         pattern = np.empty(cells.size, np.int32)
         distant = passes.in_blocks(
-            cells.size, 1, _connect, cells, self.position, (*self.shape, *self.periodic), self.offsets, columns, pattern
+            cells.size, 2, _connect, cells, self.position, (*self.shape, *self.periodic), self.offsets, columns, pattern
         )
         _solve_patterns(pattern, self.offsets, self.near_field, self.table, self.solved)
         starts = np.zeros(len(distant) + 1, np.int64)
         if len(distant) > 1:  # a single block leads nowhere out of itself
             np.cumsum(distant[:, 0].astype(np.int64), out=starts[1:])
         outside = int(starts[-1])
-        entries = Outside(starts, np.empty(outside, np.int32), np.empty(outside))
+        entries = Outside(distant[:, 1].astype(np.int64), starts, np.empty(outside, np.int32), np.empty(outside))
         return SparseInverseOnCells(Rows(columns, pattern, self.table), entries)
 
 
@@ -82,8 +82,12 @@ class Rows(NamedTuple):
 
 
 class Outside(NamedTuple):
-    """Entries of G that lead out of their block of cells, numbered by `starts`: whereto, and what is added there."""
+    """Entries of G that lead out of their block of cells, numbered by `starts`: whereto, and what is added there.
 
+    `inner` : for each block the first cell from which on no entry leads out.
+    """
+
+    inner: NDArray[np.int64]
     starts: NDArray[np.int64]
     targets: NDArray[np.int32]
     amounts: FloatArray
@@ -149,6 +153,7 @@ def _connect(start, stop, result, cells, position, grid, offsets, columns, patte
         reach = max(reach, abs(offsets[a, 0]), abs(offsets[a, 1]))
     shifts = offsets[:, 0] * ny + offsets[:, 1]
     distant = 0
+    inner = start
     i = cells[start] // ny
     for k in range(start, stop):
         cell = cells[k]
@@ -156,6 +161,7 @@ def _connect(start, stop, result, cells, position, grid, offsets, columns, patte
             i += 1
         j = cell - i * ny
         bits = 0
+        before = distant
         # a missing neighbour is the cell itself, with a zero in the table: no branch where it is used
         if i >= reach and j >= reach and j < ny - reach:
             for a in range(m):
@@ -182,7 +188,10 @@ def _connect(start, stop, result, cells, position, grid, offsets, columns, patte
                 bits |= present << a
                 distant += (column < start) | (column >= stop)
         pattern[k] = bits
+        if distant > before:
+            inner = k + 1
     result[0] = distant
+    result[1] = inner
 
 
 @njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
@@ -268,31 +277,37 @@ def _spread(start, stop, result, rows, residual, out):  # type: ignore[no-untype
 @_fast
 def _collect(start, stop, result, rows, values, out, outside, block):  # type: ignore[no-untyped-def]
     columns, pattern, table = rows
-    starts, targets, amounts = outside
+    inner, starts, targets, amounts = outside
     m = columns.shape[1]
     place = starts[start // block]
-    near = starts[start // block + 1] == place
+    first = inner[start // block]
     for k in range(start, stop):
         out[k] = 0
-    if near and m == 10:  # the usual stencil, unrolled
-        for k in range(start, stop):
+    for k in range(start, first):
+        bits = pattern[k]
+        s = values[k]
+        for a in range(m):
+            c = columns[k, a]
+            if c >= start and c < stop:
+                out[c] += table[bits, a] * s
+            else:
+                targets[place] = c
+                amounts[place] = table[bits, a] * s
+                place += 1
+        out[k] += table[bits, m] * s
+    if m == 10:  # the usual stencil, unrolled
+        for k in range(first, stop):
             bits = pattern[k]
             s = values[k]
             for a in range(10):
                 out[columns[k, a]] += table[bits, a] * s
             out[k] += table[bits, 10] * s
     else:
-        for k in range(start, stop):
+        for k in range(first, stop):
             bits = pattern[k]
             s = values[k]
             for a in range(m):
-                c = columns[k, a]
-                if c >= start and c < stop:
-                    out[c] += table[bits, a] * s
-                else:
-                    targets[place] = c
-                    amounts[place] = table[bits, a] * s
-                    place += 1
+                out[columns[k, a]] += table[bits, a] * s
             out[k] += table[bits, m] * s
     total = 0.0
     for k in range(start, stop):
