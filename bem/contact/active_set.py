@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 from bem.contact import passes
 from bem.contact.controls import ApproachControl, LoadControl
 from bem.contact.energy import Accepted, best_share, lowest_point
-from bem.contact.face import solve_on_cells, take_in
+from bem.contact.face import Opening, solve_on_cells, take_in
 from bem.contact.feasible import between, clip, first_pressure, gradient_step, lift
 from bem.contact.level import Effort, Iterate, Level, LevelResult, Tolerance, Tuning
 from bem.convolution import DisplacementOperator
@@ -220,17 +220,16 @@ def _approach(level: Level, control: Control, iterate: Iterate, total: float) ->
 
 def _next(level: Level, control: Control, now: _Round, effort: Effort) -> _Step | None:
     """Take in the cells that violate their state, close the gap, and go back into the bounds; None without a cell."""
-    iterate, residual, total = take_in(level, now.iterate, now.found, now.approach)
+    iterate, opening = take_in(level, now.iterate, now.found, now.approach)
     if iterate.cells.size == 0:
         return None
-    mean = total / residual.size
-    lifted = _at_full_contact(level, control, iterate, mean, now.goal)
+    lifted = _at_full_contact(level, control, iterate, opening.mean, now.goal)
     if lifted:
-        iterate = lift(level, iterate, mean)
-        residual -= mean
+        iterate = lift(level, iterate, opening.mean)
+        opening = Opening(opening.values - opening.mean, 0.0)
         if iterate.cells.size < level.gap.size:
             return _Step(iterate, lifted)
-    raw = solve_on_cells(level, iterate, residual, control, now.goal, effort)
+    raw = solve_on_cells(level, iterate, opening, control, now.goal, effort)
     clipped = clip(level, control, iterate, raw)
     if clipped.cells.size <= _FEW * clipped.capped.size and clipped.cells.size < 0.5 * iterate.cells.size:
         # fully plastic: bounds matter, elasticity hardly does, and unbounded pressures say nothing

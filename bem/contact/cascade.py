@@ -6,6 +6,8 @@ to the power 3/2: phi = p^2 inside and -c gap^(2/3) outside is smooth across the
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -17,6 +19,7 @@ FloatArray = NDArray[np.float64]
 Table = tuple[NDArray[np.int64], FloatArray]
 
 
+@lru_cache(maxsize=64)
 def interpolation(cells: int, onto: int, periodic: bool) -> Table:
     """Cubic interpolation along an axis, from `cells` points to `onto`: four indices and weights for each.
 
@@ -39,6 +42,7 @@ def interpolation(cells: int, onto: int, periodic: bool) -> Table:
     )
     indices = base[:, None] + np.arange(-1, 3)
     indices = indices % cells if periodic else np.clip(indices, 0, cells - 1)
+    indices.flags.writeable = weights.flags.writeable = False  # kept for the next contact
     return indices, weights
 
 

@@ -17,31 +17,37 @@ FloatArray = NDArray[np.float64]
 Control = LoadControl | ApproachControl
 
 
-def take_in(
-    level: Level, iterate: Iterate, found: NDArray[np.int32], approach: float
-) -> tuple[Iterate, FloatArray, float]:
-    """Add violating cells to those in contact, with the pressure they have; the gap there, and its sum."""
+@dataclass(frozen=True)
+class Opening:
+    """The gap on the cells in contact, and its mean."""
+
+    values: FloatArray
+    mean: float
+
+
+def take_in(level: Level, iterate: Iterate, found: NDArray[np.int32], approach: float) -> tuple[Iterate, Opening]:
+    """Add violating cells to those in contact, with the pressure they have; and the gap there."""
     state, capped = level.state, iterate.capped
     found_values = np.zeros(found.size)
     if capped.size:
         found_values[state[found] == CAPPED] = level.cap
         state[found] = CONTACT
         capped = capped[state[capped] == CAPPED]
-    total = iterate.cells.size + found.size
-    cells, values, residual = np.empty(total, np.int64), np.empty(total), np.empty(total)
+    count = iterate.cells.size + found.size
+    cells, values, residual = np.empty(count, np.int64), np.empty(count), np.empty(count)
     surface = (level.flat["displacement"], level.gap, approach)
-    opening = passes.merge(
+    total = passes.merge(
         (iterate.cells, iterate.values), (found, found_values), surface, (cells, values, residual)
     )  # fmt: skip
-    return Iterate(cells, values, capped), residual, opening
+    return Iterate(cells, values, capped), Opening(residual, total / max(1, count))
 
 
 def solve_on_cells(
-    level: Level, iterate: Iterate, residual: FloatArray, control: Control, tolerance: float, effort: Effort
+    level: Level, iterate: Iterate, opening: Opening, control: Control, tolerance: float, effort: Effort
 ) -> FloatArray:
-    """Unbounded pressures on the iterate's cells that bring the gap there, `residual` (overwritten), nearer to zero."""
-    cells, pressure = iterate.cells, iterate.values.copy()
-    balance = _Balance.of(level, cells, residual, control)
+    """Unbounded pressures on the iterate's cells that bring the gap there (overwritten) nearer to zero."""
+    cells, pressure, residual = iterate.cells, iterate.values.copy(), opening.values
+    balance = _Balance.of(level, cells, opening, control)
     if balance is None:
         return pressure
     tuning = level.tuning
@@ -89,11 +95,12 @@ class _Balance:
     total: float
 
     @classmethod
-    def of(cls, level: Level, cells: Indices, residual: FloatArray, control: Control) -> _Balance | None:
+    def of(cls, level: Level, cells: Indices, opening: Opening, control: Control) -> _Balance | None:
         """For these cells; frees the residual of its mean under load control. None if a load leaves nothing to do."""
         kept = isinstance(control, LoadControl)
         if kept:
-            residual -= residual.mean()
+            values = opening.values
+            values -= opening.mean
             if cells.size == 1:
                 return None
         inverse = level.preconditioner(cells)

@@ -43,9 +43,13 @@ def in_blocks(size: int, results: int, kernel: Callable[..., None], *arguments: 
     return partial
 
 
-def _totals(partial: FloatArray) -> list[float]:
-    """Sums over the blocks, in order."""
-    return partial[0].tolist() if partial.shape[0] == 1 else partial.sum(axis=0).tolist()
+def sums(size: int, results: int, kernel: Callable[..., None], *arguments: Any) -> list[float]:
+    """What a kernel finds, added over the blocks in order."""
+    if size <= BLOCK:
+        found = np.zeros(results)
+        kernel(0, size, found, *arguments)
+        return found.tolist()
+    return in_blocks(size, results, kernel, *arguments).sum(axis=0).tolist()
 
 
 class Survey(NamedTuple):
@@ -202,7 +206,7 @@ def merge(old, new, surface, merged):  # type: ignore[no-untyped-def]
 
 def work(displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], values: FloatArray) -> float:
     """Sum of p (gap + displacement) over some cells."""
-    return _totals(in_blocks(cells.size, 1, _work, displacement, gap, cells, values))[0]
+    return sums(cells.size, 1, _work, displacement, gap, cells, values)[0]
 
 
 @_fast
@@ -262,7 +266,7 @@ def positive(cells, values):  # type: ignore[no-untyped-def]
 
 def squares(values: FloatArray) -> float:
     """Sum of squares."""
-    return _totals(in_blocks(values.size, 1, _squares, values))[0]
+    return sums(values.size, 1, _squares, values)[0]
 
 
 @_fast
@@ -277,7 +281,7 @@ def turn(
     preconditioned: FloatArray, rise: FloatArray, share: float, residual: FloatArray, previous: FloatArray
 ) -> tuple[float, float]:
     """z -= share rise; return z.r and z.(r - r_previous)."""
-    full, change = _totals(in_blocks(residual.size, 2, _turn, preconditioned, rise, share, residual, previous))
+    full, change = sums(residual.size, 2, _turn, preconditioned, rise, share, residual, previous)
     return full, change
 
 
@@ -303,7 +307,7 @@ def new_direction(
     residual: FloatArray,
 ) -> float:
     """t = z + beta t, also written to field[cells]; returns t.r."""
-    return _totals(in_blocks(cells.size, 1, _new_direction, direction, preconditioned, beta, cells, field, residual))[0]
+    return sums(cells.size, 1, _new_direction, direction, preconditioned, beta, cells, field, residual)[0]
 
 
 @_fast
@@ -319,7 +323,7 @@ def _new_direction(start, stop, result, direction, preconditioned, beta, cells, 
 
 def gather_dot(field: NDArray[Any], cells: NDArray[Any], out: FloatArray, direction: FloatArray) -> tuple[float, float]:
     """out = field[cells]; returns its sum and its product with the direction."""
-    total, product = _totals(in_blocks(cells.size, 2, _gather_dot, field, cells, out, direction))
+    total, product = sums(cells.size, 2, _gather_dot, field, cells, out, direction)
     return total, product
 
 
@@ -378,7 +382,7 @@ def _advance(start, stop, result, state, way, mean, step, cap):  # type: ignore[
 
 def shifted_sum(values: FloatArray, shift: float, cap: float) -> tuple[float, int]:
     """Sum of clip(values + shift, 0, cap) and how many of them are strictly inside."""
-    total, inside = _totals(in_blocks(values.size, 2, _shifted_sum, values, shift, cap))
+    total, inside = sums(values.size, 2, _shifted_sum, values, shift, cap)
     return total, int(inside)
 
 

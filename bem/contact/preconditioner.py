@@ -4,12 +4,15 @@ It sees the near neighbours only; `long_waves` adds the rest, between G and its 
 
 Row k of the sparse triangular G solves the small system of the kernel on cell k and its earlier neighbours that are in
 contact too, scaled to give (G K G^T)_kk = 1 (Kolotilina & Yeremin, SIAM J. Matrix Anal. Appl. 14, 1993). Which
-neighbours are in contact is a bit pattern, and every pattern is solved once per operator.
+neighbours are in contact is a bit pattern, and every pattern is solved once per kernel.
 """
 
 from __future__ import annotations
 
+import math
+import threading
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -38,39 +41,62 @@ def stencil(squared_radius: int) -> NDArray[np.int64]:
 
 
 @dataclass(frozen=True)
-class SparseInverse:
-    """Rows of G by pattern; `solved` says which patterns have been filled in so far."""
+class Patterns:
+    """Rows of G by pattern of neighbours; `solved` says which have been filled in so far."""
 
-    shape: tuple[int, int]
-    periodic: tuple[bool, bool]
     offsets: NDArray[np.int64]
     near_field: FloatArray
     table: FloatArray
     solved: NDArray[np.uint8]
+
+    def solve(self, wanted: NDArray[np.int32]) -> None:
+        """Fill in the rows of these patterns; one thread at a time, for contacts side by side share them."""
+        with _SOLVING:
+            _solve_patterns(wanted, self.offsets, self.near_field, self.table, self.solved)
+
+
+_SOLVING = threading.Lock()
+
+
+@dataclass(frozen=True)
+class SparseInverse:
+    """Rows of G by pattern, and room for the numbers of the cells in contact."""
+
+    shape: tuple[int, int]
+    periodic: tuple[bool, bool]
+    patterns: Patterns
     position: NDArray[np.int32]
 
     @property
     def near(self) -> float:
         """Response to a uniform unit pressure on a cell with all its neighbours, as G has it."""
-        return float(1 / self.table[-1].sum() ** 2)
+        return float(1 / self.patterns.table[-1].sum() ** 2)
 
     def on(self, cells: NDArray[Any], previous: NDArray[Any] | None) -> SparseInverseOnCells:
         """The inverse on some cells (ascending flat indices); `previous` are those of the call before."""
         if previous is not None:
             _mark(self.position, previous, False)
         _mark(self.position, cells, True)
-        columns = np.empty((cells.size, self.offsets.shape[0]), np.int32)
+        columns = np.empty((cells.size, self.patterns.offsets.shape[0]), np.int32)
         pattern = np.empty(cells.size, np.int32)
         distant = passes.in_blocks(
-            cells.size, 2, _connect, cells, self.position, (*self.shape, *self.periodic), self.offsets, columns, pattern
+            cells.size,
+            2,
+            _connect,
+            cells,
+            self.position,
+            (*self.shape, *self.periodic),
+            self.patterns.offsets,
+            columns,
+            pattern,
         )
-        _solve_patterns(pattern, self.offsets, self.near_field, self.table, self.solved)
+        self.patterns.solve(pattern)
         starts = np.zeros(len(distant) + 1, np.int64)
         if len(distant) > 1:  # a single block leads nowhere out of itself
             np.cumsum(distant[:, 0].astype(np.int64), out=starts[1:])
         outside = int(starts[-1])
         entries = Outside(distant[:, 1].astype(np.int64), starts, np.empty(outside, np.int32), np.empty(outside))
-        return SparseInverseOnCells(Rows(columns, pattern, self.table), entries)
+        return SparseInverseOnCells(Rows(columns, pattern, self.patterns.table), entries)
 
 
 class Rows(NamedTuple):
@@ -124,18 +150,25 @@ def sparse_inverse(
     shape: tuple[int, int], periodic: tuple[bool, bool], near_field: FloatArray, squared_radius: int = 2
 ) -> SparseInverse:
     """Prepare for an operator whose kernel near the origin is `near_field` (offset zero in the middle)."""
-    offsets = stencil(squared_radius)
     # neighbours that would wrap on to one another on a very short axis are left out
-    short = [n <= 2 * int(np.abs(offsets).max()) for n in shape]
-    keep = [not ((short[0] and i != 0) or (short[1] and j != 0)) for i, j in offsets]
-    offsets = np.ascontiguousarray(offsets[np.array(keep, dtype=bool)])
-    patterns = 1 << offsets.shape[0]
-    table = np.zeros((patterns, offsets.shape[0] + 1))
-    solved = np.zeros(patterns, np.uint8)
-    _solve_patterns(np.array([patterns - 1]), offsets, near_field, table, solved)
-    return SparseInverse(
-        shape, periodic, offsets, near_field, table, solved, np.full(shape[0] * shape[1], -1, np.int32)
+    reach = 2 * math.isqrt(squared_radius)
+    patterns = _patterns(
+        squared_radius, shape[0] <= reach, shape[1] <= reach, near_field.shape[0], near_field.tobytes()
     )
+    return SparseInverse(shape, periodic, patterns, np.full(shape[0] * shape[1], -1, np.int32))
+
+
+@lru_cache(maxsize=64)
+def _patterns(squared_radius: int, short_x: bool, short_y: bool, width: int, near_field: bytes) -> Patterns:
+    """The rows of a kernel that are known so far; kept, so that the next contact under it begins with them."""
+    offsets = stencil(squared_radius)
+    keep = [not ((short_x and i != 0) or (short_y and j != 0)) for i, j in offsets]
+    offsets = np.ascontiguousarray(offsets[np.array(keep, dtype=bool)])
+    count = 1 << offsets.shape[0]
+    kernel = np.frombuffer(near_field).reshape(width, width).copy()
+    found = Patterns(offsets, kernel, np.zeros((count, offsets.shape[0] + 1)), np.zeros(count, np.uint8))
+    found.solve(np.array([count - 1], np.int32))
+    return found
 
 
 @njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]

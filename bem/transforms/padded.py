@@ -63,6 +63,7 @@ class PaddedTransform:
         self.lock = threading.RLock()
         self._unit = unit_factor(self.dtype)
         self._scratch: list[Scratch] = []
+        self._prepared = 0
         half = pyfftw.empty_aligned((self.spectrum_shape[0], self._half_stride), self.complex_dtype, n=ALIGNMENT)
         plans = np.zeros((4, 2), np.int64)
         self.nbytes = int(half.nbytes)
@@ -152,7 +153,7 @@ class PaddedTransform:
 
     def ready(self, threads: int) -> Scratch:
         """Plans, and scratch for every thread; returns the first one's. The caller holds `lock`."""
-        if len(self._scratch) < threads:
+        if self._prepared < threads:
             self._prepare(threads)
         return self._scratch[0]
 
@@ -172,6 +173,7 @@ class PaddedTransform:
                 self._plan(scratch)
             self._scratch.append(scratch)
             self.nbytes += sum(array.nbytes for array in scratch)
+        self._prepared = len(self._scratch)
 
     def _plan(self, scratch: Scratch) -> None:
         """Plans for whole blocks and for the last one; they go when this transform does."""

@@ -35,8 +35,9 @@ class Multiplier:
 
     def factor(self, dtype: np.dtype[Any]) -> Factor:
         """The parts in a precision as the compiled passes take them; kept."""
-        found = self._factors.get(dtype.char)
-        if found is None:
+        try:
+            return self._factors[dtype.char]
+        except KeyError:
             real, imaginary = (
                 np.empty((0, 0), dtype) if part is None else np.ascontiguousarray(part, dtype)
                 for part in (self.real, self.imaginary)
@@ -47,7 +48,7 @@ class Multiplier:
                 0 if self.real is None else self.real_parity,
                 0 if self.imaginary is None else self.imaginary_parity,
             )
-        return found
+            return found
 
     @cached_property
     def _factors(self) -> dict[str, Factor]:
