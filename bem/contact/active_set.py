@@ -6,7 +6,7 @@ The pressure minimises p.Kp/2 + p.(gap - approach) over 0 <= p <= cap, with its 
    there led well beyond its lowest point, goes back to it: its displacement follows without another application;
 2. takes in the free cells that overlap and the capped cells that open;
 3. runs preconditioned conjugate gradients on the cells in contact (single precision transforms, the symmetric part of
-   the operator), and
+   the operator); where step 4 will undo most of it, a single step of a length known beforehand, without any; and
 4. sets free what came out below zero, caps what came out above, and restores the load.
 
 Where the way leads upwards from its beginning a round is free to raise the energy while the largest violation falls.
@@ -75,6 +75,7 @@ def solve_level(
         if now.violation <= now.goal:
             return replace(now.result(level), converged=True)
         progress.rounds += 1
+        level.stride.judge(now.violation)
         if effort.left <= 0 or progress.rounds >= tuning.rounds:
             return now.result(level)
         current = now.reached

@@ -92,6 +92,22 @@ class Iterate:
     capped: Indices
 
 
+@dataclass(slots=True)
+class Stride:
+    """Steps along the preconditioned residual that cost no convolution: their length, and whether they still help."""
+
+    length: float = 1.0
+    trusted: bool = True
+    taken: bool = False
+    before: float = math.inf
+
+    def judge(self, violation: float) -> None:
+        """Once a round: give them up where one did not halve the violation."""
+        if self.taken and violation > 0.5 * self.before:
+            self.trusted = False
+        self.taken, self.before = False, violation
+
+
 class Level:
     """Operator, buffers and gap of one grid."""
 
@@ -111,6 +127,7 @@ class Level:
         names = ("pressure", "displacement", "before", "quick_in", "quick_out")
         self.flat: dict[str, NDArray[Any]] = {name: getattr(self, name).reshape(-1) for name in names}
         self.kept = False
+        self.stride = Stride()
         self.sparse: SparseInverse | None = None
         self.sparse_cells: Indices | None = None
         self.smooth: LongWaves | None = None

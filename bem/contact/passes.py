@@ -380,6 +380,27 @@ def _advance(start, stop, result, state, way, mean, step, cap):  # type: ignore[
     result[2] = outside
 
 
+def stride(
+    pressure: FloatArray, way: FloatArray, step: float, cap: float, residual: FloatArray, out: FloatArray
+) -> tuple[float, float]:
+    """out = p - step t; returns how far that leaves the bounds, and max |r|."""
+    partial = in_blocks(pressure.size, 2, _stride, pressure, way, step, cap, residual, out)
+    return float(partial[:, 0].max()), float(partial[:, 1].max())
+
+
+@_fast
+def _stride(start, stop, result, pressure, way, step, cap, residual, out):  # type: ignore[no-untyped-def]
+    outside = 0.0
+    largest = 0.0
+    for k in range(start, stop):
+        p = pressure[k] - step * way[k]
+        out[k] = p
+        outside = max(outside, max(-p, p - cap))
+        largest = max(largest, abs(residual[k]))
+    result[0] = outside
+    result[1] = largest
+
+
 def shifted_sum(values: FloatArray, shift: float, cap: float) -> tuple[float, int]:
     """Sum of clip(values + shift, 0, cap) and how many of them are strictly inside."""
     total, inside = sums(values.size, 2, _shifted_sum, values, shift, cap)
