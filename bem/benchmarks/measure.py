@@ -152,7 +152,7 @@ def watched() -> Iterator[dict[str, float]]:
     Counters stand around the functions only here, so that a timed solve does not pay for them.
     """
     import bem.stress.sweeps
-    from bem.contact import passes, preconditioner
+    from bem.contact import long_waves, passes, preconditioner
     from bem.transforms import PaddedTransform
     from bem.wear import cycle
 
@@ -186,6 +186,7 @@ def watched() -> Iterator[dict[str, float]]:
         (preconditioner.SparseInverse, "on", "preconditioner"),
         (preconditioner.SparseInverseOnCells, "spread", "preconditioner"),
         (preconditioner.SparseInverseOnCells, "collect", "preconditioner"),
+        (long_waves.LongWavesOnCells, "apply", "preconditioner"),
         (bem.stress.sweeps, "_share_rows", "elementwise"),
         (cycle, "segment", "pieces"),
     ]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,11 +58,8 @@ def mean_gap_by_approach(
     def excess(result: LevelResult) -> float:
         return mean_gap - mean_opening(gap, result)
 
-    low, high = bracket
-    return _search(
-        guess if guess is not None else 0.5 * (low + high),
-        low, high, scale, tolerance, start, ApproachControl, excess, solve, patient=patient,
-    )  # fmt: skip
+    quest = _Quest(ApproachControl, excess, solve, tolerance, scale, patient)
+    return _search(quest, guess if guess is not None else 0.5 * sum(bracket), bracket, scale, start)
 
 
 def mean_gap_by_load(
@@ -99,34 +97,39 @@ def _by_load(
     guess = math.log(force if force > 0 else 1e-3 * cells * scale)
 
     highest = math.log(cap * cells) if math.isfinite(cap) else math.inf
-    return _search(min(guess, highest), -math.inf, highest, 1.0, tolerance, start, control, excess, solve, scale)
+    quest = _Quest(control, excess, solve, tolerance, scale)
+    return _search(quest, min(guess, highest), (-math.inf, highest), 1.0, start)
+
+
+@dataclass(frozen=True)
+class _Quest:
+    """What is searched: x -> control -> contact -> excess, which is to be zero to the tolerance; `length` is its scale.
+
+    patient : as in `mean_gap_by_approach`.
+    """
+
+    control: Callable[[float], ApproachControl | LoadControl]
+    excess: Callable[[LevelResult], float]
+    solve: Solve
+    tolerance: float
+    length: float
+    patient: bool = True
 
 
 def _search(
-    x: float,
-    low: float,
-    high: float,
-    step: float,
-    tolerance: float,
-    start: FloatArray | None,
-    control: Callable[[float], ApproachControl | LoadControl],
-    excess: Callable[[LevelResult], float],
-    solve: Solve,
-    scale: float | None = None,
-    *,
-    patient: bool = True,
+    quest: _Quest, x: float, bracket: tuple[float, float], step: float, start: FloatArray | None
 ) -> LevelResult:
-    """Zero of an excess that rises with x; `step` is a first step, `scale` a length (that step unless given)."""
-    length = step if scale is None else scale
-    precision = max(tolerance, 0.03 * length)
+    """Zero of an excess that rises with x, from a pressure; `step` is a first step of x."""
+    tolerance, (low, high) = quest.tolerance, bracket
+    precision = max(tolerance, 0.03 * quest.length)
     points: list[tuple[float, float]] = []
     while True:
-        result = solve(control(x), start, precision)
+        result = quest.solve(quest.control(x), start, precision)
         start = result.pressure
-        error = excess(result)
+        error = quest.excess(result)
         if abs(error) <= tolerance and precision <= tolerance:
             return result
-        if len(points) >= _STEPS or not (patient or result.converged):
+        if len(points) >= _STEPS or not (quest.patient or result.converged):
             return result
         if error < 0 and any(x > other and error < less - 2 * precision for other, less in points):
             return result  # it falls: there is no zero beyond

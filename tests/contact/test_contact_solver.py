@@ -12,7 +12,7 @@ import pytest
 from contact_oracles import FREE, HALF_Y, PERIODIC, body, notes_surface, operator, rough
 
 from bem import threads
-from bem.contact import passes, solve_contact
+from bem.contact import face, passes, solve_contact
 from bem.convolution import displacement_operator
 from bem.errors import InfeasibleError, InputError
 from bem.grid import Grid
@@ -260,14 +260,23 @@ def test_semi_periodic_contact_of_a_wide_slice_is_the_free_one_far_from_the_ends
     assert np.abs(a.pressure - b.pressure).max() <= 0.02 * a.pressure.max()
 
 
-def test_convolutions_and_python_calls_of_the_surface_they_are_quoted_for():
+@pytest.mark.parametrize(("cells", "convolutions", "most"), [(128, 13.3, 4300), (256, 14.9, 5300)])
+def test_convolutions_and_python_calls_of_the_surface_they_are_quoted_for(cells, convolutions, most):
     """Small grids are what wear cycles and load sharing run on: there the calls between convolutions are the cost."""
-    op = operator((256, 256), (1 / 256, 1 / 256), PERIODIC)
-    gap = -notes_surface(256)
+    op = operator((cells, cells), (1 / cells, 1 / cells), PERIODIC)
+    gap = -notes_surface(cells)
     solve_contact(gap, op, load=0.0035)  # spectra and plans
     with cProfile.Profile() as profile:
         solution = solve_contact(gap, op, load=0.0035)
-    rows = pstats.Stats(profile).stats.items()  # transforms make more calls once threads were used
-    calls = sum(row[1] for (file, _, _), row in rows if Path(file).parent == Path(passes.__file__).parent)
-    assert solution.convolutions <= 17.7  # 17.66 counted
-    assert calls <= 2500  # 2373 counted; 2672 while passes over a single block were shared among threads
+    assert solution.convolutions <= convolutions + 0.05
+    assert pstats.Stats(profile).total_calls <= most
+
+
+def test_a_first_step_without_a_convolution_saves_them_and_leaves_the_answer(monkeypatch):
+    gap = -notes_surface(128)
+    op = operator((128, 128), (1 / 128, 1 / 128), PERIODIC)
+    quick = solve_contact(gap, op, load=0.0035)
+    monkeypatch.setattr(face, "_LEFT", np.inf)  # as if clipping never undid enough
+    plain = solve_contact(gap, op, load=0.0035)
+    assert quick.convolutions < plain.convolutions
+    assert np.abs(quick.pressure - plain.pressure).max() <= 1e-5 * plain.pressure.max()  # both certified to 1e-8

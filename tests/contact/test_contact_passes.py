@@ -1,0 +1,131 @@
+"""Each compiled pass against its plain form in numpy; both a single block and many."""
+
+import numpy as np
+import pytest
+from contact_oracles import FREE, PERIODIC, notes_surface, operator
+
+from bem.contact import long_waves, passes, preconditioner
+from bem.contact.level import Level, Tuning
+
+SIZE = 500
+# sums of a few hundred numbers of order one in another order
+ROUND_OFF = 1e-12
+
+
+@pytest.fixture(params=[1 << 15, 77], ids=["one block", "many blocks"])
+def fields(request, monkeypatch):
+    monkeypatch.setattr(passes, "BLOCK", request.param)
+    rng = np.random.default_rng(0)
+    cells = np.sort(rng.permutation(SIZE)[:200])
+    return rng.standard_normal(SIZE), rng.standard_normal(SIZE), cells, rng.uniform(0, 1, cells.size)
+
+
+def test_survey(fields):
+    displacement, gap, cells, values = fields
+    seen = passes.survey(displacement, gap, cells, values)
+    u, g = displacement[cells], gap[cells]
+    plain = (
+        (g + u).sum(), (g + u).max(), (g + u).min(), np.abs(u).max(), (values * (g + u / 2)).sum(),
+        (np.abs(values * g) + np.abs(values * u)).sum(), values.sum(), (values * (g + u)).sum(),
+    )  # fmt: skip
+    assert np.allclose(seen, plain, rtol=0, atol=ROUND_OFF * seen.size)
+    assert passes.survey(displacement, gap, cells[:0], values[:0])[1:3] == (-np.inf, np.inf)
+
+
+def test_merge(fields):
+    displacement, gap, cells, values = fields
+    found = np.setdiff1d(np.arange(0, SIZE, 7), cells).astype(np.int32)
+    new = np.full(found.size, 2.0)
+    merged = (
+        np.empty(cells.size + found.size, np.int64),
+        np.empty(cells.size + found.size),
+        np.empty(700)[: cells.size + found.size],
+    )
+    total = passes.merge((cells, values), (found, new), (displacement, gap, 0.3), merged)
+    everywhere = np.zeros(SIZE)
+    everywhere[cells], everywhere[found] = values, new
+    both = np.union1d(cells, found)
+    assert np.array_equal(merged[0], both)
+    assert np.array_equal(merged[1], everywhere[both])
+    assert np.allclose(merged[2], (gap + displacement - 0.3)[both], rtol=0, atol=1e-15)
+    assert total == pytest.approx(merged[2].sum(), abs=ROUND_OFF * SIZE)
+
+
+def test_violations_of_free_and_of_capped_cells(fields):
+    displacement, gap, cells, _ = fields
+    state = np.zeros(SIZE, np.uint8)
+    passes.mark(state, cells[:100], cells[100:])
+    value = 0.1 - gap - displacement
+    wrong = ((state == passes.FREE) & (value > 0)) | ((state == passes.CAPPED) & (value < 0))
+    found, largest = passes.find_violations(displacement, gap, state, 0.1)
+    assert np.array_equal(found, np.flatnonzero(wrong))
+    assert largest == pytest.approx(np.abs(value[wrong]).max(), rel=1e-14)
+
+
+def test_stride_and_positive(fields):
+    _, way, cells, values = fields
+    way = way[: cells.size]
+    out = np.empty(cells.size)
+    outside, largest = passes.stride(values, way, 0.7, 0.9, way, out)
+    assert np.allclose(out, values - 0.7 * way, rtol=0, atol=1e-15)
+    assert outside == pytest.approx(max(-out.min(), out.max() - 0.9), rel=1e-14)
+    assert largest == np.abs(way).max()
+    kept, raw, total = passes.positive(cells, out)
+    assert np.array_equal(kept, cells[out > 0])
+    assert np.array_equal(raw, out[out > 0])
+    assert total == pytest.approx(raw.sum(), rel=1e-13)
+
+
+@pytest.mark.parametrize("periodic", [FREE, PERIODIC])
+def test_long_waves_are_the_plain_conjugate_gradients(periodic):
+    n = 96
+    op = operator((n, n), (1 / n, 1 / n), periodic)
+    level = Level(op, np.zeros(n * n), np.inf, Tuning())
+    height = notes_surface(n, rolloff=4).ravel()
+    cells = np.flatnonzero(height > np.quantile(height, 0.8))
+    level.preconditioner(cells)
+    near = level.sparse.on(cells, cells)
+    far = level.smooth.on(cells, near.row_sums())
+    values = np.random.default_rng(3).standard_normal(cells.size)
+    before = op.count.applications
+    result = values.copy()
+    far.apply(result)
+    applications = op.count.applications - before
+
+    given = np.bincount(far.blocks, far.weights * values, far.root.size) * far.inverse_root
+    solution, residual, direction = np.zeros(given.size), given.copy(), np.zeros(given.size)
+    share, made = 0.0, 0
+    while residual @ residual > long_waves._REDUCTION**2 * (given @ given):
+        direction = residual + share * direction
+        field = (far.root * direction).astype(np.float32).reshape(level.smooth.workspace.field.shape)
+        level.smooth.convolution.apply(field, field)
+        response = far.root * field.ravel() + direction
+        squares = residual @ residual
+        step = squares / (direction @ response)
+        solution += step * direction
+        residual = residual - step * response
+        share = residual @ residual / squares
+        made += 1
+    plain = values - far.weights * ((given - solution) * far.inverse_root)[far.blocks]
+    assert applications == made
+    # the transforms are in single precision
+    assert np.abs(result - plain).max() <= 1e-5 * np.abs(plain).max()
+
+
+def test_entries_that_leave_a_block_are_told_from_the_rest(monkeypatch):
+    n = 64
+    op = operator((n, n), (1 / n, 1 / n), PERIODIC)
+    cells = np.sort(np.random.default_rng(4).permutation(n * n)[:2500])
+    results = []
+    for block in (1 << 15, 300):
+        monkeypatch.setattr(passes, "BLOCK", block)
+        near = preconditioner.sparse_inverse((n, n), PERIODIC, op.near_field(4), 5).on(cells, None)
+        out = np.empty(cells.size)
+        total = near.collect(np.sin(np.arange(cells.size)), out)
+        results.append((out, total))
+        if block == 300:
+            # a block's entries look back two rows at most: far fewer than its cells leave it
+            assert 0 < near.outside.targets.size < near.rows.columns.size / 2
+            assert (near.outside.inner < np.minimum(300 * np.arange(1, 10), cells.size)).any()
+    assert np.allclose(results[0][0], results[1][0], rtol=0, atol=1e-13)
+    assert results[0][1] == pytest.approx(results[1][1], abs=1e-11)
