@@ -25,6 +25,7 @@ SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("tribofilm-afm-tip", ('rubbing.loads=["600 nN"]', "grid.shape=48")),
     ("tribofilm-macro", ('rubbing.temperatures=["80 degC"]', "grid.shape=128", "grid.lengths=200 um")),
     ("uniform-asperities", ('array.spacings=["20 um"]', 'array.interferences=["50 nm"]', "array.cell=1 um")),
+    ("flow-factors", ("grid.shape=64", "flow.ratios=[1.0]")),
     ("particles-afm-map", ("synthetic.shape=[256, 256]",)),
 )
 """Built-in scenes and what makes them small; between them they pass through every compiled loop."""

@@ -22,7 +22,7 @@ s/100, Patir and Cheng's own cut.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -118,6 +118,7 @@ def flow_factors(
     hardness: float | None = None,
     tolerance: float = 1e-8,
     errors: bool = False,
+    callback: Callable[[int], object] | None = None,
 ) -> FlowFactors:
     """Flow factors of a patch of rough surface at given separations of the mean planes.
 
@@ -135,6 +136,7 @@ def flow_factors(
         plastic depth.
     tolerance : bound on the residual of contact and flow.
     errors : whether to repeat all with cells twice as large, for the error of the cell; a quarter more work.
+    callback : called with the number of separations done, after each.
 
     Raises
     ------
@@ -146,7 +148,11 @@ def flow_factors(
         notes.append("the patch is taken to repeat along both axes; the grid did not say so, and seams may have steps")
     rms = float(np.sqrt(np.mean(checked**2)))
     patch = _Patch.of(checked, grid, bodies, hardness, tolerance, rms)
-    rows = [patch.row(d) for d in apart]
+    rows = []
+    for d in apart:
+        rows.append(patch.row(d))
+        if callback is not None:
+            callback(len(rows))
     columns = {name: np.array([row[0][name] for row in rows]) for name in rows[0][0]}
     coarse = patch.coarsened(bodies) if errors else None
     for name in ("pressure_x", "pressure_y", "shear_x"):

@@ -184,9 +184,13 @@ def check_surfaces(grid: Grid, **surfaces: AnySurface) -> None:
 
 
 def _statistics(surface: GeneratedSurface) -> dict[str, Any]:
+    length: float | tuple[float, float] | None = surface.correlation_length
+    if surface.correlation_length is not None and surface.elongation is not None:
+        root = math.sqrt(surface.elongation)
+        length = (surface.correlation_length * root, surface.correlation_length / root)
     return {
         "rms_height": surface.rms_height,
-        "correlation_length": surface.correlation_length,
+        "correlation_length": length,
         "hurst": surface.hurst,
         "rolloff_wavelength": surface.rolloff_wavelength,
         "cutoff_wavelength": surface.cutoff_wavelength,

@@ -115,11 +115,16 @@ class SmoothSurface(Table):
 
 
 class GeneratedSurface(Table):
-    """A random surface of prescribed statistics; see `bem.generate_surface`."""
+    """A random surface of prescribed statistics; see `bem.generate_surface`.
+
+    `elongation` is the ratio of the correlation lengths along x and y, of which `correlation_length` is then the
+    geometric mean.
+    """
 
     kind: Literal["generated"] = "generated"
     rms_height: PositiveLength
     correlation_length: PositiveLength | None = None
+    elongation: Annotated[Ratio, Field(ge=0.01, le=100)] | None = None
     hurst: Annotated[Ratio, Field(gt=0, le=1)] | None = None
     rolloff_wavelength: PositiveLength | None = None
     cutoff_wavelength: PositiveLength | None = None
@@ -130,6 +135,8 @@ class GeneratedSurface(Table):
     @model_validator(mode="after")
     def _one_spectrum(self) -> GeneratedSurface:
         exactly_one(self, "correlation_length", "hurst")
+        if self.elongation is not None and self.correlation_length is None:
+            raise problem("elongation without correlation_length", "both, or neither")
         if self.kurtosis < 1 + self.skewness * self.skewness:  # a power of a float can overflow
             raise problem(
                 f"kurtosis {self.kurtosis:g} with skewness {self.skewness:g} is a pair that no distribution has",

@@ -1,0 +1,200 @@
+"""Kind `flow-factors`: how roughness, as deformed in its contact, changes the flow of a film through it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, model_validator
+
+from bem.errors import Status
+from bem.grid import FloatArray
+from bem.scenes import build, plans
+from bem.scenes.common import (
+    BodyScene,
+    GridScene,
+    PositiveLength,
+    PositivePressure,
+    SceneModel,
+    Table,
+    UpperBodyScene,
+    exactly_one,
+    problem,
+)
+from bem.scenes.context import Context
+from bem.scenes.kinds import Kind
+from bem.scenes.planner import Plan, Step
+from bem.scenes.records import Figure, Record, Series, filled
+from bem.scenes.units import Ratio
+
+
+class PatchGridScene(GridScene):
+    """Cells along x (the flow's direction) and y of a patch that repeats along both, as its flow does.
+
+    See `GridScene` for what is taken from measured surfaces.
+    """
+
+    periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = (True, True)
+
+    @model_validator(mode="after")
+    def _repeats(self) -> PatchGridScene:
+        if self.periodic != (True, True):
+            raise problem("periodic is not true along both axes", "true: the factors are of a patch that repeats")
+        return self
+
+
+class FlowScene(Table):
+    """Where: separations of the mean planes, or their ratio to the rms height of both surfaces together.
+
+    behaviour : the roughness is pressed together elastically, capped at the hardness, or not at all (`undeformed`: what
+        overlaps is cut off, as in Patir and Cheng's simulations).
+    """
+
+    separations: Annotated[list[PositiveLength], Field(min_length=1, max_length=100)] | None = None
+    ratios: Annotated[list[Annotated[Ratio, Field(gt=0)]], Field(min_length=1, max_length=100)] | None = None
+    behaviour: Literal["elastic", "capped", "undeformed"] = "elastic"
+    hardness: PositivePressure | None = None
+    tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = 1e-8
+    errors: bool = Field(default=True, strict=True)
+
+    @model_validator(mode="after")
+    def _one_list(self) -> FlowScene:
+        exactly_one(self, "separations", "ratios")
+        if self.behaviour != "capped" and self.hardness is not None:
+            raise problem("hardness is given but nothing is capped", 'behaviour = "capped", or no hardness')
+        return self
+
+
+class FlowFactorsScene(SceneModel):
+    """Two surfaces, one of them rough at least, and separations."""
+
+    kind: Literal["flow-factors"] = "flow-factors"
+    grid: PatchGridScene = PatchGridScene()
+    lower: BodyScene
+    upper: UpperBodyScene = UpperBodyScene()
+    flow: FlowScene
+
+    @model_validator(mode="after")
+    def _rough(self) -> FlowFactorsScene:
+        if self.lower.surface.kind == "smooth" and self.upper.surface.kind == "smooth":
+            raise problem("both surfaces are smooth", "roughness on one of them, lower.surface or upper.surface")
+        return self
+
+
+def resolve(scene: FlowFactorsScene) -> FlowFactorsScene:
+    """Fill in the grid where measured surfaces decide it, and the hardness of the softer surface."""
+    scene = build.with_grid(scene)
+    return build.with_hardness(scene, "flow", needed=True) if scene.flow.behaviour == "capped" else scene
+
+
+def plan(scene: FlowFactorsScene) -> Plan:
+    """What will be computed."""
+    grid, flow = build.grid_of(scene.grid), scene.flow
+    count, pressed = len(flow.separations or flow.ratios or ()), flow.behaviour != "undeformed"
+    return Plan(
+        (
+            plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
+            plans.layered_kernels(grid, scene.lower.build(), scene.upper.build()),
+            plans.contacts(
+                grid,
+                1.25 * count * plans.convolutions(grid) if pressed else 0.0,
+                f"{count} separations, {flow.behaviour}" if pressed else "overlap is cut off, nothing is deformed",
+                name="contacts",
+                skipped=not pressed,
+            ),
+            # measured: some 30 iterations of each problem, 1.5e-7 s a cell and iteration
+            Step(
+                "flow",
+                f"three cell problems at each of {count} separations",
+                seconds=(1.25 if flow.errors else 1.0) * count * 1.5e-5 * grid.cells,
+                memory=600.0 * grid.cells,
+            ),
+            plans.figures(),
+        )
+    )
+
+
+def _factor(text: str, *, headline: bool = False) -> Figure:
+    return Figure("", text, ("asked",), headline=headline)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FlowRecord(Record):
+    """Factors at every separation, in rising order."""
+
+    combined_Sq: Annotated[float, Figure("nm", "Sq of both surfaces together", headline=True)]
+    separation: Annotated[FloatArray, Figure("nm", "separation of the mean planes", ("asked",))]
+    separation_over_Sq: Annotated[FloatArray, _factor("separation over Sq", headline=True)]
+    pressure_x: Annotated[FloatArray, _factor("pressure flow factor along x", headline=True)]
+    pressure_y: Annotated[FloatArray, _factor("pressure flow factor along y", headline=True)]
+    pressure_xy: Annotated[FloatArray, _factor("pressure flow factor along x of a gradient along y")]
+    shear_x: Annotated[FloatArray, _factor("shear flow factor, all roughness on one wall", headline=True)]
+    shear_pair: Annotated[FloatArray, _factor("shear flow factor, lower wall less upper one by variance")]
+    friction_sliding: Annotated[FloatArray, _factor("friction factor of sliding (phi_f)")]
+    friction_shear: Annotated[FloatArray, _factor("friction factor of shear flow (phi_fs)")]
+    friction_pressure: Annotated[FloatArray, _factor("friction factor of pressure flow (phi_fp)")]
+    mean_gap: Annotated[FloatArray, Figure("nm", "mean gap", ("asked",))]
+    contact_area_fraction: Annotated[FloatArray, _factor("contact area over that of the patch", headline=True)]
+    flows_through_x: Annotated[NDArray[np.int64], _factor("1 where fluid hangs together along x")]
+    flows_through_y: Annotated[NDArray[np.int64], _factor("1 where fluid hangs together along y")]
+    residual: Annotated[float, Figure("", "largest relative residual", headline=True)]
+    x: Annotated[FloatArray, Series(("x",), "m", "x, along the flow", of="first")]
+    y: Annotated[FloatArray, Series(("y",), "m", "y", of="first")]
+    height: Annotated[FloatArray, Series(("x", "y"), "m", "height of both surfaces together", of="first")]
+
+
+def run(scene: FlowFactorsScene, context: Context) -> FlowRecord:
+    """Factors of both surfaces together at every separation."""
+    from bem.flow import flow_factors
+
+    grid, flow = build.grid_of(scene.grid), scene.flow
+    with context.timer("surfaces"):
+        rough = build.both_heights(scene, grid, context)
+    heights, (lower, upper) = rough[0] + rough[1], (scene.lower.build(), scene.upper.build())
+    apart = np.unique(flow.separations or float(heights.std()) * np.array(flow.ratios))
+    bodies = None if flow.behaviour == "undeformed" else lower if upper is None else (lower, upper)
+    with context.timer("flow factors"):
+        found = flow_factors(
+            heights,
+            grid,
+            bodies,
+            separations=apart,
+            hardness=flow.hardness,
+            tolerance=flow.tolerance,
+            errors=flow.errors,
+            callback=lambda done: context.progress(done, len(apart), "separations"),
+        )
+    for note in found.notes:
+        context.note(note)
+    first, second = (float(part.var()) for part in rough)
+    bars = {name: getattr(found, f"{name}_error") for name in ("pressure_x", "pressure_y", "shear_x") if flow.errors}
+    wrong = [f"{1e9 * d:.4g} nm" for d, s in zip(apart, found.statuses, strict=True) if s is not Status.CONVERGED]
+    return filled(
+        FlowRecord,
+        found,
+        grid,
+        combined_Sq=found.rms_height,
+        separation=found.separations,
+        separation_over_Sq=found.separations / found.rms_height,
+        shear_pair=found.shear_x * (first - second) / (first + second),
+        residual=float(found.residual.max()),
+        flows_through_x=found.flows_through_x.astype(np.int64),
+        flows_through_y=found.flows_through_y.astype(np.int64),
+        height=heights,
+        errors={name: bar for name, bar in bars.items() if np.isfinite(bar).all()},
+        where="" if found.status is Status.CONVERGED else f"separation {', '.join(wrong)}: {found.status.message}",
+    )
+
+
+KIND = Kind(
+    name="flow-factors",
+    title="flow factors of rough surfaces over separation, as deformed in their contact",
+    model=FlowFactorsScene,
+    resolve=resolve,
+    plan=plan,
+    run=run,
+    record=FlowRecord,
+    figures=("flow-factors", "flow-heights"),
+)

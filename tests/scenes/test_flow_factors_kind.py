@@ -1,0 +1,65 @@
+"""The kind `flow-factors`: a scene from tables to figures, and its mistakes in words."""
+
+import numpy as np
+import pytest
+
+from bem import InputError, flow_factors, load_scene
+from bem.runs import run_scene
+from bem.scenes import build
+from bem.scenes.context import PlainContext
+
+
+def scene(**changes):
+    table = {
+        "kind": "flow-factors",
+        "grid": {"shape": [48, 40], "lengths": ["24 um", "20 um"]},
+        "lower": {
+            "material": "steel-52100",
+            "surface": {"kind": "generated", "rms_height": "0.2 um", "correlation_length": "2 um", "elongation": 2.0},
+        },
+        "upper": {"surface": {"kind": "generated", "rms_height": "0.1 um", "correlation_length": "2 um"}},
+        "flow": {"ratios": [3.0, 0.5]},
+    }
+    return {**table, **changes}
+
+
+def test_record_is_what_the_solver_gives(tmp_path):
+    """Both surfaces' heights together, separations in rising order, errors beside the figures, files on disk."""
+    run = run_scene(scene(), tmp_path / "run")
+    loaded = load_scene(scene())
+    grid, context = build.grid_of(loaded.grid), PlainContext(loaded.seed)
+    lower, upper = build.both_heights(loaded, grid, context)
+    rms = float((lower + upper).std())
+    found = flow_factors(lower + upper, grid, loaded.lower.build(), separations=[0.5 * rms, 3 * rms], errors=True)
+    summary = run.summary
+    assert summary["separation_over_Sq"] == pytest.approx([0.5, 3.0])
+    assert summary["pressure_x"] == pytest.approx(found.pressure_x, rel=1e-9)
+    assert summary["pressure_x_error"] == pytest.approx(found.pressure_x_error, rel=1e-6)
+    share = (lower.var() - upper.var()) / (lower.var() + upper.var())
+    assert summary["shear_pair"] == pytest.approx(found.shear_x * share, rel=1e-9)
+    assert np.mean(summary["pressure_x"]) > np.mean(summary["pressure_y"])  # lays along the flow
+    assert (run.path / "figures" / "flow-factors.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"grid": {"shape": 48, "lengths": "24 um", "periodic": False}}, "a patch that repeats"),
+        ({"flow": {"ratios": [1.0], "separations": ["1 um"]}}, "exactly one of separations, ratios"),
+        ({"flow": {"ratios": [0.0]}}, "flow.ratios"),
+        ({"flow": {"ratios": [1.0], "hardness": "1 GPa"}}, "nothing is capped"),
+        ({"lower": {"material": "steel-52100"}, "upper": {}}, "both surfaces are smooth"),
+        (
+            {
+                "lower": {
+                    "material": "steel-52100",
+                    "surface": {"kind": "generated", "rms_height": "1 nm", "hurst": 0.8, "elongation": 2.0},
+                }
+            },
+            "elongation without correlation_length",
+        ),
+    ],
+)
+def test_mistakes(changes, words):
+    with pytest.raises(InputError, match=words):
+        load_scene(scene(**changes))
