@@ -47,8 +47,9 @@ def dataset_variables(
         if name in found:
             continue
         values = [None if summary is None else summary.get(name) for summary in summaries]
-        figure = known.get(name.removesuffix("_spread"), Figure())
-        text = (figure.text or name.replace("_", " ")) + (", spread" if name.endswith("_spread") else "")
+        bare = name.removesuffix("_spread").removesuffix("_error")
+        figure = known.get(bare, Figure())
+        text = f"{figure.text}{name.removeprefix(bare).replace('_', ', ')}" if figure.text else name.replace("_", " ")
         unit = figure.written or "1"
         if any(isinstance(value, str) for value in values):
             found[name] = laid_out(axes, values, unit, text)

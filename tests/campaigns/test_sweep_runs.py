@@ -77,7 +77,8 @@ def test_dataset_table_and_figure(tmp_path, here):
     # twelve digits of a logarithmic range
     np.testing.assert_allclose(dataset["contact.mean_pressure"], [20e6, 40e6, 80e6], rtol=1e-11)
     assert dataset["contact.mean_pressure"].attrs["units"] == "Pa"
-    assert dataset["load_N"].attrs["units"] == "N"
+    assert dataset["load_N"].attrs["units"] == dataset["load_N_error"].attrs["units"] == "N"
+    assert dataset["load_N_error"].attrs["long_name"] == f"{dataset['load_N'].attrs['long_name']}, error"
     area = dataset["contact_area_fraction"].values
     assert np.all(np.diff(area, axis=0) > 0), "more load, more contact"
     rows = list(csv.DictReader((tmp_path / "s" / "sweep.csv").read_text().splitlines()))
