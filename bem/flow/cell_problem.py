@@ -114,6 +114,7 @@ def cell_flow(
     Parameters
     ----------
     gap : (nx, ny), >= 0, zero in contact; any unit (of order one is best). spacing : (dx, dy), any unit.
+    tolerance, max_iterations : of the solver, relative to the flow.
     least_shear_gap : cells with less have no part in the means of shear, which have no limit as the gap vanishes.
     shear : whether to solve for `sliding_shear`, which is not-a-number otherwise.
     """

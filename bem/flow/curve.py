@@ -22,7 +22,7 @@ class Curve:
 
     Parameters
     ----------
-    separation : (n,) rising [m]. value : (n,) >= 0. limit : the value of endless separation.
+    separation : (n,) rising [m]. value : (n,) >= 0. limit : the value of endless separation. decay, growth : see above.
     """
 
     separation: FloatArray

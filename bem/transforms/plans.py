@@ -28,7 +28,7 @@ _PLANNER = threading.Lock()
 
 
 class _Axis(ctypes.Structure):
-    """FFTW's `fftw_iodim64`: a length, and the strides of input and output in elements."""
+    """FFTW's structure fftw_iodim64: a length, and the strides of input and output in elements."""
 
     _fields_ = (("n", ctypes.c_ssize_t), ("input", ctypes.c_ssize_t), ("output", ctypes.c_ssize_t))
 
