@@ -11,20 +11,30 @@ from __future__ import annotations
 from bem.accuracy.bars import ErrorBars
 from bem.accuracy.contact import Coarser, ContactCase, contact_bars, figures_of, solve_coarser, surface_is_resolved
 from bem.accuracy.film import FilmCase, OtherFilm, film_bars, film_figures, solve_coarser_film
+from bem.accuracy.march import MarchCase, march_bars, march_figures
+from bem.accuracy.mixed import CoarserShares, MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
 from bem.accuracy.stress import stress_bars
 
 __all__ = [
     "Coarser",
+    "CoarserShares",
     "ContactCase",
     "ErrorBars",
     "FilmCase",
+    "MarchCase",
+    "MixedCase",
     "OtherFilm",
     "contact_bars",
     "figures_of",
     "film_bars",
     "film_figures",
+    "march_bars",
+    "march_figures",
+    "mixed_bars",
+    "mixed_figures",
     "solve_coarser",
     "solve_coarser_film",
+    "solve_coarser_mixed",
     "stress_bars",
     "surface_is_resolved",
 ]

@@ -9,13 +9,27 @@ from dataclasses import dataclass, field
 @dataclass(frozen=True)
 class ErrorBars:
     """Errors of figures by the names of their fields, in SI units; None where the figure does not converge or its error
-    is not known, which `notes` then explain."""
+    is not known, which `notes` then explain.
+
+    parts : where an error has several origins, each by itself, by the words for the origin and the names of the fields.
+    """
 
     values: Mapping[str, float | None] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    parts: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     def __or__(self, other: ErrorBars) -> ErrorBars:
-        return ErrorBars({**self.values, **other.values}, self.notes + other.notes)
+        parts = {
+            origin: {**self.parts.get(origin, {}), **other.parts.get(origin, {})}
+            for origin in dict.fromkeys([*self.parts, *other.parts])
+        }
+        return ErrorBars({**self.values, **other.values}, self.notes + other.notes, parts)
+
+    @classmethod
+    def together(cls, parts: Mapping[str, Mapping[str, float]], notes: tuple[str, ...] = ()) -> ErrorBars:
+        """The sum of parts that all have the same figures: errors of different origins may all be of one sign."""
+        names = next(iter(parts.values()))
+        return cls({name: float(sum(part[name] for part in parts.values())) for name in names}, notes, parts)
 
     @classmethod
     def unknown(cls, names: Iterable[str], why: str) -> ErrorBars:

@@ -315,6 +315,12 @@ class ShapeScene(Table):
         return self
 
 
+class OutputsScene(Table):
+    """What is wanted besides the figures: their error bars."""
+
+    errors: bool = Field(default=True, strict=True)
+
+
 class DepthsScene(Table):
     """Depths where stresses are wanted: a list, or `deepest` with `count` depths that are finer near the surface."""
 

@@ -145,6 +145,21 @@ def error_bars(grid: Grid, depths: int, wanted: bool) -> Step:
     )
 
 
+def error_bars_of_balances(grid: Grid, convolutions: float, wanted: bool) -> Step:
+    """Load sharing again on the grid of twice the cell, where contacts took so many convolutions, and once more there
+    with another film."""
+    return Step(
+        "error bars",
+        "each balance on the grid of twice the cell, and there with half the film's points"
+        if wanted
+        else "outputs.errors is false",
+        skipped=not wanted,
+        transforms=2.0 * convolutions,
+        points=int(padded_points(grid.shape, grid.periodic) / 4),
+        kept=0.0,
+    )
+
+
 def vtk(wanted: bool) -> Step:
     """The file for ParaView."""
     why = "stress field for ParaView" if wanted else "no stress field to write"

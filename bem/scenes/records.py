@@ -91,11 +91,12 @@ class Figure:
         return value * factor / divisor + offset
 
     def shown_error(self, error: Any) -> Any:
-        """An error of the record in the figure's unit: as `shown`, but a difference knows no offset."""
+        """An error of the record in the figure's unit: as `shown`, but a difference knows no offset; None of none,
+        which is not-a-number in arrays."""
         if isinstance(error, np.ndarray):
             return [self.shown_error(item) for item in error.tolist()]
         _, factor, divisor, _ = UNITS[self.unit]
-        return None if error is None else float(error) * factor / divisor
+        return None if error is None or math.isnan(error) else float(error) * factor / divisor
 
 
 @dataclass(frozen=True)

@@ -43,6 +43,14 @@ def test_stop_and_start():
     assert load[0] * 6e-3 == pytest.approx(5.5, rel=2e-3)  # the steady film, put on this mesh
 
 
+def test_figures_have_their_errors():
+    summary = run().summary
+    for name in ("thinnest_film_nm", "thinnest_film_time_s", "film_at_end_nm", "largest_friction_force_N"):
+        assert 0 < summary[f"{name}_error"] < summary[name], name
+    assert "volume_imbalance_error" not in summary
+    assert not [key for key in run({"outputs": {"errors": False}}).summary if key.endswith("_error")]
+
+
 def test_reciprocating_and_changing_load():
     outcome = run(
         {

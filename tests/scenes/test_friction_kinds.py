@@ -219,6 +219,17 @@ class Interrupting(Silent):
             raise StopHereError
 
 
+def test_figures_over_speed_have_their_errors():
+    scene = scene_with(FRICTION, speeds=["0.02 m/s", "0.5 m/s"], sharing={"models": ["capped"]})
+    summary = run(scene)[1].summary
+    for name in ("friction", "contact_load_N", "film_load_N", "minimum_film_nm", "lambda_ratio"):
+        errors = summary[f"{name}_error"]
+        assert len(errors) == 2, name
+        assert all(error is None or error >= 0 for error in errors), name
+    assert 0 < summary["friction_error"][0] < 0.2 * summary["friction"][0]
+    assert not [key for key in run({**scene, "outputs": {"errors": False}})[1].summary if key.endswith("_error")]
+
+
 LAW = {"kind": "pressure_dependent", "shear_strength": 1e6, "pressure_coefficient": 0.1}
 
 
@@ -240,7 +251,7 @@ def test_a_curve_killed_between_speeds_goes_on_to_the_same_bits(tmp_path, model,
     assert resumed.outcome.summary == outcome.summary
     assert resumed.notes == whole.notes
     for name, variable in outcome.variables.items():
-        assert np.array_equal(variable.values, resumed.outcome.variables[name].values), name
+        np.testing.assert_array_equal(variable.values, resumed.outcome.variables[name].values, err_msg=name)
 
 
 def test_running_in_resumes_to_the_same_bits(tmp_path):

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
@@ -13,7 +13,16 @@ from pydantic import Field, model_validator
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.scenes import build, plans
-from bem.scenes.common import BodyScene, Force, PositiveLength, SceneModel, Table, UpperBodyScene, problem
+from bem.scenes.common import (
+    BodyScene,
+    Force,
+    OutputsScene,
+    PositiveLength,
+    SceneModel,
+    Table,
+    UpperBodyScene,
+    problem,
+)
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.oil import OilScene
@@ -94,6 +103,7 @@ class FilmScene(SceneModel):
     oil: OilScene
     motion: MotionScene
     march: MarchScene
+    outputs: OutputsScene = OutputsScene()
 
     @model_validator(mode="after")
     def _smooth(self) -> FilmScene:
@@ -106,14 +116,21 @@ class FilmScene(SceneModel):
 
 def plan(scene: FilmScene) -> Plan:
     """What will be computed."""
-    n = scene.march.points
+    n, errors = scene.march.points, scene.outputs.errors
+    seconds = scene.march.steps * 4 * (0.002 + 2e-11 * n**3 + 1e-8 * n**2)
     return Plan(
         (
             Step(
                 "film in time",
                 f"{scene.march.steps} steps on {n} points, each by Newton's method",
-                seconds=scene.march.steps * 4 * (0.002 + 2e-11 * n**3 + 1e-8 * n**2),
+                seconds=seconds,
                 memory=8.0 * n * n * 6,
+            ),
+            Step(
+                "error bars",
+                "marches on half the points, and of steps twice as long" if errors else "outputs.errors is false",
+                skipped=not errors,
+                seconds=0.5 * seconds,
             ),
             Step("rough contact", "both surfaces are smooth", skipped=True),
             plans.figures(),
@@ -148,7 +165,8 @@ class FilmTimeRecord(Record):
 
 def run(scene: FilmScene, context: Context) -> FilmTimeRecord:
     """March through the motion."""
-    from bem.lubrication import Cavitation, march_line_film
+    from bem.accuracy import MarchCase, march_bars
+    from bem.lubrication import Cavitation
 
     cylinder, march = scene.cylinder, scene.march
     end = cylinder.load if cylinder.load_end is None else cylinder.load_end
@@ -162,24 +180,35 @@ def run(scene: FilmScene, context: Context) -> FilmTimeRecord:
             context.progress(round(time / march.duration * march.steps), march.steps, "steps")
         return (cylinder.load + (end - cylinder.load) * time / march.duration) / cylinder.width
 
+    case = MarchCase(
+        films=(),
+        times=times,
+        load=load,
+        speeds=lambda time: (scene.motion.at(time), 0.0),
+        radius=cylinder.radius,
+        contact_modulus=build.modulus_of(scene),
+        lubricant=scene.oil.build(),
+        points=march.points,
+        initial_thickness=march.initial_thickness,
+        cavitation=Cavitation(march.cavitation),
+    )
     with context.timer("film"):
-        films = march_line_film(
-            times,
-            load=load,
-            speeds=lambda time: (scene.motion.at(time), 0.0),
-            radius=cylinder.radius,
-            contact_modulus=build.modulus_of(scene),
-            lubricant=scene.oil.build(),
-            points=march.points,
-            initial_thickness=march.initial_thickness,
-            cavitation=Cavitation(march.cavitation),
-        )
+        films = case.again(case.points)
     for note in dict.fromkeys(note for film in films for note in film.notes):
         context.note(f"film: {note}")
-    return _record(films, cylinder.width)
+    errors: dict[str, float | None] = {}
+    if scene.outputs.errors and films[-1].status is Status.CONVERGED:
+        with context.timer("error bars"):
+            bars = march_bars(replace(case, films=films))
+        for note in bars.notes:
+            context.note(note)
+        errors = dict(bars.values)
+        force = errors.pop("largest_shear_force")
+        errors["largest_friction_force"] = None if force is None else force * cylinder.width
+    return _record(films, cylinder.width, errors)
 
 
-def _record(films: Sequence[FilmSolution], width: float) -> FilmTimeRecord:
+def _record(films: Sequence[FilmSolution], width: float, errors: Mapping[str, float | None]) -> FilmTimeRecord:
     last = films[-1]
     time = np.array([float(film.time or 0.0) for film in films])
     minimum = np.array([film.minimum_thickness for film in films])
@@ -203,6 +232,7 @@ def _record(films: Sequence[FilmSolution], width: float) -> FilmTimeRecord:
         thickness=np.array([film.thickness for film in films]),
         film_pressure=np.array([film.pressure for film in films]),
         film_fraction=filled,
+        errors=errors,
         status=last.status,
         where="" if last.status is Status.CONVERGED else f"time {last.time:g} s: {last.status.message}",
     )

@@ -18,7 +18,7 @@ from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, given, listed, variants, with_keys
-from bem.scenes.common import PositiveLength, Table, problem
+from bem.scenes.common import OutputsScene, PositiveLength, Table, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.lubrication import FilmMeshScene, LineContactScene
@@ -28,6 +28,7 @@ from bem.scenes.records import Figure, Record, Series, filled, mean, spread
 from bem.scenes.units import Ratio
 
 if TYPE_CHECKING:
+    from bem.friction import MixedSolution
     from bem.friction.curves import Curve
     from bem.friction.setup import MixedSetup
 
@@ -72,6 +73,7 @@ class FrictionScene(LineContactScene):
     kind: Literal["friction"] = "friction"
     film: FilmMeshScene = FilmMeshScene()
     sharing: SharingScene = SharingScene()
+    outputs: OutputsScene = OutputsScene()
     variants: list[SurfaceVariant] = []  # noqa: RUF012
     repetitions: Annotated[int, Field(strict=True, ge=1, le=1000)] = 1
 
@@ -129,6 +131,7 @@ def plan(scene: FrictionScene) -> Plan:
                 name="rough contacts",
                 skipped=not coupled,
             ),
+            plans.error_bars_of_balances(grid, _CONVOLUTIONS * speeds if coupled else 0, scene.outputs.errors),
             Step("stresses", "friction alone needs none", skipped=True),
             plans.traction_kernels(grid, *scene.bodies, scene.contact.boundary_friction, wanted=coupled),
             plans.figures(grid.cells),
@@ -187,6 +190,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
         setup = _setup(scene)
     made_again = (setup.grid, setup.lubricant, setup.boundary_friction)
     curve: Curve = Curve() if saved is None else unpacked(saved["curve"], made_again)
+    errors: list[FloatArray] = [] if saved is None else list(saved["errors"])
     for speeds in pairs[len(curve.points) :]:
         with context.timer("load sharing"), _in_words_of_the_scene():
             own = solve_setup(setup, height, speeds, curve.last)
@@ -194,10 +198,27 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
             # the film's model is the same at all speeds: said once
             context.note(f"film: {note}" if note in own.film.notes else f"speed {speeds[0]:g} m/s: {note}")
         curve = curve.then(own)
+        if scene.outputs.errors:
+            errors.append(_errors(setup, height, own, context))
         if len(curve.points) < len(pairs):
-            context.save({"curve": packed(curve, made_again)})
+            context.save({"curve": packed(curve, made_again), "errors": errors})
         context.progress(len(curve.points), len(pairs), "speeds", friction=own.friction)
-    return _record(grid, curve, height)
+    return _record(grid, curve, height, errors)
+
+
+def _errors(setup: MixedSetup, height: FloatArray, solution: MixedSolution, context: Context) -> FloatArray:
+    """Error bars of one speed, in the order of their figures; not-a-number where there is none, which notes explain."""
+    from bem.accuracy import MixedCase, mixed_bars, solve_coarser_mixed
+    from bem.accuracy.mixed import RULES
+
+    if solution.status is not Status.CONVERGED:
+        return np.full(len(RULES), np.nan)
+    with context.timer("error bars"):
+        case = MixedCase(setup, height, solution)
+        bars = mixed_bars(case, solve_coarser_mixed(case))
+    for note in bars.notes:
+        context.note(f"speed {solution.speeds[0]:g} m/s: {note}")
+    return np.array([bars.values[name] for name in RULES], dtype=np.float64)
 
 
 def _setup(scene: FrictionScene) -> MixedSetup:
@@ -223,8 +244,10 @@ def _in_words_of_the_scene() -> Iterator[None]:
         raise InputError([m.replace("position: ", "film: the film grid ", 1) for m in error.messages]) from None
 
 
-def _record(grid: Grid, curve: Curve, height: FloatArray) -> CurveRecord:
+def _record(grid: Grid, curve: Curve, height: FloatArray, errors: list[FloatArray]) -> CurveRecord:
     """A row for each speed; fields of the speed where film and contact share most evenly."""
+    from bem.accuracy.mixed import RULES
+
     shown = curve.shown
     assert shown is not None
     film_pressure, film_thickness = shown.film.at(grid.x)
@@ -244,6 +267,7 @@ def _record(grid: Grid, curve: Curve, height: FloatArray) -> CurveRecord:
         film_x=shown.film.position,
         film_pressure=shown.film.pressure,
         film_thickness=shown.film.thickness,
+        errors=dict(zip(RULES, np.transpose(errors), strict=True)) if errors else {},
         status=bad[0].status if bad else Status.CONVERGED,
         where="; ".join(f"speed {one.speed:g} m/s: {one.status.value}" for one in bad[:5]),
     )

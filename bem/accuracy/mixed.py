@@ -1,0 +1,226 @@
+"""Error bars of load sharing: the balance found again with a coarser contact, and with a coarser film as well.
+
+Film and contact act on one another through the balance, so that neither's own error says much about friction: the
+balance is solved anew on the grid of twice the cell (what changes is the contact's part), and there once more with the
+film on half the points (the film's part); both begin from the solution and cost about a third of it together. A third
+part is the balance's own tolerance. Each part is an estimate: the difference, times the factor that the order of
+convergence and experiment give (`reports/experiments/mixed_error_bars.py`); the bar is their sum.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from bem.accuracy.bars import ErrorBars, Rule
+from bem.accuracy.contact import surface_is_resolved
+from bem.accuracy.film import FEWEST
+from bem.contact.cascade import sample
+from bem.errors import Status
+from bem.friction import MixedSolution
+from bem.friction.balance import BalanceStart, Regime, share_load
+from bem.friction.film import SolvedFilm
+from bem.friction.forces import friction_forces, lambda_ratio
+from bem.friction.rough_contact import rough_contact
+from bem.friction.setup import MixedSetup
+from bem.grid import FloatArray, Grid
+
+CONTACT, FILM, BALANCE = "contact grid", "film points", "balance"
+_FEWEST_CELLS = 16
+_BOUNDARY = (
+    "in boundary lubrication the minimum film has no error bar: it is that of the largest load that the film can be "
+    "left with"
+)
+_FEW_SUMMITS = (
+    "no error bars: uncoupled asperities have other summits on a grid of twice the cell; their figures converge only "
+    "where the shortest waves have some nine cells"
+)
+_UNSOLVED = "no error bars: load sharing on the grid of twice the cell did not converge"
+_COARSE = "no error bars: the grid is too small to be compared with one of twice the cell"
+_LOADS = Rule(0.5, 0.5, edge=0.004, rough_edge=0.003)
+RULES: dict[str, Rule] = {
+    "friction": Rule(0.8, 0.8, edge=0.003, rough_edge=0.001),
+    "boundary_part": _LOADS,
+    # the oil's shear is taken from whole cells in contact: of first order
+    "film_part": Rule(1.6, 2.0, edge=0.005, rough_edge=0.006),
+    "contact_load": _LOADS,
+    "film_load": Rule(1.0, 0.8, edge=0.001, rough_edge=0.0005),
+    "minimum_film": Rule(0.5, 0.4, edge=0.0005),
+    "lambda_ratio": Rule(1.0, 1.0),
+    "contact_area_fraction": Rule(0.8, 0.8, edge=0.006, rough_edge=0.004),
+}
+"""Of the difference between the grids; set by `reports/experiments/mixed_error_bars.py` with seeds that it does not
+store."""
+_SUMMITS = 2.2
+"""On that for uncoupled summits, whose radii are second differences between cells."""
+_FILM, _FILM_TWICE = 0.6, 1.5
+"""Of the difference to half the points of the film, and to twice as many."""
+
+
+@dataclass(frozen=True, eq=False)
+class MixedCase:
+    """Load sharing that was solved: set-up, heights (nx, ny) [m] and solution."""
+
+    setup: MixedSetup
+    height: FloatArray
+    solution: MixedSolution
+
+
+@dataclass(frozen=True)
+class Shares:
+    """Figures of load sharing by their names, and whether it converged."""
+
+    figures: dict[str, float]
+    status: Status
+
+
+@dataclass(frozen=True)
+class CoarserShares:
+    """The figures with the coarser contact, and with the other film as well, which has `ratio` times the points; or why
+    there are none."""
+
+    contact: Shares | None
+    both: Shares | None
+    ratio: float = 0.5
+    why: str = ""
+
+
+def mixed_figures(solution: MixedSolution) -> dict[str, float]:
+    """Figures of load sharing that have bars."""
+    area = 0.0 if solution.contact is None else solution.contact.contact_area / solution.grid.area
+    return {
+        "friction": solution.friction,
+        "boundary_part": solution.boundary_force / solution.load,
+        "film_part": solution.film_force / solution.load,
+        "contact_load": solution.contact_load,
+        "film_load": solution.film_load,
+        "minimum_film": solution.minimum_film,
+        "lambda_ratio": solution.lambda_ratio,
+        "contact_area_fraction": area,
+    }
+
+
+def solve_coarser_mixed(case: MixedCase) -> CoarserShares:
+    """The balance again on the grid of twice the cell, with the film on as many points and on half of them (on twice as
+    many where half are too few)."""
+    grid = case.setup.grid
+    if max(grid.shape) < _FEWEST_CELLS:
+        return CoarserShares(None, None, why=_COARSE)
+    points = case.setup.film_points
+    other = points // 2 if points >= 2 * FEWEST else 2 * points
+    contact = _shares(case, points)
+    both = _shares(case, other)
+    if {contact.status, both.status} != {Status.CONVERGED}:
+        return CoarserShares(None, None, why=_UNSOLVED)
+    return CoarserShares(contact, both, other / points)
+
+
+def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
+    """Bars of the figures of load sharing, their parts by origin."""
+    if coarser.contact is None or coarser.both is None:
+        return ErrorBars.unknown(RULES, coarser.why)
+    found = mixed_figures(case.solution)
+    one, two = coarser.contact.figures, coarser.both.figures
+    resolved, uncoupled = surface_is_resolved(case.height, case.setup.grid), case.setup.contact_model == "uncoupled"
+    if uncoupled and not resolved and not case.solution.full_film:
+        return ErrorBars.unknown(RULES, _FEW_SUMMITS)
+    summits = _SUMMITS if uncoupled else 1.0
+    edge = _at_edge(case.solution, found)
+    halved = _FILM_TWICE if coarser.ratio > 1 else _FILM * 3 / (1 / coarser.ratio**2 - 1)
+    parts = {
+        CONTACT: {n: summits * rule.bar(found[n] - one[n], edge[n], resolved=resolved) for n, rule in RULES.items()},
+        FILM: {n: halved * abs(one[n] - two[n]) for n in RULES},
+        BALANCE: _balance_part(case.solution, case.setup, found),
+    }
+    bars = ErrorBars.together(parts)
+    if case.solution.regime is Regime.BOUNDARY:
+        return dataclasses.replace(bars, values={**bars.values, "minimum_film": None}, notes=(_BOUNDARY,))
+    return bars
+
+
+def _at_edge(solution: MixedSolution, found: dict[str, float]) -> dict[str, float]:
+    """What of the figures lies within a cell of the contact's edge. Of loads no more than the other of film and contact
+    has: that much can pass between them."""
+    contact = solution.contact
+    area, perimeter = getattr(contact, "contact_area", 0.0), getattr(contact, "contact_perimeter", 0.0)
+    if not area > 0 or not perimeter > 0:  # none, or closed forms
+        return dict.fromkeys(RULES, 0.0)
+    share = perimeter * math.sqrt(solution.grid.cell_area) / area
+    passed = min(solution.contact_load, solution.film_load)
+    of_contact = passed / solution.contact_load if solution.contact_load > 0 else 0.0
+    of_film = passed / solution.film_load if solution.film_load > 0 else 0.0
+    parts = {"friction": of_contact, "boundary_part": of_contact, "contact_load": of_contact, "film_load": of_film}
+    return {name: share * parts.get(name, 1.0) * found[name] for name in RULES}
+
+
+def half_grid(grid: Grid) -> Grid:
+    """Every second cell of a grid along either axis, twice as wide (an odd number of periodic cells: a little less)."""
+    shape, spacing = [], []
+    for n, d, periodic in zip(grid.shape, grid.spacing, grid.periodic, strict=True):
+        few = (n + 1) // 2
+        shape.append(few)
+        spacing.append(n * d / few if periodic else 2 * d if n > 1 else d)
+    return Grid((shape[0], shape[1]), (spacing[0], spacing[1]), periodic=grid.periodic)
+
+
+def _shares(case: MixedCase, points: int) -> Shares:
+    """The balance on the grid of twice the cell with a film of other points.
+
+    Cells lie where every second of the finer ones does: on a free axis of an even number they are not centred, and the
+    film is looked at where they are.
+    """
+    grid = half_grid(case.setup.grid)
+    old, solution = case.setup.grid, case.solution
+    setup = dataclasses.replace(case.setup, grid=grid, film_points=points, film_position=None)
+    height = sample(case.height, grid.shape, grid.periodic)
+    position = old.x[::2] if not old.periodic[0] else grid.x
+    film = SolvedFilm(
+        setup.line, solution.speeds, position, points, striated_exit=setup.striated_exit, initial=solution.film
+    )
+    rough = rough_contact(setup, height, solution.speeds)
+    whole = film.under(min(setup.load, film.largest_load), len(film.errors) - 1, None)
+    pressure = None
+    if solution.contact is not None:
+        pressure = np.clip(sample(solution.contact_pressure, grid.shape, grid.periodic), 0.0, setup.hardness)
+    start = BalanceStart(max(solution.film_load, 1e-12 * setup.load), solution.balance_slope, pressure)
+    balance = share_load(film, rough, setup.load, setup.tolerance, whole, start)
+    forces = friction_forces(balance.film, balance.contact, setup, film.speeds)
+    figures = {
+        "friction": (forces.boundary + forces.film) / setup.load,
+        "boundary_part": forces.boundary / setup.load,
+        "film_part": forces.film / setup.load,
+        "contact_load": 0.0 if balance.contact is None else balance.contact.load,
+        "film_load": balance.film.load,
+        "minimum_film": balance.film.minimum_thickness,
+        "lambda_ratio": lambda_ratio(whole, case.height),
+        "contact_area_fraction": 0.0 if balance.contact is None else balance.contact.area / setup.slices / grid.area,
+    }
+    return Shares(figures, balance.status)
+
+
+def _balance_part(solution: MixedSolution, setup: MixedSetup, found: dict[str, float]) -> dict[str, float]:
+    """What the balance's imbalance and the contact's tolerance may hide: the film load is off by the imbalance over the
+    slope of the balance, the contact's load by that and the imbalance, all else in proportion."""
+    if solution.full_film:
+        return dict.fromkeys(RULES, 0.0)
+    missing = abs(solution.imbalance) + setup.contact_tolerance
+    film = missing * solution.film_load / max(solution.balance_slope, 0.1)
+    if solution.regime is Regime.BOUNDARY:  # anything from nothing to this
+        film = solution.film_load
+    contact = missing * solution.load + film
+    of_contact = contact / solution.contact_load if solution.contact_load > 0 else math.inf
+    of_film = film / solution.film_load if solution.film_load > 0 else math.inf
+    boundary, oil = abs(found["boundary_part"]) * of_contact, abs(found["film_part"]) * of_film
+    return {
+        "friction": boundary + oil,
+        "boundary_part": boundary,
+        "film_part": oil,
+        "contact_load": contact,
+        "film_load": film,
+        "minimum_film": found["minimum_film"] * of_film,
+        "lambda_ratio": 0.0,
+        "contact_area_fraction": found["contact_area_fraction"] * of_contact,
+    }

@@ -1,0 +1,147 @@
+"""Error bars of random load sharing against references on four times finer grids and films: how many cover, and by how
+much they are larger.
+
+    python -m reports.experiments.mixed_error_bars [CASES]
+
+Cylinders on flats are drawn from a seed: radii 2 to 30 mm, Hertz pressures 0.2 to 1.2 GPa, roughnesses of 20 to 300 nm
+with 2 to 12 cells to the shortest wave, film ratios from boundary to full film, slide-roll ratios 0.05 to 2, elastic,
+capped and uncoupled asperities, alike and unlike bodies, films of 120 to 500 points. The result is stored in
+`reports/results/mixed_error_bars.json`.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem import Body, Grid, Lubricant, Material, solve_line_film
+from bem.accuracy import MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
+from bem.accuracy.contact import surface_is_resolved
+from bem.errors import InputError, Status
+from bem.friction.film import BALANCE_POINTS, SolvedFilm
+from bem.friction.load_sharing import solve_setup
+from bem.friction.setup import MixedSetup
+from bem.surfaces import generate_surface
+from reports.experiments.contact_error_bars import FloatArray, judged, waves_through
+
+RESULT = Path(__file__).resolve().parents[1] / "results" / "mixed_error_bars.json"
+FINER = 4
+Problem = tuple[str, MixedSetup, FloatArray, tuple[float, float]]
+
+
+def draw(rng: np.random.Generator) -> Problem:
+    """A random contact in words, its set-up, heights and speeds."""
+    steel = Material("steel", youngs_modulus=206e9, poissons_ratio=0.3)
+    other = steel if rng.random() < 0.7 else Material("bronze", youngs_modulus=110e9, poissons_ratio=0.34)
+    radius, hertz = 10 ** rng.uniform(-2.7, -1.5), 10 ** rng.uniform(8.3, 9.1)
+    model = str(rng.choice(["capped", "elastic", "uncoupled"], p=[0.5, 0.3, 0.2]))
+    modulus = 1 / ((1 - 0.3**2) / 206e9 + (1 - other.poissons_ratio**2) / other.youngs_modulus)
+    half_width = 2 * hertz * radius / modulus
+    load = math.pi * radius * hertz**2 / modulus * 1e-3  # on a width of 1 mm
+    cells = (int(rng.integers(48, 65)), int(rng.integers(24, 41)))
+    spacing = 2 * half_width * rng.uniform(1.2, 1.6) / cells[0]
+    grid = Grid(cells, (spacing, spacing), periodic=(False, True))
+    shortest = 2.0 if rng.random() < 0.2 else 10 ** rng.uniform(math.log10(4), math.log10(12))
+    rms = 10 ** rng.uniform(math.log10(20e-9), math.log10(300e-9))
+    heights = generate_surface(
+        grid, seed=int(rng.integers(1 << 30)), hurst=0.8, cutoff_wavelength=shortest * spacing, rms_height=rms
+    )
+    # slopes of more than 0.2 are none of rolled or ground surfaces
+    slope = float(np.sqrt(np.mean((np.diff(heights, axis=0) / spacing) ** 2)))
+    heights = waves_through(heights * min(1.0, 0.2 / slope), 1)
+    lubricant = Lubricant(10 ** rng.uniform(-2, -0.5), pressure_viscosity=rng.uniform(0.8, 2.2) * 1e-8)
+    sliding = rng.uniform(0.05, 2)
+    setup = MixedSetup(
+        grid=grid,
+        bodies=(Body(steel), Body(other)),
+        radius=radius,
+        width=1e-3,
+        load=load,
+        lubricant=lubricant,
+        boundary_friction=float(rng.uniform(0.05, 0.2)),
+        hardness=None if model == "elastic" else float(rng.uniform(1.5, 8)) * 1e9,
+        film_points=int(10 ** rng.uniform(math.log10(120), math.log10(500))),
+        contact_model="uncoupled" if model == "uncoupled" else "coupled",
+    )
+    # films go like the speed to the power of about 0.7
+    wanted = 10 ** rng.uniform(-1.3, 0.5) * float(heights.std())
+    mean = 0.1
+    for _ in range(3):
+        film = solve_line_film(
+            load=load / 1e-3,
+            radius=radius,
+            contact_modulus=modulus,
+            speeds=(mean, mean),
+            lubricant=lubricant,
+            points=200,
+        )
+        mean *= min(max((wanted / film.minimum_thickness) ** 1.4, 1e-3), 1e3)
+    words = f"{model} {shortest:.1f} cells to a wave, {hertz / 1e9:.2f} GPa, {setup.film_points} points"
+    return words, setup, heights, (mean * (1 + sliding / 2), mean * (1 - sliding / 2))
+
+
+def finer(setup: MixedSetup) -> MixedSetup:
+    """Each cell cut into 4 x 4, films of four times the points."""
+    (nx, ny), (dx, dy) = setup.grid.shape, setup.grid.spacing
+    grid = Grid((FINER * nx, FINER * ny), (dx / FINER, dy / FINER), periodic=setup.grid.periodic)
+    return replace(setup, grid=grid, film_points=FINER * setup.film_points, tolerance=setup.tolerance / 10)
+
+
+def rows_of(problem: Problem) -> list[dict[str, Any]]:
+    """Bar and true error of every figure."""
+    words, setup, heights, speeds = problem
+    try:
+        solution = solve_setup(setup, heights, speeds)
+        reference = solve_setup(finer(setup), waves_through(heights, FINER), speeds)
+    except InputError:  # a load that no film is looked for
+        return []
+    if {solution.status, reference.status} != {Status.CONVERGED}:
+        return []
+    case = MixedCase(setup, heights, solution)
+    coarser = solve_coarser_mixed(case)
+    bars = mixed_bars(case, coarser)
+    found, truth = mixed_figures(solution), mixed_figures(reference)
+    # load sharing looks at the film under the whole load on 400 points where it does not clear the roughness
+    fine = FINER * setup.film_points
+    whole = SolvedFilm(setup.line, speeds, setup.grid.x, fine).under(setup.load, int(fine > BALANCE_POINTS), None)
+    truth["lambda_ratio"] = whole.minimum_thickness / float(heights.std())
+    return [
+        {
+            "figure": name,
+            "contact": f"{words}, {solution.regime}, lambda {solution.lambda_ratio:.2g}",
+            "resolved": surface_is_resolved(heights, setup.grid),
+            "value": found[name],
+            "parts": {origin: part[name] for origin, part in bars.parts.items()},
+            "error": abs(found[name] - truth[name]),
+            "bar": bar,
+        }
+        for name, bar in bars.values.items()
+    ]
+
+
+def run(cases: int, seed: int = 14) -> list[dict[str, Any]]:
+    """Rows of so many contacts."""
+    rng, rows = np.random.default_rng(seed), []
+    for _ in range(cases):
+        rows += rows_of(draw(rng))
+    return rows
+
+
+def main() -> None:
+    """Draw, solve, judge, store."""
+    cases = int(sys.argv[1]) if len(sys.argv) > 1 else 60
+    rows = run(cases)
+    verdict = judged(rows)
+    for name, row in verdict.items():
+        print(name, {key: round(value, 5) for key, value in row.items()})
+    RESULT.write_text(json.dumps({"cases": cases, "seed": 14, "figures": verdict, "rows": rows}, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

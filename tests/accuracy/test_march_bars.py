@@ -1,0 +1,34 @@
+"""Error bars of films in time: what covers, and what has none."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from bem.accuracy import march_bars
+from reports.experiments.march_error_bars import done, draw, rows_of
+
+
+def test_a_bar_is_the_sum_of_its_parts_and_a_time_is_known_to_its_step():
+    words, case = draw(np.random.default_rng(5))
+    case = done(case)
+    bars = march_bars(case)
+    assert set(bars.parts) == {"film points", "time steps", "residual"}, words
+    for name, value in bars.values.items():
+        assert value == sum(part[name] for part in bars.parts.values())
+    assert bars.values["thinnest_film_time"] >= 0.5 * np.diff(case.times).max()
+
+
+def test_a_march_of_few_steps_has_no_bars():
+    _, case = draw(np.random.default_rng(5))
+    bars = march_bars(replace(case, times=case.times[:4]))
+    assert set(bars.values.values()) == {None}
+    assert "four steps" in bars.notes[0]
+
+
+def test_bars_cover_errors_of_a_random_march():
+    """`reports/experiments/march_error_bars.py` has more and the verdict for each figure."""
+    rows = rows_of(*draw(np.random.default_rng(3)))
+    known = [r for r in rows if r["error"] > 1e-7 * abs(r["value"])]
+    assert len(known) >= 2
+    for row in known:
+        assert row["bar"] >= row["error"], row["figure"]
