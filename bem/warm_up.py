@@ -16,6 +16,7 @@ SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("hertz-cylinder", ()),
     ("rough-contact", ("grid.shape=256",)),
     ("sinusoid", ()),
+    ("flash-temperature", ("grid.shape=96",)),
     ("coated-sphere", ("grid.shape=96",)),
     ("film-reciprocating", ("march.duration=5 ms", "march.steps=20")),
     ("stribeck-mineral-oil", ("repetitions=1", "speeds.count=3", "grid.shape=100", "film.points=500")),

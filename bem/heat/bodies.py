@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from numbers import Real
 
 from bem.errors import InputError
+from bem.grid import Grid
 from bem.materials import Body
 
 _NEEDED = {"thermal_conductivity": "W/(m K)", "density": "kg/m^3", "heat_capacity": "J/(kg K)"}
@@ -64,6 +65,29 @@ def conductors_of(
         Conductor(body.material.thermal_conductivity or 0.0, body.material.thermal_diffusivity or 0.0, speed, bulk_k)
         for body, speed, bulk_k in zip(found, velocities, temperatures, strict=True)
     )
+
+
+def check_steady(grid: Grid, bodies: Sequence[Conductor]) -> None:
+    """Refuse what has no steady temperature.
+
+    Raises
+    ------
+    InputError : a grid periodic along x, or along y under a body at rest.
+    """
+    advice = (
+        "make the grid free along that axis, wide enough for the heat to spread, or ask for the temperature after a "
+        "time: surface_temperature_history"
+    )
+    if grid.periodic[0]:
+        raise InputError(
+            "surface_temperature: the grid is periodic along x, so that the same heat is made on every period behind "
+            f"another for ever and no steady temperature exists; {advice}"
+        )
+    if grid.periodic[1] and any(body.speed == 0 for body in bodies):
+        raise InputError(
+            "surface_temperature: the grid is periodic along y and a body does not move (speed 0): under a line of "
+            f"heat at rest no steady temperature exists; {advice}, or give the body the speed that it has"
+        )
 
 
 def _numbers(owner: str, key: str, given: object, count: int, unit: str, messages: list[str]) -> tuple[float, ...]:

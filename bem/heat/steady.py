@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from bem.errors import InputError, Status
 from bem.grid import Grid
-from bem.heat.bodies import Conductor, conductors_of
+from bem.heat.bodies import Conductor, check_steady, conductors_of
 from bem.heat.operators import approximate_inverse, heat_operator
 from bem.heat.pair import Pair, assembled, solve_pair
 from bem.heat.solution import TemperatureSolution
@@ -55,7 +55,7 @@ def surface_temperature(
     """
     conductors = conductors_of("surface_temperature", bodies, speeds, bulk)
     field = grid.check_field(heat, "surface_temperature: heat")
-    _check_grid(grid, conductors)
+    check_steady(grid, conductors)
     if not 0 < tolerance < 1:
         raise InputError(f"surface_temperature: tolerance {tolerance!r} must lie between 0 and 1, both excluded")
     if len(conductors) == 1:
@@ -75,21 +75,3 @@ def surface_temperature(
 
 def _response(body: Conductor) -> tuple[float, float]:
     return body.conductivity, body.wavenumber
-
-
-def _check_grid(grid: Grid, bodies: Sequence[Conductor]) -> None:
-    """Refuse what has no steady state."""
-    advice = (
-        "make the grid free along that axis, wide enough for the heat to spread, or ask for the temperature after a "
-        "time: surface_temperature_history"
-    )
-    if grid.periodic[0]:
-        raise InputError(
-            "surface_temperature: the grid is periodic along x, so that the same heat is made on every period behind "
-            f"another for ever and no steady temperature exists; {advice}"
-        )
-    if grid.periodic[1] and any(body.speed == 0 for body in bodies):
-        raise InputError(
-            "surface_temperature: the grid is periodic along y and a body does not move (speed 0): under a line of "
-            f"heat at rest no steady temperature exists; {advice}, or give the body the speed that it has"
-        )

@@ -193,8 +193,8 @@ def _contact(scene: Any) -> list[Case]:
         load=load / grid.lengths[1] if line and load is not None else load,
         approach=None if line or load is not None else control.approach,
     )
-    outputs = scene.outputs
-    wanted = (outputs.von_mises or outputs.stresses) and outputs.depths is not None
+    outputs: Any = getattr(scene, "outputs", None)  # the kind `surface-temperature` has none
+    wanted = outputs is not None and (outputs.von_mises or outputs.stresses) and outputs.depths is not None
     return [
         Case(
             grid=grid,
@@ -303,6 +303,7 @@ def _asperities(scene: Any) -> list[Case]:
 _CASES: dict[str, Callable[[Any], list[Case]]] = {
     "asperities": _asperities,
     "contact": _contact,
+    "surface-temperature": _contact,
     "film": _film,
     "friction": _lubricated,
     "running-in": _lubricated,

@@ -1,0 +1,67 @@
+"""Figures of surface temperature: a map, and a section along the motion with heat and pressure."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from bem.plots.figures import FigureKind
+from bem.plots.style import BLACK, ORANGE, VERMILION, label, map_of, prefix
+
+_CELSIUS = 273.15
+
+
+def _map(run: Any, figure: Figure) -> None:
+    data = run.dataset
+    axes = figure.add_subplot()
+    x, y = data["x"].values, data["y"].values
+    celsius = data["temperature"].values - _CELSIUS
+    map_of(figure, axes, x, y, celsius, "surface temperature", "°C", cmap="inferno")
+    factor, _ = prefix([float(np.ptp(x))], "m")
+    i, j = np.unravel_index(int(np.argmax(celsius)), celsius.shape)
+    axes.plot(x[i] * factor, y[j] * factor, "+", color="white", markersize=8)
+    axes.set_title(f"highest {celsius[i, j]:.0f} °C", loc="right")
+
+
+def _section(run: Any, figure: Figure) -> None:
+    """Along the motion through the hottest place."""
+    data = run.dataset
+    x, celsius = data["x"].values, data["temperature"].values - _CELSIUS
+    row = int(np.unravel_index(int(np.argmax(celsius)), celsius.shape)[1])
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+    factor_x, unit_x = prefix([float(np.ptp(x))], "m")
+    upper.plot(x * factor_x, celsius[:, row], color=VERMILION)
+    upper.set_ylabel("temperature (°C)")
+    made, into = data["heat_made"].values[:, row], data["heat_lower"].values[:, row]
+    lower.fill_between(x * factor_x, made / 1e6, step="mid", color=ORANGE, alpha=0.6, linewidth=0, label="made")
+    lower.plot(x * factor_x, into / 1e6, color=BLACK, linewidth=0.9, label="into the lower body")
+    lower.set_ylabel("heat (MW/m²)")
+    lower.set_xlabel(label("x, along the motion", unit_x))
+    lower.set_xlim(x[0] * factor_x, x[-1] * factor_x)
+    lower.legend()
+
+
+def _two_dimensional(run: Any) -> bool:
+    return min(run.dataset.sizes["x"], run.dataset.sizes["y"]) > 1
+
+
+FIGURES = (
+    FigureKind(
+        "temperature-map",
+        "Temperature of the surface: the common one where the bodies touch, that of the lower body elsewhere; its wake "
+        "lies where the body leaves the contact. The cross marks the highest.",
+        ("x", "y", "temperature"),
+        _map,
+        applies=_two_dimensional,
+    ),
+    FigureKind(
+        "temperature-section",
+        "Along the motion through the hottest place: temperature, heat made by friction, and what of it enters the "
+        "lower body.",
+        ("x", "y", "temperature", "heat_made", "heat_lower"),
+        _section,
+        (6.0, 4.2),
+    ),
+)

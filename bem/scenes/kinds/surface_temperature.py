@@ -1,0 +1,224 @@
+"""Kind `surface-temperature`: how hot rubbing makes the surfaces of two bodies in contact, rough or smooth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from pydantic import Field
+
+from bem.errors import Status
+from bem.grid import FloatArray, Grid
+from bem.materials import Body
+from bem.scenes import build, plans
+from bem.scenes.common import BodyScene, GridScene, SceneModel, ShapeScene, Table, UpperBodyScene
+from bem.scenes.context import Context
+from bem.scenes.kinds import Kind
+from bem.scenes.kinds.contact import ContactControl
+from bem.scenes.planner import Plan, Step, padded_points
+from bem.scenes.records import Figure, Record, Series
+from bem.scenes.units import Speed, Temperature
+
+if TYPE_CHECKING:
+    from bem.contact import ContactSolution
+    from bem.heat import TemperatureSolution
+
+BulkTemperature = Annotated[Temperature, Field(ge=150, le=2000)]
+ROOM = 293.15
+
+
+class RubbingHeatScene(Table):
+    """Speeds of the surfaces over the contact, along x, and temperatures far below them."""
+
+    lower_speed: Speed
+    upper_speed: Speed = 0.0
+    lower_bulk: BulkTemperature = ROOM
+    upper_bulk: BulkTemperature = ROOM
+
+
+class SurfaceTemperatureScene(SceneModel):
+    """A contact whose friction makes heat; all of it enters the lower body where the upper one has no material."""
+
+    kind: Literal["surface-temperature"] = "surface-temperature"
+    grid: GridScene = GridScene()
+    lower: BodyScene
+    upper: UpperBodyScene = UpperBodyScene()
+    shape: ShapeScene = ShapeScene()
+    contact: ContactControl
+    heat: RubbingHeatScene
+
+
+def resolve(scene: SurfaceTemperatureScene) -> SurfaceTemperatureScene:
+    """Fill in the grid where measured surfaces decide it, and the hardness of the softer surface."""
+    scene = build.with_grid(scene)
+    return build.with_hardness(scene, needed=True) if scene.contact.behaviour == "capped" else scene
+
+
+def plan(scene: SurfaceTemperatureScene) -> Plan:
+    """What will be computed.
+
+    Raises
+    ------
+    InputError : surfaces that cannot be generated on the grid, materials without thermal constants, layers, a grid on
+        which no steady temperature exists.
+    """
+    from bem.heat.bodies import check_steady, conductors_of
+
+    grid = build.grid_of(scene.grid)
+    surfaces = plans.surfaces(grid, scene.lower.surface, scene.upper.surface)
+    lower, upper = scene.lower.build(), scene.upper.build()
+    bodies, speeds, bulk = _pair(scene, lower, upper)
+    check_steady(grid, conductors_of("heat", bodies, speeds, bulk))
+    points = padded_points(grid.shape, grid.periodic)
+    return Plan(
+        (
+            surfaces,
+            plans.layered_kernels(grid, lower, upper),
+            plans.traction_kernels(grid, lower, upper, scene.contact.friction),
+            plans.contact(grid, f"{scene.contact.behaviour}"),
+            Step(
+                "surface temperature",
+                "heat of friction, shared between the bodies" if upper else "all heat enters the lower body",
+                transforms=200.0,  # some forty products of both bodies, and two kernels
+                points=points,
+                memory=8.0 * points * 8 + 8.0 * grid.cells * 30,
+                kept=8.0 * grid.cells * 8,
+                seconds=0.5,
+            ),
+            plans.figures(grid.cells),
+        )
+    )
+
+
+def _map(unit: str, text: str) -> Series:
+    return Series(("x", "y"), unit, text)
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceTemperatureRecord(Record):
+    """Temperatures of a rubbing contact."""
+
+    maximum_temperature: Annotated[float, Figure("C", "highest surface temperature", headline=True)]
+    mean_temperature: Annotated[float, Figure("C", "mean temperature of the contact, by heat", headline=True)]
+    maximum_rise: Annotated[float, Figure("K", "highest temperature over the hotter bulk", headline=True)]
+    share_of_lower: Annotated[float, Figure("", "share of the heat that enters the lower body", headline=True)]
+    friction_power: Annotated[float, Figure("W", "heat made by friction")]
+    load: Annotated[float, Figure("N", "load")]
+    contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid")]
+    mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
+    contact_residual: Annotated[float, Figure("", "relative residual of the contact")]
+    temperature_residual: Annotated[float, Figure("", "difference of both surfaces over the largest rise")]
+    x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding")]
+    y: Annotated[FloatArray, Series(("y",), "m", "y")]
+    pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
+    temperature: Annotated[FloatArray, _map("K", "surface temperature, of the lower body out of contact")]
+    heat_lower: Annotated[FloatArray, _map("W/m^2", "heat into the lower body")]
+    heat_made: Annotated[FloatArray, _map("W/m^2", "heat made by friction")]
+
+
+def run(scene: SurfaceTemperatureScene, context: Context) -> SurfaceTemperatureRecord:
+    """Solve the contact, then the temperature of its surfaces; both again on cells of twice the side for error bars."""
+    grid = build.grid_of(scene.grid)
+    with context.timer("surfaces"):
+        lower, upper = build.both_heights(scene, grid, context)
+    gap = build.shape_of(scene.shape, grid) - lower - upper
+    if lower.any() or upper.any():
+        gap -= gap.min()
+    contact, found = _solve(scene, grid, gap, context)
+    for note in (*contact.notes, *found.notes):
+        context.note(note)
+    figures = _figures(scene, grid, contact, found)
+    errors: Mapping[str, float | None] = {}
+    if any(n % 2 for n in grid.shape):
+        context.note("grid.shape: no error bars, which need even numbers of cells along x and y")
+    else:
+        coarse = Grid(
+            (grid.shape[0] // 2, grid.shape[1] // 2),
+            (2 * grid.spacing[0], 2 * grid.spacing[1]),
+            periodic=grid.periodic,
+        )
+        blocks = gap.reshape(coarse.shape[0], 2, coarse.shape[1], 2).mean(axis=(1, 3))
+        other = _figures(scene, coarse, *_solve(scene, coarse, blocks, context))
+        errors = {name: abs(other[name] - value) for name, value in figures.items()}
+    status = contact.status if contact.status is not Status.CONVERGED else found.status
+    return SurfaceTemperatureRecord(
+        **figures,
+        load=contact.load,
+        contact_residual=contact.residual,
+        temperature_residual=found.residual,
+        x=grid.x,
+        y=grid.y,
+        pressure=contact.pressure,
+        temperature=found.temperature,
+        heat_lower=found.heat[0],
+        heat_made=found.heat.sum(axis=0),
+        errors=errors,
+        status=status,
+        where="" if status is Status.CONVERGED else f"contact: {contact.status}, temperature: {found.status}",
+    )
+
+
+def _solve(
+    scene: SurfaceTemperatureScene, grid: Grid, gap: FloatArray, context: Context
+) -> tuple[ContactSolution, TemperatureSolution]:
+    from bem.contact import solve_contact
+    from bem.convolution import displacement_operator
+    from bem.heat import surface_temperature
+
+    lower, upper = scene.lower.build(), scene.upper.build()
+    control = scene.contact
+    with context.timer("contact"):
+        contact = solve_contact(
+            gap,
+            displacement_operator(grid, lower if upper is None else (lower, upper), friction=control.friction),
+            load=control.load if control.mean_pressure is None else control.mean_pressure * grid.area,
+            approach=control.approach,
+            mean_gap=control.mean_gap,
+            hardness=control.hardness,
+            tolerance=control.tolerance,
+            max_iterations=control.max_iterations,
+        )
+    bodies, speeds, bulk = _pair(scene, lower, upper)
+    sliding = abs(scene.heat.lower_speed - scene.heat.upper_speed)
+    with context.timer("temperature"):
+        heat = abs(control.friction) * sliding * contact.pressure
+        return contact, surface_temperature(heat, grid, bodies, speeds=speeds, bulk=bulk)
+
+
+def _pair(
+    scene: SurfaceTemperatureScene, lower: Body, upper: Body | None
+) -> tuple[tuple[Body, ...], tuple[float, ...], tuple[float, ...]]:
+    """Bodies with their speeds and bulk temperatures."""
+    heat = scene.heat
+    if upper is None:
+        return (lower,), (heat.lower_speed,), (heat.lower_bulk,)
+    return (lower, upper), (heat.lower_speed, heat.upper_speed), (heat.lower_bulk, heat.upper_bulk)
+
+
+def _figures(
+    scene: SurfaceTemperatureScene, grid: Grid, contact: ContactSolution, found: TemperatureSolution
+) -> dict[str, Any]:
+    hottest = max(_pair(scene, scene.lower.build(), scene.upper.build())[2])
+    return {
+        "maximum_temperature": found.maximum,
+        "mean_temperature": found.mean,
+        "maximum_rise": found.maximum - hottest,
+        "share_of_lower": found.share if math.isfinite(found.share) else 0.5,
+        "friction_power": float(found.heat.sum() * grid.cell_area),
+        "contact_area_fraction": contact.contact_area / grid.area,
+        "mean_contact_pressure": contact.load / contact.contact_area if contact.contact_area else 0.0,
+    }
+
+
+KIND = Kind(
+    name="surface-temperature",
+    title="heat of friction in a rough or smooth contact: surface temperature, its share between the bodies",
+    model=SurfaceTemperatureScene,
+    plan=plan,
+    run=run,
+    record=SurfaceTemperatureRecord,
+    resolve=resolve,
+    figures=("temperature-map", "temperature-section", "pressure-map"),
+)
