@@ -152,7 +152,7 @@ def watched() -> Iterator[dict[str, float]]:
     Counters stand around the functions only here, so that a timed solve does not pay for them.
     """
     import bem.stress.sweeps
-    from bem.contact import long_waves, passes, preconditioner
+    from bem.contact import gradients, long_waves, passes, preconditioner
     from bem.transforms import PaddedTransform
     from bem.wear import cycle
 
@@ -178,9 +178,10 @@ def watched() -> Iterator[dict[str, float]]:
         (PaddedTransform, name, "transforms") for name in ("convolve", "forward", "inverse")
     ]
     targets += [
-        (passes, name, "elementwise")
-        for name, value in vars(passes).items()
-        if not name.startswith("_") and callable(value) and getattr(value, "__module__", "") == passes.__name__
+        (module, name, "elementwise")
+        for module in (passes, gradients)
+        for name, value in vars(module).items()
+        if not name.startswith("_") and callable(value) and getattr(value, "__module__", "") == module.__name__
     ]
     targets += [
         (preconditioner.SparseInverse, "on", "preconditioner"),

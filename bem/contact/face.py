@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact import passes
+from bem.contact import gradients, passes
 from bem.contact.controls import ApproachControl, LoadControl
 from bem.contact.level import Effort, Indices, Iterate, Level
 from bem.contact.passes import CAPPED, CONTACT
@@ -60,7 +60,7 @@ def solve_on_cells(
     n = cells.size
     direction, preconditioned, response, previous = np.zeros(n), np.empty(n), np.empty(n), np.zeros(n)
     state, way = (pressure, residual, previous), (direction, response)
-    squares = passes.squares(residual)
+    squares = gradients.squares(residual)
     lowest, enough = squares * tuning.reduction**2, squares * tuning.least_reduction**2
     self_response = float(level.operator.near_field(0)[0, 0])
     last = 1.0
@@ -73,16 +73,16 @@ def solve_on_cells(
             return response
         beta = max(0.0, change / last) if iteration else 0.0
         last = full
-        slope = passes.new_direction(direction, preconditioned, beta, cells, quick_in, residual)
+        slope = gradients.new_direction(direction, preconditioned, beta, cells, quick_in, residual)
         level.quick.apply(level.quick_in, level.quick_out)
         effort.iterations += 1
-        mean, curvature = passes.gather_dot(quick_out, cells, response, direction)
+        mean, curvature = gradients.gather_dot(quick_out, cells, response, direction)
         if not curvature > 0:
             break
         shift, step = mean / n if balance.kept else 0.0, slope / curvature
         if iteration == 0:
             level.stride.length = step
-        squares, largest, outside = passes.advance(state, way, shift, step, level.cap)
+        squares, largest, outside = gradients.advance(state, way, shift, step, level.cap)
         if squares <= lowest or largest <= tuning.final * tolerance:
             break
         # clipping will bring back a residual of about this size: no use in going far below it
@@ -103,7 +103,7 @@ def _strides(
     stride, (pressure, residual, _) = level.stride, state
     if not stride.trusted:
         return False
-    outside, largest = passes.stride(pressure, preconditioned, stride.length, level.cap, residual, out)
+    outside, largest = gradients.stride(pressure, preconditioned, stride.length, level.cap, residual, out)
     self_response = float(level.operator.near_field(0)[0, 0])
     stride.taken = _LEFT * largest <= level.tuning.clipping * self_response * outside
     return stride.taken
@@ -142,4 +142,4 @@ class _Balance:
     def precondition(self, residual: FloatArray, out: FloatArray, previous: FloatArray) -> tuple[float, float]:
         """Write the preconditioned residual z; returns z.r and z.(r - r_previous)."""
         total = self.inverse(residual, out)
-        return passes.turn(out, self.rise, total / self.total if self.kept else 0.0, residual, previous)
+        return gradients.turn(out, self.rise, total / self.total if self.kept else 0.0, residual, previous)

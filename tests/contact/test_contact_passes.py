@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from contact_oracles import FREE, PERIODIC, notes_surface, operator
 
-from bem.contact import long_waves, passes, preconditioner
+from bem.contact import gradients, long_waves, passes, preconditioner
 from bem.contact.level import Level, Tuning
 
 SIZE = 500
@@ -66,7 +66,7 @@ def test_stride_and_positive(fields):
     _, way, cells, values = fields
     way = way[: cells.size]
     out = np.empty(cells.size)
-    outside, largest = passes.stride(values, way, 0.7, 0.9, way, out)
+    outside, largest = gradients.stride(values, way, 0.7, 0.9, way, out)
     assert np.allclose(out, values - 0.7 * way, rtol=0, atol=1e-15)
     assert outside == pytest.approx(max(-out.min(), out.max() - 0.9), rel=1e-14)
     assert largest == np.abs(way).max()

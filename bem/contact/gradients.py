@@ -1,0 +1,155 @@
+"""Passes of conjugate gradients over the cells in contact, in the blocks of `passes`.
+
+p pressure, r residual, z the preconditioned residual, t direction, q response to it.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from bem.contact import passes
+
+FloatArray = NDArray[np.float64]
+
+_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
+
+
+def squares(values: FloatArray) -> float:
+    """Sum of squares."""
+    return passes.sums(values.size, 1, _squares, values)[0]
+
+
+@_fast
+def _squares(start, stop, result, values):  # type: ignore[no-untyped-def]
+    total = 0.0
+    for k in range(start, stop):
+        total += values[k] * values[k]
+    result[0] = total
+
+
+def turn(
+    preconditioned: FloatArray, rise: FloatArray, share: float, residual: FloatArray, previous: FloatArray
+) -> tuple[float, float]:
+    """z -= share rise; return z.r and z.(r - r_previous)."""
+    full, change = passes.sums(residual.size, 2, _turn, preconditioned, rise, share, residual, previous)
+    return full, change
+
+
+@_fast
+def _turn(start, stop, result, preconditioned, rise, share, residual, previous):  # type: ignore[no-untyped-def]
+    full = 0.0
+    change = 0.0
+    for k in range(start, stop):
+        z = preconditioned[k] - share * rise[k] if share else preconditioned[k]
+        preconditioned[k] = z
+        full += z * residual[k]
+        change += z * (residual[k] - previous[k])
+    result[0] = full
+    result[1] = change
+
+
+def new_direction(
+    direction: FloatArray,
+    preconditioned: FloatArray,
+    beta: float,
+    cells: NDArray[Any],
+    field: NDArray[Any],
+    residual: FloatArray,
+) -> float:
+    """t = z + beta t, also written to field[cells]; returns t.r."""
+    return passes.sums(cells.size, 1, _new_direction, direction, preconditioned, beta, cells, field, residual)[0]
+
+
+@_fast
+def _new_direction(start, stop, result, direction, preconditioned, beta, cells, field, residual):  # type: ignore[no-untyped-def]
+    slope = 0.0
+    for k in range(start, stop):
+        t = preconditioned[k] + beta * direction[k]
+        direction[k] = t
+        field[cells[k]] = t
+        slope += t * residual[k]
+    result[0] = slope
+
+
+def gather_dot(field: NDArray[Any], cells: NDArray[Any], out: FloatArray, direction: FloatArray) -> tuple[float, float]:
+    """out = field[cells]; returns its sum and its product with the direction."""
+    total, product = passes.sums(cells.size, 2, _gather_dot, field, cells, out, direction)
+    return total, product
+
+
+@_fast
+def _gather_dot(start, stop, result, field, cells, out, direction):  # type: ignore[no-untyped-def]
+    total = 0.0
+    product = 0.0
+    for k in range(start, stop):
+        value = np.float64(field[cells[k]])
+        out[k] = value
+        total += value
+        product += value * direction[k]
+    result[0] = total
+    result[1] = product
+
+
+def advance(
+    state: tuple[FloatArray, FloatArray, FloatArray],
+    way: tuple[FloatArray, FloatArray],
+    mean: float,
+    step: float,
+    cap: float,
+) -> tuple[float, float, float]:
+    """p -= step t, r -= step (q - mean), keeping the old r; returns |r|^2, max |r| and how far p left the bounds.
+
+    state : (p, r, r before). way : (t, q).
+    """
+    partial = passes.in_blocks(state[0].size, 3, _advance, state, way, mean, step, cap)
+    if partial.shape[0] == 1:
+        squares, largest, outside = partial[0].tolist()
+        return squares, largest, outside
+    return float(partial[:, 0].sum()), float(partial[:, 1].max()), float(partial[:, 2].max())
+
+
+@_fast
+def _advance(start, stop, result, state, way, mean, step, cap):  # type: ignore[no-untyped-def]
+    pressure, residual, previous = state
+    direction, response = way
+    squares = 0.0
+    largest = 0.0
+    outside = 0.0
+    for k in range(start, stop):
+        p = pressure[k] - step * direction[k]
+        pressure[k] = p
+        outside = max(outside, max(-p, p - cap))
+        r = residual[k]
+        previous[k] = r
+        r -= step * (response[k] - mean)
+        residual[k] = r
+        squares += r * r
+        largest = max(largest, abs(r))
+    result[0] = squares
+    result[1] = largest
+    result[2] = outside
+
+
+def stride(
+    pressure: FloatArray, way: FloatArray, step: float, cap: float, residual: FloatArray, out: FloatArray
+) -> tuple[float, float]:
+    """out = p - step t; returns how far that leaves the bounds, and max |r|."""
+    partial = passes.in_blocks(pressure.size, 2, _stride, pressure, way, step, cap, residual, out)
+    return float(partial[:, 0].max()), float(partial[:, 1].max())
+
+
+@_fast
+def _stride(start, stop, result, pressure, way, step, cap, residual, out):  # type: ignore[no-untyped-def]
+    outside = 0.0
+    largest = 0.0
+    for k in range(start, stop):
+        p = pressure[k] - step * way[k]
+        out[k] = p
+        outside = max(outside, max(-p, p - cap))
+        largest = max(largest, abs(residual[k]))
+    result[0] = outside
+    result[1] = largest
