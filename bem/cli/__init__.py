@@ -32,6 +32,7 @@ ORDER = (
     "scenes",
     "sweep",
     "report",
+    "export",
     "plot",
     "compare",
     "new",
