@@ -22,7 +22,7 @@ from bem.lubrication import Cavitation, FilmSolution, Lubricant, march_line_film
 MESH, STEPS, RESIDUAL = "film points", "time steps", "residual"
 FIGURES = ("thinnest_film", "thinnest_film_time", "film_at_end", "largest_shear_force")
 FEWEST = 101
-_MESH, _STEPS = 1.0, 1.0
+_MESH, _STEPS = 1.3, 2.0
 """Factors on the differences to half the points and to steps twice as long."""
 _TOLERANCE = 1e-7
 """Largest residual of a step, relative to the film and the load."""

@@ -14,7 +14,7 @@ from bem.errors import Status
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Outcome, Variable
-from bem.scenes.records import Figure, Record, Series, described, error_key, mean, spread
+from bem.scenes.records import Figure, Record, Series, described, error_key, mean, spread, standard_error
 
 _WORST = (Status.CONVERGED, Status.MAX_ITERATIONS, Status.STALLED, Status.INFEASIBLE)
 _FAILURES_NAMED = 5
@@ -107,7 +107,8 @@ def _barred(records: Sequence[Record | None]) -> set[str]:
 
 def _figures(told: Mapping[str, Figure], records: Sequence[Record | None], barred: set[str]) -> dict[str, Any]:
     """The figures of one case over its repetitions: mean, spread and each, or the value where there is only one; the
-    error of a mean is the mean of errors, which are of one sign, with the scatter apart."""
+    error of a mean is the mean of errors, which are of one sign, and the standard error of the mean; the scatter stands
+    apart as well."""
     found: dict[str, Any] = {}
     for name, figure in told.items():
         values = [None if record is None else figure.shown(getattr(record, name)) for record in records]
@@ -122,8 +123,15 @@ def _figures(told: Mapping[str, Figure], records: Sequence[Record | None], barre
             found[f"{key}_spread"] = _over(spread, values)
             found[f"{key}_each"] = values
             if name in barred:
-                found[error_key(key)] = _over(mean, errors)
+                found[error_key(key)] = _sum(_over(mean, errors), _over(standard_error, values))
     return found
+
+
+def _sum(one: Any, other: Any) -> Any:
+    """The sum of two numbers or of lists of them entry by entry; None where the first is none."""
+    if isinstance(one, list):
+        return [_sum(a, b) for a, b in zip(one, other, strict=True)]
+    return None if one is None else one + other
 
 
 def _over(statistic: Any, values: list[Any]) -> Any:

@@ -235,5 +235,10 @@ def spread(values: list[Any]) -> float:
     return float(np.std(finite, ddof=1)) if len(finite) > 1 else 0.0
 
 
+def standard_error(values: list[Any]) -> float:
+    """Standard error of the mean of the numbers among the values, 0 of fewer than two."""
+    return spread(values) / math.sqrt(max(len(_finite(values)), 1))
+
+
 def _finite(values: list[Any]) -> list[float]:
     return [float(v) for v in values if isinstance(v, int | float) and math.isfinite(v)]

@@ -1,13 +1,17 @@
 """Error bars beside the figures of a run: in the summary, the dataset, the terminal and the report."""
 
-import numpy as np
+from types import SimpleNamespace
 
-from bem.campaigns.collect import outcome_of
+import numpy as np
+import pytest
+
+from bem.campaigns.collect import _figures, outcome_of
 from bem.plots.report import with_error
 from bem.runs import run_scene
 from bem.scenes.context import PlainContext
 from bem.scenes.kinds import get_kind
 from bem.scenes.load import load_scene
+from bem.scenes.records import Figure
 
 SCENE = {
     "kind": "contact",
@@ -37,6 +41,24 @@ def test_every_headline_figure_has_its_error():
     error = found.variables["approach_error"]
     assert error.units == "m"
     assert float(error.values) == summary["approach_m_error"]
+
+
+def test_the_error_of_a_mean_over_repetitions_has_its_standard_error():
+    told = {"load": Figure("N", "load"), "friction": Figure("", "friction", ("speed",)), "area": Figure("m2", "area")}
+
+    def record(load, friction, errors):
+        return SimpleNamespace(load=load, friction=np.array(friction), area=1.0, errors=errors)
+
+    records = [
+        record(1.0, [0.1, 0.2], {"load": 0.1, "friction": np.array([0.01, np.nan])}),
+        record(3.0, [0.1, 0.4], {"load": 0.3, "friction": np.array([0.03, np.nan])}),
+    ]
+    found = _figures(told, records, {"load", "friction"})
+    # standard deviation of 1 and 3 over the root of two: 1
+    assert found["load_N_error"] == pytest.approx(0.2 + 1.0)
+    assert found["load_N_spread"] == pytest.approx(np.sqrt(2))
+    assert found["friction_error"] == [pytest.approx(0.02), None]
+    assert "area_m2_error" not in found
 
 
 def test_errors_can_be_left_out():
