@@ -3,8 +3,8 @@
 Mesh and steps of `bem.march_line_film` both converge with order two. The march on half the points shows what the mesh
 does, a third one of these points and of steps twice as long what the steps do; together they take about half as long as
 the march itself. Each part is its difference times a safety factor (`reports/experiments/march_error_bars.py`), the bar
-their sum: an estimate, no proved bound. Where a march passes through zero speed or a jump of it its order is less than
-two, which the factors allow for.
+their sum: an estimate, no proved bound. On coarse, random motions it covers 83 to 93 % of errors (the time of the
+thinnest film, which jumps between minima, 69 %): short of the nine in ten that other bars cover.
 """
 
 from __future__ import annotations
