@@ -65,6 +65,7 @@ class FlowFactors:
     residual : the largest of the contact's and the flow's. iterations : of the flow's conjugate gradients.
     statuses : outcome at each separation. status : the worst of them.
     rms_height : s [m]. notes : sentences on what should not be believed.
+    wall_share : (s1^2 - s2^2)/s^2, for films that use the table: 1 is all roughness on wall 1, -1 on wall 2.
     """
 
     separations: FloatArray
@@ -86,6 +87,7 @@ class FlowFactors:
     iterations: FloatArray
     statuses: tuple[Status, ...]
     rms_height: float
+    wall_share: float = 1.0
     notes: tuple[str, ...] = ()
 
     @property
@@ -116,6 +118,7 @@ def flow_factors(
     *,
     separations: Sequence[float] | FloatArray,
     hardness: float | None = None,
+    wall_share: float = 1.0,
     tolerance: float = 1e-8,
     errors: bool = False,
     callback: Callable[[int], object] | None = None,
@@ -134,6 +137,7 @@ def flow_factors(
     separations : [m], positive, in any order; the table is in rising order.
     hardness : cap on the contact pressure [Pa]; None for purely elastic. With it the mean gap exceeds d by the mean
         plastic depth.
+    wall_share : (s1^2 - s2^2)/s^2 of the two walls' rms heights, handed on to films; no factor depends on it.
     tolerance : bound on the residual of contact and flow.
     errors : whether to repeat all with cells twice as large, for the error of the cell; a quarter more work.
     callback : called with the number of separations done, after each.
@@ -165,7 +169,12 @@ def flow_factors(
     if shut:
         notes.append(f"contact bars all flow along x at separations of {', '.join(shut)}: the pressure factor is zero")
     return FlowFactors(
-        separations=apart, statuses=tuple(row[1] for row in rows), rms_height=rms, notes=tuple(notes), **columns
+        wall_share=float(wall_share),
+        separations=apart,
+        statuses=tuple(row[1] for row in rows),
+        rms_height=rms,
+        notes=tuple(notes),
+        **columns,
     )
 
 

@@ -82,6 +82,7 @@ def solved_line_film(
         points=points,
         initial=initial,
         position=position,
+        flow_factors=contact.flow_factors,
     )
 
 

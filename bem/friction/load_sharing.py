@@ -27,6 +27,7 @@ from bem.friction.setup import MixedSetup
 from bem.friction.solution import MixedSolution
 from bem.grid import FloatArray, Grid
 from bem.lubrication import Lubricant
+from bem.lubrication.rough_walls import WallFactors
 from bem.lubrication.steady import check_entrainment
 from bem.materials import Body
 
@@ -51,6 +52,7 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     film_position: FloatArray | None = None,
     striated_exit: bool = False,
     initial: MixedSolution | None = None,
+    flow_factors: WallFactors | str = "off",
 ) -> MixedSolution:
     """Friction of a rough cylinder on a flat in mixed lubrication.
 
@@ -76,6 +78,7 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     film_position : ascending abscissae [m] on which `film` is returned; the film's own mesh by default.
     striated_exit : whether the oil behind the exit adds to the friction (`FilmSolution.striated_shear_force`).
     initial : solution of a similar case to start from.
+    flow_factors : "off", or a table of `bem.flow_factors`: roughness then changes the film too, see `solve_line_film`.
 
     Returns
     -------
@@ -113,6 +116,7 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
         contact_tolerance=contact_tolerance,
         film_position=film_position,
         striated_exit=striated_exit,
+        flow_factors=flow_factors,
     )
     return solve_setup(setup, height, speeds, initial)
 

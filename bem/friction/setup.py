@@ -12,6 +12,7 @@ from bem.errors import InputError
 from bem.friction.boundary import BoundaryFriction, BoundaryFrictionGiven, boundary_law
 from bem.grid import FloatArray, Grid
 from bem.lubrication import Lubricant
+from bem.lubrication.rough_walls import WallFactors
 from bem.materials import Body, contact_modulus
 
 CONTACT_MODELS = ("coupled", "uncoupled")
@@ -20,12 +21,13 @@ SEPARATIONS = ("volume", "film")
 
 @dataclass(frozen=True)
 class LineContact:
-    """A smooth cylinder on a flat, and the oil: radius and width [m], E* of the pair [Pa]."""
+    """A cylinder on a flat, and the oil: radius and width [m], E* of the pair [Pa]; how roughness changes the flow."""
 
     radius: float
     width: float
     contact_modulus: float
     lubricant: Lubricant
+    flow_factors: WallFactors | str = "off"
 
     def half_width(self, load: float) -> float:
         """Hertz' half-width [m] under a load on the whole width [N]; Johnson (1985), eq. 4.43."""
@@ -57,6 +59,7 @@ class MixedSetup:
     contact_tolerance: float = 1e-6
     film_position: FloatArray | None = None
     striated_exit: bool = False
+    flow_factors: WallFactors | str = "off"
 
     def __post_init__(self) -> None:
         if not isinstance(self.grid, Grid):
@@ -119,6 +122,9 @@ class MixedSetup:
             value = getattr(self, name)
             if value not in allowed:
                 messages.append(f"{name}: {value!r} is unknown; choose from {', '.join(allowed)}")
+        factors = self.flow_factors
+        if not (isinstance(factors, WallFactors) or (isinstance(factors, str) and factors == "off")):
+            messages.append(f'flow_factors: {factors!r} must be "off" or a table of bem.flow_factors')
         pair = (self.bodies,) if isinstance(self.bodies, Body) else self.bodies
         if not (
             isinstance(pair, (tuple, list)) and 1 <= len(pair) <= 2 and all(isinstance(body, Body) for body in pair)
@@ -145,7 +151,7 @@ class MixedSetup:
         """The smooth contact and its oil."""
         bodies = (self.bodies,) if isinstance(self.bodies, Body) else self.bodies
         modulus = contact_modulus(*(body.material for body in bodies))
-        return LineContact(self.radius, self.width, modulus, self.lubricant)
+        return LineContact(self.radius, self.width, modulus, self.lubricant, self.flow_factors)
 
     @property
     def boundary_law(self) -> BoundaryFriction:

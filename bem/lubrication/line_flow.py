@@ -9,6 +9,7 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.lubrication.line_kernel import DEFLECTION, LineOperator
+from bem.lubrication.rough_walls import RoughWalls
 
 SPIKE_REACH = 60
 """Nodes on either side of a spike that are solved for alone."""
@@ -20,18 +21,32 @@ SHORTEST = 0.2
 
 @dataclass(frozen=True)
 class Problem:
-    """The similarity problem: load M, laws of the scaled pressure, the inlet's abscissa (None: flooded from afar)."""
+    """The similarity problem: load M, laws of the scaled pressure, flow factors of the walls (None: smooth)."""
 
     load: float
     log_viscosity: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
     density: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+    walls: RoughWalls | None = None
+
+    def cube(self, thickness: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """What pressure flow goes with, h^3 between smooth walls, and half its derivative."""
+        if self.walls is not None:
+            return self.walls.cube(thickness)
+        return thickness**3, 1.5 * thickness**2
+
+    def dragged(self, film: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """What Couette flow goes with, h between smooth walls, and its derivative."""
+        return (film, np.ones_like(film)) if self.walls is None else self.walls.dragged(film)
 
 
 @dataclass(frozen=True)
 class Parts:
-    """What residual and derivatives share, on the cells or (density and its slope) on the nodes."""
+    """What residual and derivatives share, on the cells or (density, dragged flow and their slopes) on the nodes."""
 
-    thickness: FloatArray
+    cube: FloatArray
+    half_slope: FloatArray
+    dragged: FloatArray
+    dragged_slope: FloatArray
     fluidity: FloatArray
     mean_density: FloatArray
     gradient: FloatArray
@@ -68,19 +83,35 @@ class Flow:
         fluid, left, right = mean_fluidity(log_viscosity)
         fluidity = mean_density * fluid / 6
         gradient = np.diff(pressure) / self.width
-        mass = density * film
+        cube, half_slope = self.problem.cube(thickness)
+        dragged, dragged_slope = self.problem.dragged(film)
+        leaving = float(self.problem.dragged(np.array([exit_film]))[0][0])
+        mass = density * dragged
         carried = mass[:-1].copy()
         carried[1:] += self.extrapolation[1:] * (mass[1:-1] - mass[:-2])
         carried[0] = 0.5 * (mass[0] + mass[1])
-        error = (thickness**3 * fluidity * gradient - (carried - exit_film)) / self.scale
+        error = (cube * fluidity * gradient - (carried - leaving)) / self.scale
         left, right = left * slope[:-1] * mean_density / 6, right * slope[1:] * mean_density / 6
-        return error, Parts(thickness, fluidity, mean_density, gradient, density, left, right, density_slope)
+        return error, Parts(
+            cube=cube,
+            half_slope=half_slope,
+            dragged=dragged,
+            dragged_slope=dragged_slope,
+            fluidity=fluidity,
+            mean_density=mean_density,
+            gradient=gradient,
+            density=density,
+            left=left,
+            right=right,
+            density_slope=density_slope,
+        )
 
-    def derivatives(self, film: FloatArray, parts: Parts) -> tuple[FloatArray, ...]:
+    def derivatives(self, parts: Parts) -> tuple[FloatArray, ...]:
         """Of the residual of cell i: with the films at nodes i - 1, i, i + 1, then with the pressures there."""
         cells, row = len(self.width), 1 / self.scale
         density, density_slope, extrapolation = parts.density, parts.density_slope, self.extrapolation
-        through_film = 1.5 * parts.thickness**2 * parts.fluidity * parts.gradient
+        density = density * parts.dragged_slope
+        through_film = parts.half_slope * parts.fluidity * parts.gradient
         before = np.zeros(cells)
         before[1:] = extrapolation[1:] * density[:-2]
         here = through_film - (1 + extrapolation) * density[:-1]
@@ -88,12 +119,12 @@ class Flow:
         here[0] = through_film[0] - 0.5 * density[0]
         after[0] = through_film[0] - 0.5 * density[1]
 
-        mobility = parts.thickness**3 * parts.fluidity
+        mobility = parts.cube * parts.fluidity
         flow = mobility * parts.gradient
-        steep = parts.thickness**3 * parts.gradient
+        steep = parts.cube * parts.gradient
         from_left = -mobility / self.width + flow * 0.5 * density_slope[:-1] / parts.mean_density + steep * parts.left
         from_right = mobility / self.width + flow * 0.5 * density_slope[1:] / parts.mean_density + steep * parts.right
-        carried = film * density_slope
+        carried = parts.dragged * density_slope
         from_left -= (1 + extrapolation) * carried[:-1]
         from_left[0] += 0.5 * carried[0]
         from_right[0] -= 0.5 * carried[1]
@@ -124,7 +155,7 @@ def eased(
     wrong, parts = local.residual(p, h, exit_film)
     size, index = start, np.arange(last - first)
     for _ in range(LOCAL_STEPS):
-        before, here, after, low, diagonal, high = (d[1:, None] for d in local.derivatives(h, parts))
+        before, here, after, low, diagonal, high = (d[1:, None] for d in local.derivatives(parts))
         matrix = before * response[:-2] + here * response[1:-1] + after * response[2:]
         matrix[index, index] += diagonal[:, 0]
         matrix[index[:-1], index[1:]] += high[:-1, 0]

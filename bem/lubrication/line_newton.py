@@ -188,12 +188,12 @@ def _equations(mesh: Discretisation, at: Iterate) -> Equations:
     """Those of the Newton step in (P_1 .. P_{n-1}, H0, X_e)."""
     load, inlet = mesh.problem.load, at.exit + mesh.offset[0]
     inlet_slope, load_slope = inlet_pressure(inlet)[1], inlet_load(inlet)[1]
-    before, here, after, low, diagonal, high = mesh.flow.derivatives(at.film, at.parts)
+    before, here, after, low, diagonal, high = mesh.flow.derivatives(at.parts)
     return Equations(
         before=before,
         here=here,
         after=after,
-        exit=1 / mesh.flow.scale,
+        exit=at.parts.dragged_slope[-1] / mesh.flow.scale,
         low=low,
         diagonal=diagonal,
         high=high,

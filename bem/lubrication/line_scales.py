@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from bem.grid import FloatArray
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.rough_walls import RoughWalls
 
 RIGID_LOAD = 1e-4
 
@@ -22,8 +23,8 @@ class Scales:
     load: float
 
 
-def scaled_problem(scales: Scales, load: float, lubricant: Lubricant) -> Problem:
-    """The similarity problem of an oil at a load M."""
+def scaled_problem(scales: Scales, load: float, lubricant: Lubricant, walls: RoughWalls | None = None) -> Problem:
+    """The similarity problem of an oil at a load M, between smooth or rough walls."""
     unit = scales.pressure
 
     def log_viscosity(pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -34,7 +35,7 @@ def scaled_problem(scales: Scales, load: float, lubricant: Lubricant) -> Problem
         value, slope = lubricant.density_ratio(pressure * unit)
         return value, slope * unit
 
-    return Problem(load, log_viscosity, density)
+    return Problem(load, log_viscosity, density, walls)
 
 
 def line_scales(load: float, radius: float, contact_modulus: float, entrainment: float, viscosity: float) -> Scales:

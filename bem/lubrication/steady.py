@@ -29,6 +29,7 @@ from bem.lubrication.line_newton import (
 )
 from bem.lubrication.line_scales import Scales, line_scales, scaled_problem
 from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
 from bem.lubrication.validity import Case, notes_on
 
 ATTEMPTS = ((160, 4.0), (240, 2.0), (200, 1.5))
@@ -63,6 +64,7 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     initial: FilmSolution | None = None,
     max_iterations: int = 40,
     cavitation: Cavitation | str = Cavitation.SWIFT_STIEBER,
+    flow_factors: WallFactors | str = "off",
 ) -> FilmSolution:
     """Steady film between a cylinder and a flat: Reynolds' equation with cavitation and elastic deflection.
 
@@ -86,6 +88,8 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         exit, `film_fraction`. Pressure and thickness are the same as with SWIFT_STIEBER: with a flooded inlet both
         rupture where p = dp/dx = 0, and behind a cylinder the gap only opens, so no film forms again.
         In time (`march_line_film`) the two differ.
+    flow_factors : "off", or a table of `bem.flow_factors`: pressure flow is then phi_x times, Couette flow h + k s
+        phi_s (`bem.lubrication.rough_walls`). Shear stress and what is behind the exit stay those of smooth walls.
 
     Returns
     -------
@@ -105,7 +109,7 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     """
     cavitation = cavitation_of(cavitation)
     scales, reversed_ = _check(load, radius, contact_modulus, speeds, lubricant, points, tolerance, position)
-    problem = scaled_problem(scales, scales.load, lubricant)
+    problem = scaled_problem(scales, scales.load, lubricant, walls_of(flow_factors, scales.film, speeds))
     outcome = None
     spent = 0
     if initial is not None:
@@ -127,6 +131,7 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         contact_modulus=contact_modulus,
     )
     film = replace(_result(outcome, problem, scales, speeds, reversed_, lubricant, position), notes=notes_on(case))
+    film = replace(film, notes=film.notes + notes_on_factors(flow_factors, film.minimum_thickness))
     if cavitation is Cavitation.SWIFT_STIEBER:
         return film
     exit_film = outcome.state.film[-1] * scales.film

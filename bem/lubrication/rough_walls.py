@@ -1,0 +1,107 @@
+"""Flow between rough walls in Reynolds' equation of the line contact: Patir and Cheng's factors in its units.
+
+    q = -phi_x h^3/(12 mu) dp/dx + (u1 + u2)/2 (h + k s phi_s),    k = (u1 - u2)/(u1 + u2) x share,
+
+for roughness on wall 1 (share 1), wall 2 (-1) or both ((s1^2 - s2^2)/s^2): J. Lubr. Technol. 101 (1979) 220. What makes
+pressure is the change of h + k s phi_s: where phi_s falls as h grows, roughness on the faster wall thins the film.
+Knows curves and numbers; `bem.flow` makes them. Verified in tests/lubrication/test_rough_walls.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+
+from bem.errors import InputError
+from bem.grid import FloatArray
+
+Curve = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+LEAST_FACTOR = 1e-4
+"""Pressure flow factors are kept from below at this: where contact bars all flow the film is what is dragged along, and
+Newton's equations still have a pressure in them."""
+
+
+@runtime_checkable
+class WallFactors(Protocol):
+    """What a table of flow factors must offer: `bem.FlowFactors` does. Curves give a factor and its slope [1/m]."""
+
+    @property
+    def separations(self) -> FloatArray:
+        """Where the table has values, rising [m]."""
+
+    @property
+    def rms_height(self) -> float:
+        """s [m]."""
+
+    @property
+    def wall_share(self) -> float:
+        """(s1^2 - s2^2)/s^2."""
+
+    @property
+    def pressure_x_curve(self) -> Curve:
+        """phi_x over separation [m]."""
+
+    @property
+    def shear_x_curve(self) -> Curve:
+        """phi_s over separation [m]."""
+
+
+@dataclass(frozen=True)
+class RoughWalls:
+    """Factors of films in the unit `film` [m]; `drag` is k s in that unit."""
+
+    pressure_curve: Curve
+    shear_curve: Curve
+    film: float
+    drag: float
+
+    @classmethod
+    def of(cls, factors: WallFactors, film: float, speeds: Sequence[float]) -> RoughWalls:
+        """In the unit of films `film` [m], for speeds (u1, u2)."""
+        sliding = (speeds[0] - speeds[1]) / (speeds[0] + speeds[1])
+        drag = sliding * factors.wall_share * factors.rms_height / film
+        return cls(factors.pressure_x_curve, factors.shear_x_curve, film, float(drag))
+
+    def cube(self, thickness: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """phi_x h^3 and half its derivative."""
+        value, slope = self.pressure_curve(thickness * self.film)
+        low = value < LEAST_FACTOR
+        value, slope = np.where(low, LEAST_FACTOR, value), np.where(low, 0.0, slope * self.film)
+        return value * thickness**3, 0.5 * (3 * value * thickness**2 + slope * thickness**3)
+
+    def dragged(self, thickness: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """h + k s phi_s and its derivative."""
+        if self.drag == 0:
+            return thickness, np.ones_like(thickness)
+        value, slope = self.shear_curve(thickness * self.film)
+        return thickness + self.drag * value, 1 + self.drag * self.film * slope
+
+
+def walls_of(factors: WallFactors | str, film: float, speeds: Sequence[float]) -> RoughWalls | None:
+    """The walls of a film in the unit `film` [m]; None where factors are "off".
+
+    Raises
+    ------
+    InputError : neither "off" nor a table.
+    """
+    if isinstance(factors, str) and factors == "off":
+        return None
+    if not isinstance(factors, WallFactors):
+        raise InputError(f'flow_factors: {factors!r} must be "off" or a table of bem.flow_factors')
+    return RoughWalls.of(factors, film, speeds)
+
+
+def notes_on_factors(factors: WallFactors | str, thinnest: float) -> tuple[str, ...]:
+    """What a film (its thinnest place [m]) asks of a table of factors that the table does not hold."""
+    if isinstance(factors, str):
+        return ()
+    least = float(np.min(factors.separations))
+    if thinnest >= least:
+        return ()
+    return (
+        f"the film, {1e9 * thinnest:.3g} nm at its thinnest, is thinner than the smallest separation of the flow "
+        f"factors, {1e9 * least:.3g} nm: they are extrapolated there",
+    )
