@@ -28,7 +28,7 @@ _HOMES = {
     "contact": ["ContactSolution", "solve_contact"],
     "flow": ["FlowFactors", "flow_factors"],
     "stress": ["subsurface_stress", "von_mises"],
-    "heat": ["TemperatureSolution", "surface_temperature", "surface_temperature_history"],
+    "heat": ["TemperatureSolution", "flash_temperature", "surface_temperature", "surface_temperature_history"],
     "surfaces": ["Surface", "SurfaceDescription", "describe_surface", "generate_surface", "read_surface"],
     "extensions": ["register"],
     "lubrication": [

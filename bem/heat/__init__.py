@@ -16,14 +16,14 @@ from bem.lazy import loader
 if TYPE_CHECKING:
     from bem.heat.history import surface_temperature_history
     from bem.heat.solution import TemperatureSolution
-    from bem.heat.steady import surface_temperature
+    from bem.heat.steady import flash_temperature, surface_temperature
 
-__all__ = ["TemperatureSolution", "surface_temperature", "surface_temperature_history"]
+__all__ = ["TemperatureSolution", "flash_temperature", "surface_temperature", "surface_temperature_history"]
 
 __getattr__ = loader(
     __name__,
     {
-        "steady": ["surface_temperature"],
+        "steady": ["flash_temperature", "surface_temperature"],
         "history": ["surface_temperature_history"],
         "solution": ["TemperatureSolution"],
     },

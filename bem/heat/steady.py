@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -75,3 +76,38 @@ def surface_temperature(
 
 def _response(body: Conductor) -> tuple[float, float]:
     return body.conductivity, body.wavenumber
+
+
+def flash_temperature(
+    pressure: ArrayLike,
+    grid: Grid,
+    bodies: Body | Sequence[Body],
+    *,
+    friction: ArrayLike,
+    speeds: Sequence[float],
+    bulk: float | Sequence[float] = (0.0, 0.0),
+    tolerance: float = TOLERANCE,
+) -> TemperatureSolution:
+    """Surface temperature of a rubbing contact: `surface_temperature` of the heat |friction (u1 - u2)| x pressure.
+
+    Parameters
+    ----------
+    pressure : (nx, ny) [Pa], of a contact solution.
+    grid, bulk, tolerance : as of `surface_temperature`.
+    bodies : a pair, or one Body whose counterface takes no heat.
+    friction : coefficient, one number or (nx, ny).
+    speeds : of both surfaces over the contact [m/s], along x; of one Body its own first, then its counterface's.
+
+    Raises
+    ------
+    InputError : as `surface_temperature`, not two speeds, or a friction that is not finite or of another shape.
+    """
+    if not isinstance(speeds, Sequence) or len(speeds) != 2 or not all(isinstance(u, Real) for u in speeds):
+        raise InputError(f"flash_temperature: speeds {speeds!r} must be a pair [m/s]: heat needs the sliding speed")
+    coefficient = np.asarray(friction)
+    if coefficient.shape not in ((), grid.shape) or coefficient.dtype.kind not in "fiu":
+        raise InputError(f"flash_temperature: friction must be a number or of the grid's shape {grid.shape}")
+    pressures = grid.check_field(pressure, "flash_temperature: pressure")
+    heat = np.abs(coefficient * (speeds[0] - speeds[1])) * pressures
+    own = speeds[0] if isinstance(bodies, Body) else speeds
+    return surface_temperature(heat, grid, bodies, speeds=own, bulk=bulk, tolerance=tolerance)

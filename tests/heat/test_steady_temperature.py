@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.special import k0e
 
-from bem import Body, Grid, InputError, Layer, Material, Status, surface_temperature
+from bem import Body, Grid, InputError, Layer, Material, Status, flash_temperature, surface_temperature
 from bem.heat.coefficients import Rows, temperature_table
 from bem.reference_solutions import heat_sources
 from bem.verification.patches import disc_means, free_grid
@@ -305,3 +305,17 @@ def test_temperatures_that_no_material_stands_are_said(bulk, scale, word):
     found = surface_temperature(scale * np.ones((8, 8)), grid, UNIT, speeds=0.0, bulk=bulk)
     assert len(found.notes) == (word is not None)
     assert word is None or word in found.notes[0]
+
+
+def test_flash_temperature_is_that_of_the_heat_of_friction():
+    pressure, grid = spot(12)
+    bodies = (UNIT, body(3.0))
+    friction = 0.1 + 0.1 * np.random.default_rng(1).random(grid.shape)
+    found = flash_temperature(pressure, grid, bodies, friction=friction, speeds=(1.0, -2.0))
+    heat = surface_temperature(3 * friction * pressure, grid, bodies, speeds=(1.0, -2.0))
+    assert np.allclose(found.temperature, heat.temperature, rtol=1e-12)
+    alone = flash_temperature(pressure, grid, UNIT, friction=-0.5, speeds=(0.0, 2.0))
+    assert np.allclose(alone.temperature, surface_temperature(pressure, grid, UNIT, speeds=0.0).temperature, rtol=1e-12)
+    for mistake in ({"friction": 0.1, "speeds": 1.0}, {"friction": np.ones(3), "speeds": (1.0, 2.0)}):
+        with pytest.raises(InputError, match="flash_temperature"):
+            flash_temperature(pressure, grid, bodies, **mistake)

@@ -89,7 +89,7 @@ KINDS = {
     "friction": ("roughness-wavelength", "contact.boundary_friction=0.12", "friction", 4),
     "particles": ("particles-afm-map", "seed=2", "particle_length", 1),
     "running-in": ("running-in-stribeck", "contact.boundary_friction=0.12", "friction_over_cycles", 2),
-    "surface-temperature": ("flash-temperature", "contact.load=10 N", "temperature", 1),
+    "surface-temperature": ("flash-temperature", "contact.load=5 N", "surface_temperature", 1),
     "tribofilm": ("tribofilm-macro", "seed=2", "thickness", 2),
     "wear": ("wear-steel-steel", "seed=2", "particles", 1),
 }

@@ -60,8 +60,8 @@ def test_two_bodies_share_and_are_cooler():
     assert pair.share_of_lower == pytest.approx(0.5, abs=1e-6)
     assert pair.friction_power == pytest.approx(2 * alone.friction_power, rel=1e-6)
     assert pair.maximum_rise < alone.maximum_rise  # each takes what one took, and two elastic bodies touch more widely
-    assert pair.temperature.max() == pytest.approx(pair.maximum_temperature, rel=1e-9)
-    assert np.abs(pair.temperature.min() - 333.15) < 5
+    assert pair.surface_temperature.max() == pytest.approx(pair.maximum_temperature, rel=1e-9)
+    assert np.abs(pair.surface_temperature.min() - 333.15) < 5
 
 
 def test_rolling_alone_makes_no_heat():

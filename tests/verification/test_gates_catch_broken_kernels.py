@@ -124,9 +124,13 @@ WAVES = [
 OTHERS = [
     ("bem.verification.contact.contact_modulus", None, None, "contact-sphere-elastic-pair"),
     ("bem.verification.contact.von_mises", None, None, "contact-cylinder-plain"),
+    ("bem.heat.operators.temperature_table", None, None, "heat-band-peclet-10"),
+    ("bem.heat.operators.temperature_table", None, None, "heat-disc-hertz"),
+    ("bem.verification.heat.moving_band", None, None, "heat-band-peclet-1"),
+    ("bem.verification.heat.disc_at_rest", None, None, "heat-disc-uniform"),
 ]
 ALL = [*SURFACE, *STRESSES, *PLANE, *ACROSS, *WAVES, *OTHERS]
-QUICK = [SURFACE[0], SURFACE[3], SURFACE[8], STRESSES[4], STRESSES[11], PLANE[0], WAVES[3]]
+QUICK = [SURFACE[0], SURFACE[3], SURFACE[8], STRESSES[4], STRESSES[11], PLANE[0], WAVES[3], OTHERS[2]]
 
 
 def label(mutant):

@@ -17,7 +17,7 @@ def _map(run: Any, figure: Figure) -> None:
     data = run.dataset
     axes = figure.add_subplot()
     x, y = data["x"].values, data["y"].values
-    celsius = data["temperature"].values - _CELSIUS
+    celsius = data["surface_temperature"].values - _CELSIUS
     map_of(figure, axes, x, y, celsius, "surface temperature", "°C", cmap="inferno")
     factor, _ = prefix([float(np.ptp(x))], "m")
     i, j = np.unravel_index(int(np.argmax(celsius)), celsius.shape)
@@ -28,7 +28,7 @@ def _map(run: Any, figure: Figure) -> None:
 def _section(run: Any, figure: Figure) -> None:
     """Along the motion through the hottest place."""
     data = run.dataset
-    x, celsius = data["x"].values, data["temperature"].values - _CELSIUS
+    x, celsius = data["x"].values, data["surface_temperature"].values - _CELSIUS
     row = int(np.unravel_index(int(np.argmax(celsius)), celsius.shape)[1])
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
     factor_x, unit_x = prefix([float(np.ptp(x))], "m")
@@ -52,7 +52,7 @@ FIGURES = (
         "temperature-map",
         "Temperature of the surface: the common one where the bodies touch, that of the lower body elsewhere; its wake "
         "lies where the body leaves the contact. The cross marks the highest.",
-        ("x", "y", "temperature"),
+        ("x", "y", "surface_temperature"),
         _map,
         applies=_two_dimensional,
     ),
@@ -60,7 +60,7 @@ FIGURES = (
         "temperature-section",
         "Along the motion through the hottest place: temperature, heat made by friction, and what of it enters the "
         "lower body.",
-        ("x", "y", "temperature", "heat_made", "heat_lower"),
+        ("x", "y", "surface_temperature", "heat_made", "heat_lower"),
         _section,
         (6.0, 4.2),
     ),

@@ -113,7 +113,7 @@ class SurfaceTemperatureRecord(Record):
     x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding")]
     y: Annotated[FloatArray, Series(("y",), "m", "y")]
     pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
-    temperature: Annotated[FloatArray, _map("K", "surface temperature, of the lower body out of contact")]
+    surface_temperature: Annotated[FloatArray, _map("K", "surface temperature, of the lower body out of contact")]
     heat_lower: Annotated[FloatArray, _map("W/m^2", "heat into the lower body")]
     heat_made: Annotated[FloatArray, _map("W/m^2", "heat made by friction")]
 
@@ -151,7 +151,7 @@ def run(scene: SurfaceTemperatureScene, context: Context) -> SurfaceTemperatureR
         x=grid.x,
         y=grid.y,
         pressure=contact.pressure,
-        temperature=found.temperature,
+        surface_temperature=found.temperature,
         heat_lower=found.heat[0],
         heat_made=found.heat.sum(axis=0),
         errors=errors,
@@ -165,7 +165,7 @@ def _solve(
 ) -> tuple[ContactSolution, TemperatureSolution]:
     from bem.contact import solve_contact
     from bem.convolution import displacement_operator
-    from bem.heat import surface_temperature
+    from bem.heat import flash_temperature
 
     lower, upper = scene.lower.build(), scene.upper.build()
     control = scene.contact
@@ -180,11 +180,17 @@ def _solve(
             tolerance=control.tolerance,
             max_iterations=control.max_iterations,
         )
-    bodies, speeds, bulk = _pair(scene, lower, upper)
-    sliding = abs(scene.heat.lower_speed - scene.heat.upper_speed)
+    bodies, _, bulk = _pair(scene, lower, upper)
+    speeds = (scene.heat.lower_speed, scene.heat.upper_speed)
     with context.timer("temperature"):
-        heat = abs(control.friction) * sliding * contact.pressure
-        return contact, surface_temperature(heat, grid, bodies, speeds=speeds, bulk=bulk)
+        return contact, flash_temperature(
+            contact.pressure,
+            grid,
+            bodies if upper else lower,
+            friction=control.friction,
+            speeds=speeds,
+            bulk=bulk,
+        )
 
 
 def _pair(
