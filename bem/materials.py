@@ -5,8 +5,10 @@ from __future__ import annotations
 import bisect
 import itertools
 import math
+import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.resources import files
 from numbers import Real
 
 from bem.errors import InputError
@@ -271,143 +273,13 @@ class CatalogueEntry:
     source: str
 
 
-@dataclass(frozen=True)
-class _Thermal:
-    """Conductivity [W/(m K)], density [kg/m^3], heat capacity [J/(kg K)] near room temperature, and their source."""
-
-    conductivity: float
-    density: float
-    heat_capacity: float
-    source: str
+def _catalogue() -> dict[str, CatalogueEntry]:
+    found = {}
+    for name, table in tomllib.loads(files("bem").joinpath("materials.toml").read_text(encoding="utf-8")).items():
+        source, heat = table.pop("source"), table.pop("heat_source", "")
+        found[name] = CatalogueEntry(Material(name, **table), f"{source}; heat: {heat}" if heat else source)
+    return found
 
 
-def _entry(
-    name: str,
-    source: str,
-    modulus: float,
-    ratio: float,
-    hardness: float | None = None,
-    yield_stress: float | None = None,
-    thermal: _Thermal | None = None,
-) -> CatalogueEntry:
-    material = Material(
-        name,
-        youngs_modulus=modulus,
-        poissons_ratio=ratio,
-        hardness=hardness,
-        yield_stress=yield_stress,
-        thermal_conductivity=thermal.conductivity if thermal else None,
-        density=thermal.density if thermal else None,
-        heat_capacity=thermal.heat_capacity if thermal else None,
-    )
-    return CatalogueEntry(material, f"{source}; heat: {thermal.source}" if thermal else source)
-
-
-_THESIS = (
-    "A. Akchurin, Generation of Wear Particles in Lubricated Contacts during Running-In, PhD thesis, Twente (2017)"
-)
-
-_STEEL = _Thermal(46.6, 7810.0, 475.0, "AISI 52100, manufacturers' data sheets")
-_BRASS = _Thermal(116.0, 8440.0, 377.0, "CuZn37 (C27200), Copper Development Association")
-_NITRIDE = _Thermal(30.0, 3240.0, 680.0, "mid-range of manufacturers' data for bearing grades (20 to 38 W/(m K))")
-_DLC = _Thermal(
-    1.0, 1800.0, 970.0, "a-C:H: M. Shamsa et al., Appl. Phys. Lett. 89 (2006) 161921 (k), Robertson (rho), c of carbon"
-)
-_ALUMINA = _Thermal(30.0, 3900.0, 880.0, "99.5 % Al2O3, manufacturers' data sheets")
-_CARBIDE = _Thermal(100.0, 14950.0, 210.0, "WC-6Co, manufacturers' data sheets (80 to 110 W/(m K))")
-_ALUMINIUM = _Thermal(237.0, 2700.0, 897.0, "CRC Handbook of Chemistry and Physics")
-_GLASS = _Thermal(1.0, 2480.0, 860.0, "Ashby, mid-range")
-_PTFE = _Thermal(0.25, 2170.0, 1030.0, "Ashby, mid-range")
-
-CATALOGUE: dict[str, CatalogueEntry] = {
-    entry.material.name: entry
-    for entry in (
-        _entry(
-            "steel-52100",
-            "AISI 52100 bearing steel, through-hardened: T. A. Harris, Rolling Bearing Analysis (E, nu); about 700 HV",
-            207e9,
-            0.3,
-            7.0e9,
-            thermal=_STEEL,
-        ),
-        _entry("steel-cylinder", f"{_THESIS}: cylinder of papers A, C, E (6 GPa)", 210e9, 0.3, 6.0e9, thermal=_STEEL),
-        _entry(
-            "steel-disk",
-            f"{_THESIS}: steel disk of paper C (1.8 GPa, H = 2.8 sigma_y)",
-            210e9,
-            0.3,
-            1.8e9,
-            0.64e9,
-            _STEEL,
-        ),
-        _entry(
-            "steel-disk-110HV", f"{_THESIS}: soft disk of papers B and D (110 HV)", 210e9, 0.3, 1.08e9, 0.386e9, _STEEL
-        ),
-        _entry("brass-disk", f"{_THESIS}: brass disk of paper C", 88e9, 0.3, 2.64e9, 0.94e9, _BRASS),
-        _entry(
-            "brass-transfer-film",
-            f"{_THESIS}: brass film on the cylinder, paper C (2.96 GPa)",
-            88e9,
-            0.3,
-            2.96e9,
-            thermal=_BRASS,
-        ),
-        _entry("tribofilm", f"{_THESIS}: ZDDP film of paper E (15 GPa, 2 GPa); nu is assumed", 15e9, 0.3, 2.0e9),
-        _entry(
-            "silicon-nitride",
-            "hot isostatically pressed Si3N4 bearing grade, ASTM F2094 class I: typical 310 GPa, 0.27, 1500 HV",
-            310e9,
-            0.27,
-            14.7e9,
-            thermal=_NITRIDE,
-        ),
-        _entry(
-            "dlc",
-            "hydrogenated amorphous carbon a-C:H, mid-range of J. Robertson, Mater. Sci. Eng. R 37 (2002) 129",
-            200e9,
-            0.25,
-            20e9,
-            thermal=_DLC,
-        ),
-        _entry(
-            "alumina",
-            "dense 99.5 % Al2O3: M. F. Ashby, Materials Selection in Mechanical Design",
-            380e9,
-            0.24,
-            15e9,
-            thermal=_ALUMINA,
-        ),
-        _entry(
-            "tungsten-carbide",
-            "WC-6Co: M. F. Ashby, Materials Selection in Mechanical Design",
-            620e9,
-            0.22,
-            15e9,
-            thermal=_CARBIDE,
-        ),
-        _entry(
-            "aluminium",
-            "pure, annealed: E and nu of G. W. C. Kaye and T. H. Laby; about 25 HV",
-            70e9,
-            0.345,
-            0.25e9,
-            thermal=_ALUMINIUM,
-        ),
-        _entry(
-            "glass",
-            "soda-lime glass: M. F. Ashby, Materials Selection in Mechanical Design",
-            70e9,
-            0.22,
-            5.5e9,
-            thermal=_GLASS,
-        ),
-        _entry(
-            "ptfe",
-            "filled-free PTFE at room temperature: manufacturers' data, elastic only",
-            0.5e9,
-            0.46,
-            thermal=_PTFE,
-        ),
-    )
-}
-"""Materials by name, each with the source of its constants. Hardness varies with treatment: check it."""
+CATALOGUE: dict[str, CatalogueEntry] = _catalogue()
+"""Materials by name from `materials.toml`, each with the source of its constants. Hardness varies: check it."""
