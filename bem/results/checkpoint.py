@@ -2,7 +2,8 @@
 
 Layout: the line `bem checkpoint 1`, eight bytes little-endian length of the header, the header as JSON, the arrays'
 bytes one after the other, 32 bytes of SHA-256 over all before. In the header an array stands as `{"array": i}` and a
-dictionary as `{"table": {...}}`.
+dictionary as `{"table": {...}}`; it also says with which code the run was begun, since another one may hold its state
+otherwise, and ends in other bits in any case.
 """
 
 from __future__ import annotations
@@ -12,17 +13,30 @@ import json
 import os
 import struct
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
+import bem
 from bem.errors import ResultsError
 from bem.results.atomic import reason, replacing
 
 _MAGIC = b"bem checkpoint 1\n"
 _DIGEST = hashlib.sha256().digest_size
+
+
+@cache
+def code_digest() -> str:
+    """Of this package's sources: what a run that goes on must have been begun with."""
+    home = Path(bem.__file__).parent
+    digest = hashlib.sha256(bem.__version__.encode())
+    for path in sorted(home.rglob("*.py")):
+        digest.update(path.relative_to(home).as_posix().encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
 
 
 def save_checkpoint(path: Path, state: Mapping[str, Any]) -> None:
@@ -41,7 +55,7 @@ def save_checkpoint(path: Path, state: Mapping[str, Any]) -> None:
     arrays: list[NDArray[Any]] = []
     tree = _flatten(state, arrays)
     layout = [[array.dtype.str, list(array.shape)] for array in arrays]
-    header = json.dumps({"state": tree, "arrays": layout}).encode()
+    header = json.dumps({"state": tree, "arrays": layout, "code": code_digest()}).encode()
     with replacing(path) as temporary, open(temporary, "wb") as file:
         digest = hashlib.sha256()
         parts: list[Any] = [
@@ -61,7 +75,7 @@ def load_checkpoint(path: Path) -> dict[str, Any] | None:
 
     Raises
     ------
-    ResultsError : the file is damaged or cannot be read.
+    ResultsError : the file is damaged or cannot be read, or another version of this package wrote it.
     """
     try:
         with open(path, "rb") as file:
@@ -89,6 +103,11 @@ def _read(path: Path, file: BinaryIO) -> dict[str, Any]:
     file.seek(len(_MAGIC))
     (length,) = struct.unpack("<Q", file.read(8))
     header = json.loads(file.read(length))
+    if header.get("code") != code_digest():
+        raise ResultsError(
+            f"{path}: the run was begun with another version of bem and would not end as with either; begin it anew "
+            "(--overwrite, or another --out), or go on with that version"
+        )
     arrays = []
     for kind, shape in header["arrays"]:
         array = np.empty(shape, np.dtype(kind))

@@ -424,3 +424,12 @@ def test_what_is_not_a_finished_run(tmp_path):
 def test_summary_is_json_whatever_is_in_it():
     text = summary_text({"a": np.float64(1.5), "b": np.arange(3), "c": float("nan"), "d": {"e": np.int64(2)}, "f": "µ"})
     assert json.loads(text) == {"a": 1.5, "b": [0, 1, 2], "c": None, "d": {"e": 2}, "f": "µ"}
+
+
+def test_a_checkpoint_of_other_code_is_not_gone_on_with(tmp_path, monkeypatch):
+    path = tmp_path / "checkpoint.bin"
+    with monkeypatch.context() as patch:
+        patch.setattr("bem.results.checkpoint.code_digest", lambda: "of before")
+        save_checkpoint(path, {"cycle": 10})
+    with pytest.raises(ResultsError, match=r"another version of bem.*--overwrite"):
+        load_checkpoint(path)
