@@ -20,60 +20,32 @@ if TYPE_CHECKING:
 def write_variables(path: Path, variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> None:
     """Write the file, whole or not at all, the same bytes for the same values; ResultsError if it cannot be.
 
-    The netCDF-4 data model in HDF5 (NetCDF User's Guide, "File Format Specifications"): dimensions are scales, attached
-    to the variables. h5py is used directly: h5netcdf took twice as long for it as a small contact takes to solve, and
-    xarray would import a scheduler (a second) where dask is installed.
+    h5netcdf is used directly: `xarray.Dataset.to_netcdf` would import a scheduler (a second) where dask is installed.
     """
+    import h5netcdf
     import h5py
 
     with replacing(path) as temporary, open(temporary, "w+b", buffering=0) as raw:
         sink = _Sink(raw)
-        with h5py.File(sink, "w", track_order=True) as file:
-            versions = f"version=2,h5py={h5py.version.version},hdf5={h5py.version.hdf5_version}"
-            file.attrs.update({"_NCProperties": np.bytes_(versions), **attributes})
-            sizes = {
-                name: size
-                for item in variables.values()
-                for name, size in zip(item.dimensions, item.values.shape, strict=True)
-            }
-            stored = [(item, _stored(file, name, item, sizes)) for name, item in variables.items()]
-            for number, (name, size) in enumerate(sizes.items()):
-                bare = name not in file
-                scale = file.create_dataset(name, (size,), ">f4", track_order=True) if bare else file[name]
-                scale.make_scale(f"{_NO_VARIABLE} {size:10d}" if bare else name)
-                scale.attrs["_Netcdf4Dimid"] = np.int32(number)
-            for item, dataset in stored:
-                for axis, name in enumerate(item.dimensions):
-                    if dataset != file[name]:
-                        dataset.dims[axis].attach_scale(file[name])
+        with h5netcdf.File(sink, "w") as file:
+            file.attrs.update(attributes)
+            for item in variables.values():
+                for name, size in zip(item.dimensions, item.values.shape, strict=True):
+                    if name not in file.dimensions:
+                        file.dimensions[name] = size
+            for name, item in variables.items():
+                text = item.values.dtype.kind in "US"
+                kind = h5py.string_dtype() if text else item.values.dtype
+                values = item.values.astype(object) if text else np.asarray(item.values, order="C")
+                parts = not text and values.ndim > 0 and values.nbytes >= LARGE  # it may be on disk and not in memory
+                stored = file.create_variable(name, item.dimensions, kind, data=None if parts else values)
+                for i in range(len(values) if parts else 0):
+                    stored[i] = values[i]
+                    release(values)
+                stored.attrs["units"] = item.units
+                stored.attrs["long_name"] = item.description
         if sink.error is not None:
             raise sink.error
-
-
-_NO_VARIABLE = "This is a netCDF dimension but not a netCDF variable."
-
-
-def _stored(file: Any, name: str, item: Variable, dimensions: Mapping[str, int]) -> Any:
-    """The dataset of a variable; one named like a dimension that is not its own is marked as the format asks for."""
-    import h5py
-
-    text = item.values.dtype.kind in "US"
-    kind = h5py.string_dtype() if text else item.values.dtype
-    values = item.values.astype(object) if text else np.asarray(item.values, order="C")
-    parts = not text and values.ndim > 0 and values.nbytes >= LARGE  # it may be on disk and not in memory
-    own = name not in dimensions or item.dimensions == (name,)
-    stored = file.create_dataset(
-        name if own else f"_nc4_non_coord_{name}",
-        values.shape,
-        kind,
-        data=None if parts else values,
-        track_order=True,
-    )
-    for i in range(len(values) if parts else 0):
-        stored[i] = values[i]
-        release(values)
-    stored.attrs.update({"units": item.units, "long_name": item.description})
-    return stored
 
 
 class _Sink(io.RawIOBase):

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +13,6 @@ from bem.scenes.context import Variable, release
 
 LARGEST = 200_000
 """Points in a file; larger fields are thinned along x and y by a whole number, which the file's name says."""
-
-_HEXAHEDRON = 12  # VTK's number of the cell
-_ORDER = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
 
 
 def write_volumes(folder: Path, variables: Mapping[str, Variable], names: Sequence[str]) -> list[Path]:
@@ -33,54 +28,22 @@ def write_volumes(folder: Path, variables: Mapping[str, Variable], names: Sequen
     x, y = x[::stride], y[::stride]
     if min(len(x), len(y), len(depth)) < 2:
         return []
+    import meshio
+
     points = np.stack([axis.ravel() for axis in np.meshgrid(x, y, -depth, indexing="ij")], axis=1)
-    fields: dict[str, NDArray[Any]] = {}
+    mesh = meshio.Mesh(points, [("hexahedron", _hexahedra(len(x), len(y), len(depth)))])
     for name in names:
         for label, values in _scalars(name, variables):
             thinned = np.empty((len(x), len(y), len(depth)))
             for i, plane in enumerate(values):
                 thinned[:, :, i] = plane[::stride, ::stride]
                 release(values)
-            fields[label] = thinned.ravel()
+            mesh.point_data[label] = thinned.ravel()
     path = folder / ("volume.vtu" if stride == 1 else f"volume-every-{stride}.vtu")
     with replacing(path) as temporary:
-        _write_vtu(temporary, points, _hexahedra(len(x), len(y), len(depth)), fields)
+        # not compressed: packing took ten times as long as the physics of a small contact
+        meshio.vtu.write(temporary, mesh, binary=True, compression=None)
     return [path]
-
-
-def _write_vtu(path: Path, points: NDArray[Any], corners: NDArray[Any], fields: Mapping[str, NDArray[Any]]) -> None:
-    """VTK's XML with the arrays behind it as they are in memory: packing them took ten times as long as the physics."""
-    arrays: list[NDArray[Any]] = []
-    size = 0
-
-    def entry(name: str, values: NDArray[Any]) -> str:
-        nonlocal size
-        kind = {"f8": "Float64", "i4": "Int32", "u1": "UInt8"}[values.dtype.str[1:]]
-        parts = f' NumberOfComponents="{values.shape[1]}"' if name == "Points" else ""
-        offset, size = size, size + 8 + values.nbytes
-        arrays.append(values)
-        return f'<DataArray type="{kind}" Name="{name}"{parts} format="appended" offset="{offset}"/>'
-
-    cells: dict[str, NDArray[Any]] = {
-        "connectivity": corners.astype(np.int32).ravel(),
-        "offsets": np.arange(8, 8 * len(corners) + 1, 8, dtype=np.int32),
-        "types": np.full(len(corners), _HEXAHEDRON, np.uint8),
-    }
-    header = (
-        '<?xml version="1.0"?>\n'
-        f'<VTKFile type="UnstructuredGrid" version="1.0" byte_order="{_ORDER}" header_type="UInt64">'
-        f'<UnstructuredGrid><Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(corners)}">'
-        f"<Points>{entry('Points', points)}</Points>"
-        f"<Cells>{''.join(entry(*item) for item in cells.items())}</Cells>"
-        f"<PointData>{''.join(entry(*item) for item in fields.items())}</PointData>"
-        '</Piece></UnstructuredGrid><AppendedData encoding="raw">_'
-    )
-    with open(path, "wb") as file:
-        file.write(header.encode())
-        for values in arrays:
-            file.write(np.uint64(values.nbytes).tobytes())
-            file.write(np.ascontiguousarray(values).data)
-        file.write(b"\n</AppendedData></VTKFile>\n")
 
 
 def _scalars(name: str, variables: Mapping[str, Variable]) -> list[tuple[str, NDArray[np.float64]]]:
