@@ -8,6 +8,6 @@ Reynolds' equation on many patches and Patir and Cheng's curves (`bem.reference_
 """
 
 from bem.flow.cell_problem import CellFlow, cell_flow
-from bem.flow.factors import FlowFactors, flow_factors
+from bem.flow.factors import FlowFactors, factors_for_films, flow_factors
 
-__all__ = ["CellFlow", "FlowFactors", "cell_flow", "flow_factors"]
+__all__ = ["CellFlow", "FlowFactors", "cell_flow", "factors_for_films", "flow_factors"]

@@ -178,6 +178,41 @@ def flow_factors(
     )
 
 
+TABLE_RATIOS = (0.2, 0.35, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.5, 7.0)
+"""Separations of the table for films, over the rms height: to where perturbation theory goes on."""
+
+
+def factors_for_films(
+    lower: FloatArray,
+    upper: FloatArray,
+    grid: Grid,
+    bodies: Body | tuple[Body, Body],
+    *,
+    hardness: float | None = None,
+    tolerance: float = 1e-6,
+) -> FlowFactors:
+    """The table that a film between two rough surfaces (nx, ny) [m] needs, wall 1 being the lower one.
+
+    Raises
+    ------
+    InputError : as `flow_factors`; two smooth surfaces.
+    """
+    one, two = float(np.var(lower)), float(np.var(upper))
+    heights = lower + upper
+    rms = float(np.std(heights))
+    if rms == 0:
+        raise InputError("flow_factors: both surfaces are smooth; allowed: roughness on one of them, or no factors")
+    return flow_factors(
+        heights,
+        grid,
+        bodies,
+        separations=rms * np.array(TABLE_RATIOS),
+        hardness=hardness,
+        wall_share=(one - two) / (one + two),
+        tolerance=tolerance,
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class _Patch:
     """Heights (nx, ny) [m] with zero mean, and how they are deformed; `rms` [m] is that of the patch first given."""

@@ -41,6 +41,36 @@ def test_record_is_what_the_solver_gives(tmp_path):
     assert (run.path / "figures" / "flow-factors.png").exists()
 
 
+def test_a_stribeck_curve_with_the_flow_factors_of_its_surfaces(tmp_path):
+    """Off by default; on, the film between rough walls is another one, and the plan says what it costs."""
+    from bem.flow.factors import TABLE_RATIOS
+    from bem.runs import plan_scene
+
+    table = {
+        "kind": "friction",
+        "grid": {"shape": [64, 16], "spacing": "1.5 um"},
+        "lower": {
+            "material": "steel-52100",
+            "surface": {"kind": "generated", "rms_height": "0.1 um", "correlation_length": "3 um"},
+        },
+        "upper": {"material": "steel-52100"},
+        "contact": {"radius": "2 mm", "width": "1 mm", "loads": ["5 N"], "boundary_friction": 0.1},
+        "oil": {"viscosity": "0.1 Pa*s", "pressure_viscosity": "15 1/GPa"},
+        "speeds": {"values": ["0.3 m/s"]},
+        "film": {"points": 300},
+        "outputs": {"errors": False},
+        "sharing": {"models": ["elastic"]},
+    }
+    rough = {**table, "sharing": {"models": ["elastic"], "flow_factors": "surfaces"}}
+    (step,) = [step for step in plan_scene(rough)[1].steps if step.name == "flow factors"]
+    assert not step.skipped
+    assert f"{len(TABLE_RATIOS)} separations" in step.why
+    runs = [run_scene(one, tmp_path / name, figures=False) for name, one in (("off", table), ("rough", rough))]
+    assert [run.summary["status"] for run in runs] == ["converged", "converged"]
+    off, on = (np.array(run.summary["film_load_N"]) for run in runs)
+    assert (np.abs(on / off - 1) > 1e-3).all()
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [

@@ -28,12 +28,14 @@ from bem.scenes.records import Figure, Record, Series, filled, mean, spread
 from bem.scenes.units import Ratio
 
 if TYPE_CHECKING:
+    from bem.flow import FlowFactors
     from bem.friction import MixedSolution
     from bem.friction.curves import Curve
     from bem.friction.setup import MixedSetup
 
 Model = Literal["elastic", "capped", "uncoupled", "uncoupled_elastic"]
 _CONVOLUTIONS = 120  # of the contacts of one speed
+_SEPARATIONS = 10  # of the flow factors' table
 _BASELINE = {"capped": "uncoupled", "elastic": "uncoupled_elastic"}  # of the rough half-space
 _CAPPED = ("capped", "uncoupled")
 
@@ -51,7 +53,8 @@ class SharingScene(Table):
 
     `models`: "elastic" and "capped" (at the hardness) are the rough half-space; "uncoupled" and "uncoupled_elastic"
     take every summit as a Hertz sphere of its own, the usual baseline. `asperity_separation`: mean planes of the
-    uncoupled summits as far apart as keeps the oil's "volume", or as the "film" is thick.
+    uncoupled summits as far apart as keeps the oil's "volume", or as the "film" is thick. `flow_factors`: whether the
+    film flows between smooth walls ("off"), or between the "surfaces" as `bem.flow_factors` has them.
     """
 
     models: Annotated[list[Model], Field(min_length=1, max_length=4)] = ["capped"]  # noqa: RUF012
@@ -59,6 +62,7 @@ class SharingScene(Table):
     contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = 1e-6
     asperity_separation: Literal["volume", "film"] = "volume"
     striated_exit: bool = Field(default=False, strict=True)
+    flow_factors: Literal["off", "surfaces"] = "off"
 
     @model_validator(mode="after")
     def _each_once(self) -> SharingScene:
@@ -132,6 +136,7 @@ def plan(scene: FrictionScene) -> Plan:
                 skipped=not coupled,
             ),
             plans.error_bars_of_balances(grid, _CONVOLUTIONS * speeds if coupled else 0, scene.outputs.errors),
+            plans.flow_factors(grid, _SEPARATIONS, wanted=scene.sharing.flow_factors != "off"),
             Step("stresses", "friction alone needs none", skipped=True),
             plans.traction_kernels(grid, *scene.bodies, scene.contact.boundary_friction, wanted=coupled),
             plans.figures(grid.cells),
@@ -187,7 +192,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
         lower, upper = build.both_heights(scene, grid, context)
         height = lower + upper
     with _in_words_of_the_scene():
-        setup = _setup(scene)
+        setup = _setup(scene, _flow_factors(scene, grid, lower, upper, context))
     made_again = (setup.grid, setup.lubricant, setup.boundary_friction)
     curve: Curve = Curve() if saved is None else unpacked(saved["curve"], made_again)
     errors: list[FloatArray] = [] if saved is None else list(saved["errors"])
@@ -221,7 +226,7 @@ def _errors(setup: MixedSetup, height: FloatArray, solution: MixedSolution, cont
     return np.array([bars.values[name] for name in RULES], dtype=np.float64)
 
 
-def _setup(scene: FrictionScene) -> MixedSetup:
+def _setup(scene: FrictionScene, factors: FlowFactors | Literal["off"]) -> MixedSetup:
     sharing, (model,) = scene.sharing, scene.sharing.models
     return scene.setup(
         hardness=scene.contact.hardness if model in _CAPPED else None,
@@ -232,7 +237,27 @@ def _setup(scene: FrictionScene) -> MixedSetup:
         contact_model="coupled" if model in _BASELINE else "uncoupled",
         asperity_separation=sharing.asperity_separation,
         striated_exit=sharing.striated_exit,
+        flow_factors=factors,
     )
+
+
+def _flow_factors(
+    scene: FrictionScene, grid: Grid, lower: FloatArray, upper: FloatArray, context: Context
+) -> FlowFactors | Literal["off"]:
+    """Those of both surfaces [m] where they are asked for: once for all speeds."""
+    if scene.sharing.flow_factors == "off":
+        return "off"
+    from bem.flow import factors_for_films
+
+    (model,) = scene.sharing.models
+    with context.timer("flow factors"):
+        hardness = scene.contact.hardness if model in _CAPPED else None
+        table = factors_for_films(lower, upper, grid, scene.bodies, hardness=hardness)
+    for note in table.notes:
+        context.note(f"flow factors: {note}")
+    if table.status is not Status.CONVERGED:
+        context.note(f"flow factors: {table.status.message}, residual {float(table.residual.max()):.2g}")
+    return table
 
 
 @contextmanager
