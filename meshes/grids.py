@@ -331,8 +331,10 @@ def moving_band_grid(*, peclet: float, level: int) -> PlaneGrid:
     where both are below 1e-15. Cells are small at both edges of the band and at the surface, over the width 1 / peclet
     in which heat is conducted against the motion.
     """
-    edge = 5 * EDGE / max(1.0, peclet)
-    ahead, wake = max(1.0, 20 / peclet), 5 + 20 / peclet
+    # thinner cells are still solved on, but points on them are no longer found
+    edge = max(5 * EDGE / max(1.0, peclet), 2e-4)
+    # the end of the wake is far off: what its condition disturbs dies out over a few of the large cells there
+    ahead, wake = max(1.0, 20 / peclet), 100 + 20 / peclet
     deep = max(12 * math.sqrt((1 + wake) / peclet), 40 / peclet)
     x = (
         graded(-1 - ahead, -1.0, edge, GROWTH, level, fine_at_end=True),
