@@ -44,7 +44,7 @@ class HeatSolution:
         points = np.column_stack([x, np.zeros(len(x)), np.zeros(len(x))])
         mesh = self.temperature.function_space.mesh
         depths = mesh.geometry.x[:, 1]
-        inside = points + [0.0, 0.5 * depths[depths > 0].min(), 0.0]
+        inside = points + np.array([0.0, 0.5 * depths[depths > 0].min(), 0.0])
         values = compat.evaluate(self.temperature, points, compat.locate(mesh, inside))
         return Curve("surface_temperature", UNIT, along, points, values[:, 0])
 

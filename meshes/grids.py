@@ -340,9 +340,14 @@ def moving_band_grid(*, peclet: float, level: int) -> PlaneGrid:
         graded(-1 - ahead, -1.0, edge, GROWTH, level, fine_at_end=True),
         graded(-1.0, 0.0, edge, GROWTH, level),
         graded(0.0, 1.0, edge, GROWTH, level, fine_at_end=True),
-        graded(1.0, wake, edge, GROWTH, level),
+        graded(1.0, 5.0, edge, GROWTH, level),
+        graded(5.0, wake, 4 * (GROWTH - 1), GROWTH, level),
     )
-    z = (graded(0.0, 0.5, edge, GROWTH, level), graded(0.5, deep, 0.5 * (GROWTH - 1), GROWTH, level))
+    z = (
+        graded(0.0, 0.5, edge, GROWTH, level),
+        graded(0.5, 5.0, 0.5 * (GROWTH - 1), GROWTH, level),
+        graded(5.0, 5.0 + deep, 5 * (GROWTH - 1), GROWTH, level),
+    )
     return PlaneGrid(x, z, loaded=2, before=1)
 
 

@@ -33,7 +33,7 @@ def curves(case: StoredCase) -> list[Curve]:
     found = []
     for curve in case.curves:
         values = _band(curve, case.parameters["peclet"]) if band else _disc(curve, case.parameters["profile"])
-        found.append(_pair(curve, curve.name, values, 5e-4, REASON[case.problem]))
+        found.append(_pair(curve, curve.name, values, 1e-4 if band else 2e-4, REASON[case.problem]))
         x = curve.coordinates[:, 0]
         if band:
             exact = moving_band(x, case.parameters["peclet"])
