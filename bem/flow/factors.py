@@ -119,7 +119,7 @@ def flow_factors(
     separations: Sequence[float] | FloatArray,
     hardness: float | None = None,
     wall_share: float = 1.0,
-    tolerance: float = 1e-8,
+    tolerance: float = 1e-6,
     errors: bool = False,
     callback: Callable[[int], object] | None = None,
 ) -> FlowFactors:
@@ -138,7 +138,8 @@ def flow_factors(
     hardness : cap on the contact pressure [Pa]; None for purely elastic. With it the mean gap exceeds d by the mean
         plastic depth.
     wall_share : (s1^2 - s2^2)/s^2 of the two walls' rms heights, handed on to films; no factor depends on it.
-    tolerance : bound on the residual of contact and flow.
+    tolerance : bound on the residual of contact and flow; factors are good to a part of it. Below 1e-7 the potentials'
+        last digit may be in the way where little flows.
     errors : whether to repeat all with cells twice as large, for the error of the cell; a quarter more work.
     callback : called with the number of separations done, after each.
 

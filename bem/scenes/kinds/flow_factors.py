@@ -56,7 +56,7 @@ class FlowScene(Table):
     ratios: Annotated[list[Annotated[Ratio, Field(gt=0)]], Field(min_length=1, max_length=100)] | None = None
     behaviour: Literal["elastic", "capped", "undeformed"] = "elastic"
     hardness: PositivePressure | None = None
-    tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = 1e-8
+    tolerance: Annotated[Ratio, Field(ge=1e-10, le=1e-2)] = 1e-6
     errors: bool = Field(default=True, strict=True)
 
     @model_validator(mode="after")
