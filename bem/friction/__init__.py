@@ -15,14 +15,16 @@ from typing import TYPE_CHECKING
 from bem.lazy import loader
 
 if TYPE_CHECKING:
+    from bem.friction.load_share import fit_load_share
     from bem.friction.load_sharing import largest_difference, solve_mixed, stribeck_curve
     from bem.friction.solution import MixedSolution
 
-__all__ = ["MixedSolution", "largest_difference", "solve_mixed", "stribeck_curve"]
+__all__ = ["MixedSolution", "fit_load_share", "largest_difference", "solve_mixed", "stribeck_curve"]
 
 __getattr__ = loader(
     __name__,
     {
+        "load_share": ["fit_load_share"],
         "load_sharing": ["largest_difference", "solve_mixed", "stribeck_curve"],
         "solution": ["MixedSolution"],
     },

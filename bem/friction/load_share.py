@@ -16,6 +16,7 @@ from bem.grid import FloatArray
 
 LEAST_POINTS = 4
 _EDGE = 1e-3
+_APART = 0.01
 _STEPS = 100
 
 
@@ -57,7 +58,7 @@ def fit_load_share(lambda_ratio: ArrayLike, contact_share: ArrayLike) -> LoadSha
 
     Raises
     ------
-    InputError : arrays of other shapes; fewer than four finite points; none or one where both carry.
+    InputError : arrays of other shapes; fewer than four finite points; fewer than two where both carry, 1 % apart.
     """
     ratio, share = (np.asarray(values, dtype=np.float64).ravel() for values in (lambda_ratio, contact_share))
     if ratio.shape != share.shape:
@@ -65,10 +66,11 @@ def fit_load_share(lambda_ratio: ArrayLike, contact_share: ArrayLike) -> LoadSha
     good = np.isfinite(ratio) & np.isfinite(share) & (ratio > 0) & (share >= -1e-9) & (share <= 1 + 1e-9)
     ratio, share = ratio[good], np.clip(share[good], 0.0, 1.0)
     inside = (share > _EDGE) & (share < 1 - _EDGE)
-    if ratio.size < LEAST_POINTS or np.unique(ratio[inside]).size < 2:
+    apart = inside.any() and np.ptp(np.log(ratio[inside])) > _APART
+    if ratio.size < LEAST_POINTS or not apart:
         raise InputError(
             f"fit_load_share: {ratio.size} points, {int(inside.sum())} of them mixed; allowed: {LEAST_POINTS} or more, "
-            "two or more where film and contact both carry"
+            "two or more where film and contact both carry, at lambda ratios more than 1 % apart"
         )
     slope, line = np.polyfit(np.log(ratio[inside]), np.log(-np.log(share[inside])), 1)
     found = np.array([line, max(slope, 0.05)])

@@ -42,3 +42,33 @@ def test_points_out_of_range_do_not_count_and_too_few_are_refused():
         fit_load_share(RATIO, np.zeros(25))
     with pytest.raises(InputError, match="as many"):
         fit_load_share(RATIO, share[:3])
+
+
+def test_a_stribeck_curves_fit_is_in_the_summary_for_each_model():
+    from types import SimpleNamespace
+
+    from bem.scenes.kinds.friction import summarise
+
+    def record(b):
+        share = np.exp(-b * RATIO**1.4)
+        return SimpleNamespace(
+            lambda_ratio=RATIO, contact_load=5.5 * share, film_load=5.5 * (1 - share), friction=0.09 * share
+        )
+
+    axes = [SimpleAxis((5.5,)), SimpleAxis(("",)), SimpleAxis(("capped", "uncoupled")), SimpleAxis((0, 1))]
+    records = [record(0.6), record(0.6), record(0.9), None]
+    rows = summarise(None, axes, records)["load_share"]
+    assert [row["model"] for row in rows] == ["capped", "uncoupled"]
+    assert [row["b"] for row in rows] == pytest.approx([0.6, 0.9], rel=1e-7)
+    assert [row["points"] for row in rows] == [50, 25]
+    assert "load_share" not in summarise(None, axes, [None] * 4)
+
+
+class SimpleAxis:
+    """Values of an axis, and how many."""
+
+    def __init__(self, values):
+        self.values = values
+
+    def __len__(self):
+        return len(self.values)

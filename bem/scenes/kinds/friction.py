@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from itertools import product
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -301,7 +301,8 @@ def _record(grid: Grid, curve: Curve, height: FloatArray, errors: list[FloatArra
 def summarise(
     scene: FrictionScene, axes: Sequence[Axis], records: Sequence[CurveRecord | None]
 ) -> dict[str, list[dict[str, Any]]]:
-    """How far each model is from its baseline [%], eq. (13) of paper A: mean and spread over the repetitions."""
+    """How far each model is from its baseline [%], eq. (13) of paper A: mean and spread over the repetitions; and each
+    model's share of the load on the surfaces over the lambda ratio, fitted."""
     from bem.friction.curves import relative_difference
 
     table = np.empty(tuple(len(axis) for axis in axes), dtype=object)
@@ -321,7 +322,26 @@ def summarise(
         percent, scatter = mean(values), spread(values)
         row = {"load_N": load, "variant": variant, "model": model, "d_percent": percent, "d_percent_spread": scatter}
         found.append(row)
-    return {"largest_difference": found} if found else {}
+    shares = [row for k, model in enumerate(models) for row in _load_share(str(model), table[:, :, k].ravel())]
+    made = {"largest_difference": found, "load_share": shares}
+    return {name: rows for name, rows in made.items() if rows}
+
+
+def _load_share(model: str, records: Sequence[CurveRecord | None]) -> list[dict[str, Any]]:
+    """The contact share exp(-B Lambda^C) of all loads, variants and repetitions of a model; none of too few points."""
+    from bem.friction.load_share import fit_load_share
+
+    curves = [one for one in records if one is not None]
+    if not curves:
+        return []
+    ratio, contact, film = (
+        np.concatenate([getattr(one, name) for one in curves]) for name in ("lambda_ratio", "contact_load", "film_load")
+    )
+    try:
+        fit = fit_load_share(ratio, contact / (contact + film))
+    except InputError:
+        return []
+    return [{"model": model, **asdict(fit)}]
 
 
 KIND = Kind(
