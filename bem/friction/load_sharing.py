@@ -78,7 +78,8 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     film_position : ascending abscissae [m] on which `film` is returned; the film's own mesh by default.
     striated_exit : whether the oil behind the exit adds to the friction (`FilmSolution.striated_shear_force`).
     initial : solution of a similar case to start from.
-    flow_factors : "off", or a table of `bem.flow_factors`: roughness then changes the film too, see `solve_line_film`.
+    flow_factors : "off", or a table of `bem.flow_factors`: roughness then changes the film too, see `solve_line_film`;
+        `lambda_ratio` is that of the film between rough walls.
 
     Returns
     -------

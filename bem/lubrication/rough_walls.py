@@ -98,6 +98,11 @@ def notes_on_factors(factors: WallFactors | str, thinnest: float) -> tuple[str, 
     """What a film (its thinnest place [m]) asks of a table of factors that the table does not hold."""
     if isinstance(factors, str):
         return ()
+    if float(factors.pressure_x_curve(np.array([thinnest]))[0][0]) <= LEAST_FACTOR:
+        return (
+            f"contact bars pressure flow where the film is thinnest, {1e9 * thinnest:.3g} nm: a film so thin does not "
+            f"carry this load between these walls, and its thickness is that of a least flow factor, {LEAST_FACTOR:g}",
+        )
     least = float(np.min(factors.separations))
     if thinnest >= least:
         return ()

@@ -129,6 +129,15 @@ def test_load_sharing_with_factors(table):
         solve_mixed(**case, flow_factors="on")
 
 
+def test_a_film_below_percolation_says_so(table):
+    """No pressure flow at all: the film is held up by what can be dragged in but not pressed out, and says so."""
+    shut = replace(table, pressure_x=np.where(table.separations < 3e-7, 0.0, table.pressure_x))
+    thin = film(speeds=(0.02, 0.01), factors=shut)
+    assert thin.minimum_thickness < 3e-7
+    assert any("bars pressure flow" in note for note in thin.notes)
+    assert not any("bars pressure flow" in note for note in film(speeds=(20.0, 10.0), factors=shut).notes)
+
+
 def test_what_is_no_table():
     with pytest.raises(InputError, match="flow_factors: 'on'"):
         film(factors="on")
