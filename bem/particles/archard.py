@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from bem.arguments import check_not_negative, check_positive
 from bem.errors import InputError
 from bem.grid import FloatArray
 
@@ -40,7 +41,7 @@ def profile_wear_volume(
     ------
     InputError : shapes that do not match, values that are not finite, lengths out of range.
     """
-    _positive(spacing=spacing, track_radius=track_radius)
+    check_positive(spacing=spacing, track_radius=track_radius)
     difference = _difference(before, after)
     if difference.ndim == 2:
         difference = difference.mean(axis=0)
@@ -65,34 +66,34 @@ def removed_volume(before: ArrayLike, after: ArrayLike, spacing: tuple[float, fl
     ------
     InputError : shapes that do not match, values that are not finite.
     """
-    _positive(spacing_x=spacing[0], spacing_y=spacing[1])
+    check_positive(spacing_x=spacing[0], spacing_y=spacing[1])
     return float(_difference(before, after).sum() * spacing[0] * spacing[1])
 
 
 def archard_volume(specific_wear_rate: float, load: float, distance: float) -> float:
     """W = k F s [m^3]; `specific_wear_rate` [m^3/(N m)], `load` [N], `distance` [m]."""
-    _not_negative(specific_wear_rate=specific_wear_rate, load=load, distance=distance)
+    check_not_negative(specific_wear_rate=specific_wear_rate, load=load, distance=distance)
     return specific_wear_rate * load * distance
 
 
 def specific_wear_rate(volume: float, load: float, distance: float) -> float:
     """k = W / (F s) [m^3/(N m)]; `volume` [m^3], `load` [N], `distance` [m]."""
-    _not_negative(volume=volume)
-    _positive(load=load, distance=distance)
+    check_not_negative(volume=volume)
+    check_positive(load=load, distance=distance)
     return volume / (load * distance)
 
 
 def particle_number(volume: float, mean_particle_volume: float) -> float:
     """N = W / V: how many particles of that mean volume [m^3] make up the wear volume [m^3]."""
-    _not_negative(volume=volume)
-    _positive(mean_particle_volume=mean_particle_volume)
+    check_not_negative(volume=volume)
+    check_positive(mean_particle_volume=mean_particle_volume)
     return volume / mean_particle_volume
 
 
 def particle_coefficient(specific_wear_rate: float, mean_particle_volume: float) -> float:
     """k_N = k / V: particles per newton and metre of sliding (1e-3 of it per newton and millimetre)."""
-    _not_negative(specific_wear_rate=specific_wear_rate)
-    _positive(mean_particle_volume=mean_particle_volume)
+    check_not_negative(specific_wear_rate=specific_wear_rate)
+    check_positive(mean_particle_volume=mean_particle_volume)
     return specific_wear_rate / mean_particle_volume
 
 
@@ -124,23 +125,3 @@ def _difference(before: ArrayLike, after: ArrayLike) -> FloatArray:
     if not (np.isfinite(first).all() and np.isfinite(second).all()):
         raise InputError("before and after must be finite; fill or crop missing points first")
     return first - second
-
-
-def _positive(**values: float) -> None:
-    messages = [
-        f"{name} {value!r} must be positive and finite"
-        for name, value in values.items()
-        if not (math.isfinite(value) and value > 0)
-    ]
-    if messages:
-        raise InputError(messages)
-
-
-def _not_negative(**values: float) -> None:
-    messages = [
-        f"{name} {value!r} must be finite and not negative"
-        for name, value in values.items()
-        if not (math.isfinite(value) and value >= 0)
-    ]
-    if messages:
-        raise InputError(messages)

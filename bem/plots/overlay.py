@@ -19,6 +19,8 @@ from bem.scenes.records import TELLING
 
 AXES = ("time", "cycle", "speed", "depth", "interference", "iteration", "film_x", "x")
 """Dimensions that a line may run along, the first that a variable has."""
+PLACED = {"asked": "separation_over_Sq"}
+"""Dimensions whose places are a variable, each case having its own."""
 COUNTED = ("particle",)
 """Dimensions without an order of their own: a line counts them up by size."""
 CASES = (*TELLING, "model", "variant")
@@ -89,10 +91,12 @@ def cut_at(dataset: Any) -> int:
 
 def _over_axis(dataset: Any, variable: Any, title: str) -> Panel | None:
     dimensions = [str(d) for d in variable.dims]
-    along = next((d for d in AXES if d in dimensions and d in dataset.coords), None) or next(
-        (d for d in dimensions if d in dataset.coords and dataset[d].dtype.kind in "if"), None
+    along = (
+        next((d for d in AXES if d in dimensions and d in dataset.coords), None)
+        or next((d for d in dimensions if PLACED.get(d) in dataset), None)
+        or next((d for d in dimensions if d in dataset.coords and dataset[d].dtype.kind in "if"), None)
     )
-    axis = dataset[along] if along else _axis_of_cases(dataset, dimensions)
+    axis = dataset[PLACED.get(along, along)] if along else _axis_of_cases(dataset, dimensions)
     if axis is None or axis.size < 2:
         return None
     grouped: dict[str, list[tuple[FloatArray, FloatArray]]] = {}
@@ -102,7 +106,7 @@ def _over_axis(dataset: Any, variable: Any, title: str) -> Panel | None:
         words = _case(dataset, at, str(axis.name))
         one = variable.isel(at)
         values = np.atleast_1d(one.values).astype(float)
-        x = np.atleast_1d((axis if along else axis.isel(at)).values).astype(float)
+        x = np.atleast_1d(axis.isel({d: i for d, i in at.items() if d in axis.dims}).values).astype(float)
         grouped.setdefault(words, []).append((x, values))
     lines = []
     for words, found in list(grouped.items())[:_MOST_CASES]:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import elliprd, elliprf
 
+from bem.arguments import check_positive
 from bem.errors import InputError
 
 FloatArray = NDArray[np.float64]
@@ -107,7 +108,7 @@ def ellipse_contact(
     ------
     InputError : values that are not positive, a ratio of radii above 1e12, or not exactly one of load and approach.
     """
-    _check_positive(radius_x=radii[0], radius_y=radii[1], contact_modulus=contact_modulus)
+    check_positive("Hertz: ", radius_x=radii[0], radius_y=radii[1], contact_modulus=contact_modulus)
     if (load is None) == (approach is None):
         raise InputError(f"Hertz: give exactly one of load ({load!r}) and approach ({approach!r})")
     larger, smaller = max(radii), min(radii)
@@ -119,12 +120,12 @@ def ellipse_contact(
     integral_k = float(elliprf(0.0, k2, 1.0))
     integral_d = float(elliprd(0.0, k2, 1.0)) / 3
     if load is not None:
-        _check_positive(load=load)
+        check_positive("Hertz: ", load=load)
         major = (3 * load * integral_d * larger / (math.pi * contact_modulus)) ** (1 / 3)
         approach = 3 * load * integral_k / (2 * math.pi * contact_modulus * major)
     else:
         assert approach is not None
-        _check_positive(approach=approach)
+        check_positive("Hertz: ", approach=approach)
         major = math.sqrt(2 * larger * approach * integral_d / integral_k)
         load = 2 * math.pi * contact_modulus * major * approach / (3 * integral_k)
     minor = axes_ratio * major
@@ -190,7 +191,7 @@ def cylinder_contact(*, radius: float, contact_modulus: float, load: float) -> L
     ------
     InputError : values that are not positive.
     """
-    _check_positive(radius=radius, contact_modulus=contact_modulus, load=load)
+    check_positive("Hertz: ", radius=radius, contact_modulus=contact_modulus, load=load)
     half_width = math.sqrt(4 * load * radius / (math.pi * contact_modulus))
     return LineContact(
         radius=float(radius),
@@ -199,13 +200,3 @@ def cylinder_contact(*, radius: float, contact_modulus: float, load: float) -> L
         half_width=half_width,
         maximum_pressure=2 * load / (math.pi * half_width),
     )
-
-
-def _check_positive(**values: float) -> None:
-    messages = [
-        f"Hertz: {name} {value!r} must be positive and finite"
-        for name, value in values.items()
-        if not (math.isfinite(value) and value > 0)
-    ]
-    if messages:
-        raise InputError(messages)

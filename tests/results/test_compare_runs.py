@@ -86,6 +86,7 @@ KINDS = {
     "asperities": ("uniform-asperities", "seed=2", "asperity_load", 2),
     "contact": ("hertz-sphere", "contact.load=2 N", "von_mises", 1),
     "film": ("film-start-stop", "seed=2", "minimum_film", 1),
+    "flow-factors": ("flow-factors", "seed=2", "pressure_x", 3),
     "friction": ("roughness-wavelength", "contact.boundary_friction=0.12", "friction", 4),
     "particles": ("particles-afm-map", "seed=2", "particle_length", 1),
     "running-in": ("running-in-stribeck", "contact.boundary_friction=0.12", "friction_over_cycles", 2),

@@ -1,0 +1,33 @@
+"""Checks of arguments that functions all over `bem` share: one message for each number that is out of range."""
+
+from __future__ import annotations
+
+import math
+
+from bem.errors import InputError
+
+
+def not_positive(prefix: str = "", /, **values: float) -> list[str]:
+    """A message for each number that is not positive and finite; `prefix` says of what."""
+    return [
+        f"{prefix}{name} {value!r} must be positive and finite"
+        for name, value in values.items()
+        if not (math.isfinite(value) and value > 0)
+    ]
+
+
+def check_positive(prefix: str = "", /, **values: float) -> None:
+    """Refuse numbers that are not positive and finite (InputError)."""
+    if messages := not_positive(prefix, **values):
+        raise InputError(messages)
+
+
+def check_not_negative(**values: float) -> None:
+    """Refuse numbers that are negative or not finite (InputError)."""
+    messages = [
+        f"{name} {value!r} must be finite and not negative"
+        for name, value in values.items()
+        if not (math.isfinite(value) and value >= 0)
+    ]
+    if messages:
+        raise InputError(messages)
