@@ -73,8 +73,8 @@ def traction_kernels(grid: Grid, lower: Body, upper: Body | None, friction: floa
 
 
 def convolutions(grid: Grid) -> float:
-    """Convolutions of one solve, coarse levels included: about 18 at 256 cells a side, growing slowly with them."""
-    return 18.0 * max(1.0, max(grid.shape) / 256) ** 0.2
+    """Convolutions of one solve, coarse levels included: about 15 at 256 cells a side, growing slowly with them."""
+    return 15.0 * max(1.0, max(grid.shape) / 256) ** 0.1
 
 
 def contact(grid: Grid, why: str) -> Step:

@@ -53,7 +53,7 @@ from bem.wear.removal import RemovalLaw
 if TYPE_CHECKING:
     from bem.wear import RunningIn
 
-_CONVOLUTIONS = 15  # of one warm-started contact solve, coarse levels included
+_CONVOLUTIONS = 10  # of one warm-started contact solve, coarse levels included
 _DEPTHS_NEEDED = 8  # before a depth is met at which nothing yields, on average
 _DEPTHS_AT_FIRST = 40  # the same in the first cycle, of sharp asperities
 
