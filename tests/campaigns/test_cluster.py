@@ -9,22 +9,13 @@ import time
 from contextlib import contextmanager
 
 import pytest
+from small_scenes import CONTACT as SCENE
 
 from bem import run_scene, run_sweep
 from bem.campaigns import engine
 
 pytest.importorskip("distributed")
 
-SCENE = {
-    "kind": "contact",
-    "name": "small",
-    "grid": {"shape": 16, "spacing": "0.5 um", "periodic": True},
-    "lower": {
-        "material": "steel-disk",
-        "surface": {"kind": "generated", "rms_height": "100 nm", "correlation_length": "2 um"},
-    },
-    "contact": {"mean_pressure": "80 MPa", "behaviour": "capped"},
-}
 CASES = SCENE | {"over": {"contact.mean_pressure": ["40 MPa", "80 MPa"]}, "repetitions": 3}
 
 

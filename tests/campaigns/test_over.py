@@ -2,22 +2,11 @@
 
 import numpy as np
 import pytest
+from small_scenes import CONTACT
 
 from bem.errors import InputError
 from bem.materials import CATALOGUE
 from bem.runs import plan_scene, run_scene
-
-CONTACT = {
-    "kind": "contact",
-    "name": "small",
-    "seed": 3,
-    "grid": {"shape": 16, "spacing": "0.5 um", "periodic": True},
-    "lower": {
-        "material": "steel-disk",
-        "surface": {"kind": "generated", "rms_height": "100 nm", "correlation_length": "2 um"},
-    },
-    "contact": {"mean_pressure": "80 MPa", "behaviour": "capped"},
-}
 
 
 def over(**keys):

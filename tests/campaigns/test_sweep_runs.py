@@ -15,6 +15,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from small_scenes import CONTACT as SCENE
+from small_scenes import PATCH
 
 from bem.campaigns.jobs import processes
 from bem.errors import InputError, ResultsError
@@ -24,17 +26,6 @@ from bem.runs import run_sweep
 from bem.runs.point import Done, Point, store
 from bem.runs.scene import run_planned
 
-SCENE = {
-    "kind": "contact",
-    "name": "small",
-    "seed": 3,
-    "grid": {"shape": 16, "spacing": "0.5 um", "periodic": True},
-    "lower": {
-        "material": "steel-disk",
-        "surface": {"kind": "generated", "rms_height": "100 nm", "correlation_length": "2 um"},
-    },
-    "contact": {"mean_pressure": "80 MPa", "behaviour": "capped"},
-}
 OVER = ["contact.mean_pressure=log:20 MPa:80 MPa:3", "seed=1:2"]
 
 
@@ -297,16 +288,9 @@ def test_fewer_processes_where_memory_is_short(monkeypatch):
 STRIBECK = {
     "kind": "friction",
     "name": "curve",
-    "lower": {
-        "material": "steel-disk-110HV",
-        "surface": {"kind": "generated", "rms_height": "120 nm", "correlation_length": "2 um"},
-    },
-    "upper": {"material": "steel-cylinder"},
-    "contact": {"radius": "2 mm", "width": "6 mm", "loads": ["5.5 N"], "boundary_friction": 0.15},
-    "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
-    "grid": {"shape": [64, 32], "spacing": "0.8 um", "periodic": [False, True]},
     "speeds": ["0.003 m/s", "0.05 m/s", "0.5 m/s"],
     "film": {"points": 300},
+    **PATCH,
 }
 
 

@@ -4,18 +4,14 @@ The closed forms are written here independently of either code. All but the test
 only, not dolfinx.
 """
 
-import os
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
+from interpreter import STORED, fem
 
 from fem_reference.results import Result, read
 
-ROOT = Path(__file__).resolve().parents[2]
-STORED = ROOT / "bem" / "verification" / "fem_results"
-PYTHON = ROOT / ".venv-fem" / "bin" / "python"
 NU = 0.3
 
 CASES = [
@@ -173,19 +169,8 @@ def test_layers_act_as_they_must() -> None:
 
 @pytest.mark.fem
 def test_cheap_case_reproduces() -> None:
-    if not PYTHON.exists():
-        pytest.skip("no .venv-fem: make it with fem_reference/setup.sh")
-    done = subprocess.run(
-        [str(PYTHON), "-m", "fem_reference", "contact-row-plain", "--check", str(STORED / "contact-row-plain.json")],
-        cwd=ROOT,
-        env={**os.environ, "OMP_NUM_THREADS": "1"},
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert "reproduces" in done.stdout
+    case = "contact-row-plain"
+    assert "reproduces" in fem("-m", "fem_reference", case, "--check", str(STORED / f"{case}.json"))
 
 
 BOUNDS = """
@@ -216,19 +201,7 @@ for level in (0, 1):
 @pytest.mark.fem
 def test_snes_with_bounds_agrees() -> None:
     """The same contact as a bound on the displacement, without condensation or multiplier, in two meshes."""
-    if not PYTHON.exists():
-        pytest.skip("no .venv-fem: make it with fem_reference/setup.sh")
-    done = subprocess.run(
-        [str(PYTHON), "-c", BOUNDS],
-        cwd=ROOT,
-        env={**os.environ, "OMP_NUM_THREADS": "1", "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    (coarse, _), (fine, edge) = (map(float, line.split()) for line in done.stdout.strip().splitlines()[-2:])
+    (coarse, _), (fine, edge) = (map(float, line.split()) for line in fem("-c", BOUNDS).strip().splitlines()[-2:])
     # two discretisations of one problem: 0.1 % apart on the coarse mesh, and closer by at least 3 when it is halved
     assert abs(coarse) < 2e-3
     assert abs(fine) < abs(coarse) / 3
@@ -239,20 +212,9 @@ def test_snes_with_bounds_agrees() -> None:
 @pytest.mark.parametrize("thickness", ["0.01", "0.7"])
 def test_layer_of_the_same_material_is_none(thickness: str, tmp_path: Path) -> None:
     """A new question on the command line: it solves on another mesh what Hertz solved."""
-    if not PYTHON.exists():
-        pytest.skip("no .venv-fem: make it with fem_reference/setup.sh")
     out = tmp_path / "mine.json"
     options = ["--layer", "1", "0.3", thickness, "--loads", "0.4", "0.8", "--cells", "16", "--out", str(out)]
-    done = subprocess.run(
-        [str(PYTHON), "-m", "fem_reference", "contact-sphere", *options],
-        cwd=ROOT,
-        env={**os.environ, "OMP_NUM_THREADS": "1"},
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
+    fem("-m", "fem_reference", "contact-sphere", *options)
     result = read(out)
     load = np.array([0.4, 0.8])
     hold(result, "approach", "load", load ** (2 / 3), target=1e-3)
@@ -262,15 +224,5 @@ def test_layer_of_the_same_material_is_none(thickness: str, tmp_path: Path) -> N
 
 @pytest.mark.fem
 def test_bad_input_is_refused() -> None:
-    if not PYTHON.exists():
-        pytest.skip("no .venv-fem: make it with fem_reference/setup.sh")
-    done = subprocess.run(
-        [str(PYTHON), "-m", "fem_reference", "contact-sphere", "--layer", "-1", "0.3", "0.5"],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert done.returncode == 2
-    assert "modulus ratio -1.0 must be positive" in done.stderr
+    said = fem("-m", "fem_reference", "contact-sphere", "--layer", "-1", "0.3", "0.5", code=2)
+    assert "modulus ratio -1.0 must be positive" in said

@@ -1,22 +1,17 @@
 """The elastic-plastic indentation of the finite-element reference: Hertz below yield, first yield, the plateau."""
 
-import os
-import subprocess
-from pathlib import Path
-
 import numpy as np
 import pytest
+from interpreter import STORED, fem
 
 from fem_reference.results import read
 
-ROOT = Path(__file__).resolve().parents[2]
-STORED = ROOT / "bem" / "verification" / "fem_results" / "plasticity-sphere-plain.json"
-PYTHON = ROOT / ".venv-fem" / "bin" / "python"
+CASE = "plasticity-sphere-plain"
 
 
 @pytest.fixture(scope="module")
 def result():
-    return read(STORED)
+    return read(STORED / f"{CASE}.json")
 
 
 def curve(result, name):
@@ -105,32 +100,10 @@ print("sound")
 
 @pytest.mark.fem
 def test_radial_return_and_its_tangent() -> None:
-    if not PYTHON.exists():
-        pytest.skip("no .venv-fem: make it with fem_reference/setup.sh")
-    done = subprocess.run(
-        [str(PYTHON), "-c", RETURN],
-        cwd=ROOT,
-        env={**os.environ, "OMP_NUM_THREADS": "1", "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert done.stdout.strip().endswith("sound"), done.stderr
+    assert fem("-c", RETURN).strip().endswith("sound")
 
 
 @pytest.mark.fem
 @pytest.mark.slow
 def test_stored_indentation_reproduces() -> None:
-    if not PYTHON.exists():
-        pytest.skip("no .venv-fem: make it with fem_reference/setup.sh")
-    done = subprocess.run(
-        [str(PYTHON), "-m", "fem_reference", "plasticity-sphere-plain", "--check", str(STORED)],
-        cwd=ROOT,
-        env={**os.environ, "OMP_NUM_THREADS": "1"},
-        capture_output=True,
-        text=True,
-        timeout=900,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
+    fem("-m", "fem_reference", CASE, "--check", str(STORED / f"{CASE}.json"), timeout=900)

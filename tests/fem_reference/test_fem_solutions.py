@@ -2,28 +2,11 @@
 
 import ast
 import json
-import os
-import subprocess
 from functools import cache
 from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-PYTHON = ROOT / ".venv-fem" / "bin" / "python"
-STORED = ROOT / "bem" / "verification" / "fem_results"
-
-
-def fem(*arguments, code=0):
-    """Run the finite-element interpreter on the package; its output."""
-    if not PYTHON.exists():
-        pytest.skip("no .venv-fem: run `make setup-fem` to have the finite-element tests")
-    threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    done = subprocess.run(
-        [PYTHON, *arguments], cwd=ROOT, capture_output=True, text=True, env={**os.environ, **threads}, timeout=600
-    )
-    assert done.returncode == code, done.stdout + done.stderr
-    return done.stdout + done.stderr
+from interpreter import ROOT, STORED, fem
 
 
 @cache

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 import pytest
+from mixed_case import STEEL, mixed_case
 
 import bem
 from bem import Body, Grid, InputError, Layer, Lubricant, Material, solve_mixed
@@ -24,24 +25,10 @@ from bem.lubrication.shear import Newtonian
 from bem.scenes import load_scene
 from bem.wear.mixed import MixedContact
 
-STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 POLYMER = Material("polymer", youngs_modulus=3e9, poissons_ratio=0.4)
-GRID = Grid((64, 64), (1.5e-6, 1.5e-6), periodic=(False, True))
-HEIGHT = bem.generate_surface(
-    Grid((64, 64), (1.5e-6, 1.5e-6), periodic=(True, True)), rms_height=100e-9, seed=3, correlation_length=6e-6
-)
-CASE = {
-    "height": HEIGHT,
-    "grid": GRID,
-    "bodies": (Body(STEEL), Body(STEEL)),
-    "radius": 2e-3,
-    "width": 6e-3,
-    "load": 5.5,
-    "lubricant": Lubricant(0.01, pressure_viscosity=20e-9, shear_law=Newtonian()),
-    "hardness": 6e9,
-    "film_points": 200,
-    "speeds": (0.003, 0.0),
-}
+OIL = Lubricant(0.01, pressure_viscosity=20e-9, shear_law=Newtonian())
+CASE = mixed_case(64, 1.5e-6, 6e-6, lubricant=OIL, speeds=(0.003, 0.0))
+GRID, HEIGHT = CASE["grid"], CASE["height"]
 LAW = PressureDependentShear(shear_strength=50e6, pressure_coefficient=0.08)
 
 

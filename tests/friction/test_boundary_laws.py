@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from mixed_case import mixed_case
 
-import bem
-from bem import Body, Grid, InputError, Lubricant, Material, solve_mixed
+from bem import InputError, Lubricant, solve_mixed
 from bem.friction.boundary import (
     BOLTZMANN,
     ActivatedShear,
@@ -18,22 +18,8 @@ from bem.friction.boundary import (
 from bem.lubrication.shear import Newtonian
 from bem.scenes import load_scene
 
-STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
-GRID = Grid((48, 48), (2e-6, 2e-6), periodic=(False, True))
-HEIGHT = bem.generate_surface(
-    Grid((48, 48), (2e-6, 2e-6), periodic=(True, True)), rms_height=100e-9, seed=3, correlation_length=6e-6
-)
-CASE = {
-    "height": HEIGHT,
-    "grid": GRID,
-    "bodies": (Body(STEEL), Body(STEEL)),
-    "radius": 2e-3,
-    "width": 6e-3,
-    "load": 5.5,
-    "hardness": 6e9,
-    "film_points": 200,
-    "speeds": (0.003, 0.0),
-}
+CASE = mixed_case(48, 2e-6, 6e-6, speeds=(0.003, 0.0))
+GRID = CASE["grid"]
 OIL = Lubricant(0.01, pressure_viscosity=20e-9, shear_law=Newtonian(), temperature=333.15)
 P = np.array([1e6, 3e8, 5e9])
 

@@ -5,30 +5,16 @@ import inspect
 
 import numpy as np
 import pytest
+from mixed_case import STEEL, mixed_case
 
-from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_surface, solve_mixed, stribeck_curve
+from bem import Grid, InputError, Lubricant, Status, solve_mixed, stribeck_curve
 from bem.convolution import COUNT
 from bem.friction import largest_difference
 from bem.friction.curves import Curve, relative_difference
 from bem.friction.setup import MixedSetup
 
-STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
-GRID = Grid((100, 100), (0.9e-6, 0.9e-6), periodic=(False, True))
-ROUGH = generate_surface(
-    Grid((100, 100), (0.9e-6, 0.9e-6), periodic=(True, True)), rms_height=100e-9, seed=3, correlation_length=4e-6
-)
-CASE = {
-    "height": ROUGH,
-    "grid": GRID,
-    "bodies": (Body(STEEL), Body(STEEL)),
-    "radius": 2e-3,
-    "width": 6e-3,
-    "load": 5.5,
-    "lubricant": Lubricant(0.36, pressure_viscosity=25e-9),
-    "boundary_friction": 0.15,
-    "hardness": 6e9,
-    "film_points": 200,
-}
+CASE = mixed_case(100, 0.9e-6, 4e-6, lubricant=Lubricant(0.36, pressure_viscosity=25e-9), boundary_friction=0.15)
+GRID, ROUGH = CASE["grid"], CASE["height"]
 SPEEDS = [0.001, 0.01, 0.03, 0.1, 0.3]
 
 

@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 import pytest
+from mixed_case import STEEL, mixed_case
 
 import bem.convolution as convolution
 import bem.kernels.coefficients as coefficients
@@ -28,7 +29,6 @@ from bem.kernels.coefficients import Load
 from bem.stress import set_stress_memory, subsurface_stress, von_mises, von_mises_field
 from bem.wear import WearModel, WearSetup, dry_contact, yielded_pieces
 
-STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 DLC = Material("dlc", youngs_modulus=200e9, poissons_ratio=0.25)
 SOFT = Body(Material("disk", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9))
 HARD = Body(Material("cylinder", youngs_modulus=210e9, poissons_ratio=0.3, hardness=6e9))
@@ -105,20 +105,7 @@ def test_a_layer_of_the_base_material_is_computed_as_layered_and_agrees_with_the
     assert np.abs(layered.pressure - plain.pressure).max() <= 1e-5 * plain.pressure.max()
 
 
-CASE = {
-    "height": generate_surface(
-        Grid((60, 60), (1.5e-6, 1.5e-6), periodic=(True, True)), rms_height=100e-9, seed=3, correlation_length=6e-6
-    ),
-    "grid": Grid((60, 60), (1.5e-6, 1.5e-6), periodic=(False, True)),
-    "bodies": (Body(STEEL), Body(STEEL)),
-    "radius": 2e-3,
-    "width": 6e-3,
-    "load": 5.5,
-    "lubricant": Lubricant(0.36, pressure_viscosity=25e-9),
-    "boundary_friction": 0.15,
-    "hardness": 6e9,
-    "film_points": 200,
-}
+CASE = mixed_case(60, 1.5e-6, 6e-6, lubricant=Lubricant(0.36, pressure_viscosity=25e-9), boundary_friction=0.15)
 
 
 def test_friction_alone_computes_no_stress_and_no_coupling():

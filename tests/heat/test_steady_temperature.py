@@ -10,28 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.special import k0e
+from unit_body import UNIT, body
 
 from bem import Body, Grid, InputError, Layer, Material, Status, flash_temperature, surface_temperature
 from bem.heat.coefficients import Rows, temperature_table
 from bem.reference_solutions import heat_sources
 from bem.verification.patches import disc_means, free_grid
-
-
-def body(conductivity=1.0, capacity=1.0, density=1.0):
-    """A body of unit diffusivity by default: Peclet number of half-width 1 is half the speed."""
-    return Body(
-        Material(
-            "solid",
-            youngs_modulus=1e9,
-            poissons_ratio=0.3,
-            thermal_conductivity=conductivity,
-            density=density,
-            heat_capacity=capacity,
-        )
-    )
-
-
-UNIT = body()
 
 
 def square(cells, peclet, **options):

@@ -6,25 +6,10 @@ import math
 import numpy as np
 import pytest
 from scipy.special import erfc
+from unit_body import UNIT, body
 
-from bem import Body, Grid, InputError, Material, Status, surface_temperature, surface_temperature_history
+from bem import Grid, InputError, Status, surface_temperature, surface_temperature_history
 from bem.verification.patches import disc_means, free_grid
-
-
-def body(conductivity=1.0, capacity=1.0):
-    return Body(
-        Material(
-            "solid",
-            youngs_modulus=1e9,
-            poissons_ratio=0.3,
-            thermal_conductivity=conductivity,
-            density=1.0,
-            heat_capacity=capacity,
-        )
-    )
-
-
-UNIT = body()
 
 
 @pytest.mark.parametrize("speed", [0.0, 3.0])

@@ -10,6 +10,8 @@ import itertools
 import mpmath as mp
 import numpy as np
 
+from bem.kernels.loads import Load
+
 
 def stress(x, y, z, nu, tangential, number=mp.mpf):
     """2 pi times the six stresses of a unit point force, order xx yy zz yz xz xy."""
@@ -108,3 +110,18 @@ def gauss(order):
             weights.append(2 / ((1 - root * root) * slope**2))
         _RULES[key] = (nodes, weights)
     return _RULES[key]
+
+
+def over_rectangle(solution, x, y, z, sides, load, nu, order):
+    """Integral of a point-force solution over |x| < a, |y| < b in 25 digits, `sides` (a, b); as floats, over pi."""
+    mp.mp.dps = 25
+    x, y, z, a, b, nu = (mp.mpf(float(v)) for v in (x, y, z, *sides, nu))
+    tangential = load is Load.TANGENTIAL
+    count = 3 if solution is displacement else 6
+    values = integrate(lambda p, q, r: solution(p, q, r, nu, tangential), x, y, z, a, b, count, order)
+    return np.array([float(v / mp.pi) for v in values])
+
+
+def relative(got, want):
+    """Largest error over the largest component."""
+    return np.abs(got - want).max() / np.abs(want).max()

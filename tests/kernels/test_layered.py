@@ -5,23 +5,15 @@ import itertools
 import mpmath as mp
 import numpy as np
 import pytest
+from coated_bodies import coated, material
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from stack_oracle import disagreement
 
-from bem import Body, Grid, Layer, Material
+from bem import Body, Grid, Layer
 from bem.errors import InputError
 from bem.kernels import layered, spectral
 from bem.kernels.half_space import Load
-
-
-def material(shear_modulus, poissons_ratio):
-    return Material("solid", youngs_modulus=2 * shear_modulus * (1 + poissons_ratio), poissons_ratio=poissons_ratio)
-
-
-def coated(ratio, nu1, nu2, thickness, substrate_modulus=1.0):
-    return Body(material(substrate_modulus, nu2), layer=Layer(material(ratio * substrate_modulus, nu1), thickness))
-
 
 PAIRS = [(1e-3, 0.2, 0.35), (0.05, 0.4999, 0.1), (1.0, 0.3, 0.3), (20.0, -0.6, 0.45), (1e3, 0.25, -0.3)]
 

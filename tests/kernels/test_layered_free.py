@@ -5,21 +5,13 @@ import itertools
 import mpmath as mp
 import numpy as np
 import pytest
-from scipy import special
+from coated_bodies import assert_identical_materials_add_nothing, coated, error_of_table, in_plane_strain
 
-from bem import Body, Grid, Layer, Material
+from bem import Body, Grid
 from bem.kernels import layered, layered_cells, layered_hankel
 from bem.kernels.coefficients import STRESS_PARITY, stress_coefficients, surface_coefficients
 from bem.kernels.half_space import Load
 from bem.kernels.layered_cells import stress_remainder, surface_remainder
-
-
-def material(shear_modulus, poissons_ratio):
-    return Material("solid", youngs_modulus=2 * shear_modulus * (1 + poissons_ratio), poissons_ratio=poissons_ratio)
-
-
-def coated(ratio, nu1, nu2, thickness):
-    return Body(material(1.0, nu2), layer=Layer(material(ratio, nu1), thickness))
 
 
 def slow(*values):
@@ -67,19 +59,8 @@ def test_tables_against_the_real_axis(ratio, nu1, nu2, load):
     radii = np.array([0.03, 0.4, 1.7, 9.0, 40.0])
     cases = [layered_hankel.surface_kernels(body, load)]
     cases += [layered_hankel.stress_kernels(body, depth, load) for depth in (0.4, 1.0, 1.001, 2.5)]
-    for kernels in cases:
-        graded = layered_hankel.graded(kernels.smallest / 4, 1 / kernels.decay)
-        even = np.arange(0, 40 / kernels.decay, min(1 / kernels.decay, 2 / radii.max()))
-        q, weights = layered_hankel.gauss_rule(np.union1d(graded, even))
-        f = kernels.spectra(q) * (q * weights / (2 * np.pi))
-        terms = [special.jv(order, np.outer(radii, q)) * f[n] for n, order in enumerate(kernels.orders)]
-        expected = np.stack([t.sum(axis=1) for t in terms], axis=1)
-        # what cancels on the real axis, over all components: some of them vanish
-        size = np.stack([np.abs(t).sum(axis=1) for t in terms], axis=1).max(axis=1, keepdims=True)
-        table = layered_hankel.radial_table(kernels, 1e4)
-        error = np.abs(layered_hankel.table_values(table, radii) - expected)
-        # panels that follow exponential tails (of soft layers) are the worst: measured 1e-13
-        assert (error / size).max() < 5e-13
+    # panels that follow exponential tails (of soft layers) are the worst: measured 1e-13
+    assert max(error_of_table(kernels, radii, 1e4, panels=1.0) for kernels in cases) < 5e-13
 
 
 def by_fourier(body, depth, load, x, y, dx, dy):
@@ -168,26 +149,13 @@ def test_tractions_and_strains_pass_the_interface(ratio, nu1, nu2, load, thickne
     scale = max(np.abs(above).max(), np.abs(below).max())
     assert above[[2, 3, 4]] == pytest.approx(below[[2, 3, 4]], abs=2e-12 * scale)  # z moved by 1e-14 h; round-off
 
-    def in_plane(stress, solid):  # eps_xx, eps_yy, eps_xy times G
-        nu = solid.poissons_ratio
-        trace = nu / (1 + nu) * stress[:3].sum(axis=0)
-        return np.stack([stress[0] - trace, stress[1] - trace, stress[5]]) / (2 * solid.shear_modulus)
-
-    over, under = in_plane(above, body.layer.material), in_plane(below, body.material)
+    over, under = in_plane_strain(above, body.layer.material), in_plane_strain(below, body.material)
     assert over == pytest.approx(under, abs=2e-12 * scale / min(1.0, ratio))
 
 
 @pytest.mark.parametrize("load", list(Load))
 def test_identical_materials_add_nothing(load):
-    grid = Grid((20, 20), (1.0, 1.5))
-    body = coated(1.0, 0.3, 0.3, 2.0)
-    plain = Body(body.material)
-    surface = surface_coefficients(grid, plain, load)
-    assert surface_coefficients(grid, body, load) == pytest.approx(surface, abs=1e-15 * np.abs(surface).max())
-    for depth in (0.5, 2.0, 2.5):
-        stress = stress_coefficients(grid, plain, depth, load)
-        # below the layer a transform stands against closed forms
-        assert stress_coefficients(grid, body, depth, load) == pytest.approx(stress, abs=1e-13 * np.abs(stress).max())
+    assert_identical_materials_add_nothing(Grid((20, 20), (1.0, 1.5)), load, on_surface=1e-15, below=1e-13)
 
 
 @pytest.mark.parametrize("load", list(Load))

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from coated_bodies import assert_identical_materials_add_nothing, coated, in_plane_strain
 
-from bem import Body, Grid, Layer, Material
+from bem import Body, Grid
 from bem.kernels import layered, layered_hankel, layered_semi
 from bem.kernels.coefficients import STRESS_PARITY, stress_coefficients, surface_coefficients
 from bem.kernels.half_space import Load
@@ -11,14 +12,6 @@ from bem.kernels.layered_cells import stress_remainder as free_stress
 from bem.kernels.layered_semi import stress_remainder, surface_remainder
 
 AXES = [(False, True), (True, False)]
-
-
-def material(shear_modulus, poissons_ratio):
-    return Material("solid", youngs_modulus=2 * shear_modulus * (1 + poissons_ratio), poissons_ratio=poissons_ratio)
-
-
-def coated(ratio, nu1, nu2, thickness):
-    return Body(material(1.0, nu2), layer=Layer(material(ratio, nu1), thickness))
 
 
 def mode_sum(grid, body, depth, load, offsets):
@@ -123,26 +116,15 @@ def test_tractions_and_strains_pass_the_interface(periodic, load, thickness):
     scale = np.abs(above).max()
     assert above[[2, 3, 4]] == pytest.approx(below[[2, 3, 4]], abs=2e-12 * scale)  # z moved by 1e-14 h; round-off
 
-    def in_plane(stress, solid):
-        nu = solid.poissons_ratio
-        trace = nu / (1 + nu) * stress[:3].sum(axis=0)
-        return np.stack([stress[0] - trace, stress[1] - trace, stress[5]]) / solid.shear_modulus
-
-    assert in_plane(above, body.layer.material) == pytest.approx(in_plane(below, body.material), abs=2e-12 * scale)
+    over, under = in_plane_strain(above, body.layer.material), in_plane_strain(below, body.material)
+    assert over == pytest.approx(under, abs=1e-12 * scale)
 
 
 @pytest.mark.parametrize("periodic", AXES)
 @pytest.mark.parametrize("load", list(Load))
 def test_identical_materials_add_nothing(periodic, load):
     grid = Grid((12, 9), (1.0, 1.5), periodic=periodic)
-    body = coated(1.0, 0.3, 0.3, 2.0)
-    plain = Body(body.material)
-    surface = surface_coefficients(grid, plain, load)
-    assert surface_coefficients(grid, body, load) == pytest.approx(surface, abs=1e-14 * np.abs(surface).max())
-    for depth in (0.5, 2.0, 2.5):
-        stress = stress_coefficients(grid, plain, depth, load)
-        # below the layer a transform stands against closed forms and their images
-        assert stress_coefficients(grid, body, depth, load) == pytest.approx(stress, abs=3e-13 * np.abs(stress).max())
+    assert_identical_materials_add_nothing(grid, load, on_surface=1e-14, below=3e-13)
 
 
 @pytest.mark.parametrize("periodic", AXES)

@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 import pytest
+from small_scenes import CONTACT
 from typer.testing import CliRunner
 
 from bem.cli import build
@@ -14,16 +15,7 @@ from bem.runs import run_scene
 from bem.scenes import kind_names
 from reports.gallery import gallery_scene
 
-SCENE = {
-    "kind": "contact",
-    "name": "one",
-    "grid": {"shape": 16, "spacing": "0.5 um", "periodic": True},
-    "lower": {
-        "material": "steel-disk",
-        "surface": {"kind": "generated", "rms_height": "100 nm", "correlation_length": "2 um"},
-    },
-    "contact": {"mean_pressure": "80 MPa", "behaviour": "capped"},
-}
+SCENE = CONTACT | {"name": "one"}
 
 
 @pytest.fixture(scope="module")

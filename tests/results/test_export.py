@@ -7,23 +7,13 @@ import sys
 import numpy as np
 import pytest
 import xarray
+from small_scenes import CONTACT
 
 from bem import InputError, ResultsError
 from bem.results.dataset import read_dataset
 from bem.results.export import _laid_out, points_of
 from bem.runs import run_scene, run_sweep
 
-CONTACT = {
-    "kind": "contact",
-    "name": "small",
-    "seed": 3,
-    "grid": {"shape": 16, "spacing": "0.5 um", "periodic": True},
-    "lower": {
-        "material": "steel-disk",
-        "surface": {"kind": "generated", "rms_height": "100 nm", "correlation_length": "2 um"},
-    },
-    "contact": {"mean_pressure": "80 MPa", "behaviour": "capped"},
-}
 PRESSURES = ["40 MPa", "80 MPa"]
 
 

@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 import pytest
+from small_scenes import CONTACT
 
 from bem.campaigns.cases import Case
 from bem.campaigns.context import CaseContext, Silent
@@ -20,16 +21,9 @@ from bem.scenes import Kind, Plan, Step, get_kind
 from bem.scenes.common import SceneModel
 from bem.scenes.records import Figure, Record
 
-SCENE = {
-    "kind": "contact",
-    "name": "small",
+SCENE = CONTACT | {
     "description": "for <tests> & such",
-    "grid": {"shape": 32, "spacing": "0.5 um", "periodic": True},
-    "lower": {
-        "material": "steel-disk",
-        "surface": {"kind": "generated", "rms_height": "100 nm", "correlation_length": "3 um"},
-    },
-    "contact": {"mean_pressure": "80 MPa", "behaviour": "capped"},
+    "grid": CONTACT["grid"] | {"shape": 32},
     "outputs": {"von_mises": True, "depths": ["0 um", "0.5 um", "2 um"]},
 }
 

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from small_scenes import PATCH
 
 from bem.campaigns import campaign_of, compute
 from bem.campaigns.context import Silent
@@ -23,16 +24,6 @@ from bem.surfaces import generate_surface
 from bem.wear.mixed import MixedContact
 
 OIL = Lubricant(0.36, pressure_viscosity=25e-9)
-PATCH = {
-    "lower": {
-        "material": "steel-disk-110HV",
-        "surface": {"kind": "generated", "rms_height": "120 nm", "correlation_length": "2 um"},
-    },
-    "upper": {"material": "steel-cylinder"},
-    "contact": {"radius": "2 mm", "width": "6 mm", "loads": ["5.5 N"], "boundary_friction": 0.15},
-    "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
-    "grid": {"shape": [64, 32], "spacing": "0.8 um", "periodic": [False, True]},
-}
 FRICTION = {"kind": "friction", "speeds": ["0.003 m/s", "0.5 m/s"], "film": {"points": 300}, **PATCH}
 RUNNING_IN = {
     "kind": "running-in",

@@ -2,31 +2,18 @@
 
 import numpy as np
 import pytest
+from tip import tip_contact
 
 from bem import Grid, InfeasibleError, InputError, Material, grow_tribofilm
-from bem.tribofilm import Constant, FadingSubstrate, FilmContact, StressActivatedGrowth, solve_film_contact
+from bem.tribofilm import Constant, FadingSubstrate, StressActivatedGrowth, solve_film_contact
 
-IRON = Material("iron", youngs_modulus=210e9, poissons_ratio=0.3)
 DLC = Material("dlc", youngs_modulus=200e9, poissons_ratio=0.25)
-LAW = StressActivatedGrowth.from_electron_volts(1e-2, 0.8, 85)
 GRID = Grid((32, 32), (1.2e-9, 1.2e-9))
-TIP = (GRID.x[:, None] ** 2 + GRID.y[None, :] ** 2) / 2 / 53e-9
+GIVEN = {"counterface": DLC, "hardness": FadingSubstrate(6e9, 2e9, 4e-9), "modulus": Constant(15e9)}
 
 
 def contact(**change):
-    arguments = {
-        "gap": TIP,
-        "grid": GRID,
-        "substrate": IRON,
-        "counterface": DLC,
-        "load": 600e-9,
-        "growth": LAW,
-        "hardness": FadingSubstrate(6e9, 2e9, 4e-9),
-        "modulus": Constant(15e9),
-        "temperature": 373.15,
-        "average": "nominal",
-    }
-    return FilmContact(**(arguments | change))
+    return tip_contact(**{"grid": GRID, **GIVEN, **change})
 
 
 TIMES = np.linspace(0, 2000, 41)

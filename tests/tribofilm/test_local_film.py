@@ -2,30 +2,17 @@
 
 import numpy as np
 import pytest
+from tip import IRON, tip_contact
 
-from bem import Grid, InputError, Material
-from bem.tribofilm import Constant, FilmContact, StressActivatedGrowth, grow_local_film, grow_tribofilm
+from bem import Grid, InputError
+from bem.tribofilm import Constant, StressActivatedGrowth, grow_local_film, grow_tribofilm
 
-IRON = Material("iron", youngs_modulus=210e9, poissons_ratio=0.3)
-LAW = StressActivatedGrowth.from_electron_volts(1e-2, 0.8, 85)
 GRID = Grid((24, 24), (1.6e-9, 1.6e-9))
-TIP = (GRID.x[:, None] ** 2 + GRID.y[None, :] ** 2) / 2 / 53e-9
+GIVEN = {"counterface": IRON, "hardness": Constant(4e9), "modulus": Constant(210e9)}
 
 
 def contact(**change):
-    arguments = {
-        "gap": TIP,
-        "grid": GRID,
-        "substrate": IRON,
-        "counterface": IRON,
-        "load": 600e-9,
-        "growth": LAW,
-        "hardness": Constant(4e9),
-        "modulus": Constant(210e9),
-        "temperature": 373.15,
-        "average": "nominal",
-    }
-    return FilmContact(**(arguments | change))
+    return tip_contact(**{"grid": GRID, **GIVEN, **change})
 
 
 def test_without_feedback_from_the_surface_it_is_the_mean_model():

@@ -1,0 +1,20 @@
+"""A rough steel cylinder on steel under 5.5 N, as the arguments of `solve_mixed` and `stribeck_curve`."""
+
+from bem import Body, Grid, Material, generate_surface
+
+STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
+
+
+def mixed_case(cells, spacing, correlation_length, **more):
+    """A patch of so many cells a side, with the arguments in `more` (the lubricant among them) beside or instead."""
+    whole, patch = (Grid((cells, cells), (spacing, spacing), periodic=(along, True)) for along in (True, False))
+    return {
+        "height": generate_surface(whole, rms_height=100e-9, seed=3, correlation_length=correlation_length),
+        "grid": patch,
+        "bodies": (Body(STEEL), Body(STEEL)),
+        "radius": 2e-3,
+        "width": 6e-3,
+        "load": 5.5,
+        "hardness": 6e9,
+        "film_points": 200,
+    } | more

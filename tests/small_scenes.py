@@ -1,0 +1,24 @@
+"""Small scenes that several tests run: a rough contact, and a mixed-lubrication patch as the tables of its scene."""
+
+CONTACT = {
+    "kind": "contact",
+    "name": "small",
+    "seed": 3,
+    "grid": {"shape": 16, "spacing": "0.5 um", "periodic": True},
+    "lower": {
+        "material": "steel-disk",
+        "surface": {"kind": "generated", "rms_height": "100 nm", "correlation_length": "2 um"},
+    },
+    "contact": {"mean_pressure": "80 MPa", "behaviour": "capped"},
+}
+
+PATCH = {
+    "lower": {
+        "material": "steel-disk-110HV",
+        "surface": {"kind": "generated", "rms_height": "120 nm", "correlation_length": "2 um"},
+    },
+    "upper": {"material": "steel-cylinder"},
+    "contact": {"radius": "2 mm", "width": "6 mm", "loads": ["5.5 N"], "boundary_friction": 0.15},
+    "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
+    "grid": {"shape": [64, 32], "spacing": "0.8 um", "periodic": [False, True]},
+}
