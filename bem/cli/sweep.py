@@ -14,7 +14,7 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
     """Add the command."""
 
     @app.command(short_help="Run a scene at every combination of values of its keys.")
-    def sweep(
+    def sweep(  # reason: each argument is an option of the command, with its help
         scene: SceneArgument,
         over: Annotated[
             list[str] | None,

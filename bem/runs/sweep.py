@@ -65,7 +65,7 @@ class FinishedSweep:
         return read_dataset(self.path / DATASET)
 
 
-def run_sweep(
+def run_sweep(  # reason: a promise to users' scripts
     source: str | os.PathLike[str] | Mapping[str, Any],
     over: Sequence[str],
     out: str | os.PathLike[str] | None = None,
