@@ -110,7 +110,9 @@ def _region(
 
 
 @_strict
-def _sum_squares(given, spacing, wraps, factor, constants):  # type: ignore[no-untyped-def]
+def _sum_squares(  # type: ignore[no-untyped-def]  # reason: one pass; a call for each part would cost more
+    given, spacing, wraps, factor, constants
+):
     """Over the squares between four centres: area within the polygons beyond a quarter of a cell for each centre inside
     [m^2], length of the edge [m], sum of chord^3 [m^3], Euler's number of the region.
 

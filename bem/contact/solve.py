@@ -35,7 +35,7 @@ _TIGHTER = 0.9
 """Share of the tolerance that the solver aims at, so that rounding in SI units cannot spoil the certificate."""
 
 
-def solve_contact(  # more than ten arguments: the promised entry, each of them a choice of the user's
+def solve_contact(  # reason: a promise to users' scripts, each of them a choice of the user's
     gap: FloatArray,
     operator: DisplacementOperator,
     *,

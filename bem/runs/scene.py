@@ -38,7 +38,7 @@ def plan_scene(
     return scene, plan(campaign_of(scene))
 
 
-def run_scene(
+def run_scene(  # reason: a promise to users' scripts; each is an option of the command
     source: str | os.PathLike[str] | Mapping[str, Any] | SceneModel,
     out: str | os.PathLike[str] | None = None,
     *,
