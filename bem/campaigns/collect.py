@@ -14,7 +14,18 @@ from bem.errors import Status
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Outcome, Variable
-from bem.scenes.records import Figure, Record, Series, described, error_key, mean, spread, standard_error
+from bem.scenes.records import (
+    Figure,
+    Record,
+    Series,
+    described,
+    error_key,
+    mean,
+    scatter,
+    spread,
+    standard_error,
+    without_bars,
+)
 
 _WORST = (Status.CONVERGED, Status.MAX_ITERATIONS, Status.STALLED, Status.INFEASIBLE)
 _FAILURES_NAMED = 5
@@ -102,13 +113,38 @@ def _is_told(name: str, figure: Figure, records: Sequence[Record | None]) -> boo
 
 def _barred(records: Sequence[Record | None]) -> set[str]:
     """Figures that have error bars, or null for one, in any case."""
-    return {name for record in records if record is not None for name in record.errors}
+    return {name for record in records if record is not None for name in (*record.errors, *without_bars(type(record)))}
+
+
+def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[str]:
+    """What a reader of error bars must know: which figures have none and why, and which bars are scatter alone."""
+    record = campaign.kind.record
+    told = {
+        name: " ".join((item.name or name).split("_"))
+        for name, item in described(record).items()
+        if isinstance(item, Figure) and _is_told(name, item, records)
+    }
+    reasons: dict[str, list[str]] = {}
+    for name, why in without_bars(record).items():
+        if name in told:
+            reasons.setdefault(why, []).append(told[name])
+    found = [f"no error bar for {', '.join(names)}: {why}" for why, names in reasons.items()]
+    repeated = next((len(axis) for axis in campaign.axes if axis.name == REPETITION), 1)
+    if record.scatters and repeated > 1:
+        found.append(
+            f"errors are the scatter over {repeated} repetitions alone (standard error of the mean): what cells, "
+            "depths and tolerances leave open is not in them"
+        )
+    return found
 
 
 def _figures(told: Mapping[str, Figure], records: Sequence[Record | None], barred: set[str]) -> dict[str, Any]:
-    """The figures of one case over its repetitions: mean, spread and each, or the value where there is only one; the
-    error of a mean is the mean of errors, which are of one sign, and the standard error of the mean; the scatter stands
-    apart as well."""
+    """The figures of one case over its repetitions: mean, spread and each, or the value where there is only one.
+
+    The error of a mean is the mean of errors, which are of one sign, and the standard error of the mean, or this alone
+    where the record says so; the scatter stands apart as well.
+    """
+    scattering = {name for record in records if record is not None for name in record.scatters} - barred
     found: dict[str, Any] = {}
     for name, figure in told.items():
         values = [None if record is None else figure.shown(getattr(record, name)) for record in records]
@@ -124,6 +160,8 @@ def _figures(told: Mapping[str, Figure], records: Sequence[Record | None], barre
             found[f"{key}_each"] = values
             if name in barred:
                 found[error_key(key)] = _sum(_over(mean, errors), _over(standard_error, values))
+            elif name in scattering:
+                found[error_key(key)] = _over(scatter, values)
     return found
 
 

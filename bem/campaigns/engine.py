@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from bem.campaigns.cases import Campaign, Case
-from bem.campaigns.collect import Given, collect
+from bem.campaigns.collect import Given, collect, words_of_bars
 from bem.campaigns.context import CaseContext, Silent, Watcher
 from bem.campaigns.jobs import Staff, hand_out, words_of
 from bem.errors import BemError, ConvergenceError, InputError, ResultsError, Status
@@ -153,7 +153,7 @@ def compute(
             board.watching(index).note(f"failed: {result.error}")
         results[index] = result
         board.over(index)
-    return _together(campaign, [results[case.index] for case in campaign.cases], epoch)
+    return _together(campaign, [results[case.index] for case in campaign.cases], board, epoch)
 
 
 def _file(folder: Path | None, campaign: Campaign, case: Case) -> Path | None:
@@ -165,7 +165,7 @@ def _file(folder: Path | None, campaign: Campaign, case: Case) -> Path | None:
     return folder / CASES / f"{case.index:05d}.bin"
 
 
-def _together(campaign: Campaign, results: Sequence[Result], epoch: float) -> Computed:
+def _together(campaign: Campaign, results: Sequence[Result], board: Board, epoch: float) -> Computed:
     """All results as one; what went wrong in all of them is raised."""
     broken = [result for result in results if result.record is None]
     if len(broken) == len(results):
@@ -182,6 +182,9 @@ def _together(campaign: Campaign, results: Sequence[Result], epoch: float) -> Co
         for stage, spent in result.seconds.items():
             seconds[stage] = seconds.get(stage, 0.0) + spent
     notes = notes_of([(case.label, result.notes) for case, result in zip(campaign.cases, results, strict=True)])
+    for text in words_of_bars(campaign, records):
+        notes.append(text)
+        board.note(text)
     return Computed(collect(campaign, given), notes, seconds, epoch)
 
 

@@ -61,7 +61,8 @@ def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     text, shown = spelled(name, summary[name])
     value, error = summary[name], summary.get(f"{name}_error")
     if not isinstance(error, float) or not isinstance(value, float) or value == 0:
-        return text, f"{shown} (no error bar)" if f"{name}_error" in summary and error is None else shown
+        none = f"{name}_error" in summary and error is None and value is not None
+        return text, f"{shown} (no error bar)" if none else shown
     number, *unit = shown.split(" ")
     factor = float(number.rstrip("%")) / value if float(number.rstrip("%")) else 1.0
     percent = "%" if number.endswith("%") else ""

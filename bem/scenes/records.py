@@ -18,7 +18,7 @@ import math
 import typing
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, TypeVar
+from typing import Any, ClassVar, Literal, TypeVar
 
 import numpy as np
 
@@ -51,6 +51,8 @@ class Figure:
     optional : left out of the summary where no case has it, instead of null.
     name : in the summary, where it is not that of the field (with the unit behind it).
     headline : whether it is shown first, on the terminal and in the report.
+    no_bar : why it never has an error bar, in words, as one that follows the mesh; its error is then null everywhere,
+        and the run and the guide say why.
     """
 
     unit: str = ""
@@ -59,6 +61,7 @@ class Figure:
     optional: bool = False
     name: str = ""
     headline: bool = False
+    no_bar: str = ""
 
     def __post_init__(self) -> None:
         if self.unit not in UNITS:
@@ -129,7 +132,10 @@ class Record:
     status : the worst status of the case's solvers. where : if not converged, where that happened, in words.
     errors : error bars of figures by their fields' names, SI; None for a figure that does not converge. Summary and
         dataset have them beside the figures, under `error_key`; a figure that is not named has no bar.
+    scatters : fields of figures whose error over repetitions is their scatter alone, where nothing else is known of it.
     """
+
+    scatters: ClassVar[tuple[str, ...]] = ()
 
     status: Status = dataclasses.field(default=Status.CONVERGED, kw_only=True)
     where: str = dataclasses.field(default="", kw_only=True)
@@ -197,6 +203,12 @@ def figures(record: type[Record]) -> Mapping[str, str]:
     return {item.key(name): name for name, item in described(record).items() if isinstance(item, Figure)}
 
 
+def without_bars(record: type[Record]) -> Mapping[str, str]:
+    """Why figures never have an error bar, by the names of their fields."""
+    known = described(record).items()
+    return {name: item.no_bar for name, item in known if isinstance(item, Figure) and item.no_bar}
+
+
 def headline(record: type[Record]) -> tuple[str, ...]:
     """Names in the summary of those figures of a record that are shown first."""
     known = described(record).items()
@@ -238,6 +250,11 @@ def spread(values: list[Any]) -> float:
 def standard_error(values: list[Any]) -> float:
     """Standard error of the mean of the numbers among the values, 0 of fewer than two."""
     return spread(values) / math.sqrt(max(len(_finite(values)), 1))
+
+
+def scatter(values: list[Any]) -> float | None:
+    """`standard_error` where it can be known: None of fewer than two numbers."""
+    return standard_error(values) if len(_finite(values)) > 1 else None
 
 
 def _finite(values: list[Any]) -> list[float]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -203,14 +203,25 @@ def _reported(quantity: str) -> Figure:
     )
 
 
+FOLLOWS_CELL = (
+    "it follows the mesh, for the criterion has no length but the cell and most pieces are of one cell or a few"
+)
+"""Why a mean by number, and a count, has no error bar."""
+
+
 def _by(weight: str, quantity: str) -> Figure:
-    return Figure("nm", f"{quantity} of the particles, mean {weight}")
+    return Figure(
+        "nm", f"{quantity} of the particles, mean {weight}", no_bar=FOLLOWS_CELL if "number" in weight else ""
+    )
 
 
 @dataclass(frozen=True, eq=False)
 class MeanSizes(Record):
     """Mean sizes of the settled particles: the reported one, and by number, area, volume, and number above a size."""
 
+    scatters: ClassVar[tuple[str, ...]] = (
+        *(f"{weight}_{quantity}" for weight in ("reported", "area_mean", "volume_mean") for quantity in _QUANTITIES),
+    )
     reported_equivalent_radius: Annotated[float, _reported("equivalent radius")]
     reported_length: Annotated[float, _reported("length")]
     reported_width: Annotated[float, _reported("width")]
@@ -242,6 +253,11 @@ def mean_sizes(particles: NDArray[np.void], sizes: SizesScene) -> dict[str, Any]
         for weight, values in statistics.items()
         for quantity, value in values.items()
     }
+
+
+def sizes_without_bars(sizes: SizesScene) -> dict[str, None]:
+    """The reported sizes, where the mean that is reported follows the mesh."""
+    return dict.fromkeys(f"reported_{quantity}" for quantity in _QUANTITIES) if "number" in sizes.report else {}
 
 
 def size_statistics(particles: NDArray[np.void], smallest: float) -> dict[str, dict[str, float]]:

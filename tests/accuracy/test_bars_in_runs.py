@@ -5,13 +5,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from bem.campaigns.collect import _figures, outcome_of
+from bem.campaigns.collect import _barred, _figures, outcome_of
 from bem.plots.report import with_error
 from bem.runs import run_scene
 from bem.scenes.context import PlainContext
 from bem.scenes.kinds import get_kind
+from bem.scenes.kinds.running_in import RunningInRecord
+from bem.scenes.kinds.wear import WearRecord
 from bem.scenes.load import load_scene
-from bem.scenes.records import Figure
+from bem.scenes.records import Figure, Series, described, without_bars
 
 SCENE = {
     "kind": "contact",
@@ -20,6 +22,10 @@ SCENE = {
     "shape": {"kind": "sphere", "radius": "1 mm"},
     "contact": {"load": "0.1 N"},
 }
+
+
+def figures_of(record):
+    return {name: item for name, item in described(record).items() if isinstance(item, Figure)}
 
 
 def outcome(**changes):
@@ -47,7 +53,7 @@ def test_the_error_of_a_mean_over_repetitions_has_its_standard_error():
     told = {"load": Figure("N", "load"), "friction": Figure("", "friction", ("speed",)), "area": Figure("m2", "area")}
 
     def record(load, friction, errors):
-        return SimpleNamespace(load=load, friction=np.array(friction), area=1.0, errors=errors)
+        return SimpleNamespace(load=load, friction=np.array(friction), area=1.0, errors=errors, scatters=())
 
     records = [
         record(1.0, [0.1, 0.2], {"load": 0.1, "friction": np.array([0.01, np.nan])}),
@@ -86,3 +92,62 @@ def test_the_report_shows_errors_beside_figures(tmp_path):
     assert "±" in page
     assert "approach m error" not in page
     assert run.summary["approach_m_error"] > 0
+
+
+WEAR = {
+    "kind": "wear",
+    "lower": {
+        "material": "steel-disk",
+        "surface": {"kind": "generated", "rms_height": "50 nm", "correlation_length": "4 um"},
+    },
+    "upper": {"material": "steel-cylinder"},
+    "cylinder": {"radius": "1 mm", "width": "1 mm", "loads": ["5 N"], "hardness": "2 GPa"},
+    "domain": {"cells": 24, "half_widths": 3.0},
+    "depths": {"count": 8, "spacing": "200 nm"},
+    "cycles": {"count": 3, "settled": 2},
+}
+
+
+def wear_record(radius):
+    """A record of the kind with the same numbers in every figure but the radius."""
+    known = described(WearRecord)
+    series = {name: np.ones((1,) * len(item.dimensions)) for name, item in known.items() if isinstance(item, Series)}
+    values = dict.fromkeys(known, 1.0) | series
+    return WearRecord(**{**values, "volume_mean_equivalent_radius": radius})
+
+
+def test_what_follows_the_mesh_has_null_and_says_why():
+    found = _figures(figures_of(WearRecord), [wear_record(1e-7)], _barred([wear_record(1e-7)]))
+    assert found["number_mean_equivalent_radius_nm_error"] is None
+    assert found["particles_per_cycle_error"] is None
+    assert "volume_mean_equivalent_radius_nm_error" not in found
+    assert with_error("particles_per_cycle", found)[1] == "1 (no error bar)"
+
+
+def test_scatter_over_repetitions_is_the_only_bar_of_a_wear_loop():
+    records = [wear_record(radius) for radius in (1e-7, 3e-7)]
+    found = _figures(figures_of(WearRecord), records, _barred(records))
+    assert found["volume_mean_equivalent_radius_nm_error"] == pytest.approx(100.0)
+    # a mesh's figure gets no bar by repeating it
+    assert found["number_mean_equivalent_radius_nm_error"] is None
+    # one repetition that is left tells no scatter
+    assert (
+        _figures(figures_of(WearRecord), [records[0], None], _barred(records))["volume_mean_equivalent_radius_nm_error"]
+        is None
+    )
+
+
+@pytest.mark.parametrize("record", [WearRecord, RunningInRecord])
+def test_scattering_figures_are_figures_that_have_none_of_the_meshs(record):
+    assert set(record.scatters) <= set(figures_of(record)) - set(without_bars(record))
+
+
+def test_the_run_says_which_figures_follow_the_mesh_and_what_its_bars_are(tmp_path):
+    run = run_scene({**WEAR, "repetitions": 2}, tmp_path / "run", figures=True)
+    notes = " ".join(run.summary["notes"])
+    assert "no error bar for" in notes
+    assert "follows the mesh" in notes
+    assert "scatter over 2 repetitions alone" in notes
+    assert run.summary["number_mean_equivalent_radius_nm_error"] is None
+    assert run.summary["Sq_final_nm_error"] == pytest.approx(run.summary["Sq_final_nm_spread"] / np.sqrt(2))
+    assert "follows the mesh" in (tmp_path / "run" / "report.html").read_text()

@@ -8,14 +8,15 @@ from bem.accuracy import march_bars
 from reports.experiments.march_error_bars import done, draw, rows_of
 
 
-def test_a_bar_is_the_sum_of_its_parts_and_a_time_is_known_to_its_step():
+def test_a_bar_is_the_sum_of_its_parts():
     words, case = draw(np.random.default_rng(5))
     case = done(case)
     bars = march_bars(case)
     assert set(bars.parts) == {"film points", "time steps", "residual"}, words
     for name, value in bars.values.items():
         assert value == sum(part[name] for part in bars.parts.values())
-    assert bars.values["thinnest_film_time"] >= 0.5 * np.diff(case.times).max()
+    # its bar covered 69 % of errors
+    assert "thinnest_film_time" not in bars.values
 
 
 def test_a_march_of_few_steps_has_no_bars():

@@ -138,6 +138,9 @@ def plan(scene: FilmScene) -> Plan:
     )
 
 
+_JUMPS = "a film is often nearly as thin at several times, and other steps may pick another of them"
+
+
 @dataclass(frozen=True, eq=False)
 class FilmTimeRecord(Record):
     """A film in time."""
@@ -145,7 +148,7 @@ class FilmTimeRecord(Record):
     times_reported: Annotated[FloatArray, Figure("s", "time", ("reported",), name="time")]
     minimum_film_reported: Annotated[FloatArray, Figure("nm", "minimum film", ("reported",), name="minimum_film")]
     thinnest_film: Annotated[float, Figure("nm", "thinnest film of all times", headline=True)]
-    thinnest_film_time: Annotated[float, Figure("s", "when it is that thin", headline=True)]
+    thinnest_film_time: Annotated[float, Figure("s", "when it is that thin", headline=True, no_bar=_JUMPS)]
     film_at_end: Annotated[float, Figure("nm", "minimum film at the end", headline=True)]
     largest_friction_force: Annotated[float, Figure("N", "largest friction force")]
     volume_imbalance: Annotated[float, Figure("", "volume that appears or goes, over that in the film", headline=True)]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,7 @@ from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.units import Ratio
 from bem.scenes.wearing import (
+    FOLLOWS_CELL,
     Count,
     IntArray,
     LastCycles,
@@ -153,14 +154,22 @@ def _shown(unit: str, text: str) -> Series:
     return Series(("x", "y"), unit, text, of="first")
 
 
+_FOLLOWS_CELL = f"{FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
+
+
 @dataclass(frozen=True, eq=False)
 class RunningInRecord(Record):
     """A lubricated wear loop: friction before and after, particles, histories, the last film and surface."""
 
+    scatters: ClassVar[tuple[str, ...]] = (
+        *("friction_initial", "friction_run_in", "friction", "boundary_friction_part", "film_friction_part"),
+        *("Sq_initial", "Sq_final", "worn_depth", "contact_load_initial", "contact_load", "film_load", "lambda_ratio"),
+        *("minimum_film", "contact_area_fraction"),
+    )
     friction_initial: Annotated[float, Figure("", "friction in the first cycle", headline=True)]
     friction_run_in: Annotated[float, Figure("", "friction, mean of the last cycles", headline=True)]
     particle_equivalent_radius: Annotated[
-        float, Figure("nm", "equivalent radius of the particles, settled", headline=True)
+        float, Figure("nm", "equivalent radius of the particles, settled", headline=True, no_bar=_FOLLOWS_CELL)
     ]
     Sq_initial: Annotated[float, Figure("nm", "Sq in Hertz' strip, unworn", headline=True)]
     Sq_final: Annotated[float, Figure("nm", "Sq in Hertz' strip, run in", headline=True)]
@@ -174,14 +183,14 @@ class RunningInRecord(Record):
     minimum_film: Annotated[float, Figure("nm", "minimum film thickness, run in")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over patch, run in")]
     worn_depth: Annotated[float, Figure("nm", "mean depth worn in Hertz' strip")]
-    particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled")]
-    particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle")]
-    particles_last_cycles: Annotated[float, Figure("", "particles of the last cycles")]
+    particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled", no_bar=FOLLOWS_CELL)]
+    particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle", no_bar=FOLLOWS_CELL)]
+    particles_last_cycles: Annotated[float, Figure("", "particles of the last cycles", no_bar=FOLLOWS_CELL)]
     film_table_error: Annotated[float, Figure("", "error of the film that is interpolated in the table")]
     evaluations_per_cycle: Annotated[float, Figure("", "films per cycle")]
     convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle")]
-    number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number")]
-    volume_mean_radius: Annotated[float, Figure("nm", "the same, mean by volume")]
+    number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number", no_bar=FOLLOWS_CELL)]
+    volume_mean_radius: Annotated[float, Figure("nm", "the same, mean by volume", no_bar=_FOLLOWS_CELL)]
     cycle: Annotated[IntArray, _over("1", "cycle")]
     friction_over_cycles: Annotated[FloatArray, _over("1", "coefficient of friction")]
     film_load_over_cycles: Annotated[FloatArray, _over("N", "load carried by the film")]

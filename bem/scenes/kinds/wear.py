@@ -6,7 +6,7 @@ A case is one load, one variant and one pair of surfaces; sizes are means over t
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -34,6 +34,7 @@ from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, filled
 from bem.scenes.units import Length, Ratio
 from bem.scenes.wearing import (
+    FOLLOWS_CELL,
     IntArray,
     LastCycles,
     MeanSizes,
@@ -44,6 +45,7 @@ from bem.scenes.wearing import (
     cycle_steps,
     mean_sizes,
     particle_rows,
+    sizes_without_bars,
     sliding_heights,
     wear_loop,
 )
@@ -256,7 +258,14 @@ def plan(scene: WearScene) -> Plan:
 class WearRecord(MeanSizes):
     """What a wear loop gives: means over its settled cycles, tables over cycles and particles, the worn surface."""
 
-    particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled", headline=True)]
+    scatters: ClassVar[tuple[str, ...]] = (
+        *MeanSizes.scatters,
+        *("Sq_initial", "Sq_final", "contact_area_fraction", "mean_contact_pressure", "worn_volume_per_cycle"),
+        "first_cycles_radius",
+    )
+    particles_per_cycle: Annotated[
+        float, Figure("", "particles per cycle, settled", headline=True, no_bar=FOLLOWS_CELL)
+    ]
     Sq_initial: Annotated[float, Figure("nm", "Sq in the contact strip, unworn", headline=True)]
     Sq_final: Annotated[float, Figure("nm", "Sq in the contact strip, run in", headline=True)]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the slice", headline=True)]
@@ -272,8 +281,12 @@ class WearRecord(MeanSizes):
     depths_computed_per_cycle: Annotated[float, Figure("", "depths at which stress was computed, per cycle")]
     convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle")]
     wear_volume: Annotated[float | None, Figure("mm3", "worn volume by Archard's law", optional=True)] = None
-    particle_number: Annotated[float | None, Figure("", "number of particles in it", optional=True)] = None
-    particles_per_mm_and_N: Annotated[float | None, Figure("", "particles per mm and N", optional=True)] = None
+    particle_number: Annotated[
+        float | None, Figure("", "number of particles in it", optional=True, no_bar=FOLLOWS_CELL)
+    ] = None
+    particles_per_mm_and_N: Annotated[
+        float | None, Figure("", "particles per mm and N", optional=True, no_bar=FOLLOWS_CELL)
+    ] = None
     cycle: Annotated[IntArray, Series(("cycle",), "1", "cycle")]
     radius: Annotated[FloatArray, Series(("cycle",), "m", "volume-mean equivalent radius of the particles")]
     particles: Annotated[FloatArray, Series(("cycle",), "1", "particles per cycle")]
@@ -374,6 +387,7 @@ def _record(
         height_after=after,
         pressure=pressure,
         removed=result.state.removed,
+        errors=sizes_without_bars(scene.sizes),
     )
 
 
