@@ -86,7 +86,7 @@ def _summary(
     each = repeated or 1
     told = {name: item for name, item in known.items() if isinstance(item, Figure) and _is_told(name, item, records)}
     common = {name: item for name, item in told.items() if item.dimensions == (name,)}
-    barred = _barred(records)
+    barred, scattering = _barred(records), set(campaign.kind.record.scatters)
     groups = []
     for index, place in enumerate(np.ndindex(*(len(axis) for axis in outer))):
         own = {
@@ -95,7 +95,8 @@ def _summary(
             if axis.always
         }
         members = records[index * each : (index + 1) * each]
-        groups.append(own | _figures({n: item for n, item in told.items() if n not in common}, members, barred))
+        here = {n: item for n, item in told.items() if n not in common}
+        groups.append(own | _figures(here, members, barred, scattering))
     summary: dict[str, Any] = {}
     for name, item in common.items():
         summary[item.key(name)] = item.shown(next(getattr(r, name) for r in records if r is not None))
@@ -138,13 +139,14 @@ def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[
     return found
 
 
-def _figures(told: Mapping[str, Figure], records: Sequence[Record | None], barred: set[str]) -> dict[str, Any]:
+def _figures(
+    told: Mapping[str, Figure], records: Sequence[Record | None], barred: set[str], scattering: set[str]
+) -> dict[str, Any]:
     """The figures of one case over its repetitions: mean, spread and each, or the value where there is only one.
 
     The error of a mean is the mean of errors, which are of one sign, and the standard error of the mean, or this alone
-    where the record says so; the scatter stands apart as well.
+    where it is `scattering`; the scatter stands apart as well.
     """
-    scattering = {name for record in records if record is not None for name in record.scatters} - barred
     found: dict[str, Any] = {}
     for name, figure in told.items():
         values = [None if record is None else figure.shown(getattr(record, name)) for record in records]

@@ -53,13 +53,13 @@ def test_the_error_of_a_mean_over_repetitions_has_its_standard_error():
     told = {"load": Figure("N", "load"), "friction": Figure("", "friction", ("speed",)), "area": Figure("m2", "area")}
 
     def record(load, friction, errors):
-        return SimpleNamespace(load=load, friction=np.array(friction), area=1.0, errors=errors, scatters=())
+        return SimpleNamespace(load=load, friction=np.array(friction), area=1.0, errors=errors)
 
     records = [
         record(1.0, [0.1, 0.2], {"load": 0.1, "friction": np.array([0.01, np.nan])}),
         record(3.0, [0.1, 0.4], {"load": 0.3, "friction": np.array([0.03, np.nan])}),
     ]
-    found = _figures(told, records, {"load", "friction"})
+    found = _figures(told, records, {"load", "friction"}, set())
     # standard deviation of 1 and 3 over the root of two: 1
     assert found["load_N_error"] == pytest.approx(0.2 + 1.0)
     assert found["load_N_spread"] == pytest.approx(np.sqrt(2))
@@ -108,6 +108,9 @@ WEAR = {
 }
 
 
+SCATTERS = set(WearRecord.scatters)
+
+
 def wear_record(radius):
     """A record of the kind with the same numbers in every figure but the radius."""
     known = described(WearRecord)
@@ -117,7 +120,7 @@ def wear_record(radius):
 
 
 def test_what_follows_the_mesh_has_null_and_says_why():
-    found = _figures(figures_of(WearRecord), [wear_record(1e-7)], _barred([wear_record(1e-7)]))
+    found = _figures(figures_of(WearRecord), [wear_record(1e-7)], _barred([wear_record(1e-7)]), SCATTERS)
     assert found["number_mean_equivalent_radius_nm_error"] is None
     assert found["particles_per_cycle_error"] is None
     assert "volume_mean_equivalent_radius_nm_error" not in found
@@ -126,13 +129,15 @@ def test_what_follows_the_mesh_has_null_and_says_why():
 
 def test_scatter_over_repetitions_is_the_only_bar_of_a_wear_loop():
     records = [wear_record(radius) for radius in (1e-7, 3e-7)]
-    found = _figures(figures_of(WearRecord), records, _barred(records))
+    found = _figures(figures_of(WearRecord), records, _barred(records), SCATTERS)
     assert found["volume_mean_equivalent_radius_nm_error"] == pytest.approx(100.0)
     # a mesh's figure gets no bar by repeating it
     assert found["number_mean_equivalent_radius_nm_error"] is None
     # one repetition that is left tells no scatter
     assert (
-        _figures(figures_of(WearRecord), [records[0], None], _barred(records))["volume_mean_equivalent_radius_nm_error"]
+        _figures(figures_of(WearRecord), [records[0], None], _barred(records), SCATTERS)[
+            "volume_mean_equivalent_radius_nm_error"
+        ]
         is None
     )
 
