@@ -86,7 +86,7 @@ def _summary(
     each = repeated or 1
     told = {name: item for name, item in known.items() if isinstance(item, Figure) and _is_told(name, item, records)}
     common = {name: item for name, item in told.items() if item.dimensions == (name,)}
-    barred, scattering = _barred(records), set(campaign.kind.record.scatters)
+    barred, scattering = _barred(records) | _never_barred(campaign).keys(), set(campaign.kind.record.scatters)
     groups = []
     for index, place in enumerate(np.ndindex(*(len(axis) for axis in outer))):
         own = {
@@ -114,7 +114,13 @@ def _is_told(name: str, figure: Figure, records: Sequence[Record | None]) -> boo
 
 def _barred(records: Sequence[Record | None]) -> set[str]:
     """Figures that have error bars, or null for one, in any case."""
-    return {name for record in records if record is not None for name in (*record.errors, *without_bars(type(record)))}
+    return {name for record in records if record is not None for name in record.errors}
+
+
+def _never_barred(campaign: Campaign) -> Mapping[str, str]:
+    """Why figures of the kind never have a bar; none of them where no error bars are wanted."""
+    wanted = getattr(getattr(campaign.scene, "outputs", None), "errors", True)
+    return without_bars(campaign.kind.record) if wanted else {}
 
 
 def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[str]:
@@ -126,7 +132,7 @@ def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[
         if isinstance(item, Figure) and _is_told(name, item, records)
     }
     reasons: dict[str, list[str]] = {}
-    for name, why in without_bars(record).items():
+    for name, why in _never_barred(campaign).items():
         if name in told:
             reasons.setdefault(why, []).append(told[name])
     found = [f"no error bar for {', '.join(names)}: {why}" for why, names in reasons.items()]

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from bem.campaigns.collect import _barred, _figures, outcome_of
+from bem.campaigns.collect import _figures, outcome_of
 from bem.plots.report import with_error
 from bem.runs import run_scene
 from bem.scenes.context import PlainContext
@@ -108,7 +108,7 @@ WEAR = {
 }
 
 
-SCATTERS = set(WearRecord.scatters)
+MESHS, SCATTERS = set(without_bars(WearRecord)), set(WearRecord.scatters)
 
 
 def wear_record(radius):
@@ -120,7 +120,7 @@ def wear_record(radius):
 
 
 def test_what_follows_the_mesh_has_null_and_says_why():
-    found = _figures(figures_of(WearRecord), [wear_record(1e-7)], _barred([wear_record(1e-7)]), SCATTERS)
+    found = _figures(figures_of(WearRecord), [wear_record(1e-7)], MESHS, SCATTERS)
     assert found["number_mean_equivalent_radius_nm_error"] is None
     assert found["particles_per_cycle_error"] is None
     assert "volume_mean_equivalent_radius_nm_error" not in found
@@ -129,15 +129,13 @@ def test_what_follows_the_mesh_has_null_and_says_why():
 
 def test_scatter_over_repetitions_is_the_only_bar_of_a_wear_loop():
     records = [wear_record(radius) for radius in (1e-7, 3e-7)]
-    found = _figures(figures_of(WearRecord), records, _barred(records), SCATTERS)
+    found = _figures(figures_of(WearRecord), records, MESHS, SCATTERS)
     assert found["volume_mean_equivalent_radius_nm_error"] == pytest.approx(100.0)
     # a mesh's figure gets no bar by repeating it
     assert found["number_mean_equivalent_radius_nm_error"] is None
     # one repetition that is left tells no scatter
     assert (
-        _figures(figures_of(WearRecord), [records[0], None], _barred(records), SCATTERS)[
-            "volume_mean_equivalent_radius_nm_error"
-        ]
+        _figures(figures_of(WearRecord), [records[0], None], MESHS, SCATTERS)["volume_mean_equivalent_radius_nm_error"]
         is None
     )
 

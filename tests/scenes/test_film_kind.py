@@ -45,8 +45,10 @@ def test_stop_and_start():
 
 def test_figures_have_their_errors():
     summary = run().summary
-    for name in ("thinnest_film_nm", "thinnest_film_time_s", "film_at_end_nm", "largest_friction_force_N"):
+    for name in ("thinnest_film_nm", "film_at_end_nm", "largest_friction_force_N"):
         assert 0 < summary[f"{name}_error"] < summary[name], name
+    # its bar covered 69 % of errors
+    assert summary["thinnest_film_time_s_error"] is None
     assert "volume_imbalance_error" not in summary
     assert not [key for key in run({"outputs": {"errors": False}}).summary if key.endswith("_error")]
 
