@@ -15,6 +15,7 @@ from bem.scenes.laws import LawKey
 from bem.scenes.template import _about, _default, scene_template
 from bem.scenes.validate import _fields, _literals, _unwrap, _without_none
 from reports.builder import Page, Section, table, text
+from reports.error_bars import chapter
 from reports.prose import prose
 
 _WORDS = prose("guide")
@@ -37,7 +38,10 @@ EFFECTS: dict[str, str] = prose("options")
 def build() -> Page:
     """The guide as one page."""
     return Page(
-        "guide", "Guide", _WORDS["lead"], [*_using(), *_scenes(), *_options(), *_theory(), *_contributing(), *_kinds()]
+        "guide",
+        "Guide",
+        _WORDS["lead"],
+        [*_using(), *_scenes(), *_options(), *chapter(), *_theory(), *_contributing(), *_kinds()],
     )
 
 

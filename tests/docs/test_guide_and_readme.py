@@ -20,7 +20,7 @@ from bem.scenes import get_kind, kind_names, library
 from bem.scenes.load import load_scene
 from bem.scenes.ranges import parse_axes
 from bem.surfaces import formats
-from reports import guide
+from reports import error_bars, guide
 from reports.builder import render
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -226,3 +226,12 @@ def test_tab_completion_installs_and_completes(tmp_path):
         capture_output=True, text=True, timeout=60, check=False,
     )  # fmt: skip
     assert kinds.stdout.split() == ["contact"]
+
+
+def test_the_guide_reads_what_error_bars_covered_from_the_stored_experiments(page):
+    found = error_bars.measured()
+    stored = {path.name.removesuffix("_error_bars.json") for path in error_bars.RESULTS.glob("*_error_bars.json")}
+    assert set(found) == stored  # none is left out
+    row = found["march"]["figures"]["film_at_end"]
+    assert f"<td>{row['covered']:.0%}</td><td>{row['median_ratio']:.1f}</td>" in page.replace("\n", "")
+    assert "follows the mesh" in page

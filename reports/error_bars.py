@@ -1,0 +1,69 @@
+"""How wrong a figure is: the guide's chapter, its numbers read from the stored experiments."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from bem.scenes import get_kind, kind_names
+from bem.scenes.records import Figure, described, without_bars
+from reports.builder import Section, table, text
+from reports.prose import prose
+
+_WORDS = prose("guide")["error_bars"]
+RESULTS = Path(__file__).parent / "results"
+
+
+def measured() -> dict[str, dict[str, Any]]:
+    """What each stored experiment on error bars found, by the name of what it drew, in the order of the prose."""
+    return {name: json.loads((RESULTS / f"{name}_error_bars.json").read_text("utf-8")) for name in _WORDS["drawn"]}
+
+
+def chapter() -> list[Section]:
+    """What a bar is, what it covered, and what has none."""
+    return [
+        Section("How wrong a figure is", "".join(text(item) for item in _WORDS["lead"])),
+        Section(
+            "What bars are made of",
+            table(("where", "what is solved again, and what its difference becomes"), list(_WORDS["made"].items())),
+            level=3,
+        ),
+        Section(
+            "What they covered",
+            text(_WORDS["covered"])
+            + table(
+                ("drawn at random", "figure", "bars", "covered", "bar over error, median", "error, median"),
+                list(_covered()),
+            ),
+            level=3,
+        ),
+        Section("What has none", text(_WORDS["none"]) + table(("kind", "figures", "why"), list(_without())), level=3),
+    ]
+
+
+def _covered() -> Iterator[tuple[str, ...]]:
+    for name, found in measured().items():
+        for figure, row in found["figures"].items():
+            yield (
+                f"{found['cases']} {_WORDS['drawn'][name]}",
+                figure.replace("_", " ").replace("von mises", "von Mises"),
+                str(row["bars"]),
+                f"{row['covered']:.0%}",
+                f"{row['median_ratio']:.1f}",
+                f"{row['median_relative_error']:.2g}",
+            )
+
+
+def _without() -> Iterator[tuple[str, ...]]:
+    for kind in kind_names():
+        record = get_kind(kind).record
+        known = described(record)
+        reasons: dict[str, list[str]] = {}
+        for name, why in without_bars(record).items():
+            item = known[name]
+            assert isinstance(item, Figure)
+            reasons.setdefault(why, []).append(" ".join((item.name or name).split("_")))
+        for why, names in reasons.items():
+            yield kind, ", ".join(names), why
