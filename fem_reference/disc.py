@@ -8,6 +8,7 @@ Jacobian of the meridian is r; the integrals over the angle give the same factor
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from itertools import accumulate
 from typing import Any
 
@@ -206,29 +207,17 @@ def _curves(solution: Solution, harmonic: int, thicknesses: Sequence[float]) -> 
 
 
 def _weak_form(harmonic: int, pressure: str) -> WeakForm:
-    load_degree = None if pressure == "uniform" else 30
-    if harmonic == 0:
-        return WeakForm(
-            fields=2,
-            degree=DEGREE,
-            strain=strain_0,
-            weight=lambda x: x[0],
-            load=lambda v, x: _profile(pressure, x[0]) * v[1],
-            load_degree=load_degree,
-            held={"axis": [0], "end": None, "bottom": None},
-            rigid=[(0.0, 1.0)],
-        )
-    return WeakForm(
-        fields=3,
+    form = partial(
+        WeakForm,
         degree=DEGREE,
-        strain=strain_1,
         weight=lambda x: x[0],
-        # traction tau (cos t, -sin t): works on U - V = D
-        load=lambda v, x: _profile(pressure, x[0]) * v[1],
-        load_degree=load_degree,
-        held={"axis": [0, 2], "end": None, "bottom": None},
-        rigid=[(0.0, 2.0, 0.0)],
+        load=lambda v, x: _profile(pressure, x[0]) * v[1],  # of traction tau (cos t, -sin t): works on U - V = D
+        load_degree=None if pressure == "uniform" else 30,
     )
+    if harmonic == 0:
+        return form(fields=2, strain=strain_0, held={"axis": [0], "end": None, "bottom": None}, rigid=[(0.0, 1.0)])
+    held = {"axis": [0, 2], "end": None, "bottom": None}
+    return form(fields=3, strain=strain_1, held=held, rigid=[(0.0, 2.0, 0.0)])
 
 
 def _solve(

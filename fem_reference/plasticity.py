@@ -78,6 +78,20 @@ def solve_indentation(*, nu: float, sizes: Any, cells: int) -> Result:
     )
 
 
+def _over_size(
+    name: str,
+    unit: str,
+    sizes: list[float],
+    values: NDArray[np.float64],
+    bar: NDArray[np.float64],
+    order: float | None,
+    note: str,
+) -> Quantity:
+    """A curve over the contact size."""
+    places = as_coordinates([[size, 0, 0] for size in sizes])
+    return Quantity(name, unit, "a E* / (R sigma_y)", places, values.tolist(), bar.tolist(), order, note)
+
+
 def _plastic(curves: list[dict[str, NDArray[np.float64]]], relative: list[float], sizes: list[float]) -> list[Quantity]:
     """Mean pressure, approach and load of the plastic body over the contact size, from meshes of relative sizes."""
     quantities = []
@@ -91,18 +105,7 @@ def _plastic(curves: list[dict[str, NDArray[np.float64]]], relative: list[float]
         figures = estimate(relative, logarithms, expected_order=1.0)
         values = np.exp(figures.values)
         bar = np.maximum(figures.error_bar, 0.5 * np.sqrt(np.mean(figures.error_bar**2))) * values
-        quantities.append(
-            Quantity(
-                name,
-                unit,
-                "a E* / (R sigma_y)",
-                as_coordinates([[s, 0, 0] for s in sizes]),
-                values.tolist(),
-                bar.tolist(),
-                figures.order,
-                note,
-            )
-        )
+        quantities.append(_over_size(name, unit, sizes, values, bar, figures.order, note))
     return quantities
 
 
@@ -129,18 +132,8 @@ def _capped(load: NDArray[np.float64], sizes: list[float], nu: float) -> list[Qu
         ("contact_size_capped", "a E* / (R sigma_y)", radius, 0.5 * 1.3 / 104),
         ("approach_capped", "R (sigma_y / E*)^2", depth, 1e-3),
     ):
-        quantities.append(
-            Quantity(
-                name,
-                unit,
-                "a E* / (R sigma_y)",
-                as_coordinates([[s, 0, 0] for s in sizes]),
-                values.tolist(),
-                (error * values).tolist(),
-                None,
-                f"elastic body, pressure capped at {CAP:g} sigma_y, at the plastic body's load for that contact size",
-            )
-        )
+        note = f"elastic body, pressure capped at {CAP:g} sigma_y, at the plastic body's load for that contact size"
+        quantities.append(_over_size(name, unit, sizes, values, error * values, None, note))
     return quantities
 
 

@@ -65,6 +65,7 @@ _MESH = {
     "quick": (32, 64, 128),
     "warm_size": 24,
 }
+_STRESS: dict[str, Any] = {"error_name": "largest error over p0", "sizes": (64, 128, 256), "quick": (64, 128)}
 
 CASES = {
     case.name: case
@@ -95,26 +96,20 @@ CASES = {
             "stress",
             "Six stresses with traction, cells / 4 depths, kernels included",
             stress_of_sphere,
-            error_name="largest error over p0",
-            sizes=(64, 128, 256),
-            quick=(64, 128),
+            **_STRESS,
         ),
         _cells(
             "stress-warm",
             "Six stresses with traction, kernels known",
             functools.partial(stress_of_sphere, warm=True),
-            error_name="largest error over p0",
-            sizes=(64, 128, 256),
-            quick=(64, 128),
+            **_STRESS,
             threads=True,
         ),
         _cells(
             "von-mises-warm",
             "Von Mises only with traction, kernels known",
             functools.partial(stress_of_sphere, mises_only=True, warm=True),
-            error_name="largest error over p0",
-            sizes=(64, 128, 256),
-            quick=(64, 128),
+            **_STRESS,
             threads=True,
         ),
         Case(

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+
+import typer
 
 _FIRST_SHOWN_AFTER = 1.0  # seconds; shorter work needs no bar
 
@@ -62,6 +65,17 @@ class Terminal:
             self._bars.console.print(f"bem: {text}", markup=False, highlight=False)
         else:
             print(f"bem: {text}", file=sys.stderr)
+
+
+@contextmanager
+def resumable() -> Iterator[Terminal]:
+    """A terminal for work that can go on later: an interrupt says how, and ends the command with 130."""
+    with Terminal() as terminal:
+        try:
+            yield terminal
+        except KeyboardInterrupt:
+            terminal.say("interrupted; the same command with --resume goes on")
+            raise typer.Exit(130) from None
 
 
 def _bars() -> Any:

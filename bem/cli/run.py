@@ -75,7 +75,7 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
           bem run my-scene.toml --out first --set contact.load="5 N"
           bem run my-scene.toml --out first --resume
         """
-        from bem.cli._terminal import Terminal, print_files, print_numbers
+        from bem.cli._terminal import print_files, print_numbers, resumable
         from bem.runs import run_scene
         from bem.scenes import get_kind
         from bem.threads import set_threads
@@ -84,23 +84,19 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
             set_threads(threads)
         if resume and out is None and (Path(scene) / "scene.toml").is_file():
             out = Path(scene)
-        with Terminal() as terminal:
-            try:
-                done = run_scene(
-                    scene,
-                    out,
-                    settings=set_ or (),
-                    resume=resume,
-                    overwrite=overwrite,
-                    figures=figures,
-                    workers=workers,
-                    scheduler=scheduler,
-                    watcher=terminal,
-                    pdf=pdf,
-                )
-            except KeyboardInterrupt:
-                terminal.say("interrupted; the same command with --resume goes on")
-                raise typer.Exit(130) from None
+        with resumable() as terminal:
+            done = run_scene(
+                scene,
+                out,
+                settings=set_ or (),
+                resume=resume,
+                overwrite=overwrite,
+                figures=figures,
+                workers=workers,
+                scheduler=scheduler,
+                watcher=terminal,
+                pdf=pdf,
+            )
         if not terminal.printed:  # a run that was finished before
             print_numbers(done.summary, get_kind(done.summary["kind"]).headline)
         print_files(done.path)

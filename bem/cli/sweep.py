@@ -55,28 +55,24 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
         """
         import os
 
-        from bem.cli._terminal import Terminal
+        from bem.cli._terminal import resumable
 
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers share the cores already
         from bem.runs.sweep import DATASET, FIGURE, TABLE, run_sweep
 
-        with Terminal() as terminal:
-            try:
-                done = run_sweep(
-                    scene,
-                    over or (),
-                    out,
-                    settings=set_ or (),
-                    workers=workers,
-                    scheduler=scheduler,
-                    threads=threads,
-                    resume=resume,
-                    watcher=terminal,
-                    pdf=pdf,
-                )
-            except KeyboardInterrupt:
-                terminal.say("interrupted; the same command with --resume goes on")
-                raise typer.Exit(130) from None
+        with resumable() as terminal:
+            done = run_sweep(
+                scene,
+                over or (),
+                out,
+                settings=set_ or (),
+                workers=workers,
+                scheduler=scheduler,
+                threads=threads,
+                resume=resume,
+                watcher=terminal,
+                pdf=pdf,
+            )
         print(f"points computed: {done.computed}")
         for what, name in (("dataset", DATASET), ("table  ", TABLE), ("figure ", f"{FIGURE}.png")):
             if (done.path / name).exists():

@@ -62,6 +62,16 @@ def log_ratio(upper: float, lower: float, across: float) -> float:
 
 
 @nb.njit(**COMPILE)
+def powers(x: float, y: float, z: float) -> tuple[float, float, float, float, float]:
+    """R, 1/R, 1/R^3, s = 1/(R + z) and (2 R + z) s^2 / R^3: what point-force solutions are made of."""
+    r = np.sqrt(x * x + y * y + z * z)
+    inv = 1.0 / r
+    inv3 = inv * inv * inv
+    s = 1.0 / (r + z)
+    return r, inv, inv3, s, (2.0 * r + z) * inv3 * s * s
+
+
+@nb.njit(**COMPILE)
 def angle(u: float, v: float, z: float, r: float) -> float:
     """arctan(u v / (z r)); on z = 0 its limit from inside the body, 0 on an edge (the mean of both sides)."""
     return np.arctan2(u * v, z * r) if z > 0.0 else 0.5 * np.pi * np.sign(u) * np.sign(v)

@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, rule
+from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, powers, rule
 from bem.kernels.loads import DISPLACEMENT_PARITY, Load, clear_odd
 from bem.materials import Material
 
@@ -32,12 +32,8 @@ from bem.materials import Material
 @nb.njit(**COMPILE)
 def _point(x: float, y: float, z: float, nu: float, tangential: bool, weight: float, out: FloatArray) -> None:
     """Add `weight` times 4 pi G u of a unit point force at the origin."""
-    r = np.sqrt(x * x + y * y + z * z)
-    inv = 1.0 / r
-    inv3 = inv * inv * inv
-    s = 1.0 / (r + z)
+    _, inv, inv3, s, curl = powers(x, y, z)
     if tangential:
-        curl = (2.0 * r + z) * inv3 * s * s
         out[0] += weight * (2.0 * inv + 2.0 * nu * s * (x * x * inv * s - 1.0) - z * (inv * s - x * x * curl))
         out[1] += weight * x * y * (2.0 * nu * inv * s * s + z * curl)
         out[2] += weight * x * ((1.0 - 2.0 * nu) * inv * s + z * inv3)
@@ -67,26 +63,20 @@ def _chi_x(x0: float, x1: float, y0: float, y1: float, z: float) -> float:
 
 
 @nb.njit(**COMPILE)
+def _edge(far: float, near: float, side: float, z: float) -> float:
+    """Integral of 1/R along an edge; on the edge's own line it is multiplied by 0 or cancels, and counts as 0."""
+    across = np.sqrt(side * side + z * z)
+    return log_ratio(far, near, across) if across > 0.0 else 0.0
+
+
+@nb.njit(**COMPILE)
 def _corners(x: float, y: float, z: float, a: float, b: float, nu: float, tangential: bool, out: FloatArray) -> None:
     """Add 4 pi G u of unit load on |x| < a, |y| < b."""
     x0, x1, y0, y1 = x - a, x + a, y - b, y + b
-    v_x0 = 0.0
-    v_x1 = 0.0
-    v_y0 = 0.0
-    v_y1 = 0.0
-    newton = 0.0  # V
-    across = np.sqrt(x0 * x0 + z * z)
-    if across > 0.0:
-        v_x0 = log_ratio(y1, y0, across)
-    across = np.sqrt(x1 * x1 + z * z)
-    if across > 0.0:
-        v_x1 = log_ratio(y1, y0, across)
-    across = np.sqrt(y0 * y0 + z * z)
-    if across > 0.0:
-        v_y0 = log_ratio(x1, x0, across)
-    across = np.sqrt(y1 * y1 + z * z)
-    if across > 0.0:
-        v_y1 = log_ratio(x1, x0, across)
+    v_x0 = _edge(y1, y0, x0, z)
+    v_x1 = _edge(y1, y0, x1, z)
+    v_y0 = _edge(x1, x0, y0, z)
+    v_y1 = _edge(x1, x0, y1, z)
     newton = x1 * v_x1 - x0 * v_x0 + y1 * v_y1 - y0 * v_y0
     solid = 0.0  # -V_z
     chi_sum = 0.0  # chi_xx

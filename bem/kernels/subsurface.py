@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bem.grid import FloatArray
-from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, rule
+from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, powers, rule
 from bem.kernels.half_space import check_points
 from bem.kernels.loads import STRESS_PARITY, Load, clear_odd
 
@@ -40,12 +40,8 @@ Six = tuple[float, float, float, float, float, float]
 @nb.njit(**COMPILE)
 def _pressure_point(x: float, y: float, z: float, nu: float) -> Six:
     """2 pi times the six stresses of a unit point force into the body."""
-    r = np.sqrt(x * x + y * y + z * z)
-    inv = 1.0 / r
-    inv3 = inv * inv * inv
-    s = 1.0 / (r + z)
+    _, inv, inv3, s, curl = powers(x, y, z)
     plane = inv * s  # chi_xx = plane - x^2 curl, chi_xy = -x y curl
-    curl = (2.0 * r + z) * inv3 * s * s
     shear = 3.0 * z * inv3 * inv * inv  # z V_xy = x y shear
     k = 1.0 - 2.0 * nu
     direct = k * (z * inv3 - plane)  # 2nu V_z + z/R^3 - k plane
@@ -57,13 +53,9 @@ def _pressure_point(x: float, y: float, z: float, nu: float) -> Six:
 @nb.njit(**COMPILE)
 def _traction_point(x: float, y: float, z: float, nu: float) -> Six:
     """2 pi times the six stresses of a unit point force along +x."""
-    r = np.sqrt(x * x + y * y + z * z)
-    inv = 1.0 / r
-    inv3 = inv * inv * inv
-    s = 1.0 / (r + z)
+    r, inv, inv3, s, curl = powers(x, y, z)
     xx, yy = x * x, y * y
     plane = inv * s
-    curl = (2.0 * r + z) * inv3 * s * s
     shear = 3.0 * z * inv3 * inv * inv
     # third derivatives; s_x = -x plane s, plane_x = -x curl, curl_x = -x twist
     twist = inv3 * s * s * (-2.0 * inv + (2.0 * r + z) * inv * (3.0 * inv + 2.0 * s))
@@ -335,10 +327,8 @@ def rectangle_stress(
 
     Parameters
     ----------
-    x, y, depth : coordinates of the points [m], broadcast together; depth >= 0.
-    sides : (along x, along y), full sides of the rectangle [m].
+    x, y, depth, sides, load : as in `half_space.rectangle_displacement`.
     poissons_ratio : of the half-space.
-    load : unit pressure, or unit traction along +x.
 
     Returns
     -------

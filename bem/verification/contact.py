@@ -46,19 +46,8 @@ def curves(case: StoredCase) -> list[Curve]:
     found = []
     for curve in case.curves:
         kind = "pressure" if curve.name == "central_pressure" else curve.name
-        found.append(
-            Curve(
-                curve.name,
-                curve.along,
-                curve.unit,
-                curve.coordinates,
-                contact.values(curve),
-                curve.values,
-                curve.error_bar,
-                ALLOWANCE[shape].get(kind, STRESS_ALLOWANCE[shape]),
-                REASONS[shape],
-            )
-        )
+        allowance = ALLOWANCE[shape].get(kind, STRESS_ALLOWANCE[shape])
+        found.append(curve.beside(curve.name, contact.values(curve), allowance, REASONS[shape]))
     return found
 
 

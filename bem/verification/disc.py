@@ -43,19 +43,8 @@ def curves(case: StoredCase) -> list[Curve]:
         quantity = curve.name + (f" ({curve.side})" if curve.side else "")
         if curve.name == "tangential_displacement" and tangential:
             quantity += f", {curve.along.partition(', ')[2]}"
-        found.append(
-            Curve(
-                quantity,
-                curve.along,
-                curve.unit,
-                curve.coordinates,
-                values,
-                curve.values,
-                curve.error_bar,
-                STRESS[tangential] if stress else COUPLED if across else 5e-4,
-                REASON,
-            )
-        )
+        allowance = STRESS[tangential] if stress else COUPLED if across else 5e-4
+        found.append(curve.beside(quantity, values, allowance, REASON))
     return found
 
 

@@ -31,19 +31,7 @@ def curves(case: StoredCase) -> list[Curve]:
         if curve.along == "q h" and curve.name == "normal_displacement":
             sides.append((quantity, _operator))
         for name, compute in sides:
-            found.append(
-                Curve(
-                    name,
-                    curve.along,
-                    curve.unit,
-                    curve.coordinates,
-                    compute(case, curve),
-                    curve.values,
-                    curve.error_bar,
-                    1e-5,
-                    REASON,
-                )
-            )
+            found.append(curve.beside(name, compute(case, curve), 1e-5, REASON))
     return found
 
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from bem.errors import ResultsError
 from bem.grid import FloatArray
 from bem.materials import Body, Layer, Material
+from bem.verification.rows import Curve
 
 FORMAT = "fem-reference 1"
 STRESS_NAMES = ("stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz", "stress_xy")
@@ -39,6 +40,20 @@ class StoredCurve:
         """The chosen points."""
         return replace(
             self, coordinates=self.coordinates[keep], values=self.values[keep], error_bar=self.error_bar[keep]
+        )
+
+    def beside(self, quantity: str, values: FloatArray, allowance: float, reason: str) -> Curve:
+        """This curve and bem's values at the same points, to be judged with what bem's own mesh is allowed."""
+        return Curve(
+            quantity,
+            self.along,
+            self.unit,
+            self.coordinates,
+            values,
+            self.values,
+            self.error_bar,
+            allowance,
+            reason,
         )
 
     @property

@@ -40,26 +40,12 @@ def curves(case: StoredCase) -> list[Curve]:
         values = solution.values(curve)
         if values is not None:
             allowance = 1.5e-3 if curve.name.startswith("stress") else 5e-4
-            found.append(_pair(curve, quantity, values, allowance, REASON))
+            found.append(curve.beside(quantity, values, allowance, REASON))
         if case.body.homogeneous and load != "antiplane":
             closed = _closed(case, curve)
             if closed is not None:
-                found.append(_pair(curve, f"{quantity}, half-plane kernel", closed, 1e-5, EXACT))
+                found.append(curve.beside(f"{quantity}, half-plane kernel", closed, 1e-5, EXACT))
     return found
-
-
-def _pair(curve: StoredCurve, quantity: str, values: FloatArray, allowance: float, reason: str) -> Curve:
-    return Curve(
-        quantity,
-        curve.along,
-        curve.unit,
-        curve.coordinates,
-        values,
-        curve.values,
-        curve.error_bar,
-        allowance,
-        reason,
-    )
 
 
 class Strip:

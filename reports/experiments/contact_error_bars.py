@@ -10,9 +10,7 @@ stored in `reports/results/contact_error_bars.json`.
 
 from __future__ import annotations
 
-import json
 import math
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,6 +24,7 @@ from bem.accuracy.contact import is_resolved
 from bem.errors import Status
 from bem.stress import von_mises_planes
 from bem.surfaces import generate_surface
+from reports.experiments.judging import judge
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "contact_error_bars.json"
 FINER = 4
@@ -174,44 +173,9 @@ def rows_of(problem: Problem) -> list[dict[str, Any]]:
     ]
 
 
-def judged(rows: list[dict[str, Any]]) -> dict[str, dict[str, float]]:
-    """For each figure: how many bars, which share covers, the median of bar over error, how many have none. What is
-    prescribed or absent (no error, no bar to speak of) is not counted."""
-    result = {}
-    for name in dict.fromkeys(row["figure"] for row in rows):
-        own = [row for row in rows if row["figure"] == name]
-        known = [r for r in own if r["bar"] is not None and r["error"] > 1e-7 * abs(r["value"])]
-        if not known:
-            continue
-        ratios = [r["bar"] / r["error"] for r in known]
-        result[name] = {
-            "bars": len(known),
-            "covered": sum(ratio >= 1 for ratio in ratios) / len(known),
-            "median_ratio": float(np.median(ratios)),
-            "without": sum(r["bar"] is None for r in own),
-            "median_relative_error": float(
-                np.median([r["error"] / abs(r["value"]) for r in known if r["value"]] or [0])
-            ),
-        }
-    return result
-
-
-def run(cases: int, seed: int = 14) -> list[dict[str, Any]]:
-    """Rows of so many contacts."""
-    rng, rows = np.random.default_rng(seed), []
-    for _ in range(cases):
-        rows += rows_of(draw(rng))
-    return rows
-
-
 def main() -> None:
-    """Draw, solve, judge, store."""
-    cases = int(sys.argv[1]) if len(sys.argv) > 1 else 240
-    rows = run(cases)
-    verdict = judged(rows)
-    for name, row in verdict.items():
-        print(name, {key: round(value, 5) for key, value in row.items()})
-    RESULT.write_text(json.dumps({"cases": cases, "seed": 14, "figures": verdict, "rows": rows}, indent=1) + "\n")
+    """Judge the bars of so many."""
+    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=240)
 
 
 if __name__ == "__main__":

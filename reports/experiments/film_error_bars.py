@@ -10,9 +10,7 @@ stored in `reports/results/film_error_bars.json`.
 
 from __future__ import annotations
 
-import json
 import math
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -23,7 +21,7 @@ from bem import Lubricant, solve_line_film
 from bem.accuracy import FilmCase, film_bars, film_figures, solve_coarser_film
 from bem.accuracy.film import spike_is_unresolved
 from bem.errors import Status
-from reports.experiments.contact_error_bars import judged
+from reports.experiments.judging import judge
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "film_error_bars.json"
 FINER = 4
@@ -78,22 +76,9 @@ def rows_of(words: str, given: dict[str, Any]) -> list[dict[str, Any]]:
     ]
 
 
-def run(cases: int, seed: int = 14) -> list[dict[str, Any]]:
-    """Rows of so many films."""
-    rng, rows = np.random.default_rng(seed), []
-    for _ in range(cases):
-        rows += rows_of(*draw(rng))
-    return rows
-
-
 def main() -> None:
-    """Draw, solve, judge, store."""
-    cases = int(sys.argv[1]) if len(sys.argv) > 1 else 100
-    rows = run(cases)
-    verdict = judged(rows)
-    for name, row in verdict.items():
-        print(name, {key: round(value, 5) for key, value in row.items()})
-    RESULT.write_text(json.dumps({"cases": cases, "seed": 14, "figures": verdict, "rows": rows}, indent=1) + "\n")
+    """Judge the bars of so many."""
+    judge(lambda rng: rows_of(*draw(rng)), RESULT, cases=100)
 
 
 if __name__ == "__main__":

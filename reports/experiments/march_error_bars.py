@@ -10,9 +10,7 @@ stored in `reports/results/march_error_bars.json`.
 
 from __future__ import annotations
 
-import json
 import math
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -22,7 +20,7 @@ import numpy as np
 from bem import Lubricant
 from bem.accuracy import MarchCase, march_bars, march_figures
 from bem.errors import Status
-from reports.experiments.contact_error_bars import judged
+from reports.experiments.judging import judge
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "march_error_bars.json"
 FINER = 4
@@ -91,22 +89,9 @@ def rows_of(words: str, case: MarchCase) -> list[dict[str, Any]]:
     ]
 
 
-def run(cases: int, seed: int = 14) -> list[dict[str, Any]]:
-    """Rows of so many marches."""
-    rng, rows = np.random.default_rng(seed), []
-    for _ in range(cases):
-        rows += rows_of(*draw(rng))
-    return rows
-
-
 def main() -> None:
-    """Draw, solve, judge, store."""
-    cases = int(sys.argv[1]) if len(sys.argv) > 1 else 30
-    rows = run(cases)
-    verdict = judged(rows)
-    for name, row in verdict.items():
-        print(name, {key: round(value, 5) for key, value in row.items()})
-    RESULT.write_text(json.dumps({"cases": cases, "seed": 14, "figures": verdict, "rows": rows}, indent=1) + "\n")
+    """Judge the bars of so many."""
+    judge(lambda rng: rows_of(*draw(rng)), RESULT, cases=30)
 
 
 if __name__ == "__main__":

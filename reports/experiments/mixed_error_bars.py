@@ -11,9 +11,7 @@ capped and uncoupled asperities, alike and unlike bodies, films of 120 to 500 po
 
 from __future__ import annotations
 
-import json
 import math
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -28,7 +26,8 @@ from bem.friction.film import BALANCE_POINTS, SolvedFilm
 from bem.friction.load_sharing import solve_setup
 from bem.friction.setup import MixedSetup
 from bem.surfaces import generate_surface
-from reports.experiments.contact_error_bars import FloatArray, judged, waves_through
+from reports.experiments.contact_error_bars import FloatArray, waves_through
+from reports.experiments.judging import judge
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "mixed_error_bars.json"
 FINER = 4
@@ -125,22 +124,9 @@ def rows_of(problem: Problem) -> list[dict[str, Any]]:
     ]
 
 
-def run(cases: int, seed: int = 14) -> list[dict[str, Any]]:
-    """Rows of so many contacts."""
-    rng, rows = np.random.default_rng(seed), []
-    for _ in range(cases):
-        rows += rows_of(draw(rng))
-    return rows
-
-
 def main() -> None:
-    """Draw, solve, judge, store."""
-    cases = int(sys.argv[1]) if len(sys.argv) > 1 else 60
-    rows = run(cases)
-    verdict = judged(rows)
-    for name, row in verdict.items():
-        print(name, {key: round(value, 5) for key, value in row.items()})
-    RESULT.write_text(json.dumps({"cases": cases, "seed": 14, "figures": verdict, "rows": rows}, indent=1) + "\n")
+    """Judge the bars of so many."""
+    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=60)
 
 
 if __name__ == "__main__":

@@ -145,13 +145,16 @@ def depths_miss_the_largest_stress(facts: Facts) -> Iterator[str]:
             )
 
 
+def _depth_steps(facts: Facts) -> Iterator[tuple[float, Case]]:
+    """Distance of the depths of each case whose particles are made of voxels."""
+    if facts.of_kind("wear", "running-in"):
+        yield from ((case.depths[1] - case.depths[0], case) for case in facts.cases if len(case.depths) > 1)
+
+
 @scene_check
 def depths_coarser_than_cells(facts: Facts) -> Iterator[str]:
     """Pieces that leave are made of voxels: twice as deep as wide, their thickness is the mesh's."""
-    if not facts.of_kind("wear", "running-in"):
-        return
-    ratios = ((case.depths[1] - case.depths[0], case) for case in facts.cases if len(case.depths) > 1)
-    found = worst((step / min(case.grid.spacing), case) for step, case in ratios if case.grid is not None)
+    found = worst((step / min(case.grid.spacing), case) for step, case in _depth_steps(facts) if case.grid is not None)
     if found is not None and found[0] > 2:
         ratio, case = found
         yield (
@@ -163,17 +166,11 @@ def depths_coarser_than_cells(facts: Facts) -> Iterator[str]:
 @scene_check
 def layer_of_one_depth(facts: Facts) -> Iterator[str]:
     """A film that wears needs more than one voxel through its thickness."""
-    if not facts.of_kind("wear", "running-in"):
-        return
-    for case in facts.cases:
+    for step, case in _depth_steps(facts):
         for name, body in case.bodies.items():
-            if (
-                body.layer is not None
-                and len(case.depths) > 1
-                and case.depths[1] - case.depths[0] > body.layer.thickness
-            ):
+            if body.layer is not None and step > body.layer.thickness:
                 yield (
-                    f"depths.spacing {si(case.depths[1] - case.depths[0], 'm')} is more than the {name} layer's "
+                    f"depths.spacing {si(step, 'm')} is more than the {name} layer's "
                     f"thickness, {si(body.layer.thickness, 'm')}{case.at}: its particles are one depth thick; take a "
                     "third of it"
                 )

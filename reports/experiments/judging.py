@@ -1,0 +1,47 @@
+"""Error bars judged against true errors: cases drawn at random, their rows stored with the verdict for each figure."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+Rows = list[dict[str, Any]]
+
+
+def judge(rows_of_next: Callable[[np.random.Generator], Rows], path: Path, cases: int, seed: int = 14) -> None:
+    """Draw, solve, judge, store at `path`; so many cases, or as many as the command line says."""
+    cases = int(sys.argv[1]) if len(sys.argv) > 1 else cases
+    rng, rows = np.random.default_rng(seed), []
+    for _ in range(cases):
+        rows += rows_of_next(rng)
+    verdict = judged(rows)
+    for name, row in verdict.items():
+        print(name, {key: round(value, 5) for key, value in row.items()})
+    path.write_text(json.dumps({"cases": cases, "seed": seed, "figures": verdict, "rows": rows}, indent=1) + "\n")
+
+
+def judged(rows: Rows) -> dict[str, dict[str, float]]:
+    """For each figure: how many bars, which share covers, the median of bar over error, how many have none. What is
+    prescribed or absent (no error, no bar to speak of) is not counted."""
+    result = {}
+    for name in dict.fromkeys(row["figure"] for row in rows):
+        own = [row for row in rows if row["figure"] == name]
+        known = [r for r in own if r["bar"] is not None and r["error"] > 1e-7 * abs(r["value"])]
+        if not known:
+            continue
+        ratios = [r["bar"] / r["error"] for r in known]
+        result[name] = {
+            "bars": len(known),
+            "covered": sum(ratio >= 1 for ratio in ratios) / len(known),
+            "median_ratio": float(np.median(ratios)),
+            "without": sum(r["bar"] is None for r in own),
+            "median_relative_error": float(
+                np.median([r["error"] / abs(r["value"]) for r in known if r["value"]] or [0])
+            ),
+        }
+    return result
