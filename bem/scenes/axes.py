@@ -60,7 +60,12 @@ def listed(scene: Any, key: str, name: str, figure: Figure) -> Axis:
     return Axis(name, values, figure, lambda scene, i: changed(scene, key, [values[i]]))
 
 
-def variants(scene: Any, change: Callable[[Any, Any], Any], unnamed: str = "", always: bool = False) -> Axis:
+def variants(
+    scene: Any,
+    change: Callable[[Any, Any], Any] = lambda scene, variant: variant.applied(scene),
+    unnamed: str = "",
+    always: bool = False,
+) -> Axis:
     """The axis of the named tables in `variants`; `change(scene, variant)` makes the scene of one.
 
     unnamed : what a scene without variants is called. always : whether its summary says so.
@@ -73,12 +78,6 @@ def variants(scene: Any, change: Callable[[Any, Any], Any], unnamed: str = "", a
 
     names = tuple(item.name for item in found) or (unnamed,)
     return Axis("variant", names, Figure("", "variant"), pick, always=bool(found) or always)
-
-
-def given(variant: BaseModel) -> dict[str, Any]:
-    """What a named table of `variants` changes: its keys that are given."""
-    values = {key: getattr(variant, key) for key in type(variant).model_fields if key != "name"}
-    return {key: value for key, value in values.items() if value is not None}
 
 
 def with_keys(table: Model, values: Mapping[str, Any]) -> Model:

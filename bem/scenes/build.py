@@ -103,6 +103,14 @@ def both_heights(scene: Any, grid: Grid, context: Context) -> tuple[FloatArray, 
     return lower, upper
 
 
+def undeformed_gap(scene: Any, grid: Grid, lower: FloatArray, upper: FloatArray) -> FloatArray:
+    """Gap between rough surfaces of a scene's shape before deformation [m], zero at first touch."""
+    gap = shape_of(scene.shape, grid) - lower - upper
+    if lower.any() or upper.any():
+        gap -= gap.min()  # approach counts from first touch; smooth shapes touch at zero already
+    return gap
+
+
 def modulus_of(scene: Any) -> float:
     """Contact modulus of the substrates of a scene's two bodies [Pa]."""
     lower, upper = scene.lower.build(), scene.upper.build()

@@ -15,6 +15,8 @@ from bem.scenes.units import Density, Force, HeatCapacity, Length, Pressure, Rat
 PositiveLength = Annotated[Length, Field(gt=0)]
 PositivePressure = Annotated[Pressure, Field(gt=0)]
 Cells = Annotated[int, Field(strict=True, ge=1, le=65536)]
+Loads = Annotated[list[Annotated[Force, Field(gt=0)]], Field(min_length=1, max_length=64)]
+Repetitions = Annotated[int, Field(strict=True, ge=1, le=1000)]
 Axis = Literal["none", "x", "y", "both"]
 
 
@@ -35,6 +37,29 @@ def exactly_one(table: BaseModel, *names: str) -> None:
     if len(given) != 1:
         found = "none is given" if not given else f"{' and '.join(given)} are given"
         raise problem(found, f"exactly one of {', '.join(names)}")
+
+
+def one_for_both(value: Any) -> Any:
+    """One value as that of both axes."""
+    return (value, value) if isinstance(value, int | float | str) else value
+
+
+class Variant(Table):
+    """A case that differs from the scene in what is given here; kinds say which keys."""
+
+    name: Annotated[str, Field(min_length=1, max_length=60)]
+
+    def changes(self) -> dict[str, Any]:
+        """The keys that are given, with their values."""
+        values = {key: getattr(self, key) for key in type(self).model_fields if key != "name"}
+        return {key: value for key, value in values.items() if value is not None}
+
+
+class CylinderTable(Table):
+    """A cylinder along y on a flat; forces are on its full width."""
+
+    radius: PositiveLength
+    width: PositiveLength
 
 
 class MaterialScene(Table):
@@ -166,10 +191,7 @@ class MeasuredSurface(Table):
     mirror: Axis = "none"
     rms_height: PositiveLength | None = None
 
-    @field_validator("spacing", "crop", mode="before")
-    @classmethod
-    def _one_for_both(cls, value: Any) -> Any:
-        return (value, value) if isinstance(value, int | float | str) else value
+    _pairs = field_validator("spacing", "crop", mode="before")(one_for_both)
 
     @field_validator("path")
     @classmethod
@@ -263,10 +285,7 @@ class GridScene(Table):
     lengths: tuple[PositiveLength, PositiveLength] | None = None
     periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = (False, False)
 
-    @field_validator("shape", "spacing", "lengths", "periodic", mode="before")
-    @classmethod
-    def _one_for_both(cls, value: Any) -> Any:
-        return (value, value) if isinstance(value, bool | int | float | str) else value
+    _pairs = field_validator("shape", "spacing", "lengths", "periodic", mode="before")(one_for_both)
 
     @model_validator(mode="after")
     def _one_size(self) -> GridScene:
@@ -362,7 +381,7 @@ class SceneModel(Table):
     description: str = ""
     redoes: str = ""
     seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] = 1
-    repetitions: Annotated[int, Field(strict=True, ge=1, le=1000)] | None = None
+    repetitions: Repetitions | None = None
     over: dict[str, list[Any]] | None = None
     _source: dict[str, Any] | None = PrivateAttr(default=None)
 
@@ -387,21 +406,26 @@ __all__ = [
     "Axis",
     "BodyScene",
     "Cells",
+    "CylinderTable",
     "DepthsScene",
     "Force",
     "GeneratedSurface",
     "GridScene",
     "LayerScene",
+    "Loads",
     "MaterialScene",
     "MeasuredSurface",
     "PositiveLength",
     "PositivePressure",
+    "Repetitions",
     "SceneModel",
     "ShapeScene",
     "SmoothSurface",
     "SurfaceScene",
     "Table",
     "UpperBodyScene",
+    "Variant",
     "exactly_one",
+    "one_for_both",
     "problem",
 ]

@@ -21,9 +21,9 @@ from bem.scenes import build
 from bem.scenes.axes import Axis, changed
 from bem.scenes.common import (
     BodyScene,
-    Force,
+    CylinderTable,
     LineGridScene,
-    PositiveLength,
+    Loads,
     PositivePressure,
     SceneModel,
     Table,
@@ -90,16 +90,14 @@ class SpeedsScene(Table):
         return [(v, self.cylinder * v) for v in flat]
 
 
-class LubricatedScene(Table):
+class LubricatedScene(CylinderTable):
     """The contact as a whole: a cylinder along y on a flat. Loads are on its full width.
 
     Loads may be given as maximum Hertz pressures of the smooth contact instead. `hardness` defaults to the softer
     body's. `boundary_friction` is a coefficient, or a law with its parameters.
     """
 
-    radius: PositiveLength
-    width: PositiveLength
-    loads: Annotated[list[Annotated[Force, Field(gt=0)]], Field(min_length=1, max_length=64)] | None = None
+    loads: Loads | None = None
     hertz_pressures: Annotated[list[Annotated[Pressure, Field(gt=0)]], Field(min_length=1, max_length=64)] | None = None
     boundary_friction: Annotated[
         float | BoundaryFriction, LawOrNumber("boundary_friction", number=Annotated[Ratio, Field(ge=0, le=2)])

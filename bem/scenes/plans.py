@@ -6,6 +6,8 @@ tests/frugality/test_plans.py: counts of transforms and convolutions against run
 
 from __future__ import annotations
 
+from typing import Any
+
 from bem.grid import Grid
 from bem.laws import Law
 from bem.materials import Body
@@ -70,6 +72,21 @@ def traction_kernels(grid: Grid, lower: Body, upper: Body | None, friction: floa
         why = "no friction" if friction == 0 else "Dundurs' beta is zero: traction does not move the gap"
     memory = 8.0 * points / 4
     return Step("traction kernels", why, skipped=not coupled, transforms=20, points=points, memory=memory, per="grid")
+
+
+def of_bodies(scene: Any, grid: Grid, friction: float | Law, depths: int = 0) -> tuple[Step, Step, Step]:
+    """Heights of a scene's two bodies, the spectra of coated ones, and the kernels by which friction moves the gap.
+
+    Raises
+    ------
+    InputError : surfaces that cannot be generated on the grid.
+    """
+    lower, upper = scene.lower.build(), scene.upper.build()
+    return (
+        surfaces(grid, scene.lower.surface, scene.upper.surface),
+        layered_kernels(grid, lower, upper, depths),
+        traction_kernels(grid, lower, upper, friction),
+    )
 
 
 def convolutions(grid: Grid) -> float:

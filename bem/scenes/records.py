@@ -16,11 +16,12 @@ from __future__ import annotations
 import dataclasses
 import math
 import typing
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal, TypeVar
+from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bem.errors import Status
 
@@ -142,6 +143,14 @@ class Record:
     errors: Mapping[str, Any] = dataclasses.field(default_factory=dict, kw_only=True)
 
 
+@dataclass(frozen=True, eq=False)
+class GridRecord(Record):
+    """A case with maps on a grid of its own: where their cells are; x is along sliding."""
+
+    x: Annotated[NDArray[np.float64], Series(("x",), "m", "x, along sliding")]
+    y: Annotated[NDArray[np.float64], Series(("y",), "m", "y")]
+
+
 TELLING = {
     "speed": "m_s", "time": "s", "load": "N", "temperature": "C", "hardness": "Pa", "spacing": "um",
 }  # fmt: skip
@@ -173,6 +182,12 @@ def filled(record: type[Made], *sources: Any, **own: Any) -> Made:
         else:
             own |= {name: getattr(source, name) for name in wanted & set(dir(source))}
     return record(**own)
+
+
+def columns(rows: Iterable[Any], names: Iterable[str], prefix: str = "") -> dict[str, NDArray[Any]]:
+    """Attributes of many alike objects as arrays by their names, `prefix` before them."""
+    rows = tuple(rows)
+    return {f"{prefix}{name}": np.array([getattr(row, name) for row in rows]) for name in names}
 
 
 def error_key(name: str) -> str:

@@ -182,11 +182,39 @@ class SizesScene(Table):
         return result.particles[result.particles["body"] == body]
 
 
-def sliding_heights(
-    initial: tuple[FloatArray, FloatArray], result: RunningIn, grid: Grid
-) -> tuple[FloatArray, FloatArray]:
-    """Heights of the wearing body on the grid [m], unworn and run in."""
-    return initial[result.wearing[0]], result.worn_heights()[: grid.shape[0]]
+@dataclass(frozen=True, eq=False)
+class WornSurface:
+    """What every wear loop leaves: the wearing body's heights on the grid [m], unworn and run in, the last pressure
+    [Pa], the particles that are reported, all and of the settled cycles, and figures of its records by their names."""
+
+    height_before: FloatArray
+    height_after: FloatArray
+    pressure: FloatArray
+    particles: NDArray[np.void]
+    late: NDArray[np.void]
+    figures: dict[str, Any]
+
+    @classmethod
+    def of(cls, scene: Any, initial: tuple[FloatArray, FloatArray], result: RunningIn, grid: Grid) -> WornSurface:
+        """That of a scene's loop, which started from `initial` heights of both bodies."""
+        assert result.pressure is not None
+        cycles, particles = result.cycles, scene.sizes.particles(result)
+        settled = cycles["cycle"][-scene.cycles.settled :]
+        late = particles[particles["cycle"] >= settled[0]]
+        before, after = initial[result.wearing[0]], result.worn_heights()[: grid.shape[0]]
+        figures = {
+            "cycle": np.arange(1, len(cycles) + 1),
+            "particles_per_cycle": float(late.size / len(settled)),
+            "convolutions_per_cycle": float(cycles["convolutions"].mean()),
+        }
+        return cls(before, after, result.pressure, particles, late, figures)
+
+    def strip(self, where: NDArray[np.bool_]) -> dict[str, float]:
+        """Sq before and after and the mean depth worn [m] in those rows (nx,)."""
+        from bem.wear.outcome import strip_wear
+
+        strip = strip_wear(self.height_before, self.height_after, where)
+        return {"Sq_initial": strip.rms_before, "Sq_final": strip.rms_after, "worn_depth": strip.depth}
 
 
 def particle_rows(unit: str, text: str) -> Series:

@@ -7,8 +7,8 @@ business of `bem.campaigns`, which reads them from `axes` and from the record (`
 
 How to write one, in the package or in a file of your own that ends in `bem.register(KIND)`, is in the guide
 (reports/prose/kinds.toml), part by part; tests/extension/test_kinds_and_readers_from_outside.py holds a whole one,
-small. What kinds share: tables in `bem.scenes.common`, `wearing`, `lubrication`; grids, bodies and heights in
-`bem.scenes.build`; steps of plans in `bem.scenes.plans`.
+small. Tables stand by subject in `bem.scenes.tables`, those of many kinds in `bem.scenes.common`, `wearing`,
+`lubrication`; grids, bodies and heights in `bem.scenes.build`; steps of plans in `bem.scenes.plans`.
 
 Verified in tests/scenes (each kind), tests/gallery (every built-in scene), tests/campaigns (cases, resuming).
 """

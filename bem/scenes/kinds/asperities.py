@@ -5,50 +5,24 @@ A case is one spacing; `bem.friction.asperity_array` does the work.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed
-from bem.scenes.common import BodyScene, Cells, PositiveLength, SceneModel, Table, UpperBodyScene, problem
+from bem.scenes.common import BodyScene, SceneModel, UpperBodyScene
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
-from bem.scenes.units import Length
+from bem.scenes.tables.asperities import ArrayScene
 
 _CONVOLUTIONS = 20  # of each contact
-
-
-class ArrayScene(Table):
-    """Spheres of `radius` that stand `height` out of the flat, `spacings` apart; `window` is the side of the square
-    array whose deflection counts when depths are measured from the undeformed flat."""
-
-    radius: PositiveLength
-    height: PositiveLength
-    spacings: Annotated[list[PositiveLength], Field(min_length=1, max_length=64)]
-    interferences: Annotated[list[Annotated[Length, Field(gt=0)]], Field(min_length=1, max_length=256)]
-    cell: PositiveLength
-    window: PositiveLength
-    cells_at_most: Cells = 1024
-
-    @model_validator(mode="after")
-    def _apart(self) -> ArrayScene:
-        foot = math.sqrt(2 * self.radius * self.height)
-        if min(self.spacings) < 2 * foot:
-            raise problem(f"spheres {min(self.spacings):.3g} m apart overlap", f"spacings from {2 * foot:.3g} m")
-        if max(self.interferences) > 0.5 * self.height:
-            raise problem("interferences beyond half the height: the flat would touch", "smaller ones")
-        if max(self.spacings) / self.cell > self.cells_at_most:
-            raise problem("more cells per asperity than cells_at_most", "a larger cell or smaller spacings")
-        return self
 
 
 class AsperitiesScene(SceneModel):

@@ -5,36 +5,24 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.scenes import build, plans
 from bem.scenes.axes import changed
-from bem.scenes.common import (
-    BodyScene,
-    DepthsScene,
-    Force,
-    GridScene,
-    PositivePressure,
-    SceneModel,
-    ShapeScene,
-    Table,
-    UpperBodyScene,
-    exactly_one,
-    problem,
-)
+from bem.scenes.common import DepthsScene, problem
 from bem.scenes.context import Context, release
 from bem.scenes.kinds import Kind
 from bem.scenes.packing import packed, unpacked
 from bem.scenes.planner import Plan
-from bem.scenes.records import Figure, Record, Series, filled
-from bem.scenes.units import Length, Ratio
+from bem.scenes.records import Figure, GridRecord, Series, filled
+from bem.scenes.tables.pressing import ContactOutputs, PressedScene
 
 if TYPE_CHECKING:
     from bem.contact import ContactSolution
@@ -43,49 +31,10 @@ if TYPE_CHECKING:
 _STRESS_COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 
 
-class ContactControl(Table):
-    """How the bodies are pressed together: by load, mean pressure, approach from first touch or mean gap."""
-
-    load: Annotated[Force, Field(gt=0)] | None = None
-    mean_pressure: PositivePressure | None = None
-    approach: Length | None = None
-    mean_gap: Annotated[Length, Field(gt=0)] | None = None
-    behaviour: Literal["elastic", "capped"] = "elastic"
-    hardness: PositivePressure | None = None
-    friction: Annotated[Ratio, Field(ge=-10, le=10)] = 0.0
-    tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = 1e-8
-    max_iterations: Annotated[int, Field(strict=True, ge=1, le=1_000_000)] = 2000
-
-    @model_validator(mode="after")
-    def _one_control(self) -> ContactControl:
-        exactly_one(self, "load", "mean_pressure", "approach", "mean_gap")
-        if self.behaviour == "elastic" and self.hardness is not None:
-            raise problem(
-                "hardness is given but behaviour is elastic", 'behaviour = "capped" with hardness, or neither'
-            )
-        return self
-
-
-class ContactOutputs(Table):
-    """What is wanted besides pressure, gap and displacement."""
-
-    von_mises: bool = Field(default=False, strict=True)
-    stresses: bool = Field(default=False, strict=True)
-    depths: DepthsScene | None = None
-    body: Literal["lower", "upper"] = "lower"
-    vtk: bool = Field(default=True, strict=True)
-    errors: bool = Field(default=True, strict=True)
-
-
-class ContactScene(SceneModel):
+class ContactScene(PressedScene):
     """Two bodies, a grid and a load."""
 
     kind: Literal["contact"] = "contact"
-    grid: GridScene = GridScene()
-    lower: BodyScene
-    upper: UpperBodyScene = UpperBodyScene()
-    shape: ShapeScene = ShapeScene()
-    contact: ContactControl
     outputs: ContactOutputs = ContactOutputs()
 
     @model_validator(mode="after")
@@ -99,9 +48,7 @@ class ContactScene(SceneModel):
 
 def resolve(scene: ContactScene) -> ContactScene:
     """Fill in the grid where measured surfaces decide it, and the hardness of the softer surface."""
-    scene = build.with_grid(scene)
-    if scene.contact.behaviour == "capped":
-        scene = build.with_hardness(scene, needed=True)
+    scene = scene.resolved()
     if _wants_stresses(scene) and scene.outputs.depths is None:
         deepest = min(build.grid_of(scene.grid).lengths) / 4
         scene = changed(scene, "outputs.depths", DepthsScene(deepest=deepest, count=24))
@@ -116,16 +63,14 @@ def plan(scene: ContactScene) -> Plan:
     InfeasibleError : a load beyond hardness x area. InputError : surfaces that cannot be generated on the grid.
     """
     grid, outputs = build.grid_of(scene.grid), scene.outputs
-    surfaces = plans.surfaces(grid, scene.lower.surface, scene.upper.surface)
+    bodies = plans.of_bodies(scene, grid, scene.contact.friction)
     _check_load(scene, grid)
     lower, upper = scene.lower.build(), scene.upper.build()
     depths = len(_depths(scene))
     return Plan(
         (
-            surfaces,
-            plans.layered_kernels(grid, lower, upper),
-            plans.traction_kernels(grid, lower, upper, scene.contact.friction),
-            plans.contact(grid, f"{scene.contact.behaviour}, {_control(scene)}"),
+            *bodies,
+            plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}"),
             plans.stresses(
                 grid,
                 lower if outputs.body == "lower" else upper,
@@ -143,7 +88,7 @@ def plan(scene: ContactScene) -> Plan:
 
 def _check_load(scene: ContactScene, grid: Grid) -> None:
     """Refuse a load beyond hardness times the grid's area; InfeasibleError."""
-    load, hardness = _load(scene, grid.area), scene.contact.hardness
+    load, hardness = scene.contact.load_on(grid.area), scene.contact.hardness
     if load is not None and hardness is not None and load > hardness * grid.area:
         key, value = ("load", f"{load:g} N") if scene.contact.load else ("mean_pressure", f"{load / grid.area:g} Pa")
         raise InfeasibleError(
@@ -157,7 +102,7 @@ def _map(unit: str, text: str) -> Series:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ContactRecord(Record):
+class ContactRecord(GridRecord):
     """A solved contact, and the stresses below it where they are asked for."""
 
     load: Annotated[float, Figure("N", "load", headline=True)]
@@ -178,8 +123,6 @@ class ContactRecord(Record):
     )
     max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)] = None
     yielded_volume: Annotated[float | None, Figure("m3", "volume beyond the yield stress", optional=True)] = None
-    x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding")]
-    y: Annotated[FloatArray, Series(("y",), "m", "y")]
     pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
     displacement: Annotated[FloatArray, _map("m", "normal displacement of both bodies together")]
     gap: Annotated[FloatArray, _map("m", "gap between the deformed surfaces")]
@@ -209,9 +152,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     with context.timer("surfaces"):
         lower, upper = build.both_heights(scene, grid, context)
     rough = {name: heights for name, heights in (("lower", lower), ("upper", upper)) if heights.any()}
-    undeformed = build.shape_of(scene.shape, grid) - lower - upper
-    if rough:
-        undeformed -= undeformed.min()  # approach counts from first touch; smooth shapes touch at zero already
+    undeformed = build.undeformed_gap(scene, grid, lower, upper)
     with context.timer("contact"):
         solution, history = _solve(scene, grid, undeformed, context)
     for note in solution.notes:
@@ -268,9 +209,8 @@ def _solve(
     solution = solve_contact(
         undeformed,
         operator,
-        **_prescribed(scene, grid),
-        tolerance=scene.contact.tolerance,
-        max_iterations=scene.contact.max_iterations,
+        **scene.contact.prescribed(grid.area),
+        **scene.contact.accuracy(),
         callback=watch,
     )
     del operator  # and with it its spectra
@@ -278,13 +218,6 @@ def _solve(
     told_of = np.array(history, dtype=np.float64).reshape(-1, 2)
     context.save({"solution": packed(solution), "history": told_of})
     return solution, told_of
-
-
-def _prescribed(scene: ContactScene, grid: Grid) -> dict[str, Any]:
-    """What holds the bodies together, and the cap, as `solve_contact` takes them."""
-    control = scene.contact
-    given = {"approach": control.approach, "mean_gap": control.mean_gap, "hardness": control.hardness}
-    return given | {"load": _load(scene, grid.area)}
 
 
 def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Context) -> StressBelow:
@@ -315,7 +248,7 @@ def _errors(
 
     grid = build.grid_of(scene.grid)
     operator = build.operator_of(scene, grid, scene.contact.friction)
-    case = ContactCase(operator, undeformed, solution, **_prescribed(scene, grid), from_touch=rough)
+    case = ContactCase(operator, undeformed, solution, **scene.contact.prescribed(grid.area), from_touch=rough)
     coarser = solve_coarser(case, scene.contact.max_iterations)
     bars = contact_bars(case, coarser)
     if below is not None:
@@ -344,22 +277,6 @@ def _depths(scene: ContactScene) -> tuple[float, ...]:
     if not _wants_stresses(scene) or scene.outputs.depths is None:
         return ()
     return scene.outputs.depths.build()
-
-
-def _load(scene: ContactScene, area: float) -> float | None:
-    pressure = scene.contact.mean_pressure
-    return scene.contact.load if pressure is None else pressure * area
-
-
-def _control(scene: ContactScene) -> str:
-    control = scene.contact
-    if control.load is not None:
-        return f"load {control.load:g} N"
-    if control.mean_pressure is not None:
-        return f"mean pressure {control.mean_pressure:g} Pa"
-    if control.approach is not None:
-        return f"approach {control.approach:g} m"
-    return f"mean gap {control.mean_gap:g} m"
 
 
 def volumes(scene: ContactScene) -> tuple[str, ...]:

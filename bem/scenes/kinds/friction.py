@@ -12,20 +12,19 @@ from itertools import product
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans
-from bem.scenes.axes import Axis, given, listed, variants, with_keys
-from bem.scenes.common import OutputsScene, PositiveLength, Table, problem
+from bem.scenes.axes import Axis, listed, variants
+from bem.scenes.common import OutputsScene, Repetitions
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.lubrication import FilmMeshScene, LineContactScene
 from bem.scenes.packing import packed, unpacked
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Record, Series, filled, mean, spread
-from bem.scenes.units import Ratio
+from bem.scenes.records import Figure, Record, Series, columns, filled, mean, spread
+from bem.scenes.tables.sharing import SharingScene, SurfaceVariant
 
 if TYPE_CHECKING:
     from bem.flow import FlowFactors
@@ -33,42 +32,10 @@ if TYPE_CHECKING:
     from bem.friction.curves import Curve
     from bem.friction.setup import MixedSetup
 
-Model = Literal["elastic", "capped", "uncoupled", "uncoupled_elastic"]
 _CONVOLUTIONS = 120  # of the contacts of one speed
 _SEPARATIONS = 10  # of the flow factors' table
 _BASELINE = {"capped": "uncoupled", "elastic": "uncoupled_elastic"}  # of the rough half-space
 _CAPPED = ("capped", "uncoupled")
-
-
-class SurfaceVariant(Table):
-    """Changes to the generated lower surface."""
-
-    name: Annotated[str, Field(min_length=1, max_length=60)]
-    correlation_length: PositiveLength | None = None
-    rms_height: PositiveLength | None = None
-
-
-class SharingScene(Table):
-    """How the load is shared.
-
-    `models`: "elastic" and "capped" (at the hardness) are the rough half-space; "uncoupled" and "uncoupled_elastic"
-    take every summit as a Hertz sphere of its own, the usual baseline. `asperity_separation`: mean planes of the
-    uncoupled summits as far apart as keeps the oil's "volume", or as the "film" is thick. `flow_factors`: whether the
-    film flows between smooth walls ("off"), or between the "surfaces" as `bem.flow_factors` has them.
-    """
-
-    models: Annotated[list[Model], Field(min_length=1, max_length=4)] = ["capped"]  # noqa: RUF012
-    tolerance: Annotated[Ratio, Field(ge=1e-9, le=0.1)] = 1e-4
-    contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = 1e-6
-    asperity_separation: Literal["volume", "film"] = "volume"
-    striated_exit: bool = Field(default=False, strict=True)
-    flow_factors: Literal["off", "surfaces"] = "off"
-
-    @model_validator(mode="after")
-    def _each_once(self) -> SharingScene:
-        if len(set(self.models)) != len(self.models):
-            raise problem("a model is named twice", "each model once")
-        return self
 
 
 class FrictionScene(LineContactScene):
@@ -79,7 +46,7 @@ class FrictionScene(LineContactScene):
     sharing: SharingScene = SharingScene()
     outputs: OutputsScene = OutputsScene()
     variants: list[SurfaceVariant] = []  # noqa: RUF012
-    repetitions: Annotated[int, Field(strict=True, ge=1, le=1000)] = 1
+    repetitions: Repetitions = 1
 
 
 def resolve(scene: FrictionScene) -> FrictionScene:
@@ -89,23 +56,11 @@ def resolve(scene: FrictionScene) -> FrictionScene:
     return build.with_hardness(scene, needed=True) if capped else scene
 
 
-def variant_of(scene: FrictionScene, variant: SurfaceVariant) -> FrictionScene:
-    """The scene with a variant's changes to the lower surface."""
-    if scene.lower.surface.kind != "generated":
-        raise InputError("variants: the lower surface is not generated; allowed: a generated one")
-    changes = given(variant)
-    if "correlation_length" in changes and scene.lower.surface.correlation_length is None:
-        raise InputError(
-            "variants.correlation_length: the lower surface has none; allowed: one with correlation_length"
-        )
-    return with_keys(scene, {f"lower.surface.{key}": value for key, value in changes.items()})
-
-
 def axes(scene: FrictionScene) -> tuple[Axis, ...]:
     """Loads, then variants of the surface, then models."""
     return (
         scene.load_axis(),
-        variants(scene, variant_of, always=True),
+        variants(scene, always=True),
         listed(scene, "sharing.models", "model", Figure("", "contact model")),
     )
 
@@ -230,13 +185,10 @@ def _setup(scene: FrictionScene, factors: FlowFactors | Literal["off"]) -> Mixed
     sharing, (model,) = scene.sharing, scene.sharing.models
     return scene.setup(
         hardness=scene.contact.hardness if model in _CAPPED else None,
-        tolerance=sharing.tolerance,
-        contact_tolerance=sharing.contact_tolerance,
+        **sharing.model_dump(exclude={"models", "flow_factors"}),
         film_points=scene.film.points,
         film_position=scene.film.positions(),
         contact_model="coupled" if model in _BASELINE else "uncoupled",
-        asperity_separation=sharing.asperity_separation,
-        striated_exit=sharing.striated_exit,
         flow_factors=factors,
     )
 
@@ -279,7 +231,7 @@ def _record(grid: Grid, curve: Curve, height: FloatArray, errors: list[FloatArra
     bad = [one for one in curve.points if one.status is not Status.CONVERGED]
     return filled(
         CurveRecord,
-        {item.name: np.array([getattr(one, item.name) for one in curve.points]) for item in fields(curve.points[0])},
+        columns(curve.points, (item.name for item in fields(curve.points[0]))),
         grid,
         rms_height=float(height.std()),
         shown_speed=np.array(shown.speeds[0]),

@@ -6,57 +6,17 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from bem.grid import FloatArray, Grid
 from bem.scenes import plans
-from bem.scenes.common import Cells, MeasuredSurface, PositiveLength, SceneModel, Table, exactly_one
+from bem.scenes.common import MeasuredSurface, SceneModel, exactly_one
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Record, Series, filled
-from bem.scenes.units import Density, Force, Length, Ratio, Time, Viscosity
-from bem.scenes.wearing import WearRateScene
-
-
-class SyntheticMapScene(Table):
-    """A made-up map with a known distribution of sizes, to try things out; see `bem.particles.synthetic_afm_map`."""
-
-    shape: tuple[Cells, Cells] = (1024, 1024)
-    lengths: tuple[PositiveLength, PositiveLength] = (20e-6, 20e-6)
-    count: Annotated[int, Field(strict=True, ge=1, le=100_000)] = 120
-    number_mean_radius: PositiveLength = 175e-9
-    volume_mean_radius: PositiveLength = 358e-9
-
-
-class SeparationScene(Table):
-    """How a map is turned into particles; see `bem.particles_from_height_map`."""
-
-    threshold: PositiveLength = 50e-9
-    background: Literal["plane", "curvature", "offset", "none"] = "plane"
-    level_lines: bool = Field(default=False, strict=True)
-    separate: Annotated[Ratio, Field(ge=0, lt=1)] | None = None
-    border: Literal["exclude", "include"] = "exclude"
-    rectangle: Literal["axis_aligned", "minimum_area"] = "axis_aligned"
-    smallest_radius: Annotated[Length, Field(ge=0)] = 0.0
-
-
-class ArchardScene(WearRateScene):
-    """Specific wear rate, load and sliding distance: how many particles that makes."""
-
-    load: Annotated[Force, Field(gt=0)]
-
-
-class SedimentationScene(Table):
-    """A centrifuge run: how long until particles of a radius have settled."""
-
-    distance: PositiveLength
-    viscosity: Annotated[Viscosity, Field(gt=0)]
-    relative_centrifugal_force: Annotated[Ratio, Field(gt=0)]
-    particle_density: Annotated[Density, Field(gt=0)]
-    liquid_density: Annotated[Density, Field(ge=0)]
-    particle_radius: PositiveLength
-    available: Annotated[Time, Field(gt=0)] | None = None
+from bem.scenes.records import Figure, Record, Series, columns, filled
+from bem.scenes.tables.particles import ArchardScene, SedimentationScene, SeparationScene, SyntheticMapScene
+from bem.scenes.wearing import particle_rows
 
 
 class ParticlesScene(SceneModel):
@@ -102,14 +62,7 @@ def _map(scene: ParticlesScene, context: Context) -> tuple[FloatArray, tuple[flo
     if scene.synthetic is not None:
         from bem.particles import synthetic_afm_map
 
-        made = synthetic_afm_map(
-            seed=context.seed("map"),
-            shape=scene.synthetic.shape,
-            lengths=scene.synthetic.lengths,
-            count=scene.synthetic.count,
-            number_mean_radius=scene.synthetic.number_mean_radius,
-            volume_mean_radius=scene.synthetic.volume_mean_radius,
-        )
+        made = synthetic_afm_map(seed=context.seed("map"), **scene.synthetic.model_dump())
         context.note("the map is synthetic: it has the sizes of the source's figures built in and confirms no model")
         return made.heights, made.spacing
     from bem.surfaces import read_surface
@@ -117,10 +70,6 @@ def _map(scene: ParticlesScene, context: Context) -> tuple[FloatArray, tuple[flo
     assert scene.map is not None
     surface = read_surface(scene.map.path, detrend="none", fill=scene.map.fill)
     return surface.heights, surface.spacing
-
-
-def _column(unit: str, text: str) -> Series:
-    return Series(("particle",), unit, text, rows=True)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -151,13 +100,13 @@ class ParticlesRecord(Record):
     x: Annotated[FloatArray, Series(("x",), "m", "x")]
     y: Annotated[FloatArray, Series(("y",), "m", "y")]
     level_height: Annotated[FloatArray, Series(("x", "y"), "m", "height above the plate")]
-    particle_volume: Annotated[FloatArray, _column("m^3", "volume of a particle")]
-    particle_equivalent_radius: Annotated[FloatArray, _column("m", "equivalent radius of a particle")]
-    particle_length: Annotated[FloatArray, _column("m", "length of a particle")]
-    particle_width: Annotated[FloatArray, _column("m", "width of a particle")]
-    particle_thickness: Annotated[FloatArray, _column("m", "thickness of a particle")]
-    particle_x: Annotated[FloatArray, _column("m", "x of a particle's centre")]
-    particle_y: Annotated[FloatArray, _column("m", "y of a particle's centre")]
+    particle_volume: Annotated[FloatArray, particle_rows("m^3", "volume of a particle")]
+    particle_equivalent_radius: Annotated[FloatArray, particle_rows("m", "equivalent radius of a particle")]
+    particle_length: Annotated[FloatArray, particle_rows("m", "length of a particle")]
+    particle_width: Annotated[FloatArray, particle_rows("m", "width of a particle")]
+    particle_thickness: Annotated[FloatArray, particle_rows("m", "thickness of a particle")]
+    particle_x: Annotated[FloatArray, particle_rows("m", "x of a particle's centre")]
+    particle_y: Annotated[FloatArray, particle_rows("m", "y of a particle's centre")]
 
 
 def run(scene: ParticlesScene, context: Context) -> ParticlesRecord:
@@ -183,7 +132,7 @@ def run(scene: ParticlesScene, context: Context) -> ParticlesRecord:
         means,
         archard,
         _sedimentation(scene),
-        {f"particle_{name}": np.array([float(getattr(p, name)) for p in found]) for name in _COLUMNS},
+        columns(found, _COLUMNS, "particle_"),
         {f"particle_{name}": np.array([float(p.position[axis]) for p in found]) for axis, name in enumerate("xy")},
         Grid(heights.shape, spacing),
         count=len(found),

@@ -12,29 +12,27 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from bem.grid import FloatArray
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, changed
-from bem.scenes.common import PositivePressure, Table, problem
+from bem.scenes.common import PositivePressure, Repetitions, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.lubrication import LineContactScene, SpeedsScene
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Record, Series, filled
-from bem.scenes.units import Ratio
+from bem.scenes.records import Figure, GridRecord, Series, filled
+from bem.scenes.tables.sharing import RunningInCycles, RunningInSharing
 from bem.scenes.wearing import (
     FOLLOWS_CELL,
-    Count,
     IntArray,
-    LastCycles,
     SizesScene,
     WearDepthsScene,
     WearScenePart,
+    WornSurface,
     cycle_steps,
     size_statistics,
-    sliding_heights,
     wear_loop,
 )
 
@@ -44,23 +42,6 @@ if TYPE_CHECKING:
 
 _CONVOLUTIONS = 80  # of the two or three contacts of a cycle
 _DEPTHS_NEEDED = 6
-
-
-class RunningInCycles(LastCycles):
-    """How many cycles; run-in friction is the mean of the last `averaged`, particles those of the last `settled`."""
-
-    averaged: Count = 10
-
-
-class RunningInSharing(Table):
-    """Accuracy of the load sharing in each cycle.
-
-    `film_points`: nodes of the film's mesh; films are tabulated over the load they carry, once per speed.
-    """
-
-    tolerance: Annotated[Ratio, Field(ge=1e-8, le=0.01)] = 5e-4
-    contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = 1e-4
-    film_points: Annotated[int, Field(strict=True, ge=100, le=5000)] = 400
 
 
 class RunningInScene(LineContactScene):
@@ -73,7 +54,7 @@ class RunningInScene(LineContactScene):
     sharing: RunningInSharing = RunningInSharing()
     sizes: SizesScene = SizesScene()
     hardnesses: list[PositivePressure] = []  # noqa: RUF012
-    repetitions: Annotated[int, Field(strict=True, ge=1, le=1000)] = 1
+    repetitions: Repetitions = 1
 
     @model_validator(mode="after")
     def _one_load(self) -> RunningInScene:
@@ -158,7 +139,7 @@ _FOLLOWS_CELL = f"{FOLLOWS_CELL}; in mixed lubrication the mean by volume follow
 
 
 @dataclass(frozen=True, eq=False)
-class RunningInRecord(Record):
+class RunningInRecord(GridRecord):
     """A lubricated wear loop: friction before and after, particles, histories, the last film and surface."""
 
     scatters: ClassVar[tuple[str, ...]] = (
@@ -199,8 +180,6 @@ class RunningInRecord(Record):
     rms_height_over_cycles: Annotated[FloatArray, _over("m", "Sq of the worn surface in the strip in contact")]
     volume_over_cycles: Annotated[FloatArray, _over("m^3", "volume worn per cycle")]
     particles_over_cycles: Annotated[FloatArray, _over("1", "particles per cycle")]
-    x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding")]
-    y: Annotated[FloatArray, Series(("y",), "m", "y")]
     film_thickness_patch: Annotated[FloatArray, Series(("x",), "m", "film")]
     film_pressure_patch: Annotated[FloatArray, Series(("x",), "Pa", "film pressure")]
     separation: Annotated[FloatArray, Series(("x",), "m", "distance of mean planes")]
@@ -265,24 +244,23 @@ def _record(
     film_error: float,
 ) -> RunningInRecord:
     """The figures of a wear loop and what is kept of it."""
-    from bem.wear.outcome import hertz_strip, strip_wear
+    from bem.wear.outcome import hertz_strip
 
     setup, cycles, rows = step.setup, result.cycles, step.rows
-    grid, averaged, settled = setup.grid, scene.cycles.averaged, scene.cycles.settled
-    before, after = sliding_heights(initial, result, grid)
-    # the same strip before and after, at all speeds
-    strip = strip_wear(before, after, hertz_strip(grid.x, setup.line.half_width(setup.load)))
-    of = scene.sizes.particles(result)
-    late, end = of[of["cycle"] > len(cycles) - settled], len(cycles) - averaged
+    grid, averaged = setup.grid, scene.cycles.averaged
+    worn, end = WornSurface.of(scene, initial, result, grid), len(cycles) - averaged
     mean = {name: float(rows[name][-averaged:].mean()) for name in MEANS}
     film = step.film if step.film is not None else step.table.under(float(rows["film_load"][-1]))
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
     over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume", "particles")}
-    assert result.pressure is not None
     return filled(
         RunningInRecord,
+        worn,
+        worn.figures,
+        # the same strip before and after, at all speeds
+        worn.strip(hertz_strip(grid.x, setup.line.half_width(setup.load))),
         mean,
-        _radii(scene, late),
+        _radii(scene, worn.late),
         over,
         grid,
         friction_initial=float(rows["friction"][0]),
@@ -291,23 +269,14 @@ def _record(
         film_friction_part=mean["film_force"] / setup.load,
         contact_load_initial=float(rows["contact_load"][0]),
         contact_area_fraction=float(cycles["contact_area"][-averaged:].mean() / grid.area),
-        Sq_initial=strip.rms_before,
-        Sq_final=strip.rms_after,
-        worn_depth=strip.depth,
-        particles_per_cycle=late.size / settled,
-        particles_first_cycle=float((of["cycle"] == 1).sum()),
-        particles_last_cycles=float((of["cycle"] > end).sum()),
+        particles_first_cycle=float((worn.particles["cycle"] == 1).sum()),
+        particles_last_cycles=float((worn.particles["cycle"] > end).sum()),
         film_table_error=film_error,
         evaluations_per_cycle=float(rows["evaluations"].mean()),
-        convolutions_per_cycle=float(cycles["convolutions"].mean()),
-        cycle=np.arange(1, len(rows) + 1),
         contact_share=rows["contact_load"] / setup.load,
         film_thickness_patch=film.thickness[:, 0],
         film_pressure_patch=film.pressure[:, 0],
         separation=step.separation if step.separation is not None else film.thickness[:, 0],
-        height_before=before,
-        height_after=after,
-        pressure=result.pressure,
         frame=np.array(_frame_cycles(scene.cycles.count)[: len(frames)]),
         pressure_frames=np.array(frames),
     )

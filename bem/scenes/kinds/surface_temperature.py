@@ -13,12 +13,12 @@ from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.scenes import build, plans
-from bem.scenes.common import BodyScene, GridScene, SceneModel, ShapeScene, Table, UpperBodyScene
+from bem.scenes.common import Table
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
-from bem.scenes.kinds.contact import ContactControl
 from bem.scenes.planner import Plan, Step, padded_points
-from bem.scenes.records import Figure, Record, Series
+from bem.scenes.records import Figure, GridRecord, Series
+from bem.scenes.tables.pressing import PressedScene
 from bem.scenes.units import Speed, Temperature
 
 if TYPE_CHECKING:
@@ -38,22 +38,11 @@ class RubbingHeatScene(Table):
     upper_bulk: BulkTemperature = ROOM
 
 
-class SurfaceTemperatureScene(SceneModel):
+class SurfaceTemperatureScene(PressedScene):
     """A contact whose friction makes heat; all of it enters the lower body where the upper one has no material."""
 
     kind: Literal["surface-temperature"] = "surface-temperature"
-    grid: GridScene = GridScene()
-    lower: BodyScene
-    upper: UpperBodyScene = UpperBodyScene()
-    shape: ShapeScene = ShapeScene()
-    contact: ContactControl
     heat: RubbingHeatScene
-
-
-def resolve(scene: SurfaceTemperatureScene) -> SurfaceTemperatureScene:
-    """Fill in the grid where measured surfaces decide it, and the hardness of the softer surface."""
-    scene = build.with_grid(scene)
-    return build.with_hardness(scene, needed=True) if scene.contact.behaviour == "capped" else scene
 
 
 def plan(scene: SurfaceTemperatureScene) -> Plan:
@@ -67,16 +56,14 @@ def plan(scene: SurfaceTemperatureScene) -> Plan:
     from bem.heat.bodies import check_steady, conductors_of
 
     grid = build.grid_of(scene.grid)
-    surfaces = plans.surfaces(grid, scene.lower.surface, scene.upper.surface)
+    rubbing = plans.of_bodies(scene, grid, scene.contact.friction)
     lower, upper = scene.lower.build(), scene.upper.build()
     bodies, speeds, bulk = _pair(scene, lower, upper)
     check_steady(grid, conductors_of("heat", bodies, speeds, bulk))
     points = padded_points(grid.shape, grid.periodic)
     return Plan(
         (
-            surfaces,
-            plans.layered_kernels(grid, lower, upper),
-            plans.traction_kernels(grid, lower, upper, scene.contact.friction),
+            *rubbing,
             plans.contact(grid, f"{scene.contact.behaviour}"),
             Step(
                 "surface temperature",
@@ -97,7 +84,7 @@ def _map(unit: str, text: str) -> Series:
 
 
 @dataclass(frozen=True, eq=False)
-class SurfaceTemperatureRecord(Record):
+class SurfaceTemperatureRecord(GridRecord):
     """Temperatures of a rubbing contact."""
 
     maximum_temperature: Annotated[float, Figure("C", "highest surface temperature", headline=True)]
@@ -110,8 +97,6 @@ class SurfaceTemperatureRecord(Record):
     mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
     contact_residual: Annotated[float, Figure("", "relative residual of the contact")]
     temperature_residual: Annotated[float, Figure("", "difference of both surfaces over the largest rise")]
-    x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding")]
-    y: Annotated[FloatArray, Series(("y",), "m", "y")]
     pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
     surface_temperature: Annotated[FloatArray, _map("K", "surface temperature, of the lower body out of contact")]
     heat_lower: Annotated[FloatArray, _map("W/m^2", "heat into the lower body")]
@@ -123,9 +108,7 @@ def run(scene: SurfaceTemperatureScene, context: Context) -> SurfaceTemperatureR
     grid = build.grid_of(scene.grid)
     with context.timer("surfaces"):
         lower, upper = build.both_heights(scene, grid, context)
-    gap = build.shape_of(scene.shape, grid) - lower - upper
-    if lower.any() or upper.any():
-        gap -= gap.min()
+    gap = build.undeformed_gap(scene, grid, lower, upper)
     contact, found = _solve(scene, grid, gap, context)
     for note in (*contact.notes, *found.notes):
         context.note(note)
@@ -164,7 +147,6 @@ def _solve(
     scene: SurfaceTemperatureScene, grid: Grid, gap: FloatArray, context: Context
 ) -> tuple[ContactSolution, TemperatureSolution]:
     from bem.contact import solve_contact
-    from bem.convolution import displacement_operator
     from bem.heat import flash_temperature
 
     lower, upper = scene.lower.build(), scene.upper.build()
@@ -172,13 +154,9 @@ def _solve(
     with context.timer("contact"):
         contact = solve_contact(
             gap,
-            displacement_operator(grid, lower if upper is None else (lower, upper), friction=control.friction),
-            load=control.load if control.mean_pressure is None else control.mean_pressure * grid.area,
-            approach=control.approach,
-            mean_gap=control.mean_gap,
-            hardness=control.hardness,
-            tolerance=control.tolerance,
-            max_iterations=control.max_iterations,
+            build.operator_of(scene, grid, control.friction),
+            **control.prescribed(grid.area),
+            **control.accuracy(),
         )
     bodies, _, bulk = _pair(scene, lower, upper)
     speeds = (scene.heat.lower_speed, scene.heat.upper_speed)
@@ -225,6 +203,6 @@ KIND = Kind(
     plan=plan,
     run=run,
     record=SurfaceTemperatureRecord,
-    resolve=resolve,
+    resolve=SurfaceTemperatureScene.resolved,
     figures=("temperature-map", "temperature-section", "pressure-map"),
 )

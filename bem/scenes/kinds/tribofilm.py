@@ -16,17 +16,15 @@ from bem.errors import InfeasibleError
 from bem.grid import FloatArray, Grid
 from bem.reference_solutions.hertz import sphere_contact
 from bem.scenes import build, plans
-from bem.scenes.axes import Axis, given, listed, variants, with_keys
-from bem.scenes.common import BodyScene, Force, GridScene, SceneModel, ShapeScene, Table, problem
+from bem.scenes.axes import Axis, listed, variants
+from bem.scenes.common import BodyScene, GridScene, Repetitions, SceneModel, ShapeScene, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
-from bem.scenes.laws import LawKey
 from bem.scenes.planner import Plan, Step, layered_kernel_seconds, padded_points
-from bem.scenes.records import Figure, Record, Series, filled
-from bem.scenes.units import Energy, InverseLength, Length, Rate, Ratio, Speed, Temperature, Time, Volume
-from bem.tribofilm.balance import FilmBalance
-from bem.tribofilm.growth import GrowthLaw, StressActivatedGrowth
-from bem.tribofilm.properties import Constant, PropertyLaw
+from bem.scenes.records import Figure, GridRecord, Series, columns, filled
+from bem.scenes.tables.tribofilm import FilmScene, RubbingScene, VariantScene
+from bem.scenes.units import Ratio
+from bem.tribofilm.properties import Constant
 
 if TYPE_CHECKING:
     from bem.tribofilm import ContactSample, FilmContact, LocalFilm, TribofilmGrowth
@@ -35,79 +33,6 @@ _CONVOLUTIONS = 14  # of one warm-started contact, coarse levels included
 _CONTACTS = 50  # solved per film: the table is refined only as far as the film gets
 
 _ZERO_CELSIUS = 273.15
-
-
-class FilmScene(Table):
-    """The film: kinetics, properties, wear.
-
-    Growth is stress-activated, of the energy, volume and prefactor given, or that of another law, `growth`.
-    """
-
-    growth: Annotated[GrowthLaw, LawKey("growth")] | None = None
-    prefactor: Annotated[Speed, Field(gt=0)] = 1e-2
-    activation_energy: Annotated[Energy, Field(gt=0)] | None = None
-    activation_volume: Annotated[Volume, Field(ge=0)] | None = None
-    hardness: Annotated[PropertyLaw, LawKey("film_property")]
-    youngs_modulus: Annotated[PropertyLaw, LawKey("film_property")]
-    poissons_ratio: Annotated[Ratio, Field(gt=-1, lt=0.5)] = 0.3
-    wear_coefficient: Annotated[Rate, Field(ge=0)]
-    lag: Annotated[Time, Field(ge=0)] = 0.0
-    concentration_constant: Annotated[InverseLength, Field(gt=0)] | None = None
-    initial_thickness: Annotated[Length, Field(ge=0)] = 0.0
-    average: Literal["contact", "nominal"] = "contact"
-    feedback: Literal["mean", "local"] = "mean"
-    local_tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = 1e-2
-
-    @model_validator(mode="after")
-    def _one_kinetics(self) -> FilmScene:
-        own = {key: getattr(self, key) for key in ("activation_energy", "activation_volume")}
-        if self.growth is not None and any(value is not None for value in own.values()):
-            raise problem(f"growth with {' and '.join(k for k, v in own.items() if v is not None)}", "one of them")
-        if self.growth is None and None in own.values():
-            missing = " and ".join(key for key, value in own.items() if value is None)
-            raise problem(f"no {missing}", "activation_energy with activation_volume, or growth, another law")
-        return self
-
-    def kinetics(self) -> GrowthLaw:
-        """The law of growth."""
-        if self.growth is not None:
-            return self.growth
-        assert self.activation_energy is not None
-        assert self.activation_volume is not None
-        return StressActivatedGrowth(self.prefactor, self.activation_energy, self.activation_volume)
-
-    def balance(self) -> FilmBalance:
-        """As `bem.tribofilm.balance.FilmBalance`."""
-        constant = self.concentration_constant or np.inf
-        return FilmBalance(self.wear_coefficient, self.lag, constant, self.initial_thickness)
-
-
-class VariantScene(Table):
-    """A film that differs from the scene's in what is given here."""
-
-    name: Annotated[str, Field(min_length=1, max_length=60)]
-    wear_coefficient: Annotated[Rate, Field(ge=0)] | None = None
-    lag: Annotated[Time, Field(ge=0)] | None = None
-    activation_volume: Annotated[Volume, Field(ge=0)] | None = None
-    activation_energy: Annotated[Energy, Field(gt=0)] | None = None
-
-
-class RubbingScene(Table):
-    """Loads, temperatures and how long; `cycle` converts cycles to time for figures against cycles."""
-
-    loads: Annotated[list[Annotated[Force, Field(gt=0)]], Field(min_length=1, max_length=64)]
-    temperatures: Annotated[list[Annotated[Temperature, Field(gt=0)]], Field(min_length=1, max_length=64)]
-    friction: Annotated[Ratio, Field(ge=0, le=2)] = 0.1
-    duration: Annotated[Time, Field(gt=0)]
-    points: Annotated[int, Field(strict=True, ge=2, le=100_000)] = 241
-    report: tuple[Annotated[Time, Field(ge=0)], Annotated[Time, Field(ge=0)]] | None = None
-    cycle: Annotated[Time, Field(gt=0)] | None = None
-
-    @model_validator(mode="after")
-    def _within(self) -> RubbingScene:
-        if self.report is not None and not self.report[0] < self.report[1] <= self.duration:
-            raise problem(f"report {self.report} s", "two times, the second later and not after duration")
-        return self
 
 
 class TribofilmScene(SceneModel):
@@ -122,7 +47,7 @@ class TribofilmScene(SceneModel):
     film: FilmScene
     variants: list[VariantScene] = []  # noqa: RUF012
     reuse_tolerance: Annotated[Ratio, Field(ge=0, lt=1)] = 2e-3
-    repetitions: Annotated[int, Field(strict=True, ge=1, le=1000)] = 1
+    repetitions: Repetitions = 1
 
     @model_validator(mode="after")
     def _delay_needs_the_mean(self) -> TribofilmScene:
@@ -137,17 +62,12 @@ class TribofilmScene(SceneModel):
         return self
 
 
-def variant_of(scene: TribofilmScene, variant: VariantScene) -> TribofilmScene:
-    """The scene with a variant's changes in it."""
-    return with_keys(scene, {f"film.{key}": value for key, value in given(variant).items()})
-
-
 def axes(scene: TribofilmScene) -> tuple[Axis, ...]:
     """Loads, then temperatures, then variants."""
     return (
         listed(scene, "rubbing.loads", "load", Figure("N", "load")),
         listed(scene, "rubbing.temperatures", "temperature", Figure("C", "temperature")),
-        variants(scene, variant_of, unnamed="film", always=True),
+        variants(scene, unnamed="film", always=True),
     )
 
 
@@ -218,7 +138,7 @@ def _sample(unit: str, text: str) -> Series:
 
 
 @dataclass(frozen=True, eq=False)
-class FilmRecord(Record):
+class FilmRecord(GridRecord):
     """What a film gives: its end, its history, the contacts that were solved for it, maps at the end."""
 
     film_thickness: Annotated[float, Figure("nm", "mean film thickness at the end", headline=True)]
@@ -248,8 +168,6 @@ class FilmRecord(Record):
     sample_hardness: Annotated[FloatArray, _sample("Pa", "hardness")]
     sample_growth: Annotated[FloatArray, _sample("m/s", "growth rate")]
     sample_contact_area: Annotated[FloatArray, _sample("m^2", "contact area")]
-    x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding")]
-    y: Annotated[FloatArray, Series(("y",), "m", "y")]
     film_map: Annotated[FloatArray, Series(("x", "y"), "m", "local film thickness at the end")]
     film_pressure: Annotated[FloatArray, Series(("x", "y"), "Pa", "contact pressure at the end")]
 
@@ -268,7 +186,7 @@ def run(scene: TribofilmScene, context: Context) -> FilmRecord:
     return filled(
         FilmRecord,
         history,
-        {f"sample_{name}": np.array([getattr(sample, name) for sample in samples]) for name in _SAMPLED},
+        columns(samples, _SAMPLED, "sample_"),
         contact.grid,
         film_thickness=float(history.thickness[-1]),
         largest_thickness=float(history.thickness.max()),

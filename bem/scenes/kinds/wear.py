@@ -9,48 +9,34 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from bem.errors import InfeasibleError, InputError
+from bem.errors import InfeasibleError
 from bem.grid import FloatArray, Grid
 from bem.reference_solutions.hertz import cylinder_contact
 from bem.scenes import build, plans
-from bem.scenes.axes import Axis, given, listed, variants, with_keys
-from bem.scenes.common import (
-    BodyScene,
-    Cells,
-    Force,
-    PositiveLength,
-    PositivePressure,
-    SceneModel,
-    ShapeScene,
-    Table,
-    problem,
-)
+from bem.scenes.axes import Axis, listed, variants
+from bem.scenes.common import BodyScene, Repetitions, SceneModel, ShapeScene, problem
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
-from bem.scenes.laws import LawKey
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, filled
-from bem.scenes.units import Length, Ratio
+from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 from bem.scenes.wearing import (
     FOLLOWS_CELL,
     IntArray,
-    LastCycles,
     MeanSizes,
     SizesScene,
     WearDepthsScene,
     WearRateScene,
     WearScenePart,
+    WornSurface,
     cycle_steps,
     mean_sizes,
     particle_rows,
     sizes_without_bars,
-    sliding_heights,
     wear_loop,
 )
-from bem.wear.criterion import WearCriterion
-from bem.wear.removal import RemovalLaw
 
 if TYPE_CHECKING:
     from bem.wear import RunningIn
@@ -58,71 +44,6 @@ if TYPE_CHECKING:
 _CONVOLUTIONS = 10  # of one warm-started contact solve, coarse levels included
 _DEPTHS_NEEDED = 8  # before a depth is met at which nothing yields, on average
 _DEPTHS_AT_FIRST = 40  # the same in the first cycle, of sharp asperities
-
-
-class CylinderScene(Table):
-    """The contact as a whole: a cylinder along y on a flat, and the loads on its full width; radius 0 is a flat."""
-
-    radius: Annotated[Length, Field(ge=0)] = 0.0
-    width: PositiveLength
-    loads: Annotated[list[Annotated[Force, Field(gt=0)]], Field(min_length=1, max_length=64)]
-    friction: Annotated[Ratio, Field(ge=0, le=2)] = 0.0
-    hardness: PositivePressure | None = None
-
-
-class DomainScene(Table):
-    """The slice that is computed: `cells` over a square of `half_widths` Hertz half-widths, or of given `lengths`.
-
-    The half-width is that at each load, as in the thesis, or that at `half_widths_at`, so that cells stay the same over
-    loads. Free in x and periodic in y, or periodic in both.
-    """
-
-    cells: tuple[Cells, Cells] = (240, 240)
-    half_widths: Annotated[Ratio, Field(gt=0, le=100)] | None = None
-    half_widths_at: Annotated[Force, Field(gt=0)] | None = None
-    lengths: tuple[PositiveLength, PositiveLength] | None = None
-    periodic: Literal["y", "both"] = "y"
-
-    @model_validator(mode="before")
-    @classmethod
-    def _one_for_both(cls, data: Any) -> Any:
-        if isinstance(data, dict):
-            data = dict(data)
-            for key in ("cells", "lengths"):
-                if isinstance(data.get(key), int | float | str):
-                    data[key] = (data[key], data[key])
-        return data
-
-    @model_validator(mode="after")
-    def _one_size(self) -> DomainScene:
-        if (self.half_widths is None) == (self.lengths is None):
-            raise problem("half_widths and lengths", "exactly one of half_widths, lengths")
-        if self.half_widths is None and self.half_widths_at is not None:
-            raise problem("half_widths_at without half_widths", "half_widths with half_widths_at, or lengths alone")
-        return self
-
-
-class CyclesScene(LastCycles):
-    """How long: `count` cycles, or until settled; means are over the last `settled` cycles."""
-
-    stop_when_settled: bool = Field(default=False, strict=True)
-    tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = 0.02
-
-
-class WearVariantScene(Table):
-    """A run that differs from the scene in what is given here: mesh, roughness, film, sliding per cycle."""
-
-    name: Annotated[str, Field(min_length=1, max_length=60)]
-    cells: Annotated[int, Field(strict=True, ge=2, le=8192)] | None = None
-    depths: WearDepthsScene | None = None
-    shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] | None = None
-    lower_rms_height: PositiveLength | None = None
-    upper_rms_height: PositiveLength | None = None
-    layer_thickness: PositiveLength | None = None
-    connectivity: Literal[6, 18, 26] | None = None
-    refinement: Literal["monotone_cubic", "linear", "exact"] | None = None
-    criterion: Annotated[WearCriterion, LawKey("criterion")] | None = None
-    removal: Annotated[RemovalLaw, LawKey("removal")] | None = None
 
 
 class WearScene(SceneModel):
@@ -139,7 +60,7 @@ class WearScene(SceneModel):
     sizes: SizesScene = SizesScene()
     archard: WearRateScene | None = None
     variants: list[WearVariantScene] = []  # noqa: RUF012
-    repetitions: Annotated[int, Field(strict=True, ge=1, le=1000)] = 1
+    repetitions: Repetitions = 1
 
     @model_validator(mode="after")
     def _flat_needs_lengths(self) -> WearScene:
@@ -148,42 +69,11 @@ class WearScene(SceneModel):
         return self
 
 
-def variant_of(scene: WearScene, variant: WearVariantScene) -> WearScene:
-    """The scene with a variant's changes in it.
-
-    Raises
-    ------
-    InputError : a roughness for a surface that is not generated, a film thickness without a film.
-    """
-    changes = given(variant)
-    thickness = changes.pop("layer_thickness", None)
-    for name in ("lower", "upper"):
-        if f"{name}_rms_height" in changes and getattr(scene, name).surface.kind == "smooth":
-            raise InputError(f"variants.{name}_rms_height: the {name} surface is smooth; allowed: a rough one")
-    if "cells" in changes:
-        changes["cells"] = (changes["cells"],) * 2
-    scene = with_keys(scene, {_VARIED.get(key, f"wear.{key}"): value for key, value in changes.items()})
-    coated = [name for name in ("lower", "upper") if getattr(scene, name).stack]
-    if thickness is not None and not coated:
-        raise InputError("variants.layer_thickness: neither body is coated; allowed: a scene with a layer")
-    bodies = {name: getattr(scene, name) for name in coated if thickness is not None}
-    return with_keys(scene, {name: body.with_outermost(thickness) for name, body in bodies.items()})
-
-
-_VARIED = {
-    "cells": "domain.cells",
-    "depths": "depths",
-    "lower_rms_height": "lower.surface.rms_height",
-    "upper_rms_height": "upper.surface.rms_height",
-}
-"""Where the keys of a variant stand in the scene, if not in `wear`."""
-
-
 def axes(scene: WearScene) -> tuple[Axis, ...]:
     """Loads, then variants."""
     return (
         listed(scene, "cylinder.loads", "load", Figure("N", "load on the full width")),
-        variants(scene, variant_of),
+        variants(scene),
     )
 
 
@@ -225,12 +115,9 @@ def plan(scene: WearScene) -> Plan:
             f"cylinder.loads: {load:g} N is beyond hardness x area of the domain; allowed: a smaller load, "
             "a larger domain or a higher hardness"
         )
-    bodies = scene.lower.build(), scene.upper.build()
     return Plan(
         (
-            plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
-            plans.layered_kernels(grid, *bodies, depths=min(scene.depths.count, _DEPTHS_NEEDED)),
-            plans.traction_kernels(grid, *bodies, scene.cylinder.friction),
+            *plans.of_bodies(scene, grid, scene.cylinder.friction, min(scene.depths.count, _DEPTHS_NEEDED)),
             *cycle_steps(
                 scene,
                 grid,
@@ -350,27 +237,23 @@ def _record(
 ) -> WearRecord:
     """The figures of a wear loop, means over its settled cycles, and its tables."""
     from bem.particles import volume_mean_radius
-    from bem.wear.outcome import contact_strip, sizes_over_cycles, strip_wear
+    from bem.wear.outcome import contact_strip, sizes_over_cycles
 
-    cycles, pressure = result.cycles, result.pressure
-    assert pressure is not None
-    before, after = sliding_heights(initial, result, grid)
-    strip = strip_wear(before, after, contact_strip(pressure))
-    particles, settled = scene.sizes.particles(result), cycles[-scene.cycles.settled :]
-    late = particles[particles["cycle"] > cycles["cycle"][-1] - scene.cycles.settled]
+    cycles, worn = result.cycles, WornSurface.of(scene, initial, result, grid)
+    particles, late, settled = worn.particles, worn.late, cycles[-scene.cycles.settled :]
     radius, number = sizes_over_cycles(cycles["cycle"], particles)
     archard = scene.archard.figures(load, float(late["volume"].mean())) if scene.archard and late.size else {}
     return filled(
         WearRecord,
+        worn,
+        worn.figures,
+        worn.strip(contact_strip(worn.pressure)),
         mean_sizes(late, scene.sizes),
         archard,
         {name: cycles[name].astype(np.float64) for name in _PER_CYCLE},
         {f"particle_{name}": np.ascontiguousarray(particles[name]) for name in _PER_PARTICLE},
         {f"{part}_seconds": float(result.times[part].sum()) for part in ("contact", "stress", "particles")},
         grid,
-        particles_per_cycle=float(late.size / len(settled)),
-        Sq_initial=strip.rms_before,
-        Sq_final=strip.rms_after,
         contact_area_fraction=float(settled["contact_area"].mean() / grid.area),
         mean_contact_pressure=float((settled["contact_load"] / settled["contact_area"]).mean()),
         worn_volume_per_cycle=float(settled["volume"].mean()),
@@ -379,13 +262,8 @@ def _record(
         truncated_particles=int(late["truncated"].sum()),
         cell=float(np.sqrt(grid.cell_area)),
         depths_computed_per_cycle=float(cycles["depths_computed"].mean()),
-        convolutions_per_cycle=float(cycles["convolutions"].mean()),
-        cycle=np.arange(1, len(cycles) + 1),
         radius=radius,
         particles=number,
-        height_before=before,
-        height_after=after,
-        pressure=pressure,
         removed=result.state.removed,
         errors=sizes_without_bars(scene.sizes),
     )

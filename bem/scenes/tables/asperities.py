@@ -1,0 +1,35 @@
+"""A regular array of spheres: the table of the kind asperities."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+from pydantic import Field, model_validator
+
+from bem.scenes.common import Cells, PositiveLength, Table, problem
+from bem.scenes.units import Length
+
+
+class ArrayScene(Table):
+    """Spheres of `radius` that stand `height` out of the flat, `spacings` apart; `window` is the side of the square
+    array whose deflection counts when depths are measured from the undeformed flat."""
+
+    radius: PositiveLength
+    height: PositiveLength
+    spacings: Annotated[list[PositiveLength], Field(min_length=1, max_length=64)]
+    interferences: Annotated[list[Annotated[Length, Field(gt=0)]], Field(min_length=1, max_length=256)]
+    cell: PositiveLength
+    window: PositiveLength
+    cells_at_most: Cells = 1024
+
+    @model_validator(mode="after")
+    def _apart(self) -> ArrayScene:
+        foot = math.sqrt(2 * self.radius * self.height)
+        if min(self.spacings) < 2 * foot:
+            raise problem(f"spheres {min(self.spacings):.3g} m apart overlap", f"spacings from {2 * foot:.3g} m")
+        if max(self.interferences) > 0.5 * self.height:
+            raise problem("interferences beyond half the height: the flat would touch", "smaller ones")
+        if max(self.spacings) / self.cell > self.cells_at_most:
+            raise problem("more cells per asperity than cells_at_most", "a larger cell or smaller spacings")
+        return self

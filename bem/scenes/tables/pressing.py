@@ -1,0 +1,95 @@
+"""How two bodies are pressed together, and what is wanted of it: of the kinds contact and surface-temperature."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, model_validator
+
+from bem.scenes import build
+from bem.scenes.common import (
+    BodyScene,
+    DepthsScene,
+    Force,
+    GridScene,
+    PositivePressure,
+    SceneModel,
+    ShapeScene,
+    Table,
+    UpperBodyScene,
+    exactly_one,
+    problem,
+)
+from bem.scenes.units import Length, Ratio
+
+
+class ContactControl(Table):
+    """How the bodies are pressed together: by load, mean pressure, approach from first touch or mean gap."""
+
+    load: Annotated[Force, Field(gt=0)] | None = None
+    mean_pressure: PositivePressure | None = None
+    approach: Length | None = None
+    mean_gap: Annotated[Length, Field(gt=0)] | None = None
+    behaviour: Literal["elastic", "capped"] = "elastic"
+    hardness: PositivePressure | None = None
+    friction: Annotated[Ratio, Field(ge=-10, le=10)] = 0.0
+    tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = 1e-8
+    max_iterations: Annotated[int, Field(strict=True, ge=1, le=1_000_000)] = 2000
+
+    @model_validator(mode="after")
+    def _one_control(self) -> ContactControl:
+        exactly_one(self, "load", "mean_pressure", "approach", "mean_gap")
+        if self.behaviour == "elastic" and self.hardness is not None:
+            raise problem(
+                "hardness is given but behaviour is elastic", 'behaviour = "capped" with hardness, or neither'
+            )
+        return self
+
+    def load_on(self, area: float) -> float | None:
+        """The load on a grid of that area [N], where load or mean pressure is given."""
+        return self.load if self.mean_pressure is None else self.mean_pressure * area
+
+    def prescribed(self, area: float) -> dict[str, Any]:
+        """What holds the bodies together, and the cap, as `solve_contact` takes them."""
+        given = {"approach": self.approach, "mean_gap": self.mean_gap, "hardness": self.hardness}
+        return given | {"load": self.load_on(area)}
+
+    def accuracy(self) -> dict[str, Any]:
+        """How well the contact is solved, as `solve_contact` takes it."""
+        return {"tolerance": self.tolerance, "max_iterations": self.max_iterations}
+
+    def words(self) -> str:
+        """The control, for a reader."""
+        if self.load is not None:
+            return f"load {self.load:g} N"
+        if self.mean_pressure is not None:
+            return f"mean pressure {self.mean_pressure:g} Pa"
+        if self.approach is not None:
+            return f"approach {self.approach:g} m"
+        return f"mean gap {self.mean_gap:g} m"
+
+
+class PressedScene(SceneModel):
+    """Two bodies, a grid and what presses them together."""
+
+    grid: GridScene = GridScene()
+    lower: BodyScene
+    upper: UpperBodyScene = UpperBodyScene()
+    shape: ShapeScene = ShapeScene()
+    contact: ContactControl
+
+    def resolved(self) -> Self:
+        """With the grid filled in where measured surfaces decide it, and the softer surface's hardness where capped."""
+        scene = build.with_grid(self)
+        return build.with_hardness(scene, needed=True) if self.contact.behaviour == "capped" else scene
+
+
+class ContactOutputs(Table):
+    """What is wanted besides pressure, gap and displacement."""
+
+    von_mises: bool = Field(default=False, strict=True)
+    stresses: bool = Field(default=False, strict=True)
+    depths: DepthsScene | None = None
+    body: Literal["lower", "upper"] = "lower"
+    vtk: bool = Field(default=True, strict=True)
+    errors: bool = Field(default=True, strict=True)

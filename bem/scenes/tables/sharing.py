@@ -1,0 +1,75 @@
+"""Load sharing between film and contact, its models and accuracy: tables of the kinds friction and running-in."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeVar
+
+from pydantic import Field, model_validator
+
+from bem.errors import InputError
+from bem.scenes.axes import with_keys
+from bem.scenes.common import PositiveLength, Table, Variant, problem
+from bem.scenes.lubrication import LineContactScene
+from bem.scenes.units import Ratio
+from bem.scenes.wearing import Count, LastCycles
+
+Line = TypeVar("Line", bound=LineContactScene)
+Model = Literal["elastic", "capped", "uncoupled", "uncoupled_elastic"]
+
+
+class SharingScene(Table):
+    """How the load is shared.
+
+    `models`: "elastic" and "capped" (at the hardness) are the rough half-space; "uncoupled" and "uncoupled_elastic"
+    take every summit as a Hertz sphere of its own, the usual baseline. `asperity_separation`: mean planes of the
+    uncoupled summits as far apart as keeps the oil's "volume", or as the "film" is thick. `flow_factors`: whether the
+    film flows between smooth walls ("off"), or between the "surfaces" as `bem.flow_factors` has them.
+    """
+
+    models: Annotated[list[Model], Field(min_length=1, max_length=4)] = ["capped"]  # noqa: RUF012
+    tolerance: Annotated[Ratio, Field(ge=1e-9, le=0.1)] = 1e-4
+    contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = 1e-6
+    asperity_separation: Literal["volume", "film"] = "volume"
+    striated_exit: bool = Field(default=False, strict=True)
+    flow_factors: Literal["off", "surfaces"] = "off"
+
+    @model_validator(mode="after")
+    def _each_once(self) -> SharingScene:
+        if len(set(self.models)) != len(self.models):
+            raise problem("a model is named twice", "each model once")
+        return self
+
+
+class SurfaceVariant(Variant):
+    """Changes to the generated lower surface."""
+
+    correlation_length: PositiveLength | None = None
+    rms_height: PositiveLength | None = None
+
+    def applied(self, scene: Line) -> Line:
+        """The scene with a variant's changes to the lower surface."""
+        if scene.lower.surface.kind != "generated":
+            raise InputError("variants: the lower surface is not generated; allowed: a generated one")
+        changes = self.changes()
+        if "correlation_length" in changes and scene.lower.surface.correlation_length is None:
+            raise InputError(
+                "variants.correlation_length: the lower surface has none; allowed: one with correlation_length"
+            )
+        return with_keys(scene, {f"lower.surface.{key}": value for key, value in changes.items()})
+
+
+class RunningInSharing(Table):
+    """Accuracy of the load sharing in each cycle.
+
+    `film_points`: nodes of the film's mesh; films are tabulated over the load they carry, once per speed.
+    """
+
+    tolerance: Annotated[Ratio, Field(ge=1e-8, le=0.01)] = 5e-4
+    contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = 1e-4
+    film_points: Annotated[int, Field(strict=True, ge=100, le=5000)] = 400
+
+
+class RunningInCycles(LastCycles):
+    """How many cycles; run-in friction is the mean of the last `averaged`, particles those of the last `settled`."""
+
+    averaged: Count = 10
