@@ -274,23 +274,25 @@ def _leak(start, neighbour, conductance, diagonal, potential, source):  # type: 
 
 
 @_strict
+def _relax(i, start, neighbour, conductance, diagonal, potential, source):  # type: ignore[no-untyped-def]
+    """The potential of a cell with which its own balance holds."""
+    if diagonal[i] > 0:
+        value = source[i]
+        for k in range(start[i], start[i + 1]):
+            value += conductance[k] * potential[neighbour[k]]
+        potential[i] = value / diagonal[i]
+
+
+@_strict
 def _forward(start, neighbour, conductance, diagonal, potential, source):  # type: ignore[no-untyped-def]
     for i in range(len(diagonal)):
-        if diagonal[i] > 0:
-            value = source[i]
-            for k in range(start[i], start[i + 1]):
-                value += conductance[k] * potential[neighbour[k]]
-            potential[i] = value / diagonal[i]
+        _relax(i, start, neighbour, conductance, diagonal, potential, source)
 
 
 @_strict
 def _backward(start, neighbour, conductance, diagonal, potential, source):  # type: ignore[no-untyped-def]
     for i in range(len(diagonal) - 1, -1, -1):
-        if diagonal[i] > 0:
-            value = source[i]
-            for k in range(start[i], start[i + 1]):
-                value += conductance[k] * potential[neighbour[k]]
-            potential[i] = value / diagonal[i]
+        _relax(i, start, neighbour, conductance, diagonal, potential, source)
 
 
 @_strict

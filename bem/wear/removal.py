@@ -32,29 +32,32 @@ class RemovalLaw(Law):
         raise NotImplementedError
 
 
-@register
 @dataclass(frozen=True)
-class Cap(RemovalLaw):
-    """A piece takes all that lies above its yielded part in a column along; two that meet in a column leave as one."""
+class _ByColumns(RemovalLaw):
+    """Laws that look at one column of yielded runs after the other."""
 
-    name: ClassVar[str] = "cap"
+    takes_along: ClassVar[bool]
 
     def remove(self, runs: Runs, parent: NDArray[np.int64], labels: NDArray[np.int32], thickness: FloatArray) -> int:
         """As `RemovalLaw`."""
         from bem.wear.yielded_runs import remove  # compiled loops are not loaded for a name
 
-        return remove(runs, parent, True, labels, thickness)
+        return remove(runs, parent, self.takes_along, labels, thickness)
 
 
 @register
 @dataclass(frozen=True)
-class TopRun(RemovalLaw):
+class Cap(_ByColumns):
+    """A piece takes all that lies above its yielded part in a column along; two that meet in a column leave as one."""
+
+    name: ClassVar[str] = "cap"
+    takes_along: ClassVar[bool] = True
+
+
+@register
+@dataclass(frozen=True)
+class TopRun(_ByColumns):
     """Only what yields without a break from the surface down leaves."""
 
     name: ClassVar[str] = "top_run"
-
-    def remove(self, runs: Runs, parent: NDArray[np.int64], labels: NDArray[np.int32], thickness: FloatArray) -> int:
-        """As `RemovalLaw`."""
-        from bem.wear.yielded_runs import remove
-
-        return remove(runs, parent, False, labels, thickness)
+    takes_along: ClassVar[bool] = False

@@ -25,6 +25,21 @@ def judge(rows_of_next: Callable[[np.random.Generator], Rows], path: Path, cases
     path.write_text(json.dumps({"cases": cases, "seed": seed, "figures": verdict, "rows": rows}, indent=1) + "\n")
 
 
+def rows_with_parts(found: dict[str, float], truth: dict[str, float], bars: Any, **told: Any) -> Rows:
+    """A row for each figure that has a bar, with its parts by origin and its true error; `told` says of what."""
+    return [
+        {
+            "figure": name,
+            **told,
+            "value": found[name],
+            "parts": {origin: part[name] for origin, part in bars.parts.items()},
+            "error": abs(found[name] - truth[name]),
+            "bar": bar,
+        }
+        for name, bar in bars.values.items()
+    ]
+
+
 def judged(rows: Rows) -> dict[str, dict[str, float]]:
     """For each figure: how many bars, which share covers, the median of bar over error, how many have none. What is
     prescribed or absent (no error, no bar to speak of) is not counted."""

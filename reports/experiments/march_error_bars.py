@@ -20,7 +20,7 @@ import numpy as np
 from bem import Lubricant
 from bem.accuracy import MarchCase, march_bars, march_figures
 from bem.errors import Status
-from reports.experiments.judging import judge
+from reports.experiments.judging import judge, rows_with_parts
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "march_error_bars.json"
 FINER = 4
@@ -76,17 +76,7 @@ def rows_of(words: str, case: MarchCase) -> list[dict[str, Any]]:
     if reference[-1].status is not Status.CONVERGED:
         return []
     found, truth = march_figures(case.films), march_figures(reference)
-    return [
-        {
-            "figure": name,
-            "march": words,
-            "value": found[name],
-            "parts": {origin: part[name] for origin, part in bars.parts.items()},
-            "error": abs(found[name] - truth[name]),
-            "bar": bar,
-        }
-        for name, bar in bars.values.items()
-    ]
+    return rows_with_parts(found, truth, bars, march=words)
 
 
 def main() -> None:

@@ -27,7 +27,7 @@ from bem.friction.load_sharing import solve_setup
 from bem.friction.setup import MixedSetup
 from bem.surfaces import generate_surface
 from reports.experiments.contact_error_bars import FloatArray, waves_through
-from reports.experiments.judging import judge
+from reports.experiments.judging import judge, rows_with_parts
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "mixed_error_bars.json"
 FINER = 4
@@ -110,18 +110,13 @@ def rows_of(problem: Problem) -> list[dict[str, Any]]:
     fine = FINER * setup.film_points
     whole = SolvedFilm(setup.line, speeds, setup.grid.x, fine).under(setup.load, int(fine > BALANCE_POINTS), None)
     truth["lambda_ratio"] = whole.minimum_thickness / float(heights.std())
-    return [
-        {
-            "figure": name,
-            "contact": f"{words}, {solution.regime}, lambda {solution.lambda_ratio:.2g}",
-            "resolved": surface_is_resolved(heights, setup.grid),
-            "value": found[name],
-            "parts": {origin: part[name] for origin, part in bars.parts.items()},
-            "error": abs(found[name] - truth[name]),
-            "bar": bar,
-        }
-        for name, bar in bars.values.items()
-    ]
+    return rows_with_parts(
+        found,
+        truth,
+        bars,
+        contact=f"{words}, {solution.regime}, lambda {solution.lambda_ratio:.2g}",
+        resolved=surface_is_resolved(heights, setup.grid),
+    )
 
 
 def main() -> None:

@@ -111,7 +111,9 @@ def test_a_run_folder_holds_what_it_promises(tmp_path):
     assert page.count("data:image/png;base64,") >= 6
     assert "http" not in page, "the report must need no network"
 
-    again = run_scene(tmp_path / "run" / "scene.toml", tmp_path / "again")
+    again = run_scene(tmp_path / "run" / "scene.toml", tmp_path / "again", pdf=True)
+    endings = [item.suffix for item in (again.path / "figures").iterdir()]
+    assert endings.count(".pdf") == endings.count(".png") >= 6, "drawn when asked for"
     assert everything(run.path) == everything(again.path)
     assert (run.path / "scene.toml").read_bytes() == (again.path / "scene.toml").read_bytes()
     assert (run.path / "results.nc").read_bytes() == (again.path / "results.nc").read_bytes()
@@ -304,9 +306,3 @@ def test_numbers_are_told_before_pictures_are_drawn(tmp_path, monkeypatch):
     watcher = SimpleNamespace(progress=lambda *_: None, note=lambda _: None, numbers=numbers)
     run_scene(SCENE, tmp_path, watcher=watcher)
     assert told == ["numbers", "pictures"]
-
-
-def test_pdfs_are_drawn_when_asked_for(tmp_path):
-    run = run_scene(SCENE, tmp_path / "run", pdf=True)
-    endings = sorted(item.suffix for item in (run.path / "figures").iterdir())
-    assert endings.count(".pdf") == endings.count(".png") >= 6

@@ -124,23 +124,26 @@ def test_film_table_does_not_depend_on_what_was_asked_first():
         assert np.array_equal(values[0][load], values[1][load])
 
 
-@pytest.mark.parametrize("speed", [0.003, 0.05, 0.5])
-def test_cycle_contact_is_load_sharing(speed):
-    """The contact of a wear cycle, from tabulated films, is `solve_mixed`."""
+def patch_case(**more):
+    """Heights like those of `PATCH`, and the other arguments of `solve_mixed`."""
     grid = Grid((64, 32), (0.8e-6, 0.8e-6), periodic=(False, True))
-    height = generate_surface(grid, rms_height=120e-9, correlation_length=2e-6, seed=4)
-    bodies = (Body(CATALOGUE["steel-disk-110HV"].material), Body(CATALOGUE["steel-cylinder"].material))
     case = {
         "grid": grid,
-        "bodies": bodies,
+        "bodies": (Body(CATALOGUE["steel-disk-110HV"].material), Body(CATALOGUE["steel-cylinder"].material)),
         "radius": 2e-3,
         "width": 6e-3,
         "load": 5.5,
         "lubricant": OIL,
         "boundary_friction": 0.15,
         "hardness": 1.08e9,
-        "film_points": 300,
     }
+    return generate_surface(grid, rms_height=120e-9, correlation_length=2e-6, seed=4), case | more
+
+
+@pytest.mark.parametrize("speed", [0.003, 0.05, 0.5])
+def test_cycle_contact_is_load_sharing(speed):
+    """The contact of a wear cycle, from tabulated films, is `solve_mixed`."""
+    height, case = patch_case(film_points=300)
     step = MixedContact(MixedSetup(**case, tolerance=5e-4, contact_tolerance=1e-4), (speed, 0.0))
     outcome = step(height + 3e-7, None)  # the mean does not matter
     solution = solve_mixed(height=height, speeds=(speed, 0.0), **case)
@@ -157,20 +160,7 @@ def test_cycle_contact_is_load_sharing(speed):
 
 def test_a_contact_solved_too_coarsely_is_solved_better(monkeypatch):
     """Loads that jump with the contact's own tolerance must not keep film and contact from their balance."""
-    grid = Grid((64, 32), (0.8e-6, 0.8e-6), periodic=(False, True))
-    height = generate_surface(grid, rms_height=120e-9, correlation_length=2e-6, seed=4)
-    case = {
-        "grid": grid,
-        "bodies": (Body(CATALOGUE["steel-disk-110HV"].material), Body(CATALOGUE["steel-cylinder"].material)),
-        "radius": 2e-3,
-        "width": 6e-3,
-        "load": 5.5,
-        "lubricant": OIL,
-        "boundary_friction": 0.15,
-        "hardness": 1.08e9,
-        "film_points": 200,
-        "tolerance": 5e-4,
-    }
+    height, case = patch_case(film_points=200, tolerance=5e-4)
     exact = MixedContact(MixedSetup(**case), (0.05, 0.0))
     exact(height, None)
     middle = exact.rows["film_load"][0]
