@@ -114,11 +114,11 @@ class Hierarchy:
         network, group = level.network, level.group
         parts = (network.start, network.neighbour, network.conductance, network.diagonal)
         found = np.zeros(network.nodes)
-        _forward(*parts, found, residual)
+        _relax(*parts, found, residual, True)
         coarse_nodes = self.levels[depth + 1].network.nodes if depth + 1 < len(self.levels) else self.coarsest.nodes
         coarse = self._solve(_restricted(*parts, found, residual, group, coarse_nodes), depth + 1)
         _prolong(found, coarse, group)
-        _backward(*parts, found, residual)
+        _relax(*parts, found, residual, False)
         return found
 
     def _solve(self, right: FloatArray, depth: int) -> FloatArray:
@@ -274,25 +274,16 @@ def _leak(start, neighbour, conductance, diagonal, potential, source):  # type: 
 
 
 @_strict
-def _relax(i, start, neighbour, conductance, diagonal, potential, source):  # type: ignore[no-untyped-def]
-    """The potential of a cell with which its own balance holds."""
-    if diagonal[i] > 0:
-        value = source[i]
-        for k in range(start[i], start[i + 1]):
-            value += conductance[k] * potential[neighbour[k]]
-        potential[i] = value / diagonal[i]
-
-
-@_strict
-def _forward(start, neighbour, conductance, diagonal, potential, source):  # type: ignore[no-untyped-def]
-    for i in range(len(diagonal)):
-        _relax(i, start, neighbour, conductance, diagonal, potential, source)
-
-
-@_strict
-def _backward(start, neighbour, conductance, diagonal, potential, source):  # type: ignore[no-untyped-def]
-    for i in range(len(diagonal) - 1, -1, -1):
-        _relax(i, start, neighbour, conductance, diagonal, potential, source)
+def _relax(start, neighbour, conductance, diagonal, potential, source, forward):  # type: ignore[no-untyped-def]
+    """Gauss-Seidel: cell after cell its own balance is met, from the first to the last or the other way."""
+    last = len(diagonal) - 1
+    for j in range(last + 1):
+        i = j if forward else last - j
+        if diagonal[i] > 0:
+            value = source[i]
+            for k in range(start[i], start[i + 1]):
+                value += conductance[k] * potential[neighbour[k]]
+            potential[i] = value / diagonal[i]
 
 
 @_strict
