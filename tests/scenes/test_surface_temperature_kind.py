@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from bem import CATALOGUE, InputError, plan_scene
+from bem import CATALOGUE, InfeasibleError, InputError, plan_scene
 from bem.reference_solutions.heat_sources import tian_kennedy
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes import PlainContext, get_kind, load_scene
@@ -97,3 +97,9 @@ def test_mistakes_are_said_by_the_plan(changes, word):
 def test_the_built_in_scene_is_planned():
     _, plan = plan_scene("flash-temperature")
     assert any(step.name == "surface temperature" and not step.skipped for step in plan.steps)
+
+
+def test_a_load_beyond_hardness_times_area_is_refused_before_any_work():
+    contact = {"load": "1 kN", "friction": 0.1, "behaviour": "capped", "hardness": "1 GPa"}  # the grid carries 160 N
+    with pytest.raises(InfeasibleError, match=r"contact.load = 1000 N: beyond hardness x area"):
+        plan_scene(scene(contact=contact))

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import model_validator
 
-from bem.errors import InfeasibleError, Status
+from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.scenes import build, plans
@@ -39,7 +39,7 @@ class ContactScene(PressedScene):
 
     @model_validator(mode="after")
     def _stresses_in_an_elastic_body(self) -> ContactScene:
-        if self.outputs.body == "upper" and self.upper.material is None and _wants_stresses(self):
+        if self.outputs.body == "upper" and self.upper.material is None and self.outputs.below:
             raise problem(
                 'outputs.body = "upper": the upper body is rigid', 'outputs.body = "lower", or upper.material'
             )
@@ -49,7 +49,7 @@ class ContactScene(PressedScene):
 def resolve(scene: ContactScene) -> ContactScene:
     """Fill in the grid where measured surfaces decide it, and the hardness of the softer surface."""
     scene = scene.resolved()
-    if _wants_stresses(scene) and scene.outputs.depths is None:
+    if scene.outputs.below and scene.outputs.depths is None:
         deepest = min(build.grid_of(scene.grid).lengths) / 4
         scene = changed(scene, "outputs.depths", DepthsScene(deepest=deepest, count=24))
     return scene
@@ -64,9 +64,9 @@ def plan(scene: ContactScene) -> Plan:
     """
     grid, outputs = build.grid_of(scene.grid), scene.outputs
     bodies = plans.of_bodies(scene, grid, scene.contact.friction)
-    _check_load(scene, grid)
+    scene.contact.check_load(grid.area)
     lower, upper = scene.lower.build(), scene.upper.build()
-    depths = len(_depths(scene))
+    depths = len(scene.outputs.wanted_depths())
     return Plan(
         (
             *bodies,
@@ -84,17 +84,6 @@ def plan(scene: ContactScene) -> Plan:
             plans.figures(grid.cells),
         )
     )
-
-
-def _check_load(scene: ContactScene, grid: Grid) -> None:
-    """Refuse a load beyond hardness times the grid's area; InfeasibleError."""
-    load, hardness = scene.contact.load_on(grid.area), scene.contact.hardness
-    if load is not None and hardness is not None and load > hardness * grid.area:
-        key, value = ("load", f"{load:g} N") if scene.contact.load else ("mean_pressure", f"{load / grid.area:g} Pa")
-        raise InfeasibleError(
-            f"contact.{key} = {value}: beyond hardness x area = {hardness:g} Pa x {grid.area:g} m^2 = "
-            f"{hardness * grid.area:g} N; allowed: a smaller load, a larger grid or a higher hardness"
-        )
 
 
 def _map(unit: str, text: str) -> Series:
@@ -158,7 +147,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     for note in solution.notes:
         context.note(note)
     below: StressBelow | None = None
-    if _depths(scene):
+    if scene.outputs.wanted_depths():
         with context.timer("stresses"):
             below = _stresses(scene, grid, solution.pressure, context)
     converged = solution.status is Status.CONVERGED
@@ -224,7 +213,7 @@ def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Co
     """Stresses in the body asked for, at every depth; von Mises on disk where it is very large."""
     from bem.stress import stress_below
 
-    depths, (body, friction) = np.array(_depths(scene)), _stressed(scene)
+    depths, (body, friction) = np.array(scene.outputs.wanted_depths()), _stressed(scene)
     field = context.scratch((len(depths), *grid.shape))
 
     def after(done: int) -> None:
@@ -269,19 +258,9 @@ def _stressed(scene: ContactScene) -> tuple[Body, float]:
     return upper, -scene.contact.friction
 
 
-def _wants_stresses(scene: ContactScene) -> bool:
-    return scene.outputs.von_mises or scene.outputs.stresses
-
-
-def _depths(scene: ContactScene) -> tuple[float, ...]:
-    if not _wants_stresses(scene) or scene.outputs.depths is None:
-        return ()
-    return scene.outputs.depths.build()
-
-
 def volumes(scene: ContactScene) -> tuple[str, ...]:
     """Fields for ParaView."""
-    if not scene.outputs.vtk or not _depths(scene):
+    if not scene.outputs.vtk or not scene.outputs.wanted_depths():
         return ()
     return ("von_mises", "stress") if scene.outputs.stresses else ("von_mises",)
 

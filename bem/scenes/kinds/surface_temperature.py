@@ -50,12 +50,14 @@ def plan(scene: SurfaceTemperatureScene) -> Plan:
 
     Raises
     ------
+    InfeasibleError : a load beyond hardness x area.
     InputError : surfaces that cannot be generated on the grid, materials without thermal constants, layers, a grid on
         which no steady temperature exists.
     """
     from bem.heat.bodies import check_steady, conductors_of
 
     grid = build.grid_of(scene.grid)
+    scene.contact.check_load(grid.area)
     rubbing = plans.of_bodies(scene, grid, scene.contact.friction)
     lower, upper = scene.lower.build(), scene.upper.build()
     bodies, speeds, bulk = _pair(scene, lower, upper)

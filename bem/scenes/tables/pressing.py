@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
+from bem.errors import InfeasibleError
 from bem.scenes import build
 from bem.scenes.common import (
     BodyScene,
@@ -48,6 +49,21 @@ class ContactControl(Table):
     def load_on(self, area: float) -> float | None:
         """The load on a grid of that area [N], where load or mean pressure is given."""
         return self.load if self.mean_pressure is None else self.mean_pressure * area
+
+    def check_load(self, area: float) -> None:
+        """Refuse a load that not even a grid of that area [m^2], all of it at the hardness, carries.
+
+        Raises
+        ------
+        InfeasibleError : a load beyond hardness x area.
+        """
+        load, hardness = self.load_on(area), self.hardness
+        if load is not None and hardness is not None and load > hardness * area:
+            key, value = ("load", f"{load:g} N") if self.load else ("mean_pressure", f"{load / area:g} Pa")
+            raise InfeasibleError(
+                f"contact.{key} = {value}: beyond hardness x area = {hardness:g} Pa x {area:g} m^2 = "
+                f"{hardness * area:g} N; allowed: a smaller load, a larger grid or a higher hardness"
+            )
 
     def prescribed(self, area: float) -> dict[str, Any]:
         """What holds the bodies together, and the cap, as `solve_contact` takes them."""
@@ -93,3 +109,12 @@ class ContactOutputs(Table):
     body: Literal["lower", "upper"] = "lower"
     vtk: bool = Field(default=True, strict=True)
     errors: bool = Field(default=True, strict=True)
+
+    @property
+    def below(self) -> bool:
+        """Whether anything below the surface is wanted."""
+        return self.von_mises or self.stresses
+
+    def wanted_depths(self) -> tuple[float, ...]:
+        """Depths of what is wanted below the surface [m]; none where nothing is."""
+        return self.depths.build() if self.below and self.depths is not None else ()
