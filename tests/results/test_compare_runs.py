@@ -9,6 +9,7 @@ from small_scenes import CONTACT
 from typer.testing import CliRunner
 
 from bem.cli import build
+from bem.errors import ResultsError
 from bem.plots.overlay import panel
 from bem.results.compare import Difference, figure_differences, leaves, run_labels, scene_differences, shown
 from bem.runs import run_scene
@@ -60,17 +61,12 @@ def test_command_prints_tables_and_draws_both_in_one_figure(pair, tmp_path):
     assert "+100.000%" in done.stdout
     assert (tmp_path / "comparison.png").stat().st_size > 5000
     assert (tmp_path / "comparison.pdf").read_bytes().startswith(b"%PDF")
-    same = subprocess.run(
-        [*command[:-1], str(pair[0].path), "--no-figures"], cwd=tmp_path, capture_output=True, text=True, timeout=60,
-        check=False,
-    )  # fmt: skip
-    assert "scenes: equal" in same.stdout
-    assert "results: equal" in same.stdout
-    missing = subprocess.run(
-        [*command[:-1], "nowhere"], cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False
-    )
-    assert missing.returncode == 4
-    assert "nowhere: no such folder" in missing.stderr
+    same = CliRunner().invoke(build(), [*command[-3:-1], str(pair[0].path), "--no-figures"])
+    assert "scenes: equal" in same.output
+    assert "results: equal" in same.output
+    missing = CliRunner().invoke(build(), [*command[-3:-1], "nowhere"])
+    assert isinstance(missing.exception, ResultsError)
+    assert "nowhere: no such folder" in str(missing.exception)
 
 
 # a quick built-in scene of each kind, what is changed in its second run, a variable that must be laid over, its cases
