@@ -8,6 +8,7 @@ contacts (`reports/experiments/contact_error_bars.py`). A figure that does not c
 
 from __future__ import annotations
 
+from bem.accuracy.asperities import asperity_bars
 from bem.accuracy.bars import ErrorBars
 from bem.accuracy.contact import Coarser, ContactCase, contact_bars, figures_of, solve_coarser, surface_is_resolved
 from bem.accuracy.film import FilmCase, OtherFilm, film_bars, film_figures, solve_coarser_film
@@ -24,6 +25,7 @@ __all__ = [
     "MarchCase",
     "MixedCase",
     "OtherFilm",
+    "asperity_bars",
     "contact_bars",
     "figures_of",
     "film_bars",

@@ -177,6 +177,18 @@ def error_bars_of_balances(grid: Grid, convolutions: float, wanted: bool) -> Ste
     )
 
 
+def error_bars_of_arrays(grid: Grid, convolutions: float, wanted: bool) -> Step:
+    """Contacts that took so many convolutions again on the grid of twice the cell."""
+    return Step(
+        "error bars",
+        "all contacts on the grid of twice the cell" if wanted else "outputs.errors is false",
+        skipped=not wanted,
+        transforms=_TRANSFORMS_PER_CONVOLUTION * convolutions,
+        points=int(padded_points(grid.shape, grid.periodic) / 4),
+        kept=0.0,
+    )
+
+
 def flow_factors(grid: Grid, separations: int, *, wanted: bool) -> Step:
     """A table of flow factors: some 30 iterations of three problems a separation, 1.5e-7 s a cell each: measured."""
     return Step(

@@ -312,6 +312,10 @@ def test_asperities_feel_the_lattice():
         inward = 50e-9 + SQUARE_LATTICE * share * hertz / (math.pi * modulus * spacing)
         # Hertz on the cells of 250 nm, a fifth of the contact's radius of 1.2 um: 2 %
         assert share == pytest.approx((inward / 50e-9) ** 1.5, rel=0.03)
+    # the grid of twice the cell says what these cells cost: some per cent
+    for value, error in zip(outcome.summary["load_over_hertz"], outcome.summary["load_over_hertz_error"], strict=True):
+        assert 1e-3 < error / value < 0.2
+    assert outcome.variables["asperity_load_error"].units == "N"
     finite = outcome.summary["load_over_hertz_finite_array"]
     assert finite[0] < finite[1] < finite[2] < 1  # neighbours take load from one another, as in the thesis
 

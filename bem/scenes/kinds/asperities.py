@@ -5,22 +5,25 @@ A case is one spacing; `bem.friction.asperity_array` does the work.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
-from bem.errors import Status
+from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed
-from bem.scenes.common import BodyScene, SceneModel, UpperBodyScene
+from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene
 from bem.scenes.context import Context
 from bem.scenes.kinds import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.tables.asperities import ArrayScene
+
+if TYPE_CHECKING:
+    from bem.friction.asperity_array import ArrayLoads
 
 _CONVOLUTIONS = 20  # of each contact
 
@@ -32,11 +35,12 @@ class AsperitiesScene(SceneModel):
     lower: BodyScene
     upper: UpperBodyScene = UpperBodyScene()
     array: ArrayScene
+    outputs: OutputsScene = OutputsScene()
 
 
-def grid_at(scene: AsperitiesScene, spacing: float) -> Grid:
-    """The cell of one asperity."""
-    n = max(8, round(spacing / scene.array.cell))
+def grid_at(scene: AsperitiesScene, spacing: float, coarser: int = 1) -> Grid:
+    """The cell of one asperity, or so many times fewer cells of it."""
+    n = max(8, round(spacing / scene.array.cell)) // coarser
     return Grid((n, n), (spacing / n, spacing / n), periodic=(True, True))
 
 
@@ -50,6 +54,7 @@ def plan(scene: AsperitiesScene) -> Plan:
             plans.contacts(
                 grid, _CONVOLUTIONS * LOADS, f"{LOADS} loads for each spacing, one asperity each", name="contacts"
             ),
+            plans.error_bars_of_arrays(grid, _CONVOLUTIONS * LOADS, scene.outputs.errors),
             Step("the other asperities of the array", "all carry the same, by symmetry", skipped=True),
             plans.figures(grid.cells),
         )
@@ -82,20 +87,16 @@ class AsperityRecord(Record):
 
 def run(scene: AsperitiesScene, context: Context) -> AsperityRecord:
     """Loads over depths at one spacing."""
-    from bem.friction.asperity_array import LOADS, press_array
+    from bem.friction.asperity_array import LOADS
 
-    array, (spacing,) = scene.array, scene.array.spacings
+    (spacing,) = scene.array.spacings
     grid = grid_at(scene, spacing)
     with context.timer("contacts"):
-        found = press_array(
-            build.operator_of(scene, grid),
-            radius=array.radius,
-            height=array.height,
-            contact_modulus=build.modulus_of(scene),
-            depths=np.array(sorted(array.interferences)),
-            window=array.window,
-            callback=lambda done: context.progress(done, LOADS, "contacts"),
-        )
+        found = _pressed(scene, grid, lambda done: context.progress(done, LOADS, "contacts"))
+    errors: Mapping[str, Any] = {}
+    if scene.outputs.errors and found.status is Status.CONVERGED:
+        with context.timer("error bars"):
+            errors = _errors(scene, grid, found, context)
     return filled(
         AsperityRecord,
         found,
@@ -108,7 +109,40 @@ def run(scene: AsperitiesScene, context: Context) -> AsperityRecord:
         asperity_load_window=found.from_flat,
         status=found.status,
         where="" if found.status is Status.CONVERGED else "a contact",
+        errors=errors,
     )
+
+
+def _pressed(scene: AsperitiesScene, grid: Grid, callback: Callable[[int], None] | None = None) -> ArrayLoads:
+    from bem.friction.asperity_array import press_array
+
+    array = scene.array
+    return press_array(
+        build.operator_of(scene, grid),
+        radius=array.radius,
+        height=array.height,
+        contact_modulus=build.modulus_of(scene),
+        depths=np.array(sorted(array.interferences)),
+        window=array.window,
+        callback=callback,
+    )
+
+
+def _errors(scene: AsperitiesScene, grid: Grid, found: ArrayLoads, context: Context) -> dict[str, Any]:
+    """Error bars, from the grid of twice the cell; None of each where that one does not reach the depths."""
+    from bem.accuracy import asperity_bars
+
+    names = ("load_over_hertz", "load_over_hertz_finite_array")
+    try:
+        coarser = _pressed(scene, grid_at(scene, grid.lengths[0], coarser=2))
+    except InputError:
+        coarser = None
+    if coarser is None or coarser.status is not Status.CONVERGED:
+        context.note("no error bars: the array was not solved on the grid of twice the cell")
+        return dict.fromkeys(names)
+    bars = asperity_bars(found, coarser, scene.array.radius, grid.spacing[0])
+    shares = {name: float(bar[-1] / found.alone[-1]) for name, bar in zip(names, bars.values(), strict=True)}
+    return {**shares, "asperity_load": bars["mean_plane"], "asperity_load_window": bars["from_flat"]}
 
 
 def summarise(scene: AsperitiesScene, axes: Any, records: Sequence[AsperityRecord | None]) -> dict[str, Any]:

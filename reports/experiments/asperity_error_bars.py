@@ -1,0 +1,110 @@
+"""Error bars of random arrays of asperities against references of four times the cells a side.
+
+    python -m reports.experiments.asperity_error_bars [CASES]
+
+Spheres of 2 to 100 um, pressed in by 2 to 50 nm, two to seven cells in Hertz' radius at the deepest, heights of two to
+six depths, spacings of 8 to 16 of that radius. The result is stored in
+`reports/results/asperities_error_bars.json`.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem import Body, Grid, Material, contact_modulus
+from bem.accuracy import asperity_bars
+from bem.convolution import displacement_operator
+from bem.friction.asperity_array import ArrayLoads, press_array
+from reports.experiments.contact_error_bars import judged
+
+RESULT = Path(__file__).resolve().parents[1] / "results" / "asperities_error_bars.json"
+FINER = 4
+_STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
+
+
+@dataclass(frozen=True)
+class ArrayDrawn:
+    """A random array: radius, height, depth and spacing [m], cells a side."""
+
+    radius: float
+    height: float
+    depth: float
+    spacing: float
+    cells: int
+
+    def loads(self, cells: int) -> ArrayLoads:
+        """Its loads on a grid of so many cells a side, at a third, two thirds and all of the depth."""
+        grid = Grid((cells, cells), (self.spacing / cells,) * 2, periodic=(True, True))
+        return press_array(
+            displacement_operator(grid, Body(_STEEL)),
+            radius=self.radius,
+            height=self.height,
+            contact_modulus=contact_modulus(_STEEL),
+            depths=self.depth * np.array([1 / 3, 2 / 3, 1.0]),
+            window=10 * self.spacing,
+        )
+
+
+def draw(rng: np.random.Generator) -> ArrayDrawn:
+    """A random array."""
+    radius, depth = 10 ** rng.uniform(-5.7, -4), 10 ** rng.uniform(-8.7, -7.3)
+    height = depth * rng.uniform(2, 6)
+    # nearer neighbours lift each other so that the loads of a curve do not reach the depth
+    spacing = max(2.05 * math.sqrt(2 * radius * height), math.sqrt(radius * depth) * rng.uniform(8, 16))
+    cells = round(spacing / math.sqrt(radius * depth) * rng.uniform(2, 7))
+    return ArrayDrawn(radius, height, depth, spacing, max(16, cells))
+
+
+def rows_of(case: ArrayDrawn) -> list[dict[str, Any]]:
+    """Bar and true error of every load."""
+    found, coarser, reference = (case.loads(n) for n in (case.cells, case.cells // 2, FINER * case.cells))
+    bars = asperity_bars(found, coarser, case.radius, case.spacing / case.cells)
+    return [
+        {
+            "figure": {"mean_plane": "asperity_load", "from_flat": "asperity_load_window"}[name],
+            "array": f"{case.cells} cells, radius {case.radius:.3g}, depth {depth:.3g}, spacing {case.spacing:.3g} m",
+            "value": float(value),
+            "difference": float(abs(value - other)),
+            "at_edge": (case.spacing / case.cells) ** 2 / (case.radius * depth) * float(value),
+            "error": float(abs(value - truth)),
+            "bar": float(bar),
+        }
+        for name in bars
+        for depth, value, other, truth, bar in zip(
+            found.depth,
+            getattr(found, name),
+            getattr(coarser, name),
+            getattr(reference, name),
+            bars[name],
+            strict=True,
+        )
+    ]
+
+
+def run(cases: int, seed: int = 14) -> list[dict[str, Any]]:
+    """Rows of so many arrays."""
+    rng, rows = np.random.default_rng(seed), []
+    for _ in range(cases):
+        rows += rows_of(draw(rng))
+    return rows
+
+
+def main() -> None:
+    """Draw, solve, judge, store."""
+    cases = int(sys.argv[1]) if len(sys.argv) > 1 else 60
+    rows = run(cases)
+    verdict = judged(rows)
+    for name, row in verdict.items():
+        print(name, {key: round(value, 5) for key, value in row.items()})
+    RESULT.write_text(json.dumps({"cases": cases, "seed": 14, "figures": verdict, "rows": rows}, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()
