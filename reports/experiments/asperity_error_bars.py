@@ -9,9 +9,7 @@ six depths, spacings of 8 to 16 of that radius. The result is stored in
 
 from __future__ import annotations
 
-import json
 import math
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -22,7 +20,7 @@ from bem import Body, Grid, Material, contact_modulus
 from bem.accuracy import asperity_bars
 from bem.convolution import displacement_operator
 from bem.friction.asperity_array import ArrayLoads, press_array
-from reports.experiments.contact_error_bars import judged
+from reports.experiments.judging import judge
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "asperities_error_bars.json"
 FINER = 4
@@ -88,23 +86,5 @@ def rows_of(case: ArrayDrawn) -> list[dict[str, Any]]:
     ]
 
 
-def run(cases: int, seed: int = 14) -> list[dict[str, Any]]:
-    """Rows of so many arrays."""
-    rng, rows = np.random.default_rng(seed), []
-    for _ in range(cases):
-        rows += rows_of(draw(rng))
-    return rows
-
-
-def main() -> None:
-    """Draw, solve, judge, store."""
-    cases = int(sys.argv[1]) if len(sys.argv) > 1 else 60
-    rows = run(cases)
-    verdict = judged(rows)
-    for name, row in verdict.items():
-        print(name, {key: round(value, 5) for key, value in row.items()})
-    RESULT.write_text(json.dumps({"cases": cases, "seed": 14, "figures": verdict, "rows": rows}, indent=1) + "\n")
-
-
 if __name__ == "__main__":
-    main()
+    judge(lambda rng: rows_of(draw(rng)), RESULT, 100)
