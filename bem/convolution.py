@@ -26,6 +26,7 @@ from bem.kernels import layered
 from bem.kernels.coefficients import Load, surface_coefficients
 from bem.kernels.spectral import surface_response
 from bem.materials import Body, Material
+from bem.threads import one_blas_thread
 from bem.transforms import Multiplier, PaddedTransform, kernel_spectrum, multiplier, padded_length, transform_of
 
 FloatArray = NDArray[np.float64]
@@ -384,6 +385,7 @@ def _cosines(length: int, offsets: NDArray[np.int64]) -> FloatArray:
     return np.asarray(weights * np.cos(2 * np.pi / length * (np.outer(offsets, wavenumbers) % length)))
 
 
+@one_blas_thread
 def displacement_operator(
     grid: Grid, bodies: Body | tuple[Body, Body], *, friction: float = 0.0
 ) -> DisplacementOperator:

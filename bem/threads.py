@@ -1,14 +1,18 @@
 """How many threads the numerical work may use, and one way to share blocks of work between them.
 
-Blocks never depend on the number of threads, so neither do the bits of a result.
+Blocks never depend on the number of threads, so neither do the bits of a result. Linear algebra would: how many threads
+BLAS takes is the environment's choice, and the order of its sums follows it. It gets one, wherever a result is made.
 """
 
 from __future__ import annotations
 
+import functools
 import os
+import sys
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any, ParamSpec, TypeVar
 
 from bem.errors import InputError
 
@@ -84,3 +88,26 @@ def share(work: Callable[[int, int], None], blocks: int) -> None:
     for error in errors:
         if error is not None:
             raise error
+
+
+_Arguments = ParamSpec("_Arguments")
+_Result = TypeVar("_Result")
+
+
+def one_blas_thread(function: Callable[_Arguments, _Result]) -> Callable[_Arguments, _Result]:
+    """The function with one thread for linear algebra while it runs, as many as before after it."""
+
+    @functools.wraps(function)
+    def alone(*arguments: _Arguments.args, **keywords: _Arguments.kwargs) -> _Result:
+        with _blas(len([name for name in ("numpy", "scipy.linalg") if name in sys.modules])).limit(limits=1):
+            return function(*arguments, **keywords)
+
+    return alone
+
+
+@functools.cache
+def _blas(loaded: int) -> Any:
+    """The linear algebra of so many packages, which bring one each."""
+    from threadpoolctl import ThreadpoolController
+
+    return ThreadpoolController().select(user_api="blas")

@@ -25,6 +25,7 @@ from bem.scenes.context import Outcome
 from bem.scenes.kinds import get_kind
 from bem.scenes.planner import Plan
 from bem.scenes.records import pack, unpack, without
+from bem.threads import one_blas_thread
 
 _RECORD = "_record"
 
@@ -61,6 +62,7 @@ class CaseJob:
     last: bool
     epoch: float
 
+    @one_blas_thread
     def compute(self, watcher: Watcher) -> Result:
         """Run the case, going on from its checkpoint; errors that a scene can cause come back as words."""
         state = None if self.file is None else load_checkpoint(self.file)

@@ -27,6 +27,7 @@ from bem.contact.request import Units, checked_request
 from bem.contact.solution import ContactSolution
 from bem.convolution import DisplacementOperator
 from bem.errors import Status
+from bem.threads import one_blas_thread
 
 FloatArray = NDArray[np.float64]
 Callback = Callable[[int, float, float], object]
@@ -35,6 +36,7 @@ _TIGHTER = 0.9
 """Share of the tolerance that the solver aims at, so that rounding in SI units cannot spoil the certificate."""
 
 
+@one_blas_thread
 def solve_contact(  # reason: a promise to users' scripts, each of them a choice of the user's
     gap: FloatArray,
     operator: DisplacementOperator,

@@ -31,6 +31,7 @@ from bem.lubrication.line_scales import Scales, line_scales, scaled_problem
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
 from bem.lubrication.validity import Case, notes_on
+from bem.threads import one_blas_thread
 
 ATTEMPTS = ((160, 4.0), (240, 2.0), (200, 1.5))
 """Coarse cells and first factor of the load, tried in turn until the continuation arrives."""
@@ -51,6 +52,7 @@ MOES_LOADS = (1e-5, 1e4)
 MAX_INLET_SHARE = 0.01
 
 
+@one_blas_thread
 def solve_line_film(  # reason: the signature is a promise to users' scripts
     *,
     load: float,
@@ -148,6 +150,7 @@ class KeptSteady:
     scales: Scales
     reversed: bool
 
+    @one_blas_thread
     def sample(self, position: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Pressure [Pa] and thickness [m] at any positions [m]: interpolated on the mesh, by the kernel off it."""
         position = np.asarray(position, dtype=np.float64)

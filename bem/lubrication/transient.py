@@ -27,10 +27,12 @@ from bem.lubrication.line_scales import line_scales, scaled_problem
 from bem.lubrication.line_step import FixedMesh, fixed_mesh
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.steady import check_speeds, solve_line_film, typical_half_width
+from bem.threads import one_blas_thread
 
 FAR = 50.0
 
 
+@one_blas_thread
 def march_line_film(  # reason: the signature is a promise to users' scripts; frozen groups are made of it at once
     times: FloatArray,
     *,

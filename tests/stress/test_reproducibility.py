@@ -1,6 +1,7 @@
 """The same bits over threads, over processes, and over repeats: contact, stresses, a wear loop."""
 
 import hashlib
+import os
 import subprocess
 import sys
 
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, Material, displacement_operator, generate_surface, solve_contact, subsurface_stress
-from bem.threads import get_threads, set_threads
+from bem.threads import get_threads, one_blas_thread, set_threads
 
 CODE = """
 import hashlib, numpy as np
@@ -64,3 +65,34 @@ def test_the_same_bits_within_a_process_over_threads_and_repeats():
         set_threads(before)
     assert len(digests) == 1
     assert np.isfinite(solution.residual)
+
+
+FILM = """
+import hashlib
+from bem import Lubricant, solve_line_film
+oil = Lubricant(0.05, pressure_viscosity=2e-8)
+film = solve_line_film(load=6e4, radius=0.01, contact_modulus=1.15e11, speeds=(1.0, 0.5), lubricant=oil, points=1000)
+print(hashlib.sha256(film.pressure.tobytes() + film.thickness.tobytes()).hexdigest())
+"""
+
+
+def test_bits_do_not_depend_on_the_threads_of_linear_algebra():
+    """A script of one's own and the command line differ in what the environment says."""
+    found = set()
+    for threads in ("1", "2", "4"):
+        environment = {**os.environ, "OPENBLAS_NUM_THREADS": threads, "OMP_NUM_THREADS": threads}
+        done = subprocess.run([sys.executable, "-c", FILM], env=environment, capture_output=True, text=True, check=True)
+        found.add(done.stdout)
+    assert len(found) == 1
+
+
+def test_linear_algebra_has_its_threads_back_afterwards():
+    from threadpoolctl import threadpool_info, threadpool_limits
+
+    def counts():
+        return [one["num_threads"] for one in threadpool_info() if one["user_api"] == "blas"]
+
+    with threadpool_limits(2, user_api="blas"):
+        before = counts()
+        assert set(one_blas_thread(counts)()) == {1}
+        assert counts() == before
