@@ -61,8 +61,12 @@ class Page:
 
 
 def text(words: str) -> str:
-    """A paragraph of plain text."""
-    return f"<p>{html.escape(words)}</p>"
+    """A paragraph of plain text; what stands between backticks is shown as code."""
+    return f"<p>{_marked(words)}</p>"
+
+
+def _marked(words: str) -> str:
+    return re.sub("`([^`]+)`", r"<code>\1</code>", html.escape(words))
 
 
 def figure(drawing: Figure, caption: str, *, dpi: int = 130) -> str:
@@ -101,7 +105,7 @@ def _cell(value: Any) -> str:
         return f'<td class="number">{value:.4g}</td>'
     if isinstance(value, int):
         return f'<td class="number">{value}</td>'
-    return f"<td>{html.escape(str(value))}</td>"
+    return f"<td>{_marked(str(value))}</td>"
 
 
 def machine_facts() -> dict[str, str]:

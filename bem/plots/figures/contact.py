@@ -184,7 +184,7 @@ FIGURES = (
     ),
     FigureKind(
         "contact-map",
-        "Where the surfaces touch, and where the pressure has reached the hardness.",
+        "Where the surfaces touch, and where the pressure has reached the hardness; shares are counts of cells.",
         ("x", "y", "contact_state"),
         _contact_map,
         applies=_two_dimensional,
