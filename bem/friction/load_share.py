@@ -6,7 +6,9 @@ The film carries the rest. Knows numbers only, no contact and no film. Verified 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -96,6 +98,35 @@ def fit_load_share(lambda_ratio: ArrayLike, contact_share: ArrayLike) -> LoadSha
         largest=float(np.abs(residual).max()),
         points=int(ratio.size),
     )
+
+
+class SharedCurve(Protocol):
+    """A friction curve: over its speeds (n,) the lambda ratio and what surfaces and film carry [N]."""
+
+    @property
+    def lambda_ratio(self) -> FloatArray:
+        """Film under the whole load over roughness."""
+
+    @property
+    def contact_load(self) -> FloatArray:
+        """On the surfaces."""
+
+    @property
+    def film_load(self) -> FloatArray:
+        """On the film."""
+
+
+def curves_load_share(curves: Sequence[SharedCurve]) -> LoadShare | None:
+    """`fit_load_share` to the points of all curves together; None of too few of them."""
+    if not curves:
+        return None
+    ratio, contact, film = (
+        np.concatenate([getattr(one, name) for one in curves]) for name in ("lambda_ratio", "contact_load", "film_load")
+    )
+    try:
+        return fit_load_share(ratio, contact / (contact + film))
+    except InputError:
+        return None
 
 
 def _share(constants: FloatArray, ratio: FloatArray) -> FloatArray:

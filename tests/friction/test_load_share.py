@@ -1,12 +1,21 @@
 """Load share over lambda fitted to exp(-B Lambda^C): synthetic data of known constants, with and without noise."""
 
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bem import InputError
-from bem.friction.load_share import fit_load_share
+from bem.friction.load_share import curves_load_share, fit_load_share
+
+
+class CurveRows(NamedTuple):
+    lambda_ratio: np.ndarray
+    contact_load: np.ndarray
+    film_load: np.ndarray
+
 
 RATIO = np.geomspace(0.05, 5.0, 25)
 
@@ -72,3 +81,15 @@ class SimpleAxis:
 
     def __len__(self):
         return len(self.values)
+
+
+def test_curves_are_fitted_together_and_too_few_points_give_no_fit():
+    share = np.exp(-0.6 * RATIO**1.4)
+    parts = [
+        CurveRows(RATIO[part], 5.5 * share[part], 5.5 * (1 - share[part])) for part in (slice(0, 12), slice(12, 25))
+    ]
+    fit = curves_load_share(parts)
+    assert fit.points == RATIO.size
+    assert (fit.b, fit.c) == pytest.approx((0.6, 1.4), rel=1e-7)  # round-off, as above
+    assert curves_load_share([]) is None
+    assert curves_load_share([CurveRows(RATIO[:3], share[:3], 1 - share[:3])]) is None

@@ -256,6 +256,7 @@ def summarise(
     """How far each model is from its baseline [%], eq. (13) of paper A: mean and spread over the repetitions; and each
     model's share of the load on the surfaces over the lambda ratio, fitted."""
     from bem.friction.curves import relative_difference
+    from bem.friction.load_share import curves_load_share
 
     table = np.empty(tuple(len(axis) for axis in axes), dtype=object)
     table.ravel()[:] = records
@@ -274,26 +275,14 @@ def summarise(
         percent, scatter = mean(values), spread(values)
         row = {"load_N": load, "variant": variant, "model": model, "d_percent": percent, "d_percent_spread": scatter}
         found.append(row)
-    shares = [row for k, model in enumerate(models) for row in _load_share(str(model), table[:, :, k].ravel())]
+    fits = [(str(model), curves_load_share(_solved(table[:, :, k]))) for k, model in enumerate(models)]
+    shares = [{"model": model, **asdict(fit)} for model, fit in fits if fit is not None]
     made = {"largest_difference": found, "load_share": shares}
     return {name: rows for name, rows in made.items() if rows}
 
 
-def _load_share(model: str, records: Sequence[CurveRecord | None]) -> list[dict[str, Any]]:
-    """The contact share exp(-B Lambda^C) of all loads, variants and repetitions of a model; none of too few points."""
-    from bem.friction.load_share import fit_load_share
-
-    curves = [one for one in records if one is not None]
-    if not curves:
-        return []
-    ratio, contact, film = (
-        np.concatenate([getattr(one, name) for one in curves]) for name in ("lambda_ratio", "contact_load", "film_load")
-    )
-    try:
-        fit = fit_load_share(ratio, contact / (contact + film))
-    except InputError:
-        return []
-    return [{"model": model, **asdict(fit)}]
+def _solved(records: np.ndarray) -> list[CurveRecord]:
+    return [one for one in records.ravel() if one is not None]
 
 
 KIND = Kind(
