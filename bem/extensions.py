@@ -1,6 +1,6 @@
 """Extensions: laws, kinds of scene, figures and formats of surface files from outside the package, registered one way.
 
-`bem.register(thing)` enters a class of laws (`bem.laws`), a `Kind` (`bem.scenes.kinds`), a `FigureKind`
+`bem.register(thing)` enters a class of laws (`bem.laws`), a `Kind` (`bem.scenes.kind`), a `FigureKind`
 (`bem.plots.figures`) or a `SurfaceFormat` (`bem.surfaces.formats`); each knows itself what it has to be (`enter`).
 
 A script registers what it needs. For the command line the file or module is named in the environment variable BEM_LAWS

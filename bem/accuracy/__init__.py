@@ -14,6 +14,7 @@ from bem.accuracy.contact import Coarser, ContactCase, contact_bars, figures_of,
 from bem.accuracy.film import FilmCase, OtherFilm, film_bars, film_figures, solve_coarser_film
 from bem.accuracy.march import MarchCase, march_bars, march_figures
 from bem.accuracy.mixed import CoarserShares, MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
+from bem.accuracy.rubbing import RubbingCase, rubbing_bars
 from bem.accuracy.stress import stress_bars
 
 __all__ = [
@@ -25,6 +26,7 @@ __all__ = [
     "MarchCase",
     "MixedCase",
     "OtherFilm",
+    "RubbingCase",
     "asperity_bars",
     "contact_bars",
     "figures_of",
@@ -34,6 +36,7 @@ __all__ = [
     "march_figures",
     "mixed_bars",
     "mixed_figures",
+    "rubbing_bars",
     "solve_coarser",
     "solve_coarser_film",
     "solve_coarser_mixed",

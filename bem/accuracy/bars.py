@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 
 @dataclass(frozen=True)
 class ErrorBars:
-    """Errors of figures by the names of their fields, in SI units; None where the figure does not converge or its error
-    is not known, which `notes` then explain.
+    """Errors of figures by the names of their fields, in SI units, arrays of those that are arrays; None where the
+    figure does not converge or its error is not known, which `notes` then explain.
 
     parts : where an error has several origins, each by itself, by the words for the origin and the names of the fields.
     """
 
-    values: Mapping[str, float | None] = field(default_factory=dict)
+    values: Mapping[str, Any] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     parts: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 

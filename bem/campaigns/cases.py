@@ -11,7 +11,7 @@ from typing import Any
 from bem.errors import InputError
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
-from bem.scenes.kinds import Kind, get_kind
+from bem.scenes.kind import Kind, get_kind
 from bem.scenes.load import scene_table, scenes_over, unit_at
 from bem.scenes.paths import parse_key, value_at
 from bem.scenes.records import Figure

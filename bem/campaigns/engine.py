@@ -22,7 +22,7 @@ from bem.errors import BemError, ConvergenceError, InputError, ResultsError, Sta
 from bem.results.checkpoint import load_checkpoint, save_checkpoint
 from bem.results.directory import CASES, CHECKPOINT
 from bem.scenes.context import Outcome
-from bem.scenes.kinds import get_kind
+from bem.scenes.kind import get_kind
 from bem.scenes.planner import Plan
 from bem.scenes.records import pack, unpack, without
 from bem.threads import one_blas_thread

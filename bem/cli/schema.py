@@ -30,7 +30,7 @@ def register(app: typer.Typer) -> None:
         import json
 
         from bem.errors import InputError
-        from bem.scenes.kinds import kind_names
+        from bem.scenes.kind import kind_names
         from bem.scenes.schema import scene_schema
         from bem.scenes.validate import nearest
 

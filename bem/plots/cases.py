@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from bem.plots.labels import prefix
 from bem.results.arrays import Array as ArrayOfRun
 from bem.results.arrays import Arrays
-from bem.scenes.kinds import get_kind
+from bem.scenes.kind import get_kind
 from bem.scenes.records import figures
 
 REPETITION = "repetition"

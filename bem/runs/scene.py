@@ -18,7 +18,7 @@ from bem.results.directory import RESULTS, RunDirectory, plain
 from bem.results.read import FinishedRun, open_run
 from bem.scenes.checks import examine, outcome_warnings, scene_warnings
 from bem.scenes.common import SceneModel
-from bem.scenes.kinds import get_kind
+from bem.scenes.kind import get_kind
 from bem.scenes.load import dump_scene, load_scene, scene_table
 from bem.scenes.planner import Plan, check_memory
 

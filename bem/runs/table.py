@@ -15,7 +15,7 @@ from bem.campaigns.cases import REPETITION
 from bem.campaigns.collect import coordinates, laid_out
 from bem.scenes.axes import Axis
 from bem.scenes.context import Variable
-from bem.scenes.kinds import Kind
+from bem.scenes.kind import Kind
 from bem.scenes.records import Figure, described
 
 _SKIPPED = ("scene", "kind", "version", "notes", "seconds_by_stage")

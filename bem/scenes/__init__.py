@@ -11,7 +11,7 @@ scene) and tests/reliability (hostile and random scenes).
 from __future__ import annotations
 
 from bem.scenes.context import Context, Outcome, PlainContext, Variable
-from bem.scenes.kinds import Kind, get_kind, kind_names
+from bem.scenes.kind import Kind, get_kind, kind_names
 from bem.scenes.load import dump_scene, library, load_scene
 from bem.scenes.planner import Plan, Step
 

@@ -97,9 +97,11 @@ def shape_of(scene: ShapeScene, grid: Grid) -> FloatArray:
 
 def both_heights(scene: Any, grid: Grid, context: Context) -> tuple[FloatArray, FloatArray]:
     """Heights of the lower and the upper body of a scene on a grid [m], as `heights_of` gives them."""
-    lower, upper = (
-        heights_of(getattr(scene, name).surface, grid, context.seed(name), context.note) for name in ("lower", "upper")
-    )
+    with context.timer("surfaces"):
+        lower, upper = (
+            heights_of(getattr(scene, name).surface, grid, context.seed(name), context.note)
+            for name in ("lower", "upper")
+        )
     return lower, upper
 
 
@@ -109,6 +111,12 @@ def undeformed_gap(scene: Any, grid: Grid, lower: FloatArray, upper: FloatArray)
     if lower.any() or upper.any():
         gap -= gap.min()  # approach counts from first touch; smooth shapes touch at zero already
     return gap
+
+
+def bodies_of(scene: Any) -> Body | tuple[Body, Body]:
+    """A scene's two bodies as solvers take them: the lower one alone where the upper one is rigid."""
+    lower, upper = scene.lower.build(), scene.upper.build()
+    return lower if upper is None else (lower, upper)
 
 
 def modulus_of(scene: Any) -> float:
@@ -121,8 +129,7 @@ def operator_of(scene: Any, grid: Grid, friction: float = 0.0) -> DisplacementOp
     """Displacement of a scene's two bodies together under pressure, and under traction friction x pressure."""
     from bem.convolution import displacement_operator
 
-    lower, upper = scene.lower.build(), scene.upper.build()
-    return displacement_operator(grid, lower if upper is None else (lower, upper), friction=friction)
+    return displacement_operator(grid, bodies_of(scene), friction=friction)
 
 
 def with_grid(scene: Scene) -> Scene:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import mmap
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from typing import Any, Protocol
@@ -46,6 +46,18 @@ class Context(Protocol):
 
     def saved(self) -> dict[str, Any] | None:
         """The state last saved for this very scene if the run is resumed and one exists, else None."""
+
+
+class Bars(Protocol):
+    """What of `bem.accuracy.ErrorBars` matters here."""
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        """Errors by the names of their figures; None where there is none."""
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Why not."""
 
 
 @dataclass(frozen=True)
@@ -92,6 +104,22 @@ class Outcome:
     where: str = ""
     volumes: tuple[str, ...] = ()
     axes: tuple[str, ...] = ()
+
+
+def tell(context: Context, notes: Iterable[str], about: str = "") -> None:
+    """Note every one of them, with what it is about before it."""
+    for note in notes:
+        context.note(f"{about}{note}")
+
+
+def error_bars(context: Context, wanted: bool, bars: Callable[[], Bars], about: str = "") -> dict[str, Any]:
+    """Errors by the names of their figures, timed, and noted why some are missing; none where they are not wanted."""
+    if not wanted:
+        return {}
+    with context.timer("error bars"):
+        found = bars()
+    tell(context, found.notes, about)
+    return dict(found.values)
 
 
 def release(values: NDArray[Any]) -> None:

@@ -18,7 +18,7 @@ from pydantic import BaseModel
 from bem.errors import InputError
 from bem.laws import Law
 from bem.scenes.common import SceneModel
-from bem.scenes.kinds import get_kind, kind_names
+from bem.scenes.kind import get_kind, kind_names
 from bem.scenes.laws import plain
 from bem.scenes.paths import MOST_PARTS, Key, parse_key, put, values_in_file
 from bem.scenes.units import Dimension

@@ -17,7 +17,7 @@ from bem.scenes.planner import Step, convolution_memory, layered_kernel_seconds,
 
 _LIBRARIES = 2.2e8
 """Bytes of the interpreter with the solver's libraries."""
-_TRANSFORMS_PER_CONVOLUTION = 3.2
+CONVOLUTION = 3.2
 """Time of a convolution and what the contact solver does besides, in transforms: measured, 256 to 1024 cells."""
 
 
@@ -100,7 +100,7 @@ def contact(grid: Grid, why: str) -> Step:
     return Step(
         "contact",
         why,
-        transforms=_TRANSFORMS_PER_CONVOLUTION * convolutions(grid),
+        transforms=CONVOLUTION * convolutions(grid),
         points=points,
         # measured from 2048 to 4096 cells: fields of the solver and of its coarser grids, spectra and buffers
         memory=_LIBRARIES + 8.0 * grid.cells * 9.5 + 20.0 * points,
@@ -148,45 +148,24 @@ def stresses(grid: Grid, body: Body | None, name: str, depths: int, *, fields: i
     )
 
 
-def error_bars(grid: Grid, depths: int, wanted: bool) -> Step:
-    """A contact and every second depth again on the grid of twice the cell, from a start nearby."""
+def error_bars(wanted: bool, why: str, **cost: Any) -> Step:
+    """Figures once more, coarser; `cost` as a `Step` has it. Nothing of it is kept."""
+    return Step("error bars", why if wanted else "outputs.errors is false", skipped=not wanted, kept=0.0, **cost)
+
+
+def coarser_contact(grid: Grid, depths: int) -> dict[str, float]:
+    """Cost of a contact and every second depth again on the grid of twice the cell, from a start nearby."""
     points = padded_points(grid.shape, grid.periodic) / 4
-    return Step(
-        "error bars",
-        "the contact on the grid of twice the cell" if wanted else "outputs.errors is false",
-        skipped=not wanted,
-        transforms=_TRANSFORMS_PER_CONVOLUTION * convolutions(grid) + 0.5 * depths * 25.0,
-        points=int(points),
-        memory=8.0 * grid.cells * 9.5 / 4 + 20.0 * points,
-        kept=0.0,
-    )
+    return {
+        "transforms": CONVOLUTION * convolutions(grid) + 0.5 * depths * 25.0,
+        "points": int(points),
+        "memory": 8.0 * grid.cells * 9.5 / 4 + 20.0 * points,
+    }
 
 
-def error_bars_of_balances(grid: Grid, convolutions: float, wanted: bool) -> Step:
-    """Load sharing again on the grid of twice the cell, where contacts took so many convolutions, and once more there
-    with another film."""
-    return Step(
-        "error bars",
-        "each balance on the grid of twice the cell, and there with half the film's points"
-        if wanted
-        else "outputs.errors is false",
-        skipped=not wanted,
-        transforms=2.0 * convolutions,
-        points=int(padded_points(grid.shape, grid.periodic) / 4),
-        kept=0.0,
-    )
-
-
-def error_bars_of_arrays(grid: Grid, convolutions: float, wanted: bool) -> Step:
-    """Contacts that took so many convolutions again on the grid of twice the cell."""
-    return Step(
-        "error bars",
-        "all contacts on the grid of twice the cell" if wanted else "outputs.errors is false",
-        skipped=not wanted,
-        transforms=_TRANSFORMS_PER_CONVOLUTION * convolutions,
-        points=int(padded_points(grid.shape, grid.periodic) / 4),
-        kept=0.0,
-    )
+def coarser_contacts(grid: Grid, convolutions: float, each: float) -> dict[str, float]:
+    """Cost of contacts of so many convolutions, of `each` so many transforms, on the grid of twice the cell."""
+    return {"transforms": each * convolutions, "points": int(padded_points(grid.shape, grid.periodic) / 4)}
 
 
 def flow_factors(grid: Grid, separations: int, *, wanted: bool) -> Step:

@@ -130,7 +130,8 @@ class Series:
 class Record:
     """What every case gives; kinds add fields.
 
-    status : the worst status of the case's solvers. where : if not converged, where that happened, in words.
+    status : the worst status of the case's solvers.
+    where : where that happened, in words; emptied if it is converged.
     errors : error bars of figures by their fields' names, SI; None for a figure that does not converge. Summary and
         dataset have them beside the figures, under `error_key`; a figure that is not named has no bar.
     scatters : fields of figures whose error over repetitions is their scatter alone, where nothing else is known of it.
@@ -141,6 +142,10 @@ class Record:
     status: Status = dataclasses.field(default=Status.CONVERGED, kw_only=True)
     where: str = dataclasses.field(default="", kw_only=True)
     errors: Mapping[str, Any] = dataclasses.field(default_factory=dict, kw_only=True)
+
+    def __post_init__(self) -> None:
+        if self.status is Status.CONVERGED:
+            object.__setattr__(self, "where", "")
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from bem.materials import CATALOGUE
-from bem.scenes.kinds import get_kind, kind_names
+from bem.scenes.kind import get_kind, kind_names
 
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 

@@ -13,7 +13,7 @@ from pydantic_core import PydanticUndefined
 
 from bem.errors import InputError
 from bem.laws import Law
-from bem.scenes.kinds import get_kind, kind_names
+from bem.scenes.kind import get_kind, kind_names
 from bem.scenes.laws import LawOrNumber
 from bem.scenes.load import _dump_value, library
 from bem.scenes.units import Dimension

@@ -9,7 +9,7 @@ from bem.campaigns.collect import _figures, outcome_of
 from bem.plots.report import with_error
 from bem.runs import run_scene
 from bem.scenes.context import PlainContext
-from bem.scenes.kinds import get_kind
+from bem.scenes.kind import get_kind
 from bem.scenes.kinds.running_in import RunningInRecord
 from bem.scenes.kinds.wear import WearRecord
 from bem.scenes.load import load_scene

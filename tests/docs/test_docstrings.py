@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import bem
-from bem.scenes.kinds import get_kind, kind_names
+from bem.scenes.kind import get_kind, kind_names
 from bem.scenes.records import figures
 
 _SECTION = re.compile(r"^(\w[\w ]*)\n-{3,}$", re.MULTILINE)

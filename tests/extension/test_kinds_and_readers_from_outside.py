@@ -13,7 +13,7 @@ import bem
 from bem import InputError, SurfaceFileError, read_surface
 from bem.plots.figures import FigureKind
 from bem.reference_solutions.hertz import sphere_contact
-from bem.scenes.kinds import get_kind
+from bem.scenes.kind import get_kind
 from bem.surfaces import formats
 from bem.surfaces.formats import SurfaceFormat
 from reports.prose import prose

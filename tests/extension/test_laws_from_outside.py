@@ -207,7 +207,7 @@ def test_a_wear_criterion_in_python(outside):
 def test_a_law_of_growth_and_a_hardness_in_a_scene():
     """Built as tables with units; the plan asks the laws for bounds that they do not give themselves."""
     from bem.scenes import library
-    from bem.scenes.kinds import get_kind
+    from bem.scenes.kind import get_kind
     from bem.tribofilm import GrowthLaw, PropertyLaw
 
     @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from bem.campaigns import campaign_of, compute
 from bem.errors import InputError
 from bem.runs import plan_scene
 from bem.scenes import build, library
-from bem.scenes.kinds import kind_names
+from bem.scenes.kind import kind_names
 from bem.transforms import COUNT
 
 SCENES = sorted(name for name, tables in library().items() if '"kind": "measured"' not in json.dumps(tables))

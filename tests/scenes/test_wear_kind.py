@@ -10,7 +10,7 @@ import pytest
 from bem.campaigns import campaign_of, compute, plan
 from bem.errors import InfeasibleError, InputError
 from bem.scenes import load_scene
-from bem.scenes.kinds import get_kind
+from bem.scenes.kind import get_kind
 
 SMALL = """
 kind = "wear"

@@ -10,7 +10,7 @@ from bem.plots.cases import axes_of
 from bem.plots.figures import FigureKind
 from bem.plots.sweep import fill
 from bem.scenes.context import Variable
-from bem.scenes.kinds import get_kind
+from bem.scenes.kind import get_kind
 from bem.scenes.records import figures
 
 ALL_CASES = True

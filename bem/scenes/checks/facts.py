@@ -17,7 +17,7 @@ from bem.scenes.checks.hertz import SmoothContact, smooth_contact
 from bem.scenes.checks.surfaces_of import RoughSurface, rough_surface
 from bem.scenes.checks.words import si
 from bem.scenes.common import SceneModel, SmoothSurface
-from bem.scenes.kinds import get_kind
+from bem.scenes.kind import get_kind
 
 _MOST_SURFACES = 24
 """Surfaces that are looked at; a sweep of variants beyond that shows no more."""

@@ -8,106 +8,12 @@ business of `bem.campaigns`, which reads them from `axes` and from the record (`
 How to write one, in the package or in a file of your own that ends in `bem.register(KIND)`, is in the guide
 (reports/prose/kinds.toml), part by part; tests/extension/test_kinds_and_readers_from_outside.py holds a whole one,
 small. Tables stand by subject in `bem.scenes.tables`, those of many kinds in `bem.scenes.common`, `wearing`,
-`lubrication`; grids, bodies and heights in `bem.scenes.build`; steps of plans in `bem.scenes.plans`.
+`lubrication`; grids, bodies and heights in `bem.scenes.build`; steps of plans in `bem.scenes.plans`; what a kind is in
+`bem.scenes.kind`, whose names stand here too.
 
 Verified in tests/scenes (each kind), tests/gallery (every built-in scene), tests/campaigns (cases, resuming).
 """
 
-from __future__ import annotations
+from bem.scenes.kind import Kind, get_kind, kind_names
 
-import importlib
-import pkgutil
-import re
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import cache
-from typing import Any
-
-from bem.errors import InputError
-from bem.extensions import load_extensions, same_origin
-from bem.scenes.axes import Axis
-from bem.scenes.common import SceneModel
-from bem.scenes.context import Context
-from bem.scenes.planner import Plan
-from bem.scenes.records import Record
-from bem.scenes.records import headline as headline_of
-
-_NAME = re.compile(r"[a-z][a-z0-9-]{0,63}")
-
-
-@dataclass(frozen=True)
-class Kind:
-    """A kind of scene, with one case in a scene wherever a function takes one, but for `axes` and `summarise`.
-
-    Parameters
-    ----------
-    name : what `kind = "..."` in a scene says; the file's name with "-" for "_". title : one line.
-    model : of the scene's tables. plan : what will be computed, without any work. run : does it. record : its result.
-    figures : names from `bem.plots.figures`, drawn when the run is over.
-    headline : keys of the summary to show first; the figures that the record marks so follow.
-    resolve : fills in what files decide, first of all. axes : what a scene runs over.
-    summarise : further keys of the summary, from all records. volumes : variables for ParaView.
-    always_lists : whether the summary has lists for a single case too.
-    """
-
-    name: str
-    title: str
-    model: type[SceneModel]
-    plan: Callable[[Any], Plan]
-    run: Callable[[Any, Context], Record]
-    record: type[Record]
-    figures: tuple[str, ...] = ()
-    headline: tuple[str, ...] = ()
-    resolve: Callable[[Any], Any] = lambda scene: scene
-    axes: Callable[[Any], tuple[Axis, ...]] = lambda scene: ()
-    summarise: Callable[[Any, Sequence[Axis], Sequence[Any]], dict[str, Any]] = lambda scene, axes, records: {}
-    volumes: Callable[[Any], tuple[str, ...]] = lambda scene: ()
-    always_lists: bool = False
-
-    def __post_init__(self) -> None:
-        marked = (key for key in headline_of(self.record) if key not in self.headline)
-        object.__setattr__(self, "headline", (*self.headline, *marked))
-
-    def enter(self) -> None:
-        """Enter it, for a kind from outside the package; see `bem.register`.
-
-        Raises
-        ------
-        InputError : a strange name, one that another kind has, a model whose `kind` is another or that is no scene.
-        """
-        if not _NAME.fullmatch(self.name):
-            raise InputError(f"register: the kind's name {self.name!r} must be lower-case letters, digits and -")
-        if not (isinstance(self.model, type) and issubclass(self.model, SceneModel)):
-            raise InputError(f"register: the model of kind {self.name!r} does not derive from SceneModel")
-        if self.model.model_fields["kind"].default != self.name:
-            raise InputError(f'register: {self.model.__name__} needs kind: Literal["{self.name}"] = "{self.name}"')
-        other = _registered.get(self.name)
-        if self.name in _of_the_package() or (other is not None and not same_origin(other.model, self.model)):
-            raise InputError(f"register: the kind {self.name!r} is taken")
-        _registered[self.name] = self
-
-
-_registered: dict[str, Kind] = {}
-
-
-def kind_names() -> tuple[str, ...]:
-    """Names of all kinds, without loading those of the package."""
-    load_extensions()
-    return tuple(sorted({*_of_the_package(), *_registered}))
-
-
-@cache
-def _of_the_package() -> tuple[str, ...]:
-    return tuple(sorted(module.name.replace("_", "-") for module in pkgutil.iter_modules(__path__)))
-
-
-def get_kind(name: str) -> Kind:
-    """The kind of that name; KeyError if there is none."""
-    if name not in kind_names():
-        raise KeyError(name)
-    if name in _registered:
-        return _registered[name]
-    kind = importlib.import_module(f"bem.scenes.kinds.{name.replace('-', '_')}").KIND
-    assert isinstance(kind, Kind)
-    assert kind.name == name, f"kind {kind.name!r} must live in {kind.name.replace('-', '_')}.py"
-    return kind
+__all__ = ["Kind", "get_kind", "kind_names"]

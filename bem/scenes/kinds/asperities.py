@@ -5,7 +5,7 @@ A case is one spacing; `bem.friction.asperity_array` does the work.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -16,13 +16,14 @@ from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene
-from bem.scenes.context import Context
-from bem.scenes.kinds import Kind
+from bem.scenes.context import Context, error_bars
+from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.tables.asperities import ArrayScene
 
 if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars
     from bem.friction.asperity_array import ArrayLoads
 
 _CONVOLUTIONS = 20  # of each contact
@@ -48,13 +49,13 @@ def plan(scene: AsperitiesScene) -> Plan:
     """What will be computed."""
     from bem.friction.asperity_array import LOADS
 
-    grid = grid_at(scene, max(scene.array.spacings))
+    grid, convolutions = grid_at(scene, max(scene.array.spacings)), _CONVOLUTIONS * LOADS
+    why = f"{LOADS} loads for each spacing, one asperity each"
+    coarser = plans.coarser_contacts(grid, convolutions, plans.CONVOLUTION)
     return Plan(
         (
-            plans.contacts(
-                grid, _CONVOLUTIONS * LOADS, f"{LOADS} loads for each spacing, one asperity each", name="contacts"
-            ),
-            plans.error_bars_of_arrays(grid, _CONVOLUTIONS * LOADS, scene.outputs.errors),
+            plans.contacts(grid, convolutions, why, name="contacts"),
+            plans.error_bars(scene.outputs.errors, "all contacts on the grid of twice the cell", **coarser),
             Step("the other asperities of the array", "all carry the same, by symmetry", skipped=True),
             plans.figures(grid.cells),
         )
@@ -93,10 +94,7 @@ def run(scene: AsperitiesScene, context: Context) -> AsperityRecord:
     grid = grid_at(scene, spacing)
     with context.timer("contacts"):
         found = _pressed(scene, grid, lambda done: context.progress(done, LOADS, "contacts"))
-    errors: Mapping[str, Any] = {}
-    if scene.outputs.errors and found.status is Status.CONVERGED:
-        with context.timer("error bars"):
-            errors = _errors(scene, grid, found, context)
+    wanted = scene.outputs.errors and found.status is Status.CONVERGED
     return filled(
         AsperityRecord,
         found,
@@ -108,8 +106,8 @@ def run(scene: AsperitiesScene, context: Context) -> AsperityRecord:
         asperity_load=found.mean_plane,
         asperity_load_window=found.from_flat,
         status=found.status,
-        where="" if found.status is Status.CONVERGED else "a contact",
-        errors=errors,
+        where="a contact",
+        errors=error_bars(context, wanted, lambda: _bars(scene, grid, found)),
     )
 
 
@@ -128,21 +126,22 @@ def _pressed(scene: AsperitiesScene, grid: Grid, callback: Callable[[int], None]
     )
 
 
-def _errors(scene: AsperitiesScene, grid: Grid, found: ArrayLoads, context: Context) -> dict[str, Any]:
-    """Error bars, from the grid of twice the cell; None of each where that one does not reach the depths."""
-    from bem.accuracy import asperity_bars
+_SHARES = ("load_over_hertz", "load_over_hertz_finite_array")
 
-    names = ("load_over_hertz", "load_over_hertz_finite_array")
+
+def _bars(scene: AsperitiesScene, grid: Grid, found: ArrayLoads) -> ErrorBars:
+    """From the grid of twice the cell; None of each where that one does not reach the depths."""
+    from bem.accuracy import ErrorBars, asperity_bars
+
     try:
         coarser = _pressed(scene, grid_at(scene, grid.lengths[0], coarser=2))
     except InputError:
         coarser = None
     if coarser is None or coarser.status is not Status.CONVERGED:
-        context.note("no error bars: the array was not solved on the grid of twice the cell")
-        return dict.fromkeys(names)
+        return ErrorBars.unknown(_SHARES, "no error bars: the array was not solved on the grid of twice the cell")
     bars = asperity_bars(found, coarser, scene.array.radius, grid.spacing[0])
-    shares = {name: float(bar[-1] / found.alone[-1]) for name, bar in zip(names, bars.values(), strict=True)}
-    return {**shares, "asperity_load": bars["mean_plane"], "asperity_load_window": bars["from_flat"]}
+    shares = {name: float(bar[-1] / found.alone[-1]) for name, bar in zip(_SHARES, bars.values(), strict=True)}
+    return ErrorBars({**shares, "asperity_load": bars["mean_plane"], "asperity_load_window": bars["from_flat"]})
 
 
 def summarise(scene: AsperitiesScene, axes: Any, records: Sequence[AsperityRecord | None]) -> dict[str, Any]:

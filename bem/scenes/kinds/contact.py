@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
@@ -17,14 +17,15 @@ from bem.materials import Body
 from bem.scenes import build, plans
 from bem.scenes.axes import changed
 from bem.scenes.common import DepthsScene, problem
-from bem.scenes.context import Context, release
-from bem.scenes.kinds import Kind
+from bem.scenes.context import Context, error_bars, release, tell
+from bem.scenes.kind import Kind
 from bem.scenes.packing import packed, unpacked
 from bem.scenes.planner import Plan
 from bem.scenes.records import Figure, GridRecord, Series, filled
 from bem.scenes.tables.pressing import ContactOutputs, PressedScene
 
 if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars
     from bem.contact import ContactSolution
     from bem.stress import StressBelow
 
@@ -62,32 +63,25 @@ def plan(scene: ContactScene) -> Plan:
     ------
     InfeasibleError : a load beyond hardness x area. InputError : surfaces that cannot be generated on the grid.
     """
-    grid, outputs = build.grid_of(scene.grid), scene.outputs
-    bodies = plans.of_bodies(scene, grid, scene.contact.friction)
+    grid, outputs, friction = build.grid_of(scene.grid), scene.outputs, scene.contact.friction
+    bodies = plans.of_bodies(scene, grid, friction)
     scene.contact.check_load(grid.area)
-    lower, upper = scene.lower.build(), scene.upper.build()
-    depths = len(scene.outputs.wanted_depths())
+    stressed = (scene.lower if outputs.body == "lower" else scene.upper).build()
+    depths, fields = len(outputs.wanted_depths()), 7 if outputs.stresses else 1
+    coarser = plans.coarser_contact(grid, depths)
     return Plan(
         (
             *bodies,
             plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}"),
-            plans.stresses(
-                grid,
-                lower if outputs.body == "lower" else upper,
-                outputs.body,
-                depths,
-                fields=7 if outputs.stresses else 1,
-                loads=1 if scene.contact.friction == 0 else 2,
-            ),
-            plans.error_bars(grid, depths, outputs.errors),
+            plans.stresses(grid, stressed, outputs.body, depths, fields=fields, loads=1 if friction == 0 else 2),
+            plans.error_bars(outputs.errors, "the contact on the grid of twice the cell", **coarser),
             plans.vtk(outputs.vtk and depths > 0),
             plans.figures(grid.cells),
         )
     )
 
 
-def _map(unit: str, text: str) -> Series:
-    return Series(("x", "y"), unit, text)
+_map = partial(Series, ("x", "y"))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -138,23 +132,18 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     from bem.contact.state import contact_state
 
     grid = build.grid_of(scene.grid)
-    with context.timer("surfaces"):
-        lower, upper = build.both_heights(scene, grid, context)
+    lower, upper = build.both_heights(scene, grid, context)
     rough = {name: heights for name, heights in (("lower", lower), ("upper", upper)) if heights.any()}
     undeformed = build.undeformed_gap(scene, grid, lower, upper)
     with context.timer("contact"):
         solution, history = _solve(scene, grid, undeformed, context)
-    for note in solution.notes:
-        context.note(note)
+    tell(context, solution.notes)
     below: StressBelow | None = None
     if scene.outputs.wanted_depths():
         with context.timer("stresses"):
             below = _stresses(scene, grid, solution.pressure, context)
-    converged = solution.status is Status.CONVERGED
-    errors: Mapping[str, float | None] = {}
-    if scene.outputs.errors and converged:
-        with context.timer("error bars"):
-            errors = _errors(scene, undeformed, solution, below, bool(rough), context)
+    wanted = scene.outputs.errors and solution.status is Status.CONVERGED
+    errors = error_bars(context, wanted, lambda: _bars(scene, undeformed, solution, below, bool(rough)))
     return filled(
         ContactRecord,
         figures_of(solution, grid.area),
@@ -170,7 +159,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         component=None if below is None or below.stress is None else list(_STRESS_COMPONENTS),
         **{name: getattr(solution, name) for name in _SOLVED},
         errors=errors,
-        where="" if converged else f"contact solve: {solution.status.message}, residual {solution.residual:.2g}",
+        where=f"contact solve: {solution.status.message}, residual {solution.residual:.2g}",
     )
 
 
@@ -195,13 +184,8 @@ def _solve(
         share = math.log(min(max(residual, 1e-300), 1.0)) / math.log(scene.contact.tolerance)
         context.progress(int(100 * min(share, 1.0)), 100, "contact", residual=residual, area_fraction=fraction)
 
-    solution = solve_contact(
-        undeformed,
-        operator,
-        **scene.contact.prescribed(grid.area),
-        **scene.contact.accuracy(),
-        callback=watch,
-    )
+    asked = scene.contact.prescribed(grid.area) | scene.contact.accuracy()
+    solution = solve_contact(undeformed, operator, **asked, callback=watch)
     del operator  # and with it its spectra
     context.progress(100, 100, "contact", residual=solution.residual)
     told_of = np.array(history, dtype=np.float64).reshape(-1, 2)
@@ -224,15 +208,9 @@ def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Co
     return stress_below(pressure, grid, body, depths, friction=friction, components=wanted, out=field, after=after)
 
 
-def _errors(
-    scene: ContactScene,
-    undeformed: FloatArray,
-    solution: ContactSolution,
-    below: StressBelow | None,
-    rough: bool,
-    context: Context,
-) -> Mapping[str, float | None]:
-    """Error bars of the figures; where there are none the notes say why."""
+def _bars(
+    scene: ContactScene, undeformed: FloatArray, solution: ContactSolution, below: StressBelow | None, rough: bool
+) -> ErrorBars:
     from bem.accuracy import ContactCase, contact_bars, solve_coarser, stress_bars
 
     grid = build.grid_of(scene.grid)
@@ -240,12 +218,10 @@ def _errors(
     case = ContactCase(operator, undeformed, solution, **scene.contact.prescribed(grid.area), from_touch=rough)
     coarser = solve_coarser(case, scene.contact.max_iterations)
     bars = contact_bars(case, coarser)
-    if below is not None:
-        body, friction = _stressed(scene)
-        bars = bars | stress_bars(case, coarser, body, below.depths, below.highest, friction)
-    for note in bars.notes:
-        context.note(note)
-    return bars.values
+    if below is None:
+        return bars
+    body, friction = _stressed(scene)
+    return bars | stress_bars(case, coarser, body, below.depths, below.highest, friction)
 
 
 def _stressed(scene: ContactScene) -> tuple[Body, float]:

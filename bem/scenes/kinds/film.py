@@ -14,7 +14,7 @@ from bem.grid import FloatArray
 from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene, problem
 from bem.scenes.context import Context
-from bem.scenes.kinds import Kind
+from bem.scenes.kind import Kind
 from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series

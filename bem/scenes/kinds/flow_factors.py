@@ -3,68 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.scenes import build, plans
-from bem.scenes.common import (
-    BodyScene,
-    GridScene,
-    PositiveLength,
-    PositivePressure,
-    SceneModel,
-    Table,
-    UpperBodyScene,
-    exactly_one,
-    problem,
-)
-from bem.scenes.context import Context
-from bem.scenes.kinds import Kind
+from bem.scenes.common import BodyScene, SceneModel, UpperBodyScene, problem
+from bem.scenes.context import Context, tell
+from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
-from bem.scenes.units import Ratio
-
-
-class PatchGridScene(GridScene):
-    """Cells along x (the flow's direction) and y of a patch that repeats along both, as its flow does.
-
-    See `GridScene` for what is taken from measured surfaces.
-    """
-
-    periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = (True, True)
-
-    @model_validator(mode="after")
-    def _repeats(self) -> PatchGridScene:
-        if self.periodic != (True, True):
-            raise problem("periodic is not true along both axes", "true: the factors are of a patch that repeats")
-        return self
-
-
-class FlowScene(Table):
-    """Where: separations of the mean planes, or their ratio to the rms height of both surfaces together.
-
-    behaviour : the roughness is pressed together elastically, capped at the hardness, or not at all (`undeformed`: what
-        overlaps is cut off, as in Patir and Cheng's simulations).
-    """
-
-    separations: Annotated[list[PositiveLength], Field(min_length=1, max_length=100)] | None = None
-    ratios: Annotated[list[Annotated[Ratio, Field(gt=0)]], Field(min_length=1, max_length=100)] | None = None
-    behaviour: Literal["elastic", "capped", "undeformed"] = "elastic"
-    hardness: PositivePressure | None = None
-    tolerance: Annotated[Ratio, Field(ge=1e-10, le=1e-2)] = 1e-6
-    errors: bool = Field(default=True, strict=True)
-
-    @model_validator(mode="after")
-    def _one_list(self) -> FlowScene:
-        exactly_one(self, "separations", "ratios")
-        if self.behaviour != "capped" and self.hardness is not None:
-            raise problem("hardness is given but nothing is capped", 'behaviour = "capped", or no hardness')
-        return self
+from bem.scenes.tables.flow import FlowScene, PatchGridScene
 
 
 class FlowFactorsScene(SceneModel):
@@ -116,8 +70,7 @@ def plan(scene: FlowFactorsScene) -> Plan:
     )
 
 
-def _factor(text: str, *, headline: bool = False) -> Figure:
-    return Figure("", text, ("asked",), headline=headline)
+_factor = partial(Figure, "", dimensions=("asked",))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -150,24 +103,19 @@ def run(scene: FlowFactorsScene, context: Context) -> FlowRecord:
     from bem.flow import flow_factors
 
     grid, flow = build.grid_of(scene.grid), scene.flow
-    with context.timer("surfaces"):
-        rough = build.both_heights(scene, grid, context)
-    heights, (lower, upper) = rough[0] + rough[1], (scene.lower.build(), scene.upper.build())
+    rough = build.both_heights(scene, grid, context)
+    heights = rough[0] + rough[1]
     apart = np.unique(flow.separations or float(heights.std()) * np.array(flow.ratios))
-    bodies = None if flow.behaviour == "undeformed" else lower if upper is None else (lower, upper)
     with context.timer("flow factors"):
         found = flow_factors(
             heights,
             grid,
-            bodies,
+            None if flow.behaviour == "undeformed" else build.bodies_of(scene),
             separations=apart,
-            hardness=flow.hardness,
-            tolerance=flow.tolerance,
-            errors=flow.errors,
+            **flow.model_dump(include={"hardness", "tolerance", "errors"}),
             callback=lambda done: context.progress(done, len(apart), "separations"),
         )
-    for note in found.notes:
-        context.note(note)
+    tell(context, found.notes)
     first, second = (float(part.var()) for part in rough)
     bars = {name: getattr(found, f"{name}_error") for name in ("pressure_x", "pressure_y", "shear_x") if flow.errors}
     wrong = [f"{1e9 * d:.4g} nm" for d, s in zip(apart, found.statuses, strict=True) if s is not Status.CONVERGED]
@@ -184,7 +132,7 @@ def run(scene: FlowFactorsScene, context: Context) -> FlowRecord:
         flows_through_y=found.flows_through_y.astype(np.int64),
         height=heights,
         errors={name: bar for name, bar in bars.items() if np.isfinite(bar).all()},
-        where="" if found.status is Status.CONVERGED else f"separation {', '.join(wrong)}: {found.status.message}",
+        where=f"separation {', '.join(wrong)}: {found.status.message}",
     )
 
 

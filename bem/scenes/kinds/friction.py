@@ -19,7 +19,7 @@ from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import OutputsScene, Repetitions
 from bem.scenes.context import Context
-from bem.scenes.kinds import Kind
+from bem.scenes.kind import Kind
 from bem.scenes.lubrication import FilmMeshScene, LineContactScene
 from bem.scenes.packing import packed, unpacked
 from bem.scenes.planner import Plan, Step
@@ -90,7 +90,11 @@ def plan(scene: FrictionScene) -> Plan:
                 name="rough contacts",
                 skipped=not coupled,
             ),
-            plans.error_bars_of_balances(grid, _CONVOLUTIONS * speeds if coupled else 0, scene.outputs.errors),
+            plans.error_bars(
+                scene.outputs.errors,
+                "each balance on the grid of twice the cell, and there with half the film's points",
+                **plans.coarser_contacts(grid, _CONVOLUTIONS * speeds if coupled else 0, 2.0),
+            ),
             plans.flow_factors(grid, _SEPARATIONS, wanted=scene.sharing.flow_factors != "off"),
             Step("stresses", "friction alone needs none", skipped=True),
             plans.traction_kernels(grid, *scene.bodies, scene.contact.boundary_friction, wanted=coupled),

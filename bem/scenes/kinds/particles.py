@@ -12,7 +12,7 @@ from bem.grid import FloatArray, Grid
 from bem.scenes import plans
 from bem.scenes.common import MeasuredSurface, SceneModel, exactly_one
 from bem.scenes.context import Context
-from bem.scenes.kinds import Kind
+from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, columns, filled
 from bem.scenes.tables.particles import ArchardScene, SedimentationScene, SeparationScene, SyntheticMapScene

@@ -19,7 +19,7 @@ from bem.scenes import build, plans
 from bem.scenes.axes import Axis, changed
 from bem.scenes.common import PositivePressure, Repetitions, problem
 from bem.scenes.context import Context
-from bem.scenes.kinds import Kind
+from bem.scenes.kind import Kind
 from bem.scenes.lubrication import LineContactScene, SpeedsScene
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled

@@ -2,40 +2,22 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
-
-from pydantic import Field
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
-from bem.materials import Body
 from bem.scenes import build, plans
-from bem.scenes.common import Table
-from bem.scenes.context import Context
-from bem.scenes.kinds import Kind
+from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, GridRecord, Series
+from bem.scenes.tables.heat import RubbingHeatScene
 from bem.scenes.tables.pressing import PressedScene
-from bem.scenes.units import Speed, Temperature
 
 if TYPE_CHECKING:
-    from bem.contact import ContactSolution
-    from bem.heat import TemperatureSolution
-
-BulkTemperature = Annotated[Temperature, Field(ge=150, le=2000)]
-ROOM = 293.15
-
-
-class RubbingHeatScene(Table):
-    """Speeds of the surfaces over the contact, along x, and temperatures far below them."""
-
-    lower_speed: Speed
-    upper_speed: Speed = 0.0
-    lower_bulk: BulkTemperature = ROOM
-    upper_bulk: BulkTemperature = ROOM
+    from bem.accuracy import RubbingCase
 
 
 class SurfaceTemperatureScene(PressedScene):
@@ -59,17 +41,17 @@ def plan(scene: SurfaceTemperatureScene) -> Plan:
     grid = build.grid_of(scene.grid)
     scene.contact.check_load(grid.area)
     rubbing = plans.of_bodies(scene, grid, scene.contact.friction)
-    lower, upper = scene.lower.build(), scene.upper.build()
-    bodies, speeds, bulk = _pair(scene, lower, upper)
-    check_steady(grid, conductors_of("heat", bodies, speeds, bulk))
+    case = _case(scene, grid)
+    check_steady(grid, conductors_of("heat", case.bodies, case.speeds[: len(case.bulk)], case.bulk))
     points = padded_points(grid.shape, grid.periodic)
+    pair = len(case.bulk) == 2
     return Plan(
         (
             *rubbing,
-            plans.contact(grid, f"{scene.contact.behaviour}"),
+            plans.contact(grid, scene.contact.behaviour),
             Step(
                 "surface temperature",
-                "heat of friction, shared between the bodies" if upper else "all heat enters the lower body",
+                "heat of friction, shared between the bodies" if pair else "all heat enters the lower body",
                 transforms=200.0,  # some forty products of both bodies, and two kernels
                 points=points,
                 memory=8.0 * points * 8 + 8.0 * grid.cells * 30,
@@ -81,8 +63,7 @@ def plan(scene: SurfaceTemperatureScene) -> Plan:
     )
 
 
-def _map(unit: str, text: str) -> Series:
-    return Series(("x", "y"), unit, text)
+_map = partial(Series, ("x", "y"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,28 +87,18 @@ class SurfaceTemperatureRecord(GridRecord):
 
 
 def run(scene: SurfaceTemperatureScene, context: Context) -> SurfaceTemperatureRecord:
-    """Solve the contact, then the temperature of its surfaces; both again on cells of twice the side for error bars."""
+    """Solve the contact, then the temperature of its surfaces."""
+    from bem.accuracy import rubbing_bars
+
     grid = build.grid_of(scene.grid)
-    with context.timer("surfaces"):
-        lower, upper = build.both_heights(scene, grid, context)
-    gap = build.undeformed_gap(scene, grid, lower, upper)
-    contact, found = _solve(scene, grid, gap, context)
-    for note in (*contact.notes, *found.notes):
-        context.note(note)
-    figures = _figures(scene, grid, contact, found)
-    errors: Mapping[str, float | None] = {}
-    if any(n % 2 for n in grid.shape):
-        context.note("grid.shape: no error bars, which need even numbers of cells along x and y")
-    else:
-        coarse = Grid(
-            (grid.shape[0] // 2, grid.shape[1] // 2),
-            (2 * grid.spacing[0], 2 * grid.spacing[1]),
-            periodic=grid.periodic,
-        )
-        blocks = gap.reshape(coarse.shape[0], 2, coarse.shape[1], 2).mean(axis=(1, 3))
-        other = _figures(scene, coarse, *_solve(scene, coarse, blocks, context))
-        errors = {name: abs(other[name] - value) for name, value in figures.items()}
-    status = contact.status if contact.status is not Status.CONVERGED else found.status
+    gap = build.undeformed_gap(scene, grid, *build.both_heights(scene, grid, context))
+    case = _case(scene, grid)
+    with context.timer("contact"):
+        contact = case.contact(grid, gap)
+    with context.timer("temperature"):
+        found = case.temperature(grid, contact)
+    tell(context, (*contact.notes, *found.notes))
+    figures = case.figures(grid, contact, found)
     return SurfaceTemperatureRecord(
         **figures,
         load=contact.load,
@@ -139,63 +110,23 @@ def run(scene: SurfaceTemperatureScene, context: Context) -> SurfaceTemperatureR
         surface_temperature=found.temperature,
         heat_lower=found.heat[0],
         heat_made=found.heat.sum(axis=0),
-        errors=errors,
-        status=status,
-        where="" if status is Status.CONVERGED else f"contact: {contact.status}, temperature: {found.status}",
+        errors=error_bars(context, True, lambda: rubbing_bars(case, grid, gap, figures)),
+        status=contact.status if contact.status is not Status.CONVERGED else found.status,
+        where=f"contact: {contact.status}, temperature: {found.status}",
     )
 
 
-def _solve(
-    scene: SurfaceTemperatureScene, grid: Grid, gap: FloatArray, context: Context
-) -> tuple[ContactSolution, TemperatureSolution]:
-    from bem.contact import solve_contact
-    from bem.heat import flash_temperature
+def _case(scene: SurfaceTemperatureScene, grid: Grid) -> RubbingCase:
+    from bem.accuracy import RubbingCase
 
-    lower, upper = scene.lower.build(), scene.upper.build()
-    control = scene.contact
-    with context.timer("contact"):
-        contact = solve_contact(
-            gap,
-            build.operator_of(scene, grid, control.friction),
-            **control.prescribed(grid.area),
-            **control.accuracy(),
-        )
-    bodies, _, bulk = _pair(scene, lower, upper)
-    speeds = (scene.heat.lower_speed, scene.heat.upper_speed)
-    with context.timer("temperature"):
-        return contact, flash_temperature(
-            contact.pressure,
-            grid,
-            bodies if upper else lower,
-            friction=control.friction,
-            speeds=speeds,
-            bulk=bulk,
-        )
-
-
-def _pair(
-    scene: SurfaceTemperatureScene, lower: Body, upper: Body | None
-) -> tuple[tuple[Body, ...], tuple[float, ...], tuple[float, ...]]:
-    """Bodies with their speeds and bulk temperatures."""
-    heat = scene.heat
-    if upper is None:
-        return (lower,), (heat.lower_speed,), (heat.lower_bulk,)
-    return (lower, upper), (heat.lower_speed, heat.upper_speed), (heat.lower_bulk, heat.upper_bulk)
-
-
-def _figures(
-    scene: SurfaceTemperatureScene, grid: Grid, contact: ContactSolution, found: TemperatureSolution
-) -> dict[str, Any]:
-    hottest = max(_pair(scene, scene.lower.build(), scene.upper.build())[2])
-    return {
-        "maximum_temperature": found.maximum,
-        "mean_temperature": found.mean,
-        "maximum_rise": found.maximum - hottest,
-        "share_of_lower": found.share if math.isfinite(found.share) else 0.5,
-        "friction_power": float(found.heat.sum() * grid.cell_area),
-        "contact_area_fraction": contact.contact_area / grid.area,
-        "mean_contact_pressure": contact.load / contact.contact_area if contact.contact_area else 0.0,
-    }
+    bodies, heat, contact = build.bodies_of(scene), scene.heat, scene.contact
+    return RubbingCase(
+        bodies=bodies,
+        speeds=(heat.lower_speed, heat.upper_speed),
+        bulk=(heat.lower_bulk, heat.upper_bulk) if isinstance(bodies, tuple) else (heat.lower_bulk,),
+        friction=contact.friction,
+        asked=contact.prescribed(grid.area) | contact.accuracy(),
+    )
 
 
 KIND = Kind(

@@ -19,7 +19,7 @@ from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import BodyScene, GridScene, Repetitions, SceneModel, ShapeScene, problem
 from bem.scenes.context import Context
-from bem.scenes.kinds import Kind
+from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step, layered_kernel_seconds, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, columns, filled
 from bem.scenes.tables.tribofilm import FilmScene, RubbingScene, VariantScene

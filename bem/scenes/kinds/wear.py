@@ -18,7 +18,7 @@ from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import BodyScene, Repetitions, SceneModel, ShapeScene, problem
 from bem.scenes.context import Context
-from bem.scenes.kinds import Kind
+from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, filled
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
