@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -45,8 +46,9 @@ class MarchCase:
     initial_thickness: float | None = None
     cavitation: Cavitation | str = Cavitation.SWIFT_STIEBER
 
-    def again(self, points: int, every: int = 1) -> list[FilmSolution]:
-        """The same march with other points, at every so many of the times and the last one."""
+    def again(self, points: int, every: int = 1, **going_on: Any) -> list[FilmSolution]:
+        """The same march with other points, at every so many of the times and the last one; `going_on` from a state,
+        or calling back."""
         return march_line_film(
             np.unique(np.append(self.times[::every], self.times[-1])),
             load=self.load,
@@ -57,6 +59,7 @@ class MarchCase:
             points=points,
             initial_thickness=self.initial_thickness,
             cavitation=self.cavitation,
+            **going_on,
         )
 
 

@@ -16,6 +16,7 @@ from bem.lubrication.line_march import (
     Contact,
     March,
     Operation,
+    Reached,
     Scaling,
     advance,
     film_of_gap,
@@ -32,6 +33,16 @@ from bem.threads import one_blas_thread
 FAR = 50.0
 
 
+@dataclass(frozen=True, eq=False)
+class MarchState:
+    """All that the next step needs: where the march is, the films so far, and the steady film that it set out from
+    where it looked for one."""
+
+    steady: FilmSolution | None
+    reached: Reached
+    solutions: tuple[FilmSolution, ...]
+
+
 @one_blas_thread
 def march_line_film(  # reason: the signature is a promise to users' scripts; frozen groups are made of it at once
     times: FloatArray,
@@ -46,6 +57,8 @@ def march_line_film(  # reason: the signature is a promise to users' scripts; fr
     initial: FilmSolution | None = None,
     initial_thickness: float | None = None,
     cavitation: Cavitation | str = Cavitation.SWIFT_STIEBER,
+    state: MarchState | None = None,
+    callback: Callable[[MarchState], None] | None = None,
 ) -> list[FilmSolution]:
     """Film of a line contact at each of `times`, of second order in the time step (BDF2, L-stable).
 
@@ -66,6 +79,8 @@ def march_line_film(  # reason: the signature is a promise to users' scripts; fr
     cavitation : `Cavitation.SWIFT_STIEBER`, or MASS_CONSERVING: oil behind a rupture is carried along and counts where
         the film forms again, as after a reversal; `film_fraction` of the solutions says how much there is. The mesh's
         upstream end is flooded, downstream of it comes what comes.
+    state : of a march with the same arguments, to go on from to the same bits.
+    callback : called with the state after the first film and after every step.
 
     Returns
     -------
@@ -90,22 +105,28 @@ def march_line_film(  # reason: the signature is a promise to users' scripts; fr
         raise InputError(messages[:10])
     steady = initial is None and initial_thickness is None
     if steady:
-        initial = _steady_film(schedule, contact, int(points))
+        initial = _steady_film(schedule, contact, int(points)) if state is None else state.steady
     scaling, mesh = _discretised(schedule, contact, int(points), initial, initial_thickness)
     march = March(contact, operation, scaling, mesh, tolerance, model)
-    if initial is not None:
-        film = film_of_solution(march, initial)
-    else:
-        assert initial_thickness is not None
-        film = film_of_gap(march, initial_thickness)
-    start = steady_start if steady else given_start
-    reached, opening = start(march, film, float(schedule.times[0]))
-    solutions = [opening]
-    for time in schedule.times[1:]:
+    tell = callback or (lambda state: None)
+    if state is None:
+        if initial is not None:
+            film = film_of_solution(march, initial)
+        else:
+            assert initial_thickness is not None
+            film = film_of_gap(march, initial_thickness)
+        start = steady_start if steady else given_start
+        reached, opening = start(march, film, float(schedule.times[0]))
+        state = MarchState(initial if steady else None, reached, (opening,))
+        tell(state)
+    solutions = list(state.solutions)
+    reached = state.reached
+    for time in schedule.times[len(solutions) :]:
+        if len(solutions) > 1 and solutions[-1].status is not Status.CONVERGED:
+            break
         reached, solution = advance(march, reached, float(time))
         solutions.append(solution)
-        if solution.status is not Status.CONVERGED:
-            break
+        tell(MarchState(state.steady, reached, tuple(solutions)))
     return solutions
 
 

@@ -7,6 +7,7 @@ tests/scenes/test_friction_kinds.py and test_film_kind.py.
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Iterable
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -36,6 +37,7 @@ from bem.scenes.units import Pressure, Ratio, Speed
 
 if TYPE_CHECKING:
     from bem.friction.setup import MixedSetup
+    from bem.scenes.context import Context
 
 
 class SpeedsScene(Table):
@@ -253,3 +255,9 @@ def _check_patch(grid: Grid, film: FilmMeshScene, half_width: float) -> None:
         )
     if messages:
         raise InputError(messages)
+
+
+def tell_of_film(context: Context, notes: Iterable[str], of_film: Collection[str], about: str = "") -> None:
+    """Note what a balance says; the film's model is the same at all speeds and in all cases, and said once."""
+    for note in notes:
+        context.note(f"film: {note}" if note in of_film else f"{about}{note}")

@@ -10,9 +10,23 @@ import dataclasses
 import importlib
 from collections.abc import Mapping, Sequence
 from enum import Enum
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from bem.scenes.context import Context
 
 _PACKAGE = "bem."
+
+
+def keep(context: Context, state: Any, given: Sequence[Any] = ()) -> None:
+    """Replace the checkpoint of a case by its state, which `kept` gives back."""
+    context.save({"state": packed(state, given)})
+
+
+def kept(context: Context, given: Sequence[Any] = ()) -> Any:
+    """The state last kept, of a case that goes on; None of one that begins."""
+    saved = context.saved()
+    return None if saved is None else unpacked(saved["state"], given)
 
 
 def packed(value: Any, given: Sequence[Any] = ()) -> Any:

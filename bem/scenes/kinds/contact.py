@@ -19,7 +19,7 @@ from bem.scenes.axes import changed
 from bem.scenes.common import DepthsScene, problem
 from bem.scenes.context import Context, error_bars, release, tell
 from bem.scenes.kind import Kind
-from bem.scenes.packing import packed, unpacked
+from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan
 from bem.scenes.records import Figure, GridRecord, Series, filled
 from bem.scenes.tables.pressing import ContactOutputs, PressedScene
@@ -172,9 +172,9 @@ def _solve(
     """The contact, from the checkpoint where it was solved before, and (n, 2) iterations and residuals."""
     from bem.contact import solve_contact
 
-    saved = context.saved()
-    if saved is not None:
-        return unpacked(saved["solution"]), saved["history"]
+    solved: tuple[ContactSolution, FloatArray] | None = kept(context)
+    if solved is not None:
+        return solved
     operator = build.operator_of(scene, grid, scene.contact.friction)
     history = []
 
@@ -188,9 +188,9 @@ def _solve(
     solution = solve_contact(undeformed, operator, **asked, callback=watch)
     del operator  # and with it its spectra
     context.progress(100, 100, "contact", residual=solution.residual)
-    told_of = np.array(history, dtype=np.float64).reshape(-1, 2)
-    context.save({"solution": packed(solution), "history": told_of})
-    return solution, told_of
+    solved = solution, np.array(history, dtype=np.float64).reshape(-1, 2)
+    keep(context, solved)
+    return solved
 
 
 def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Context) -> StressBelow:

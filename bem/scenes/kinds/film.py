@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from pydantic import model_validator
@@ -13,15 +14,20 @@ from bem.errors import Status
 from bem.grid import FloatArray
 from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene, problem
-from bem.scenes.context import Context
+from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.oil import OilScene
+from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Record, Series
+from bem.scenes.records import Figure, Record, Series, columns, filled
 from bem.scenes.tables.motion import FilmCylinderScene, MarchScene, MotionScene
 
 if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars, MarchCase
     from bem.lubrication import FilmSolution
+    from bem.lubrication.transient import MarchState
+
+_CHECKPOINTS = 20  # of a march
 
 
 class FilmScene(SceneModel):
@@ -48,21 +54,12 @@ class FilmScene(SceneModel):
 def plan(scene: FilmScene) -> Plan:
     """What will be computed."""
     n, errors = scene.march.points, scene.outputs.errors
+    why = f"{scene.march.steps} steps on {n} points, each by Newton's method"
     seconds = scene.march.steps * 4 * (0.002 + 2e-11 * n**3 + 1e-8 * n**2)
     return Plan(
         (
-            Step(
-                "film in time",
-                f"{scene.march.steps} steps on {n} points, each by Newton's method",
-                seconds=seconds,
-                memory=8.0 * n * n * 6,
-            ),
-            Step(
-                "error bars",
-                "marches on half the points, and of steps twice as long" if errors else "outputs.errors is false",
-                skipped=not errors,
-                seconds=0.5 * seconds,
-            ),
+            Step("film in time", why, seconds=seconds, memory=8.0 * n * n * 6),
+            plans.error_bars(errors, "marches on half the points, and of steps twice as long", seconds=0.5 * seconds),
             Step("rough contact", "both surfaces are smooth", skipped=True),
             plans.figures(),
         )
@@ -99,25 +96,14 @@ class FilmTimeRecord(Record):
 
 def run(scene: FilmScene, context: Context) -> FilmTimeRecord:
     """March through the motion."""
-    from bem.accuracy import MarchCase, march_bars
+    from bem.accuracy import MarchCase
     from bem.lubrication import Cavitation
 
     cylinder, march = scene.cylinder, scene.march
-    end = cylinder.load if cylinder.load_end is None else cylinder.load_end
-    times = np.linspace(0.0, march.duration, march.steps + 1)
-    highest = 0.0
-
-    def load(time: float) -> float:
-        nonlocal highest
-        if time > highest:
-            highest = time
-            context.progress(round(time / march.duration * march.steps), march.steps, "steps")
-        return (cylinder.load + (end - cylinder.load) * time / march.duration) / cylinder.width
-
     case = MarchCase(
         films=(),
-        times=times,
-        load=load,
+        times=np.linspace(0.0, march.duration, march.steps + 1),
+        load=lambda time: cylinder.per_length(time / march.duration),
         speeds=lambda time: (scene.motion.at(time), 0.0),
         radius=cylinder.radius,
         contact_modulus=build.modulus_of(scene),
@@ -127,49 +113,69 @@ def run(scene: FilmScene, context: Context) -> FilmTimeRecord:
         cavitation=Cavitation(march.cavitation),
     )
     with context.timer("film"):
-        films = case.again(case.points)
-    for note in dict.fromkeys(note for film in films for note in film.notes):
-        context.note(f"film: {note}")
-    errors: dict[str, float | None] = {}
-    if scene.outputs.errors and films[-1].status is Status.CONVERGED:
-        with context.timer("error bars"):
-            bars = march_bars(replace(case, films=films))
-        for note in bars.notes:
-            context.note(note)
-        errors = dict(bars.values)
-        force = errors.pop("largest_shear_force")
-        errors["largest_friction_force"] = None if force is None else force * cylinder.width
+        films = _march(case, context)
+    tell(context, dict.fromkeys(note for film in films for note in film.notes), "film: ")
+    wanted = scene.outputs.errors and films[-1].status is Status.CONVERGED
+    errors = error_bars(context, wanted, lambda: _bars(replace(case, films=films), cylinder.width))
     return _record(films, cylinder.width, errors)
 
 
-def _record(films: Sequence[FilmSolution], width: float, errors: Mapping[str, float | None]) -> FilmTimeRecord:
-    last = films[-1]
-    time = np.array([float(film.time or 0.0) for film in films])
-    minimum = np.array([film.minimum_thickness for film in films])
+def _march(case: MarchCase, context: Context) -> list[FilmSolution]:
+    """The films, with a checkpoint at every twentieth of the way."""
+    last, made_again = len(case.times) - 1, (case.lubricant,)
+
+    def watch(now: MarchState) -> None:
+        done = len(now.solutions) - 1
+        context.progress(done, last, "steps")
+        if done == last or done % math.ceil(last / _CHECKPOINTS) == 0:
+            keep(context, now, made_again)
+
+    return case.again(case.points, state=kept(context, made_again), callback=watch)
+
+
+def _bars(case: MarchCase, width: float) -> ErrorBars:
+    """With the friction force on the whole width."""
+    from bem.accuracy import march_bars
+
+    bars = march_bars(case)
+    force = bars.values["largest_shear_force"]
+    return bars | type(bars)({"largest_friction_force": None if force is None else force * width})
+
+
+def _record(films: Sequence[FilmSolution], width: float, errors: Mapping[str, Any]) -> FilmTimeRecord:
+    from bem.accuracy import march_figures
+
+    last, figures, over = films[-1], march_figures(films), columns(films, _OVER_TIME)
     few = sorted({round(i) for i in np.linspace(0, len(films) - 1, min(len(films), 21))})
-    filled = None if last.film_fraction is None else np.array([film.film_fraction for film in films])
-    return FilmTimeRecord(
+    time, minimum = over["time"], over["minimum_thickness"]
+    return filled(
+        FilmTimeRecord,
+        figures,
+        over,
         times_reported=time[few],
         minimum_film_reported=minimum[few],
-        thinnest_film=float(minimum.min()),
         thinnest_film_time=float(time[minimum.argmin()]),
-        film_at_end=float(minimum[-1]),
-        largest_friction_force=float(max(abs(film.shear_force) for film in films) * width),
-        volume_imbalance=float(max(film.volume_imbalance or 0.0 for film in films)),
-        newton_steps=int(sum(film.iterations for film in films)),
-        time=time,
+        largest_friction_force=figures["largest_shear_force"] * width,
+        volume_imbalance=float(over["volume_imbalance"].max()),
+        newton_steps=int(over["iterations"].sum()),
         film_x=last.position,
-        speed=np.array([film.speeds[0] for film in films]),
+        speed=over["speeds"][:, 0],
         minimum_film=minimum,
-        central_film=np.array([film.central_thickness for film in films]),
-        friction=np.array([film.shear_force / film.load for film in films]),
-        thickness=np.array([film.thickness for film in films]),
-        film_pressure=np.array([film.pressure for film in films]),
-        film_fraction=filled,
+        central_film=over["central_thickness"],
+        # a film that begins as a gap carries nothing at first
+        friction=over["shear_force"] / np.where(over["load"] > 0, over["load"], np.nan),
+        film_pressure=over["pressure"],
+        film_fraction=None if last.film_fraction is None else over["film_fraction"],
         errors=errors,
         status=last.status,
-        where="" if last.status is Status.CONVERGED else f"time {last.time:g} s: {last.status.message}",
+        where=f"time {last.time:g} s: {last.status.message}",
     )
+
+
+_OVER_TIME = (
+    *("time", "speeds", "minimum_thickness", "central_thickness", "thickness", "pressure", "film_fraction"),
+    *("shear_force", "load", "volume_imbalance", "iterations"),
+)
 
 
 KIND = Kind(

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields
+from functools import partial
 from itertools import product
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -18,10 +19,10 @@ from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import OutputsScene, Repetitions
-from bem.scenes.context import Context
+from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
-from bem.scenes.lubrication import FilmMeshScene, LineContactScene
-from bem.scenes.packing import packed, unpacked
+from bem.scenes.lubrication import FilmMeshScene, LineContactScene, tell_of_film
+from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, columns, filled, mean, spread
 from bem.scenes.tables.sharing import SharingScene, SurfaceVariant
@@ -103,12 +104,7 @@ def plan(scene: FrictionScene) -> Plan:
     )
 
 
-def _curve(unit: str, text: str, name: str = "", headline: bool = False) -> Figure:
-    return Figure(unit, text, ("speed",), name=name, headline=headline)
-
-
-def _shown(dimensions: tuple[str, ...], unit: str, text: str) -> Series:
-    return Series(dimensions, unit, text, of="first")
+_curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="first")
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,8 +113,8 @@ class CurveRecord(Record):
 
     speed: Annotated[FloatArray, _curve("m_s", "speed of the flat", headline=True)]
     friction: Annotated[FloatArray, _curve("", "coefficient of friction", headline=True)]
-    boundary_part: Annotated[FloatArray, _curve("", "boundary part of the friction", "boundary_friction_part")]
-    film_part: Annotated[FloatArray, _curve("", "film part of the friction", "film_friction_part")]
+    boundary_part: Annotated[FloatArray, _curve("", "boundary part of the friction", name="boundary_friction_part")]
+    film_part: Annotated[FloatArray, _curve("", "film part of the friction", name="film_friction_part")]
     contact_load: Annotated[FloatArray, _curve("N", "load carried by contact", headline=True)]
     film_load: Annotated[FloatArray, _curve("N", "load carried by the film", headline=True)]
     minimum_film: Annotated[FloatArray, _curve("nm", "minimum film thickness", headline=True)]
@@ -146,43 +142,40 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     from bem.friction.curves import Curve
     from bem.friction.load_sharing import solve_setup
 
-    grid, pairs, saved = build.grid_of(scene.grid), scene.speeds.build(), context.saved()
-    with context.timer("surfaces"):
-        lower, upper = build.both_heights(scene, grid, context)
-        height = lower + upper
+    grid, pairs = build.grid_of(scene.grid), scene.speeds.build()
+    lower, upper = build.both_heights(scene, grid, context)
+    height = lower + upper
     with _in_words_of_the_scene():
         setup = _setup(scene, _flow_factors(scene, grid, lower, upper, context))
     made_again = (setup.grid, setup.lubricant, setup.boundary_friction)
-    curve: Curve = Curve() if saved is None else unpacked(saved["curve"], made_again)
-    errors: list[FloatArray] = [] if saved is None else list(saved["errors"])
+    nothing: tuple[Curve, list[FloatArray]] = (Curve(), [])
+    curve, errors = kept(context, made_again) or nothing
     for speeds in pairs[len(curve.points) :]:
         with context.timer("load sharing"), _in_words_of_the_scene():
             own = solve_setup(setup, height, speeds, curve.last)
-        for note in own.notes:
-            # the film's model is the same at all speeds: said once
-            context.note(f"film: {note}" if note in own.film.notes else f"speed {speeds[0]:g} m/s: {note}")
+        tell_of_film(context, own.notes, own.film.notes, _at(own))
         curve = curve.then(own)
         if scene.outputs.errors:
             errors.append(_errors(setup, height, own, context))
         if len(curve.points) < len(pairs):
-            context.save({"curve": packed(curve, made_again), "errors": errors})
+            keep(context, (curve, errors), made_again)
         context.progress(len(curve.points), len(pairs), "speeds", friction=own.friction)
     return _record(grid, curve, height, errors)
 
 
+def _at(solution: MixedSolution) -> str:
+    return f"speed {solution.speeds[0]:g} m/s: "
+
+
 def _errors(setup: MixedSetup, height: FloatArray, solution: MixedSolution, context: Context) -> FloatArray:
-    """Error bars of one speed, in the order of their figures; not-a-number where there is none, which notes explain."""
+    """Error bars of one speed, in the order of their figures; not-a-number where there is none."""
     from bem.accuracy import MixedCase, mixed_bars, solve_coarser_mixed
     from bem.accuracy.mixed import RULES
 
-    if solution.status is not Status.CONVERGED:
-        return np.full(len(RULES), np.nan)
-    with context.timer("error bars"):
-        case = MixedCase(setup, height, solution)
-        bars = mixed_bars(case, solve_coarser_mixed(case))
-    for note in bars.notes:
-        context.note(f"speed {solution.speeds[0]:g} m/s: {note}")
-    return np.array([bars.values[name] for name in RULES], dtype=np.float64)
+    case = MixedCase(setup, height, solution)
+    wanted = solution.status is Status.CONVERGED
+    bars = error_bars(context, wanted, lambda: mixed_bars(case, solve_coarser_mixed(case)), _at(solution))
+    return np.array([bars.get(name) for name in RULES], dtype=np.float64)
 
 
 def _setup(scene: FrictionScene, factors: FlowFactors | Literal["off"]) -> MixedSetup:
@@ -209,8 +202,7 @@ def _flow_factors(
     with context.timer("flow factors"):
         hardness = scene.contact.hardness if model in _CAPPED else None
         table = factors_for_films(lower, upper, grid, scene.bodies, hardness=hardness)
-    for note in table.notes:
-        context.note(f"flow factors: {note}")
+    tell(context, table.notes, "flow factors: ")
     if table.status is not Status.CONVERGED:
         context.note(f"flow factors: {table.status.message}, residual {float(table.residual.max()):.2g}")
     return table

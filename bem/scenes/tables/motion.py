@@ -18,6 +18,11 @@ class FilmCylinderScene(CylinderTable):
     load: Annotated[Force, Field(gt=0)]
     load_end: Annotated[Force, Field(gt=0)] | None = None
 
+    def per_length(self, share: float) -> float:
+        """The load per unit length [N/m] where so much of the run is over."""
+        end = self.load if self.load_end is None else self.load_end
+        return (self.load + (end - self.load) * share) / self.width
+
 
 class MotionScene(Table):
     """Speed of the flat over time; the cylinder stands still.
