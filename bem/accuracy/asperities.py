@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars
 from bem.friction.asperity_array import ArrayLoads
-from bem.grid import FloatArray
 
 _DIFFERENCE, _SHARE = 0.8, 0.15
 """On the difference to twice the cell, and on the load over the square of the cells in Hertz' radius."""
@@ -18,7 +18,7 @@ _TOLERANCE = 1e-6
 """What contacts and the interpolation between their loads may add, relative."""
 
 
-def asperity_bars(found: ArrayLoads, coarser: ArrayLoads, radius: float, cell: float) -> dict[str, FloatArray]:
+def asperity_bars(found: ArrayLoads, coarser: ArrayLoads, radius: float, cell: float) -> ErrorBars:
     """Errors of `mean_plane` and `from_flat` at each depth, (n,) [N].
 
     Parameters
@@ -26,8 +26,9 @@ def asperity_bars(found: ArrayLoads, coarser: ArrayLoads, radius: float, cell: f
     found, coarser : on the grid, and on that of twice the cell. radius : of the spheres [m]. cell : of the grid [m].
     """
     at_edge = cell**2 / (radius * found.depth)
-    return {
-        name: _DIFFERENCE * np.abs(getattr(found, name) - getattr(coarser, name))
-        + (_SHARE * at_edge + _TOLERANCE) * np.abs(getattr(found, name))
-        for name in ("mean_plane", "from_flat")
-    }
+    grid, residual = {}, {}
+    for name in ("mean_plane", "from_flat"):
+        loads, there = getattr(found, name), getattr(coarser, name)
+        grid[name] = _DIFFERENCE * np.abs(loads - there) + _SHARE * at_edge * np.abs(loads)
+        residual[name] = _TOLERANCE * np.abs(loads)
+    return ErrorBars.together({GRID: grid, RESIDUAL: residual})

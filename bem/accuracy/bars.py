@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
+
+import numpy as np
+
+from bem.grid import FloatArray
+
+GRID, DEPTHS, POINTS, STEPS, RESIDUAL = "grid", "depths", "film points", "time steps", "residual"
+"""Where errors come from, in the words of summary, dataset and report: what discretisation leaves, and the residual of
+solvers. Over repetitions there is `bem.scenes.records.SCATTER` besides."""
 
 
 @dataclass(frozen=True)
@@ -17,7 +25,7 @@ class ErrorBars:
 
     values: Mapping[str, Any] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
-    parts: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    parts: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def __or__(self, other: ErrorBars) -> ErrorBars:
         parts = {
@@ -27,15 +35,47 @@ class ErrorBars:
         return ErrorBars({**self.values, **other.values}, self.notes + other.notes, parts)
 
     @classmethod
-    def together(cls, parts: Mapping[str, Mapping[str, float]], notes: tuple[str, ...] = ()) -> ErrorBars:
-        """The sum of parts that all have the same figures: errors of different origins may all be of one sign."""
-        names = next(iter(parts.values()))
-        return cls({name: float(sum(part[name] for part in parts.values())) for name in names}, notes, parts)
+    def together(cls, parts: Mapping[str, Mapping[str, Any]], notes: tuple[str, ...] = ()) -> ErrorBars:
+        """The sum of parts: errors of different origins may all be of one sign. A part leaves out figures that it is
+        not of."""
+        names = dict.fromkeys(name for part in parts.values() for name in part)
+        return cls({name: sum(part.get(name, 0.0) for part in parts.values()) for name in names}, notes, parts)
+
+    def without(self, name: str, why: str) -> ErrorBars:
+        """The bars but for one figure that has none, for a reason."""
+        parts = {origin: {n: v for n, v in part.items() if n != name} for origin, part in self.parts.items()}
+        return ErrorBars({**self.values, name: None}, (*self.notes, why), parts)
+
+    def renamed(self, names: Mapping[str, str], change: Callable[[Any], Any] = lambda error: error) -> ErrorBars:
+        """Those bars that have a new name, under it and changed; without the notes."""
+
+        def new(old: Mapping[str, Any]) -> dict[str, Any]:
+            return {names[n]: None if v is None else change(v) for n, v in old.items() if n in names}
+
+        return ErrorBars(new(self.values), (), {origin: new(part) for origin, part in self.parts.items()})
 
     @classmethod
     def unknown(cls, names: Iterable[str], why: str) -> ErrorBars:
         """No bars, for a reason."""
         return cls(dict.fromkeys(names), (why,))
+
+
+def table(
+    errors: Mapping[str, Any], parts: Mapping[str, Mapping[str, Any]], names: Iterable[str], origins: Iterable[str]
+) -> FloatArray:
+    """Bars and below them their parts as one array (1 + origins, names); not-a-number where there is none."""
+    names = tuple(names)
+    rows = [errors, *(parts.get(origin, {}) for origin in origins)]
+    return np.array([[row.get(name) for name in names] for row in rows], dtype=np.float64)
+
+
+def from_tables(
+    tables: Sequence[FloatArray], names: Iterable[str], origins: Iterable[str]
+) -> tuple[dict[str, FloatArray], dict[str, dict[str, FloatArray]]]:
+    """What `errors` and `error_parts` of a record are, from the tables of all entries of its lists."""
+    names = tuple(names)
+    rows = [dict(zip(names, row.T, strict=True)) for row in np.swapaxes(np.array(tables), 0, 1)] if tables else [{}]
+    return rows[0], dict(zip(origins, rows[1:], strict=False))
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bem.accuracy.bars import ErrorBars
+from bem.accuracy.bars import POINTS, RESIDUAL, ErrorBars
 from bem.errors import Status
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
 from bem.lubrication.validity import Case, spike_unresolved
@@ -133,16 +133,16 @@ def film_bars(case: FilmCase, other: OtherFilm) -> ErrorBars:
     halved = _TWICE if other.ratio > 1 else 3 / (1 / other.ratio**2 - 1)
     changed = max(_relative(found[name], there[name]) for name in ("central_thickness", "minimum_thickness"))
     rise = _rise_above_highest_node(case.solution)
-    values: dict[str, float | None] = {}
+    points, residual = {}, {}
     for name, rule in FILM_RULES.items():
         figure = abs(found[name])
         discretisation = halved * (rule.factor * abs(found[name] - there[name]) + rule.film * changed * figure)
-        values[name] = discretisation + rule.peak * rise + _ALGEBRAIC * case.solution.residual * figure
-    if (missed := abs(case.solution.load - case.load)) > 0:
-        values["load"] = missed + (values["load"] or 0.0)
-    if spike_is_unresolved(case) or spike_is_unresolved(replace(case, solution=other.solution)):
-        return ErrorBars(values | {"maximum_pressure": None}, (_SPIKE,))
-    return ErrorBars(values)
+        points[name] = discretisation + rule.peak * rise
+        residual[name] = _ALGEBRAIC * case.solution.residual * figure
+    residual["load"] += abs(case.solution.load - case.load)
+    bars = ErrorBars.together({POINTS: points, RESIDUAL: residual})
+    no_limit = spike_is_unresolved(case) or spike_is_unresolved(replace(case, solution=other.solution))
+    return bars.without("maximum_pressure", _SPIKE) if no_limit else bars
 
 
 def spike_is_unresolved(case: FilmCase) -> bool:

@@ -15,12 +15,11 @@ from typing import Any
 
 import numpy as np
 
-from bem.accuracy.bars import ErrorBars
+from bem.accuracy.bars import POINTS, RESIDUAL, STEPS, ErrorBars
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.lubrication import Cavitation, FilmSolution, Lubricant, march_line_film
 
-MESH, STEPS, RESIDUAL = "film points", "time steps", "residual"
 FIGURES = ("thinnest_film", "film_at_end", "largest_shear_force")
 FEWEST = 101
 _MESH, _STEPS = 1.3, 3.0
@@ -91,7 +90,7 @@ def march_bars(case: MarchCase) -> ErrorBars:
     residual = {name: 10 * _TOLERANCE * abs(value) for name, value in found.items()}
     return ErrorBars.together(
         {
-            MESH: {name: _MESH * halved * abs(found[name] - mesh[name]) for name in FIGURES},
+            POINTS: {name: _MESH * halved * abs(found[name] - mesh[name]) for name in FIGURES},
             STEPS: {name: _STEPS * abs(from_here[name] - steps[name]) for name in FIGURES},
             RESIDUAL: residual,
         }

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bem.accuracy.bars import ErrorBars, Rule
+from bem.accuracy.bars import GRID, POINTS, ErrorBars, Rule
 from bem.accuracy.contact import surface_is_resolved
 from bem.accuracy.film import FEWEST
 from bem.contact.cascade import sample
@@ -28,7 +28,9 @@ from bem.friction.rough_contact import rough_contact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
 
-CONTACT, FILM, BALANCE = "contact grid", "film points", "balance"
+BALANCE = "balance"
+"""The origin of what the imbalance of loads and the contact's tolerance leave."""
+ORIGINS = (GRID, POINTS, BALANCE)
 _FEWEST_CELLS = 16
 _BOUNDARY = (
     "in boundary lubrication the minimum film has no error bar: it is that of the largest load that the film can be "
@@ -131,14 +133,12 @@ def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
     edge = _at_edge(case.solution, found)
     halved = _FILM_TWICE if coarser.ratio > 1 else _FILM * 3 / (1 / coarser.ratio**2 - 1)
     parts = {
-        CONTACT: {n: summits * rule.bar(found[n] - one[n], edge[n], resolved=resolved) for n, rule in RULES.items()},
-        FILM: {n: halved * abs(one[n] - two[n]) for n in RULES},
+        GRID: {n: summits * rule.bar(found[n] - one[n], edge[n], resolved=resolved) for n, rule in RULES.items()},
+        POINTS: {n: halved * abs(one[n] - two[n]) for n in RULES},
         BALANCE: _balance_part(case.solution, case.setup, found),
     }
     bars = ErrorBars.together(parts)
-    if case.solution.regime is Regime.BOUNDARY:
-        return dataclasses.replace(bars, values={**bars.values, "minimum_film": None}, notes=(_BOUNDARY,))
-    return bars
+    return bars.without("minimum_film", _BOUNDARY) if case.solution.regime is Regime.BOUNDARY else bars
 
 
 def _at_edge(solution: MixedSolution, found: dict[str, float]) -> dict[str, float]:

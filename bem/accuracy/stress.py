@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from bem.accuracy.bars import ErrorBars, Rule
-from bem.accuracy.contact import Coarser, ContactCase, is_resolved, share_at_edge
+from bem.accuracy.bars import DEPTHS, GRID, ErrorBars, Rule
+from bem.accuracy.contact import Coarser, ContactCase, is_resolved, rise, share_at_edge
 from bem.grid import FloatArray
 from bem.materials import Body
 from bem.stress import von_mises_planes
@@ -14,6 +14,8 @@ NAMES = ("max_von_mises", "max_von_mises_depth")
 _VON_MISES = Rule(0.5, 1.0, edge=0.03, rough_edge=0.02)
 _JUMP = 1.3
 """Factor on the depth's bar where the surface is not resolved: the highest stress may lie under another spot."""
+_STEEPER = 2.0
+"""Factor on what a straight line through two depths reaches at an interface: stresses rise the steeper the nearer."""
 
 _CAPPED = (
     "the highest von Mises stress has no error bar: it lies at the surface of a capped contact, where it has no limit"
@@ -56,13 +58,26 @@ def stress_bars(
         friction=friction,
         out=np.empty(coarser.grid.shape),
     )
-    coarse = np.array([plane.max() for plane in there])
-    resolved = is_resolved(case)
+    peaks = np.array([(plane.max(), rise(plane, coarser.grid)) for plane in there])
+    resolved, edge = is_resolved(case), share_at_edge(case)
     top, error = (0.0, 0.0) if few else _highest_between(depths, highest, k)
-    stress = _VON_MISES.bar(highest[k] - coarse.max(), share_at_edge(case) * highest[k], resolved=resolved) + top
-    moved = abs(depths[k] - depths[kept[int(np.argmax(coarse))]])
-    depth = (error + moved) * (1.0 if resolved else _JUMP)
-    return ErrorBars({"max_von_mises": float(stress), "max_von_mises_depth": float(depth)})
+    for interface in () if few else body.interfaces:
+        above = _STEEPER * (_beyond(depths, highest, interface) - highest[k])
+        if above > 0:
+            top, error = max(top, float(above)), max(error, abs(interface - float(depths[k])))
+    at = int(np.argmax(peaks[:, 0]))
+    coarse, between = peaks[at]
+    stress = _VON_MISES.bar(highest[k] - coarse, edge * highest[k], resolved=resolved)
+    jump = 1.0 if resolved else _JUMP
+    return ErrorBars.together(
+        {
+            GRID: {
+                "max_von_mises": float(stress + between / (4.0 if resolved else 1.0)),
+                "max_von_mises_depth": float(jump * abs(depths[k] - depths[kept[at]])),
+            },
+            DEPTHS: {"max_von_mises": top, "max_von_mises_depth": jump * error},
+        }
+    )
 
 
 def _highest_between(depths: FloatArray, highest: FloatArray, k: int) -> tuple[float, float]:
@@ -74,3 +89,14 @@ def _highest_between(depths: FloatArray, highest: FloatArray, k: int) -> tuple[f
     bend, slope = np.polyfit(z, s, 2)[:2] if np.ptp(s) > 0 else (0.0, 0.0)
     rise = -slope * slope / (4 * bend) if bend < 0 else 0.0
     return float(rise), float(max(-z[0], z[2])) / 2
+
+
+def _beyond(depths: FloatArray, highest: FloatArray, interface: float) -> float:
+    """What the highest stresses of the two depths next to an interface, on either side, go on to at it [Pa]: there
+    stress jumps, and its highest may lie between depths."""
+    found = 0.0
+    for side in (np.flatnonzero(depths <= interface)[-2:], np.flatnonzero(depths >= interface)[:2]):
+        if len(side) == 2:
+            (a, b), (one, other) = depths[side], highest[side]
+            found = max(found, one + (other - one) * (interface - a) / (b - a))
+    return float(found)

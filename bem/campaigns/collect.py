@@ -15,6 +15,7 @@ from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Outcome, Variable
 from bem.scenes.records import (
+    SCATTER,
     Figure,
     Record,
     Series,
@@ -161,16 +162,39 @@ def _figures(
         if len(values) == 1:
             found[key] = values[0]
             if name in barred:
-                found[error_key(key)] = errors[0]
+                found |= _with_parts(key, errors[0], _parts(name, figure, records), mean)
         else:
             found[key] = _over(mean, values)
             found[f"{key}_spread"] = _over(spread, values)
             found[f"{key}_each"] = values
             if name in barred:
-                found[error_key(key)] = _sum(_over(mean, errors), _over(standard_error, values))
+                error, scattered = _over(mean, errors), _over(standard_error, values)
+                parts = _parts(name, figure, records)
+                if error is not None and len(_known(values)) > 1:
+                    parts[SCATTER] = [scattered]
+                found |= _with_parts(key, _sum(error, scattered), parts, mean)
             elif name in scattering:
                 found[error_key(key)] = _over(scatter, values)
     return found
+
+
+def _known(values: Sequence[Any]) -> list[Any]:
+    return [value for value in values if value is not None]
+
+
+def _parts(name: str, figure: Figure, records: Sequence[Record | None]) -> dict[str, list[Any]]:
+    """What each origin adds to a figure's error, of every record that knows it, by the words for the origin."""
+    parts: dict[str, list[Any]] = {}
+    for record in records:
+        for origin, errors in (record.error_parts if record is not None else {}).items():
+            if errors.get(name) is not None:
+                parts.setdefault(origin, []).append(figure.shown_error(errors[name]))
+    return parts
+
+
+def _with_parts(key: str, error: Any, parts: Mapping[str, list[Any]], over: Any) -> dict[str, Any]:
+    """The error of a figure, and behind it what each origin adds to it."""
+    return {error_key(key): error} | {error_key(key, origin): _over(over, each) for origin, each in parts.items()}
 
 
 def _sum(one: Any, other: Any) -> Any:
@@ -228,10 +252,25 @@ def _variables(
             variables[name] = Variable(dimensions, _coordinate(values), unit, text)
         else:
             variables[name] = laid_out(campaign.axes, values, unit, text, dimensions)
-        errors = [None if record is None else record.errors.get(name) for record in records]
-        if name in variables and any(error is not None for error in errors):
-            variables[error_key(name)] = laid_out(campaign.axes, errors, unit, f"error of {text}", dimensions)
+        if name in variables:
+            variables |= _error_variables(campaign, name, item, records)
     return variables
+
+
+def _error_variables(
+    campaign: Campaign, name: str, item: Figure | Series, records: Sequence[Record | None]
+) -> dict[str, Variable]:
+    """The errors of a figure or series over the axes, and what each origin adds to them."""
+    unit = item.si if isinstance(item, Figure) else item.unit
+    origins = dict.fromkeys(o for r in records if r is not None for o, part in r.error_parts.items() if name in part)
+    found = {}
+    for origin in ("", *origins):
+        tables = [None if r is None else r.error_parts.get(origin, {}) if origin else r.errors for r in records]
+        errors = [None if table is None else table.get(name) for table in tables]
+        text = f"error of {item.text}{f', {origin}' if origin else ''}"
+        if any(error is not None for error in errors):
+            found[error_key(name, origin)] = laid_out(campaign.axes, errors, unit, text, item.dimensions)
+    return found
 
 
 def _rows(name: str, item: Series, values: list[Any], known: Mapping[str, Variable]) -> dict[str, Variable]:

@@ -165,11 +165,15 @@ def show_warnings(warnings: Sequence[str]) -> None:
 def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     """The figures of a run."""
     from bem.plots.report import with_error
+    from bem.plots.tables import figure_tables, is_list
 
-    rows = [with_error(name, summary) for name in headline if summary.get(name) is not None]
+    known = [name for name in headline if summary.get(name) is not None]
+    rows = [with_error(name, summary) for name in known if not is_list(summary[name])]
     rows.append(("status", summary["status"]))
     rows.append(("time", f"{summary['wall_time_s']:.1f} s"))
     table(("figure", "value"), rows, title=f"{summary['scene']} ({summary['kind']})")
+    for item in figure_tables(summary, known):
+        table(item.head, item.rows, title=item.title)
 
 
 def print_files(folder: Path) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from bem.plots.draw import Drawn
-from bem.plots.tables import figure_tables, is_error, is_list, name_and_unit
+from bem.plots.tables import figure_tables, is_error, is_list, name_and_unit, origin_table
 from bem.results.atomic import write_text
 from bem.results.directory import REPORT
 
@@ -40,6 +40,7 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
         headline_tables=figure_tables(summary, first),
         figures=summary_rows(summary, [name for name in rest if not is_list(summary[name])]),
         figure_tables=figure_tables(summary, rest),
+        origins=origin_table(summary, [*first, *rest]),
         pictures=[(item.kind, _embedded(item.paths)) for item in drawn],
         stages=sorted(summary.get("seconds_by_stage", {}).items(), key=lambda item: -item[1]),
         scene_text=scene_text,

@@ -43,8 +43,40 @@ def is_list(value: Any) -> bool:
 
 
 def is_error(name: str, among: Mapping[str, Any]) -> bool:
-    """Whether a figure is the error bar of another, beside which it stands."""
-    return name.endswith(_ERROR) and name.removesuffix(_ERROR) in among
+    """Whether a figure is the error bar of another, beside which it stands, or what an origin adds to it."""
+    bare, found, origin = name.rpartition(_ERROR)
+    return bool(found) and bare in among and (not origin or bare + _ERROR in among)
+
+
+def origin_table(summary: Mapping[str, Any], names: Sequence[str]) -> list[FigureTable]:
+    """Errors of figures by their origins, a row for each figure; of lists where the error is largest. None of none."""
+    errors = {name: summary.get(name + _ERROR) for name in names}
+    parts = {name: _parts(name, summary) for name in names}
+    origins = list(dict.fromkeys(origin for each in parts.values() for origin in each))
+    rows = []
+    for name in (n for n in names if parts[n]):
+        words, unit = name_and_unit(name)
+        values = [np.ravel(np.array(v, dtype=np.float64)) for v in (summary[name], errors[name])]
+        if values[0].shape != values[1].shape or not np.isfinite(values[1]).any():
+            continue
+        at = int(np.nanargmax(values[1]))
+        shown = [values[0][at], values[1][at], *(np.ravel(parts[name].get(origin, np.nan)) for origin in origins)]
+        numbers = [float(v[at] if np.size(v) > 1 else np.ravel(v)[0]) for v in shown]
+        factor, unit = prefix(numbers[:1], unit) if unit in _PREFIXED else (1.0, unit)
+        largest = ", where the error is largest" if len(values[1]) > 1 else ""
+        cells = [_cell(numbers[0], factor), *(_short(number * factor) for number in numbers[1:])]
+        rows.append((label(words, unit) + largest, *cells))
+    return [FigureTable("", ("figure", "value", "error", *origins), tuple(rows))] if rows else []
+
+
+def _parts(name: str, summary: Mapping[str, Any]) -> dict[str, Any]:
+    """What each origin adds to the error of a figure, by the words for the origin."""
+    start = f"{name}{_ERROR}_"
+    return {" ".join(key.removeprefix(start).split("_")): v for key, v in summary.items() if key.startswith(start)}
+
+
+def _short(number: float) -> str:
+    return "–" if not np.isfinite(number) else f"{number:.2g}"
 
 
 def figure_tables(summary: Mapping[str, Any], names: Sequence[str], title: str = "") -> list[FigureTable]:
@@ -140,8 +172,9 @@ def _cases(title: str, cases: Sequence[Mapping[str, Any]], known: Mapping[str, A
 
 
 def _beside(name: str, among: Mapping[str, Any]) -> Any:
-    """What stands behind a figure's values: the spread of repetitions, else its error bars."""
-    return among.get(name + _SPREAD, among.get(name + _ERROR))
+    """What stands behind a figure's values: its error bars, else the spread of repetitions."""
+    errors = among.get(name + _ERROR)
+    return errors if isinstance(errors, list) and any(errors) else among.get(name + _SPREAD)
 
 
 def _is_spread(name: str, among: Mapping[str, Any]) -> bool:

@@ -47,7 +47,7 @@ def dataset_variables(
         if name in found:
             continue
         values = [None if summary is None else summary.get(name) for summary in summaries]
-        bare = name.removesuffix("_spread").removesuffix("_error")
+        bare = name if name in known else name.removesuffix("_spread").partition("_error")[0]
         figure = known.get(bare, Figure())
         text = f"{figure.text}{name.removeprefix(bare).replace('_', ', ')}" if figure.text else name.replace("_", " ")
         unit = figure.written or "1"

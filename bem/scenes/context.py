@@ -59,6 +59,10 @@ class Bars(Protocol):
     def notes(self) -> tuple[str, ...]:
         """Why not."""
 
+    @property
+    def parts(self) -> Mapping[str, Mapping[str, Any]]:
+        """What each origin adds to them."""
+
 
 @dataclass(frozen=True)
 class Variable:
@@ -113,13 +117,13 @@ def tell(context: Context, notes: Iterable[str], about: str = "") -> None:
 
 
 def error_bars(context: Context, wanted: bool, bars: Callable[[], Bars], about: str = "") -> dict[str, Any]:
-    """Errors by the names of their figures, timed, and noted why some are missing; none where they are not wanted."""
+    """`errors` and `error_parts` of a record, timed, and noted why some are missing; none where they are not wanted."""
     if not wanted:
         return {}
     with context.timer("error bars"):
         found = bars()
     tell(context, found.notes, about)
-    return dict(found.values)
+    return {"errors": dict(found.values), "error_parts": dict(found.parts)}
 
 
 def release(values: NDArray[Any]) -> None:

@@ -134,6 +134,7 @@ class Record:
     where : where that happened, in words; emptied if it is converged.
     errors : error bars of figures by their fields' names, SI; None for a figure that does not converge. Summary and
         dataset have them beside the figures, under `error_key`; a figure that is not named has no bar.
+    error_parts : what each origin, in words, adds to them, in the same way; an error is the sum of its parts.
     scatters : fields of figures whose error over repetitions is their scatter alone, where nothing else is known of it.
     """
 
@@ -142,6 +143,7 @@ class Record:
     status: Status = dataclasses.field(default=Status.CONVERGED, kw_only=True)
     where: str = dataclasses.field(default="", kw_only=True)
     errors: Mapping[str, Any] = dataclasses.field(default_factory=dict, kw_only=True)
+    error_parts: Mapping[str, Mapping[str, Any]] = dataclasses.field(default_factory=dict, kw_only=True)
 
     def __post_init__(self) -> None:
         if self.status is Status.CONVERGED:
@@ -195,9 +197,13 @@ def columns(rows: Iterable[Any], names: Iterable[str], prefix: str = "") -> dict
     return {f"{prefix}{name}": np.array([getattr(row, name) for row in rows]) for name in names}
 
 
-def error_key(name: str) -> str:
-    """Where the error of a figure (or of a variable of the dataset) stands."""
-    return f"{name}_error"
+SCATTER = "scatter"
+"""The origin of errors that repetitions tell: the standard error of their mean."""
+
+
+def error_key(name: str, origin: str = "") -> str:
+    """Where the error of a figure (or of a variable of the dataset) stands, or what an origin adds to it."""
+    return "_".join([name, "error", *origin.split()])
 
 
 _DESCRIBED: dict[str, Mapping[str, Figure | Series]] = {}

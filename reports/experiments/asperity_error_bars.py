@@ -63,7 +63,7 @@ def draw(rng: np.random.Generator) -> ArrayDrawn:
 def rows_of(case: ArrayDrawn) -> list[dict[str, Any]]:
     """Bar and true error of every load."""
     found, coarser, reference = (case.loads(n) for n in (case.cells, case.cells // 2, FINER * case.cells))
-    bars = asperity_bars(found, coarser, case.radius, case.spacing / case.cells)
+    bars = asperity_bars(found, coarser, case.radius, case.spacing / case.cells).values
     return [
         {
             "figure": {"mean_plane": "asperity_load", "from_flat": "asperity_load_window"}[name],

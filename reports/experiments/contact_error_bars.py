@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
 from bem.accuracy import ContactCase, contact_bars, figures_of, solve_coarser, stress_bars
-from bem.accuracy.contact import is_resolved
+from bem.accuracy.contact import is_resolved, share_at_edge
 from bem.errors import Status
 from bem.stress import von_mises_planes
 from bem.surfaces import generate_surface
@@ -164,8 +164,10 @@ def rows_of(problem: Problem) -> list[dict[str, Any]]:
             "contact": problem.words,
             "resolved": is_resolved(case),
             "cells_across": round(across, 2),
+            "share_at_edge": share_at_edge(case),
             "value": found[name],
             "difference": abs(found[name] - coarse.get(name, math.nan)),
+            "parts": {origin: part[name] for origin, part in bars.parts.items() if name in part},
             "error": abs(found[name] - truth[name]),
             "bar": bar,
         }

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from bem.campaigns.collect import _figures, outcome_of
+from bem.cli._terminal import print_numbers
 from bem.plots.report import with_error
+from bem.plots.tables import origin_table
 from bem.runs import run_scene
 from bem.scenes.context import PlainContext
 from bem.scenes.kind import get_kind
@@ -47,13 +49,19 @@ def test_every_headline_figure_has_its_error():
     error = found.variables["approach_error"]
     assert error.units == "m"
     assert float(error.values) == summary["approach_m_error"]
+    for name in ("approach_m", "max_von_mises_Pa"):
+        parts = {key: value for key, value in summary.items() if key.startswith(f"{name}_error_")}
+        assert len(parts) == 2, name
+        assert sum(parts.values()) == pytest.approx(summary[f"{name}_error"]), name
+    assert float(found.variables["approach_error_grid"].values) == summary["approach_m_error_grid"]
 
 
 def test_the_error_of_a_mean_over_repetitions_has_its_standard_error():
     told = {"load": Figure("N", "load"), "friction": Figure("", "friction", ("speed",)), "area": Figure("m2", "area")}
 
     def record(load, friction, errors):
-        return SimpleNamespace(load=load, friction=np.array(friction), area=1.0, errors=errors)
+        parts = {"grid": {"load": 0.6 * errors["load"]}, "residual": {"load": 0.4 * errors["load"]}}
+        return SimpleNamespace(load=load, friction=np.array(friction), area=1.0, errors=errors, error_parts=parts)
 
     records = [
         record(1.0, [0.1, 0.2], {"load": 0.1, "friction": np.array([0.01, np.nan])}),
@@ -63,6 +71,10 @@ def test_the_error_of_a_mean_over_repetitions_has_its_standard_error():
     # standard deviation of 1 and 3 over the root of two: 1
     assert found["load_N_error"] == pytest.approx(0.2 + 1.0)
     assert found["load_N_spread"] == pytest.approx(np.sqrt(2))
+    # each origin apart, and their sum is the error
+    apart = [found[f"load_N_error_{origin}"] for origin in ("grid", "residual", "scatter")]
+    assert apart == pytest.approx([0.12, 0.08, 1.0])
+    assert sum(apart) == pytest.approx(found["load_N_error"])
     assert found["friction_error"] == [pytest.approx(0.02), None]
     assert "area_m2_error" not in found
 
@@ -91,7 +103,29 @@ def test_the_report_shows_errors_beside_figures(tmp_path):
     page = (tmp_path / "run" / "report.html").read_text()
     assert "±" in page
     assert "approach m error" not in page
+    assert "Where the errors come from" in page
     assert run.summary["approach_m_error"] > 0
+
+
+def test_errors_by_origin_in_a_table():
+    summary = {"load_N": 2000.0, "load_N_error": 30.0, "load_N_error_grid": 20.0, "load_N_error_residual": 10.0}
+    friction = {"friction": [0.1, 0.2], "friction_error": [0.01, 0.03], "friction_error_grid": [0.01, 0.03]}
+    (table,) = origin_table(summary | friction | {"area_m2": 1.0}, ["load_N", "friction", "area_m2"])
+    assert table.head == ("figure", "value", "error", "grid", "residual")
+    assert table.rows == (
+        ("load (kN)", "2", "0.03", "0.02", "0.01"),
+        ("friction, where the error is largest", "0.2", "0.03", "0.03", "–"),
+    )
+    assert not origin_table({"load_N": 1.0, "load_N_error": 0.1}, ["load_N"])
+
+
+def test_lists_on_the_terminal_have_their_errors(capsys):
+    friction = {"friction": [0.1, 0.2], "friction_error": [0.01, 0.03], "friction_error_grid": [0.01, 0.03]}
+    known = {"speed_m_s": [0.5, 1.0], "status": "converged", "wall_time_s": 1.0, "scene": "curve", "kind": "friction"}
+    print_numbers(known | friction, ["speed_m_s", "friction"])
+    shown = capsys.readouterr().out
+    assert "0.1 ± 0.01" in shown
+    assert "0.2 ± 0.03" in shown
 
 
 WEAR = {

@@ -1,11 +1,14 @@
 """Error bars of contacts: what covers, and what has none."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from bem import Body, Grid, Material, displacement_operator, solve_contact
+from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
 from bem.accuracy import ContactCase, contact_bars, figures_of, solve_coarser, stress_bars, surface_is_resolved
 from bem.errors import Status
+from bem.stress import von_mises_planes
 
 STEEL = Material("steel", youngs_modulus=200e9, poissons_ratio=0.3)
 
@@ -75,12 +78,56 @@ def test_a_contact_at_a_free_edge_has_no_bars():
     assert "free edge" in note
 
 
+def test_an_approach_that_other_cells_cannot_meet_has_no_bars():
+    """In full contact a doubly periodic body comes no closer than its mean gap, which the coarser grid's is not."""
+    grid = Grid((32, 32), (1e-6, 1e-6), periodic=(True, True))
+    gap = 1e-9 * np.random.default_rng(4).random(grid.shape)
+    gap[1, 1] = -0.5e-9  # of the cells that the coarser grid leaves out
+    gap -= gap.min()
+    case = replace(case_of(gap, grid, load=100.0), load=None, from_touch=True)
+    case = replace(case, approach=case.solution.approach)
+    coarser = solve_coarser(case)
+    assert coarser.solution is None
+    bars = contact_bars(case, coarser)
+    assert set(bars.values.values()) == {None}
+    assert "cannot be met" in bars.notes[0]
+
+
+def test_plastic_area_has_the_error_of_its_own_edge():
+    """A few cells at the hardness in a large contact: their edge is most of them, the contact's a little of it."""
+    grid = Grid((64, 64), (1e-6, 1e-6))
+    gap = (grid.x[:, None] ** 2 + grid.y**2) / 2e-3
+    operator = displacement_operator(grid, Body(STEEL))
+    free = solve_contact(gap, operator, load=0.3)
+    hardness = 0.95 * float(free.pressure.max())
+    case = ContactCase(operator, gap, solve_contact(gap, operator, load=0.3, hardness=hardness), 0.3, hardness=hardness)
+    bars, found = contact_bars(case, solve_coarser(case)), figures_of(case.solution, grid.area)
+    plastic, area = (bars.values[n] / found[n] for n in ("plastic_area_fraction", "contact_area_fraction"))
+    assert 0.01 < plastic < 0.5
+    assert plastic > 2 * area
+
+
+def test_a_stress_that_jumps_at_an_interface_may_be_higher_there():
+    coat = Layer(Material("coat", youngs_modulus=600e9, poissons_ratio=0.25), 3.7e-6)
+    body = Body(STEEL, layers=(coat,))
+    grid = Grid((48, 48), (1e-6, 1e-6))
+    gap = (grid.x[:, None] ** 2 + grid.y**2) / 1e-3
+    operator = displacement_operator(grid, body)
+    case = ContactCase(operator, gap, solve_contact(gap, operator, load=0.5), load=0.5)
+    coarse, fine = np.linspace(0, 12e-6, 9), np.linspace(0, 12e-6, 121)
+    found, truth = (
+        np.array([plane.max() for plane in von_mises_planes(case.solution.pressure, grid, body, depths)])
+        for depths in (coarse, fine)
+    )
+    bars = stress_bars(case, solve_coarser(case), body, coarse, found)
+    assert truth.max() - found.max() > 0.02 * truth.max()
+    assert truth.max() - found.max() <= bars.parts["depths"]["max_von_mises"]
+
+
 def test_highest_stress_of_a_ball_is_covered():
     case = ball(64)
     a = (0.75 * 1.0 * 1e-3 / STEEL.plane_strain_modulus) ** (1 / 3)
     depths = np.linspace(0, 2 * a, 15)
-    from bem.stress import von_mises_planes
-
     planes = von_mises_planes(case.solution.pressure, case.grid, Body(STEEL), depths)
     highest = np.array([plane.max() for plane in planes])
     bars = stress_bars(case, solve_coarser(case), Body(STEEL), depths, highest).values

@@ -40,7 +40,7 @@ def test_a_bar_is_the_sum_of_its_parts():
     case = case_of(0.5)
     assert case.solution.regime is Regime.MIXED
     bars = mixed_bars(case, solve_coarser_mixed(case))
-    assert set(bars.parts) == {"contact grid", "film points", "balance"}
+    assert set(bars.parts) == {"grid", "film points", "balance"}
     for name, value in mixed_figures(case.solution).items():
         assert bars.values[name] == pytest.approx(sum(part[name] for part in bars.parts.values()))
         assert 0 < bars.values[name] < 2 * abs(value), name

@@ -107,7 +107,7 @@ def run(scene: AsperitiesScene, context: Context) -> AsperityRecord:
         asperity_load_window=found.from_flat,
         status=found.status,
         where="a contact",
-        errors=error_bars(context, wanted, lambda: _bars(scene, grid, found)),
+        **error_bars(context, wanted, lambda: _bars(scene, grid, found)),
     )
 
 
@@ -140,8 +140,9 @@ def _bars(scene: AsperitiesScene, grid: Grid, found: ArrayLoads) -> ErrorBars:
     if coarser is None or coarser.status is not Status.CONVERGED:
         return ErrorBars.unknown(_SHARES, "no error bars: the array was not solved on the grid of twice the cell")
     bars = asperity_bars(found, coarser, scene.array.radius, grid.spacing[0])
-    shares = {name: float(bar[-1] / found.alone[-1]) for name, bar in zip(_SHARES, bars.values(), strict=True)}
-    return ErrorBars({**shares, "asperity_load": bars["mean_plane"], "asperity_load_window": bars["from_flat"]})
+    loads = ("mean_plane", "from_flat")
+    shares = bars.renamed(dict(zip(loads, _SHARES, strict=True)), lambda bar: float(bar[-1] / found.alone[-1]))
+    return bars.renamed(dict(zip(loads, ("asperity_load", "asperity_load_window"), strict=True))) | shares
 
 
 def summarise(scene: AsperitiesScene, axes: Any, records: Sequence[AsperityRecord | None]) -> dict[str, Any]:

@@ -158,7 +158,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         depth=None if below is None else below.depths,
         component=None if below is None or below.stress is None else list(_STRESS_COMPONENTS),
         **{name: getattr(solution, name) for name in _SOLVED},
-        errors=errors,
+        **errors,
         where=f"contact solve: {solution.status.message}, residual {solution.residual:.2g}",
     )
 

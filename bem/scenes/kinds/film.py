@@ -138,8 +138,7 @@ def _bars(case: MarchCase, width: float) -> ErrorBars:
     from bem.accuracy import march_bars
 
     bars = march_bars(case)
-    force = bars.values["largest_shear_force"]
-    return bars | type(bars)({"largest_friction_force": None if force is None else force * width})
+    return bars | bars.renamed({"largest_shear_force": "largest_friction_force"}, lambda force: force * width)
 
 
 def _record(films: Sequence[FilmSolution], width: float, errors: Mapping[str, Any]) -> FilmTimeRecord:
@@ -166,7 +165,7 @@ def _record(films: Sequence[FilmSolution], width: float, errors: Mapping[str, An
         friction=over["shear_force"] / np.where(over["load"] > 0, over["load"], np.nan),
         film_pressure=over["pressure"],
         film_fraction=None if last.film_fraction is None else over["film_fraction"],
-        errors=errors,
+        **errors,
         status=last.status,
         where=f"time {last.time:g} s: {last.status.message}",
     )

@@ -168,14 +168,15 @@ def _at(solution: MixedSolution) -> str:
 
 
 def _errors(setup: MixedSetup, height: FloatArray, solution: MixedSolution, context: Context) -> FloatArray:
-    """Error bars of one speed, in the order of their figures; not-a-number where there is none."""
+    """Error bars of one speed and their parts, as `bem.accuracy.bars.table`."""
     from bem.accuracy import MixedCase, mixed_bars, solve_coarser_mixed
-    from bem.accuracy.mixed import RULES
+    from bem.accuracy.bars import table
+    from bem.accuracy.mixed import ORIGINS, RULES
 
     case = MixedCase(setup, height, solution)
     wanted = solution.status is Status.CONVERGED
     bars = error_bars(context, wanted, lambda: mixed_bars(case, solve_coarser_mixed(case)), _at(solution))
-    return np.array([bars.get(name) for name in RULES], dtype=np.float64)
+    return table(bars.get("errors", {}), bars.get("error_parts", {}), RULES, ORIGINS)
 
 
 def _setup(scene: FrictionScene, factors: FlowFactors | Literal["off"]) -> MixedSetup:
@@ -219,8 +220,10 @@ def _in_words_of_the_scene() -> Iterator[None]:
 
 def _record(grid: Grid, curve: Curve, height: FloatArray, errors: list[FloatArray]) -> CurveRecord:
     """A row for each speed; fields of the speed where film and contact share most evenly."""
-    from bem.accuracy.mixed import RULES
+    from bem.accuracy.bars import from_tables
+    from bem.accuracy.mixed import ORIGINS, RULES
 
+    bars, parts = from_tables(errors, RULES, ORIGINS)
     shown = curve.shown
     assert shown is not None
     film_pressure, film_thickness = shown.film.at(grid.x)
@@ -240,7 +243,8 @@ def _record(grid: Grid, curve: Curve, height: FloatArray, errors: list[FloatArra
         film_x=shown.film.position,
         film_pressure=shown.film.pressure,
         film_thickness=shown.film.thickness,
-        errors=dict(zip(RULES, np.transpose(errors), strict=True)) if errors else {},
+        errors=bars,
+        error_parts=parts,
         status=bad[0].status if bad else Status.CONVERGED,
         where="; ".join(f"speed {one.speed:g} m/s: {one.status.value}" for one in bad[:5]),
     )

@@ -12,7 +12,7 @@ from bem.scenes import build, plans
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step, padded_points
-from bem.scenes.records import Figure, GridRecord, Series
+from bem.scenes.records import Figure, GridRecord, Series, filled
 from bem.scenes.tables.heat import RubbingHeatScene
 from bem.scenes.tables.pressing import PressedScene
 
@@ -99,18 +99,18 @@ def run(scene: SurfaceTemperatureScene, context: Context) -> SurfaceTemperatureR
         found = case.temperature(grid, contact)
     tell(context, (*contact.notes, *found.notes))
     figures = case.figures(grid, contact, found)
-    return SurfaceTemperatureRecord(
-        **figures,
+    return filled(
+        SurfaceTemperatureRecord,
+        figures,
+        grid,
         load=contact.load,
         contact_residual=contact.residual,
         temperature_residual=found.residual,
-        x=grid.x,
-        y=grid.y,
         pressure=contact.pressure,
         surface_temperature=found.temperature,
         heat_lower=found.heat[0],
         heat_made=found.heat.sum(axis=0),
-        errors=error_bars(context, True, lambda: rubbing_bars(case, grid, gap, figures)),
+        **error_bars(context, True, lambda: rubbing_bars(case, grid, gap, figures)),
         status=contact.status if contact.status is not Status.CONVERGED else found.status,
         where=f"contact: {contact.status}, temperature: {found.status}",
     )
