@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -77,6 +77,10 @@ class ContactSample:
     contact_area: float
     plastic_area: float
     convolutions: float
+
+    def without_maps(self) -> ContactSample:
+        """Its numbers alone."""
+        return replace(self, growth_map=np.zeros((0, 0)), pressure=np.zeros((0, 0)))
 
 
 def solve_film_contact(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,8 +11,11 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.representation import tabled
+from bem.tribofilm.balance import FilmBalance
 from bem.tribofilm.contact_growth import ContactSample, FilmContact, GrowthTable, solve_film_contact
 from bem.tribofilm.evolution import FilmHistory, evolve_film, steady_thickness
+from bem.tribofilm.growth import GrowthLaw
+from bem.tribofilm.properties import PropertyLaw
 
 
 @tabled
@@ -30,6 +33,26 @@ class TribofilmGrowth:
     contacts: tuple[ContactSample, ...]
     film_map: FloatArray
     steady: float
+
+    @property
+    def contacts_solved(self) -> int:
+        """How many contacts."""
+        return len(self.contacts)
+
+    @property
+    def samples(self) -> tuple[ContactSample, ...]:
+        """The contacts, as `LocalFilm` has them."""
+        return self.contacts
+
+    @property
+    def steady_thickness(self) -> float | None:
+        """`steady`, None where growth and wear do not balance [m]."""
+        return None if math.isinf(self.steady) else self.steady
+
+    @property
+    def film_pressure(self) -> FloatArray:
+        """Of the contact whose film is nearest to that at the end (nx, ny) [Pa]."""
+        return min(self.contacts, key=lambda one: abs(one.thickness - self.history.thickness[-1])).pressure
 
     def wear_depth(self, start: float, end: float) -> float:
         """Depth of substrate worn between two times [s], within those of the history [m]."""
@@ -53,6 +76,7 @@ def grow_tribofilm(
     reuse_tolerance: float = 2e-3,
     tolerance: float = 1e-6,
     callback: Callable[[ContactSample], None] | None = None,
+    known: Sequence[ContactSample] = (),
 ) -> TribofilmGrowth:
     """Grow a film in a contact (thesis, paper E, fig. 3, as a differential equation instead of a loop of samples).
 
@@ -63,6 +87,8 @@ def grow_tribofilm(
     concentration_constant : C1 [1/m], infinite for no substrate wear. initial_thickness : [m].
     reuse_tolerance : relative error of growth that is accepted from reusing contacts; 0 solves one at every evaluation.
     tolerance : of the time integration. callback : called with every contact as it is solved.
+    known : contacts that the same film was told of before, in that order: they are not solved again, and what follows
+        has the same bits.
 
     Raises
     ------
@@ -72,7 +98,14 @@ def grow_tribofilm(
     if not 0 <= reuse_tolerance < 1:
         raise InputError(f"reuse_tolerance {reuse_tolerance!r} must be >= 0 and below 1")
 
+    told = iter(known)
+
     def sample(thickness: float, last: ContactSample | None) -> ContactSample:
+        before = next(told, None)
+        if before is not None:
+            if before.thickness != thickness:
+                raise InputError(f"known: a contact under {before.thickness:.6g} m of film where {thickness:.6g} m is")
+            return before
         found = solve_film_contact(contact, thickness, None if last is None else last.pressure)
         if callback is not None:
             callback(found)
@@ -95,6 +128,15 @@ def grow_tribofilm(
         film_map=film_map(history, table, wear_coefficient, lag, initial_thickness),
         steady=steady_thickness(growth, wear_coefficient, longest=_reach(history)),
     )
+
+
+def softest_film(
+    hardness: PropertyLaw, growth: GrowthLaw, balance: FilmBalance, friction: float, temperature: float, duration: float
+) -> float:
+    """A bound on how soft [Pa] a film can get in a time [s] at a temperature [K]: at any thickness the pressure is at
+    most the hardest that the film ever is, and contacts are solved up to twice as thick as the film gets."""
+    fastest = float(growth.rate(np.array(friction * hardness.highest(temperature)), temperature))
+    return hardness.lowest(2 * balance.thickest(fastest, duration), temperature)
 
 
 def film_map(

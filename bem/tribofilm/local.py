@@ -34,8 +34,9 @@ class LocalFilm:
     """A film with a local thickness.
 
     time (nt,) [s]; thickness, grown, worn, substrate_wear (nt,): means over the nominal area [m];
-    film_map (nx, ny): local thickness at the end [m]; pressure (nx, ny): of the last contact [Pa];
-    contacts: how many were solved; rejected: how many steps were repeated with a shorter one; balance: of the film.
+    film_map (nx, ny): local thickness at the end [m]; film_pressure (nx, ny): of the last contact [Pa];
+    samples: the contacts that were solved, in that order, without their maps; rejected: how many steps were repeated
+    with a shorter one; balance: of the film.
     """
 
     time: FloatArray
@@ -44,10 +45,16 @@ class LocalFilm:
     worn: FloatArray
     substrate_wear: FloatArray
     film_map: FloatArray
-    pressure: FloatArray
-    contacts: int
+    film_pressure: FloatArray
+    samples: tuple[ContactSample, ...]
     rejected: int
     balance: FilmBalance
+    steady_thickness: None = None
+
+    @property
+    def contacts_solved(self) -> int:
+        """How many contacts."""
+        return len(self.samples)
 
     @property
     def history(self) -> FilmHistory:
@@ -61,8 +68,49 @@ class LocalFilm:
             growth_rate=np.gradient(self.grown, self.time),
             wear_rate=self.balance.wear_coefficient * self.thickness,
             concentration=self.balance.concentration(self.thickness),
-            evaluations=self.contacts,
+            evaluations=self.contacts_solved,
         )
+
+
+@dataclass(frozen=True, eq=False)
+class Films:
+    """At one time: local film, what has grown and how much substrate has left, (nx, ny) [m], and the contact there."""
+
+    film: FloatArray
+    grown: FloatArray
+    substrate: FloatArray
+    contact: ContactSample
+
+
+@dataclass(frozen=True, eq=False)
+class LocalState:
+    """All that the next step needs, and the record so far.
+
+    now, step : time and the step to try next [s]. last : pressure (nx, ny) [Pa] that the next contact starts from, of a
+    step that was rejected perhaps. rows : means of thickness, grown, worn, substrate wear [m] at each time reached.
+    """
+
+    now: float
+    step: float
+    films: Films
+    last: FloatArray
+    rows: tuple[tuple[float, float, float, float], ...]
+    samples: tuple[ContactSample, ...]
+    rejected: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class _Case:
+    """What stays the same: times (nt,) [s], where it grows, its balance, cells to average over, error of a step."""
+
+    when: FloatArray
+    contact: FilmContact
+    balance: FilmBalance
+    area: NDArray[np.bool_]
+    tolerance: float
+
+    def mean(self, values: FloatArray) -> float:
+        return float(values[self.area].mean())
 
 
 def grow_local_film(
@@ -73,12 +121,14 @@ def grow_local_film(
     concentration_constant: float = math.inf,
     initial_thickness: float = 0.0,
     tolerance: float = 1e-2,
-    callback: Callable[[float, ContactSample], None] | None = None,
+    state: LocalState | None = None,
+    callback: Callable[[LocalState], None] | None = None,
 ) -> LocalFilm:
     """Grow a film cell by cell.
 
     Parameters as in `grow_tribofilm`; `tolerance` is the relative error of the mean film per step (second order in
     time). There is no delayed wear here. The means are over `contact.nominal_area` (all cells where None).
+    state : of the same film, to go on from to the same bits. callback : called with the state after every step tried.
 
     Raises
     ------
@@ -88,95 +138,85 @@ def grow_local_film(
     balance = FilmBalance(wear_coefficient, 0.0, concentration_constant, initial_thickness)
     when = checked_times(times, balance, tolerance)
     area = np.ones(contact.grid.shape, bool) if contact.nominal_area is None else contact.nominal_area.astype(bool)
-    contacts = _Contacts(contact, area, callback)
-    film = np.full(contact.grid.shape, initial_thickness)
-    films = _Films(film, np.zeros(film.shape), np.zeros(film.shape), contacts.solve(film, when[0]))
-    rows = [(float(film[area].mean()), 0.0, 0.0, 0.0)]
-    step = 0.01 * (when[-1] - when[0])
-    rejected = 0
-    now = when[0]
-    for target in when[1:]:
-        while now < target:
-            step = min(step, target - now)
-            tried, difference = _advance(films, contacts, balance, now, step)
-            error = float(difference[area].mean())
-            allowed = tolerance * max(float(tried.film[area].mean()), _THIN)
-            factor = min(_STRETCH, max(_SHRINK, _SAFETY * math.sqrt(allowed / error))) if error > 0 else _STRETCH
-            if error > allowed:
-                rejected += 1
-                step *= factor
-                if step < 1e-9 * (when[-1] - when[0]):
-                    raise ConvergenceError(f"tribofilm: time steps shrink without end at {now:.6g} s")
-                continue
-            films, now = tried, now + step
-            step *= factor
-        now = target
-        thickness, grown, substrate = (float(each[area].mean()) for each in (films.film, films.grown, films.substrate))
-        rows.append((thickness, grown, initial_thickness + grown - thickness, substrate))
-    means, grown_means, worn_means, wear_means = np.array(rows).T
+    case = _Case(when, contact, balance, area, tolerance)
+    state = _start(case) if state is None else state
+    while len(state.rows) < len(when):
+        if state.now < when[len(state.rows)]:
+            state = _tried(case, state)
+            if callback is not None:
+                callback(state)
+        else:
+            state = _reached(case, state)
+    means, grown_means, worn_means, wear_means = np.array(state.rows).T
     return LocalFilm(
         when,
         means,
         grown_means,
         worn_means,
         wear_means,
-        films.film,
-        films.contact.pressure,
-        contacts.solved,
-        rejected,
-        balance,
+        film_map=state.films.film,
+        film_pressure=state.films.contact.pressure,
+        samples=state.samples,
+        rejected=state.rejected,
+        balance=balance,
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Films:
-    """At one time: local film, what has grown and how much substrate has left, (nx, ny) [m], and the contact there."""
-
-    film: FloatArray
-    grown: FloatArray
-    substrate: FloatArray
-    contact: ContactSample
-
-
-class _Contacts:
-    """Contacts under the surface raised by a film, counted; each starts from the pressure of the one before."""
-
-    def __init__(
-        self, contact: FilmContact, area: NDArray[np.bool_], callback: Callable[[float, ContactSample], None] | None
-    ) -> None:
-        self.contact = contact
-        self.area = area
-        self.callback = callback
-        self.solved = 0
-        self.last: ContactSample | None = None
-
-    def solve(self, film: FloatArray, now: float) -> ContactSample:
-        """The contact under this film."""
-        raised = replace(self.contact, gap=self.contact.gap - film)
-        touched = film[self.area if self.last is None else self.last.pressure > 0]
-        mean = float(touched.mean()) if touched.size else 0.0
-        self.last = solve_film_contact(raised, mean, None if self.last is None else self.last.pressure)
-        self.solved += 1
-        if self.callback is not None:
-            self.callback(now, self.last)
-        return self.last
+def _start(case: _Case) -> LocalState:
+    film = np.full(case.contact.grid.shape, case.balance.initial_thickness)
+    found = _solved(case, film, None)
+    films = Films(film, np.zeros(film.shape), np.zeros(film.shape), found)
+    step = 0.01 * (case.when[-1] - case.when[0])
+    rows = ((case.mean(film), 0.0, 0.0, 0.0),)
+    return LocalState(case.when[0], step, films, found.pressure, rows, (found.without_maps(),))
 
 
-def _advance(
-    films: _Films, contacts: _Contacts, balance: FilmBalance, now: float, step: float
-) -> tuple[_Films, FloatArray]:
+def _tried(case: _Case, state: LocalState) -> LocalState:
+    """After a step towards the next time, taken or to be tried again with a shorter one."""
+    now, step = state.now, min(state.step, case.when[len(state.rows)] - state.now)
+    tried, difference = _advance(case, state, step)
+    error = case.mean(difference)
+    allowed = case.tolerance * max(case.mean(tried.film), _THIN)
+    factor = min(_STRETCH, max(_SHRINK, _SAFETY * math.sqrt(allowed / error))) if error > 0 else _STRETCH
+    found = tried.contact
+    state = replace(state, step=step * factor, last=found.pressure, samples=(*state.samples, found.without_maps()))
+    if error > allowed:
+        if state.step < 1e-9 * (case.when[-1] - case.when[0]):
+            raise ConvergenceError(f"tribofilm: time steps shrink without end at {now:.6g} s")
+        return replace(state, rejected=state.rejected + 1)
+    return replace(state, now=now + step, films=tried)
+
+
+def _reached(case: _Case, state: LocalState) -> LocalState:
+    """At the next of the times, with its means."""
+    films = state.films
+    thickness, grown, substrate = (case.mean(each) for each in (films.film, films.grown, films.substrate))
+    row = (thickness, grown, case.balance.initial_thickness + grown - thickness, substrate)
+    return replace(state, now=case.when[len(state.rows)], rows=(*state.rows, row))
+
+
+def _solved(case: _Case, film: FloatArray, last: FloatArray | None) -> ContactSample:
+    """The contact under the surface raised by a film, from a pressure."""
+    raised = replace(case.contact, gap=case.contact.gap - film)
+    touched = film[case.area if last is None else last > 0]
+    mean = float(touched.mean()) if touched.size else 0.0
+    return solve_film_contact(raised, mean, last)
+
+
+def _advance(case: _Case, state: LocalState, step: float) -> tuple[Films, FloatArray]:
     """Films after `step`, and how far they are from those predicted with the growth at the step's beginning."""
+    films, balance = state.films, case.balance
     start = films.contact
     decay = math.exp(-balance.wear_coefficient * step)
     first, second = _weights(balance.wear_coefficient * step)
     predicted = films.film * decay + step * first * start.growth_map
-    end = contacts.solve(predicted, now + step)
+    end = _solved(case, predicted, state.last)
     corrected = predicted + step * second * (end.growth_map - start.growth_map)
     corrected = np.maximum(corrected, 0.0)
     gained = 0.5 * step * (start.growth_map + end.growth_map)
     worn = films.film + gained - corrected
     concentration = 0.5 * (balance.concentration(films.film) + balance.concentration(corrected))
-    tried = _Films(corrected, films.grown + gained, films.substrate + concentration * worn, end)
+    tried = Films(corrected, films.grown + gained, films.substrate + concentration * worn, end)
     return tried, np.abs(corrected - predicted)
 
 

@@ -5,8 +5,8 @@ A case is one film: one load, one temperature, one variant, one pair of surfaces
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
@@ -20,19 +20,21 @@ from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import BodyScene, GridScene, Repetitions, SceneModel, ShapeScene, problem
 from bem.scenes.context import Context
 from bem.scenes.kind import Kind
+from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, layered_kernel_seconds, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, columns, filled
 from bem.scenes.tables.tribofilm import FilmScene, RubbingScene, VariantScene
 from bem.scenes.units import Ratio
+from bem.tribofilm.growth import ZERO_CELSIUS
 from bem.tribofilm.properties import Constant
 
 if TYPE_CHECKING:
     from bem.tribofilm import ContactSample, FilmContact, LocalFilm, TribofilmGrowth
+    from bem.tribofilm.local import LocalState
 
 _CONVOLUTIONS = 14  # of one warm-started contact, coarse levels included
 _CONTACTS = 50  # solved per film: the table is refined only as far as the film gets
-
-_ZERO_CELSIUS = 273.15
+_CHECKPOINT_EVERY = 5  # contacts
 
 
 class TribofilmScene(SceneModel):
@@ -111,30 +113,23 @@ def plan(scene: TribofilmScene) -> Plan:
 
 
 def _check_load(scene: TribofilmScene, grid: Grid) -> None:
-    """Refuse a load beyond the softest hardness that the film can get times the grid's area, before any work.
+    """Refuse a load beyond the softest hardness that the film can get times the grid's area, before any work."""
+    from bem.tribofilm.grow import softest_film
 
-    At any thickness the pressure is at most the hardest that the film ever is; contacts are solved up to twice as thick
-    as the film gets.
-    """
-    film, (load,), (temperature,) = scene.film, scene.rubbing.loads, scene.rubbing.temperatures
-    stress = scene.rubbing.friction * film.hardness.highest(temperature)
-    fastest = float(film.kinetics().rate(np.array(stress), temperature))
-    softest = film.hardness.lowest(2 * film.balance().thickest(fastest, scene.rubbing.duration), temperature)
+    film, rubbing, (load,), (temperature,) = scene.film, scene.rubbing, scene.rubbing.loads, scene.rubbing.temperatures
+    laws = film.hardness, film.kinetics(), film.balance()
+    softest = softest_film(*laws, friction=rubbing.friction, temperature=temperature, duration=rubbing.duration)
     other = None if scene.upper.material is None else scene.upper.material.hardness
     limit = (softest if other is None else min(softest, other)) * grid.area
     if load > limit:
         raise InfeasibleError(
             f"rubbing.loads: {load:g} N is beyond the softest film's hardness x area of the grid, {limit:.4g} N at "
-            f"{temperature - _ZERO_CELSIUS:.4g} degC; allowed: a smaller load, a larger grid or a harder film"
+            f"{temperature - ZERO_CELSIUS:.4g} degC; allowed: a smaller load, a larger grid or a harder film"
         )
 
 
-def _over_time(unit: str, text: str) -> Series:
-    return Series(("time",), unit, text)
-
-
-def _sample(unit: str, text: str) -> Series:
-    return Series(("sample",), unit, f"{text} of a solved contact", rows=True)
+_over_time, _map = partial(Series, ("time",)), partial(Series, ("x", "y"))
+_sample = partial(Series, ("sample",), rows=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,30 +158,28 @@ class FilmRecord(GridRecord):
     growth_rate: Annotated[FloatArray, _over_time("m/s", "growth rate of the film")]
     wear_rate: Annotated[FloatArray, _over_time("m/s", "wear rate of the film")]
     concentration: Annotated[FloatArray, _over_time("1", "concentration of substrate at the surface of the film")]
-    sample_thickness: Annotated[FloatArray, _sample("m", "film thickness")]
-    sample_mean_pressure: Annotated[FloatArray, _sample("Pa", "mean contact pressure")]
-    sample_hardness: Annotated[FloatArray, _sample("Pa", "hardness")]
-    sample_growth: Annotated[FloatArray, _sample("m/s", "growth rate")]
-    sample_contact_area: Annotated[FloatArray, _sample("m^2", "contact area")]
-    film_map: Annotated[FloatArray, Series(("x", "y"), "m", "local film thickness at the end")]
-    film_pressure: Annotated[FloatArray, Series(("x", "y"), "Pa", "contact pressure at the end")]
+    sample_thickness: Annotated[FloatArray, _sample("m", "film thickness of a solved contact")]
+    sample_mean_pressure: Annotated[FloatArray, _sample("Pa", "mean contact pressure of a solved contact")]
+    sample_hardness: Annotated[FloatArray, _sample("Pa", "hardness of a solved contact")]
+    sample_growth: Annotated[FloatArray, _sample("m/s", "growth rate of a solved contact")]
+    sample_contact_area: Annotated[FloatArray, _sample("m^2", "contact area of a solved contact")]
+    film_map: Annotated[FloatArray, _map("m", "local film thickness at the end")]
+    film_pressure: Annotated[FloatArray, _map("Pa", "contact pressure at the end")]
 
 
 def run(scene: TribofilmScene, context: Context) -> FilmRecord:
     """Grow one film."""
-    times = np.linspace(0.0, scene.rubbing.duration, scene.rubbing.points)
     report = scene.rubbing.report
-    if report is not None:
-        times = np.unique(np.concatenate([times, report]))
+    times = np.unique(np.concatenate([np.linspace(0.0, scene.rubbing.duration, scene.rubbing.points), report or ()]))
     contact = _contact(scene, build.grid_of(scene.grid), context)
     with context.timer("films"):
-        local = scene.film.feedback == "local"
-        film, samples, own = (_local_film if local else _mean_film)(scene, contact, times, context)
+        film = (_local_film if scene.film.feedback == "local" else _mean_film)(scene, contact, times, context)
     history = film.history
     return filled(
         FilmRecord,
         history,
-        columns(samples, _SAMPLED, "sample_"),
+        film,
+        columns(film.samples, _SAMPLED, "sample_"),
         contact.grid,
         film_thickness=float(history.thickness[-1]),
         largest_thickness=float(history.thickness.max()),
@@ -194,8 +187,6 @@ def run(scene: TribofilmScene, context: Context) -> FilmRecord:
         wear_depth=None if report is None else history.wear_depth(*report),
         total_wear_depth=float(history.substrate_wear[-1]),
         final_concentration=float(history.concentration[-1]),
-        film_map=film.film_map,
-        **own,
     )
 
 
@@ -207,8 +198,7 @@ def _contact(scene: TribofilmScene, grid: Grid, context: Context) -> FilmContact
     from bem.tribofilm import FilmContact
 
     film, (load,), (temperature,) = scene.film, scene.rubbing.loads, scene.rubbing.temperatures
-    with context.timer("surfaces"):
-        lower, upper = build.both_heights(scene, grid, context)
+    lower, upper = build.both_heights(scene, grid, context)
     return FilmContact(
         gap=build.shape_of(scene.shape, grid) - (lower + upper),
         grid=grid,
@@ -234,47 +224,36 @@ def _nominal_area(scene: TribofilmScene, grid: Grid, load: float) -> FloatArray 
     return (np.hypot(grid.x[:, None], grid.y[None, :]) <= ball.semi_axes[0]).astype(np.float64)
 
 
-def _mean_film(
-    scene: TribofilmScene, contact: FilmContact, times: FloatArray, context: Context
-) -> tuple[TribofilmGrowth, Sequence[ContactSample], dict[str, Any]]:
-    """A film whose growth follows its mean thickness, the contacts solved for it, and its own figures."""
+def _mean_film(scene: TribofilmScene, contact: FilmContact, times: FloatArray, context: Context) -> TribofilmGrowth:
+    """A film whose growth follows its mean thickness; what takes time is the contacts."""
     from bem.tribofilm import grow_tribofilm
 
-    solved = 0
+    known: list[ContactSample] = kept(context) or []
+    solved = list(known)
 
     def watch(sample: ContactSample) -> None:
-        nonlocal solved
-        solved += 1
-        part = min(solved / _CONTACTS, 0.95)
+        solved.append(sample)
+        if len(solved) % _CHECKPOINT_EVERY == 0:
+            keep(context, solved)
+        part = min(len(solved) / _CONTACTS, 0.95)
         context.progress(round(1000 * part), 1000, "films", thickness_nm=1e9 * sample.thickness)
 
-    reuse = scene.reuse_tolerance
-    grown = grow_tribofilm(times, contact, **asdict(scene.film.balance()), reuse_tolerance=reuse, callback=watch)
-    last = min(grown.contacts, key=lambda sample: abs(sample.thickness - grown.history.thickness[-1]))
-    steady = None if np.isinf(grown.steady) else grown.steady
-    own = {"steady_thickness": steady, "contacts_solved": len(grown.contacts), "film_pressure": last.pressure}
-    return grown, grown.contacts, own
+    tolerance, balance = scene.reuse_tolerance, asdict(scene.film.balance())
+    return grow_tribofilm(times, contact, **balance, reuse_tolerance=tolerance, callback=watch, known=known)
 
 
-def _local_film(
-    scene: TribofilmScene, contact: FilmContact, times: FloatArray, context: Context
-) -> tuple[LocalFilm, Sequence[ContactSample], dict[str, Any]]:
-    """The same of a film that grows at each point by its own thickness; it shows no progress: steps choose
-    themselves."""
+def _local_film(scene: TribofilmScene, contact: FilmContact, times: FloatArray, context: Context) -> LocalFilm:
+    """The same of a film that grows at each point by its own thickness."""
     from bem.tribofilm import grow_local_film
 
-    samples: list[ContactSample] = []
-    constants = asdict(scene.film.balance())
-    del constants["lag"]  # there is none
-    grown = grow_local_film(
-        times,
-        contact,
-        **constants,
-        tolerance=scene.film.local_tolerance,
-        callback=lambda now, sample: samples.append(sample),
-    )
-    own = {"steady_thickness": None, "contacts_solved": grown.contacts, "film_pressure": grown.pressure}
-    return grown, samples, own
+    def watch(now: LocalState) -> None:
+        if len(now.samples) % _CHECKPOINT_EVERY == 0:
+            keep(context, now)
+        context.progress(round(1000 * now.now / times[-1]), 1000, "films", thickness_nm=1e9 * now.rows[-1][0])
+
+    balance, tolerance = asdict(scene.film.balance()), scene.film.local_tolerance
+    del balance["lag"]  # there is none
+    return grow_local_film(times, contact, **balance, tolerance=tolerance, state=kept(context), callback=watch)
 
 
 def summarise(scene: TribofilmScene, axes: Any, records: Any) -> dict[str, Any]:
