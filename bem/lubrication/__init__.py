@@ -1,9 +1,10 @@
 """Rheology and the film of a line contact, steady and in time.
 
-Laws of the oil: `viscosity`, `density`, `shear`, gathered in `lubricant`; grades of it in `oils`. The steady film:
-`steady`, by Newton's method (`line_newton`) on a mesh that follows it (`line_mesh`), with hierarchical weights of the
-deflection (`line_kernel`). In time: `transient`, in steps (`line_step`) with a ruptured film (`line_rupture`,
-`cavitation`). `validity` says where a model ends. Names are loaded when first used, so that the laws cost no solver.
+Laws of the oil: `viscosity`, `density`, `shear`, gathered in `lubricant`; grades of it in `oils`; what a shear law does
+across a film: `shear_profile`. The steady film: `steady`, by Newton's method (`line_newton`, from the starts of
+`line_continuation`) on a mesh that follows it (`line_mesh`), with hierarchical weights of the deflection
+(`line_kernel`). In time: `transient`, in steps (`line_step`) with a ruptured film (`line_rupture`, `cavitation`).
+`validity` says where a model ends. Names are loaded when first used, so that the laws cost no solver.
 
 Sees grids and laws, no rough contact and no scene. Verified in tests/lubrication: Martin's and Hertz' limits, both
 equations by plain quadrature, order of convergence, closed forms of cavitation, conservation.

@@ -11,6 +11,7 @@ from scipy.interpolate import PchipInterpolator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.shear_profile import middle_stress
 from bem.representation import readable
 
 
@@ -79,16 +80,19 @@ class FilmSolution:
     def shear_stress(self, position: FloatArray | None = None) -> FloatArray:
         """Shear stress tau + (h/2) dp/dx on the flat in the full film [Pa], zero in the cavitated exit.
 
-        tau is what the oil's shear law makes of mu (u1 - u2)/h: the stress in the middle of the film, and the only
-        part that has a limit. The second part follows from equilibrium of the oil across the film whatever its shear
-        law, so it stays; next to a wall the sum may exceed the limit by it. It acts along -x. At the solution's own
-        positions, or interpolated linearly at others [m].
+        tau is the stress in the middle of the film: what the oil's shear law makes of mu (u1 - u2)/h, or of the whole
+        profile where the oil's `film_rheology` is "shear_law". The second part follows from equilibrium of the oil
+        across the film whatever its shear law, so it stays; of an oil with "newtonian" film it has no limit, and next
+        to a wall the sum may exceed that of tau by it. It acts along -x. At the solution's own positions, or
+        interpolated linearly at others [m].
         """
         difference = self.speeds[0] - self.speeds[1]
         full = self.pressure > 0
         gradient = np.gradient(self.pressure, self.position)
         viscosity = self.lubricant.viscosity_at(np.maximum(self.pressure, 0.0))
-        sliding = self.lubricant.shear_stress(viscosity * difference / self.thickness, np.maximum(self.pressure, 0.0))
+        positive = np.maximum(self.pressure, 0.0)
+        newtonian = viscosity * difference / self.thickness
+        sliding = middle_stress(self.lubricant, newtonian, positive, self.thickness, gradient)
         stress = np.where(full, sliding + 0.5 * self.thickness * gradient, 0.0)
         return stress if position is None else np.interp(position, self.position, stress, left=0.0, right=0.0)
 

@@ -10,6 +10,7 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.lubrication.line_kernel import DEFLECTION, LineOperator
 from bem.lubrication.rough_walls import RoughWalls
+from bem.lubrication.shear_profile import ShearFlow
 
 SPIKE_REACH = 60
 """Nodes on either side of a spike that are solved for alone."""
@@ -21,12 +22,14 @@ SHORTEST = 0.2
 
 @dataclass(frozen=True)
 class Problem:
-    """The similarity problem: load M, laws of the scaled pressure, flow factors of the walls (None: smooth)."""
+    """The similarity problem: load M, laws of the scaled pressure, flow factors of the walls (None: smooth), shear law
+    across the film (None: Newtonian)."""
 
     load: float
     log_viscosity: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
     density: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
     walls: RoughWalls | None = None
+    shear: ShearFlow | None = None
 
     def cube(self, thickness: FloatArray) -> tuple[FloatArray, FloatArray]:
         """What pressure flow goes with, h^3 between smooth walls, and half its derivative."""
@@ -41,18 +44,19 @@ class Problem:
 
 @dataclass(frozen=True)
 class Parts:
-    """What residual and derivatives share, on the cells or (density, dragged flow and their slopes) on the nodes."""
+    """What residual and derivatives share. On the cells: pressure flow and its derivatives with the films at both ends,
+    the gradient and, through viscosity and shear law, the pressures there; on the nodes: density, dragged flow and
+    their slopes."""
 
-    cube: FloatArray
-    half_slope: FloatArray
-    dragged: FloatArray
-    dragged_slope: FloatArray
-    fluidity: FloatArray
-    mean_density: FloatArray
-    gradient: FloatArray
-    density: FloatArray
+    flow: FloatArray
+    by_film: FloatArray
+    mobility: FloatArray
     left: FloatArray
     right: FloatArray
+    mean_density: FloatArray
+    dragged: FloatArray
+    dragged_slope: FloatArray
+    density: FloatArray
     density_slope: FloatArray
 
 
@@ -84,25 +88,36 @@ class Flow:
         fluidity = mean_density * fluid / 6
         gradient = np.diff(pressure) / self.width
         cube, half_slope = self.problem.cube(thickness)
+        left, right = left * slope[:-1] * mean_density / 6, right * slope[1:] * mean_density / 6
+        mobility, by_film = cube * fluidity, half_slope * fluidity
+        if self.problem.shear is None:
+            flow, by_film, steep = mobility * gradient, by_film * gradient, cube * gradient
+            left, right = steep * left, steep * right
+        else:
+            middle = 0.5 * (positive[1:] + positive[:-1])
+            driven = self.problem.shear.driven(gradient, thickness, fluid, middle)
+            flow, by_film = mobility * driven.gradient, by_film * driven.gradient + 0.5 * mobility * driven.by_film
+            steep = cube * (driven.gradient + fluid * driven.by_fluidity)
+            limited = 0.5 * mobility * driven.by_pressure
+            left, right = steep * left + limited, steep * right + limited
+            mobility = mobility * driven.by_gradient
         dragged, dragged_slope = self.problem.dragged(film)
         leaving = float(self.problem.dragged(np.array([exit_film]))[0][0])
         mass = density * dragged
         carried = mass[:-1].copy()
         carried[1:] += self.extrapolation[1:] * (mass[1:-1] - mass[:-2])
         carried[0] = 0.5 * (mass[0] + mass[1])
-        error = (cube * fluidity * gradient - (carried - leaving)) / self.scale
-        left, right = left * slope[:-1] * mean_density / 6, right * slope[1:] * mean_density / 6
+        error = (flow - (carried - leaving)) / self.scale
         return error, Parts(
-            cube=cube,
-            half_slope=half_slope,
-            dragged=dragged,
-            dragged_slope=dragged_slope,
-            fluidity=fluidity,
-            mean_density=mean_density,
-            gradient=gradient,
-            density=density,
+            flow=flow,
+            by_film=by_film,
+            mobility=mobility,
             left=left,
             right=right,
+            mean_density=mean_density,
+            dragged=dragged,
+            dragged_slope=dragged_slope,
+            density=density,
             density_slope=density_slope,
         )
 
@@ -111,7 +126,7 @@ class Flow:
         cells, row = len(self.width), 1 / self.scale
         density, density_slope, extrapolation = parts.density, parts.density_slope, self.extrapolation
         density = density * parts.dragged_slope
-        through_film = parts.half_slope * parts.fluidity * parts.gradient
+        through_film = parts.by_film
         before = np.zeros(cells)
         before[1:] = extrapolation[1:] * density[:-2]
         here = through_film - (1 + extrapolation) * density[:-1]
@@ -119,11 +134,9 @@ class Flow:
         here[0] = through_film[0] - 0.5 * density[0]
         after[0] = through_film[0] - 0.5 * density[1]
 
-        mobility = parts.cube * parts.fluidity
-        flow = mobility * parts.gradient
-        steep = parts.cube * parts.gradient
-        from_left = -mobility / self.width + flow * 0.5 * density_slope[:-1] / parts.mean_density + steep * parts.left
-        from_right = mobility / self.width + flow * 0.5 * density_slope[1:] / parts.mean_density + steep * parts.right
+        mobility, flow = parts.mobility, parts.flow
+        from_left = -mobility / self.width + flow * 0.5 * density_slope[:-1] / parts.mean_density + parts.left
+        from_right = mobility / self.width + flow * 0.5 * density_slope[1:] / parts.mean_density + parts.right
         carried = parts.dragged * density_slope
         from_left -= (1 + extrapolation) * carried[:-1]
         from_left[0] += 0.5 * carried[0]

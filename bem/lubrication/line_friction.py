@@ -12,6 +12,7 @@ from bem.lubrication.line_linear import DEFLECTION
 from bem.lubrication.line_newton import State
 from bem.lubrication.line_scales import Scales
 from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.shear_profile import middle_stress
 
 
 def friction_forces(
@@ -35,7 +36,8 @@ def friction_forces(
     tail_2 = 4 / (3 * start**3)
 
     viscosity = lubricant.viscosity_at(pressure * scales.pressure)
-    sliding = lubricant.shear_stress(viscosity * difference / thickness, pressure * scales.pressure)
+    newtonian, own = viscosity * difference / thickness, pressure * scales.pressure
+    sliding = middle_stress(lubricant, newtonian, own, thickness, np.gradient(own, position))
     couette = float(np.sum(0.5 * np.diff(position) * (sliding[1:] + sliding[:-1])))
     couette += lubricant.viscosity * difference * tail_1 * scales.length / scales.film
     poiseuille = 0.25 * float(np.sum((film[1:] + film[:-1]) * np.diff(pressure)))

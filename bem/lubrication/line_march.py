@@ -17,6 +17,7 @@ from bem.lubrication.line_rupture import Nodes
 from bem.lubrication.line_scales import Scales
 from bem.lubrication.line_step import Film, FixedMesh, StepOutcome, elastic_film, time_step
 from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.steady import lowest_film
 from bem.lubrication.validity import Case, notes_on
 
@@ -45,7 +46,8 @@ class Operation:
 
 @dataclass(frozen=True)
 class Scaling:
-    """Moes' units for a load [N/m] and an entrainment speed [m/s], and the problem in them at that load."""
+    """Moes' units for a load [N/m] and an entrainment speed [m/s], and the problem in them at that load, sliding at
+    1 m/s."""
 
     scales: Scales
     load: float
@@ -70,9 +72,14 @@ class March:
     cavitation: Cavitation
 
     def problem_at(self, time: float) -> Problem:
-        """The problem at the load of a time."""
+        """The problem at the load and the sliding of a time."""
         scaling = self.scaling
-        return replace(scaling.problem, load=scaling.scales.load * self.operation.load(time) / scaling.load)
+        shear = scaling.problem.shear
+        if shear is not None:
+            first, second = self.operation.speeds(time)
+            shear = replace(shear, sliding=abs(first - second) * shear.sliding)
+        load = scaling.scales.load * self.operation.load(time) / scaling.load
+        return replace(scaling.problem, load=load, shear=shear)
 
     def step(self, time: float, film: Film, leading: float, history: FloatArray) -> StepOutcome:
         """The film at a time where d(rho H)/dt is `leading * rho H + history`, from a film near it."""
@@ -227,7 +234,9 @@ def _full_force(case: Case) -> float:
     """Friction force on the flat in the full film, along -x [N/m]: that of sliding, and half of h dp/dx."""
     x, lubricant, (first, second) = case.position, case.lubricant, case.speeds
     newtonian = lubricant.viscosity_at(case.pressure) * (first - second) / case.thickness
-    stress = np.where(case.pressure > 0, lubricant.shear_stress(newtonian, case.pressure), 0.0)
+    gradient = np.gradient(case.pressure, x)
+    sliding = middle_stress(lubricant, newtonian, case.pressure, case.thickness, gradient)
+    stress = np.where(case.pressure > 0, sliding, 0.0)
     force = _integral(x, stress)
     force += 0.25 * float(np.sum((case.thickness[1:] + case.thickness[:-1]) * np.diff(case.pressure)))
     # upstream of the mesh h = x^2/2R: integrals of mu (u1 - u2)/h and, as h p' = 6 mu (u1 + u2)/h there, of h p'/2

@@ -112,6 +112,7 @@ class Iterate:
     parts: Parts
 
 
+@np.errstate(over="ignore", invalid="ignore")  # of iterates that are refused
 def newton(problem: Problem, start: State, tolerance: float, max_iterations: int = 40) -> Outcome:
     """Solve from `start`, whose film (positive) and pressure need not belong together."""
     mesh, at = _begun(problem, start)

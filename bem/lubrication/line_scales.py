@@ -9,6 +9,7 @@ from bem.grid import FloatArray
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import RoughWalls
+from bem.lubrication.shear_profile import shear_flow
 
 RIGID_LOAD = 1e-4
 
@@ -23,8 +24,10 @@ class Scales:
     load: float
 
 
-def scaled_problem(scales: Scales, load: float, lubricant: Lubricant, walls: RoughWalls | None = None) -> Problem:
-    """The similarity problem of an oil at a load M, between smooth or rough walls."""
+def scaled_problem(
+    scales: Scales, load: float, lubricant: Lubricant, walls: RoughWalls | None = None, sliding: float = 0.0
+) -> Problem:
+    """The similarity problem of an oil at a load M, between smooth or rough walls that slide at |u1 - u2| [m/s]."""
     unit = scales.pressure
 
     def log_viscosity(pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -35,7 +38,8 @@ def scaled_problem(scales: Scales, load: float, lubricant: Lubricant, walls: Rou
         value, slope = lubricant.density_ratio(pressure * unit)
         return value, slope * unit
 
-    return Problem(load, log_viscosity, density, walls)
+    shear = shear_flow(lubricant, sliding, scales.film, unit, scales.length) if lubricant.shears_film else None
+    return Problem(load, log_viscosity, density, walls, shear)
 
 
 def line_scales(load: float, radius: float, contact_modulus: float, entrainment: float, viscosity: float) -> Scales:

@@ -30,6 +30,7 @@ from bem.lubrication.line_flow import Problem, longest_step, mean_fluidity
 from bem.lubrication.line_kernel import DEFLECTION, logarithmic_weights
 from bem.lubrication.line_mesh import trapezoidal_weights, upwind_extrapolation
 from bem.lubrication.line_rupture import RUPTURES, Indices, Iterate, Nodes, Rupture
+from bem.lubrication.shear_profile import Driven, newtonian
 
 
 @dataclass(frozen=True)
@@ -147,7 +148,7 @@ class Balance:
     fluid: FloatArray
     left: FloatArray
     right: FloatArray
-    gradient: FloatArray
+    driven: Driven
     cubed: FloatArray
     mass: FloatArray
     held: FloatArray
@@ -220,7 +221,10 @@ def balance_of(step: Step, at: Iterate) -> Balance:
     carried = step.entrainment * at.fraction[step.upstream]
     held = density * at.film
     faced = held[step.upstream] + step.extrapolation * (held[step.upstream] - held[step.farther])
-    flux = carried * faced - cubed * mean_density * fluid * gradient
+    driven = newtonian(gradient)
+    if step.problem.shear is not None:
+        driven = step.problem.shear.driven(gradient, thickness, fluid, 0.5 * (positive[1:] + positive[:-1]))
+    flux = carried * faced - cubed * mean_density * fluid * driven.gradient
     excess = np.diff(flux, prepend=0.0, append=0.0) + mesh.volume * (step.leading * mass + step.history)
     # one flux to measure by: what is entrained or squeezed through the contact
     row = (mesh.volume * step.leading + abs(step.entrainment)) * step.rupture.measure(at.film)
@@ -233,7 +237,7 @@ def balance_of(step: Step, at: Iterate) -> Balance:
         fluid=fluid,
         left=left,
         right=right,
-        gradient=gradient,
+        driven=driven,
         cubed=cubed,
         mass=mass,
         held=held,
@@ -270,10 +274,15 @@ def _carrying(step: Step, at: Iterate, balance: Balance, full: Nodes, seen: list
 def _derivatives(step: Step, at: Iterate, balance: Balance) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Of the scaled excess with film, pressure and fraction, as bands of five nodes."""
     b, volume = balance, step.mesh.volume
-    through_film = 0.5 * b.thickness**2 * b.mean_density * b.fluid * b.gradient
-    steep = b.cubed * b.gradient * b.mean_density
+    driven = b.driven
+    through_film = 0.5 * b.thickness**2 * b.mean_density * b.fluid * driven.gradient
+    steep = b.cubed * driven.gradient * b.mean_density
     mobility = b.cubed * b.mean_density * b.fluid / step.mesh.spacing
-    dense = 0.5 * b.cubed * b.fluid * b.gradient
+    dense = 0.5 * b.cubed * b.fluid * driven.gradient
+    if step.problem.shear is not None:
+        through_film = through_film + b.cubed * b.mean_density * b.fluid * driven.by_film
+        steep = steep + b.cubed * b.mean_density * b.fluid * driven.by_fluidity
+        mobility = mobility * driven.by_gradient
     stored = at.film * b.density_slope
     faces = _upwind(b.carried, b.density, step.extrapolation, step.entrainment)
     faces[1:3] -= 0.5 * through_film
@@ -281,6 +290,8 @@ def _derivatives(step: Step, at: Iterate, balance: Balance) -> tuple[FloatArray,
     faces = _upwind(b.carried, stored, step.extrapolation, step.entrainment)
     faces[1] += mobility - steep * b.left * b.slope[:-1] - dense * b.density_slope[:-1]
     faces[2] -= mobility + steep * b.right * b.slope[1:] + dense * b.density_slope[1:]
+    if step.problem.shear is not None:
+        faces[1:3] -= 0.5 * b.cubed * b.mean_density * b.fluid * driven.by_pressure
     by_pressure = _bands(faces, volume * step.leading * at.fraction * stored / b.row, b.row)
     faces = np.zeros_like(faces)
     faces[1 if step.entrainment >= 0 else 2] = step.entrainment * b.faced

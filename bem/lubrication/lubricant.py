@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from bem.lubrication.oils import Oil
 
 _LARGEST_LOGARITHM = 600.0
+FILM_RHEOLOGIES = ("newtonian", "shear_law")
 _UNITS = {
     "temperature": "K",
     "density": "kg/m^3",
@@ -38,9 +39,10 @@ class Lubricant:
     pressure_viscosity : alpha, slope of ln(viscosity) with pressure at ambient pressure [1/Pa]; 0 is isoviscous.
     viscosity_law : "roelands", "barus" or "isoviscous", the name of a law of your own, or a law.
     density_law : "incompressible", "dowson_higginson", another name or a law.
-    shear_law : "limited", "newtonian", "eyring", "carreau", another name or a law; used for friction and not for the
-        film. All of these but "newtonian" carry no more than a limiting shear stress in proportion to pressure; below
-        that "limited" is Newtonian.
+    shear_law : "limited", "newtonian", "eyring", "carreau", another name or a law. All of these but "newtonian" carry
+        no more than a limiting shear stress in proportion to pressure; below that "limited" is Newtonian.
+    film_rheology : "newtonian": the shear law acts on the friction and not on the film; "shear_law": on both, through
+        the profile of stress and speed across the film (`bem.lubrication.shear_profile`).
     temperature : that of the oil [K], for a reader; None where it is not known, as the next four.
     density : at ambient pressure [kg/m^3]. heat_capacity : per mass [J/(kg K)]. thermal_conductivity : [W/(m K)].
     temperature_viscosity : beta, -d ln(viscosity)/dT at ambient pressure [1/K].
@@ -64,6 +66,7 @@ class Lubricant:
     thermal_conductivity: float | None = None
     temperature_viscosity: float | None = None
     oil: Oil | None = None
+    film_rheology: str = "newtonian"
 
     def __init__(  # reason: what an oil is, named as users write it; a promise
         self,
@@ -79,6 +82,7 @@ class Lubricant:
         thermal_conductivity: float | None = None,
         temperature_viscosity: float | None = None,
         oil: Oil | None = None,
+        film_rheology: str = "newtonian",
         **parameters: float | None,
     ) -> None:
         messages = []
@@ -103,6 +107,9 @@ class Lubricant:
             for key, value in heat.items()
             if value is not None and not (_is_number(value) and value > 0)
         ]
+        if film_rheology not in FILM_RHEOLOGIES:
+            allowed = " or ".join(f'"{name}"' for name in FILM_RHEOLOGIES)
+            messages.append(f"Lubricant: film_rheology {film_rheology!r} must be {allowed}")
         chosen = {"viscosity_law": viscosity_law, "density_law": density_law, "shear_law": shear_law}
         laws: dict[str, Any] = {}
         try:
@@ -116,7 +123,7 @@ class Lubricant:
             raise InputError(messages)
         values = {"viscosity": float(viscosity), "pressure_viscosity": float(pressure_viscosity), **laws}
         values |= {key: None if value is None else float(value) for key, value in heat.items()}
-        for key, value in (values | {"oil": oil}).items():
+        for key, value in (values | {"oil": oil, "film_rheology": film_rheology}).items():
             object.__setattr__(self, key, value)
 
     @classmethod
@@ -150,6 +157,13 @@ class Lubricant:
     def notes(self) -> tuple[str, ...]:
         """What to say of the oil at its temperature: figures extrapolated, flash point, too thick to flow."""
         return () if self.oil is None or self.temperature is None else self.oil.notes(self.temperature)
+
+    @property
+    def shears_film(self) -> bool:
+        """Whether the film's flow follows a shear law other than the Newtonian one."""
+        if self.film_rheology == "newtonian":
+            return False
+        return self.shear_law.thins or bool(np.isfinite(self.shear_law.limit(0.0)))
 
     def __getattr__(self, key: str) -> float:
         """A parameter of one of the laws."""

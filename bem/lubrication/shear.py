@@ -1,7 +1,8 @@
-"""Shear laws: the shear stress an oil carries where a Newtonian one would carry mu du/h, for friction.
+"""Shear laws: the shear stress an oil carries where a Newtonian one would carry mu times the shear rate.
 
 To add a law, derive from `LimitedShear` (or `ShearLaw`, which has no limit) and register it, here or in a file of your
-own.
+own. `unlimited` alone will do; its inverse, `newtonian_stress`, is found from it if a law has no formula. How laws act
+across a film is in `shear_profile`.
 """
 
 from __future__ import annotations
@@ -14,6 +15,31 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.laws import Law, parameter, register
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
+_STEPS = 60
+_WIDEST = 650.0
+_HALVINGS = 60
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Of the Newtonian stress X(tau) across a film with tau = middle + half s, -1 < s < 1, all (n,).
+
+    mean : 1/2 integral X ds [Pa]. first : 3/2 integral s X ds [Pa]. X = tau gives the middle and the half stress.
+    Derivatives with these two; that of `first` with the middle is three times `mean_by_half`.
+    """
+
+    mean: FloatArray
+    mean_by_middle: FloatArray
+    mean_by_half: FloatArray
+    first: FloatArray
+    first_by_half: FloatArray
+
+
+def _straight(law: ShearLaw, newtonian: FloatArray) -> FloatArray:
+    """The same."""
+    return newtonian
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +62,55 @@ class ShearLaw(Law):
         limit = self.limit(pressure)
         return np.clip(self.unlimited(newtonian), -limit, limit)
 
+    @property
+    def thins(self) -> bool:
+        """Whether the stress is another than the Newtonian one below the limit."""
+        return type(self).unlimited is not _straight
+
+    def newtonian_stress(self, stress: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Newtonian shear stress [Pa] at shear stresses [Pa], the inverse of `unlimited`, and its slope: by halving the
+        exponent unless a law has a formula."""
+        if not self.thins:
+            return stress, np.ones_like(stress)
+        size = np.abs(stress)
+        low, high = np.full_like(size, -_WIDEST), np.full_like(size, _WIDEST)
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            below = self.unlimited(np.exp(middle)) < size
+            low, high = np.where(below, middle, low), np.where(below, high, middle)
+        found = np.exp(0.5 * (low + high))
+        step = 1e-5 * found
+        slope = 2 * step / (self.unlimited(found + step) - self.unlimited(found - step))
+        return np.where(size > 0, np.copysign(found, stress), 0.0), slope
+
+    def moments(self, middle: FloatArray, half: FloatArray) -> Moments:
+        """Of the Newtonian stress across a film, see `Moments`: by Gauss' rule unless a law has a formula."""
+        if not self.thins:
+            one, none = np.ones_like(middle), np.zeros_like(middle)
+            return Moments(middle, one, none, half, one)
+        value, slope = self.newtonian_stress(middle[:, None] + half[:, None] * _NODES)
+        return Moments(
+            mean=0.5 * value @ _WEIGHTS,
+            mean_by_middle=0.5 * slope @ _WEIGHTS,
+            mean_by_half=0.5 * slope @ (_WEIGHTS * _NODES),
+            first=1.5 * value @ (_WEIGHTS * _NODES),
+            first_by_half=1.5 * slope @ (_WEIGHTS * _NODES**2),
+        )
+
+    def middle_stress(self, newtonian: FloatArray, half: FloatArray) -> FloatArray:
+        """Shear stress in the middle of a film [Pa] (n,) at which the mean of the Newtonian stress is that of the
+        sliding, `newtonian` >= 0 [Pa], before any limit. Newton's method from above, where the mean is convex."""
+        middle = self.unlimited(newtonian)
+        if not self.thins:
+            return middle
+        for _ in range(_STEPS):
+            found = self.moments(middle, half)
+            change = (found.mean - newtonian) / found.mean_by_middle
+            middle = np.maximum(middle - change, 0.0)
+            if (np.abs(change) <= 1e-13 * middle + 1e-15 * half).all():
+                break
+        return middle
+
 
 @register
 @dataclass(frozen=True, kw_only=True)
@@ -43,10 +118,7 @@ class Newtonian(ShearLaw):
     """Stress in proportion to the shear rate, without a limit."""
 
     name: ClassVar[str] = "newtonian"
-
-    def unlimited(self, newtonian: FloatArray) -> FloatArray:
-        """The same."""
-        return newtonian
+    unlimited = _straight
 
 
 @register
@@ -69,10 +141,7 @@ class LimitedShear(ShearLaw):
         above=0,
         source="the upper end of the 1 to 5 MPa of Hoglund and Jacobson (1986)",
     )
-
-    def unlimited(self, newtonian: FloatArray) -> FloatArray:
-        """The same."""
-        return newtonian
+    unlimited = _straight
 
     def limit(self, pressure: FloatArray | float) -> FloatArray | float:
         """tau_a + Lambda p."""
@@ -91,19 +160,88 @@ class Eyring(LimitedShear):
         """The stress above."""
         return self.shear_stress_limit * np.arcsinh(newtonian / self.shear_stress_limit)
 
+    def newtonian_stress(self, stress: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """tau0 sinh(tau / tau0)."""
+        share = stress / self.shear_stress_limit
+        return self.shear_stress_limit * np.sinh(share), np.cosh(share)
+
+    def moments(self, middle: FloatArray, half: FloatArray) -> Moments:
+        """Closed forms; Conry, Wang and Cusano, J. Tribol. 109 (1987) 648."""
+        unit = self.shear_stress_limit
+        odd, even = np.sinh(middle / unit), np.cosh(middle / unit)
+        value, slope, curve = _hyperbolic(half / unit)
+        return Moments(unit * odd * value, even * value, odd * slope, 3 * unit * even * slope, 3 * even * curve)
+
+    def middle_stress(self, newtonian: FloatArray, half: FloatArray) -> FloatArray:
+        """The closed form of that."""
+        unit = self.shear_stress_limit
+        return np.asarray(unit * np.arcsinh(newtonian / unit / _hyperbolic(half / unit)[0]))
+
+
+def _hyperbolic(x: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """sinh(x)/x and its first two derivatives."""
+    small = np.abs(x) < 1
+    safe, square = np.where(small, 1.0, x), np.where(small, x * x, 0.0)
+    value, slope, curve = np.ones_like(x), np.zeros_like(x), np.zeros_like(x)
+    power = 1.0  # x^(2k - 2) / (2k + 1)!
+    term = np.ones_like(x)
+    for k in range(1, 10):
+        power /= 2 * k * (2 * k + 1)
+        curve += 2 * k * (2 * k - 1) * power * term
+        slope += 2 * k * power * term
+        term = term * square
+        value += power * term
+    sinh, cosh = np.sinh(safe) / safe, np.cosh(safe) / safe
+    rise = cosh - sinh / safe
+    return (
+        np.where(small, value, sinh),
+        np.where(small, x * slope, rise),
+        np.where(small, curve, sinh - 2 * rise / safe),
+    )
+
 
 @register
 @dataclass(frozen=True, kw_only=True)
 class Carreau(LimitedShear):
-    """tau = mu rate [1 + (mu rate / G)^2]^((n - 1)/2), G the critical stress, n the exponent; Bair (2007)."""
+    """tau = mu rate [1 + (mu rate / G)^a]^((n - 1)/a), G the critical stress, n the exponent; Carreau's a is 2, another
+    one Yasuda's; Bair (2007)."""
 
     name: ClassVar[str] = "carreau"
     shear_stress_limit: float = parameter("critical stress, where thinning begins", "Pa", above=0)
     carreau_exponent: float = parameter(
         "slope of ln(stress) with ln(rate) far beyond it", default=0.5, above=0, at_most=1
     )
+    yasuda_exponent: float = parameter(
+        "how sharply thinning begins",
+        default=2.0,
+        at_least=0.1,
+        at_most=20,
+        source="2: Carreau, Trans. Soc. Rheol. 16 (1972) 99; another: Yasuda, Armstrong and Cohen, Rheol. Acta 20 "
+        "(1981) 163",
+    )
 
     def unlimited(self, newtonian: FloatArray) -> FloatArray:
         """The stress above."""
-        # hypot: the square of a Newtonian stress at high pressure is beyond floating point
-        return newtonian * np.hypot(1.0, newtonian / self.shear_stress_limit) ** (self.carreau_exponent - 1)
+        share = newtonian / self.shear_stress_limit
+        if self.yasuda_exponent == 2:
+            # hypot: the square of a Newtonian stress at high pressure is beyond floating point
+            return newtonian * np.hypot(1.0, share) ** (self.carreau_exponent - 1)
+        size = np.log(np.maximum(np.abs(share), 1e-300))
+        grown = np.logaddexp(0.0, self.yasuda_exponent * size) / self.yasuda_exponent
+        return newtonian * np.exp((self.carreau_exponent - 1) * grown)
+
+    def newtonian_stress(self, stress: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Newton's method for the logarithm, from below, where it is concave."""
+        n, a = self.carreau_exponent, self.yasuda_exponent
+        wanted = np.log(np.maximum(np.abs(stress) / self.shear_stress_limit, 1e-300))
+        at = np.maximum(wanted, wanted / n)
+        for _ in range(_STEPS):
+            grown = np.logaddexp(0.0, a * at)
+            steep = 1 + (n - 1) * -np.expm1(-grown)
+            change = (wanted - at - (n - 1) / a * grown) / steep
+            at = at + change
+            if np.abs(change).max(initial=0.0) < 1e-15 * (1 + np.abs(at).max(initial=0.0)):
+                break
+        steep = 1 + (n - 1) * -np.expm1(-np.logaddexp(0.0, a * at))
+        value = self.shear_stress_limit * np.exp(at)
+        return np.copysign(value, stress), np.exp(at - wanted) / steep

@@ -13,40 +13,17 @@ from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_continuation import from_neighbour, from_newtonian, from_scratch
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_friction import friction_forces
 from bem.lubrication.line_kernel import DEFLECTION, logarithmic_weights
-from bem.lubrication.line_newton import (
-    Outcome,
-    State,
-    martin_start,
-    mesh_imbalance,
-    newton,
-    remesh,
-    spike_cell,
-    spike_cells_to_exit,
-    stretched,
-)
+from bem.lubrication.line_newton import Outcome, State
 from bem.lubrication.line_scales import Scales, line_scales, scaled_problem
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
 from bem.lubrication.validity import Case, notes_on
 from bem.threads import one_blas_thread
 
-ATTEMPTS = ((160, 4.0), (240, 2.0), (200, 1.5))
-"""Coarse cells and first factor of the load, tried in turn until the continuation arrives."""
-SPIKE_CELLS = (2e-3, 7e-4, 2.5e-4)
-"""Smallest cells at a spike, as shares of the exit's abscissa, on the way to the last mesh. The film is off by about
-five times the last one where the spike has no limit."""
-SPIKE_SHIFT = 0.75
-"""A spike's distance from the exit goes about like M^(-3/4), in units of the exit's abscissa."""
-MAX_SHIFT = 1.0
-"""Cells by which a sharp spike may move on its mesh."""
-MAX_IMBALANCE = 5.0
-MIDDLE = 400
-COARSE_TOLERANCE = 1e-4
-"""On the way: a start needs no more, its mesh is off by more than that."""
-START_LOAD = 0.3
 MOES_LOADS = (1e-5, 1e4)
 """Loads M for which a film is looked for; beyond them the equations are not a model of anything."""
 MAX_INLET_SHARE = 0.01
@@ -111,17 +88,23 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     """
     cavitation = cavitation_of(cavitation)
     scales, reversed_ = _check(load, radius, contact_modulus, speeds, lubricant, points, tolerance, position)
-    problem = scaled_problem(scales, scales.load, lubricant, walls_of(flow_factors, scales.film, speeds))
+    walls = walls_of(flow_factors, scales.film, speeds)
+    problem = scaled_problem(scales, scales.load, lubricant, walls, float(speeds[0]) - float(speeds[1]))
     outcome = None
     spent = 0
     if initial is not None:
         if not isinstance(initial, FilmSolution):
             raise InputError(f"initial: {type(initial).__name__} is not a FilmSolution")
         if isinstance(initial.state, KeptSteady):
-            outcome = _from_neighbour(problem, initial.state, scales.pressure, points - 1, tolerance, max_iterations)
+            kept = initial.state
+            unit = kept.scales.pressure / scales.pressure
+            outcome = from_neighbour(problem, kept.state, kept.load, unit, points - 1, tolerance, max_iterations)
             spent += outcome.iterations
     if outcome is None or not outcome.converged:
-        outcome = _from_scratch(problem, scales, lubricant, points - 1, tolerance, max_iterations)
+        outcome = from_scratch(problem, points - 1, tolerance, max_iterations)
+        if problem.shear is not None and not outcome.converged:
+            spent += outcome.iterations
+            outcome = from_newtonian(problem, points - 1, tolerance, max_iterations)
     outcome = replace(outcome, iterations=outcome.iterations + spent)
     case = Case(
         position=outcome.state.position * scales.length,
@@ -159,99 +142,6 @@ class KeptSteady:
         pressure, film = np.empty(len(at)), np.empty(len(at))
         pressure[order], film[order] = _sampled(at[order], self.state, self.scales)
         return pressure, film
-
-
-def _from_neighbour(
-    problem: Problem, kept: KeptSteady, unit: float, cells: int, tolerance: float, limit: int
-) -> Outcome:
-    """From the solution of another case: on its mesh as long as a sharp spike stays on its fine cells, else anew from
-    a coarse mesh upwards, where a spike that has moved is found in few and cheap steps."""
-    factor, film_factor = _scaling(kept.load, problem.load)
-    state = stretched(kept.state, factor, problem.load / kept.load / factor, film_factor)
-    change = max(abs(math.log(problem.load / kept.load)), abs(math.log(unit / kept.scales.pressure)))
-    if spike_cell(problem, state, min(cells, MIDDLE)) < SPIKE_CELLS[0] and (
-        len(state.offset) != cells + 1 or SPIKE_SHIFT * change * spike_cells_to_exit(state) > MAX_SHIFT
-    ):
-        return _refined(problem, state, ATTEMPTS[0][0], cells, tolerance, limit)
-    if len(state.offset) != cells + 1:
-        state = remesh(problem, state, cells, SPIKE_CELLS[-1])
-    outcome = newton(problem, state, tolerance, min(limit, 20))
-    if outcome.converged and mesh_imbalance(problem, outcome.state) > MAX_IMBALANCE:
-        again = newton(problem, remesh(problem, outcome.state, cells, SPIKE_CELLS[-1]), tolerance, limit)
-        outcome = replace(again, iterations=again.iterations + outcome.iterations)
-    return outcome
-
-
-def _scaling(old: float, new: float) -> tuple[float, float]:
-    """Factors of length and film from one load M to another: half-width like M^(1/2) once it is Hertz', and
-    films like M^(-1) where rigid, M^(-1/5) where elastic."""
-
-    def film(load: float) -> float:
-        return (load**-1.5 + 1.0 / load**0.3) ** (2 / 3)
-
-    return typical_half_width(new) / typical_half_width(old), film(new) / film(old)
-
-
-def typical_half_width(load: float) -> float:
-    """Half-width of the pressure at a load M: Hertz' and the rigid film's, joined."""
-    return math.sqrt(8 * load / math.pi + 2 * 2.4475 / load)
-
-
-def _from_scratch(
-    problem: Problem, scales: Scales, lubricant: Lubricant, cells: int, tolerance: float, limit: int
-) -> Outcome:
-    """Continuation in the load from Martin's film on a coarse mesh, then finer ones."""
-    last: Outcome | None = None
-    spent = 0
-    reached = 0.0
-    attempts = (((cells, 4.0),) if cells < ATTEMPTS[0][0] else ()) + ATTEMPTS
-    for coarse, first_step in attempts:
-        load = min(problem.load, START_LOAD)
-        step = first_step
-        last = newton(replace(problem, load=load), martin_start(load, coarse), COARSE_TOLERANCE, limit)
-        spent += last.iterations
-        while last.converged and load < problem.load and step > 1.002:
-            target = min(problem.load, load * step)
-            factor, film_factor = _scaling(load, target)
-            at = replace(problem, load=load)
-            start = last.state
-            if mesh_imbalance(at, start) > MAX_IMBALANCE:
-                start = remesh(at, start, coarse, None)
-            start = stretched(start, factor, target / load / factor, film_factor)
-            trial = newton(replace(problem, load=target), start, COARSE_TOLERANCE, limit)
-            spent += trial.iterations
-            if trial.converged:
-                step = min(step * 1.5, 10.0) if trial.iterations < 10 else step
-                last, load = trial, target
-            else:
-                step = math.sqrt(step)
-        if last.converged and load == problem.load:
-            final = _refined(problem, last.state, coarse, cells, tolerance, limit)
-            spent += final.iterations
-            if final.converged:
-                return replace(final, iterations=spent)
-            last = final
-        reached = load
-    assert last is not None
-    residual = max(last.residual, abs(1 - reached / problem.load))
-    return replace(last, iterations=spent, residual=residual, converged=False)
-
-
-def _refined(problem: Problem, state: State, coarse: int, cells: int, tolerance: float, limit: int) -> Outcome:
-    """From a coarse solution to the wanted number of cells, a spike refined little by little."""
-    middle = min(cells, MIDDLE)
-    stages: list[tuple[int, float | None]] = [(coarse, None)]
-    wanted = spike_cell(problem, state, middle)
-    stages += [(middle, smallest) for smallest in SPIKE_CELLS if smallest > wanted or smallest == SPIKE_CELLS[-1]]
-    if cells > middle:
-        stages.append((cells, SPIKE_CELLS[-1]))
-    spent = 0
-    for level, (size, smallest) in enumerate(stages):
-        goal = tolerance if level == len(stages) - 1 else COARSE_TOLERANCE
-        outcome = newton(problem, remesh(problem, state, size, smallest), goal, limit)
-        spent += outcome.iterations
-        state = outcome.state
-    return replace(outcome, iterations=spent)
 
 
 def _check(

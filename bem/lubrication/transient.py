@@ -12,6 +12,7 @@ from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_continuation import typical_half_width
 from bem.lubrication.line_march import (
     Contact,
     March,
@@ -27,7 +28,7 @@ from bem.lubrication.line_march import (
 from bem.lubrication.line_scales import line_scales, scaled_problem
 from bem.lubrication.line_step import FixedMesh, fixed_mesh
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.steady import check_speeds, solve_line_film, typical_half_width
+from bem.lubrication.steady import check_speeds, solve_line_film
 from bem.threads import one_blas_thread
 
 FAR = 50.0
@@ -211,7 +212,7 @@ def _discretised(
     else:
         reach = math.sqrt(8 * scales.load / math.pi + 2 * film)
     reach = max(reach, 1e-12)
-    scaling = Scaling(scales, highest, speed, scaled_problem(scales, scales.load, contact.lubricant))
+    scaling = Scaling(scales, highest, speed, scaled_problem(scales, scales.load, contact.lubricant, sliding=1.0))
     return scaling, fixed_mesh(2.0 * reach, FAR * reach, 2 * (points // 2))
 
 

@@ -102,6 +102,19 @@ def shear_at_the_limit(case: Case) -> str | None:
     )
 
 
+def film_slips(case: Case) -> str | None:
+    """Where the oil slips is not known, and the film depends on it."""
+    if not case.lubricant.shears_film or abs(case.speeds[0] - case.speeds[1]) <= abs(sum(case.speeds)) / 2:
+        return None
+    if shear_at_the_limit(case) is None:
+        return None
+    return (
+        "the oil slips at its limiting shear stress in much of the contact, at a slide-to-roll ratio above 1: the film "
+        "then depends on the wall at which it does (bem.lubrication.shear_profile), by a tenth to a third of its "
+        "thickness"
+    )
+
+
 def viscosity_beyond_range(case: Case) -> str | None:
     """The viscosity law is used at pressures that it was not made for."""
     largest = case.lubricant.viscosity_law.largest_pressure
@@ -185,6 +198,7 @@ def molecular_film(case: Case) -> str | None:
 CHECKS: list[Callable[[Case], str | None]] = [
     shear_beyond_measurements,
     shear_at_the_limit,
+    film_slips,
     viscosity_beyond_range,
     spike_unresolved,
     inlet_heating,

@@ -46,7 +46,8 @@ class OilScene(LawTable):
     Either `grade` with `temperature`: a name or grade of the catalogue (`bem oils` lists them), with `viscosity_index`
     and `base` in place of the usual ones; or `viscosities` with `temperature`: kinematic, [["40 degC", "68 mm^2/s"],
     ["100 degC", "8.6 mm^2/s"]], joined by `temperature_law`; or `viscosity` at the temperature of the contact. What
-    else is given here (`pressure_viscosity`, `density`, ...) replaces the oil's own.
+    else is given here (`pressure_viscosity`, `density`, ...) replaces the oil's own. `film_rheology = "shear_law"` lets
+    the shear law act on the film and not on the friction alone.
     """
 
     grade: str | None = None
@@ -66,6 +67,7 @@ class OilScene(LawTable):
     viscosity_law: Annotated[ViscosityLaw, LawKey("viscosity_law", beside=True)] = Roelands()
     density_law: Annotated[DensityLaw, LawKey("density_law", beside=True)] = Incompressible()
     shear_law: Annotated[ShearLaw, LawKey("shear_law", beside=True)] = LimitedShear()
+    film_rheology: Literal["newtonian", "shear_law"] = "newtonian"
 
     @field_validator("grade")
     @classmethod
@@ -124,6 +126,7 @@ class OilScene(LawTable):
             "viscosity_law": self.viscosity_law,
             "density_law": self.density_law,
             "shear_law": self.shear_law,
+            "film_rheology": self.film_rheology,
             "density": self.density,
             "heat_capacity": self.heat_capacity,
             "thermal_conductivity": self.thermal_conductivity,

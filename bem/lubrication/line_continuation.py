@@ -1,0 +1,154 @@
+"""Ways to a steady line film: from a neighbour's, from Martin's by continuation in the load, and for a strongly thinning
+oil from that of a Newtonian one; a pressure spike is refined little by little."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from bem.lubrication.line_flow import Problem
+from bem.lubrication.line_newton import (
+    Outcome,
+    State,
+    martin_start,
+    mesh_imbalance,
+    newton,
+    remesh,
+    spike_cell,
+    spike_cells_to_exit,
+    stretched,
+)
+
+ATTEMPTS = ((160, 4.0), (240, 2.0), (200, 1.5))
+"""Coarse cells and first factor of the load, tried in turn until the continuation arrives."""
+SPIKE_CELLS = (2e-3, 7e-4, 2.5e-4)
+"""Smallest cells at a spike, as shares of the exit's abscissa, on the way to the last mesh. The film is off by about
+five times the last one where the spike has no limit."""
+SPIKE_SHIFT = 0.75
+"""A spike's distance from the exit goes about like M^(-3/4), in units of the exit's abscissa."""
+MAX_SHIFT = 1.0
+"""Cells by which a sharp spike may move on its mesh."""
+MAX_IMBALANCE = 5.0
+MIDDLE = 400
+COARSE_TOLERANCE = 1e-4
+"""On the way: a start needs no more, its mesh is off by more than that."""
+START_LOAD = 0.3
+LEAST_SHARE = 1e-3
+"""Of all stresses, from which thinning sets in where it must do so step by step."""
+FIRST_FACTOR = 4.0
+
+
+def from_neighbour(
+    problem: Problem, kept: State, load: float, unit: float, cells: int, tolerance: float, limit: int
+) -> Outcome:
+    """From the solution of another case, at a load M, its unit of pressure over the problem's: on its mesh as long as a
+    sharp spike stays on its fine cells, else anew from a coarse mesh upwards, where a spike that has moved is found in
+    few and cheap steps."""
+    factor, film_factor = _scaling(load, problem.load)
+    state = stretched(kept, factor, problem.load / load / factor, film_factor)
+    change = max(abs(math.log(problem.load / load)), abs(math.log(unit)))
+    if spike_cell(problem, state, min(cells, MIDDLE)) < SPIKE_CELLS[0] and (
+        len(state.offset) != cells + 1 or SPIKE_SHIFT * change * spike_cells_to_exit(state) > MAX_SHIFT
+    ):
+        return _refined(problem, state, ATTEMPTS[0][0], cells, tolerance, limit)
+    if len(state.offset) != cells + 1:
+        state = remesh(problem, state, cells, SPIKE_CELLS[-1])
+    outcome = newton(problem, state, tolerance, min(limit, 20))
+    if outcome.converged and mesh_imbalance(problem, outcome.state) > MAX_IMBALANCE:
+        again = newton(problem, remesh(problem, outcome.state, cells, SPIKE_CELLS[-1]), tolerance, limit)
+        outcome = replace(again, iterations=again.iterations + outcome.iterations)
+    return outcome
+
+
+def _scaling(old: float, new: float) -> tuple[float, float]:
+    """Factors of length and film from one load M to another: half-width like M^(1/2) once it is Hertz', and
+    films like M^(-1) where rigid, M^(-1/5) where elastic."""
+
+    def film(load: float) -> float:
+        return (load**-1.5 + 1.0 / load**0.3) ** (2 / 3)
+
+    return typical_half_width(new) / typical_half_width(old), film(new) / film(old)
+
+
+def typical_half_width(load: float) -> float:
+    """Half-width of the pressure at a load M: Hertz' and the rigid film's, joined."""
+    return math.sqrt(8 * load / math.pi + 2 * 2.4475 / load)
+
+
+def from_newtonian(problem: Problem, cells: int, tolerance: float, limit: int) -> Outcome:
+    """From the film of a Newtonian oil, with thinning from a small share of all stresses on."""
+    assert problem.shear is not None
+    coarse = min(cells, MIDDLE)
+    last = from_scratch(replace(problem, shear=None), coarse, COARSE_TOLERANCE, limit)
+    spent, share, factor = last.iterations, LEAST_SHARE, FIRST_FACTOR
+    while last.converged and factor > 1.02:
+        target = min(share * factor, 1.0)
+        at = replace(problem, shear=problem.shear.of_share(target))
+        start = last.state
+        if mesh_imbalance(at, start) > MAX_IMBALANCE:
+            start = remesh(at, start, coarse, None)
+        trial = newton(at, start, COARSE_TOLERANCE, limit)
+        spent += trial.iterations
+        if not trial.converged:
+            factor = math.sqrt(factor)
+            continue
+        last, share, factor = trial, target, factor * 1.5
+        if share == 1.0:
+            last = _refined(problem, last.state, coarse, cells, tolerance, limit)
+            return replace(last, iterations=spent + last.iterations)
+    return replace(last, iterations=spent, residual=max(last.residual, 1 - share), converged=False)
+
+
+def from_scratch(problem: Problem, cells: int, tolerance: float, limit: int) -> Outcome:
+    """Continuation in the load from Martin's film on a coarse mesh, then finer ones."""
+    last: Outcome | None = None
+    spent = 0
+    reached = 0.0
+    attempts = (((cells, 4.0),) if cells < ATTEMPTS[0][0] else ()) + ATTEMPTS
+    for coarse, first_step in attempts:
+        load = min(problem.load, START_LOAD)
+        step = first_step
+        last = newton(replace(problem, load=load), martin_start(load, coarse), COARSE_TOLERANCE, limit)
+        spent += last.iterations
+        while last.converged and load < problem.load and step > 1.002:
+            target = min(problem.load, load * step)
+            factor, film_factor = _scaling(load, target)
+            at = replace(problem, load=load)
+            start = last.state
+            if mesh_imbalance(at, start) > MAX_IMBALANCE:
+                start = remesh(at, start, coarse, None)
+            start = stretched(start, factor, target / load / factor, film_factor)
+            trial = newton(replace(problem, load=target), start, COARSE_TOLERANCE, limit)
+            spent += trial.iterations
+            if trial.converged:
+                step = min(step * 1.5, 10.0) if trial.iterations < 10 else step
+                last, load = trial, target
+            else:
+                step = math.sqrt(step)
+        if last.converged and load == problem.load:
+            final = _refined(problem, last.state, coarse, cells, tolerance, limit)
+            spent += final.iterations
+            if final.converged:
+                return replace(final, iterations=spent)
+            last = final
+        reached = load
+    assert last is not None
+    residual = max(last.residual, abs(1 - reached / problem.load))
+    return replace(last, iterations=spent, residual=residual, converged=False)
+
+
+def _refined(problem: Problem, state: State, coarse: int, cells: int, tolerance: float, limit: int) -> Outcome:
+    """From a coarse solution to the wanted number of cells, a spike refined little by little."""
+    middle = min(cells, MIDDLE)
+    stages: list[tuple[int, float | None]] = [(coarse, None)]
+    wanted = spike_cell(problem, state, middle)
+    stages += [(middle, smallest) for smallest in SPIKE_CELLS if smallest > wanted or smallest == SPIKE_CELLS[-1]]
+    if cells > middle:
+        stages.append((cells, SPIKE_CELLS[-1]))
+    spent = 0
+    for level, (size, smallest) in enumerate(stages):
+        goal = tolerance if level == len(stages) - 1 else COARSE_TOLERANCE
+        outcome = newton(problem, remesh(problem, state, size, smallest), goal, limit)
+        spent += outcome.iterations
+        state = outcome.state
+    return replace(outcome, iterations=spent)

@@ -1,0 +1,175 @@
+"""Shear and flow of a generalised Newtonian oil across a film.
+
+The oil between two walls is in equilibrium, so that the shear stress is linear across it whatever its law:
+tau = tau_m + z dp/dx, |z| < h/2. With the Newtonian stress X(tau) that belongs to it (du/dz = X/mu), the sliding speed
+fixes the stress in the middle and the flow follows,
+
+    integral X dz = mu (u2 - u1),    q = h (u1 + u2)/2 - 1/mu integral z X dz,
+
+so that pressure drives S h^3/(12 mu) dp/dx with S >= 1: Conry, Wang and Cusano, J. Tribol. 109 (1987) 648, for Eyring's
+law in closed form; Dowson (1962), Peiran and Shizhu, J. Tribol. 112 (1990) 1, for any.
+
+No stress in the film is beyond the limit tau_L. Where sliding asks for more the oil slips at the limit, at the wall
+where the stress is largest (Jacobson and Hamrock, J. Tribol. 106 (1984) 275): tau_m = tau_L - h/2 |dp/dx|. There the
+film goes with the other wall, and without a pressure gradient the flow would be any between the two walls'. An oil is
+nowhere equally strong all the way across: slip is shared between both walls until their stresses differ by much more
+than `SPREAD` tau_L. Verified in tests/lubrication/test_shear_profile.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bem.grid import FloatArray
+from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.shear import ShearLaw
+
+SPREAD = 0.2
+"""Half difference of the stresses at the walls over the limit, from which slip is mostly at one of them: limiting
+stresses measured on one oil scatter by as much. Films depend on it where all of the contact slips and the slide-to-roll
+ratio is near 2: half of it then thins them by a fifth, twice of it makes them a tenth thicker; at ratios below 1 by 3 %
+at most."""
+STIFFNESS = 100.0
+"""Where pressure alone would shear the oil beyond the limit: flow beyond it, over that of an oil without a limit."""
+LEAST_FLUIDITY = 1e-120
+_STEP = 1e5
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Across a film, all (n,).
+
+    middle : |tau_m| [Pa]. moment : S h/2 dp/dx [Pa], with derivatives. slip : of the Newtonian stress, the share that
+    is slip [Pa].
+    """
+
+    middle: FloatArray
+    moment: FloatArray
+    by_newtonian: FloatArray
+    by_half: FloatArray
+    by_limit: FloatArray
+    slip: FloatArray
+
+
+def shear_profile(law: ShearLaw, newtonian: FloatArray, half: FloatArray, limit: FloatArray | float) -> Profile:
+    """The profile at Newtonian stresses of the sliding, mu |u1 - u2|/h, at h/2 dp/dx and at limits, (n,) each [Pa]."""
+    size, sign = np.abs(half), np.sign(half)
+    with np.errstate(over="ignore", invalid="ignore"):
+        if not np.isfinite(limit).all():
+            middle = law.middle_stress(newtonian, size)
+            found = _held(law, middle, size)
+            return Profile(middle, sign * found[0], sign * found[1], found[2], 0 * size, 0 * size)
+        limit = np.broadcast_to(limit, size.shape)
+        within, top = np.minimum(size, limit), np.maximum(limit - size, 0.0)
+        at_limit = law.moments(top, within)
+        slips = (newtonian > at_limit.mean) | (size > limit)
+        middle = np.where(slips, top, law.middle_stress(np.minimum(newtonian, at_limit.mean), within))
+        held = _held(law, middle, within)
+        slip = np.where(slips, newtonian - at_limit.mean, 0.0)
+        loose = _slipping(law, slip, size, limit)
+        moment, by_newtonian, by_half, by_limit = (np.where(slips, b, a) for a, b in zip(held, loose, strict=True))
+    return Profile(middle, sign * moment, sign * by_newtonian, by_half, sign * by_limit, slip)
+
+
+def _held(law: ShearLaw, middle: FloatArray, half: FloatArray) -> tuple[FloatArray, ...]:
+    """Moment and derivatives with Newtonian stress, half stress and limit where nothing slips."""
+    m = law.moments(middle, half)
+    ratio = m.mean_by_half / m.mean_by_middle
+    return m.first, 3 * ratio, m.first_by_half - 3 * ratio * m.mean_by_half, np.zeros_like(half)
+
+
+def _slipping(law: ShearLaw, slip: FloatArray, half: FloatArray, limit: FloatArray) -> tuple[FloatArray, ...]:
+    """The same where the oil slips at the limit."""
+    over = half > limit
+    m = law.moments(np.maximum(limit - half, 0.0), np.minimum(half, limit))
+    share = half / (SPREAD * limit)
+    side, steep = share / np.hypot(1.0, share), np.hypot(1.0, share) ** -3
+    stiff = STIFFNESS * m.first_by_half
+    moment = m.first + 3 * slip * side + np.where(over, stiff * (half - limit), 0.0)
+    turned = 3 * slip * steep / (SPREAD * limit)
+    released = 3 * side * (m.mean_by_middle - m.mean_by_half)
+    by_half = turned + np.where(over, stiff, m.first_by_half - 3 * m.mean_by_half + released)
+    by_limit = np.where(over, m.first_by_half - stiff, 3 * m.mean_by_half - 3 * side * m.mean_by_middle)
+    return moment, 3 * side, by_half, by_limit - turned * half / limit
+
+
+@dataclass(frozen=True)
+class Driven:
+    """The pressure gradient that would drive as much of a Newtonian oil, on cells (n,), with its derivatives: with the
+    true gradient, the film, the mean fluidity and the pressure."""
+
+    gradient: FloatArray
+    by_gradient: FloatArray
+    by_film: FloatArray
+    by_fluidity: FloatArray
+    by_pressure: FloatArray
+
+
+def newtonian(gradient: FloatArray) -> Driven:
+    """Of a Newtonian oil."""
+    none = np.zeros_like(gradient)
+    return Driven(gradient, np.ones_like(gradient), none, none, none)
+
+
+@dataclass(frozen=True)
+class ShearFlow:
+    """A shear law in similarity units.
+
+    sliding : mu0 |u1 - u2| over the unit of films [Pa]. half_stress : h/2 dp/dx [Pa] of a film and a gradient of one
+    unit. limit : limiting shear stress [Pa] and its slope at pressures in their unit.
+    """
+
+    law: ShearLaw
+    sliding: float
+    half_stress: float
+    limit: Callable[[FloatArray], tuple[FloatArray | float, FloatArray | float]]
+
+    def of_share(self, share: float) -> ShearFlow:
+        """With thinning as at a share of all stresses; the smaller, the more Newtonian."""
+        return replace(self, sliding=share * self.sliding, half_stress=share * self.half_stress)
+
+    def driven(self, gradient: FloatArray, film: FloatArray, fluidity: FloatArray, pressure: FloatArray) -> Driven:
+        """What pressure drives through cells of these gradients, films, mean fluidities and pressures."""
+        fluidity = np.maximum(fluidity, LEAST_FLUIDITY)  # beyond it products would leave floating point
+        unit = self.half_stress * film
+        newtonian = self.sliding / (fluidity * film)
+        limit, slope = self.limit(pressure)
+        found = shear_profile(self.law, newtonian, unit * gradient, limit)
+        value = found.moment / unit
+        by_sliding = found.by_newtonian * newtonian / unit
+        return Driven(
+            gradient=value,
+            by_gradient=found.by_half,
+            by_film=(found.by_half * gradient - by_sliding - value) / film,
+            by_fluidity=-by_sliding / fluidity,
+            by_pressure=found.by_limit * slope / unit,
+        )
+
+
+def shear_flow(lubricant: Lubricant, sliding: float, film: float, pressure: float, length: float) -> ShearFlow:
+    """Of an oil between walls that slide at |u1 - u2| [m/s], in units of film [m], pressure [Pa] and length [m]."""
+    law = lubricant.shear_law
+
+    def limit(scaled: FloatArray) -> tuple[FloatArray | float, FloatArray | float]:
+        value = law.limit(scaled * pressure)
+        if not np.isfinite(value).all():
+            return value, 0.0
+        return value, (law.limit(scaled * pressure + _STEP) - value) / _STEP * pressure
+
+    return ShearFlow(law, lubricant.viscosity * abs(sliding) / film, 0.5 * film * pressure / length, limit)
+
+
+def middle_stress(
+    lubricant: Lubricant, newtonian: FloatArray, pressure: FloatArray, film: FloatArray, gradient: FloatArray
+) -> FloatArray:
+    """Shear stress in the middle of films [Pa] at Newtonian stresses mu (u1 - u2)/h and pressures [Pa], films [m] and
+    pressure gradients [Pa/m]: the law's at the sliding alone, or that of the profile where the oil's film follows it.
+    """
+    if not lubricant.shears_film:
+        return lubricant.shear_stress(newtonian, pressure)
+    law = lubricant.shear_law
+    profile = shear_profile(law, np.abs(newtonian), 0.5 * film * gradient, law.limit(pressure))
+    return np.copysign(profile.middle, newtonian)
