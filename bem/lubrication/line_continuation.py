@@ -1,4 +1,4 @@
-"""Ways to a steady line film: from a neighbour's, from Martin's by continuation in the load, and for a strongly thinning
+"""Ways to a steady line film: from a neighbour's, from Martin's by continuation in the load, for a strongly thinning
 oil from that of a Newtonian one; a pressure spike is refined little by little."""
 
 from __future__ import annotations

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import bem.lubrication.line_continuation as line_continuation
 import bem.lubrication.line_newton as line_newton
-import bem.lubrication.steady as steady
 from bem import InputError, Lubricant, Status, solve_line_film
 from bem.benchmarks.line_film import LOADS, PIEZO, film_row, read_table
 from bem.lubrication.line_newton import newton
@@ -294,7 +294,7 @@ def test_steps_on_the_fine_mesh_are_few(monkeypatch, load, piezo):
         spent.clear()
         return steps, coarse
 
-    monkeypatch.setattr(steady, "newton", counted)
+    monkeypatch.setattr(line_continuation, "newton", counted)
     case, _ = similarity_case(load, piezo)
     cold = solve_line_film(**case)
     steps, coarse = fine()
@@ -322,7 +322,7 @@ def test_a_sharp_spike_that_moves_costs_few_steps(monkeypatch, load, piezo):
             spent.append(outcome.iterations)
         return outcome
 
-    monkeypatch.setattr(steady, "newton", counted)
+    monkeypatch.setattr(line_continuation, "newton", counted)
     case, _ = similarity_case(load, piezo)
     first = solve_line_film(**case)
     for change in ({"load": 1.2 * case["load"]}, {"load": 0.8 * case["load"]}, {"speeds": (1.2, 0.0)}):
