@@ -62,6 +62,11 @@ def get_threads() -> int:
     return _POOL.threads
 
 
+def cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1)
+
+
 def share(work: Callable[[int, int], None], blocks: int) -> None:
     """Call `work(worker, block)` once for every block in 0..blocks-1.
 

@@ -11,7 +11,7 @@ import scipy.fft
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bem import threads, transforms
+from bem import pocketfft, threads, transforms
 from bem.errors import InputError
 
 SHAPES = [
@@ -189,3 +189,29 @@ def test_padded_lengths_hold_every_offset_and_prefer_powers_of_two_that_are_litt
         assert transforms.padded_length(cells, True) == cells
     chosen = {cells: transforms.padded_length(cells, False) for cells in (120, 240, 480, 500, 1000)}
     assert chosen == {120: 240, 240: 512, 480: 960, 500: 1024, 1000: 2048}
+
+
+@pytest.mark.parametrize("compiled", [True, False])
+def test_scipys_transforms_without_scipy_fft_have_its_bits(monkeypatch, compiled):
+    if not compiled:
+        monkeypatch.setattr(pocketfft, "_compiled", lambda: None)
+    values = np.random.default_rng(3).normal(size=(5, 34))
+    part = values[:, 1:-1]
+    assert (pocketfft.cosines(values) == scipy.fft.dct(values, type=1)).all()
+    assert (pocketfft.sines(part) == scipy.fft.dst(part, type=1)).all()
+    for length in (1, 7, 97, 241, 1023):
+        assert pocketfft.fast_length(length) == scipy.fft.next_fast_len(length, real=True)
+
+
+def test_scipy_finds_the_compiled_transforms_that_were_loaded_before():
+    code = """
+import sys, numpy
+from bem import pocketfft
+pocketfft.cosines(numpy.ones((1, 3)))
+assert "scipy.fft._basic" not in sys.modules
+ours = pocketfft._compiled()
+import scipy.fft, scipy.fft._pocketfft.pypocketfft as theirs
+assert ours is theirs
+assert numpy.allclose(scipy.fft.ifft(scipy.fft.fft([1.0, 2.0, 4.0])), [1.0, 2.0, 4.0])
+"""
+    subprocess.run([sys.executable, "-c", code], timeout=60, check=True)

@@ -4,18 +4,24 @@ A bar is an estimate, no bound that is proved: the difference to a coarser solut
 of convergence makes of it where the coarser grid resolves the surface, the difference itself where it does not, times a
 safety factor; and what the solver's residual may add. Factors are set so that bars cover nine errors in ten of random
 contacts (`reports/experiments/contact_error_bars.py`). A figure that does not converge has no bar, and a note says why.
+Names are loaded when first used: the bars of a contact cost no film.
 """
 
 from __future__ import annotations
 
-from bem.accuracy.asperities import asperity_bars
-from bem.accuracy.bars import ErrorBars
-from bem.accuracy.contact import Coarser, ContactCase, contact_bars, figures_of, solve_coarser, surface_is_resolved
-from bem.accuracy.film import FilmCase, OtherFilm, film_bars, film_figures, solve_coarser_film
-from bem.accuracy.march import MarchCase, march_bars, march_figures
-from bem.accuracy.mixed import CoarserShares, MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
-from bem.accuracy.rubbing import RubbingCase, rubbing_bars
-from bem.accuracy.stress import stress_bars
+from typing import TYPE_CHECKING
+
+from bem.lazy import loader
+
+if TYPE_CHECKING:
+    from bem.accuracy.asperities import asperity_bars
+    from bem.accuracy.bars import ErrorBars
+    from bem.accuracy.contact import Coarser, ContactCase, contact_bars, figures_of, solve_coarser, surface_is_resolved
+    from bem.accuracy.film import FilmCase, OtherFilm, film_bars, film_figures, solve_coarser_film
+    from bem.accuracy.march import MarchCase, march_bars, march_figures
+    from bem.accuracy.mixed import CoarserShares, MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
+    from bem.accuracy.rubbing import RubbingCase, rubbing_bars
+    from bem.accuracy.stress import stress_bars
 
 __all__ = [
     "Coarser",
@@ -43,3 +49,17 @@ __all__ = [
     "stress_bars",
     "surface_is_resolved",
 ]
+
+__getattr__ = loader(
+    __name__,
+    {
+        "asperities": ["asperity_bars"],
+        "bars": ["ErrorBars"],
+        "contact": ["Coarser", "ContactCase", "contact_bars", "figures_of", "solve_coarser", "surface_is_resolved"],
+        "film": ["FilmCase", "OtherFilm", "film_bars", "film_figures", "solve_coarser_film"],
+        "march": ["MarchCase", "march_bars", "march_figures"],
+        "mixed": ["CoarserShares", "MixedCase", "mixed_bars", "mixed_figures", "solve_coarser_mixed"],
+        "rubbing": ["RubbingCase", "rubbing_bars"],
+        "stress": ["stress_bars"],
+    },
+)

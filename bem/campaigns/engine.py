@@ -18,7 +18,9 @@ from bem.campaigns.cases import Campaign, Case
 from bem.campaigns.collect import Given, collect, words_of_bars
 from bem.campaigns.context import CaseContext, Silent, Watcher
 from bem.campaigns.jobs import Staff, hand_out, words_of
+from bem.compiled import load_registries
 from bem.errors import BemError, ConvergenceError, InputError, ResultsError, Status
+from bem.lazy import collecting
 from bem.results.checkpoint import load_checkpoint, save_checkpoint
 from bem.results.directory import CASES, CHECKPOINT
 from bem.scenes.context import Outcome
@@ -66,9 +68,11 @@ class CaseJob:
     def compute(self, watcher: Watcher) -> Result:
         """Run the case, going on from its checkpoint; errors that a scene can cause come back as words."""
         state = None if self.file is None else load_checkpoint(self.file)
+        load_registries()
         context = CaseContext(self.case, self.file, state, watcher, self.epoch)
         try:
-            record = get_kind(self.case.scene.kind).run(self.case.scene, context)
+            with collecting():
+                record = get_kind(self.case.scene.kind).run(self.case.scene, context)
         except ResultsError:
             raise  # no case can be kept on a disk that is full
         except (BemError, MemoryError) as error:

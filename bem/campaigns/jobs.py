@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import importlib
 import math
-import os
 from collections.abc import Callable, Generator, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
@@ -22,7 +21,7 @@ from bem.errors import BemError
 from bem.laws import modules_of_laws
 from bem.scenes.planner import Plan, available_memory, machine_rate
 from bem.surfaces.formats import modules_of_formats
-from bem.threads import get_threads, set_threads
+from bem.threads import cores, get_threads, set_threads
 
 _WORTH_A_PROCESS = 4.0
 """Seconds of work that pay for starting a process, which takes two."""
@@ -159,8 +158,7 @@ def processes(
     """How many processes: as asked, or one per core as far as `seconds` of work are worth it and memory allows."""
     if workers is not None:
         return min(workers, len(jobs))
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1)
-    wanted = max(1, min(cores // threads, len(jobs), int(seconds / _WORTH_A_PROCESS)))
+    wanted = max(1, min(cores() // threads, len(jobs), int(seconds / _WORTH_A_PROCESS)))
     memory = max((job.plan.memory for job in jobs if job.plan is not None), default=1.0)
     fitting = max(1, int(available_memory() // memory))
     if fitting < wanted:

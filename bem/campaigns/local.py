@@ -6,6 +6,7 @@ main part, and nothing of it is run again. They end with this process, however t
 
 from __future__ import annotations
 
+import gc
 import os
 import pickle
 import signal
@@ -135,8 +136,9 @@ class _Reporting:
 
 def serve(descriptor: int) -> None:
     """A worker's life: jobs in, results out, until the pipe closes."""
+    gc.disable()  # see `bem.lazy.collecting`
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal interrupts all; the parent decides
-    _end_with_parent()
+    end_with_parent()
     connection = Connection(descriptor)
     load_extensions()  # a job may hold what they define
     with suppress(EOFError, OSError):  # whoever started this is gone, and has no use for the rest
@@ -153,7 +155,7 @@ def serve(descriptor: int) -> None:
             connection.send(message)
 
 
-def _end_with_parent() -> None:
+def end_with_parent() -> None:
     """Ask Linux to end this process when the one that started it ends."""
     import ctypes
 

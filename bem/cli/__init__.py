@@ -9,6 +9,7 @@ tests/test_cli_commands.py, tests/reliability (bad input, killed runs) and tests
 from __future__ import annotations
 
 import atexit
+import gc
 import io
 import os
 import signal
@@ -84,6 +85,7 @@ def main() -> None:
 
     Nothing that takes time is imported before the `try`: an interrupt is one from the first moment.
     """
+    gc.disable()  # see `bem.lazy.collecting`
     try:
         atexit.register(_done)
         signal.signal(signal.SIGTERM, _interrupt)
@@ -127,6 +129,7 @@ def _done() -> None:
     gives such signals back to the system there, unless they are ignored."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM):
         signal.signal(number, signal.SIG_IGN)
+    gc.freeze()  # all of it goes in a moment: not searched for garbage first
 
 
 def _interrupt(*_: object) -> None:

@@ -16,7 +16,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from bem.grid import FloatArray, Grid
 from bem.representation import readable
@@ -121,6 +120,8 @@ def shift_for_load(
     separation: FloatArray, summits: Summits, load: float, *, contact_modulus: float, hardness: float | None
 ) -> float:
     """Shift [m] of the mean planes, `separation` apart at each summit [m], at which the summits carry `load` [N]."""
+
+    from scipy.optimize import brentq
 
     def excess(shift: float) -> float:
         depth = summits.height - separation + shift

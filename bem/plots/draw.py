@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from bem.errors import InputError, ResultsError
+from bem.lazy import collecting
 from bem.plots.cases import axes_of, first_case, first_figures
 from bem.plots.figures import FigureKind, all_figures
+from bem.plots.side_by_side import side_by_side
 from bem.results.arrays import Arrays
 from bem.results.atomic import replacing
 from bem.results.read import FinishedRun
@@ -57,26 +60,46 @@ def draw_all(
     folder: Path,
     formats: Sequence[str] = ("png",),
     on_failure: Callable[[str, Exception], None] | None = None,
+    processes: int | None = 1,
 ) -> list[Drawn]:
     """Draw those of the named figures that fit the run, in that order.
+
+    Side by side in so many processes, as many as cores where None, with the same bytes (see `side_by_side`).
 
     With `on_failure` a figure that cannot be drawn is reported to it by name and left out: hours of results must not be
     lost to a picture. Files that cannot be written are a ResultsError all the same.
     """
     known = all_figures()
     run = _seen(run)
+    wanted = [*names, *(extra for extra in _OF_ANY_KIND if extra not in names)]
+
+    def one(i: int) -> tuple[Path, ...] | None:
+        kind = known[wanted[i]]
+        return draw(run, kind, folder, formats).paths if kind.fits(_for(run, kind)) else None
+
+    if processes != 1:
+        load_what_draws()
+    found = {} if processes == 1 else side_by_side(one, len(wanted), processes)
     drawn = []
-    for name in (*names, *(extra for extra in _OF_ANY_KIND if extra not in names)):
+    for i, name in enumerate(wanted):
         try:
-            if known[name].fits(_for(run, known[name])):
-                drawn.append(draw(run, known[name], folder, formats))
+            paths = found[i] if i in found else one(i)
         except ResultsError:
             raise
         except Exception as error:
             if on_failure is None:
                 raise
             on_failure(name, error)
+        else:
+            if paths is not None:
+                drawn.append(Drawn(known[name], paths))
     return drawn
+
+
+def load_what_draws() -> None:
+    """Load what every figure needs, before copies of this process are made."""
+    for name in ("matplotlib.backends.backend_agg", "matplotlib.figure", "bem.plots.style"):
+        importlib.import_module(name)
 
 
 def draw(
@@ -93,12 +116,14 @@ def draw(
     from bem.plots.style import style
 
     run, paths = _for(_seen(run), kind), []
-    with style():
+    with style(), collecting():
         # at the dots of the file from the start: sizes of texts that the layout asks for serve the picture too
         figure = Figure(figsize=size or kind.size, dpi=_DOTS, layout="constrained")
         canvas = FigureCanvasAgg(figure)
         kind.draw(run, figure)
-        figure.draw_without_rendering()
+        engine = figure.get_layout_engine()
+        assert engine is not None
+        engine.execute(figure)
         figure.set_layout_engine("none")  # the layout is found once for all formats
         for ending in formats:
             path = folder / f"{kind.name}.{ending}"

@@ -11,8 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
-from scipy.special import elliprd, elliprf
 
 from bem.arguments import check_positive
 from bem.errors import InputError
@@ -66,6 +64,8 @@ class PointContact:
         with np.errstate(divide="ignore", invalid="ignore"):
             outer = np.where(half >= 0, half + root, -constant / np.where(root - half > 0, root - half, 1.0))
         lam = np.where(constant < 0, outer, 0.0)
+        from scipy.special import elliprd, elliprf
+
         sum_f = 2 * elliprf(lam, a2 + lam, b2 + lam)
         sum_a = (2 / 3) * elliprd(lam, b2 + lam, a2 + lam)
         sum_b = (2 / 3) * elliprd(lam, a2 + lam, b2 + lam)
@@ -117,8 +117,7 @@ def ellipse_contact(
         raise InputError(f"Hertz: ratio of radii {ratio:.3g} is above 1e12; use cylinder_contact")
     axes_ratio = 1.0 if ratio == 1 else _axes_ratio(ratio)
     k2 = axes_ratio**2
-    integral_k = float(elliprf(0.0, k2, 1.0))
-    integral_d = float(elliprd(0.0, k2, 1.0)) / 3
+    integral_k, integral_d = _integrals(k2)
     if load is not None:
         check_positive("Hertz: ", load=load)
         major = (3 * load * integral_d * larger / (math.pi * contact_modulus)) ** (1 / 3)
@@ -139,7 +138,19 @@ def ellipse_contact(
     )
 
 
+def _integrals(k2: float) -> tuple[float, float]:
+    """Carlson's R_F(0, k^2, 1) and R_D(0, k^2, 1) / 3; of a circle without loading special functions."""
+    if k2 == 1:
+        return math.pi / 2, math.pi / 4
+    from scipy.special import elliprd, elliprf
+
+    return float(elliprf(0.0, k2, 1.0)), float(elliprd(0.0, k2, 1.0)) / 3
+
+
 def _axes_ratio(ratio: float) -> float:
+    from scipy.optimize import brentq
+    from scipy.special import elliprd
+
     def mismatch(log_k: float) -> float:
         k2 = math.exp(2 * log_k)
         # B / (k^2 D) with B = k^2 R_D(0, 1, k^2) / 3 and D = R_D(0, k^2, 1) / 3

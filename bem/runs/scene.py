@@ -135,11 +135,16 @@ def run_planned(
     for text in outcome_warnings(facts, computed.outcome):
         computed.notes.append(text)
         watcher.note(text)
-    return _write(directory, scene, computed, formats, watcher)
+    return _write(directory, scene, computed, formats, watcher, staff.workers)
 
 
 def _write(
-    directory: RunDirectory, scene: SceneModel, computed: Computed, formats: tuple[str, ...], watcher: Watcher
+    directory: RunDirectory,
+    scene: SceneModel,
+    computed: Computed,
+    formats: tuple[str, ...],
+    watcher: Watcher,
+    processes: int | None,
 ) -> dict[str, Any]:
     """Arrays, volumes, figures with the report (neither without a format of figures); the summary last."""
     from bem.results.arrays import to_arrays
@@ -182,7 +187,7 @@ def _write(
             watcher.note(text)
 
         with _timed(seconds, "figures and report"):
-            drawn = draw_all(run, kind.figures, directory.figures, drawn_as, on_failure=failed)
+            drawn = draw_all(run, kind.figures, directory.figures, drawn_as, failed, processes)
             summary["wall_time_s"] = time.time() - computed.epoch
             write_report(run, drawn, headline)
     summary["wall_time_s"] = time.time() - computed.epoch

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import scipy.fft
 from numba import njit
 from numpy.typing import ArrayLike
 
@@ -77,6 +76,8 @@ def _kernel_values(grid: Grid, body: Body, depth: float, friction: float) -> Flo
     kernels = np.zeros((2, 6, *grid.shape))
     for load, factor in loads(friction):
         if all(grid.periodic):
+            import scipy.fft
+
             response = stress_response(grid, body, depth, load)
             for component, (px, py) in enumerate(STRESS_PARITY[load]):
                 spectrum = response[component] * (1.0 if px * py > 0 else 1j)

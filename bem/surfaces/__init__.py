@@ -2,33 +2,39 @@
 
 `generate` makes heights of a `spectrum` (`request` checks what is asked, `moments` imposes skewness and kurtosis),
 `read` opens an instrument's file by its `formats`, `filter` levels, fills, cuts and resamples, `describe` measures.
+Names are loaded when first used: planning a contact of smooth bodies costs no transforms and no splines.
 
 Sees grids and no contact. Verified in tests/surfaces: what is asked for is what `describe` finds, the same seed gives
 the same bits, files of every format and damaged ones.
 """
 
-from bem.surfaces.describe import (
-    RadialSpectrum,
-    SurfaceDescription,
-    autocorrelation,
-    describe_surface,
-    radial_spectrum,
-)
-from bem.surfaces.filter import (
-    MirrorWarning,
-    crop,
-    detrend,
-    fill_missing,
-    high_pass,
-    low_pass,
-    mirror_to_periodic,
-    resample,
-    scale_to_rms,
-)
-from bem.surfaces.formats import SurfaceFormat
-from bem.surfaces.generate import generate_surface
-from bem.surfaces.read import read_surface, write_surface
-from bem.surfaces.surface import Surface
+from typing import TYPE_CHECKING
+
+from bem.lazy import loader
+
+if TYPE_CHECKING:
+    from bem.surfaces.describe import (
+        RadialSpectrum,
+        SurfaceDescription,
+        autocorrelation,
+        describe_surface,
+        radial_spectrum,
+    )
+    from bem.surfaces.filter import (
+        MirrorWarning,
+        crop,
+        detrend,
+        fill_missing,
+        high_pass,
+        low_pass,
+        mirror_to_periodic,
+        resample,
+        scale_to_rms,
+    )
+    from bem.surfaces.formats import SurfaceFormat
+    from bem.surfaces.generate import generate_surface
+    from bem.surfaces.read import read_surface, write_surface
+    from bem.surfaces.surface import Surface
 
 __all__ = [
     "MirrorWarning",
@@ -51,3 +57,25 @@ __all__ = [
     "scale_to_rms",
     "write_surface",
 ]
+
+__getattr__ = loader(
+    __name__,
+    {
+        "describe": ["RadialSpectrum", "SurfaceDescription", "autocorrelation", "describe_surface", "radial_spectrum"],
+        "filter": [
+            "MirrorWarning",
+            "crop",
+            "detrend",
+            "fill_missing",
+            "high_pass",
+            "low_pass",
+            "mirror_to_periodic",
+            "resample",
+            "scale_to_rms",
+        ],
+        "formats": ["SurfaceFormat"],
+        "generate": ["generate_surface"],
+        "read": ["read_surface", "write_surface"],
+        "surface": ["Surface"],
+    },
+)

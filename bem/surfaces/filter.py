@@ -8,9 +8,6 @@ from collections.abc import Callable
 
 import numpy as np
 import scipy.fft as fft
-from scipy.interpolate import RectBivariateSpline
-from scipy.sparse import coo_matrix
-from scipy.sparse.linalg import spsolve
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
@@ -76,6 +73,9 @@ def fill_missing(heights: FloatArray, spacing: tuple[float, float]) -> FloatArra
     ------
     InputError : more than half of the points are missing.
     """
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.linalg import spsolve
+
     heights, spacing = check_map(heights, spacing, missing=True)
     holes = np.isnan(heights)
     missing = int(holes.sum())
@@ -164,6 +164,8 @@ def resample(
         return _resample_fourier(surface, grid, centre)
     if method != "spline":
         raise InputError(f"resample: method {method!r} is not one of spline, fourier")
+    from scipy.interpolate import RectBivariateSpline  # a third of a second, for measured surfaces only
+
     messages = []
     targets = []
     for axis, name in enumerate("xy"):

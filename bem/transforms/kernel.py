@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
-import scipy.fft
 from numpy.typing import NDArray
 
+from bem.pocketfft import cosines, fast_length, sines
 from bem.transforms.count import COUNT
 
 FloatArray = NDArray[Any]
@@ -22,7 +22,7 @@ def padded_length(cells: int, periodic: bool) -> int:
     """
     if periodic or cells == 1:
         return cells
-    fast = 2 * int(scipy.fft.next_fast_len(cells, real=True))
+    fast = 2 * fast_length(cells)
     power = 1 << (fast - 1).bit_length()
     return power if power >= 512 and power <= (1.1 if power == 512 else 1.03) * fast else fast
 
@@ -57,13 +57,15 @@ def _half_spectrum(values: FloatArray, length: int, parity: int) -> FloatArray:
         return half if parity == 1 else np.zeros_like(half)
     if length % 2 == 0:
         if parity == 1:
-            return cast(FloatArray, scipy.fft.dct(half, type=1, axis=-1))
+            return cosines(half)
         result = np.zeros_like(half)
         if kept > 2:
-            result[:, 1:-1] = -scipy.fft.dst(half[:, 1:-1], type=1, axis=-1)
+            result[:, 1:-1] = -sines(half[:, 1:-1])
         return result
     full = np.concatenate([half, parity * half[:, :0:-1]], axis=1)
     if parity == -1:
         full[:, 0] = 0
+    import scipy.fft  # only of odd lengths, which periodic grids may have
+
     spectrum = scipy.fft.rfft(full, axis=-1)
     return np.ascontiguousarray(spectrum.real if parity == 1 else spectrum.imag)

@@ -1,5 +1,6 @@
 """Nothing heavy is loaded before it is needed: by the names in sys.modules, not by the clock."""
 
+import ast
 import json
 import subprocess
 import sys
@@ -67,7 +68,21 @@ def test_a_run_loads_no_scheduler_and_no_units_registry(tmp_path, monkeypatch):
     modules = loaded(COMMAND, "run", *SMALL)
     assert "pyfftw" in modules
     assert "matplotlib" in modules
-    assert not modules & {"dask", "distributed", "pint", "SurfaceTopography", "xarray", "pandas"}
+    assert not modules & {"dask", "distributed", "pint", "SurfaceTopography", "xarray", "pandas", "meshio", "rich"}
+
+
+def test_a_run_of_smooth_bodies_loads_hardly_anything_of_scipy(tmp_path, monkeypatch):
+    """Its transforms, splines, special functions and linear algebra took a third of a second of every start."""
+    monkeypatch.chdir(tmp_path)
+    names = "\nimport sys; print(sorted(n for n in sys.modules if n.startswith(('scipy.', 'numpy.f2py'))))"
+    done = subprocess.run(
+        [sys.executable, "-c", COMMAND + names, "run", *SMALL], capture_output=True, text=True, timeout=120, check=True
+    )
+    packages = {".".join(name.split(".")[:2]) for name in ast.literal_eval(done.stdout.splitlines()[-1])}
+    # scipy loads these with itself; of `fft` the compiled transforms alone
+    packages = {name for name in packages if not name.startswith("scipy._")}
+    assert packages <= {"scipy.version", "scipy.fft"}
+    assert "scipy.fft._basic" not in done.stdout
 
 
 @pytest.mark.parametrize("first", ["pint", "pandas"])

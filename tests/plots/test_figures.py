@@ -1,12 +1,15 @@
 """Figures: drawn from data alone, labelled with units, of the asked size, and never solving."""
 
+import os
 import re
+import sys
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from bem.errors import InputError
+from bem.plots import side_by_side
 from bem.plots.draw import draw, draw_all, figure_kind
 from bem.plots.figures import all_figures
 from bem.plots.report import spelled, write_report
@@ -102,6 +105,20 @@ def test_files_have_the_asked_format_and_size(tmp_path):
         assert image.size == (800, 600)  # 200 dots an inch
     assert (tmp_path / "convergence.pdf").read_bytes().startswith(b"%PDF")
     assert b"<svg" in (tmp_path / "convergence.svg").read_bytes()[:2000]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="copies are made on Linux only")
+def test_pictures_have_the_same_bytes_however_many_draw(tmp_path, monkeypatch):
+    monkeypatch.setattr(side_by_side, "_alone", lambda: True)  # test runners have threads
+    run, alone, together = contact_run(tmp_path), tmp_path / "alone", tmp_path / "together"
+    alone.mkdir()
+    together.mkdir()
+    expected = draw_all(run, NAMES, alone)
+    drawn = draw_all(run, NAMES, together, processes=3)
+    assert [item.kind.name for item in drawn] == [item.kind.name for item in expected]
+    assert sorted(os.listdir(together)) == sorted(os.listdir(alone))
+    for name in os.listdir(alone):
+        assert (alone / name).read_bytes() == (together / name).read_bytes(), name
 
 
 def test_only_what_fits_is_drawn(tmp_path):
@@ -233,14 +250,14 @@ def test_a_figure_that_fails_does_not_cost_the_others(tmp_path, monkeypatch):
 
 
 def test_a_picture_is_drawn_once_after_its_layout(tmp_path, monkeypatch):
-    """One pass finds the layout, one draws: matplotlib's `savefig` would make it three."""
+    """The layout is found without drawing: matplotlib's `savefig` would make it three passes."""
     from matplotlib.figure import Figure
 
     passes = []
     old = Figure.draw
     monkeypatch.setattr(Figure, "draw", lambda self, renderer: passes.append(1) or old(self, renderer))
     (path,) = draw(contact_run(tmp_path), all_figures()["pressure-map"], tmp_path).paths
-    assert len(passes) == 2
+    assert len(passes) == 1
     from PIL import Image
 
     width, height = all_figures()["pressure-map"].size

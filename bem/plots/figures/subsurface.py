@@ -7,14 +7,17 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.markers import TICKRIGHT
 from numpy.typing import NDArray
 
 from bem.plots.figures import FigureKind
+from bem.plots.smooth import monotone_cubics
 from bem.plots.style import SKY, label, prefix
 from bem.scenes.context import release
 
-_DRAWN_DEPTHS = 240
+_DRAWN_DEPTHS = 480
 
 
 def _von_mises_section(run: Any, figure: Figure) -> None:
@@ -37,14 +40,14 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
     factor_z, unit_z = prefix(depth, "m")
     factor, unit = prefix([highest], "Pa")
     axes = figure.add_subplot()
-    shown = axes.pcolormesh(
-        across_x * factor_x,
-        depth * factor_z,
+    shown = axes.imshow(
         section * factor,
-        shading="gouraud",
+        extent=_extent(across_x * factor_x, depth * factor_z),
+        aspect="auto",
+        origin="upper",
+        interpolation="bilinear",
         vmin=0,
         cmap="inferno",
-        rasterized=True,
     )
     bar = figure.colorbar(shown, ax=axes, pad=0.02)
     bar.set_label(label("von Mises stress", unit))
@@ -69,11 +72,11 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
         label=f"maximum, {highest * factor:.3g} {unit}",
     )
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
+    _mark_depths(axes, computed * factor_z)
+    axes.set_xlim(across_x[0] * factor_x, across_x[-1] * factor_x)
     axes.set_ylim(depth[-1] * factor_z, depth[0] * factor_z)
     axes.set_xlabel(label("x, sliding" if across == "y" else "y", unit_x))
     axes.set_ylabel(label("depth", unit_z))
-    axes.set_yticks(computed * factor_z, minor=True)
-    axes.tick_params(axis="y", which="minor", length=2.0, direction="in", color="0.6")
     position = run.dataset[across].values[iy]
     factor_y, unit_y = prefix([position], "m")
     axes.set_title(f"{across} = {position * factor_y:.3g} {unit_y}", loc="right")
@@ -109,14 +112,32 @@ def _depth_profile(run: Any, figure: Figure) -> None:
 def _drawn_over_depth(
     depth: NDArray[np.float64], section: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Depths and stresses for drawing: by monotone cubics between the computed depths, which overshoot nowhere.
+    """Even depths and stresses for drawing: by monotone cubics between the computed depths, which overshoot nowhere.
 
     Colours that are linear between depths far apart show bands that are not in the stress.
     """
-    from scipy.interpolate import PchipInterpolator
+    even = np.linspace(depth[0], depth[-1], _DRAWN_DEPTHS)
+    return even, monotone_cubics(depth, section, even)
 
-    finer = np.unique(np.concatenate([depth, np.linspace(depth[0], depth[-1], _DRAWN_DEPTHS)]))
-    return finer, np.asarray(PchipInterpolator(depth, section, axis=0)(finer))
+
+def _mark_depths(axes: Axes, depths: NDArray[np.float64]) -> None:
+    """Where stresses were computed: one artist instead of a tick each, which took a tenth of all figures' time."""
+    axes.plot(
+        np.zeros(len(depths)),
+        depths,
+        marker=TICKRIGHT,
+        markersize=2.0,
+        markeredgewidth=0.6,
+        color="0.6",
+        linestyle="none",
+        transform=axes.get_yaxis_transform(),
+    )
+
+
+def _extent(x: NDArray[np.float64], depth: NDArray[np.float64]) -> tuple[float, float, float, float]:
+    """Of an image whose pixels have their centres at even places, depth downwards."""
+    half_x, half_z = 0.5 * (x[1] - x[0]), 0.5 * (depth[1] - depth[0])
+    return float(x[0] - half_x), float(x[-1] + half_x), float(depth[-1] + half_z), float(depth[0] - half_z)
 
 
 def _by_depth(stress: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -1,0 +1,85 @@
+"""Pieces of work done by copies of this process on idle cores (`fork`): all that is loaded, and all arrays, are there.
+
+Only where a copy is safe and costs next to nothing: on Linux, and with this process's one thread. Elsewhere, and for
+whatever a copy could not do, the caller does the work itself, so nothing but the clock knows the difference.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
+
+from bem.campaigns.local import end_with_parent
+from bem.threads import cores
+
+_MOST = 4
+"""Copies and this process together: each holds a picture in memory."""
+
+
+def side_by_side(work: Callable[[int], Any], count: int, processes: int | None = None) -> dict[int, Any]:
+    """What `work(i)` gives for i in 0..count-1, as far as it could be had in `processes` (as many as cores where None).
+
+    Results must be picklable. Whoever is free takes the next number. Missing are the numbers whose work raised, or all
+    where nothing can be gained: the caller does these.
+    """
+    number = min(processes or cores(), count, _MOST)
+    if number < 2 or not _alone():
+        return {}
+    tasks, fill = os.pipe()
+    os.write(fill, bytes(range(min(count, 256))))
+    os.close(fill)
+    copies: list[tuple[int, int]] = []
+    found: dict[int, Any] = {}
+    try:
+        for _ in range(number - 1):
+            copies.append(_copy(work, tasks))
+        found = _do(work, tasks)
+        for _, answers in copies:
+            with suppress(EOFError, pickle.UnpicklingError), os.fdopen(os.dup(answers), "rb") as stream:
+                found |= pickle.load(stream)
+    finally:
+        os.close(tasks)
+        for process, answers in copies:
+            os.close(answers)
+            with suppress(ProcessLookupError):
+                os.kill(process, signal.SIGKILL)  # it has answered, or nobody waits for it any more
+            os.waitpid(process, 0)
+    return found
+
+
+def _alone() -> bool:
+    """Whether this process has one thread: a copy of several may wait for ever for what another one had locked."""
+    try:
+        return sys.platform == "linux" and len(os.listdir("/proc/self/task")) == 1
+    except OSError:
+        return False
+
+
+def _copy(work: Callable[[int], Any], tasks: int) -> tuple[int, int]:
+    """Start a copy of this process that does tasks; its number, and the pipe that its answers come through."""
+    answers, theirs = os.pipe()
+    process = os.fork()
+    if process:
+        os.close(theirs)
+        return process, answers
+    try:  # from here on in the copy, which never returns
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal interrupts all; this one's parent decides
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        end_with_parent()
+        with os.fdopen(theirs, "wb") as stream:
+            pickle.dump(_do(work, tasks), stream)
+    finally:
+        os._exit(0)
+
+
+def _do(work: Callable[[int], Any], tasks: int) -> dict[int, Any]:
+    found = {}
+    while task := os.read(tasks, 1):
+        with suppress(Exception):  # the caller does it again and sees what is wrong
+            found[task[0]] = work(task[0])
+    return found

@@ -1,0 +1,93 @@
+"""Copies of this process: each number once, nothing left over, and whatever fails is the caller's."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from scipy.interpolate import PchipInterpolator
+
+from bem.plots import side_by_side as module
+from bem.plots.side_by_side import side_by_side
+from bem.plots.smooth import monotone_cubics
+
+ALONE = pytest.mark.skipif(sys.platform != "linux", reason="copies are made on Linux only")
+
+
+@pytest.fixture
+def copies(monkeypatch):
+    """Processes started; test runners have threads, so that the question for them is answered by hand."""
+    started = []
+    real = os.fork
+
+    def fork():
+        process = real()
+        if process:
+            started.append(process)
+        return process
+
+    monkeypatch.setattr(os, "fork", fork)
+    monkeypatch.setattr(module, "_alone", lambda: True)
+    return started
+
+
+@ALONE
+def test_every_number_is_done_once_and_no_process_is_left(copies):
+    found = side_by_side(lambda i: (i, os.getpid()), 40, 3)
+    assert sorted(found) == list(range(40))
+    assert all(i == first for i, (first, _) in found.items())
+    assert len(copies) == 2
+    for process in copies:
+        with pytest.raises(ChildProcessError):
+            os.waitpid(process, 0)
+
+
+@ALONE
+def test_what_fails_or_dies_is_left_to_the_caller(copies):
+    here = os.getpid()
+
+    def work(i):
+        if i == 3:
+            raise ValueError("no picture")
+        if os.getpid() != here:
+            os._exit(1)
+        return i
+
+    found = side_by_side(work, 6, 2)
+    assert 3 not in found
+    assert all(i == value for i, value in found.items())
+    assert len(copies) == 1
+
+
+def test_a_process_of_several_threads_is_not_copied(monkeypatch):
+    monkeypatch.setattr(module, "_alone", lambda: False)
+    assert side_by_side(lambda i: i, 5, 4) == {}
+
+
+@ALONE
+def test_a_run_from_the_command_line_can_be_copied(tmp_path):
+    """No thread is left over from computing and writing, so that figures are drawn on all cores."""
+    code = """
+import os, sys
+import bem.plots.side_by_side as module
+module.cores = lambda: 2
+real, started = os.fork, []
+os.fork = lambda: started.append(real()) or started[-1]
+from bem.runs import run_scene
+run_scene("hertz-sphere", sys.argv[1], settings=["grid.shape=32", "outputs.depths=[0.0]"])
+assert len(started) == 1, started
+"""
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    subprocess.run([sys.executable, "-c", code, tmp_path / "run"], timeout=120, check=True, env=environment)
+
+
+@pytest.mark.parametrize("points", [2, 3, 4, 50])
+def test_monotone_cubics_are_those_of_scipy(points):
+    rng = np.random.default_rng(points)
+    x = np.cumsum(rng.random(points) + 0.1)
+    values = np.cumsum(rng.normal(size=(points, 5)), axis=0)
+    values[points // 2, 0] = values[points // 2 - 1, 0]  # a plateau
+    at = np.linspace(x[0], x[-1], 101)
+    # round-off of values of order ten
+    np.testing.assert_allclose(monotone_cubics(x, values, at), PchipInterpolator(x, values)(at), rtol=0, atol=1e-13)
