@@ -44,7 +44,8 @@ def test_stress_between_depths_is_smooth_and_never_beyond_what_was_computed():
     column = 1 / (1 + (depth - 0.8) ** 2)
     finer, drawn = _drawn_over_depth(depth, np.stack([column, 2 * column], axis=1))
     assert drawn.shape == (finer.size, 2)
-    np.testing.assert_allclose(drawn[np.searchsorted(finer, depth), 0], column, rtol=1e-14)  # round-off of the cubics
+    # straight lines between the even depths of the image: half of a step squared times the sharpest curvature
+    np.testing.assert_allclose(np.interp(depth, finer, drawn[:, 0]), column, rtol=5e-4)
     assert drawn.max() <= 2 * column.max() * (1 + 1e-14)
     # slopes of straight lines would jump by half of themselves at a computed depth
     slope = np.diff(drawn[:, 0]) / np.diff(finer)
