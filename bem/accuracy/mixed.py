@@ -24,6 +24,7 @@ from bem.friction import MixedSolution
 from bem.friction.balance import BalanceStart, Regime, share_load
 from bem.friction.film import SolvedFilm
 from bem.friction.forces import friction_forces, lambda_ratio
+from bem.friction.oil_volume import OilVolume
 from bem.friction.rough_contact import rough_contact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
@@ -207,6 +208,8 @@ def _balance_part(solution: MixedSolution, setup: MixedSetup, found: dict[str, f
     if solution.full_film:
         return dict.fromkeys(RULES, 0.0)
     missing = abs(solution.imbalance) + setup.contact_tolerance
+    if setup.counted is OilVolume.LOADED:  # loads add up exactly there; what is left of the oil moves them
+        missing += abs(solution.oil_imbalance)
     film = missing * solution.film_load / max(solution.balance_slope, 0.1)
     if solution.regime is Regime.BOUNDARY:  # anything from nothing to this
         film = solution.film_load

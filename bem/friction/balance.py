@@ -9,9 +9,9 @@ The sum of both grows with the film load, so its ends are looked at by one rule 
   ends before film and contact carry the load, the film there being thinner than a few molecules: it is none.
 
 Between them a secant within a bracket, in logarithms: films and contacts follow powers of the load. Where the contact's
-load changes steeply with the film's (rough surfaces under small loads) the surfaces are pressed together by what a film
-leaves them instead, and the film load is found for which they hold its oil. Nothing here knows what a film or a contact
-is made of.
+load changes steeply with the film's (rough surfaces under small loads), and where the oil is counted over the loaded
+part of the film, the surfaces are pressed together by what a film leaves them instead, and the film load is found for
+which they hold its oil. Nothing here knows what a film or a contact is made of.
 """
 
 from __future__ import annotations
@@ -21,7 +21,9 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 from bem.errors import Status
+from bem.friction.falling_zero import falling_zero
 from bem.friction.film import Film, PatchFilm
+from bem.friction.oil_volume import OilVolume, mean_where_counted
 from bem.friction.rough_contact import Pressed, RoughContact
 from bem.grid import FloatArray
 from bem.lubrication.validity import THINNEST_FILM
@@ -38,6 +40,10 @@ STEEP = 10.0
 """Slope of the balance from which it is looked for by the opening: there the contact's load changes so steeply with the
 film's, and the opening so little with the contact's load, that the film's thickness alone decides."""
 OPENING_TRIALS = 8
+LEAST_REST = 1e-12
+"""Share of the load left to the surfaces, below which nothing is looked for."""
+_SAME = 1e-9
+"""Logarithms of loads that are one and the same."""
 NEAR = 0.1
 """Imbalance below which secant steps are exact enough to need no margin for a bracket."""
 
@@ -64,8 +70,11 @@ class Balance:
     """Film and contact that carry the load together.
 
     contact : None in full film. imbalance : (film + contact - load) / load, of these two. slope : of ln(carried) with
-    ln(film load). films, contacts : evaluated on the way; convolutions : of the contacts. status : converged where the
-    imbalance is within the tolerance and film and contact are converged themselves. notes : what to tell the user.
+    ln(film load); where the oil is counted over the loaded film, of ln(opening / film thickness). oil_imbalance : (mean
+    opening of the surfaces - mean thickness of the film) / the latter, where oil is counted; 0 at the ends. films,
+    contacts : evaluated on the way; convolutions : of the contacts. status : converged where both imbalances are within
+    the tolerance (that of the oil, or what the contact's own tolerance leaves of it) and film and contact are converged
+    themselves. notes : what to tell the user.
     """
 
     film: PatchFilm
@@ -78,6 +87,7 @@ class Balance:
     convolutions: float
     status: Status
     notes: tuple[str, ...] = ()
+    oil_imbalance: float = 0.0
 
 
 def share_load(
@@ -87,20 +97,20 @@ def share_load(
     effort = _Effort(contact_tolerance=rough.tolerance, film=whole, pressure=start.pressure)
     if whole.load >= load and rough.clears(whole):
         trial = _Trial(math.log(load), whole, None, _excess(whole, None, load))
-        return _certified(trial, load, tolerance, Regime.FULL_FILM, effort, start.slope)
+        return _certified(trial, rough, load, tolerance, Regime.FULL_FILM, effort, start.slope)
     top = math.log(min(load, film.largest_load))
     bottom = min(math.log(NEGLIGIBLE * tolerance * load), top)
     at, slope = min(max(math.log(start.film_load), bottom), top - 1e-3), start.slope
     for level, error in enumerate(film.errors):
         search = _Search(film, rough, load, max(tolerance, error), level, bottom, top, effort)
-        trial, slope, regime = search.run(at, slope)
+        trial, slope, regime = search.run(at, slope) if rough.counted is OilVolume.PATCH else search.by_oil(at, slope)
         at = trial.logarithm
         if search.too_little(trial):
             if not search.is_no_film(trial):
-                return _certified(trial, load, tolerance, regime, effort, slope, short=True)
+                return _certified(trial, rough, load, tolerance, regime, effort, slope, short=True)
             trial = replace(search, level=len(film.errors) - 1).under_the_rest()
-            return _certified(trial, load, tolerance, Regime.BOUNDARY, effort, slope)
-    return _certified(trial, load, tolerance, regime, effort, slope)
+            return _certified(trial, rough, load, tolerance, Regime.BOUNDARY, effort, slope)
+    return _certified(trial, rough, load, tolerance, regime, effort, slope)
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,6 +245,31 @@ class _Search:
                 return None
             self.effort.contact_tolerance *= 0.01
 
+    def by_oil(self, at: float, slope: float) -> tuple[_Trial, float, Regime]:
+        """As `run`, of the opening alone, in ln(film load / rest): next to either end one of them changes by its own
+        size. `slope` : of ln(opening / film thickness) with ln(film load)."""
+        beyond = self.load - self.rough.largest_load  # what surfaces that yield everywhere leave to the film at least
+        yielded = math.log(beyond) + 1e-9 if beyond > 0 else -math.inf
+        bottom = self.odds(max(self.bottom, yielded))
+        last: list[_Trial] = []
+
+        def evaluate(place: float) -> tuple[float, bool]:
+            trial = self.under_the_rest(math.log(self.load) - math.log1p(math.exp(-place)))
+            last[:] = [trial]
+            return self.mismatch(trial), _holds_oil(trial, self.rough, self.goal)
+
+        rest = -math.expm1(at - math.log(self.load))
+        found = falling_zero(evaluate, self.odds(at), slope * rest, (bottom, self.odds(self.top)), MAX_TRIALS)
+        (trial,) = last
+        at_bottom = trial.logarithm <= self.bottom + _SAME and self.is_boundary(trial)
+        share = 1 - trial.film.load / self.load
+        return trial, found / max(share, LEAST_REST), Regime.BOUNDARY if at_bottom else Regime.MIXED
+
+    def odds(self, logarithm: float) -> float:
+        """ln(film load / rest) of a film load, by its logarithm."""
+        share = math.exp(min(logarithm - math.log(self.load), 0.0))
+        return math.log(share / max(1 - share, LEAST_REST))
+
     def at_volume(self, logarithm: float) -> _Trial:
         """Film at a load, and the surfaces holding its oil."""
         film = self.film_at(logarithm)
@@ -264,7 +299,10 @@ class _Search:
 
     def too_little(self, trial: _Trial) -> bool:
         """Whether all that the film's model can carry is not enough."""
-        return trial.excess < -self.goal and trial.logarithm >= self.top
+        if self.rough.counted is OilVolume.PATCH:
+            return trial.excess < -self.goal and trial.logarithm >= self.top
+        at_end = trial.logarithm >= self.top - _SAME and self.top < math.log(self.load)
+        return at_end and self.mismatch(trial) > self.goal
 
     def is_no_film(self, trial: _Trial) -> bool:
         """Whether a film is so thin that the surfaces carry the load without it, and can."""
@@ -278,7 +316,7 @@ class _Search:
         """ln(film thickness / opening of the surfaces). Thin films go like the inverse of their load: that much is
         about what ln(film load) lacks."""
         assert trial.contact is not None
-        return math.log(float(trial.film.thickness.mean()) / max(trial.contact.opening, 1e-300))
+        return math.log(_oil(trial.film, self.rough) / max(trial.contact.opening, 1e-300))
 
     def next(self, trial: _Trial, slope: float, bracket: _Bracket, before: float) -> tuple[float, float]:
         """Logarithm to try next, and the step there where it goes down without a bracket."""
@@ -312,8 +350,23 @@ def _excess(film: PatchFilm, contact: Pressed | None, load: float) -> float:
     return (film.load + (0.0 if contact is None else contact.load) - load) / load
 
 
+def _oil(film: PatchFilm, rough: RoughContact) -> float:
+    """Mean thickness of a film [m] where its oil is counted."""
+    return mean_where_counted(film.thickness, film, rough.counted)
+
+
+def _holds_oil(trial: _Trial, rough: RoughContact, goal: float) -> bool:
+    """Whether the surfaces hold the film's oil, to a goal or to what is known of their opening."""
+    assert trial.contact is not None
+    oil, opening = _oil(trial.film, rough), trial.contact.opening
+    if abs(opening - oil) <= trial.contact.opening_error * (1 + 1e-9):
+        return True
+    return opening > 0 and abs(math.log(oil / opening)) <= goal
+
+
 def _certified(
     trial: _Trial,
+    rough: RoughContact,
     load: float,
     tolerance: float,
     regime: Regime,
@@ -322,23 +375,24 @@ def _certified(
     *,
     short: bool = False,
 ) -> Balance:
-    """Judge film and contact by themselves; `short` where they carry too little at the end of the film's range."""
+    """Judge film and contact by themselves, and whether they carry the load and hold the same oil; `short` where they
+    carry too little at the end of the film's range."""
     film, contact = trial.film, trial.contact
     imbalance = _excess(film, contact, load)
     notes = [*film.notes, *(() if contact is None else contact.notes)]
+    oil_imbalance, held = 0.0, True
+    if contact is not None and regime is Regime.MIXED:
+        oil_imbalance, held = contact.opening / _oil(film, rough) - 1, _holds_oil(trial, rough, tolerance)
     if regime is Regime.BOUNDARY:
         notes.append(boundary_note(film.load / load))
     if short:
-        notes.append(
-            f"the film's model ends at a load of {film.load:.3g} N (at this speed and viscosity), and surfaces and "
-            f"film carry {load * (1 + imbalance):.3g} N there; raise speed or viscosity, or lower the load"
-        )
+        notes.append(_short_note(film.load, load, imbalance, rough.counted))
     status = Status.CONVERGED
     if film.status is not Status.CONVERGED:
         status = film.status
     elif contact is not None and contact.status is not Status.CONVERGED:
         status = contact.status
-    elif abs(imbalance) > tolerance:
+    elif abs(imbalance) > tolerance or not held:
         status = Status.INFEASIBLE if short else Status.STALLED
     return Balance(
         film=film,
@@ -351,6 +405,20 @@ def _certified(
         convolutions=effort.convolutions,
         status=status,
         notes=tuple(notes),
+        oil_imbalance=oil_imbalance,
+    )
+
+
+def _short_note(film_load: float, load: float, imbalance: float, counted: OilVolume) -> str:
+    """What to say where the film's model ends before the balance."""
+    there = (
+        f"surfaces and film carry {load * (1 + imbalance):.3g} N there"
+        if counted is OilVolume.PATCH
+        else "the film is thicker there than the surfaces leave open under the rest"
+    )
+    return (
+        f"the film's model ends at a load of {film_load:.3g} N (at this speed and viscosity), and {there}; raise speed "
+        "or viscosity, or lower the load"
     )
 
 

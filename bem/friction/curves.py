@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bem.errors import Status
+from bem.friction.oil_beside import OilBeside
 
 if TYPE_CHECKING:
     from bem.friction.solution import MixedSolution
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class CurvePoint:
     """The numbers of one speed: [m/s], forces on the whole width [N], parts of the coefficient of friction, lengths
-    [m], ratios, counts."""
+    [m], ratios, counts; what was loaded is with the oil counted where the film carries (`OilBeside`)."""
 
     speed: float
     friction: float
@@ -33,7 +34,17 @@ class CurvePoint:
     contact_area_fraction: float
     film_solves: float
     contact_solves: float
+    oil_beside_contact: float
+    loaded_contact_load: float
+    loaded_friction: float
+    load: float
     status: Status
+
+    @property
+    def oil(self) -> OilBeside:
+        """As of the solution."""
+        share, loaded = self.contact_load / self.load, self.loaded_contact_load / self.load
+        return OilBeside(self.oil_beside_contact, share, self.friction, loaded, self.loaded_friction)
 
     @classmethod
     def of(cls, solution: MixedSolution) -> CurvePoint:
@@ -51,6 +62,10 @@ class CurvePoint:
             contact_area_fraction=area / solution.grid.area,
             film_solves=float(solution.evaluations),
             contact_solves=float(solution.contact_solves),
+            oil_beside_contact=solution.oil.share,
+            loaded_contact_load=solution.oil.loaded_contact_share * solution.load,
+            loaded_friction=solution.oil.loaded_friction,
+            load=solution.load,
             status=solution.status,
         )
 

@@ -29,6 +29,8 @@ class PatchFilm:
     load : it carries [N]. thickness [m], pressure and shear_stress [Pa] : on the patch. shear_force : of the whole
     film [N], signed like `FilmSolution.shear_force`. minimum_thickness : of the whole film [m]. status : outcome.
     notes : where the film's model is outside its validity. solution : what it was sampled from, if it was solved.
+    smooth_gap : of the surfaces as far as the film's pressure alone deforms them, but for a constant [m]; the thickness
+    if None.
     """
 
     load: float
@@ -40,6 +42,12 @@ class PatchFilm:
     status: Status = Status.CONVERGED
     notes: tuple[str, ...] = ()
     solution: FilmSolution | None = None
+    smooth_gap: FloatArray | None = None
+
+    @property
+    def gap(self) -> FloatArray:
+        """What the rough contact's own deflection adds to, but for a constant [m]."""
+        return self.thickness if self.smooth_gap is None else self.smooth_gap
 
 
 class Film(Protocol):
@@ -71,7 +79,7 @@ def solved_line_film(
     Where the load is so small that the elastic film is outside its range, the surfaces are rigid: pressures that small
     move them by less than 1e-5 of the film.
     """
-    modulus = contact.contact_modulus
+    modulus = contact.film_modulus(load)
     lowest, _ = load_range(contact.radius, modulus, speeds, contact.lubricant)
     return solve_line_film(
         load=load / contact.width,
@@ -112,8 +120,7 @@ class SolvedFilm:
     @property
     def largest_load(self) -> float:
         """Load [N] up to which a film is looked for."""
-        contact = self.contact
-        return contact.width * load_range(contact.radius, contact.contact_modulus, self.speeds, contact.lubricant)[1]
+        return largest_film_load(self.contact, self.speeds)
 
     @property
     def errors(self) -> tuple[float, ...]:
@@ -125,7 +132,7 @@ class SolvedFilm:
         points = self.points if level == len(self.errors) - 1 else BALANCE_POINTS
         initial = self.initial if start is None else start.solution
         film = solved_line_film(self.contact, self.speeds, load, points, initial=initial)
-        return sampled(film, self.position, load, self.contact.width, striated_exit=self.striated_exit)
+        return sampled(film, self.position, load, self.contact, striated_exit=self.striated_exit)
 
     def resampled(self, film: PatchFilm, position: FloatArray, *, negligible: bool) -> FilmSolution:
         """The film at abscissae [m] of the caller's choice; a film that carries next to nothing may reach beyond them.
@@ -146,8 +153,17 @@ class SolvedFilm:
         return replace(film.solution, position=position, pressure=pressure, thickness=thickness)
 
 
+def largest_film_load(contact: LineContact, speeds: Sequence[float]) -> float:
+    """Load on the whole width [N] up to which a film is looked for.
+
+    The end is one of Moes' parameter M, load over a root of the modulus: where that goes with the load, with its root.
+    """
+    largest = contact.width * load_range(contact.radius, contact.contact_modulus, speeds, contact.lubricant)[1]
+    return largest if contact.deforming_load is None else largest**2 / contact.deforming_load * (1 - 1e-9)
+
+
 def sampled(
-    film: FilmSolution, position: FloatArray, load: float, width: float, *, striated_exit: bool = False
+    film: FilmSolution, position: FloatArray, load: float, contact: LineContact, *, striated_exit: bool = False
 ) -> PatchFilm:
     """A solved film at the abscissae (nx,) [m] of a patch; `load` and the forces are on the whole width [m]."""
     pressure, thickness = film.at(position)
@@ -157,9 +173,19 @@ def sampled(
         thickness=thickness[:, None],
         pressure=pressure[:, None],
         shear_stress=film.shear_stress(position)[:, None],
-        shear_force=force * width,
+        shear_force=force * contact.width,
         minimum_thickness=film.minimum_thickness,
         status=film.status,
         notes=film.notes,
         solution=film,
+        smooth_gap=smooth_gap(thickness[:, None], position[:, None], load, contact),
     )
+
+
+def smooth_gap(thickness: FloatArray, position: FloatArray, load: float, contact: LineContact) -> FloatArray | None:
+    """The gap [m] at abscissae [m] that a film's own pressure makes, where its thickness has all of the load's
+    deflection: the parabola, and of the deflection the film's part. None where the thickness is that gap."""
+    if contact.deforming_load is None:
+        return None
+    share, parabola = load / contact.deforming_load, position**2 / (2 * contact.radius)
+    return parabola + share * (thickness - parabola)

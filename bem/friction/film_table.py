@@ -8,11 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from bem.errors import InputError, Status
-from bem.friction.film import PatchFilm, sampled, solved_line_film
+from bem.friction.film import PatchFilm, largest_film_load, sampled, smooth_gap, solved_line_film
 from bem.friction.setup import LineContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution
-from bem.lubrication.steady import check_entrainment, load_range
+from bem.lubrication.steady import check_entrainment
 
 LOAD_STEP = 0.125
 """Step in ln(film load): cubic interpolation is then good to about 1e-4 of the film (tested)."""
@@ -30,8 +30,8 @@ class FilmTable:
     points : nodes of the films' own mesh.
 
     A film between two entries is interpolated by cubics in ln(load) through the four nearest, at abscissae in units of
-    the half-width, which moves with the load. Entries are solved as far down as is asked for, each started from the one
-    above: the same bits whatever is asked for first.
+    the half-width, which moves with the load that deforms the bodies. Entries are solved as far down as is asked for,
+    each started from the one above: the same bits whatever is asked for first.
 
     Raises
     ------
@@ -52,8 +52,7 @@ class FilmTable:
         self.contact = contact
         self.speeds = (float(speeds[0]), float(speeds[1]))
         self.points = points
-        highest = load_range(contact.radius, contact.contact_modulus, self.speeds, contact.lubricant)[1]
-        self.largest_load = min(load, contact.width * highest)
+        self.largest_load = min(load, largest_film_load(contact, self.speeds))
         self.errors = (0.0,)
         self.entries: list[FilmSolution] = []
 
@@ -83,16 +82,18 @@ class FilmTable:
         first = max(math.floor(place) - 1, 0)
         weights = [math.prod((place - first - j) / (k - j) for j in range(4) if j != k) for k in range(4)]
         # half-widths of entry and load: the abscissa that corresponds
-        stretch = [math.exp(0.5 * LOAD_STEP * (place - first - k)) for k in range(4)]
+        moves = 0.0 if self.contact.deforming_load is not None else 0.5 * LOAD_STEP
+        stretch = [math.exp(moves * (place - first - k)) for k in range(4)]
         films = [self._sampled(first + k, self.position * stretch[k]) for k in range(4)]
 
         def mean(values: list[FloatArray]) -> FloatArray:
             return sum((w * v for w, v in zip(weights, values, strict=True)), np.zeros_like(values[0]))
 
         failed = [film.status for film in films if film.status is not Status.CONVERGED]
+        thickness = np.exp(mean([np.log(film.thickness) for film in films]))
         return PatchFilm(
             load=load,
-            thickness=np.exp(mean([np.log(film.thickness) for film in films])),
+            thickness=thickness,
             pressure=np.maximum(mean([film.pressure for film in films]), 0.0),
             shear_stress=mean([film.shear_stress for film in films]),
             shear_force=sum(w * film.shear_force for w, film in zip(weights, films, strict=True)),
@@ -101,17 +102,18 @@ class FilmTable:
             ),
             status=failed[0] if failed else Status.CONVERGED,
             notes=films[1].notes,
+            smooth_gap=smooth_gap(thickness, self.position[:, None], load, self.contact),
         )
 
     def error(self, load: float) -> float:
         """Largest difference between the interpolated thickness and that of the film solved at this very load [N],
         relative to the latter. One film solve."""
         nearest = self.entry(max(round(math.log(self.largest_load / load) / LOAD_STEP), 0))
-        solved = sampled(self.solve(load, nearest), self.position, load, self.contact.width)
+        solved = sampled(self.solve(load, nearest), self.position, load, self.contact)
         return float(np.max(np.abs(self.under(load).thickness / solved.thickness - 1)))
 
     def _load(self, index: int) -> float:
         return self.largest_load * math.exp(-LOAD_STEP * index)
 
     def _sampled(self, index: int, position: FloatArray) -> PatchFilm:
-        return sampled(self.entry(index), position, self._load(index), self.contact.width)
+        return sampled(self.entry(index), position, self._load(index), self.contact)

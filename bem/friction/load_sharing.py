@@ -22,6 +22,9 @@ from bem.friction.boundary import BoundaryFrictionGiven
 from bem.friction.curves import relative_difference
 from bem.friction.film import PatchFilm, SolvedFilm
 from bem.friction.forces import coupling_notes, friction_forces, lambda_ratio, validity_notes
+from bem.friction.oil_beside import oil_notes
+from bem.friction.oil_sensitivity import oil_beside
+from bem.friction.oil_volume import OilVolume
 from bem.friction.rough_contact import RoughContact, rough_contact
 from bem.friction.setup import MixedSetup
 from bem.friction.solution import MixedSolution
@@ -53,6 +56,7 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     striated_exit: bool = False,
     initial: MixedSolution | None = None,
     flow_factors: WallFactors | str = "off",
+    oil_volume: OilVolume | str = OilVolume.PATCH,
 ) -> MixedSolution:
     """Friction of a rough cylinder on a flat in mixed lubrication.
 
@@ -80,6 +84,9 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     initial : solution of a similar case to start from.
     flow_factors : "off", or a table of `bem.flow_factors`: roughness then changes the film too, see `solve_line_film`;
         `lambda_ratio` is that of the film between rough walls.
+    oil_volume : where the rough surfaces hold as much oil as the smooth film: on the whole "patch", as the thesis has
+        it, or where the film is "loaded", weighted by its pressure (`bem.friction.oil_volume`). The first follows the
+        patch's length where nearly all oil lies beside Hertz' contact; `MixedSolution.oil` says how far.
 
     Returns
     -------
@@ -118,6 +125,7 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
         film_position=film_position,
         striated_exit=striated_exit,
         flow_factors=flow_factors,
+        oil_volume=oil_volume,
     )
     return solve_setup(setup, height, speeds, initial)
 
@@ -238,6 +246,7 @@ def _solution(
     found, contact = balance.film, balance.contact
     forces = friction_forces(found, contact, setup, film.speeds)
     friction = (forces.boundary + forces.film) / setup.load
+    oil = oil_beside(setup, height, balance, whole, speeds=film.speeds, friction=friction)
     returned = found.solution
     assert returned is not None
     if setup.film_position is not None:
@@ -253,13 +262,15 @@ def _solution(
         film_load=found.load,
         film=returned,
         contact=None if contact is None else contact.solution,
-        separation=found.thickness[:, 0] - (0.0 if contact is None else contact.approach),
+        separation=found.thickness[:, 0] if contact is None else contact.separation,
         lambda_ratio=lambda_ratio(whole, height),
         minimum_film=found.minimum_thickness,
         contact_area=0.0 if contact is None else contact.area,
         evaluations=balance.films,
         contact_solves=balance.contacts,
         imbalance=balance.imbalance,
+        oil_imbalance=balance.oil_imbalance,
+        oil=oil,
         balance_slope=balance.slope,
         status=balance.status,
         grid=setup.grid,
@@ -267,5 +278,6 @@ def _solution(
         regime=balance.regime,
         notes=balance.notes
         + validity_notes(friction, forces, found, whole, setup)
-        + coupling_notes(forces, rough.traction, setup),
+        + coupling_notes(forces, rough.traction, setup)
+        + oil_notes([oil]),
     )

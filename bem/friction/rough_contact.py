@@ -1,7 +1,8 @@
 """Rough surfaces with a film between them: what load sharing asks of a contact, and the two contacts there are.
 
 The film is as thick as between smooth surfaces. Under *volume* control the rough ones are pressed together until they
-hold the same oil; under *load* control until they carry what they are given, where the film has no say.
+hold the same oil; under *load* control until they carry what they are given, where the film has no say but for where
+their opening is counted (`oil_volume`).
 
 Boundary friction couples into the normal gap by one rule. Where the surfaces slide, the flat (the lower body) feels the
 traction f p against its sliding over the cylinder, along -x where u1 > u2, the cylinder the opposite; f is the
@@ -33,6 +34,7 @@ from bem.friction.asperities import (
 )
 from bem.friction.boundary import reference_pressure
 from bem.friction.film import PatchFilm
+from bem.friction.oil_volume import OilVolume, mean_where_counted
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 
@@ -41,10 +43,11 @@ from bem.grid import FloatArray
 class Pressed:
     """Rough surfaces pressed together.
 
-    load : on the whole contact [N]. opening : mean distance of the surfaces that oil has to fill [m]. pressure : (nx,
-    ny) [Pa]. approach : by how much the mean planes are closer than the film is thick [m]. area : real, on the whole
-    contact [m^2]. convolutions : spent. status : outcome. solution : of the patch. notes : what the solution says of
-    itself.
+    load : on the whole contact [N]. opening : mean distance of the surfaces that oil has to fill, where it is counted
+    [m]. pressure : (nx, ny) [Pa]. approach : by how much the mean planes are closer than the film is thick [m]. area :
+    real, on the whole contact [m^2]. convolutions : spent. status : outcome. solution : of the patch. notes : what the
+    solution says of itself. separation : (nx,) of the undeformed mean planes [m]. opening_error : how well the opening
+    is known [m].
     """
 
     load: float
@@ -55,7 +58,9 @@ class Pressed:
     convolutions: float
     status: Status
     solution: ContactSolution | AsperityContact
+    separation: FloatArray
     notes: tuple[str, ...] = ()
+    opening_error: float = 0.0
 
 
 class RoughContact(Protocol):
@@ -73,11 +78,15 @@ class RoughContact(Protocol):
     def largest_load(self) -> float:
         """Load [N] that the surfaces can carry at all; math.inf where nothing yields."""
 
+    @property
+    def counted(self) -> OilVolume:
+        """Where the oil is counted. Only of a whole patch can its volume be prescribed (`at_volume`)."""
+
     def clears(self, film: PatchFilm) -> bool:
         """Whether the undeformed roughness does not reach through the film."""
 
     def at_volume(self, film: PatchFilm, tolerance: float, start: FloatArray | None) -> Pressed:
-        """Pressed together until they hold the film's oil; `start` is a pressure nearby."""
+        """Pressed together until the patch holds the film's oil; `start` is a pressure nearby."""
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """Pressed together by a load [N] on the whole contact."""
@@ -128,6 +137,11 @@ class CoupledContact:
         hardness = math.inf if self.setup.hardness is None else self.setup.hardness
         return hardness * self.setup.grid.area * self.setup.slices
 
+    @property
+    def counted(self) -> OilVolume:
+        """As `RoughContact`."""
+        return self.setup.counted
+
     @cached_property
     def operator(self) -> DisplacementOperator:
         """Made when the first contact is solved: full film never needs it."""
@@ -154,8 +168,9 @@ class CoupledContact:
         load: float | None = None,
         mean_gap: float | None = None,
     ) -> Pressed:
+        gap = film.gap - self.rough
         solution = solve_contact(
-            film.thickness - self.rough,
+            gap,
             self.operator,
             load=load,
             mean_gap=mean_gap,
@@ -166,14 +181,16 @@ class CoupledContact:
         slices = self.setup.slices
         return Pressed(
             load=solution.load * slices,
-            opening=float(np.maximum(solution.gap, 0.0).mean()),
+            opening=mean_where_counted(np.maximum(solution.gap, 0.0), film, self.counted),
             pressure=solution.pressure,
             approach=solution.approach,
             area=solution.contact_area * slices,
             convolutions=solution.convolutions,
             status=solution.status,
             solution=solution,
+            separation=film.gap[:, 0] - solution.approach,
             notes=solution.notes,
+            opening_error=tolerance * float(gap.std()),
         )
 
 
@@ -186,6 +203,11 @@ class UncoupledAsperities:
     traction: float = 0.0
     tolerance: float = 0.0
     largest_load: float = math.inf
+
+    @property
+    def counted(self) -> OilVolume:
+        """As `RoughContact`."""
+        return self.setup.counted
 
     @cached_property
     def _summits(self) -> Summits:
@@ -229,9 +251,9 @@ class UncoupledAsperities:
             hardness=self.setup.hardness,
         )
         if self.setup.asperity_separation == "film":
-            opening = float(film.thickness.mean()) - shift
+            opening = mean_where_counted(film.thickness, film, self.counted) - shift
         else:
-            opening = float(np.maximum(film.thickness - self.rough - shift, 0.0).mean())
+            opening = mean_where_counted(np.maximum(film.thickness - self.rough - shift, 0.0), film, self.counted)
         return Pressed(
             load=solution.load * self.setup.slices,
             opening=opening,
@@ -241,4 +263,5 @@ class UncoupledAsperities:
             convolutions=0.0,
             status=Status.CONVERGED,
             solution=solution,
+            separation=film.thickness[:, 0] - shift,
         )

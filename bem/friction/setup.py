@@ -10,6 +10,7 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.friction.boundary import BoundaryFriction, BoundaryFrictionGiven, boundary_law
+from bem.friction.oil_volume import OilVolume
 from bem.grid import FloatArray, Grid
 from bem.lubrication import Lubricant
 from bem.lubrication.rough_walls import WallFactors
@@ -21,13 +22,22 @@ SEPARATIONS = ("volume", "film")
 
 @dataclass(frozen=True)
 class LineContact:
-    """A cylinder on a flat, and the oil: radius and width [m], E* of the pair [Pa]; how roughness changes the flow."""
+    """A cylinder on a flat, and the oil: radius and width [m], E* of the pair [Pa]; how roughness changes the flow;
+    load on the whole width [N] that deforms the bodies where a film has a part of it (`OilVolume.LOADED`), None where
+    the film's own does."""
 
     radius: float
     width: float
     contact_modulus: float
     lubricant: Lubricant
     flow_factors: WallFactors | str = "off"
+    deforming_load: float | None = None
+
+    def film_modulus(self, load: float) -> float:
+        """E* [Pa] of the bodies as a film feels it that carries a load on the whole width [N]."""
+        return (
+            self.contact_modulus if self.deforming_load is None else self.contact_modulus * load / self.deforming_load
+        )
 
     def half_width(self, load: float) -> float:
         """Hertz' half-width [m] under a load on the whole width [N]; Johnson (1985), eq. 4.43."""
@@ -60,6 +70,7 @@ class MixedSetup:
     film_position: FloatArray | None = None
     striated_exit: bool = False
     flow_factors: WallFactors | str = "off"
+    oil_volume: OilVolume | str = OilVolume.PATCH
 
     def __post_init__(self) -> None:
         if not isinstance(self.grid, Grid):
@@ -69,6 +80,7 @@ class MixedSetup:
             raise InputError(messages)
         for name in ("radius", "width", "load"):
             object.__setattr__(self, name, float(getattr(self, name)))
+        object.__setattr__(self, "oil_volume", OilVolume(self.oil_volume))
         friction = self.boundary_friction
         made = (
             float(friction)  # type: ignore[arg-type]
@@ -118,7 +130,8 @@ class MixedSetup:
         messages = []
         if not isinstance(self.lubricant, Lubricant):
             messages.append(f"lubricant: {type(self.lubricant).__name__} is not a Lubricant")
-        for name, allowed in (("contact_model", CONTACT_MODELS), ("asperity_separation", SEPARATIONS)):
+        choices = {"contact_model": CONTACT_MODELS, "asperity_separation": SEPARATIONS, "oil_volume": tuple(OilVolume)}
+        for name, allowed in choices.items():
             value = getattr(self, name)
             if value not in allowed:
                 messages.append(f"{name}: {value!r} is unknown; choose from {', '.join(allowed)}")
@@ -151,7 +164,13 @@ class MixedSetup:
         """The smooth contact and its oil."""
         bodies = (self.bodies,) if isinstance(self.bodies, Body) else self.bodies
         modulus = contact_modulus(*(body.material for body in bodies))
-        return LineContact(self.radius, self.width, modulus, self.lubricant, self.flow_factors)
+        deforming = self.load if self.counted is OilVolume.LOADED else None
+        return LineContact(self.radius, self.width, modulus, self.lubricant, self.flow_factors, deforming)
+
+    @property
+    def counted(self) -> OilVolume:
+        """Where the oil is counted."""
+        return OilVolume(self.oil_volume)
 
     @property
     def boundary_law(self) -> BoundaryFriction:

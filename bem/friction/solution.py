@@ -11,6 +11,7 @@ from bem.errors import Status
 from bem.friction.asperities import AsperityContact
 from bem.friction.balance import Regime
 from bem.friction.boundary import BoundaryFrictionGiven, boundary_law, filled_part
+from bem.friction.oil_beside import OilBeside
 from bem.grid import FloatArray, Grid
 from bem.lubrication import FilmSolution
 from bem.representation import readable
@@ -40,6 +41,9 @@ class MixedSolution:
     status : converged where the imbalance is within the tolerance and film and contact are converged themselves;
         infeasible where film and surfaces cannot carry the load within their models.
     grid, boundary_friction : as given; a law where one was.
+    oil_imbalance : (mean opening between the surfaces - mean thickness of the film) / the latter, where the oil is
+        counted (`oil_volume`); of this film and contact, 0 at an end of the balance.
+    oil : how far load share and friction hang on the oil beside Hertz' contact.
     regime : "full film", "mixed" or "boundary": the end of the balance, if any, that it is at.
     notes : sentences on what is outside a model's validity, or at an end of the balance.
     """
@@ -64,6 +68,8 @@ class MixedSolution:
     status: Status
     grid: Grid
     boundary_friction: BoundaryFrictionGiven
+    oil_imbalance: float
+    oil: OilBeside
     regime: Regime = Regime.MIXED
     notes: tuple[str, ...] = ()
 

@@ -18,6 +18,8 @@ from bem.friction.balance import NEGLIGIBLE, Balance, BalanceStart, Regime, boun
 from bem.friction.film import PatchFilm
 from bem.friction.film_table import FilmTable
 from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, validity_notes
+from bem.friction.oil_beside import OilBeside, oil_notes
+from bem.friction.oil_sensitivity import oil_beside
 from bem.friction.rough_contact import RoughContact, boundary_traction, rough_contact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
@@ -67,7 +69,7 @@ class MixedContact:
     `rows` has a row of `MIXED_FIELDS` per cycle; `film` is the last cycle's film and `separation` the distance (nx,)
     of the mean planes [m]. A cycle in which the film clears the roughness
     solves no contact. The oil's shear stress, a hundred times smaller than the boundary traction, is left out of the
-    stresses.
+    stresses. The oil is counted as the set-up says (`oil_volume`), in every cycle.
 
     Raises
     ------
@@ -94,6 +96,7 @@ class MixedContact:
         self._whole: PatchFilm | None = None
         self._forces: Forces | None = None
         self._coupling: tuple[str, ...] = ()
+        self._last: tuple[Balance, FloatArray] | None = None
 
     def __call__(self, heights: FloatArray, last_pressure: FloatArray | None) -> ContactOutcome:
         """The contact of one cycle; see `bem.wear.ContactStep`."""
@@ -124,7 +127,16 @@ class MixedContact:
             notes.append(f"{boundary} of {len(self.rows)} cycles: {boundary_note(share)}")
         friction = float(self.rows["friction"].max())
         notes += [*self.film_notes, *validity_notes(friction, self._forces, self.film, self._whole, self.setup)]
-        return (*notes, *self._coupling)
+        oil = self.oil()
+        hanging = () if oil is None else tuple(f"last cycle: {note}" for note in oil_notes([oil]))
+        return (*notes, *self._coupling, *hanging)
+
+    def oil(self) -> OilBeside | None:
+        """How far the last cycle's load sharing hangs on the oil beside Hertz' contact; one more balance."""
+        if self._last is None or self._whole is None:
+            return None
+        (balance, heights), friction = self._last, float(self.rows["friction"][-1])
+        return oil_beside(self.setup, heights, balance, self._whole, speeds=self.speeds, friction=friction)
 
     def _outcome(self, balance: Balance, rough: RoughContact, whole: PatchFilm, heights: FloatArray) -> ContactOutcome:
         setup, film, contact = self.setup, balance.film, balance.contact
@@ -147,7 +159,8 @@ class MixedContact:
             REGIMES.index(balance.regime),
         )
         self.rows = np.append(self.rows, new)
-        self.film, self.separation = film, film.thickness[:, 0] - shift
+        self.film, self.separation = film, film.thickness[:, 0] if contact is None else contact.separation
+        self._last = (balance, heights)
         self.contact_solves += balance.contacts
         solution = None if contact is None else contact.solution
         return ContactOutcome(

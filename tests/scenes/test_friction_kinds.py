@@ -211,6 +211,26 @@ def test_figures_over_speed_have_their_errors():
     assert not [key for key in run({**scene, "outputs": {"errors": False}})[1].summary if key.endswith("_error")]
 
 
+@pytest.mark.parametrize("counted", ["patch", "loaded"])
+def test_where_the_oil_is_counted_is_a_key_and_said_once_for_all_speeds(counted):
+    speeds = ["0.003 m/s", "0.05 m/s", "0.08 m/s", "0.5 m/s"]
+    sharing = {"models": ["capped"], "oil_volume": counted}
+    _, outcome, result = run(scene_with(FRICTION, speeds=speeds, sharing=sharing) | {"outputs": {"errors": False}})
+    summary = outcome.summary
+    assert all(0 < share < 1 for share in summary["oil_beside_contact"])
+    said = [note for note in result.notes if "where the oil is counted" in note]
+    changed = np.array(summary["loaded_friction"]) / np.array(summary["friction"]) - 1
+    if counted == "loaded":
+        assert said == []
+        assert (changed == 0).all()
+        assert summary["loaded_contact_load_N"] == pytest.approx(summary["contact_load_N"], rel=1e-14)  # round-off
+    else:
+        assert len(said) == 1
+        assert "speed" not in said[0]
+        assert np.abs(changed).max() > 0.01
+        assert changed[-1] == 0  # full film
+
+
 LAW = {"kind": "pressure_dependent", "shear_strength": 1e6, "pressure_coefficient": 0.1}
 
 

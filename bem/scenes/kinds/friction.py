@@ -105,6 +105,7 @@ def plan(scene: FrictionScene) -> Plan:
 
 
 _curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="first")
+_other_oil = partial(_curve, no_bar="they are to compare with, to a thousandth of the oil")
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,6 +123,11 @@ class CurveRecord(Record):
     contact_area_fraction: Annotated[FloatArray, _curve("", "real contact area over patch")]
     film_solves: Annotated[FloatArray, _curve("", "films solved")]
     contact_solves: Annotated[FloatArray, _curve("", "rough contacts solved")]
+    oil_beside_contact: Annotated[FloatArray, _curve("", "share of the patch's oil that lies beside Hertz' contact")]
+    loaded_contact_load: Annotated[
+        FloatArray, _other_oil("N", "contact load with the oil counted where the film carries")
+    ]
+    loaded_friction: Annotated[FloatArray, _other_oil("", "friction with the oil counted where the film carries")]
     rms_height: Annotated[float, Figure("nm", "rms height of both surfaces together", name="Sq")]
     shown_speed: Annotated[FloatArray, _shown((), "m/s", "speed at which the fields are shown")]
     x: Annotated[FloatArray, _shown(("x",), "m", "x, along sliding")]
@@ -141,6 +147,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     """One curve, speed by speed, with a checkpoint after each."""
     from bem.friction.curves import Curve
     from bem.friction.load_sharing import solve_setup
+    from bem.friction.oil_beside import oil_notes
 
     grid, pairs = build.grid_of(scene.grid), scene.speeds.build()
     lower, upper = build.both_heights(scene, grid, context)
@@ -153,13 +160,17 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     for speeds in pairs[len(curve.points) :]:
         with context.timer("load sharing"), _in_words_of_the_scene():
             own = solve_setup(setup, height, speeds, curve.last)
-        tell_of_film(context, own.notes, own.film.notes, _at(own))
+        said_at_the_end = oil_notes([own.oil])  # once for all speeds
+        notes = tuple(note for note in own.notes if note not in said_at_the_end)
+        tell_of_film(context, notes, own.film.notes, _at(own))
         curve = curve.then(own)
         if scene.outputs.errors:
             errors.append(_errors(setup, height, own, context))
         if len(curve.points) < len(pairs):
             keep(context, (curve, errors), made_again)
         context.progress(len(curve.points), len(pairs), "speeds", friction=own.friction)
+    for note in oil_notes([point.oil for point in curve.points]):
+        context.note(note)
     return _record(grid, curve, height, errors)
 
 

@@ -23,7 +23,8 @@ class SharingScene(Table):
     `models`: "elastic" and "capped" (at the hardness) are the rough half-space; "uncoupled" and "uncoupled_elastic"
     take every summit as a Hertz sphere of its own, the usual baseline. `asperity_separation`: mean planes of the
     uncoupled summits as far apart as keeps the oil's "volume", or as the "film" is thick. `flow_factors`: whether the
-    film flows between smooth walls ("off"), or between the "surfaces" as `bem.flow_factors` has them.
+    film flows between smooth walls ("off"), or between the "surfaces" as `bem.flow_factors` has them. `oil_volume`:
+    where the surfaces hold as much oil as the smooth film, on the whole "patch" or where the film is "loaded".
     """
 
     models: Annotated[list[Model], Field(min_length=1, max_length=4)] = ["capped"]  # noqa: RUF012
@@ -32,6 +33,7 @@ class SharingScene(Table):
     asperity_separation: Literal["volume", "film"] = "volume"
     striated_exit: bool = Field(default=False, strict=True)
     flow_factors: Literal["off", "surfaces"] = "off"
+    oil_volume: Literal["patch", "loaded"] = "patch"
 
     @model_validator(mode="after")
     def _each_once(self) -> SharingScene:
@@ -62,11 +64,14 @@ class RunningInSharing(Table):
     """Accuracy of the load sharing in each cycle.
 
     `film_points`: nodes of the film's mesh; films are tabulated over the load they carry, once per speed.
+    `oil_volume`: where the surfaces hold as much oil as the smooth film, on the whole "patch" or where the film is
+    "loaded".
     """
 
     tolerance: Annotated[Ratio, Field(ge=1e-8, le=0.01)] = 5e-4
     contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = 1e-4
     film_points: Annotated[int, Field(strict=True, ge=100, le=5000)] = 400
+    oil_volume: Literal["patch", "loaded"] = "patch"
 
 
 class RunningInCycles(LastCycles):

@@ -1,0 +1,69 @@
+"""How far a load sharing hangs on the oil beside the contact, and what is said of it.
+
+Knows numbers only; they come from `oil_sensitivity`. Verified in tests/friction/test_oil_volume.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+LOAD_CHANGES = 0.1
+"""Change of the surfaces' share of the load, relative to it, from which a note says so."""
+FRICTION_CHANGES = 0.01
+"""The same of friction."""
+LEAST_CHANGE = 0.01
+"""Of the share of the load: smaller changes do not count, however small the share is."""
+
+
+@dataclass(frozen=True)
+class OilBeside:
+    """How far a load sharing hangs on oil that carries nothing.
+
+    share : of the film's oil on the patch, what lies beside Hertz' contact under the whole load. contact_share,
+    friction : surfaces' share of the load, and friction, as found. loaded_contact_share, loaded_friction : the same
+    with the oil counted where the film carries; as found at either end of the balance and where it was counted so;
+    not-a-number where that balance was not met.
+    """
+
+    share: float
+    contact_share: float
+    friction: float
+    loaded_contact_share: float = math.nan
+    loaded_friction: float = math.nan
+
+    @property
+    def known(self) -> bool:
+        """Whether the other balance was met."""
+        return not math.isnan(self.loaded_contact_share)
+
+    @property
+    def matters(self) -> bool:
+        """Whether load share or friction would be others without that oil, or that is not known."""
+        allowed = max(LOAD_CHANGES * self.contact_share, LEAST_CHANGE)
+        alike = abs(self.loaded_contact_share - self.contact_share) <= allowed
+        return not (alike and abs(self.loaded_friction - self.friction) <= FRICTION_CHANGES * abs(self.friction))
+
+
+def oil_notes(oils: Sequence[OilBeside]) -> tuple[str, ...]:
+    """What to say of results, at one speed or several, for which that oil matters; nothing if it does for none."""
+    following = [oil for oil in oils if oil.matters]
+    if not following:
+        return ()
+    known = [oil for oil in following if oil.known]
+    said = (
+        "load share and friction follow where the oil is counted, and so the length of the patch, on which "
+        f"{100 * max(oil.share for oil in following):.3g} % of it lies beside Hertz' contact"
+    )
+    if known:
+        oil = max(known, key=lambda one: abs(one.loaded_contact_share - one.contact_share))
+        said += (
+            "; counted where the film carries (oil_volume loaded) the surfaces have "
+            f"{100 * oil.loaded_contact_share:.3g} % of the load, here {100 * oil.contact_share:.3g} %, and friction "
+            f"is {oil.loaded_friction:.3g}, here {oil.friction:.3g}"
+        )
+        said += ", where that differs most" if len(known) > 1 else ""
+    if len(known) < len(following):
+        said += "; how far is not known" + (f" of {len(following) - len(known)}" if known else "")
+    return (said,)

@@ -1,0 +1,69 @@
+"""What the oil beside the contact does to a load sharing that counts it: one more balance, without it.
+
+With one volume of oil on the patch (`OilVolume.PATCH`) the surfaces' share of the load follows the patch's length where
+most of that oil lies beside Hertz' contact. How far is told by the balance with the oil counted where the film carries
+(`OilVolume.LOADED`), looked for from the found one. Verified in tests/friction/test_oil_volume.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from bem.errors import Status
+from bem.friction.balance import Balance, BalanceStart, Regime, share_load
+from bem.friction.film import BALANCE_POINTS, PatchFilm, SolvedFilm
+from bem.friction.forces import friction_forces
+from bem.friction.oil_beside import OilBeside
+from bem.friction.oil_volume import OilVolume
+from bem.friction.rough_contact import rough_contact
+from bem.friction.setup import MixedSetup
+from bem.grid import FloatArray
+
+TOLERANCE = 1e-3
+"""Of the balance that is compared with: a tenth of the least change that is told."""
+
+
+def oil_beside(
+    setup: MixedSetup,
+    height: FloatArray,
+    found: Balance,
+    whole: PatchFilm,
+    *,
+    speeds: tuple[float, float],
+    friction: float,
+) -> OilBeside:
+    """Of a balance that was found for heights (nx, ny) [m] at a pair of speeds (u1, u2) [m/s].
+
+    One more balance where the oil was counted on the whole patch and film and surfaces both carry, with films on few
+    points; `whole` is the film under the whole load, which is the same for both.
+    """
+    share = 0.0 if found.contact is None else found.contact.load / setup.load
+    own = OilBeside(share_beside(setup, found.film), share, friction := float(friction))
+    if setup.counted is OilVolume.LOADED or found.regime is not Regime.MIXED or found.contact is None:
+        return replace(own, loaded_contact_share=share, loaded_friction=friction)
+    if found.status is not Status.CONVERGED:
+        return own
+    counted = replace(
+        setup, oil_volume=OilVolume.LOADED, contact_tolerance=max(setup.contact_tolerance, TOLERANCE / 100)
+    )
+    film = SolvedFilm(
+        counted.line, speeds, setup.grid.x, min(setup.film_points, BALANCE_POINTS), striated_exit=setup.striated_exit
+    )
+    start = BalanceStart(found.film.load, 1.0, found.contact.pressure)
+    other = share_load(
+        film, rough_contact(counted, height, speeds), setup.load, max(setup.tolerance, TOLERANCE), whole, start
+    )
+    if other.status is not Status.CONVERGED:
+        return own
+    forces = friction_forces(other.film, other.contact, counted, speeds)
+    carried = 0.0 if other.contact is None else other.contact.load / setup.load
+    other_friction = float(forces.boundary + forces.film) / setup.load
+    return replace(own, loaded_contact_share=carried, loaded_friction=other_friction)
+
+
+def share_beside(setup: MixedSetup, film: PatchFilm) -> float:
+    """Of a film's oil on the patch, the share beside Hertz' contact under the whole load."""
+    beside = np.abs(setup.grid.x) > setup.line.half_width(setup.load)
+    return float(film.thickness[beside].sum() / film.thickness.sum())

@@ -1,0 +1,262 @@
+"""Where the oil is counted that surfaces and film share: patch lengths, limits, the volume recomputed, what is said."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_surface, solve_mixed, stribeck_curve
+from bem.friction.balance import BalanceStart, Regime, share_load
+from bem.friction.falling_zero import falling_zero
+from bem.friction.film import PatchFilm
+from bem.friction.oil_beside import OilBeside, oil_notes
+from bem.friction.oil_volume import OilVolume, mean_where_counted
+from bem.friction.rough_contact import rough_contact
+from bem.friction.setup import MixedSetup
+from bem.wear.mixed import MixedContact, film_table
+
+STEEL = Body(Material("steel", youngs_modulus=207e9, poissons_ratio=0.3))
+SPACING, RADIUS, WIDTH, PRESSURE = 6.4e-6, 6e-3, 10e-3, 1.5e9
+MODULUS = STEEL.material.plane_strain_modulus / 2
+LONGEST = generate_surface(
+    Grid((112, 32), (SPACING, SPACING), periodic=(True, True)), rms_height=100e-9, correlation_length=25e-6, seed=4
+)
+
+
+def bearing(cells, **changes):
+    """A roller at 1.5 GPa on a patch of so many cells along: 51, 64, 80 and 112 are 1.03 to 2.26 Hertz contacts."""
+    first = (112 - cells) // 2
+    case = {
+        "height": LONGEST[first : first + cells],
+        "grid": Grid((cells, 32), (SPACING, SPACING), periodic=(False, True)),
+        "bodies": (STEEL, STEEL),
+        "radius": RADIUS,
+        "width": WIDTH,
+        "load": math.pi * PRESSURE**2 * RADIUS * WIDTH / MODULUS,
+        "lubricant": Lubricant(0.02, pressure_viscosity=21e-9),
+        "boundary_friction": 0.12,
+        "hardness": 7e9,
+        "film_points": 400,
+    }
+    return case | changes
+
+
+def setup_of(case):
+    return MixedSetup(**{name: value for name, value in case.items() if name not in ("height", "speeds")})
+
+
+LENGTHS = (51, 64, 80, 112)
+
+
+@pytest.mark.parametrize("speed", [1e-4, 1e-2, 0.1])
+def test_oil_counted_where_the_film_carries_does_not_know_the_patch(speed):
+    loaded = [solve_mixed(**bearing(cells, oil_volume="loaded"), speeds=(speed, 0.0)) for cells in LENGTHS]
+    assert all(point.status is Status.CONVERGED for point in loaded)
+    shares = np.array([point.contact_load / point.load for point in loaded])
+    # 0.01 % from a length of 1.3 on; the shortest lacks what touches beyond Hertz' contact, 0.2 to 0.5 % of the load
+    assert np.ptp(shares[1:]) < 1e-3 * shares.mean()
+    assert np.ptp(shares) < 0.03 * shares.mean()
+    assert np.ptp([point.friction for point in loaded]) < 0.02 * loaded[0].friction
+    assert not any(point.oil.matters or oil_notes([point.oil]) for point in loaded)
+
+
+def test_one_volume_of_oil_follows_the_patch_and_says_so():
+    """At 0.1 mm/s the film is thinner than a molecule and carries nine tenths of the load: what is beside fills it."""
+    points = [solve_mixed(**bearing(cells), speeds=(1e-4, 0.0)) for cells in (51, 112)]
+    shares = [point.contact_load / point.load for point in points]
+    assert shares[0] > 2 * shares[1]  # the defect, as the thesis' condition has it
+    loaded = solve_mixed(**bearing(112, oil_volume=OilVolume.LOADED), speeds=(1e-4, 0.0))
+    for point in points:
+        assert point.oil.matters
+        (note,) = (note for note in point.notes if "length of the patch" in note)
+        assert f"{100 * point.oil.share:.3g} % of it lies beside Hertz' contact" in note
+        # its balance is to 1e-3 of the oil and to contacts of 1e-5 of the gap
+        assert point.oil.loaded_contact_share == pytest.approx(loaded.contact_load / loaded.load, abs=0.01)
+        assert point.oil.loaded_friction == pytest.approx(loaded.friction, rel=0.01)
+        # by the film that is returned
+        thickness, half_width = point.film.at(point.grid.x)[1], 2 * PRESSURE * RADIUS / MODULUS
+        beside = np.abs(point.grid.x) > half_width
+        assert point.oil.share == pytest.approx(thickness[beside].sum() / thickness.sum(), rel=1e-9)
+
+
+def test_slower_and_slower_is_boundary_lubrication():
+    """What a strip as long as Hertz' contact does not give: there the film keeps 63 % of the load at any low speed."""
+    curve = stribeck_curve([1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5], **bearing(64, oil_volume="loaded"))
+    shares = np.array([point.contact_load / point.load for point in curve])
+    assert (np.diff(shares) > 0).all()
+    assert shares[0] < 0.2
+    assert shares[-1] > 0.98
+    assert curve[-1].friction == pytest.approx(0.12, rel=0.02)
+
+
+@pytest.mark.parametrize(("speed", "regime"), [(30.0, Regime.FULL_FILM), (1e-9, Regime.BOUNDARY)])
+def test_at_both_ends_it_does_not_matter(speed, regime):
+    patch, loaded = (solve_mixed(**bearing(64, oil_volume=counted), speeds=(speed, 0.0)) for counted in OilVolume)
+    assert patch.regime is loaded.regime is regime
+    assert patch.status is loaded.status is Status.CONVERGED
+    assert loaded.contact_load == pytest.approx(patch.contact_load, rel=1e-12)
+    assert loaded.friction == pytest.approx(patch.friction, rel=1e-4)  # a contact from another start
+    assert not patch.oil.matters
+    assert patch.oil_imbalance == loaded.oil_imbalance == 0
+
+
+@pytest.mark.parametrize("model", ["coupled", "uncoupled"])
+def test_the_oil_is_there_recomputed_from_what_is_returned(model):
+    case = bearing(80, oil_volume="loaded", contact_model=model)
+    point = solve_mixed(**case, speeds=(0.03, 0.0))
+    pressure, thickness = point.film.at(point.grid.x)
+    rough = case["height"] - case["height"].mean()
+    gap = point.contact.gap if model == "coupled" else point.separation[:, None] - rough
+    opening = np.maximum(gap, 0).mean(axis=1)
+    mean = (pressure * opening).sum() / (pressure * thickness).sum() - 1
+    assert mean == pytest.approx(point.oil_imbalance, abs=1e-12)
+    # the tolerance of the balance, or that of the contact, 1e-6 of 400 nm rms of the gap, over 9 nm of oil
+    assert abs(mean) < 2e-4
+    assert abs(point.imbalance) < 1e-12
+
+
+def test_wear_cycles_take_it_too():
+    case = bearing(64, oil_volume="loaded", tolerance=5e-4)
+    step = MixedContact(setup_of(case), (0.01, 0.0))
+    outcome = step(case["height"], None)
+    point = solve_mixed(**case, speeds=(0.01, 0.0))
+    assert outcome.status is Status.CONVERGED
+    # a table of films is good to 1e-4 of the thickness
+    assert step.rows["contact_load"][0] == pytest.approx(point.contact_load, rel=2e-3)
+    assert not any("length of the patch" in note for note in step.notes)
+    patch = MixedContact(setup_of(bearing(64)), (0.01, 0.0))
+    patch(case["height"], None)
+    (note,) = (note for note in patch.notes if "length of the patch" in note)
+    assert note.startswith("last cycle: ")
+
+
+def test_a_table_of_films_between_bodies_that_all_of_the_load_deforms():
+    case = bearing(64, oil_volume="loaded", film_points=300)
+    table = film_table(setup_of(case), (0.01, 0.0))
+    load = 0.271 * case["load"]
+    assert table.error(load) < 2e-4  # as of the other films
+    film = table.under(load)
+    half_width = 2 * PRESSURE * RADIUS / MODULUS
+    reach = np.abs(case["grid"].x[film.pressure[:, 0] > 0.05 * film.pressure.max()]).max()
+    assert reach == pytest.approx(half_width, rel=0.05)  # Hertz' under all of it, but for inlet and cells
+    assert film.pressure.max() == pytest.approx(0.271 * PRESSURE, rel=0.05)
+    # the gap for the contact: with the rest of Hertz' deflection it is flat again
+    x = case["grid"].x[np.abs(case["grid"].x) < 0.8 * half_width]
+    flat = film.gap[np.abs(case["grid"].x) < 0.8 * half_width, 0] - (1 - 0.271) * x**2 / (2 * RADIUS)
+    assert np.ptp(flat) < 1e-3 * x.max() ** 2 / (2 * RADIUS)
+
+
+@dataclasses.dataclass
+class FlatFilm:
+    """As thick as constant / load all over the patch, with a pressure."""
+
+    constant: float
+    shape: tuple[int, int]
+    largest_load: float = math.inf
+    errors: tuple[float, ...] = (0.0,)
+
+    def under(self, load, level, start):
+        thickness = np.full(self.shape, self.constant / load)
+        zero = np.zeros(self.shape)
+        return PatchFilm(load, thickness, zero + load, zero, 0.0, float(thickness.min()))
+
+
+def test_flat_films_hold_the_same_oil_wherever_it_is_counted():
+    case = bearing(64)
+    film, load = FlatFilm(3e-6, (64, 32)), case["load"]
+    case["contact_tolerance"] = 1e-8
+    found = []
+    for counted in OilVolume:
+        rough = rough_contact(setup_of(case | {"oil_volume": counted}), case["height"], (0.1, 0.0))
+        found.append(share_load(film, rough, load, 1e-5, film.under(load, 0, None), BalanceStart(0.5 * load)))
+    patch, loaded = found
+    assert patch.status is loaded.status is Status.CONVERGED
+    assert 0.05 < patch.film.load / load < 0.95
+    assert loaded.film.load == pytest.approx(patch.film.load, rel=2e-4)  # to the tolerance over the slopes
+    assert loaded.contacts <= 10
+
+
+def test_where_the_films_model_ends_before_the_oil_fits_it_is_infeasible():
+    case = bearing(64, oil_volume="loaded")
+    load = case["load"]
+    film = FlatFilm(1e-2, (64, 32), largest_load=0.1 * load)  # as thick as that, surfaces do not touch
+    rough = rough_contact(setup_of(case), case["height"], (0.1, 0.0))
+    balance = share_load(film, rough, load, 1e-4, film.under(0.1 * load, 0, None), BalanceStart(0.05 * load))
+    assert balance.status is Status.INFEASIBLE
+    assert balance.oil_imbalance < -1e-3  # of the contact and the film that are returned
+    assert any("thicker there than the surfaces leave open" in note for note in balance.notes)
+
+
+def test_a_contact_that_does_not_hold_the_oil_is_not_converged():
+    """Loads alone do not say it."""
+    case = bearing(64, oil_volume="loaded")
+    load = case["load"]
+    rough = rough_contact(setup_of(case), case["height"], (0.1, 0.0))
+
+    class Leaking(type(rough)):
+        def at_load(self, film, load, tolerance, start):
+            pressed = super().at_load(film, load, tolerance, start)
+            return dataclasses.replace(pressed, opening=pressed.opening + 1e-6)
+
+    film = FlatFilm(3e-6, (64, 32), largest_load=0.9 * load)
+    leaking = Leaking(rough.setup, rough.rough, rough.traction)
+    balance = share_load(film, leaking, load, 1e-4, film.under(0.9 * load, 0, None), BalanceStart(0.5 * load))
+    assert abs(balance.imbalance) < 1e-12
+    assert balance.status is not Status.CONVERGED or abs(balance.oil_imbalance) <= 1e-4
+
+
+def test_means_where_the_oil_is_counted():
+    pressure = np.array([[0.0], [1.0], [3.0], [0.0]])
+    film = PatchFilm(1.0, np.ones((4, 1)), pressure, 0 * pressure, 0.0, 1.0)
+    lengths = np.arange(8.0).reshape(4, 2)
+    assert mean_where_counted(lengths, film, OilVolume.PATCH) == lengths.mean()
+    assert mean_where_counted(lengths, film, OilVolume.LOADED) == pytest.approx((2.5 + 3 * 4.5) / 4, rel=1e-15)
+    nothing = dataclasses.replace(film, pressure=0 * pressure)
+    assert mean_where_counted(lengths, nothing, OilVolume.LOADED) == lengths.mean()
+
+
+@settings(max_examples=80, deadline=None)
+@given(st.floats(-9, 9), st.floats(-9, 9), st.floats(0.1, 4.0), st.floats(0.2, 3.0))
+def test_zero_of_a_falling_function(zero, start, steepness, slope):
+    """Arcus tangent plus a line: its slope at the zero is up to eleven times that far away."""
+    tried = []
+
+    def evaluate(place):
+        value = -math.atan(steepness * (place - zero)) - 0.1 * (place - zero)
+        tried.append((place, value))
+        return value, abs(value) < 1e-9
+
+    falling_zero(evaluate, start, slope, (-10.0, 10.0), 60)
+    assert tried[-1][0] == pytest.approx(zero, abs=1e-8)
+    assert len(tried) < 30
+
+
+@pytest.mark.parametrize(("zero", "end"), [(-20, -10.0), (20, 10.0)])
+def test_a_zero_beyond_the_ends_gives_the_end(zero, end):
+    tried = []
+    slope = falling_zero(lambda x: (tried.append(x) or zero - x, False), 1.0, 1.0, (-10.0, 10.0), 60)
+    assert tried[-1] == end
+    assert len(tried) <= 6
+    assert slope == pytest.approx(1.0, rel=1e-12)
+
+
+def test_what_is_said_of_one_result_and_of_a_curve():
+    alike = OilBeside(0.9, 0.5, 0.1, 0.52, 0.1005)
+    load, friction = OilBeside(0.8, 0.5, 0.1, 0.56, 0.1), OilBeside(0.7, 0.5, 0.1, 0.5, 0.102)
+    small, unknown = OilBeside(0.6, 0.02, 0.1, 0.029, 0.1), OilBeside(0.95, 0.5, 0.1)
+    assert [oil.matters for oil in (alike, load, friction, small, unknown)] == [False, True, True, False, True]
+    assert oil_notes([alike, small]) == ()
+    (note,) = oil_notes([alike, friction, load])
+    assert "80 % of it" in note
+    assert "56 % of the load, here 50 %" in note
+    assert note.endswith("where that differs most")
+    assert "not known of 1" in oil_notes([load, unknown])[0]
+    assert oil_notes([unknown])[0].endswith("how far is not known")
+
+
+def test_refuses_other_volumes():
+    with pytest.raises(InputError, match="oil_volume: 'hertz' is unknown; choose from patch, loaded"):
+        solve_mixed(**bearing(64, oil_volume="hertz"), speeds=(0.1, 0.0))
