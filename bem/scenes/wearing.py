@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
@@ -217,9 +218,20 @@ class WornSurface:
         return {"Sq_initial": strip.rms_before, "Sq_final": strip.rms_after, "worn_depth": strip.depth}
 
 
-def particle_rows(unit: str, text: str) -> Series:
-    """A column of the table of particles."""
-    return Series(("particle",), unit, text, rows=True)
+particle_rows = partial(Series, ("particle",), rows=True)
+"""A column of the table of particles."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ParticleTable(Record):
+    """Size and place of every particle."""
+
+    particle_volume: Annotated[FloatArray, particle_rows("m^3", "volume of a particle")]
+    particle_length: Annotated[FloatArray, particle_rows("m", "length of a particle's bounding rectangle")]
+    particle_width: Annotated[FloatArray, particle_rows("m", "width of a particle's bounding rectangle")]
+    particle_thickness: Annotated[FloatArray, particle_rows("m", "largest thickness of a particle")]
+    particle_x: Annotated[FloatArray, particle_rows("m", "x of a particle's centre")]
+    particle_y: Annotated[FloatArray, particle_rows("m", "y of a particle's centre")]
 
 
 def _reported(quantity: str) -> Figure:

@@ -41,6 +41,24 @@ def hertz_strip(x: FloatArray, half_width: float) -> NDArray[np.bool_]:
     return np.abs(x) <= max(half_width, nearest)
 
 
+@dataclass(frozen=True)
+class SettledMeans:
+    """Means over cycles: contact area over that of the grid, pressure over the contact [Pa], volume worn [m^3]."""
+
+    contact_area_fraction: float
+    mean_contact_pressure: float
+    worn_volume_per_cycle: float
+
+
+def settled_means(cycles: NDArray[np.void], area: float) -> SettledMeans:
+    """Of rows of `CYCLE_FIELDS`, on a grid of an area [m^2]."""
+    return SettledMeans(
+        float(cycles["contact_area"].mean() / area),
+        float((cycles["contact_load"] / cycles["contact_area"]).mean()),
+        float(cycles["volume"].mean()),
+    )
+
+
 def sizes_over_cycles(cycles: ArrayLike, particles: NDArray[np.void]) -> tuple[FloatArray, FloatArray]:
     """Volume-mean radius [m] (not-a-number where nothing came off) and number of the particles of each cycle."""
     volumes = [particles["volume"][particles["cycle"] == cycle] for cycle in np.asarray(cycles)]

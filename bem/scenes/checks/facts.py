@@ -234,15 +234,13 @@ def _lubricated(scene: Any) -> list[Case]:
 
 
 def _wear(scene: Any) -> list[Case]:
-    from bem.scenes.kinds.wear import grid_at, load_on
-
-    (load,), cylinder = scene.cylinder.loads, scene.cylinder
-    grid, bodies = grid_at(scene, load), _bodies(scene)
+    (load,), cylinder, bodies = scene.cylinder.loads, scene.cylinder, _bodies(scene)
+    grid, on_slice = scene.domain.at(cylinder, build.modulus_of(scene))
     radii = (cylinder.radius or math.inf, math.inf)
     return [
         Case(
             grid=grid,
-            load=load_on(scene, grid, load),
+            load=on_slice,
             smooth=smooth_contact(bodies["lower"], bodies["upper"], radii, load=load / cylinder.width),
             cap=cylinder.hardness,
             friction=cylinder.friction,
@@ -284,14 +282,12 @@ def _film(scene: Any) -> list[Case]:
 
 
 def _asperities(scene: Any) -> list[Case]:
-    from bem.scenes.kinds.asperities import grid_at
-
     (spacing,), array, bodies = scene.array.spacings, scene.array, _bodies(scene)
     radii = (array.radius, array.radius)
     return [
         Case(
             label=f"{si(depth, 'm')} deep",
-            grid=grid_at(scene, spacing),
+            grid=array.grid(spacing),
             smooth=smooth_contact(bodies["lower"], bodies["upper"], radii, approach=depth),
             shape="sphere",
             **bodies,

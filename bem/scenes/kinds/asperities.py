@@ -39,17 +39,11 @@ class AsperitiesScene(SceneModel):
     outputs: OutputsScene = OutputsScene()
 
 
-def grid_at(scene: AsperitiesScene, spacing: float, coarser: int = 1) -> Grid:
-    """The cell of one asperity, or so many times fewer cells of it."""
-    n = max(8, round(spacing / scene.array.cell)) // coarser
-    return Grid((n, n), (spacing / n, spacing / n), periodic=(True, True))
-
-
 def plan(scene: AsperitiesScene) -> Plan:
     """What will be computed."""
     from bem.friction.asperity_array import LOADS
 
-    grid, convolutions = grid_at(scene, max(scene.array.spacings)), _CONVOLUTIONS * LOADS
+    grid, convolutions = scene.array.grid(max(scene.array.spacings)), _CONVOLUTIONS * LOADS
     why = f"{LOADS} loads for each spacing, one asperity each"
     coarser = plans.coarser_contacts(grid, convolutions, plans.CONVOLUTION)
     return Plan(
@@ -91,7 +85,7 @@ def run(scene: AsperitiesScene, context: Context) -> AsperityRecord:
     from bem.friction.asperity_array import LOADS
 
     (spacing,) = scene.array.spacings
-    grid = grid_at(scene, spacing)
+    grid = scene.array.grid(spacing)
     with context.timer("contacts"):
         found = _pressed(scene, grid, lambda done: context.progress(done, LOADS, "contacts"))
     wanted = scene.outputs.errors and found.status is Status.CONVERGED
@@ -134,7 +128,7 @@ def _bars(scene: AsperitiesScene, grid: Grid, found: ArrayLoads) -> ErrorBars:
     from bem.accuracy import ErrorBars, asperity_bars
 
     try:
-        coarser = _pressed(scene, grid_at(scene, grid.lengths[0], coarser=2))
+        coarser = _pressed(scene, scene.array.grid(grid.lengths[0], coarser=2))
     except InputError:
         coarser = None
     if coarser is None or coarser.status is not Status.CONVERGED:

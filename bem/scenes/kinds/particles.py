@@ -14,9 +14,9 @@ from bem.scenes.common import MeasuredSurface, SceneModel, exactly_one
 from bem.scenes.context import Context
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Record, Series, columns, filled
+from bem.scenes.records import Figure, Series, columns, filled
 from bem.scenes.tables.particles import ArchardScene, SedimentationScene, SeparationScene, SyntheticMapScene
-from bem.scenes.wearing import particle_rows
+from bem.scenes.wearing import ParticleTable, particle_rows
 
 
 class ParticlesScene(SceneModel):
@@ -38,20 +38,14 @@ class ParticlesScene(SceneModel):
 def plan(scene: ParticlesScene) -> Plan:
     """What will be computed."""
     cells = 4.0 * 1024**2 if scene.synthetic is None else float(np.prod(scene.synthetic.shape))
+    number = "wear volume by Archard over the mean particle volume" if scene.archard else "no wear rate is given"
+    spun = "Stokes in the centrifuge" if scene.sedimentation else "no centrifuge is given"
     return Plan(
         (
             Step("map", "read from its file" if scene.synthetic is None else "made up", seconds=2.0, memory=24 * cells),
             Step("particles", "level the plate, threshold, label", seconds=3.0, memory=40 * cells),
-            Step(
-                "number of particles",
-                "wear volume by Archard over the mean particle volume" if scene.archard else "no wear rate is given",
-                skipped=scene.archard is None,
-            ),
-            Step(
-                "sedimentation",
-                "Stokes in the centrifuge" if scene.sedimentation else "no centrifuge is given",
-                skipped=scene.sedimentation is None,
-            ),
+            Step("number of particles", number, skipped=scene.archard is None),
+            Step("sedimentation", spun, skipped=scene.sedimentation is None),
             Step("contact and stresses", "the particles are measured, not computed", skipped=True),
             plans.figures(int(cells)),
         )
@@ -73,7 +67,7 @@ def _map(scene: ParticlesScene, context: Context) -> tuple[FloatArray, tuple[flo
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ParticlesRecord(Record):
+class ParticlesRecord(ParticleTable):
     """The particles of a map."""
 
     count: Annotated[int, Figure("", "particles", headline=True)]
@@ -100,13 +94,7 @@ class ParticlesRecord(Record):
     x: Annotated[FloatArray, Series(("x",), "m", "x")]
     y: Annotated[FloatArray, Series(("y",), "m", "y")]
     level_height: Annotated[FloatArray, Series(("x", "y"), "m", "height above the plate")]
-    particle_volume: Annotated[FloatArray, particle_rows("m^3", "volume of a particle")]
     particle_equivalent_radius: Annotated[FloatArray, particle_rows("m", "equivalent radius of a particle")]
-    particle_length: Annotated[FloatArray, particle_rows("m", "length of a particle")]
-    particle_width: Annotated[FloatArray, particle_rows("m", "width of a particle")]
-    particle_thickness: Annotated[FloatArray, particle_rows("m", "thickness of a particle")]
-    particle_x: Annotated[FloatArray, particle_rows("m", "x of a particle's centre")]
-    particle_y: Annotated[FloatArray, particle_rows("m", "y of a particle's centre")]
 
 
 def run(scene: ParticlesScene, context: Context) -> ParticlesRecord:
@@ -121,15 +109,13 @@ def run(scene: ParticlesScene, context: Context) -> ParticlesRecord:
         level = level_background(
             heights, spacing, threshold=choices.threshold, method=choices.background, lines=choices.level_lines
         )
-    number, area, volume = (particle_statistics(found, weight=weight) for weight in ("number", "area", "volume"))
-    means: dict[str, Any] = {}
-    for statistics in (number, area, volume):
-        means[f"{statistics.weight}_mean_radius"] = statistics.mean_equivalent_radius
-        means[f"{statistics.weight}_std_radius"] = statistics.std_equivalent_radius
+    statistics = [particle_statistics(found, weight=weight) for weight in ("number", "area", "volume")]
+    number = statistics[0]
     archard = scene.archard.figures(scene.archard.load, number.mean_volume) if scene.archard and found else {}
     return filled(
         ParticlesRecord,
-        means,
+        {f"{one.weight}_mean_radius": one.mean_equivalent_radius for one in statistics},
+        {f"{one.weight}_std_radius": one.std_equivalent_radius for one in statistics},
         archard,
         _sedimentation(scene),
         columns(found, _COLUMNS, "particle_"),

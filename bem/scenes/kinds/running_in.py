@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -20,7 +21,7 @@ from bem.scenes.axes import Axis, changed
 from bem.scenes.common import PositivePressure, Repetitions, problem
 from bem.scenes.context import Context
 from bem.scenes.kind import Kind
-from bem.scenes.lubrication import LineContactScene, SpeedsScene
+from bem.scenes.lubrication import LineContactScene, SpeedsScene, tell_of_film
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled
 from bem.scenes.tables.sharing import RunningInCycles, RunningInSharing
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     from bem.wear.mixed import MixedContact
 
 _CONVOLUTIONS = 80  # of the two or three contacts of a cycle
+_CONTACTS = "two or three contacts each, from the last pressure; none in full film"
 _DEPTHS_NEEDED = 6
 
 
@@ -103,6 +105,7 @@ def plan(scene: RunningInScene) -> Plan:
     InputError : a patch that does not fit, a wearing body without yield stress. InfeasibleError : too much load.
     """
     grid = scene.check()
+    cycles = {"convolutions": _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": 4 * _DEPTHS_NEEDED}
     return Plan(
         (
             plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
@@ -114,27 +117,13 @@ def plan(scene: RunningInScene) -> Plan:
                 memory=16.0 * scene.sharing.film_points**2,
             ),
             Step("a film for every balance", "films are interpolated in the tables", skipped=True),
-            *cycle_steps(
-                scene,
-                grid,
-                convolutions=_CONVOLUTIONS,
-                contacts="two or three contacts each, from the last pressure; none in full film",
-                usual=_DEPTHS_NEEDED,
-                first=4 * _DEPTHS_NEEDED,
-            ),
+            *cycle_steps(scene, grid, contacts=_CONTACTS, **cycles),
             plans.figures(grid.cells),
         )
     )
 
 
-def _over(unit: str, text: str) -> Series:
-    return Series(("cycle",), unit, text)
-
-
-def _shown(unit: str, text: str) -> Series:
-    return Series(("x", "y"), unit, text, of="first")
-
-
+_over, _shown, _line = (partial(Series, ("cycle",)), partial(Series, ("x", "y"), of="first"), partial(Series, ("x",)))
 _FOLLOWS_CELL = f"{FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
 
 
@@ -180,9 +169,9 @@ class RunningInRecord(GridRecord):
     rms_height_over_cycles: Annotated[FloatArray, _over("m", "Sq of the worn surface in the strip in contact")]
     volume_over_cycles: Annotated[FloatArray, _over("m^3", "volume worn per cycle")]
     particles_over_cycles: Annotated[FloatArray, _over("1", "particles per cycle")]
-    film_thickness_patch: Annotated[FloatArray, Series(("x",), "m", "film")]
-    film_pressure_patch: Annotated[FloatArray, Series(("x",), "Pa", "film pressure")]
-    separation: Annotated[FloatArray, Series(("x",), "m", "distance of mean planes")]
+    film_thickness_patch: Annotated[FloatArray, _line("m", "film")]
+    film_pressure_patch: Annotated[FloatArray, _line("Pa", "film pressure")]
+    separation: Annotated[FloatArray, _line("m", "distance of mean planes")]
     height_before: Annotated[FloatArray, _shown("m", "height of the wearing surface, unworn")]
     height_after: Annotated[FloatArray, _shown("m", "height of the wearing surface, run in")]
     pressure: Annotated[FloatArray, _shown("Pa", "contact pressure in the last cycle")]
@@ -198,8 +187,7 @@ def run(scene: RunningInScene, context: Context) -> RunningInRecord:
 
     sharing, (speeds,), saved = scene.sharing, scene.speeds.build(), context.saved()
     setup = scene.setup(**sharing.model_dump())
-    with context.timer("surfaces"):
-        initial = build.both_heights(scene, setup.grid, context)
+    initial = build.both_heights(scene, setup.grid, context)
     frames = [] if saved is None else [np.asarray(frame) for frame in saved["frames"]]
     balance = {} if saved is None else unpack_balance(saved)
     step = MixedContact(setup, speeds, table=shared_film_table(setup, speeds), **balance)
@@ -222,12 +210,10 @@ def run(scene: RunningInScene, context: Context) -> RunningInRecord:
         hardness=scene.contact.hardness,
         contact_step=step,
     )
-    for note in step.notes:
-        # the film's model is the same in all cases: said once
-        context.note(f"film: {note}" if note in step.film_notes else note)
+    tell_of_film(context, step.notes, step.film_notes)
     with context.timer("films"):
         film_error = step.table.error(float(step.rows["film_load"][-1]))
-    return _record(scene, initial, result, step, frames, film_error)
+    return _record(scene, initial, result, step, film_table_error=film_error, pressure_frames=np.array(frames))
 
 
 def _frame_cycles(count: int) -> list[int]:
@@ -240,50 +226,33 @@ def _record(
     initial: tuple[FloatArray, FloatArray],
     result: RunningIn,
     step: MixedContact,
-    frames: list[FloatArray],
-    film_error: float,
+    **own: Any,
 ) -> RunningInRecord:
     """The figures of a wear loop and what is kept of it."""
+    from bem.wear.mixed_outcome import run_in
     from bem.wear.outcome import hertz_strip
 
     setup, cycles, rows = step.setup, result.cycles, step.rows
-    grid, averaged = setup.grid, scene.cycles.averaged
-    worn, end = WornSurface.of(scene, initial, result, grid), len(cycles) - averaged
-    mean = {name: float(rows[name][-averaged:].mean()) for name in MEANS}
-    film = step.film if step.film is not None else step.table.under(float(rows["film_load"][-1]))
+    worn, averaged = WornSurface.of(scene, initial, result, setup.grid), scene.cycles.averaged
+    figures = run_in(step, cycles, averaged)
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
     over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume", "particles")}
     return filled(
         RunningInRecord,
+        figures,
         worn,
         worn.figures,
         # the same strip before and after, at all speeds
-        worn.strip(hertz_strip(grid.x, setup.line.half_width(setup.load))),
-        mean,
+        worn.strip(hertz_strip(setup.grid.x, setup.line.half_width(setup.load))),
         _radii(scene, worn.late),
         over,
-        grid,
-        friction_initial=float(rows["friction"][0]),
-        friction_run_in=mean["friction"],
-        boundary_friction_part=mean["boundary_force"] / setup.load,
-        film_friction_part=mean["film_force"] / setup.load,
-        contact_load_initial=float(rows["contact_load"][0]),
-        contact_area_fraction=float(cycles["contact_area"][-averaged:].mean() / grid.area),
+        setup.grid,
+        friction_run_in=figures.friction,
         particles_first_cycle=float((worn.particles["cycle"] == 1).sum()),
-        particles_last_cycles=float((worn.particles["cycle"] > end).sum()),
-        film_table_error=film_error,
-        evaluations_per_cycle=float(rows["evaluations"].mean()),
-        contact_share=rows["contact_load"] / setup.load,
-        film_thickness_patch=film.thickness[:, 0],
-        film_pressure_patch=film.pressure[:, 0],
-        separation=step.separation if step.separation is not None else film.thickness[:, 0],
-        frame=np.array(_frame_cycles(scene.cycles.count)[: len(frames)]),
-        pressure_frames=np.array(frames),
+        particles_last_cycles=float((worn.particles["cycle"] > len(cycles) - averaged).sum()),
+        frame=np.array(_frame_cycles(scene.cycles.count)[: len(own["pressure_frames"])]),
+        **own,
     )
-
-
-MEANS = ("friction", "boundary_force", "film_force", "contact_load", "film_load", "minimum_film", "lambda_ratio")
-"""Columns of `MIXED_FIELDS` whose means over the last cycles are figures."""
 
 
 def _radii(scene: RunningInScene, particles: NDArray[np.void]) -> dict[str, Any]:

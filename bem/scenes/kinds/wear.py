@@ -6,6 +6,7 @@ A case is one load, one variant and one pair of surfaces; sizes are means over t
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -13,7 +14,6 @@ from pydantic import model_validator
 
 from bem.errors import InfeasibleError
 from bem.grid import FloatArray, Grid
-from bem.reference_solutions.hertz import cylinder_contact
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import BodyScene, Repetitions, SceneModel, ShapeScene, problem
@@ -26,6 +26,7 @@ from bem.scenes.wearing import (
     FOLLOWS_CELL,
     IntArray,
     MeanSizes,
+    ParticleTable,
     SizesScene,
     WearDepthsScene,
     WearRateScene,
@@ -77,25 +78,6 @@ def axes(scene: WearScene) -> tuple[Axis, ...]:
     )
 
 
-def grid_at(scene: WearScene, load: float) -> Grid:
-    """The grid at a load."""
-    lengths, half_widths, cylinder = scene.domain.lengths, scene.domain.half_widths, scene.cylinder
-    if lengths is None:
-        assert half_widths is not None
-        per_length = (scene.domain.half_widths_at or load) / cylinder.width
-        smooth = cylinder_contact(radius=cylinder.radius, contact_modulus=build.modulus_of(scene), load=per_length)
-        lengths = (half_widths * smooth.half_width,) * 2
-    (nx, ny) = scene.domain.cells
-    return Grid(
-        scene.domain.cells, (lengths[0] / nx, lengths[1] / ny), periodic=(scene.domain.periodic == "both", True)
-    )
-
-
-def load_on(scene: WearScene, grid: Grid, load: float) -> float:
-    """The slice's share of a load on the full width [N]."""
-    return load * grid.lengths[1] / scene.cylinder.width
-
-
 def resolve(scene: WearScene) -> WearScene:
     """Fill in the hardness of the softer surface, where either has one."""
     return build.with_hardness(scene, "cylinder", needed=False)
@@ -108,41 +90,31 @@ def plan(scene: WearScene) -> Plan:
     ------
     InfeasibleError : a load beyond hardness times the slice's area. InputError : surfaces that cannot be generated.
     """
-    (load,) = scene.cylinder.loads
-    hardness, grid = scene.cylinder.hardness, grid_at(scene, load)
-    if hardness is not None and load_on(scene, grid, load) > hardness * grid.area:
+    grid, load = scene.domain.at(scene.cylinder, build.modulus_of(scene))
+    if (scene.cylinder.hardness or np.inf) * grid.area < load:
         raise InfeasibleError(
-            f"cylinder.loads: {load:g} N is beyond hardness x area of the domain; allowed: a smaller load, "
-            "a larger domain or a higher hardness"
+            f"cylinder.loads: {scene.cylinder.loads[0]:g} N is beyond hardness x area of the domain; allowed: a "
+            "smaller load, a larger domain or a higher hardness"
         )
+    cycles = {"convolutions": _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": _DEPTHS_AT_FIRST}
     return Plan(
         (
             *plans.of_bodies(scene, grid, scene.cylinder.friction, min(scene.depths.count, _DEPTHS_NEEDED)),
-            *cycle_steps(
-                scene,
-                grid,
-                convolutions=_CONVOLUTIONS,
-                contacts="each from the last pressure",
-                usual=_DEPTHS_NEEDED,
-                first=_DEPTHS_AT_FIRST,
-            ),
-            Step(
-                "kernels of an earlier run",
-                "not kept on disk: made once for all cycles, in a few per cent of the run's time",
-                skipped=True,
-            ),
-            Step(
-                f"deeper stresses, down to {scene.depths.count} depths",
-                "no piece that reaches the surface gets past a depth at which nothing yields",
-                skipped=True,
-            ),
+            *cycle_steps(scene, grid, contacts="each from the last pressure", **cycles),
+            Step("kernels of an earlier run", _KERNELS, skipped=True),
+            Step(f"deeper stresses, down to {scene.depths.count} depths", _DEEPER, skipped=True),
             plans.figures(grid.cells),
         )
     )
 
 
+_KERNELS = "not kept on disk: made once for all cycles, in a few per cent of the run's time"
+_DEEPER = "no piece that reaches the surface gets past a depth at which nothing yields"
+_over, _map = partial(Series, ("cycle",)), partial(Series, ("x", "y"), of="last")
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
-class WearRecord(MeanSizes):
+class WearRecord(MeanSizes, ParticleTable):
     """What a wear loop gives: means over its settled cycles, tables over cycles and particles, the worn surface."""
 
     scatters: ClassVar[tuple[str, ...]] = (
@@ -174,29 +146,23 @@ class WearRecord(MeanSizes):
     particles_per_mm_and_N: Annotated[
         float | None, Figure("", "particles per mm and N", optional=True, no_bar=FOLLOWS_CELL)
     ] = None
-    cycle: Annotated[IntArray, Series(("cycle",), "1", "cycle")]
-    radius: Annotated[FloatArray, Series(("cycle",), "m", "volume-mean equivalent radius of the particles")]
-    particles: Annotated[FloatArray, Series(("cycle",), "1", "particles per cycle")]
-    volume: Annotated[FloatArray, Series(("cycle",), "m^3", "volume worn per cycle")]
-    contact_area: Annotated[FloatArray, Series(("cycle",), "m^2", "contact area")]
-    plastic_area: Annotated[FloatArray, Series(("cycle",), "m^2", "area at the hardness")]
-    contact_load: Annotated[FloatArray, Series(("cycle",), "N", "load carried by contact")]
-    rms_height: Annotated[FloatArray, Series(("cycle",), "m", "rms height Sq of the worn surface in the contact strip")]
-    depths_computed: Annotated[FloatArray, Series(("cycle",), "1", "depths at which stress was computed")]
-    convolutions: Annotated[FloatArray, Series(("cycle",), "1", "convolutions of the contact solve")]
+    cycle: Annotated[IntArray, _over("1", "cycle")]
+    radius: Annotated[FloatArray, _over("m", "volume-mean equivalent radius of the particles")]
+    particles: Annotated[FloatArray, _over("1", "particles per cycle")]
+    volume: Annotated[FloatArray, _over("m^3", "volume worn per cycle")]
+    contact_area: Annotated[FloatArray, _over("m^2", "contact area")]
+    plastic_area: Annotated[FloatArray, _over("m^2", "area at the hardness")]
+    contact_load: Annotated[FloatArray, _over("N", "load carried by contact")]
+    rms_height: Annotated[FloatArray, _over("m", "rms height Sq of the worn surface in the contact strip")]
+    depths_computed: Annotated[FloatArray, _over("1", "depths at which stress was computed")]
+    convolutions: Annotated[FloatArray, _over("1", "convolutions of the contact solve")]
     particle_cycle: Annotated[IntArray, particle_rows("1", "cycle in which a particle came off")]
-    particle_volume: Annotated[FloatArray, particle_rows("m^3", "volume of a particle")]
-    particle_length: Annotated[FloatArray, particle_rows("m", "length of a particle's bounding rectangle")]
-    particle_width: Annotated[FloatArray, particle_rows("m", "width of a particle's bounding rectangle")]
-    particle_thickness: Annotated[FloatArray, particle_rows("m", "deepest point of a particle")]
-    particle_x: Annotated[FloatArray, particle_rows("m", "x of a particle's centre")]
-    particle_y: Annotated[FloatArray, particle_rows("m", "y of a particle's centre")]
     x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding", of="last")]
     y: Annotated[FloatArray, Series(("y",), "m", "y", of="last")]
-    height_before: Annotated[FloatArray, Series(("x", "y"), "m", "height of the wearing surface, unworn", of="last")]
-    height_after: Annotated[FloatArray, Series(("x", "y"), "m", "height of the wearing surface, run in", of="last")]
-    pressure: Annotated[FloatArray, Series(("x", "y"), "Pa", "contact pressure in the last cycle", of="last")]
-    removed: Annotated[FloatArray | None, Series(("x", "y"), "m", "what left the body in the last cycle", of="last")]
+    height_before: Annotated[FloatArray, _map("m", "height of the wearing surface, unworn")]
+    height_after: Annotated[FloatArray, _map("m", "height of the wearing surface, run in")]
+    pressure: Annotated[FloatArray, _map("Pa", "contact pressure in the last cycle")]
+    removed: Annotated[FloatArray | None, _map("m", "what left the body in the last cycle")]
 
 
 def run(scene: WearScene, context: Context) -> WearRecord:
@@ -204,10 +170,8 @@ def run(scene: WearScene, context: Context) -> WearRecord:
     from bem.particles import volume_mean_radius
     from bem.wear import RunningInState, Settled
 
-    (load,) = scene.cylinder.loads
-    grid, radius = grid_at(scene, load), scene.cylinder.radius
-    with context.timer("surfaces"):
-        initial = build.both_heights(scene, grid, context)
+    grid, load = scene.domain.at(scene.cylinder, build.modulus_of(scene))
+    radius, initial = scene.cylinder.radius, build.both_heights(scene, grid, context)
 
     def watch(now: RunningInState) -> dict[str, float]:
         last = now.particles[now.particles["cycle"] == now.cycle]
@@ -223,40 +187,35 @@ def run(scene: WearScene, context: Context) -> WearRecord:
         initial,
         watch=watch,
         grid=grid,
-        load=load_on(scene, grid, load),
+        load=load,
         gap=build.shape_of(cylinder, grid),
         friction=scene.cylinder.friction,
         hardness=scene.cylinder.hardness,
         stop=Settled(tolerance=scene.cycles.tolerance) if scene.cycles.stop_when_settled else None,
     )
-    return _record(scene, load, grid, initial, result)
+    return _record(scene, grid, initial, result)
 
 
-def _record(
-    scene: WearScene, load: float, grid: Grid, initial: tuple[FloatArray, FloatArray], result: RunningIn
-) -> WearRecord:
+def _record(scene: WearScene, grid: Grid, initial: tuple[FloatArray, FloatArray], result: RunningIn) -> WearRecord:
     """The figures of a wear loop, means over its settled cycles, and its tables."""
     from bem.particles import volume_mean_radius
-    from bem.wear.outcome import contact_strip, sizes_over_cycles
+    from bem.wear.outcome import contact_strip, settled_means, sizes_over_cycles
 
-    cycles, worn = result.cycles, WornSurface.of(scene, initial, result, grid)
-    particles, late, settled = worn.particles, worn.late, cycles[-scene.cycles.settled :]
+    cycles, worn, (load,) = result.cycles, WornSurface.of(scene, initial, result, grid), scene.cylinder.loads
+    particles, late = worn.particles, worn.late
     radius, number = sizes_over_cycles(cycles["cycle"], particles)
-    archard = scene.archard.figures(load, float(late["volume"].mean())) if scene.archard and late.size else {}
     return filled(
         WearRecord,
         worn,
         worn.figures,
         worn.strip(contact_strip(worn.pressure)),
+        settled_means(cycles[-scene.cycles.settled :], grid.area),
         mean_sizes(late, scene.sizes),
-        archard,
+        scene.archard.figures(load, float(late["volume"].mean())) if scene.archard and late.size else {},
         {name: cycles[name].astype(np.float64) for name in _PER_CYCLE},
         {f"particle_{name}": np.ascontiguousarray(particles[name]) for name in _PER_PARTICLE},
         {f"{part}_seconds": float(result.times[part].sum()) for part in ("contact", "stress", "particles")},
         grid,
-        contact_area_fraction=float(settled["contact_area"].mean() / grid.area),
-        mean_contact_pressure=float((settled["contact_load"] / settled["contact_area"]).mean()),
-        worn_volume_per_cycle=float(settled["volume"].mean()),
         first_cycles_radius=volume_mean_radius(particles[particles["cycle"] <= 5]["volume"]),
         cycles=len(cycles),
         truncated_particles=int(late["truncated"].sum()),

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
+from bem.grid import Grid
 from bem.scenes.common import Cells, PositiveLength, Table, problem
 from bem.scenes.units import Length
 
@@ -33,3 +34,8 @@ class ArrayScene(Table):
         if max(self.spacings) / self.cell > self.cells_at_most:
             raise problem("more cells per asperity than cells_at_most", "a larger cell or smaller spacings")
         return self
+
+    def grid(self, spacing: float, coarser: int = 1) -> Grid:
+        """The cell of one asperity, or so many times fewer cells of it."""
+        n = max(8, round(spacing / self.cell)) // coarser
+        return Grid((n, n), (spacing / n, spacing / n), periodic=(True, True))

@@ -7,6 +7,8 @@ from typing import Annotated, Literal
 from pydantic import Field, field_validator, model_validator
 
 from bem.errors import InputError
+from bem.grid import Grid
+from bem.reference_solutions.hertz import cylinder_contact
 from bem.scenes.axes import Model, with_keys
 from bem.scenes.common import (
     Cells,
@@ -58,6 +60,17 @@ class DomainScene(Table):
         if self.half_widths is None and self.half_widths_at is not None:
             raise problem("half_widths_at without half_widths", "half_widths with half_widths_at, or lengths alone")
         return self
+
+    def at(self, cylinder: CylinderScene, modulus: float) -> tuple[Grid, float]:
+        """The grid of a case and its load [N], the slice's share of that on the full width; modulus : E* [Pa]."""
+        (load,), lengths, (nx, ny) = cylinder.loads, self.lengths, self.cells
+        if lengths is None:
+            assert self.half_widths is not None
+            per_length = (self.half_widths_at or load) / cylinder.width
+            smooth = cylinder_contact(radius=cylinder.radius, contact_modulus=modulus, load=per_length)
+            lengths = (self.half_widths * smooth.half_width,) * 2
+        grid = Grid((nx, ny), (lengths[0] / nx, lengths[1] / ny), periodic=(self.periodic == "both", True))
+        return grid, load * grid.lengths[1] / cylinder.width
 
 
 class CyclesScene(LastCycles):

@@ -1,0 +1,63 @@
+"""Figures of a finished lubricated wear loop: friction and loads in the first cycle and over the last ones.
+
+Knows the load sharing of its cycles (`wear.mixed`); no scene. Verified in tests/scenes/test_friction_kinds.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.grid import FloatArray
+from bem.wear.mixed import MixedContact
+
+
+@dataclass(frozen=True, eq=False)
+class RunIn:
+    """Initial: of the first cycle; the others are means of the last cycles. Forces on the whole width [N].
+
+    friction and its boundary and film parts; contact_share (cycles,) of the load; over the patch (nx,) in the last
+    cycle: film thickness [m], film pressure [Pa], separation of the mean planes [m].
+    """
+
+    friction_initial: float
+    contact_load_initial: float
+    friction: float
+    boundary_friction_part: float
+    film_friction_part: float
+    contact_load: float
+    film_load: float
+    minimum_film: float
+    lambda_ratio: float
+    contact_area_fraction: float
+    evaluations_per_cycle: float
+    contact_share: FloatArray
+    film_thickness_patch: FloatArray
+    film_pressure_patch: FloatArray
+    separation: FloatArray
+
+
+def run_in(step: MixedContact, cycles: NDArray[np.void], averaged: int) -> RunIn:
+    """Of a loop with rows of `CYCLE_FIELDS`, its means over so many of the last cycles."""
+    setup, rows = step.setup, step.rows
+    mean = {name: float(rows[name][-averaged:].mean()) for name in _MEANS}
+    film = step.film if step.film is not None else step.table.under(float(rows["film_load"][-1]))
+    return RunIn(
+        friction_initial=float(rows["friction"][0]),
+        contact_load_initial=float(rows["contact_load"][0]),
+        boundary_friction_part=mean.pop("boundary_force") / setup.load,
+        film_friction_part=mean.pop("film_force") / setup.load,
+        contact_area_fraction=float(cycles["contact_area"][-averaged:].mean() / setup.grid.area),
+        evaluations_per_cycle=float(rows["evaluations"].mean()),
+        contact_share=rows["contact_load"] / setup.load,
+        film_thickness_patch=film.thickness[:, 0],
+        film_pressure_patch=film.pressure[:, 0],
+        separation=step.separation if step.separation is not None else film.thickness[:, 0],
+        **mean,
+    )
+
+
+_MEANS = ("friction", "boundary_force", "film_force", "contact_load", "film_load", "minimum_film", "lambda_ratio")
+"""Columns of `MIXED_FIELDS` whose means over the last cycles are figures."""
