@@ -9,7 +9,7 @@ from __future__ import annotations
 import importlib
 import pkgutil
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -60,6 +60,14 @@ class Kind:
         marked = (key for key in headline_of(self.record) if key not in self.headline)
         object.__setattr__(self, "headline", (*self.headline, *marked))
 
+    @classmethod
+    def of(cls, file: Mapping[str, Any], model: type[SceneModel], record: type[Record], title: str, **own: Any) -> Kind:
+        """That of a file, `vars()` at its end: `plan`, `run`, `resolve`, `axes`, `summarise` and `volumes` are its
+        functions of these names, the kind's name is the model's; `own` are the other parameters."""
+        parts = {name: file[name] for name in _PARTS if name in file}
+        name = model.model_fields["kind"].default
+        return cls(**({"name": name, "title": title, "model": model, "record": record} | parts | own))
+
     def enter(self) -> None:
         """Enter it, for a kind from outside the package; see `bem.register`.
 
@@ -79,6 +87,7 @@ class Kind:
         _registered[self.name] = self
 
 
+_PARTS = ("plan", "run", "resolve", "axes", "summarise", "volumes")
 _registered: dict[str, Kind] = {}
 
 

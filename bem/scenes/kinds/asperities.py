@@ -145,15 +145,11 @@ def summarise(scene: AsperitiesScene, axes: Any, records: Sequence[AsperityRecor
     return {"hertz_load_N": float(first.hertz_load[-1]), "interference_nm": 1e9 * float(first.interference[-1])}
 
 
-KIND = Kind(
-    name="asperities",
-    title="a regular array of spherical asperities against a flat: load per asperity over depth",
-    model=AsperitiesScene,
-    axes=axes,
-    plan=plan,
-    run=run,
-    record=AsperityRecord,
-    summarise=summarise,
+KIND = Kind.of(
+    vars(),
+    AsperitiesScene,
+    AsperityRecord,
+    "a regular array of spherical asperities against a flat: load per asperity over depth",
     always_lists=True,
     figures=("asperity-loads", "pressure-map"),
     headline=("spacing_um", "load_over_hertz", "load_over_hertz_finite_array", "hertz_load_N"),

@@ -236,20 +236,15 @@ def _stressed(scene: ContactScene) -> tuple[Body, float]:
 
 def volumes(scene: ContactScene) -> tuple[str, ...]:
     """Fields for ParaView."""
-    if not scene.outputs.vtk or not scene.outputs.wanted_depths():
-        return ()
-    return ("von_mises", "stress") if scene.outputs.stresses else ("von_mises",)
+    wanted = ("von_mises", "stress") if scene.outputs.stresses else ("von_mises",)
+    return wanted if scene.outputs.vtk and scene.outputs.wanted_depths() else ()
 
 
-KIND = Kind(
-    name="contact",
-    title="two rough, possibly coated bodies pressed together: pressure, contact area, approach, stresses below",
-    model=ContactScene,
-    plan=plan,
-    run=run,
-    record=ContactRecord,
-    volumes=volumes,
-    resolve=resolve,
+KIND = Kind.of(
+    vars(),
+    ContactScene,
+    ContactRecord,
+    "two rough, possibly coated bodies pressed together: pressure, contact area, approach, stresses below",
     figures=(
         "pressure-map",
         "contact-map",

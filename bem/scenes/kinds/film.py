@@ -177,12 +177,10 @@ _OVER_TIME = (
 )
 
 
-KIND = Kind(
-    name="film",
-    title="film of a smooth line contact in time: start and stop, reciprocating, changing load",
-    model=FilmScene,
-    plan=plan,
-    run=run,
-    record=FilmTimeRecord,
+KIND = Kind.of(
+    vars(),
+    FilmScene,
+    FilmTimeRecord,
+    "film of a smooth line contact in time: start and stop, reciprocating, changing load",
     figures=("film-over-time", "film-profiles", "film-pressures", "film-fraction"),
 )

@@ -136,13 +136,10 @@ def run(scene: FlowFactorsScene, context: Context) -> FlowRecord:
     )
 
 
-KIND = Kind(
-    name="flow-factors",
-    title="flow factors of rough surfaces over separation, as deformed in their contact",
-    model=FlowFactorsScene,
-    resolve=resolve,
-    plan=plan,
-    run=run,
-    record=FlowRecord,
+KIND = Kind.of(
+    vars(),
+    FlowFactorsScene,
+    FlowRecord,
+    "flow factors of rough surfaces over separation, as deformed in their contact",
     figures=("flow-factors", "flow-heights"),
 )

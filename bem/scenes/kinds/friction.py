@@ -296,16 +296,11 @@ def _solved(records: np.ndarray) -> list[CurveRecord]:
     return [one for one in records.ravel() if one is not None]
 
 
-KIND = Kind(
-    name="friction",
-    title="load sharing between oil film and rough contact over speed: the Stribeck curve",
-    model=FrictionScene,
-    axes=axes,
-    plan=plan,
-    run=run,
-    record=CurveRecord,
-    summarise=summarise,
-    resolve=resolve,
+KIND = Kind.of(
+    vars(),
+    FrictionScene,
+    CurveRecord,
+    "load sharing between oil film and rough contact over speed: the Stribeck curve",
     figures=(
         "stribeck-curve",
         "load-sharing",

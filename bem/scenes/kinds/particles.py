@@ -145,12 +145,10 @@ def _sedimentation(scene: ParticlesScene) -> dict[str, Any]:
     return {"sedimentation_time": needed, "sedimented": None if available is None else needed <= available}
 
 
-KIND = Kind(
-    name="particles",
-    title="sizes of the wear particles in an AFM height map",
-    model=ParticlesScene,
-    plan=plan,
-    run=run,
-    record=ParticlesRecord,
+KIND = Kind.of(
+    vars(),
+    ParticlesScene,
+    ParticlesRecord,
+    "sizes of the wear particles in an AFM height map",
     figures=("particle-map", "particle-sizes"),
 )

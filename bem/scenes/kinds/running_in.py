@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 
 from bem.grid import FloatArray
-from bem.scenes import build, plans
+from bem.scenes import build, plans, wearing
 from bem.scenes.axes import Axis, changed
 from bem.scenes.common import PositivePressure, Repetitions, problem
 from bem.scenes.context import Context
@@ -25,17 +25,6 @@ from bem.scenes.lubrication import LineContactScene, SpeedsScene, tell_of_film
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled
 from bem.scenes.tables.sharing import RunningInCycles, RunningInSharing
-from bem.scenes.wearing import (
-    FOLLOWS_CELL,
-    IntArray,
-    SizesScene,
-    WearDepthsScene,
-    WearScenePart,
-    WornSurface,
-    cycle_steps,
-    size_statistics,
-    wear_loop,
-)
 
 if TYPE_CHECKING:
     from bem.wear import RunningIn, RunningInState
@@ -50,11 +39,11 @@ class RunningInScene(LineContactScene):
     """A rough cylinder slides on a rough flat in oil; what yields and reaches the surface leaves."""
 
     kind: Literal["running-in"] = "running-in"
-    depths: WearDepthsScene
-    wear: WearScenePart = WearScenePart()
+    depths: wearing.WearDepthsScene
+    wear: wearing.WearScenePart = wearing.WearScenePart()
     cycles: RunningInCycles = RunningInCycles()
     sharing: RunningInSharing = RunningInSharing()
-    sizes: SizesScene = SizesScene()
+    sizes: wearing.SizesScene = wearing.SizesScene()
     hardnesses: list[PositivePressure] = []  # noqa: RUF012
     repetitions: Repetitions = 1
 
@@ -117,14 +106,14 @@ def plan(scene: RunningInScene) -> Plan:
                 memory=16.0 * scene.sharing.film_points**2,
             ),
             Step("a film for every balance", "films are interpolated in the tables", skipped=True),
-            *cycle_steps(scene, grid, contacts=_CONTACTS, **cycles),
+            *wearing.cycle_steps(scene, grid, contacts=_CONTACTS, **cycles),
             plans.figures(grid.cells),
         )
     )
 
 
 _over, _shown, _line = (partial(Series, ("cycle",)), partial(Series, ("x", "y"), of="first"), partial(Series, ("x",)))
-_FOLLOWS_CELL = f"{FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
+_FOLLOWS_CELL = f"{wearing.FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,15 +142,15 @@ class RunningInRecord(GridRecord):
     minimum_film: Annotated[float, Figure("nm", "minimum film thickness, run in")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over patch, run in")]
     worn_depth: Annotated[float, Figure("nm", "mean depth worn in Hertz' strip")]
-    particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled", no_bar=FOLLOWS_CELL)]
-    particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle", no_bar=FOLLOWS_CELL)]
-    particles_last_cycles: Annotated[float, Figure("", "particles of the last cycles", no_bar=FOLLOWS_CELL)]
+    particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled", no_bar=wearing.FOLLOWS_CELL)]
+    particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle", no_bar=wearing.FOLLOWS_CELL)]
+    particles_last_cycles: Annotated[float, Figure("", "particles of the last cycles", no_bar=wearing.FOLLOWS_CELL)]
     film_table_error: Annotated[float, Figure("", "error of the film that is interpolated in the table")]
     evaluations_per_cycle: Annotated[float, Figure("", "films per cycle")]
     convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle")]
-    number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number", no_bar=FOLLOWS_CELL)]
+    number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number", no_bar=wearing.FOLLOWS_CELL)]
     volume_mean_radius: Annotated[float, Figure("nm", "the same, mean by volume", no_bar=_FOLLOWS_CELL)]
-    cycle: Annotated[IntArray, _over("1", "cycle")]
+    cycle: Annotated[wearing.IntArray, _over("1", "cycle")]
     friction_over_cycles: Annotated[FloatArray, _over("1", "coefficient of friction")]
     film_load_over_cycles: Annotated[FloatArray, _over("N", "load carried by the film")]
     minimum_film_over_cycles: Annotated[FloatArray, _over("m", "minimum film thickness")]
@@ -175,7 +164,7 @@ class RunningInRecord(GridRecord):
     height_before: Annotated[FloatArray, _shown("m", "height of the wearing surface, unworn")]
     height_after: Annotated[FloatArray, _shown("m", "height of the wearing surface, run in")]
     pressure: Annotated[FloatArray, _shown("Pa", "contact pressure in the last cycle")]
-    frame: Annotated[IntArray, Series(("frame",), "1", "cycle of the frame", of="first")]
+    frame: Annotated[wearing.IntArray, Series(("frame",), "1", "cycle of the frame", of="first")]
     pressure_frames: Annotated[
         FloatArray, Series(("frame", "x", "y"), "Pa", "contact pressure over the cycles", of="first")
     ]
@@ -198,7 +187,7 @@ def run(scene: RunningInScene, context: Context) -> RunningInRecord:
         row = step.rows[-1]
         return {"friction": float(row["friction"]), "contact_share": float(row["contact_load"]) / setup.load}
 
-    result = wear_loop(
+    result = wearing.wear_loop(
         scene,
         context,
         initial,
@@ -233,7 +222,7 @@ def _record(
     from bem.wear.outcome import hertz_strip
 
     setup, cycles, rows = step.setup, result.cycles, step.rows
-    worn, averaged = WornSurface.of(scene, initial, result, setup.grid), scene.cycles.averaged
+    worn, averaged = wearing.WornSurface.of(scene, initial, result, setup.grid), scene.cycles.averaged
     figures = run_in(step, cycles, averaged)
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
     over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume", "particles")}
@@ -260,7 +249,7 @@ def _radii(scene: RunningInScene, particles: NDArray[np.void]) -> dict[str, Any]
     names = ("particle_equivalent_radius", "number_mean_radius", "volume_mean_radius")
     if not particles.size:
         return dict.fromkeys(names, 0.0)
-    sizes = size_statistics(particles, scene.sizes.smallest)
+    sizes = wearing.size_statistics(particles, scene.sizes.smallest)
     weights = (scene.sizes.report, "number", "volume")
     return {name: sizes[weight]["equivalent_radius"] for name, weight in zip(names, weights, strict=True)}
 
@@ -282,17 +271,12 @@ def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[Run
     return summary
 
 
-KIND = Kind(
-    name="running-in",
-    title="running-in in mixed lubrication: wear cycles with the load shared between film and contact",
-    model=RunningInScene,
-    axes=axes,
-    plan=plan,
-    run=run,
-    record=RunningInRecord,
-    summarise=summarise,
+KIND = Kind.of(
+    vars(),
+    RunningInScene,
+    RunningInRecord,
+    "running-in in mixed lubrication: wear cycles with the load shared between film and contact",
     always_lists=True,
-    resolve=resolve,
     figures=(
         "running-in-stribeck",
         "friction-over-cycles",

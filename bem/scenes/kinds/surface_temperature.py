@@ -4,27 +4,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 from bem.errors import Status
-from bem.grid import FloatArray, Grid
+from bem.grid import FloatArray
 from bem.scenes import build, plans
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, filled
-from bem.scenes.tables.heat import RubbingHeatScene
-from bem.scenes.tables.pressing import PressedScene
-
-if TYPE_CHECKING:
-    from bem.accuracy import RubbingCase
+from bem.scenes.tables.heat import RubbingScene
 
 
-class SurfaceTemperatureScene(PressedScene):
-    """A contact whose friction makes heat; all of it enters the lower body where the upper one has no material."""
+class SurfaceTemperatureScene(RubbingScene):
+    """Two bodies, a load, and speeds."""
 
     kind: Literal["surface-temperature"] = "surface-temperature"
-    heat: RubbingHeatScene
 
 
 def plan(scene: SurfaceTemperatureScene) -> Plan:
@@ -41,7 +36,7 @@ def plan(scene: SurfaceTemperatureScene) -> Plan:
     grid = build.grid_of(scene.grid)
     scene.contact.check_load(grid.area)
     rubbing = plans.of_bodies(scene, grid, scene.contact.friction)
-    case = _case(scene, grid)
+    case = scene.case(grid)
     check_steady(grid, conductors_of("heat", case.bodies, case.speeds[: len(case.bulk)], case.bulk))
     points = padded_points(grid.shape, grid.periodic)
     pair = len(case.bulk) == 2
@@ -92,7 +87,7 @@ def run(scene: SurfaceTemperatureScene, context: Context) -> SurfaceTemperatureR
 
     grid = build.grid_of(scene.grid)
     gap = build.undeformed_gap(scene, grid, *build.both_heights(scene, grid, context))
-    case = _case(scene, grid)
+    case = scene.case(grid)
     with context.timer("contact"):
         contact = case.contact(grid, gap)
     with context.timer("temperature"):
@@ -116,26 +111,11 @@ def run(scene: SurfaceTemperatureScene, context: Context) -> SurfaceTemperatureR
     )
 
 
-def _case(scene: SurfaceTemperatureScene, grid: Grid) -> RubbingCase:
-    from bem.accuracy import RubbingCase
-
-    bodies, heat, contact = build.bodies_of(scene), scene.heat, scene.contact
-    return RubbingCase(
-        bodies=bodies,
-        speeds=(heat.lower_speed, heat.upper_speed),
-        bulk=(heat.lower_bulk, heat.upper_bulk) if isinstance(bodies, tuple) else (heat.lower_bulk,),
-        friction=contact.friction,
-        asked=contact.prescribed(grid.area) | contact.accuracy(),
-    )
-
-
-KIND = Kind(
-    name="surface-temperature",
-    title="heat of friction in a rough or smooth contact: surface temperature, its share between the bodies",
-    model=SurfaceTemperatureScene,
-    plan=plan,
-    run=run,
-    record=SurfaceTemperatureRecord,
+KIND = Kind.of(
+    vars(),
+    SurfaceTemperatureScene,
+    SurfaceTemperatureRecord,
+    "heat of friction in a rough or smooth contact: surface temperature, its share between the bodies",
     resolve=SurfaceTemperatureScene.resolved,
     figures=("temperature-map", "temperature-section", "pressure-map"),
 )

@@ -12,20 +12,17 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from bem.errors import InfeasibleError
-from bem.grid import FloatArray, Grid
-from bem.reference_solutions.hertz import sphere_contact
+from bem.grid import FloatArray
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed, variants
-from bem.scenes.common import BodyScene, GridScene, Repetitions, SceneModel, ShapeScene, problem
+from bem.scenes.common import Repetitions, problem
 from bem.scenes.context import Context
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, layered_kernel_seconds, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, columns, filled
-from bem.scenes.tables.tribofilm import FilmScene, RubbingScene, VariantScene
+from bem.scenes.tables.tribofilm import RubbedScene, VariantScene
 from bem.scenes.units import Ratio
-from bem.tribofilm.growth import ZERO_CELSIUS
 from bem.tribofilm.properties import Constant
 
 if TYPE_CHECKING:
@@ -37,16 +34,10 @@ _CONTACTS = 50  # solved per film: the table is refined only as far as the film 
 _CHECKPOINT_EVERY = 5  # contacts
 
 
-class TribofilmScene(SceneModel):
+class TribofilmScene(RubbedScene):
     """A film on the lower body, under a rough, capped, layered contact."""
 
     kind: Literal["tribofilm"] = "tribofilm"
-    grid: GridScene
-    lower: BodyScene
-    upper: BodyScene
-    shape: ShapeScene = ShapeScene()
-    rubbing: RubbingScene
-    film: FilmScene
     variants: list[VariantScene] = []  # noqa: RUF012
     reuse_tolerance: Annotated[Ratio, Field(ge=0, lt=1)] = 2e-3
     repetitions: Repetitions = 1
@@ -55,12 +46,6 @@ class TribofilmScene(SceneModel):
     def _delay_needs_the_mean(self) -> TribofilmScene:
         if self.film.feedback == "local" and (self.film.lag > 0 or any(v.lag for v in self.variants)):
             raise problem("a lag with local feedback", 'lag with film.feedback = "mean", or no lag')
-        return self
-
-    @model_validator(mode="after")
-    def _film_is_the_layer(self) -> TribofilmScene:
-        if self.lower.stack or self.upper.stack:
-            raise problem("a body has a layer of its own", "bodies without a layer: the film is the layer")
         return self
 
 
@@ -82,7 +67,7 @@ def plan(scene: TribofilmScene) -> Plan:
     """
     grid, film = build.grid_of(scene.grid), scene.film
     surfaces = plans.surfaces(grid, scene.lower.surface, scene.upper.surface)
-    _check_load(scene, grid)
+    scene.check_load(grid)
     lags = scene.rubbing.duration / film.lag if film.lag > 0 else 0.0  # integrated one by one
     same = film.youngs_modulus == Constant(scene.lower.build().material.youngs_modulus)
     return Plan(
@@ -110,22 +95,6 @@ def plan(scene: TribofilmScene) -> Plan:
             plans.figures(grid.cells),
         )
     )
-
-
-def _check_load(scene: TribofilmScene, grid: Grid) -> None:
-    """Refuse a load beyond the softest hardness that the film can get times the grid's area, before any work."""
-    from bem.tribofilm.grow import softest_film
-
-    film, rubbing, (load,), (temperature,) = scene.film, scene.rubbing, scene.rubbing.loads, scene.rubbing.temperatures
-    laws = film.hardness, film.kinetics(), film.balance()
-    softest = softest_film(*laws, friction=rubbing.friction, temperature=temperature, duration=rubbing.duration)
-    other = None if scene.upper.material is None else scene.upper.material.hardness
-    limit = (softest if other is None else min(softest, other)) * grid.area
-    if load > limit:
-        raise InfeasibleError(
-            f"rubbing.loads: {load:g} N is beyond the softest film's hardness x area of the grid, {limit:.4g} N at "
-            f"{temperature - ZERO_CELSIUS:.4g} degC; allowed: a smaller load, a larger grid or a harder film"
-        )
 
 
 _over_time, _map = partial(Series, ("time",)), partial(Series, ("x", "y"))
@@ -171,7 +140,8 @@ def run(scene: TribofilmScene, context: Context) -> FilmRecord:
     """Grow one film."""
     report = scene.rubbing.report
     times = np.unique(np.concatenate([np.linspace(0.0, scene.rubbing.duration, scene.rubbing.points), report or ()]))
-    contact = _contact(scene, build.grid_of(scene.grid), context)
+    grid = build.grid_of(scene.grid)
+    contact = scene.contact(grid, *build.both_heights(scene, grid, context))
     with context.timer("films"):
         film = (_local_film if scene.film.feedback == "local" else _mean_film)(scene, contact, times, context)
     history = film.history
@@ -180,7 +150,7 @@ def run(scene: TribofilmScene, context: Context) -> FilmRecord:
         history,
         film,
         columns(film.samples, _SAMPLED, "sample_"),
-        contact.grid,
+        grid,
         film_thickness=float(history.thickness[-1]),
         largest_thickness=float(history.thickness.max()),
         film_wear_rate=float(history.wear_rate[-1]),
@@ -191,37 +161,6 @@ def run(scene: TribofilmScene, context: Context) -> FilmRecord:
 
 
 _SAMPLED = ("thickness", "mean_pressure", "hardness", "growth", "contact_area")
-
-
-def _contact(scene: TribofilmScene, grid: Grid, context: Context) -> FilmContact:
-    """The rough contact under the film."""
-    from bem.tribofilm import FilmContact
-
-    film, (load,), (temperature,) = scene.film, scene.rubbing.loads, scene.rubbing.temperatures
-    lower, upper = build.both_heights(scene, grid, context)
-    return FilmContact(
-        gap=build.shape_of(scene.shape, grid) - (lower + upper),
-        grid=grid,
-        substrate=scene.lower.build().material,
-        counterface=scene.upper.build().material,
-        load=load,
-        growth=film.kinetics(),
-        hardness=film.hardness,
-        modulus=film.youngs_modulus,
-        temperature=temperature,
-        poissons_ratio=film.poissons_ratio,
-        friction=scene.rubbing.friction,
-        average=film.average,
-        nominal_area=_nominal_area(scene, grid, load),
-    )
-
-
-def _nominal_area(scene: TribofilmScene, grid: Grid, load: float) -> FloatArray | None:
-    """Cells inside the smooth Hertz contact of a ball; the whole grid for other shapes."""
-    if scene.film.average != "nominal" or scene.shape.kind != "sphere" or scene.shape.radius is None:
-        return None
-    ball = sphere_contact(radius=scene.shape.radius, contact_modulus=build.modulus_of(scene), load=load)
-    return (np.hypot(grid.x[:, None], grid.y[None, :]) <= ball.semi_axes[0]).astype(np.float64)
 
 
 def _mean_film(scene: TribofilmScene, contact: FilmContact, times: FloatArray, context: Context) -> TribofilmGrowth:
@@ -261,15 +200,11 @@ def summarise(scene: TribofilmScene, axes: Any, records: Any) -> dict[str, Any]:
     return {"cycle_s": scene.rubbing.cycle}
 
 
-KIND = Kind(
-    name="tribofilm",
-    title="a tribofilm that grows under stress and heat, wears, and takes substrate with it",
-    model=TribofilmScene,
-    axes=axes,
-    plan=plan,
-    run=run,
-    record=FilmRecord,
-    summarise=summarise,
+KIND = Kind.of(
+    vars(),
+    TribofilmScene,
+    FilmRecord,
+    "a tribofilm that grows under stress and heat, wears, and takes substrate with it",
     resolve=build.with_grid,
     figures=(
         "film-thickness",

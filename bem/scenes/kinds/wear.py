@@ -14,7 +14,7 @@ from pydantic import model_validator
 
 from bem.errors import InfeasibleError
 from bem.grid import FloatArray, Grid
-from bem.scenes import build, plans
+from bem.scenes import build, plans, wearing
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import BodyScene, Repetitions, SceneModel, ShapeScene, problem
 from bem.scenes.context import Context
@@ -22,22 +22,6 @@ from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, filled
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
-from bem.scenes.wearing import (
-    FOLLOWS_CELL,
-    IntArray,
-    MeanSizes,
-    ParticleTable,
-    SizesScene,
-    WearDepthsScene,
-    WearRateScene,
-    WearScenePart,
-    WornSurface,
-    cycle_steps,
-    mean_sizes,
-    particle_rows,
-    sizes_without_bars,
-    wear_loop,
-)
 
 if TYPE_CHECKING:
     from bem.wear import RunningIn
@@ -55,11 +39,11 @@ class WearScene(SceneModel):
     upper: BodyScene
     cylinder: CylinderScene
     domain: DomainScene
-    depths: WearDepthsScene
-    wear: WearScenePart = WearScenePart()
+    depths: wearing.WearDepthsScene
+    wear: wearing.WearScenePart = wearing.WearScenePart()
     cycles: CyclesScene = CyclesScene()
-    sizes: SizesScene = SizesScene()
-    archard: WearRateScene | None = None
+    sizes: wearing.SizesScene = wearing.SizesScene()
+    archard: wearing.WearRateScene | None = None
     variants: list[WearVariantScene] = []  # noqa: RUF012
     repetitions: Repetitions = 1
 
@@ -100,7 +84,7 @@ def plan(scene: WearScene) -> Plan:
     return Plan(
         (
             *plans.of_bodies(scene, grid, scene.cylinder.friction, min(scene.depths.count, _DEPTHS_NEEDED)),
-            *cycle_steps(scene, grid, contacts="each from the last pressure", **cycles),
+            *wearing.cycle_steps(scene, grid, contacts="each from the last pressure", **cycles),
             Step("kernels of an earlier run", _KERNELS, skipped=True),
             Step(f"deeper stresses, down to {scene.depths.count} depths", _DEEPER, skipped=True),
             plans.figures(grid.cells),
@@ -114,16 +98,16 @@ _over, _map = partial(Series, ("cycle",)), partial(Series, ("x", "y"), of="last"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class WearRecord(MeanSizes, ParticleTable):
+class WearRecord(wearing.MeanSizes, wearing.ParticleTable):
     """What a wear loop gives: means over its settled cycles, tables over cycles and particles, the worn surface."""
 
     scatters: ClassVar[tuple[str, ...]] = (
-        *MeanSizes.scatters,
+        *wearing.MeanSizes.scatters,
         *("Sq_initial", "Sq_final", "contact_area_fraction", "mean_contact_pressure", "worn_volume_per_cycle"),
         "first_cycles_radius",
     )
     particles_per_cycle: Annotated[
-        float, Figure("", "particles per cycle, settled", headline=True, no_bar=FOLLOWS_CELL)
+        float, Figure("", "particles per cycle, settled", headline=True, no_bar=wearing.FOLLOWS_CELL)
     ]
     Sq_initial: Annotated[float, Figure("nm", "Sq in the contact strip, unworn", headline=True)]
     Sq_final: Annotated[float, Figure("nm", "Sq in the contact strip, run in", headline=True)]
@@ -141,12 +125,12 @@ class WearRecord(MeanSizes, ParticleTable):
     convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle")]
     wear_volume: Annotated[float | None, Figure("mm3", "worn volume by Archard's law", optional=True)] = None
     particle_number: Annotated[
-        float | None, Figure("", "number of particles in it", optional=True, no_bar=FOLLOWS_CELL)
+        float | None, Figure("", "number of particles in it", optional=True, no_bar=wearing.FOLLOWS_CELL)
     ] = None
     particles_per_mm_and_N: Annotated[
-        float | None, Figure("", "particles per mm and N", optional=True, no_bar=FOLLOWS_CELL)
+        float | None, Figure("", "particles per mm and N", optional=True, no_bar=wearing.FOLLOWS_CELL)
     ] = None
-    cycle: Annotated[IntArray, _over("1", "cycle")]
+    cycle: Annotated[wearing.IntArray, _over("1", "cycle")]
     radius: Annotated[FloatArray, _over("m", "volume-mean equivalent radius of the particles")]
     particles: Annotated[FloatArray, _over("1", "particles per cycle")]
     volume: Annotated[FloatArray, _over("m^3", "volume worn per cycle")]
@@ -156,7 +140,7 @@ class WearRecord(MeanSizes, ParticleTable):
     rms_height: Annotated[FloatArray, _over("m", "rms height Sq of the worn surface in the contact strip")]
     depths_computed: Annotated[FloatArray, _over("1", "depths at which stress was computed")]
     convolutions: Annotated[FloatArray, _over("1", "convolutions of the contact solve")]
-    particle_cycle: Annotated[IntArray, particle_rows("1", "cycle in which a particle came off")]
+    particle_cycle: Annotated[wearing.IntArray, wearing.particle_rows("1", "cycle in which a particle came off")]
     x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding", of="last")]
     y: Annotated[FloatArray, Series(("y",), "m", "y", of="last")]
     height_before: Annotated[FloatArray, _map("m", "height of the wearing surface, unworn")]
@@ -181,7 +165,7 @@ def run(scene: WearScene, context: Context) -> WearRecord:
         }
 
     cylinder = ShapeScene(kind="cylinder", radius=radius) if radius else ShapeScene()
-    result = wear_loop(
+    result = wearing.wear_loop(
         scene,
         context,
         initial,
@@ -201,7 +185,7 @@ def _record(scene: WearScene, grid: Grid, initial: tuple[FloatArray, FloatArray]
     from bem.particles import volume_mean_radius
     from bem.wear.outcome import contact_strip, settled_means, sizes_over_cycles
 
-    cycles, worn, (load,) = result.cycles, WornSurface.of(scene, initial, result, grid), scene.cylinder.loads
+    cycles, worn, (load,) = result.cycles, wearing.WornSurface.of(scene, initial, result, grid), scene.cylinder.loads
     particles, late = worn.particles, worn.late
     radius, number = sizes_over_cycles(cycles["cycle"], particles)
     return filled(
@@ -210,7 +194,7 @@ def _record(scene: WearScene, grid: Grid, initial: tuple[FloatArray, FloatArray]
         worn.figures,
         worn.strip(contact_strip(worn.pressure)),
         settled_means(cycles[-scene.cycles.settled :], grid.area),
-        mean_sizes(late, scene.sizes),
+        wearing.mean_sizes(late, scene.sizes),
         scene.archard.figures(load, float(late["volume"].mean())) if scene.archard and late.size else {},
         {name: cycles[name].astype(np.float64) for name in _PER_CYCLE},
         {f"particle_{name}": np.ascontiguousarray(particles[name]) for name in _PER_PARTICLE},
@@ -224,7 +208,7 @@ def _record(scene: WearScene, grid: Grid, initial: tuple[FloatArray, FloatArray]
         radius=radius,
         particles=number,
         removed=result.state.removed,
-        errors=sizes_without_bars(scene.sizes),
+        errors=wearing.sizes_without_bars(scene.sizes),
     )
 
 
@@ -237,16 +221,11 @@ def summarise(scene: WearScene, axes: Any, records: Any) -> dict[str, Any]:
     return {"reported_mean": scene.sizes.report, "smallest_radius_nm": 1e9 * scene.sizes.smallest}
 
 
-KIND = Kind(
-    name="wear",
-    title="wear particles and running-in of a cylinder on a flat in boundary lubrication",
-    model=WearScene,
-    axes=axes,
-    plan=plan,
-    run=run,
-    record=WearRecord,
-    summarise=summarise,
-    resolve=resolve,
+KIND = Kind.of(
+    vars(),
+    WearScene,
+    WearRecord,
+    "wear particles and running-in of a cylinder on a flat in boundary lubrication",
     figures=(
         "particle-radius-over-cycles",
         "wear-volume-over-cycles",

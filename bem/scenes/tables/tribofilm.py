@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 import numpy as np
 from pydantic import Field, model_validator
 
+from bem.errors import InfeasibleError
+from bem.grid import FloatArray, Grid
+from bem.reference_solutions.hertz import sphere_contact
+from bem.scenes import build
 from bem.scenes.axes import Model, with_keys
-from bem.scenes.common import Loads, Table, Variant, problem
+from bem.scenes.common import BodyScene, GridScene, Loads, SceneModel, ShapeScene, Table, Variant, problem
 from bem.scenes.laws import LawKey
 from bem.scenes.units import Energy, InverseLength, Length, Rate, Ratio, Speed, Temperature, Time, Volume
 from bem.tribofilm.balance import FilmBalance
-from bem.tribofilm.growth import GrowthLaw, StressActivatedGrowth
+from bem.tribofilm.growth import ZERO_CELSIUS, GrowthLaw, StressActivatedGrowth
 from bem.tribofilm.properties import PropertyLaw
+
+if TYPE_CHECKING:
+    from bem.tribofilm import FilmContact
 
 
 class FilmScene(Table):
@@ -90,3 +97,66 @@ class RubbingScene(Table):
         if self.report is not None and not self.report[0] < self.report[1] <= self.duration:
             raise problem(f"report {self.report} s", "two times, the second later and not after duration")
         return self
+
+
+class RubbedScene(SceneModel):
+    """Two rough bodies that rub, and the film on the lower one; in a case there is one load and one temperature."""
+
+    grid: GridScene
+    lower: BodyScene
+    upper: BodyScene
+    shape: ShapeScene = ShapeScene()
+    rubbing: RubbingScene
+    film: FilmScene
+
+    @model_validator(mode="after")
+    def _film_is_the_layer(self) -> Self:
+        if self.lower.stack or self.upper.stack:
+            raise problem("a body has a layer of its own", "bodies without a layer: the film is the layer")
+        return self
+
+    def check_load(self, grid: Grid) -> None:
+        """Refuse a load beyond the softest hardness that the film can get times the grid's area, before any work.
+
+        Raises
+        ------
+        InfeasibleError : such a load.
+        """
+        from bem.tribofilm.grow import softest_film
+
+        film, rubbing, (load,), (temperature,) = self.film, self.rubbing, self.rubbing.loads, self.rubbing.temperatures
+        laws = film.hardness, film.kinetics(), film.balance()
+        softest = softest_film(*laws, friction=rubbing.friction, temperature=temperature, duration=rubbing.duration)
+        other = None if self.upper.material is None else self.upper.material.hardness
+        limit = (softest if other is None else min(softest, other)) * grid.area
+        if load > limit:
+            raise InfeasibleError(
+                f"rubbing.loads: {load:g} N is beyond the softest film's hardness x area of the grid, {limit:.4g} N at "
+                f"{temperature - ZERO_CELSIUS:.4g} degC; allowed: a smaller load, a larger grid or a harder film"
+            )
+
+    def contact(self, grid: Grid, lower: FloatArray, upper: FloatArray) -> FilmContact:
+        """The rough contact under the film, as `bem.tribofilm.FilmContact`; heights (nx, ny) [m]."""
+        from bem.tribofilm import FilmContact
+
+        film, (load,), (temperature,) = self.film, self.rubbing.loads, self.rubbing.temperatures
+        nominal: FloatArray | None = None
+        # cells inside the smooth Hertz contact of a ball; the whole grid for other shapes
+        if film.average == "nominal" and self.shape.kind == "sphere" and self.shape.radius is not None:
+            ball = sphere_contact(radius=self.shape.radius, contact_modulus=build.modulus_of(self), load=load)
+            nominal = (np.hypot(grid.x[:, None], grid.y[None, :]) <= ball.semi_axes[0]).astype(np.float64)
+        return FilmContact(
+            gap=build.shape_of(self.shape, grid) - (lower + upper),
+            grid=grid,
+            substrate=self.lower.build().material,
+            counterface=self.upper.build().material,
+            load=load,
+            growth=film.kinetics(),
+            hardness=film.hardness,
+            modulus=film.youngs_modulus,
+            temperature=temperature,
+            poissons_ratio=film.poissons_ratio,
+            friction=self.rubbing.friction,
+            average=film.average,
+            nominal_area=nominal,
+        )
