@@ -39,6 +39,7 @@ _HOMES = {
         "find_oil",
         "march_line_film",
         "solve_line_film",
+        "solve_thermal_line_film",
     ],
     "friction": ["MixedSolution", "solve_mixed", "stribeck_curve"],
     "wear": ["find_particles", "run_in"],

@@ -4,7 +4,7 @@ Laws of the oil: `viscosity`, `density`, `shear`, gathered in `lubricant`; grade
 across a film: `shear_profile`. The steady film: `steady`, by Newton's method (`line_newton`, from the starts of
 `line_continuation`) on a mesh that follows it (`line_mesh`), with hierarchical weights of the deflection
 (`line_kernel`). In time: `transient`, in steps (`line_step`) with a ruptured film (`line_rupture`, `cavitation`).
-`validity` says where a model ends. Names are loaded when first used, so that the laws cost no solver.
+Heat in it: `thermal`. `validity` says where a model ends. Names are loaded when first used, so that the laws cost no solver.
 
 Sees grids and laws, no rough contact and no scene. Verified in tests/lubrication: Martin's and Hertz' limits, both
 equations by plain quadrature, order of convergence, closed forms of cavitation, conservation.
@@ -20,9 +20,20 @@ if TYPE_CHECKING:
     from bem.lubrication.lubricant import Lubricant
     from bem.lubrication.oils import Oil, find_oil
     from bem.lubrication.steady import solve_line_film
+    from bem.lubrication.thermal import ThermalFilm, solve_thermal_line_film
     from bem.lubrication.transient import march_line_film
 
-__all__ = ["Cavitation", "FilmSolution", "Lubricant", "Oil", "find_oil", "march_line_film", "solve_line_film"]
+__all__ = [
+    "Cavitation",
+    "FilmSolution",
+    "Lubricant",
+    "Oil",
+    "ThermalFilm",
+    "find_oil",
+    "march_line_film",
+    "solve_line_film",
+    "solve_thermal_line_film",
+]
 
 __getattr__ = loader(
     __name__,
@@ -32,6 +43,7 @@ __getattr__ = loader(
         "lubricant": ["Lubricant"],
         "oils": ["Oil", "find_oil"],
         "steady": ["solve_line_film"],
+        "thermal": ["ThermalFilm", "solve_thermal_line_film"],
         "transient": ["march_line_film"],
     },
 )

@@ -15,6 +15,13 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import middle_stress
 
 
+def upstream_of_mesh(state: State) -> tuple[float, float]:
+    """Integrals of 1/H and 1/H^2 upstream of the mesh, where H = X^2/2 + c with c small against X^2/2."""
+    start = abs(float(state.position[0]))
+    offset = float(state.film[0]) - 0.5 * start**2
+    return 2 / start * (1 - 2 * offset / start**2 / 3), 4 / (3 * start**3)
+
+
 def friction_forces(
     state: State,
     scales: Scales,
@@ -29,12 +36,7 @@ def friction_forces(
     thickness = film * scales.film
     position = x * scales.length
 
-    # upstream of the mesh H = X^2/2 + c with c small against X^2/2
-    start = abs(x[0])
-    offset = film[0] - 0.5 * start**2
-    tail_1 = 2 / start * (1 - 2 * offset / start**2 / 3)
-    tail_2 = 4 / (3 * start**3)
-
+    tail_1, tail_2 = upstream_of_mesh(state)
     viscosity = lubricant.viscosity_at(pressure * scales.pressure)
     newtonian, own = viscosity * difference / thickness, pressure * scales.pressure
     sliding = middle_stress(lubricant, newtonian, own, thickness, np.gradient(own, position))

@@ -29,6 +29,13 @@ changed by 2 % to 30 %, and by less than 1 % where the neighbour had more."""
 LEAST_INLET_FACTOR = 0.9
 LARGEST_HEATING = 10.0
 """[K]: a mineral oil then has lost a third of its viscosity."""
+HEATING_NOTES = (
+    "shear heating in the inlet would make the film more than 10 % thinner than this isothermal model says "
+    "(Gupta et al. 1992, for a mineral oil)",
+    f"sliding would heat the oil in the contact by more than {LARGEST_HEATING:g} K (steel, mineral oil): this "
+    "isothermal model then gives too much friction",
+)
+"""What isothermal films say of heat."""
 THINNEST_FILM = 2e-9
 """[m]: four or five molecules; oil is layered below about 5 nm, Chan and Horn, J. Chem. Phys. 83 (1985) 5311."""
 OIL_CONDUCTIVITY = 0.13
@@ -155,10 +162,7 @@ def inlet_heating(case: Case) -> str | None:
     factor = (1 - 6.6 * hertz * number**0.42) / (1 + 0.213 * (1 + 2.23 * slide**0.83) * number**0.64)
     if factor >= LEAST_INLET_FACTOR:
         return None
-    return (
-        "shear heating in the inlet would make the film more than 10 % thinner than this isothermal model says "
-        "(Gupta et al. 1992, for a mineral oil)"
-    )
+    return HEATING_NOTES[0]
 
 
 def film_heating(case: Case) -> str | None:
@@ -180,10 +184,7 @@ def film_heating(case: Case) -> str | None:
     flash = 2 * heat * math.sqrt(length / math.pi) / (STEEL_EFFUSIVITY * root)
     if film + flash <= LARGEST_HEATING:
         return None
-    return (
-        f"sliding would heat the oil in the contact by more than {LARGEST_HEATING:g} K (steel, mineral oil): this "
-        "isothermal model then gives too much friction"
-    )
+    return HEATING_NOTES[1]
 
 
 def molecular_film(case: Case) -> str | None:

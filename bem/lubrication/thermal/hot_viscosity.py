@@ -1,0 +1,99 @@
+"""Viscosity of an oil over pressure and temperature, from what it is at one temperature.
+
+Roelands' form (1966): ln(mu/mu_r) over pressure is the same function at every temperature but for a factor,
+
+    ln(mu(p, T)/mu_r) = s(T) ln(mu(p, T0)/mu_r),    s(T) = ln(mu(0, T)/mu_r) / ln(mu(0, T0)/mu_r),
+
+with mu_r = 63.15 uPa s, so that the pressure-viscosity coefficient falls with temperature, too. s is that of the oil's
+own viscosity over temperature; of an oil known at one temperature, and beyond 300 degrees Celsius,
+((T - 138 K)/(T0 - 138 K))^-S0 with the slope of ln(mu) there (Houpert, J. Tribol. 107 (1985) 241). Verified in
+tests/lubrication/test_thermal_film.py.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from bem.errors import InputError
+from bem.grid import FloatArray
+from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.oils.oil import COLDEST, HOTTEST
+from bem.lubrication.viscosity import ROELANDS_VISCOSITY
+
+POLE = 138.0
+"""Temperature at which Roelands' viscosity is infinite [K]."""
+LEAST_SPAN = 0.2
+"""ln(mu/mu_r) below which an oil is so thin that only the factor exp(-beta (T - T0)) is left."""
+_STEP = 5.0
+LARGEST_LOGARITHM = 600.0
+
+
+@dataclass(frozen=True)
+class HotViscosity:
+    """Callable: pressures [Pa] and temperatures [K], (n,) each -> viscosity [Pa s] and its derivative with temperature.
+
+    span : ln(mu0/mu_r). reference : temperature of the lubricant [K]. exponent : S0, from `hottest` [K] on.
+    known : ln s over temperature up to there; None where only a slope is known.
+    """
+
+    lubricant: Lubricant
+    span: float
+    reference: float
+    softening: float
+    exponent: float
+    hottest: float
+    known: PchipInterpolator | None
+
+    @classmethod
+    def of(cls, lubricant: Lubricant) -> HotViscosity:
+        """Of a lubricant that has a temperature and is known at others.
+
+        Raises
+        ------
+        InputError : a lubricant without temperature or `temperature_viscosity`.
+        """
+        softening, reference = lubricant.temperature_viscosity, lubricant.temperature
+        if softening is None or reference is None:
+            raise InputError("lubricant: its heat needs temperature [K] and temperature_viscosity [1/K]")
+        span = math.log(lubricant.viscosity / ROELANDS_VISCOSITY)
+        known, hottest = None, reference
+        if lubricant.oil is not None and span > LEAST_SPAN:
+            hottest = min(lubricant.oil.boiling_point or HOTTEST, HOTTEST)
+            lowest = max(lubricant.oil.freezing_point or COLDEST, reference - 60.0)
+            points = np.linspace(lowest, hottest, max(int((hottest - lowest) / _STEP), 4))
+            points = np.unique(np.append(points[np.abs(points - reference) > 0.1 * _STEP], reference))
+            logs = np.array([math.log(lubricant.oil.dynamic_viscosity(float(t)) / ROELANDS_VISCOSITY) for t in points])
+            own = math.log(lubricant.oil.dynamic_viscosity(reference) / ROELANDS_VISCOSITY)
+            known = PchipInterpolator(points, np.log(np.maximum(logs, LEAST_SPAN) / own))
+        slope = softening / span if known is None else -float(known.derivative()(hottest))
+        exponent = max(slope, 0.0) * (hottest - POLE)
+        return cls(lubricant, span, reference, softening, exponent, hottest, known)
+
+    def __call__(self, pressure: FloatArray, temperature: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """As the class says."""
+        at_reference = self.lubricant.log_viscosity_ratio(pressure)[0]
+        if self.span <= LEAST_SPAN:
+            value = at_reference - self.softening * (temperature - self.reference)
+            slope = np.full_like(value, -self.softening)
+        else:
+            factor, steepness = self._factor(temperature)
+            value = factor * (self.span + at_reference) - self.span
+            slope = steepness * (value + self.span)
+        viscosity = self.lubricant.viscosity * np.exp(np.minimum(value, LARGEST_LOGARITHM))
+        return viscosity, viscosity * slope
+
+    def _factor(self, temperature: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """s and d ln(s)/dT."""
+        above = np.maximum(temperature, POLE + 1.0) - POLE
+        beyond = -self.exponent * np.log(above / (self.hottest - POLE))
+        steep = -self.exponent / above
+        if self.known is None:
+            return np.exp(beyond), steep
+        inside = np.clip(temperature, self.known.x[0], self.hottest)
+        hot = temperature > self.hottest
+        logarithm = self.known(inside) + np.where(hot, beyond, 0.0)
+        return np.exp(logarithm), np.where(hot, steep, self.known.derivative()(inside))

@@ -1,0 +1,443 @@
+"""Thermal film of a line contact, lumped: inlet shear heating thins the film, sliding heats the oil in it.
+
+The film is that of an oil as much thinner as `inlet` says that shear in the inlet makes the film; what sliding makes of
+temperature and friction then follows from `energy`, one mean temperature across the film at each place, with viscosity
+over pressure and temperature (`hot_viscosity`). Heat is made by the stresses that the film has at its temperature:
+
+    made = tau_m (u1 - u2) + dp/dx (h (u1 + u2)/2 - q),
+
+the integral of which is the power of the friction. What the heat inside the contact does to the film's thickness is not
+in it, and the oil's conductivity and heat capacity are those without pressure. Verified in
+tests/lubrication/test_thermal_film.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.errors import InputError, Status
+from bem.grid import FloatArray
+from bem.heat.bodies import Conductor, conductors_of
+from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_friction import upstream_of_mesh
+from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.oils.oil import HOTTEST
+from bem.lubrication.shear_profile import middle_stress
+from bem.lubrication.steady import KeptSteady, solve_line_film
+from bem.lubrication.thermal.energy import Channel, Temperatures, film_temperatures
+from bem.lubrication.thermal.hot_viscosity import HotViscosity
+from bem.lubrication.thermal.inlet import InletHeating, hertz_over_modulus, inlet_heating_factor
+from bem.lubrication.validity import HEATING_NOTES, Case, notes_on
+from bem.lubrication.viscosity import ViscosityLaw
+from bem.materials import Body
+from bem.threads import one_blas_thread
+
+CELLS = 200
+"""Along the film, where temperatures are found."""
+COARSE = 250
+"""Points of the films that say how thin the oil must be."""
+FILM_EXPONENT = 0.69
+"""Of the film with viscosity, of heavily loaded line contacts: Dowson and Higginson (1966)."""
+FACTOR_TOLERANCE = 5e-3
+"""Of the film that inlet heating leaves; the factor itself is good to some 0.05."""
+MOST_FILMS = 4
+LARGEST_STRESS = 1e12
+"""On the way to the temperatures [Pa]: cold oil that has no limit would carry more than can be computed with."""
+_CELSIUS = 273.15
+
+
+@dataclass(frozen=True)
+class ThermalFilm:
+    """A film with the heat that is made in it, along the entrainment where positions are.
+
+    Attributes
+    ----------
+    film : solution of the film, of the oil as thin as inlet heating makes it; its own shear force is isothermal.
+    isothermal : the film without heat, on a coarse mesh.
+    position : (m,) middles of cells [m]. width : (m,) of them [m].
+    film_temperature : (m,) mean across the film [K]. surface_temperatures : (2, m) of flat and cylinder [K].
+    heat_made : (m,) [W/m^2]. heat_into : (2, m) into flat and cylinder [W/m^2].
+    shear_force : as of `FilmSolution`, at these temperatures [N/m]. sliding_force : its part from sliding [N/m].
+    friction_power, power_into, power_carried : per unit length [W/m]: of the friction; (2,) into flat and cylinder;
+        carried on by the oil. energy_imbalance : of the three, relative to the friction.
+    inlet : factor of inlet heating. inlet_viscosity : at ambient pressure that leaves such a film [Pa s].
+    films : solved. iterations : Newton steps of all films. status : of film and temperatures. notes : sentences.
+    """
+
+    film: FilmSolution
+    isothermal: FilmSolution
+    position: FloatArray
+    width: FloatArray
+    film_temperature: FloatArray
+    surface_temperatures: FloatArray
+    heat_made: FloatArray
+    heat_into: FloatArray
+    shear_force: float
+    sliding_force: float
+    friction_power: float
+    power_into: tuple[float, float]
+    power_carried: float
+    energy_imbalance: float
+    inlet: InletHeating
+    inlet_viscosity: float
+    films: int
+    iterations: int
+    status: Status
+    notes: tuple[str, ...]
+
+    @property
+    def minimum_thickness(self) -> float:
+        """Of the film [m]."""
+        return self.film.minimum_thickness
+
+    @property
+    def central_thickness(self) -> float:
+        """Of the film [m]."""
+        return self.film.central_thickness
+
+    @property
+    def highest_film_temperature(self) -> float:
+        """Mean across the film, where it is highest [K]."""
+        return float(self.film_temperature.max())
+
+
+@dataclass(frozen=True)
+class ThinnedLaw(ViscosityLaw):
+    """A law over pressure of an oil as it is, for one whose viscosity at ambient pressure is a share of it."""
+
+    name: ClassVar[str] = "thinned"
+    law: ViscosityLaw
+    share: float
+
+    def log_viscosity_ratio(
+        self, pressure: FloatArray, viscosity: float, pressure_viscosity: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """That of the oil as it is."""
+        return self.law.log_viscosity_ratio(pressure, viscosity / self.share, pressure_viscosity)
+
+
+@one_blas_thread
+def solve_thermal_line_film(
+    *,
+    load: float,
+    radius: float,
+    contact_modulus: float,
+    speeds: Sequence[float],
+    lubricant: Lubricant,
+    bodies: Sequence[Body],
+    bulk: Sequence[float] | None = None,
+    points: int = 2000,
+    initial: FilmSolution | None = None,
+    **asked: Any,
+) -> ThermalFilm:
+    """Steady thermal film between a cylinder and a flat, lumped over the film's thickness.
+
+    Parameters
+    ----------
+    load, radius, contact_modulus, speeds, lubricant : as of `solve_line_film`. The lubricant has a temperature, that of
+        the oil supplied, and its heat constants, as those of the catalogue have.
+    bodies : flat and cylinder, whose materials have `thermal_conductivity`, `density` and `heat_capacity`. One at rest
+        is taken as cool at a distance of the radius.
+    bulk : temperatures of both far from the contact [K]; the oil's by default.
+    points, initial : as of `solve_line_film`.
+    asked : further arguments of it: tolerance, max_iterations, flow_factors.
+
+    Returns
+    -------
+    ThermalFilm.
+
+    Raises
+    ------
+    InputError : as `solve_line_film`; a lubricant without temperature and heat constants, bodies without theirs, a bulk
+        temperature above 300 degrees Celsius.
+
+    Jaeger (1942) for moving heat, Crook (1961) for heat across the film, Gupta et al. (1992) for the inlet.
+    """
+    conductors = _checked(lubricant, bodies, speeds, bulk, radius)
+    case = {"load": load, "radius": radius, "contact_modulus": contact_modulus, "speeds": speeds, **asked}
+    assert lubricant.temperature_viscosity is not None
+    assert lubricant.thermal_conductivity is not None
+    inlet = inlet_heating_factor(
+        lubricant.viscosity,
+        lubricant.temperature_viscosity,
+        lubricant.thermal_conductivity,
+        (float(speeds[0]), float(speeds[1])),
+        hertz_over_modulus(load, radius, contact_modulus),
+    )
+    films = _thinned(case, lubricant, points, initial, inlet.factor)
+    thermal = _heated(films[-1], films, inlet, lubricant, conductors)
+    notes = _notes_of_film(films[-1], lubricant, radius, contact_modulus)
+    return replace(thermal, notes=notes + thermal.notes)
+
+
+def _checked(
+    lubricant: Lubricant, bodies: Sequence[Body], speeds: Sequence[float], bulk: Sequence[float] | None, radius: float
+) -> tuple[Conductor, Conductor]:
+    """The bodies as moving half-spaces, a body at rest as one that moves so slowly that it is cool at the radius."""
+    needed = ("temperature", "density", "heat_capacity", "thermal_conductivity", "temperature_viscosity")
+    missing = [key for key in needed if getattr(lubricant, key, None) is None]
+    if missing:
+        raise InputError(
+            f"solve_thermal_line_film: the lubricant lacks {', '.join(missing)}; give them, or an oil of the catalogue "
+            "(Lubricant.of), which has them"
+        )
+    temperature = float(lubricant.temperature or 0.0)
+    bulks = (temperature, temperature) if bulk is None else bulk
+    if len(bodies) != 2:
+        raise InputError("solve_thermal_line_film: bodies must be the flat and the cylinder")
+    found = conductors_of("solve_thermal_line_film", bodies, speeds, bulks)
+    hot = [value for value in (*(body.bulk for body in found), temperature) if value > HOTTEST]
+    if hot:
+        raise InputError(
+            f"solve_thermal_line_film: {hot[0] - _CELSIUS:g} degC is above {HOTTEST - _CELSIUS:g} degC; oils crack"
+        )
+    least = 1 / radius
+    sign = math.copysign(1.0, float(speeds[0]) + float(speeds[1]))
+    moving = []
+    for body in found:
+        number = body.wavenumber if abs(body.wavenumber) > least else math.copysign(least, body.speed or 1.0)
+        moving.append(replace(body, speed=2 * body.diffusivity * number * sign))
+    return moving[0], moving[1]
+
+
+def _thinned(
+    case: dict[str, Any], lubricant: Lubricant, points: int, initial: FilmSolution | None, factor: float
+) -> list[FilmSolution]:
+    """The isothermal film and those of thinner oils, the last one as much thinner as the factor says. How thin the oil
+    must be is found on a coarse mesh; only the last film is on all points."""
+    few = min(points, COARSE)
+    isothermal = solve_line_film(**case, lubricant=lubricant, initial=initial if few == points else None, points=few)
+    if isothermal.status is not Status.CONVERGED and few < points:
+        few = points
+        isothermal = solve_line_film(**case, lubricant=lubricant, initial=initial, points=few)
+    films = [isothermal]
+    wanted, exponent = math.log(factor), FILM_EXPONENT
+    ratio = 0.0
+    while films[-1].status is Status.CONVERGED and len(films) < MOST_FILMS:
+        reached = math.log(films[-1].central_thickness / isothermal.central_thickness)
+        if abs(reached - wanted) <= FACTOR_TOLERANCE:
+            break
+        if len(films) > 1 and reached != 0:
+            exponent = reached / ratio
+        ratio = wanted / exponent
+        share = math.exp(ratio)
+        law = ThinnedLaw(lubricant.viscosity_law, share)
+        thinner = replace(lubricant, viscosity=lubricant.viscosity * share, viscosity_law=law)
+        films.append(solve_line_film(**case, lubricant=thinner, initial=films[-1], points=few))
+    if few < points:
+        oil = films[-1].lubricant
+        films.append(solve_line_film(**case, lubricant=oil, initial=initial or films[-1], points=points))
+    return films
+
+
+@dataclass(frozen=True)
+class _Strip:
+    """A film along its entrainment: nodes (n,) [m], pressure [Pa], thickness [m], gradient [Pa/m]; `into` : the cell of
+    each piece between nodes (n-1,); heat of rolling in the cells [W/m]; sliding, along the entrainment [m/s]."""
+
+    x: FloatArray
+    pressure: FloatArray
+    thickness: FloatArray
+    gradient: FloatArray
+    cell: NDArray[np.intp]
+    edges: FloatArray
+    rolling: FloatArray
+    rolling_force: float
+    upstream: float
+    sliding: float
+
+
+def _strip(film: FilmSolution) -> _Strip:
+    kept = film.state
+    assert isinstance(kept, KeptSteady)
+    state, scales = kept.state, kept.scales
+    x, thickness = state.position * scales.length, state.film * scales.film
+    pressure = np.maximum(state.pressure, 0.0) * scales.pressure
+    first, second = (speed * (-1.0 if kept.reversed else 1.0) for speed in film.speeds)
+    tail_1, tail_2 = upstream_of_mesh(state)
+    edges = _cell_edges(x, pressure)
+    cell = np.searchsorted(edges, 0.5 * (x[1:] + x[:-1])) - 1
+    pieces = 0.25 * (thickness[1:] + thickness[:-1]) * np.diff(pressure)
+    upstream_force = 3 * (tail_1 - state.film[-1] * tail_2) * scales.film * scales.pressure
+    flow = 0.5 * (first + second) * thickness[-1]
+    # work of the pressure on what flows: integral of dp/rho, a function of the pressure alone
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    at = 0.5 * pressure[:, None] * (nodes + 1)
+    work = 0.5 * pressure * ((1 / film.lubricant.density_ratio(at)[0]) @ weights)
+    rolling = _summed(cell, (first + second) * pieces - flow * np.diff(work), len(edges) - 1)
+    rolling[0] += (first + second) * upstream_force - flow * work[0]
+    return _Strip(
+        x=x,
+        pressure=pressure,
+        thickness=thickness,
+        gradient=np.gradient(pressure, x),
+        cell=cell,
+        edges=edges,
+        rolling=rolling,
+        rolling_force=float(pieces.sum()) + upstream_force,
+        upstream=tail_1 * scales.length / scales.film,
+        sliding=first - second,
+    )
+
+
+def _summed(cell: NDArray[np.intp], values: FloatArray, cells: int) -> FloatArray:
+    """Of the pieces in each cell."""
+    return np.bincount(cell, values, cells).astype(np.float64)
+
+
+def _cell_edges(x: FloatArray, pressure: FloatArray) -> FloatArray:
+    """Some of the nodes: even where there is pressure, coarser in proportion upstream."""
+    loaded = x[pressure > 0.02 * pressure.max()]
+    half = 0.5 * float(loaded[-1] - loaded[0])
+    density = 1 / np.maximum(half, np.abs(x - 0.5 * (loaded[0] + loaded[-1])))
+    count = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * np.diff(x))])
+    chosen = np.searchsorted(count, np.linspace(0.0, count[-1], CELLS + 1))
+    return np.asarray(x[np.unique(np.clip(chosen, 0, len(x) - 1))])
+
+
+def _heated(
+    film: FilmSolution,
+    films: list[FilmSolution],
+    inlet: InletHeating,
+    lubricant: Lubricant,
+    bodies: tuple[Conductor, Conductor],
+) -> ThermalFilm:
+    """Temperatures and friction of a film."""
+    strip, viscosity = _strip(film), HotViscosity.of(lubricant)
+    middle, width = 0.5 * (strip.edges[1:] + strip.edges[:-1]), np.diff(strip.edges)
+    pieces = np.diff(strip.x)
+
+    def stresses(temperature: FloatArray) -> tuple[FloatArray, FloatArray]:
+        at = np.interp(strip.x, middle, temperature)
+        value, slope = viscosity(strip.pressure, at)
+        rate, extra = strip.sliding / strip.thickness, 1e-4
+        stress, warmer = (
+            middle_stress(lubricant, mu * rate, strip.pressure, strip.thickness, strip.gradient)
+            for mu in (value, value + extra * slope)
+        )
+        slopes = np.where(np.abs(stress) < LARGEST_STRESS, (warmer - stress) / extra, 0.0)
+        return np.clip(stress, -LARGEST_STRESS, LARGEST_STRESS), slopes
+
+    ambient = lubricant.viscosity * strip.sliding * strip.upstream
+
+    def heat(temperature: FloatArray) -> tuple[FloatArray, FloatArray]:
+        stress, slope = stresses(temperature)
+        made = _summed(strip.cell, 0.5 * pieces * (stress[1:] + stress[:-1]), len(width))
+        made[0] += ambient
+        derivative = _derivative(strip, middle, 0.5 * pieces * slope[:-1], 0.5 * pieces * slope[1:])
+        return (strip.sliding * made + strip.rolling) / width, strip.sliding * derivative / width[:, None]
+
+    density, capacity = lubricant.density or 0.0, lubricant.heat_capacity or 0.0
+    flow = 0.5 * abs(sum(film.speeds)) * float(strip.thickness[-1])
+    supply = float(lubricant.temperature or 0.0)
+    cells = _summed(strip.cell, 0.5 * pieces * (strip.thickness[1:] + strip.thickness[:-1]), len(width)) / width
+    channel = Channel(
+        strip.edges, cells, lubricant.thermal_conductivity or 0.0, density * capacity * flow, supply, bodies
+    )
+    found = film_temperatures(channel, heat)
+    stress = stresses(found.oil)[0]
+    couette = float(np.sum(0.5 * pieces * (stress[1:] + stress[:-1]))) + ambient
+    return _result(film, films, inlet, lubricant, strip, channel, found, couette)
+
+
+def _derivative(strip: _Strip, middle: FloatArray, before: FloatArray, after: FloatArray) -> FloatArray:
+    """Of what the cells sum up with the temperatures at their middles (m, m), from what pieces do at both their nodes;
+    temperatures at nodes are interpolated linearly."""
+    out = np.zeros((len(middle), len(middle)))
+    right = np.clip(np.searchsorted(middle, strip.x), 1, len(middle) - 1)
+    share = np.clip((strip.x - middle[right - 1]) / (middle[right] - middle[right - 1]), 0.0, 1.0)
+    for values, node in ((before, slice(None, -1)), (after, slice(1, None))):
+        np.add.at(out, (strip.cell, right[node]), values * share[node])
+        np.add.at(out, (strip.cell, right[node] - 1), values * (1 - share[node]))
+    return out
+
+
+def _result(  # reason: what was found on the way, gathered once
+    film: FilmSolution,
+    films: list[FilmSolution],
+    inlet: InletHeating,
+    lubricant: Lubricant,
+    strip: _Strip,
+    channel: Channel,
+    found: Temperatures,
+    couette: float,
+) -> ThermalFilm:
+    width = np.diff(strip.edges)
+    into = found.into @ width
+    carried = channel.capacity_flow * float(found.oil[-1] - channel.supply)
+    power = strip.sliding * couette + abs(sum(film.speeds)) * strip.rolling_force
+    imbalance = abs(power - float(into.sum()) - carried) / max(abs(power), 1e-300)
+    kept = film.state
+    assert isinstance(kept, KeptSteady)
+    sign = -1.0 if kept.reversed else 1.0
+    hot = found.residual > 1e-6 or not math.isfinite(found.residual)
+    status = film.status if film.status is not Status.CONVERGED or not hot else Status.STALLED
+    order = slice(None, None, -1) if kept.reversed else slice(None)
+    return ThermalFilm(
+        film=film,
+        isothermal=films[0],
+        position=sign * (0.5 * (strip.edges[1:] + strip.edges[:-1]))[order],
+        width=width[order],
+        film_temperature=found.oil[order],
+        surface_temperatures=found.surfaces[:, order],
+        heat_made=found.made[order],
+        heat_into=found.into[:, order],
+        shear_force=sign * (couette + strip.rolling_force),
+        sliding_force=sign * couette,
+        friction_power=power,
+        power_into=(float(into[0]), float(into[1])),
+        power_carried=carried,
+        energy_imbalance=imbalance,
+        inlet=inlet,
+        inlet_viscosity=film.lubricant.viscosity,
+        films=len(films),
+        iterations=sum(one.iterations for one in films),
+        status=status,
+        notes=_notes(lubricant, inlet, found, film.speeds),
+    )
+
+
+def _notes_of_film(film: FilmSolution, lubricant: Lubricant, radius: float, contact_modulus: float) -> tuple[str, ...]:
+    """Those of the film, of the oil as it is, but for what they say of heat."""
+    kept = film.state
+    assert isinstance(kept, KeptSteady)
+    case = Case(
+        position=kept.state.position * kept.scales.length,
+        pressure=np.maximum(kept.state.pressure, 0.0) * kept.scales.pressure,
+        thickness=kept.state.film * kept.scales.film,
+        speeds=film.speeds,
+        lubricant=lubricant,
+        radius=radius,
+        contact_modulus=contact_modulus,
+    )
+    return tuple(note for note in notes_on(case) if note not in HEATING_NOTES)
+
+
+def _notes(
+    lubricant: Lubricant, inlet: InletHeating, found: Temperatures, speeds: tuple[float, float]
+) -> tuple[str, ...]:
+    """Where the lumped model ends."""
+    hottest = max(float(found.oil.max()), float(found.surfaces.max()))
+    said = []
+    if inlet.extrapolated:
+        said.append(
+            "the formula of inlet heating (Gupta et al. 1992) is extrapolated: so much load and speed was not in it, "
+            "and the film's thickness is an estimate"
+        )
+    if hottest > HOTTEST:
+        said.append(
+            f"oil or surfaces exceed {HOTTEST - _CELSIUS:g} degC in the contact, where oils crack: viscosities there "
+            "are extrapolated"
+        )
+    elif lubricant.oil is not None:
+        cool = set(lubricant.notes)
+        said += [f"at its hottest in the contact: {note}" for note in lubricant.oil.notes(hottest) if note not in cool]
+    if min(abs(speed) for speed in speeds) == 0:
+        said.append("a body at rest is taken as cool at a distance of the cylinder's radius")
+    return tuple(said)

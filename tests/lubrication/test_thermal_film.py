@@ -1,0 +1,230 @@
+"""Lumped thermal line films: energy, temperatures by another way, limits, traction, refusals, what they cost."""
+
+import math
+
+import numpy as np
+import pytest
+
+import bem.lubrication.line_continuation as line_continuation
+from bem.errors import InputError, Status
+from bem.grid import Grid
+from bem.heat import surface_temperature
+from bem.heat.bodies import Conductor
+from bem.lubrication import Lubricant, solve_line_film
+from bem.lubrication.line_newton import newton
+from bem.lubrication.thermal import solve_thermal_line_film
+from bem.lubrication.thermal.energy import Channel, film_temperatures
+from bem.lubrication.thermal.hot_viscosity import HotViscosity
+from bem.lubrication.thermal.inlet import inlet_heating_factor
+from bem.materials import CATALOGUE, Body, Material
+
+MODULUS = 115.5e9
+STEEL = Body(CATALOGUE["steel-52100"].material)
+ROLLER = {"radius": 10e-3, "contact_modulus": MODULUS, "bodies": (STEEL, STEEL), "points": 300}
+LAWS = {"density_law": "dowson_higginson", "shear_law": "eyring", "shear_stress_limit": 5e6}
+
+
+def oil(temperature=333.15, name="ISO VG 68", **laws):
+    return Lubricant.of(name, temperature=temperature, **(LAWS | laws))
+
+
+def load(hertz):
+    return math.pi * 10e-3 * hertz**2 / MODULUS
+
+
+def pair(mean, slide):
+    return mean * (1 + slide / 2), mean * (1 - slide / 2)
+
+
+def film(mean, slide, hertz=0.8e9, lubricant=None, **asked):
+    return solve_thermal_line_film(
+        load=load(hertz), speeds=pair(mean, slide), lubricant=lubricant or oil(), **(ROLLER | asked)
+    )
+
+
+@pytest.mark.parametrize(("mean", "slide"), [(1.0, 0.0), (10.0, 0.3), (-5.0, 1.0), (3.0, 2.0)])
+@pytest.mark.parametrize("rheology", ["newtonian", "shear_law"])
+def test_energy_closes(mean, slide, rheology):
+    """Power of the forces on both bodies, against what enters them and what the oil carries."""
+    found = film(mean, slide, lubricant=oil(film_rheology=rheology))
+    first, second = pair(mean, slide)
+    rolling = found.shear_force - found.sliding_force
+    power = (first - second) * found.sliding_force + (first + second) * rolling
+    assert power == pytest.approx(found.friction_power, rel=1e-12)
+    into = found.heat_into @ found.width
+    np.testing.assert_allclose(into, found.power_into, rtol=1e-12)
+    assert sum(into) + found.power_carried == pytest.approx(power, rel=1e-6)  # the issue's own
+    assert found.energy_imbalance < 1e-6
+    assert found.heat_made @ found.width == pytest.approx(power, rel=1e-6)
+    assert found.status is Status.CONVERGED
+
+
+def test_surfaces_are_as_warm_as_the_solver_on_a_grid_says():
+    """The heat into the flat, on even cells, by `surface_temperature`."""
+    found = film(5.0, 0.5)
+    grid = Grid((600, 2), spacing=(1e-6, 1e-6), periodic=(False, True))
+    heat = np.interp(grid.x, found.position, found.heat_into[0])
+    expected = surface_temperature(heat[:, None] * np.ones((1, 2)), grid, STEEL, speeds=6.25, bulk=333.15)
+    own = np.interp(found.position, grid.x, expected.temperature[:, 0])
+    inside = np.abs(found.position) < 1.2e-4
+    rise = float(np.ptp(found.surface_temperatures[0]))
+    # heat is even on some 100 unlike cells in the contact
+    np.testing.assert_allclose(found.surface_temperatures[0][inside], own[inside], atol=0.02 * rise)
+
+
+def test_heat_across_a_film_between_good_conductors_is_crooks():
+    """Mean of the parabola between walls as cool as the bulk: made h/(12 k)."""
+    edges = np.linspace(-1e-4, 1e-4, 21)
+    wall = Conductor(conductivity=1e7, diffusivity=1e-5, speed=1.0, bulk=300.0)
+    channel = Channel(edges, np.full(20, 3e-7), 0.13, 0.0, 300.0, (wall, wall))
+    found = film_temperatures(channel, lambda t: (np.full(20, 1e8), np.zeros((20, 20))))
+    np.testing.assert_allclose(found.oil - 300, 1e8 * 3e-7 / (12 * 0.13), rtol=1e-3)
+    np.testing.assert_allclose(found.into, 0.5e8, rtol=1e-6)
+
+
+def test_heat_that_goes_nowhere_else_is_carried_by_the_oil():
+    """Walls that take none: C dT = made dx."""
+    edges = np.linspace(-1e-4, 1e-4, 21)
+    wall = Conductor(conductivity=1e-9, diffusivity=1e-5, speed=1.0, bulk=300.0)
+    channel = Channel(edges, np.full(20, 3e-7), 0.13, 2.0, 310.0, (wall, wall))
+    found = film_temperatures(channel, lambda t: (np.full(20, 1e5), np.zeros((20, 20))))
+    assert found.oil[-1] - 310 == pytest.approx(1e5 * 2e-4 / 2.0, rel=1e-3)
+
+
+def test_slow_films_are_isothermal():
+    found = film(0.01, 0.1)
+    isothermal = solve_line_film(
+        load=load(0.8e9), speeds=pair(0.01, 0.1), lubricant=oil(), radius=10e-3, contact_modulus=MODULUS, points=300
+    )
+    assert found.central_thickness == pytest.approx(isothermal.central_thickness, rel=2e-3)
+    assert found.highest_film_temperature - 333.15 < 1.0
+    # what a fraction of a kelvin is worth: beta is 0.03 per kelvin
+    assert found.shear_force == pytest.approx(isothermal.shear_force, rel=0.02)
+
+
+@pytest.mark.parametrize("law", [{}, {"shear_law": "limited", "shear_stress_limit": None}])
+def test_traction_rises_and_falls_with_sliding(law):
+    slides = np.array([0.0, 0.02, 0.1, 0.5, 1.0, 2.0])
+    curve = [film(10.0, s, 1.2e9, oil(**law)) for s in slides]
+    traction = np.array([one.shear_force / one.film.load for one in curve])
+    top = int(traction.argmax())
+    assert 0 < top < 5
+    assert (np.diff(traction[: top + 1]) > 0).all()
+    assert (np.diff(traction[top:]) < 0).all()
+    assert traction[-1] < 0.5 * traction[top]
+    hottest = [one.highest_film_temperature for one in curve]
+    assert (np.diff(hottest) > 0).all()
+    # without heat it never falls
+    assert curve[-1].isothermal.shear_force > curve[top].isothermal.shear_force
+
+
+def test_motion_the_other_way_is_the_mirror():
+    a, b = film(5.0, 0.7), film(-5.0, 0.7)
+    assert b.shear_force == pytest.approx(-a.shear_force, rel=1e-9)
+    np.testing.assert_allclose(b.film_temperature[::-1], a.film_temperature, rtol=1e-9)
+    np.testing.assert_allclose(b.position[::-1], -a.position, rtol=1e-9)
+
+
+def test_the_faster_surface_takes_more_heat():
+    found = film(5.0, 1.0)
+    assert found.power_into[0] > found.power_into[1]
+    assert found.surface_temperatures[0].max() < found.surface_temperatures[1].max()
+
+
+def test_inlet_heating_is_guptas_and_the_film_follows_it():
+    heating = inlet_heating_factor(0.05, 0.04, 0.13, (12.0, 8.0), 0.005)
+    loading = 0.05 * 0.04 * 100 / 0.13
+    expected = (1 - 6.6 * 0.005 * loading**0.42) / (1 + 0.213 * (1 + 2.23 * 0.4**0.83) * loading**0.64)
+    assert heating.factor == pytest.approx(expected, rel=1e-12)
+    assert not heating.extrapolated
+    assert inlet_heating_factor(0.05, 0.04, 0.13, (1e-3, 1e-3), 0.005).factor == pytest.approx(1.0, abs=1e-4)
+    found = film(10.0, 0.5)
+    reached = found.central_thickness / found.isothermal.central_thickness
+    # within what the search for the oil's viscosity leaves, and two meshes
+    assert reached == pytest.approx(found.inlet.factor, rel=0.01)
+    assert any("extrapolated" in note for note in film(100.0, 0.5, 2.5e9).notes)
+
+
+def test_viscosity_is_the_oils_over_temperature_and_the_laws_over_pressure():
+    lubricant = oil()
+    hot = HotViscosity.of(lubricant)
+    none = np.zeros(3)
+    at = np.array([313.15, 353.15, 423.15])
+    own = [lubricant.oil.dynamic_viscosity(float(t)) for t in at]
+    # a spline over steps of 5 K
+    np.testing.assert_allclose(hot(none, at)[0], own, rtol=1e-4)
+    pressure = np.array([0.0, 0.3e9, 1e9])
+    np.testing.assert_allclose(hot(pressure, np.full(3, 333.15))[0], lubricant.viscosity_at(pressure), rtol=1e-6)
+    for t in (300.0, 400.0, 600.0):
+        slope = hot(pressure, np.full(3, t))[1]
+        difference = (hot(pressure, np.full(3, t + 1e-3))[0] - hot(pressure, np.full(3, t - 1e-3))[0]) / 2e-3
+        np.testing.assert_allclose(slope, difference, rtol=1e-4)
+        assert (slope < 0).all()
+    # the coefficient of pressure falls with temperature, as those of oils do
+    steep = [float(np.log(hot(np.array([1e7]), np.array([t]))[0] / hot(np.zeros(1), np.array([t]))[0])[0]) for t in at]
+    assert steep[0] > steep[1] > steep[2] > 0
+
+
+def test_an_oil_known_at_one_temperature_will_do():
+    constants = {"density": 870.0, "heat_capacity": 2000.0, "thermal_conductivity": 0.13}
+    known = Lubricant(
+        0.02, pressure_viscosity=18e-9, temperature=333.15, temperature_viscosity=0.035, **constants, **LAWS
+    )
+    found = film(5.0, 0.5, lubricant=known)
+    assert found.status is Status.CONVERGED
+    assert HotViscosity.of(known)(np.zeros(1), np.array([333.15]))[1][0] == pytest.approx(-0.035 * 0.02, rel=1e-9)
+
+
+def test_what_cannot_be_computed_is_refused_in_words():
+    with pytest.raises(InputError, match="lubricant lacks temperature, density"):
+        film(1.0, 0.1, lubricant=Lubricant(0.05))
+    with pytest.raises(InputError, match="320 degC is above 300 degC"):
+        film(1.0, 0.1, bulk=(593.15, 333.15))
+    with pytest.raises(InputError, match="thermal_conductivity"):
+        film(1.0, 0.1, bodies=(STEEL, Body(Material("plain", youngs_modulus=2e11, poissons_ratio=0.3))))
+
+
+def test_what_is_beyond_an_oil_is_said():
+    notes = film(10.0, 2.0, 2e9).notes
+    assert any("exceed 300 degC in the contact" in note for note in notes)
+    assert any("at rest" in note for note in notes)
+    assert not any("isothermal" in note for note in notes)
+    assert film(0.01, 0.0, 0.4e9).notes == ()
+
+
+def test_costs_little_more_than_an_isothermal_film(monkeypatch):
+    """Newton steps on the fine mesh, which cost nearly all: the goal is 1.5 times those of the isothermal film."""
+    steps = []
+
+    def counted(*arguments, **keywords):
+        outcome = newton(*arguments, **keywords)
+        steps.append(outcome.iterations if len(outcome.state.offset) == 2000 else 0)
+        return outcome
+
+    monkeypatch.setattr(line_continuation, "newton", counted)
+    solve_line_film(
+        load=load(0.8e9), speeds=pair(10, 0.5), lubricant=oil(), radius=10e-3, contact_modulus=MODULUS, points=2000
+    )
+    isothermal = sum(steps)
+    steps.clear()
+    found = film(10.0, 0.5, points=2000)
+    assert sum(steps) <= 1.5 * isothermal
+    assert found.films <= 5
+
+
+def test_random_contacts_converge():
+    """M 0.01 to 5000, L 0 to 25, slide-to-roll ratio 0 to 2, 20 to 150 degrees Celsius, cold."""
+    random = np.random.default_rng(16)
+    laws = [{}, {"shear_law": "limited", "shear_stress_limit": None}, {"shear_law": "carreau"}]
+    for k in range(9):
+        lubricant = oil(random.uniform(293, 423), ["ISO VG 68", "PAO 4", "ISO VG 460"][k % 3], **laws[k // 3])
+        moes, piezo, slide = 10 ** random.uniform(-2, 3.5), random.uniform(0.2, 25), random.uniform(0, 2)
+        speed = (piezo / (lubricant.pressure_viscosity * 2 * MODULUS)) ** 4
+        found = solve_thermal_line_film(
+            load=moes * math.sqrt(speed) * 2 * MODULUS * 10e-3,
+            speeds=pair(speed * MODULUS * 10e-3 / lubricant.viscosity, slide),
+            lubricant=lubricant,
+            **ROLLER,
+        )
+        assert found.status is Status.CONVERGED
+        assert found.energy_imbalance < 1e-6
