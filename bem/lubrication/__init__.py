@@ -4,7 +4,7 @@ Laws of the oil: `viscosity`, `density`, `shear`, gathered in `lubricant`; grade
 across a film: `shear_profile`. The steady film: `steady`, by Newton's method (`line_newton`, from the starts of
 `line_continuation`) on a mesh that follows it (`line_mesh`), with hierarchical weights of the deflection
 (`line_kernel`). In time: `transient`, in steps (`line_step`) with a ruptured film (`line_rupture`, `cavitation`).
-Heat in it: `thermal`. `validity` says where a model ends. Names are loaded when first used, so that the laws cost no solver.
+Heat: `thermal`. `validity` says where a model ends. Names are loaded when first used, so that laws cost no solver.
 
 Sees grids and laws, no rough contact and no scene. Verified in tests/lubrication: Martin's and Hertz' limits, both
 equations by plain quadrature, order of convergence, closed forms of cavitation, conservation.
