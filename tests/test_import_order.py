@@ -12,7 +12,7 @@ ORDER = [
     {"errors", "lazy", "representation", "small_files", "compiled", "pocketfft"},
     {"extensions", "arguments"},
     {"grid", "materials", "threads", "fftw", "laws"},
-    {"kernels", "reference_solutions"},
+    {"kernels", "reference_solutions", "subcell"},
     {"transforms"},
     {"convolution"},
     {"stress", "heat"},

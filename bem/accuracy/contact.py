@@ -20,14 +20,16 @@ from bem.contact.edge import plastic_region
 from bem.convolution import DisplacementOperator
 from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid
+from bem.subcell import around, top
 
 _AREA = Rule(0.5, 0.5, edge=0.02, rough_edge=0.03)
 RULES: dict[str, Rule] = {
     "contact_area": _AREA,
     "contact_area_fraction": _AREA,
+    "contact_perimeter": Rule(0.5, 3.0, edge=0.02, rough_edge=0.02),
     "plastic_area_fraction": Rule(0.67, 1.0, edge=0.05, rough_edge=0.05),
     "mean_contact_pressure": _AREA,
-    "max_pressure": Rule(0.5, 1.0, edge=0.001),
+    "max_pressure": Rule(0.5, 0.67, edge=0.002, rough_edge=0.003),
     "load": Rule(0.5, 0.8, edge=0.003, rough_edge=0.003),
     "approach": Rule(0.5, 0.5, edge=0.005, rough_edge=0.005),
     "mean_gap": Rule(0.6, 0.8, edge=0.001),
@@ -42,9 +44,10 @@ _RESOLVED = 0.7
 twice the cell: 2 sin(pi / n) of waves of n cells, about 9 cells to a wave, 5 on the coarser grid."""
 _SPOT = 6.0
 """Fewest cells across the mean spot (4 area / perimeter) for contact areas to be of second order."""
-_TOUCH, _PEAK = 2.0, 1.5
-"""Factors on the height by which a parabola rises above first touch, and above the highest pressure of a surface that
-is not resolved."""
+_TOUCH = 2.0
+"""Factor on the height by which a parabola rises above first touch."""
+_PEAK, _ROUGH_PEAK = 0.3, 1.0
+"""Factors on what lies between the highest pressure and that of a cell, on a surface that is resolved or not."""
 _STEP, _STEPS = 5.0, 0.25
 """An edge is sharp where the undeformed gap changes by so many times what it does on both sides; a contact has sharp
 edges where that holds for this share of all edges (by chance on a surface of white noise: 0.05)."""
@@ -129,8 +132,9 @@ def figures_of(solution: ContactSolution, area: float) -> dict[str, float]:
         "contact_area_fraction": contact_area / area,
         "plastic_area_fraction": float(solution.plastic_area) / area,
         "contact_area": contact_area,
+        "contact_perimeter": float(solution.contact_perimeter),
         "mean_contact_pressure": float(solution.load) / contact_area if contact_area > 0 else 0.0,
-        "max_pressure": float(solution.pressure.max()),
+        "max_pressure": float(solution.maximum_pressure),
         "load": float(solution.load),
         "approach": float(solution.approach),
         "mean_gap": mean_opening(solution.gap),
@@ -221,33 +225,27 @@ def _share_at_plastic_edge(case: ContactCase) -> float:
 def _further(case: ContactCase, *, resolved: bool) -> dict[str, float]:
     """What a difference between grids may miss: peaks between cells, and the rule for means on free axes."""
     cap = math.inf if case.hardness is None else case.hardness
-    peak = (1.0 if resolved else _PEAK) * rise(case.solution.pressure, case.grid)
-    touch = _TOUCH * rise(-case.undeformed, case.grid) if case.from_touch else 0.0
+    highest = case.solution.maximum_pressure
+    peak = (_PEAK if resolved else _ROUGH_PEAK) * abs(highest - float(case.solution.pressure.max()))
+    touch = _TOUCH * _rise(-case.undeformed, case.grid) if case.from_touch else 0.0
     # N spots of width d that know nothing of one another are as stiff as N E* d, which is E* perimeter / pi
     perimeter = case.solution.contact_perimeter
     spot = math.pi * case.solution.contact_area / perimeter if perimeter > 0 else math.sqrt(case.grid.cell_area)
     stiffness = case.operator.modulus_at(1 / spot) * perimeter / math.pi
     return {
-        "max_pressure": min(peak, cap - float(case.solution.pressure.max())),
+        "max_pressure": min(peak, cap - highest),
         "approach": touch,
         "load": stiffness * touch if case.approach is not None else 0.0,
         "mean_gap": _ends(case),
     }
 
 
-def rise(field: FloatArray, grid: Grid) -> float:
-    """By how much a parabola through the highest value and its neighbours rises above it."""
+def _rise(field: FloatArray, grid: Grid) -> float:
+    """By how much a paraboloid through the highest value and its neighbours rises above it."""
     place = np.unravel_index(int(np.argmax(field)), field.shape)
-    top, rise = float(field[place]), 0.0
-    for axis in (0, 1):
-        line = field[:, place[1]] if axis == 0 else field[place[0]]
-        n, i = line.size, int(place[axis])
-        if n < 3 or (not grid.periodic[axis] and i in (0, n - 1)):
-            continue
-        before, behind = float(line[i - 1]), float(line[(i + 1) % n])
-        bend = 2 * top - before - behind
-        rise += (behind - before) ** 2 / (8 * bend) if bend > 0 else 0.0
-    return rise
+    patch = around(field, grid, (int(place[0]), int(place[1])))
+    found = None if patch is None else top(patch)
+    return 0.0 if found is None else found - float(field[place])
 
 
 def _ends(case: ContactCase) -> float:

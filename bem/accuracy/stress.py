@@ -5,15 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from bem.accuracy.bars import DEPTHS, GRID, ErrorBars, Rule
-from bem.accuracy.contact import Coarser, ContactCase, is_resolved, rise, share_at_edge
-from bem.grid import FloatArray
+from bem.accuracy.contact import Coarser, ContactCase, is_resolved, share_at_edge
+from bem.grid import FloatArray, Grid
 from bem.materials import Body
-from bem.stress import von_mises_planes
+from bem.stress import StressBelow, stress_below, von_mises_planes
 
 NAMES = ("max_von_mises", "max_von_mises_depth")
-_VON_MISES = Rule(0.5, 1.0, edge=0.03, rough_edge=0.02)
+_VON_MISES = Rule(0.5, 0.67, edge=0.01, rough_edge=0.02)
 _JUMP = 1.3
 """Factor on the depth's bar where the surface is not resolved: the highest stress may lie under another spot."""
+_LOOKED, _LOOKED_DEPTH = 0.3, 0.05
+"""Where the highest stress was looked for between depths: factors on its rise above the points and on the interval."""
 _STEEPER = 2.0
 """Factor on what a straight line through two depths reaches at an interface: stresses rise the steeper the nearer."""
 
@@ -28,18 +30,18 @@ _DEEPEST = "the highest von Mises stress has no error bar: it lies at the deepes
 
 
 def stress_bars(
-    case: ContactCase, coarser: Coarser, body: Body, depths: FloatArray, highest: FloatArray, friction: float = 0.0
+    case: ContactCase, coarser: Coarser, body: Body, below: StressBelow, friction: float = 0.0
 ) -> ErrorBars:
     """Bars from the coarser pressure at every second depth, and from the depths next to the highest stress.
 
     Parameters
     ----------
     case, coarser : the contact and its coarser solution, as `bem.accuracy.contact` makes them.
-    body, friction : as `bem.stress.von_mises_planes` takes them. depths : [m], (n,), rising.
-    highest : von Mises stress of each depth [Pa], (n,).
+    body, friction : as `bem.stress.stress_below` takes them. below : what it gave for the contact.
     """
     if coarser.solution is None or coarser.grid is None:
         return ErrorBars(dict.fromkeys(NAMES))
+    depths, highest = below.depths, below.highest
     k, few = int(np.argmax(highest)), len(depths) < 3  # one or two depths are where stresses are wanted, not a search
     if k == len(depths) - 1 and not few:
         return ErrorBars.unknown(NAMES, _DEEPEST)
@@ -48,36 +50,39 @@ def stress_bars(
         return ErrorBars.unknown(NAMES, _CAPPED)
     if k == 0 and depths[0] > 0 and not few:
         return ErrorBars.unknown(NAMES, _SHALLOWEST)
-    near_k = {max(k - 1, 0), min(k + 1, len(depths) - 1)}
-    kept = sorted({*range(k % 2, len(depths), 2), *near_k})
-    there = von_mises_planes(
-        coarser.solution.pressure,
-        coarser.grid,
-        body,
-        depths[kept],
-        friction=friction,
-        out=np.empty(coarser.grid.shape),
-    )
-    peaks = np.array([(plane.max(), rise(plane, coarser.grid)) for plane in there])
+    kept = depths[sorted({*range(k % 2, len(depths), 2), max(k - 1, 0), min(k + 1, len(depths) - 1)})]
+    there = _highest_below(coarser.solution.pressure, coarser.grid, body, kept, friction)
     resolved, edge = is_resolved(case), share_at_edge(case)
-    top, error = (0.0, 0.0) if few else _highest_between(depths, highest, k)
+    stress = _VON_MISES.bar(below.max_von_mises - there.max_von_mises, edge * below.max_von_mises, resolved=resolved)
+    jump = 1.0 if resolved else _JUMP
+    top, error = (0.0, 0.0) if few else _between(below, k)
     for interface in () if few else body.interfaces:
         above = _STEEPER * (_beyond(depths, highest, interface) - highest[k])
         if above > 0:
             top, error = max(top, float(above)), max(error, abs(interface - float(depths[k])))
-    at = int(np.argmax(peaks[:, 0]))
-    coarse, between = peaks[at]
-    stress = _VON_MISES.bar(highest[k] - coarse, edge * highest[k], resolved=resolved)
-    jump = 1.0 if resolved else _JUMP
+    moved = abs(below.max_von_mises_depth - there.max_von_mises_depth)
     return ErrorBars.together(
         {
-            GRID: {
-                "max_von_mises": float(stress + between / (4.0 if resolved else 1.0)),
-                "max_von_mises_depth": float(jump * abs(depths[k] - depths[kept[at]])),
-            },
+            GRID: {"max_von_mises": float(stress), "max_von_mises_depth": float(jump * moved)},
             DEPTHS: {"max_von_mises": top, "max_von_mises_depth": jump * error},
         }
     )
+
+
+def _highest_below(pressure: FloatArray, grid: Grid, body: Body, depths: FloatArray, friction: float) -> StressBelow:
+    """Stresses next to the depth where they are highest; planes are not kept on the way to it."""
+    planes = von_mises_planes(pressure, grid, body, depths, friction=friction, out=np.empty(grid.shape))
+    k = int(np.argmax([plane.max() for plane in planes]))
+    return stress_below(pressure, grid, body, depths[max(k - 2, 0) : k + 3], friction=friction)
+
+
+def _between(below: StressBelow, k: int) -> tuple[float, float]:
+    """What may be wrong with the highest stress [Pa] and its depth [m] between the depths next to the k-th."""
+    depths = below.depths
+    if below.max_von_mises_depth == depths[k]:  # nothing was looked for
+        return _highest_between(depths, below.highest, k)
+    interval = float(max(depths[k] - depths[k - 1], depths[k + 1] - depths[k]))
+    return _LOOKED * float(below.max_von_mises - below.highest[k]), _LOOKED_DEPTH * interval
 
 
 def _highest_between(depths: FloatArray, highest: FloatArray, k: int) -> tuple[float, float]:

@@ -88,7 +88,8 @@ def _film_reference() -> tuple[float, float, float]:
 SPEEDS = (0.001, 0.01, 0.03, 0.05, 0.1, 0.2, 0.3)
 
 
-def _mixed_case(cells: int, film_points: int, tolerance: float) -> dict[str, Any]:
+def mixed_case(cells: int, film_points: int, tolerance: float) -> dict[str, Any]:
+    """What load sharing takes, on any grid that divides 480 cells."""
     from bem.lubrication import Lubricant
     from bem.surfaces import generate_surface
 
@@ -117,21 +118,21 @@ def _mixed_case(cells: int, film_points: int, tolerance: float) -> dict[str, Any
 def _mixed_reference() -> FloatArray:
     from bem.friction import stribeck_curve
 
-    return np.array([p.friction for p in stribeck_curve(SPEEDS, **_mixed_case(480, 2000, 1e-6))])
+    return np.array([p.friction for p in stribeck_curve(SPEEDS, **mixed_case(480, 2000, 1e-6))])
 
 
 @functools.cache
 def _point_reference() -> float:
     from bem.friction import solve_mixed
 
-    return solve_mixed(**_mixed_case(480, 2000, 1e-6), speeds=(SPEEDS[2], 0.0)).friction
+    return solve_mixed(**mixed_case(480, 2000, 1e-6), speeds=(SPEEDS[2], 0.0)).friction
 
 
 def load_sharing(cells: float) -> Timed:
     """One speed in mixed lubrication, against twice the finest mesh."""
     from bem.friction import MixedSolution, solve_mixed
 
-    case = _mixed_case(int(cells), 2000, 1e-4)
+    case = mixed_case(int(cells), 2000, 1e-4)
 
     def judge(point: MixedSolution) -> Outcome:
         return Outcome(
@@ -146,7 +147,7 @@ def stribeck(cells: float) -> Timed:
     """A Stribeck curve, against twice the finest mesh."""
     from bem.friction import MixedSolution, stribeck_curve
 
-    case = _mixed_case(int(cells), 2000, 1e-4)
+    case = mixed_case(int(cells), 2000, 1e-4)
 
     def judge(curve: list[MixedSolution]) -> Outcome:
         found = np.array([p.friction for p in curve])

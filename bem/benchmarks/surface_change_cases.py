@@ -56,15 +56,16 @@ def stress_of_sphere(cells: float, *, mises_only: bool = False, warm: bool = Fal
     return Timed(solve, judge, None if warm else forget)
 
 
-def _wear_setup(depths: int) -> tuple[Any, FloatArray, FloatArray]:
+def wear_setup(depths: int, cells: int = 240, drawn_on: int = 240) -> tuple[Any, FloatArray, FloatArray]:
+    """A wear cycle on 24.5 um, down to 6 um, and both surfaces: drawn on so many cells a side, which `cells` divide."""
     from bem.surfaces import generate_surface
     from bem.wear import WearSetup
 
-    spacing = 102e-9
-    grid = Grid((240, 240), (spacing, spacing), periodic=SEMI)
-    whole = Grid((240, 240), (spacing, spacing), periodic=PERIODIC)
-    lower = generate_surface(whole, rms_height=200e-9, correlation_length=2e-6, seed=1)
-    upper = generate_surface(whole, rms_height=50e-9, correlation_length=0.6e-6, seed=2)
+    side, step = 240 * 102e-9, drawn_on // cells
+    grid = Grid((cells, cells), (side / cells,) * 2, periodic=SEMI)
+    whole = Grid((drawn_on, drawn_on), (side / drawn_on,) * 2, periodic=PERIODIC)
+    lower = generate_surface(whole, rms_height=200e-9, correlation_length=2e-6, seed=1)[::step, ::step].copy()
+    upper = generate_surface(whole, rms_height=50e-9, correlation_length=0.6e-6, seed=2)[::step, ::step].copy()
     soft = Material("disk", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9)
     hard = Material("cylinder", youngs_modulus=210e9, poissons_ratio=0.3, hardness=6e9)
     setup = WearSetup(
@@ -83,7 +84,7 @@ def one_wear_cycle(depths: float) -> Timed:
     from bem.wear import WearModel, dry_contact, yielded_pieces
     from bem.wear.cycle import wear_cycle
 
-    setup, lower, upper = _wear_setup(int(depths))
+    setup, lower, upper = wear_setup(int(depths))
     model = WearModel()
     step = dry_contact(setup)
     before, _ = wear_cycle((lower, upper), setup, model, step, None)
@@ -95,7 +96,7 @@ def one_wear_cycle(depths: float) -> Timed:
 
     def judge(result: Any) -> Outcome:
         contact, (removal,) = result
-        fine, _, _ = _wear_setup(64)
+        fine, _, _ = wear_setup(64)
         exact = yielded_pieces(contact.pressure, fine, WearModel(refinement="exact", refine=4), 0)
         wanted = exact.pieces.thickness.sum()
         return Outcome(
@@ -111,29 +112,33 @@ def one_wear_cycle(depths: float) -> Timed:
     return Timed(solve, judge)
 
 
+def tip(cells: int) -> Any:
+    """The contact of an AFM tip whose film grows."""
+    from bem.tribofilm import Constant, FadingSubstrate, FilmContact, StressActivatedGrowth
+
+    grid = Grid((cells, cells), (38.4e-9 / cells,) * 2)
+    return FilmContact(
+        gap=(grid.x[:, None] ** 2 + grid.y[None, :] ** 2) / 2 / 53e-9,
+        grid=grid,
+        substrate=Material("iron", youngs_modulus=210e9, poissons_ratio=0.3),
+        counterface=Material("dlc", youngs_modulus=200e9, poissons_ratio=0.25),
+        load=600e-9,
+        growth=StressActivatedGrowth.from_electron_volts(1e-2, 0.8, 85),
+        hardness=FadingSubstrate(6e9, 2e9, 4e-9),
+        modulus=Constant(15e9),
+        temperature=373.15,
+        average="nominal",
+    )
+
+
 def tribofilm(cells: float) -> Timed:
     """A tribofilm under an AFM tip, against the limit of finer meshes."""
-    from bem.tribofilm import Constant, FadingSubstrate, FilmContact, StressActivatedGrowth, grow_tribofilm
+    from bem.tribofilm import grow_tribofilm
 
     times = np.linspace(0, 2000, 41)
 
-    def case(n: int) -> FilmContact:
-        grid = Grid((n, n), (38.4e-9 / n,) * 2)
-        return FilmContact(
-            gap=(grid.x[:, None] ** 2 + grid.y[None, :] ** 2) / 2 / 53e-9,
-            grid=grid,
-            substrate=Material("iron", youngs_modulus=210e9, poissons_ratio=0.3),
-            counterface=Material("dlc", youngs_modulus=200e9, poissons_ratio=0.25),
-            load=600e-9,
-            growth=StressActivatedGrowth.from_electron_volts(1e-2, 0.8, 85),
-            hardness=FadingSubstrate(6e9, 2e9, 4e-9),
-            modulus=Constant(15e9),
-            temperature=373.15,
-            average="nominal",
-        )
-
     def run(n: int) -> float:
-        return float(grow_tribofilm(times, case(n), wear_coefficient=3e-3).history.thickness[-1])
+        return float(grow_tribofilm(times, tip(n), wear_coefficient=3e-3).history.thickness[-1])
 
     def judge(thickness: float) -> Outcome:
         return Outcome({"film_thickness": abs(thickness / _tribofilm_reference() - 1)})

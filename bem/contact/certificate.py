@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from bem.contact import passes
 from bem.contact.edge import Region, contact_region, plastic_region
 from bem.contact.level import LevelResult
+from bem.contact.peak import highest_pressure
 from bem.contact.request import Request, Units
 from bem.contact.solution import ContactSolution
 from bem.errors import Status
@@ -72,7 +73,9 @@ def certify(
         contact_area=contact.area,
         plastic_area=plastic.area,
         counted_area=contact.counted_area,
+        counted_plastic_area=plastic.counted_area,
         contact_perimeter=contact.perimeter,
+        maximum_pressure=highest_pressure(pressure, grid, request.cap),
         plastic_depth=depth,
         iterations=iterations,
         convolutions=operator.count.weighted - convolutions_before,

@@ -51,6 +51,10 @@ _LEAST_COSINE = 0.24
 _BEFORE, _BEYOND = -0.3, 1.0
 """How far from the cell inside, in links, a crossing may lie: behind the centre of a cell that barely touches."""
 
+_ASLANT = 1.0039
+"""Chords are measured along the smoothed edge, from which they turn by some 5 degrees, so that they are short by
+1 - cos; measured on balls of 24 to 64 cells, of all directions. Another 8 / R^2 % is missing on spots of R cells."""
+
 _STEP = 5.0
 """A parabola's steps grow by 3, 5/3, ...: on a smooth surface none is this many times both its neighbours."""
 
@@ -106,7 +110,42 @@ def _region(
     # chords cut off curvature x chord^3 / 12; the curvature of all edges adds up to 2 pi a piece, less that of holes
     segments = 2 * math.pi * turns * (squares / length) / 12 if length > 0 else 0.0
     area = count * grid.cell_area + excess + segments
-    return Region(min(max(area, _LEAST_SHARE * count * grid.cell_area), grid.area), length, count * grid.cell_area)
+    return Region(
+        min(max(area, _LEAST_SHARE * count * grid.cell_area), grid.area), _ASLANT * length, count * grid.cell_area
+    )
+
+
+def count_spots(pressure: FloatArray, grid: Grid) -> int:
+    """How many separate spots of contact a pressure (nx, ny) has; cells of one hang together through their sides."""
+    return int(_count_spots(np.ascontiguousarray(pressure) > 0, grid.periodic))
+
+
+@_strict
+def _count_spots(inside, wraps):  # type: ignore[no-untyped-def]
+    """Cells in contact less the sides that join two trees of them (union-find)."""
+    nx, ny = inside.shape
+    parent = np.arange(nx * ny)
+    count = 0
+    for i in range(nx):
+        for j in range(ny):
+            if not inside[i, j]:
+                continue
+            count += 1
+            for axis in range(2):
+                k, m = _step(inside, i, j, axis, 1, wraps[0], wraps[1])
+                if inside[k, m]:
+                    first, second = _root(parent, i * ny + j), _root(parent, k * ny + m)
+                    count -= first != second
+                    parent[first] = second
+    return count
+
+
+@_strict
+def _root(parent, cell):  # type: ignore[no-untyped-def]
+    while parent[cell] != cell:
+        parent[cell] = parent[parent[cell]]
+        cell = parent[cell]
+    return cell
 
 
 @_strict

@@ -27,8 +27,10 @@ class ContactSolution:
     approach : [m], of the datum of the undeformed gap.
     load : [N].
     contact_area, plastic_area : [m^2], of second order in the cell (`bem.contact.edge`), not a count of cells.
-    counted_area : [m^2], of the cells with pressure: of first order, and too large.
+    counted_area, counted_plastic_area : [m^2], of the cells with pressure and of those at the hardness: of first order,
+        and the former too large.
     contact_perimeter : length of the contact's edge [m].
+    maximum_pressure : [Pa], between the centres of cells where the pressure is smooth (`bem.contact.peak`).
     plastic_depth : [m], overlap of the bodies where the pressure is at the hardness, zero elsewhere.
     iterations : iterations of conjugate gradients on all grids.
     convolutions : applications of the operator on all grids, each weighed by its share of the cells.
@@ -48,7 +50,9 @@ class ContactSolution:
     contact_area: float
     plastic_area: float
     counted_area: float
+    counted_plastic_area: float
     contact_perimeter: float
+    maximum_pressure: float
     plastic_depth: FloatArray
     iterations: int
     convolutions: float

@@ -22,7 +22,7 @@ from bem import Body, Grid, Layer, Material, displacement_operator, solve_contac
 from bem.accuracy import ContactCase, contact_bars, figures_of, solve_coarser, stress_bars
 from bem.accuracy.contact import is_resolved, share_at_edge
 from bem.errors import Status
-from bem.stress import von_mises_planes
+from bem.stress import StressBelow, stress_below
 from bem.surfaces import generate_surface
 from reports.experiments.judging import judge
 
@@ -64,12 +64,11 @@ class Problem:
         rough = bool(self.heights.any())
         return ContactCase(operator, gap, solution, hardness=self.hardness, from_touch=rough, **self.given)
 
-    def stresses(self, case: ContactCase, factor: int) -> tuple[FloatArray, FloatArray]:
-        """Depths [m] and the highest von Mises stress of each [Pa]."""
+    def stresses(self, case: ContactCase, factor: int) -> StressBelow:
+        """Below the contact, at `factor` times as many depths."""
         count = (self.depths - 1) * factor + 1
         depths = min(self.grid.lengths) / 4 * (np.arange(count) / (count - 1)) ** 2
-        found = von_mises_planes(case.solution.pressure, case.grid, self.body, depths, out=np.empty(case.grid.shape))
-        return depths, np.array([plane.max() for plane in found])
+        return stress_below(case.solution.pressure, case.grid, self.body, depths)
 
 
 def waves_through(heights: FloatArray, factor: int) -> FloatArray:
@@ -152,11 +151,10 @@ def rows_of(problem: Problem) -> list[dict[str, Any]]:
     found, truth = figures_of(case.solution, case.grid.area), figures_of(fine.solution, case.grid.area)
     coarse = figures_of(coarser.solution, case.grid.area)
     if problem.depths:
-        depths, highest = problem.stresses(case, 1)
-        there, reference = problem.stresses(fine, FINER)
-        bars = bars | stress_bars(case, coarser, problem.body, depths, highest)
-        for figures, z, s in ((found, depths, highest), (truth, there, reference)):
-            figures |= {"max_von_mises": float(s.max()), "max_von_mises_depth": float(z[int(np.argmax(s))])}
+        below = problem.stresses(case, 1)
+        bars = bars | stress_bars(case, coarser, problem.body, below)
+        for figures, stresses in ((found, below), (truth, problem.stresses(fine, FINER))):
+            figures |= {name: getattr(stresses, name) for name in ("max_von_mises", "max_von_mises_depth")}
     across = 4 * case.solution.contact_area / max(case.solution.contact_perimeter, 1e-30) / 1e-7
     return [
         {

@@ -5,6 +5,7 @@ import pytest
 from test_contact_closed_forms import order
 
 from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
+from bem.contact.edge import count_spots
 from bem.reference_solutions.hertz import sphere_contact
 
 UNIT = Material("unit", youngs_modulus=1.0, poissons_ratio=0.0)
@@ -164,3 +165,30 @@ def test_everywhere_and_nowhere():
     assert (full.contact_area, full.contact_perimeter) == (64.0, 0.0)
     none = solve_contact(np.zeros((8, 8)), operator, load=0.0)
     assert (none.contact_area, none.contact_perimeter) == (0.0, 0.0)
+
+
+def test_spots_hang_together_through_sides_and_round_a_periodic_grid():
+    pressure = np.array(
+        [
+            [1, 1, 0, 0, 2],
+            [0, 0, 3, 0, 0],
+            [0, 3, 3, 0, 4],
+            [5, 0, 0, 0, 4],
+        ],
+        dtype=float,
+    )
+    counts = {(False, False): 5, (True, False): 3, (False, True): 3, (True, True): 2}
+    for periodic, count in counts.items():
+        assert count_spots(pressure, Grid((4, 5), (1.0, 1.0), periodic=periodic)) == count
+    assert count_spots(np.zeros((3, 3)), Grid((3, 3), (1.0, 1.0))) == 0
+
+
+def test_perimeter_of_balls_is_of_second_order():
+    errors = {}
+    for radius in (2.0, 4.0, 16.0):
+        solved = [ball(radius, seed) for seed in range(6)]
+        errors[radius] = np.mean([s.contact_perimeter / (2 * np.pi * r.semi_axes[0]) - 1 for s, r in solved])
+    # measured -1.9, -0.4 and 0.0 %: 8 / R^2 %
+    assert -0.03 < errors[2.0] < -0.01
+    assert abs(errors[4.0]) < 0.01
+    assert abs(errors[16.0]) < 0.002

@@ -81,6 +81,8 @@ def plan(scene: ContactScene) -> Plan:
     )
 
 
+_COUNTED = "is what cells and points have, beside the figure of higher order"
+_WHOLE = "is a whole number, and changes where two spots just touch"
 _map = partial(Series, ("x", "y"))
 
 
@@ -92,8 +94,13 @@ class ContactRecord(GridRecord):
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid", headline=True)]
     plastic_area_fraction: Annotated[float, Figure("", "area at the hardness over that of the grid", headline=True)]
     contact_area: Annotated[float, Figure("m2", "real contact area")]
+    counted_contact_area_fraction: Annotated[float, Figure("", "cells in contact over all", no_bar=_COUNTED)]
+    counted_plastic_area_fraction: Annotated[float, Figure("", "cells at the hardness over all", no_bar=_COUNTED)]
+    contact_spots: Annotated[int, Figure("", "separate spots of contact", no_bar=_WHOLE)]
+    contact_perimeter: Annotated[float, Figure("m", "length of the edges of contact")]
     mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area", headline=True)]
     max_pressure: Annotated[float, Figure("Pa", "highest pressure", headline=True)]
+    max_pressure_of_cells: Annotated[float, Figure("Pa", "highest pressure of a cell", no_bar=_COUNTED)]
     approach: Annotated[float, Figure("m", "approach from first touch", headline=True)]
     mean_gap: Annotated[float, Figure("m", "mean of the open gap")]
     residual: Annotated[float, Figure("", "relative residual", headline=True)]
@@ -105,7 +112,13 @@ class ContactRecord(GridRecord):
         None
     )
     max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)] = None
+    max_von_mises_of_points: Annotated[
+        float | None, Figure("Pa", "highest von Mises stress of a point", optional=True, no_bar=_COUNTED)
+    ] = None
     yielded_volume: Annotated[float | None, Figure("m3", "volume beyond the yield stress", optional=True)] = None
+    counted_yielded_volume: Annotated[
+        float | None, Figure("m3", "that of whole cells", optional=True, no_bar=_COUNTED)
+    ] = None
     pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
     displacement: Annotated[FloatArray, _map("m", "normal displacement of both bodies together")]
     gap: Annotated[FloatArray, _map("m", "gap between the deformed surfaces")]
@@ -147,6 +160,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     return filled(
         ContactRecord,
         figures_of(solution, grid.area),
+        _counted(solution, grid),
         {f"{name}_Sq": float(heights.std()) for name, heights in rough.items()},
         {f"{name}_height": heights for name, heights in rough.items()},
         {} if below is None else below,
@@ -161,6 +175,18 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         **errors,
         where=f"contact solve: {solution.status.message}, residual {solution.residual:.2g}",
     )
+
+
+def _counted(solution: ContactSolution, grid: Grid) -> dict[str, float]:
+    """What cells have, whole ones."""
+    from bem.contact.edge import count_spots
+
+    return {
+        "counted_contact_area_fraction": solution.counted_area / grid.area,
+        "counted_plastic_area_fraction": solution.counted_plastic_area / grid.area,
+        "contact_spots": count_spots(solution.pressure, grid),
+        "max_pressure_of_cells": float(solution.pressure.max()),
+    }
 
 
 _SOLVED = ("pressure", "displacement", "gap", "residual", "iterations", "convolutions", "status")
@@ -221,7 +247,7 @@ def _bars(
     if below is None:
         return bars
     body, friction = _stressed(scene)
-    return bars | stress_bars(case, coarser, body, below.depths, below.highest, friction)
+    return bars | stress_bars(case, coarser, body, below, friction)
 
 
 def _stressed(scene: ContactScene) -> tuple[Body, float]:
