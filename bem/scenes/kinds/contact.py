@@ -81,8 +81,6 @@ def plan(scene: ContactScene) -> Plan:
     )
 
 
-_COUNTED = "is what cells and points have, beside the figure of higher order"
-_WHOLE = "is a whole number, and changes where two spots just touch"
 _map = partial(Series, ("x", "y"))
 
 
@@ -94,13 +92,13 @@ class ContactRecord(GridRecord):
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid", headline=True)]
     plastic_area_fraction: Annotated[float, Figure("", "area at the hardness over that of the grid", headline=True)]
     contact_area: Annotated[float, Figure("m2", "real contact area")]
-    counted_contact_area_fraction: Annotated[float, Figure("", "cells in contact over all", no_bar=_COUNTED)]
-    counted_plastic_area_fraction: Annotated[float, Figure("", "cells at the hardness over all", no_bar=_COUNTED)]
-    contact_spots: Annotated[int, Figure("", "separate spots of contact", no_bar=_WHOLE)]
+    counted_contact_area_fraction: Annotated[float, Figure("", "cells in contact over all")]
+    counted_plastic_area_fraction: Annotated[float, Figure("", "cells at the hardness over all")]
+    contact_spots: Annotated[int, Figure("", "separate spots of contact")]
     contact_perimeter: Annotated[float, Figure("m", "length of the edges of contact")]
     mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area", headline=True)]
     max_pressure: Annotated[float, Figure("Pa", "highest pressure", headline=True)]
-    max_pressure_of_cells: Annotated[float, Figure("Pa", "highest pressure of a cell", no_bar=_COUNTED)]
+    max_pressure_of_cells: Annotated[float, Figure("Pa", "highest pressure of a cell")]
     approach: Annotated[float, Figure("m", "approach from first touch", headline=True)]
     mean_gap: Annotated[float, Figure("m", "mean of the open gap")]
     residual: Annotated[float, Figure("", "relative residual", headline=True)]
@@ -113,12 +111,10 @@ class ContactRecord(GridRecord):
     )
     max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)] = None
     max_von_mises_of_points: Annotated[
-        float | None, Figure("Pa", "highest von Mises stress of a point", optional=True, no_bar=_COUNTED)
+        float | None, Figure("Pa", "highest von Mises stress of a point", optional=True)
     ] = None
     yielded_volume: Annotated[float | None, Figure("m3", "volume beyond the yield stress", optional=True)] = None
-    counted_yielded_volume: Annotated[
-        float | None, Figure("m3", "that of whole cells", optional=True, no_bar=_COUNTED)
-    ] = None
+    counted_yielded_volume: Annotated[float | None, Figure("m3", "that of whole cells", optional=True)] = None
     pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
     displacement: Annotated[FloatArray, _map("m", "normal displacement of both bodies together")]
     gap: Annotated[FloatArray, _map("m", "gap between the deformed surfaces")]
