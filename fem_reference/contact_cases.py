@@ -357,6 +357,7 @@ PROBLEMS = (
             # a contact seven times smaller than that on the bare body
             "contact-sphere-very-stiff": {"nu": 0.27, "layer": [70.0, 0.44, 1.25], "loads": [0.14, 0.27]},
             "contact-sphere-high-nu-soft": {"nu": 0.45, "layer": list(layers.LAYERS["soft"])},
+            "contact-sphere-low-nu-stiff-thin": {"nu": 0.1, "layer": list(layers.LAYERS["stiff-thin"])},
             **{
                 f"contact-sphere-{name}": {"layer": list(layers.LAYERS[name])}
                 for name in ("soft", "stiff", "stiff-thin", "film-15GPa-200nm", "film-130GPa-20nm")
@@ -372,6 +373,7 @@ PROBLEMS = (
         {
             "contact-cylinder-plain": {},
             "contact-cylinder-low-nu-stiff": {"nu": 0.1, "layer": list(layers.LAYERS["stiff"])},
+            "contact-cylinder-high-nu-soft": {"nu": 0.48, "layer": list(layers.LAYERS["soft"])},
             **{f"contact-cylinder-{name}": {"layer": list(layers.LAYERS[name])} for name in ("soft", "stiff")},
         },
     ),
@@ -390,6 +392,8 @@ PROBLEMS = (
             "contact-row-plain": {},
             "contact-row-soft": {"layer": [0.1, 0.4, 0.1], "loads": [0.03, 0.08, 0.15, 0.2, 0.25]},
             "contact-row-stiff": {"layer": [10.0, 0.25, 0.1]},
+            "contact-row-low-nu-stiff": {"nu": 0.05, "layer": [10.0, 0.25, 0.1]},
+            "contact-row-high-nu-soft": {"nu": 0.45, "layer": [0.1, 0.4, 0.1], "loads": [0.03, 0.08, 0.15, 0.2, 0.25]},
         },
         ("contact-row-plain",),
     ),

@@ -299,6 +299,7 @@ PROBLEMS = (
         | {
             "disc-uniform-low-nu": {"nu": 0.05},
             "disc-hertz-high-nu-soft": {"nu": 0.45, "pressure": "hertz", "layer": LAYERS["soft"]},
+            "disc-hertz-low-nu-stiff-on-soft": {"nu": 0.1, "pressure": "hertz", "layer": STACKS["stiff-on-soft"]},
         },
         quick=("disc-uniform",),
     ),
@@ -312,6 +313,9 @@ PROBLEMS = (
             ["", "soft", "stiff", "stiff-thin", "soft-thick"],
             ["", "soft", "stiff-thin", "film-15GPa-200nm", "stiff-on-soft"],
         )
-        | {"disc-tangential-uniform-low-nu-stiff": {"nu": 0.1, "layer": LAYERS["stiff"]}},
+        | {
+            "disc-tangential-uniform-low-nu-stiff": {"nu": 0.1, "layer": LAYERS["stiff"]},
+            "disc-tangential-hertz-high-nu-soft": {"nu": 0.48, "pressure": "hertz", "layer": LAYERS["soft"]},
+        },
     ),
 )
