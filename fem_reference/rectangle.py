@@ -143,7 +143,6 @@ PROBLEMS = (
             "rectangle-tangential": {"load": "tangential"},
             "rectangle-normal-soft": {"load": "normal", "layer": LAYERS["soft"]},
             "rectangle-tangential-stiff": {"load": "tangential", "layer": LAYERS["stiff"]},
-            "rectangle-tangential-high-nu": {"nu": 0.45, "load": "tangential"},
             "rectangle-normal-low-nu-soft": {"nu": 0.1, "load": "normal", "layer": LAYERS["soft"]},
         },
     ),

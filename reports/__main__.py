@@ -56,7 +56,7 @@ def main() -> None:
 
 def renewed(parser: argparse.ArgumentParser, names: list[str], settings: list[str]) -> list[str]:
     """What could not be renewed of the validation's stored results."""
-    from reports.validation_renewal import jobs, renew
+    from reports.validation_renewal import jobs, renew, rerun, scripts
 
     given: dict[str, list[str]] = {}
     for setting in settings:
@@ -64,12 +64,14 @@ def renewed(parser: argparse.ArgumentParser, names: list[str], settings: list[st
         if not colon:
             parser.error(f"--set {setting}: allowed: RESULT:KEY=VALUE")
         given.setdefault(name, []).append(words)
-    known = jobs(given)
-    unknown = sorted({*names, *given} - set(known))
+    known, others = jobs(given), scripts()
+    unknown = sorted({*names, *given} - {*known, *others} | {*given} & {*others})
     if unknown:
-        parser.error(f"no stored result {', '.join(unknown)}; there are {', '.join(known)}")
+        parser.error(f"no stored result {', '.join(unknown)}; there are {', '.join((*known, *others))}")
+    wanted = names or [*known, *others]
     try:
-        return renew([known[name] for name in names or known], say=say)
+        failed = rerun([others[name] for name in wanted if name in others], say=say)
+        return failed + renew([known[name] for name in wanted if name in known], say=say)
     except KeyboardInterrupt:
         say("interrupted; the same command goes on where it stopped")
         sys.exit(130)

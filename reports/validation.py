@@ -13,20 +13,20 @@ from typing import Any
 
 from reports import independent
 from reports.builder import COLOURS, Page, Section, figure, table, text
+from reports.experiments import kept
 from reports.validation_lines import CHECKS, CHOICES
 from reports.validation_origin import rooms, stale
-from reports.validation_renewal import is_kept, jobs
+from reports.validation_renewal import is_kept, jobs, scripts
 from reports.validation_values import Check, Rule, Summary, at, curve, differences, radii, steel_modulus, stored
 
 VERDICTS = {True: "agrees", False: "differs", None: "–"}
-QUOTED = "quoted, not stored"
 
 
 def rows(checks: Sequence[Check]) -> list[tuple[str, str, str, Any, str, str]]:
     """Lines of one table: item, thesis, ours, verdict, accepted, remark; a scene that was not run says so."""
     lines: list[tuple[str, str, str, Any, str, str]] = []
     for check in checks:
-        remark = f"{check.remark} [{QUOTED}]" if check.experiments else check.remark
+        remark = check.remark
         try:
             summary = stored(check.scene)
             ours, verdict = check.rule.ours(summary), VERDICTS[check.rule.agrees(summary)]
@@ -66,11 +66,16 @@ def results_table() -> str:
         except FileNotFoundError:
             lines.append((job.name, "", "", "", "", "", "not run"))
             continue
-        kept = summary.get("origin", {})
+        source = summary.get("origin", {})
         state = stale(job.scene, summary) or "holds"
-        set_on = ", ".join(kept.get("settings", ())) or "as built in"
-        origin = [kept.get(key, "not kept") for key in ("commit", "scene_hash", "code_hash")]
+        set_on = ", ".join(source.get("settings", ())) or "as built in"
+        origin = [source.get(key, "not kept") for key in ("commit", "scene_hash", "code_hash")]
         lines.append((job.name, set_on, summary["version"], *origin, state))
+    for name in scripts():
+        path = kept.result_of(name)
+        origin = json.loads(path.read_text("utf-8"))["origin"] if path.exists() else {}
+        words = (f"reports/experiments/{name}.py", "", origin.get("commit", ""), "", origin.get("code_hash", ""))
+        lines.append((name, *words, kept.stale(name) or "holds"))
     headers = ("result", "settings", "version", "commit", "scene", "code", "state")
     kinds = sorted({stored(c.scene)["kind"] for checks in CHECKS.values() for c in checks if is_kept(c.scene)})
     return table(headers, lines) + text(
@@ -101,8 +106,8 @@ def build() -> Page:
                 f"{total['agrees, stale'] + total['differs, stale']} verdicts are of stale results (last section)."
             )
             + text(
-                "Verdicts are computed from the kept runs. A remark names a cause only where it was tried. Where it "
-                f"says [{QUOTED}], its numbers were run once and only written down: nothing here can confirm them. "
+                "Verdicts are computed from the kept runs. A remark names a cause only where it was tried: its numbers "
+                "are read from the stored results of experiments, which the last section lists. "
                 "Dry contact, subsurface stresses and layers have no numbers in the thesis that could be redone: the "
                 "verification report holds them against closed forms and finite elements."
             ),

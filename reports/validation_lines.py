@@ -22,7 +22,6 @@ def _lines(section: str) -> list[Check]:
             line["accepted"],
             line.get("remark", ""),
             line.get("echoes", False),
-            line.get("experiments", False),
         )
         for line in _WORDS[section]
     ]

@@ -29,14 +29,20 @@ Summary = dict[str, Any]
 
 
 def scene_hash(scene: str, settings: Sequence[str] = ()) -> str:
+    """As `_scene_hash`, which is asked for the same many times over while a page is made."""
+    return _scene_hash(scene, tuple(settings))
+
+
+@cache
+def _scene_hash(scene: str, settings: tuple[str, ...]) -> str:
     """Of the resolved text of a built-in scene.
 
     Of one on measured surfaces, which are the user's and may not be there, of its table as it stands, where the files
     count by their names.
     """
-    if _is_measured(library()[scene]):
+    if is_measured(library()[scene]):
         return _digest(json.dumps([library()[scene], shown(settings)]))
-    return _digest(dump_scene(plan_scene(scene, tuple(settings))[0]))
+    return _digest(dump_scene(plan_scene(scene, settings)[0]))
 
 
 def shown(settings: Sequence[str]) -> list[str]:
@@ -44,14 +50,21 @@ def shown(settings: Sequence[str]) -> list[str]:
     return [re.sub(r"(path=).*?([^/]*)$", r"\1\2", setting) for setting in settings]
 
 
-def _is_measured(table: Any) -> bool:
-    return isinstance(table, dict) and ("path" in table or any(_is_measured(part) for part in table.values()))
+def is_measured(table: Any) -> bool:
+    """Whether a scene's table names surface files."""
+    return isinstance(table, dict) and ("path" in table or any(is_measured(part) for part in table.values()))
 
 
 @cache
 def code_hash(kind: str) -> str:
     """Of the modules a kind runs (`modules`), without comments, docstrings and layout."""
-    return _digest("\n".join(f"{path.relative_to(CODE)}\n{_bare(path)}" for path in modules(kind)))
+    return bare_digest(modules(kind))
+
+
+def bare_digest(paths: Sequence[Path]) -> str:
+    """Of modules of this repository, without comments, docstrings and layout."""
+    names = [path.relative_to(CODE if path.is_relative_to(CODE) else CODE.parent) for path in paths]
+    return _digest("\n".join(f"{name}\n{_bare(path)}" for name, path in zip(names, paths, strict=True)))
 
 
 @cache

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +15,12 @@ from bem.cli._terminal import Terminal
 from bem.errors import BemError
 from bem.results import FinishedRun
 from bem.runs import plan_scene, run_scene
-from bem.scenes.load import dump_scene
+from bem.scenes.load import dump_scene, library
 from bem.scenes.planner import machine_rate, show_seconds
 from reports.builder import HERE
+from reports.experiments import kept
 from reports.validation_lines import CHECKS
-from reports.validation_origin import origin, shown, stale
+from reports.validation_origin import is_measured, origin, shown, stale
 from reports.validation_values import EXPERIMENTS, STORED, experiments
 
 RUNS = HERE / "validation-runs"
@@ -35,6 +37,18 @@ class Job:
     target: Path
 
 
+@dataclass(frozen=True)
+class Script:
+    """An experiment of `reports/experiments` that keeps its result itself."""
+
+    name: str
+
+
+def scripts() -> dict[str, Script]:
+    """The experiments whose results the page reads."""
+    return {name: Script(name) for name in kept.SCRIPTS}
+
+
 def jobs(settings: Mapping[str, Sequence[str]] | None = None) -> dict[str, Job]:
     """All results there are to keep: of the scenes that lines name, and of the experiments that remarks quote."""
     given = settings or {}
@@ -44,6 +58,25 @@ def jobs(settings: Mapping[str, Sequence[str]] | None = None) -> dict[str, Job]:
         name, wanted = run["name"], (*run["settings"], *given.get(run["name"], ()))
         found[name] = Job(name, run["scene"], wanted, EXPERIMENTS / f"{name}.json")
     return found
+
+
+def rerun(chosen: Sequence[Script], *, say: Callable[[str], None] = lambda words: None) -> list[str]:
+    """Run those experiments whose kept result is not there or of other code.
+
+    Returns
+    -------
+    failed : a line for each that could not be renewed; the others go on.
+    """
+    failed = []
+    for script in chosen:
+        if not kept.stale(script.name):
+            continue
+        say(f"{script.name}: minutes at most")
+        try:
+            import_module(f"reports.experiments.{script.name}").main()
+        except Exception as error:
+            failed.append(f"{script.name}: {type(error).__name__}: {error}")
+    return failed
 
 
 def renew(chosen: Sequence[Job], *, folder: Path = RUNS, say: Callable[[str], None] = lambda words: None) -> list[str]:
@@ -58,6 +91,11 @@ def renew(chosen: Sequence[Job], *, folder: Path = RUNS, say: Callable[[str], No
     """
     failed, seconds = [], {}
     for job in chosen:
+        if lacks_files(job):
+            say(
+                f"{job.name}: left as it is, for it is of files: name them with --set {job.name}:lower.surface.path=..."
+            )
+            continue
         try:
             if is_stale(job):
                 seconds[job] = plan_scene(job.scene, job.settings)[1].seconds(machine_rate())
@@ -79,6 +117,11 @@ def renew(chosen: Sequence[Job], *, folder: Path = RUNS, say: Callable[[str], No
 def is_kept(scene: str) -> bool:
     """Whether a result of a scene is kept."""
     return (STORED / f"{scene}.json").exists()
+
+
+def lacks_files(job: Job) -> bool:
+    """Whether a scene is of measured surfaces, and nobody says where they lie."""
+    return is_measured(library()[job.scene]) and not any("path=" in setting for setting in job.settings)
 
 
 def is_stale(job: Job) -> bool:

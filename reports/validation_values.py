@@ -17,6 +17,7 @@ from bem.scenes.build import heights_of
 from bem.scenes.load import load_scene
 from bem.surfaces import SurfaceDescription, describe_surface
 from reports.builder import HERE
+from reports.validation_origin import stale
 
 if TYPE_CHECKING:
     from bem.scenes.kinds.wear import WearScene
@@ -55,8 +56,8 @@ class Rule:
 class Check:
     """A line of the table: what the source says, what is accepted and by what right, our rule, and a remark.
 
-    `echoes` says of a line that repeats what was put in: it has no verdict. `experiments` says of a remark that it
-    quotes runs that are not stored.
+    `echoes` says of a line that repeats what was put in: it has no verdict. What a remark quotes of ours stands in the
+    place it leaves, `{quoted}`.
     """
 
     item: str
@@ -66,7 +67,6 @@ class Check:
     accepted: str
     remark: str = ""
     echoes: bool = False
-    experiments: bool = False
 
 
 SCATTER = math.sqrt(175 / 110)
@@ -350,3 +350,16 @@ def experiment(name: str) -> Summary:
     """
     found: Summary = json.loads((EXPERIMENTS / f"{name}.json").read_text("utf-8"))
     return found
+
+
+def quoted(show: Callable[[Summary], str], runs: dict[str, str]) -> Callable[[Summary], str]:
+    """For a remark: what experiments show, by name, each with what was done there; a stale one says so."""
+
+    def words(summary: Summary) -> str:
+        parts = []
+        for name, done in runs.items():
+            found = experiment(name)
+            parts.append(f"{show(found)} {done}" + (" (stale)" if stale(found["scene"], found) else ""))
+        return "; ".join(parts)
+
+    return words

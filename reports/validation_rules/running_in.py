@@ -11,6 +11,7 @@ from reports.validation_values import (
     drop,
     falling,
     largest_drop,
+    quoted,
     speed,
     within,
 )
@@ -31,10 +32,41 @@ def _drops_as_in_the_source(summary: Summary) -> bool:
     return 0.03 <= largest_drop(summary) <= 0.05 and all(abs(drop(summary, v)) < 0.005 for v in gone)
 
 
+def _drops_there(summary: Summary) -> str:
+    return ", ".join(f"{drop(summary, v):.3f}" for v in (0.03, 0.05, 0.1))
+
+
+def _roughness_there(summary: Summary) -> str:
+    return f"{at(summary, 'Sq_initial_nm')} to {at(summary, 'Sq_final_nm')} nm"
+
+
+def _radius_there(summary: Summary) -> str:
+    return f"{at(summary, 'volume_mean_radius_nm')} nm by volume, {at(summary, 'number_mean_radius_nm')} by number"
+
+
+def _over_hardness(summary: Summary) -> str:
+    friction = ", ".join(f"{value:.4f}" for value in summary["friction_run_in"])
+    return f"{friction} at {', '.join(f'{1e-9 * value:g}' for value in summary['hardness_Pa'])} GPa"
+
+
+CELLS = {f"running-in-cells-of-{cell}-nm": f"with cells of {cell} nm" for cell in (450, 225, 113)}
+DROPS = {
+    "drop-as-it-is": "as it is",
+    "drop-half-the-cell": "on half the cell",
+    "drop-patch-of-180-um": "with the oil's volume kept over 180 instead of 90 um",
+}
+HALF_CELL_DROPS = {
+    "drop-half-the-cell": "on half the cell",
+    "drop-half-the-cell-half-the-patch": "there on 45 instead of 90 um",
+}
+LONGER_WAVES = {"hardness-correlation-2-um": "with a correlation length of 2 instead of 1.5 um, on one surface"}
+
+
 RULES: dict[str, Rule] = {
     "initial_less_run_in_friction_at_0_01_0_03_0": Rule(
         lambda s: ", ".join(f"{drop(s, v):.4f}" for v in (0.01, 0.03, 0.05, 0.1, 0.2, 0.4)),
         _drops_as_in_the_source,
+        quoted(_drops_there, DROPS),
     ),
     "contact_load_falls_with_running_in_at_0_05_m": Rule(
         lambda s: f"{at(s, 'contact_load_initial_N', speed(0.05)(s))} to {at(s, 'contact_load_N', speed(0.05)(s))}",
@@ -43,6 +75,7 @@ RULES: dict[str, Rule] = {
     "sq_of_the_disk_at_0_01_m_s_nm": Rule(
         lambda s: f"{at(s, 'Sq_initial_nm', speed(0.01)(s))} to {at(s, 'Sq_final_nm', speed(0.01)(s))}",
         lambda s: at(s, "Sq_final_nm", speed(0.01)(s)).mean < at(s, "Sq_initial_nm", speed(0.01)(s)).mean,
+        quoted(_roughness_there, CELLS),
     ),
     "particle_radius_at_0_01_m_s_nm": Rule(
         lambda s: (
@@ -50,6 +83,7 @@ RULES: dict[str, Rule] = {
             f"{at(s, 'number_mean_radius_nm', speed(0.01)(s))} by number"
         ),
         lambda s: within(at(s, "volume_mean_radius_nm", speed(0.01)(s)), *MODEL_AND_LIGHT),
+        quoted(_radius_there, CELLS),
     ),
     "radius_over_speed_0_001_to_0_4_m_s_on_the": Rule(
         lambda s: ", ".join(f"{at(s, 'particle_equivalent_radius_nm', i).mean:.0f}" for i in range(9)),
@@ -66,10 +100,12 @@ RULES: dict[str, Rule] = {
             within(at(s, "volume_mean_radius_nm", speed(0.01)(s)), *MODEL_AND_LIGHT)
             and _falls_with_speed(s, "volume_mean_radius_nm")
         ),
+        quoted(_radius_there, CELLS),
     ),
     "initial_less_run_in_friction_on_half_the_cell": Rule(
         lambda s: ", ".join(f"{drop(s, v):.4f}" for v in (0.01, 0.02, 0.03, 0.05, 0.1, 0.2)),
         _drops_as_in_the_source,
+        quoted(_drops_there, HALF_CELL_DROPS),
     ),
     "friction_run_in_at_0_01_m_s_over_the_disk_s": Rule(
         lambda s: (
@@ -77,5 +113,6 @@ RULES: dict[str, Rule] = {
             + f"; least at {s['hardness_of_least_friction_Pa'] / 1e9:g} GPa"
         ),
         clear_minimum,
+        quoted(_over_hardness, LONGER_WAVES),
     ),
 }

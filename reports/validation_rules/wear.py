@@ -11,7 +11,6 @@ from reports.validation_values import (
     at,
     criterion_over_archard,
     echo,
-    experiment,
     falling,
     hertz_pressure,
     listed,
@@ -21,6 +20,7 @@ from reports.validation_values import (
     near_sizes,
     particles_per_mm_and_newton,
     plateau_from,
+    quoted,
     radii,
     radius,
     ratio_of_means,
@@ -81,23 +81,42 @@ def _other_weights(summary: Summary) -> str:
     return ", ".join(words)
 
 
-def _other_cylinders() -> str:
-    """Radius with other cylinders on the bare disk."""
-    found = []
-    for name, words in (
-        ("as-it-is", "the cylinder as it is"),
-        ("sq-150-nm", "Sq 150 nm"),
-        ("sq-500-nm", "Sq 500 nm"),
-        ("cutoff-2-um", "a cut-off of 2 um"),
-    ):
-        found.append(f"{radius(10)(experiment(f'brass-cylinder-{name}'))} nm with {words}")
-    return ", ".join(found)
+def _radius_there(summary: Summary) -> str:
+    return f"{at(summary, 'particle_equivalent_radius_nm')} nm"
+
+
+def _radii_there(summary: Summary) -> str:
+    return f"{listed(radii(summary))} nm"
+
+
+def _sizes_there(summary: Summary) -> str:
+    return f"{sizes(lambda _: 0)(summary)} nm"
+
+
+SLOPES = {"steel-slopes-of-the-source": "with slopes of 0.28 and 0.22"}
+ALL_CYCLES = {"steel-all-cycles": "over all 200 cycles"}
+DEPTHS = {"depths-95-48-24-nm": "at 95, 48, 24 nm between depths"}
+CYLINDERS = {
+    "brass-cylinder-as-it-is": "with the cylinder as it is",
+    "brass-cylinder-sq-150-nm": "with Sq 150 nm",
+    "brass-cylinder-sq-500-nm": "with Sq 500 nm",
+    "brass-cylinder-cutoff-2-um": "with a cut-off of 2 um",
+    "brass-cylinder-all-cycles": "as it is, over all 200 cycles",
+}
+FILMS = {
+    "brass-film-disk-wears-along": "if the disk wears along, as here",
+    "brass-film-all-cycles": "the same over all 200 cycles",
+    "brass-film-disk-keeps-its-shape": "if it keeps its shape",
+    "brass-film-150-nm": "with a film of 150 nm on one that wears along",
+}
+HARD = {"hard-roughness-all-cycles": "for 50, 500, 1500 nm"}
 
 
 RULES: dict[str, Rule] = {
     "steel_10_n_length_width_thickness_nm": Rule(
         sizes(load(10)),
         near_sizes(10, 442, 245, 197),
+        quoted(_sizes_there, SLOPES),
     ),
     "steel_2_5_n_length_width_thickness_nm": Rule(
         sizes(load(2.5)),
@@ -131,6 +150,7 @@ RULES: dict[str, Rule] = {
     "slopes_of_the_three_surfaces": Rule(
         lambda s: ", ".join(f"{slope:.2f}" for slope in _slopes()),
         lambda s: all(abs(slope - source) < 0.005 for slope, source in zip(_slopes(), (0.22, 0.28, 0.15), strict=True)),
+        quoted(_sizes_there, SLOPES),
     ),
     "side_of_the_square_at_10_n_four_half_widths": Rule(
         lambda s: f"{0.24 * at(s, 'cell_nm', load(10)(s)).mean:.1f}",
@@ -142,6 +162,7 @@ RULES: dict[str, Rule] = {
             near(at(s, "first_cycles_radius_nm", load(10)(s)), 650)
             and at(s, "first_cycles_radius_nm", load(10)(s)).mean > SCATTER * _settled(s).mean
         ),
+        quoted(_radius_there, ALL_CYCLES),
     ),
     "plateau_within_50_cycles": Rule(_plateau_line, _plateau_in_time),
     "sq_of_the_worn_surface_falls": Rule(
@@ -159,10 +180,12 @@ RULES: dict[str, Rule] = {
     "mesh_mean_radius_by_volume_the_same_meshes_nm": Rule(
         mesh_means("volume"),
         settled_by_mesh("volume"),
+        quoted(_radii_there, DEPTHS),
     ),
     "depths_mean_radius_by_volume_at_8_16_32_64": Rule(
         lambda s: ", ".join(str(at(s, "volume_mean_equivalent_radius_nm", i)) for i in (4, 5, 6, 2)),
         lambda s: unchanged([at(s, "volume_mean_equivalent_radius_nm", i) for i in (2, 4, 5, 6)], 1 + READING),
+        quoted(_radii_there, DEPTHS),
     ),
     "the_same_against_a_rigid_flat_by_volume_nm": Rule(
         mesh_means("volume"),
@@ -171,11 +194,12 @@ RULES: dict[str, Rule] = {
     "bare_brass_disk_radius_at_10_n_nm": Rule(
         radius(10),
         lambda s: within(at(s, "particle_equivalent_radius_nm", load(10)(s)), 500, 600),
-        lambda s: _other_cylinders(),
+        quoted(_radius_there, CYLINDERS),
     ),
     "brass_film_10_n_length_width_thickness_nm": Rule(
         sizes(load(10)),
         near_sizes(10, 635, 262, 95),
+        quoted(_sizes_there, FILMS),
     ),
     "brass_film_2_5_n_length_width_thickness_nm": Rule(
         sizes(load(2.5)),
@@ -184,6 +208,7 @@ RULES: dict[str, Rule] = {
     "brass_film_radius_at_2_5_5_10_n_nm": Rule(
         lambda s: listed(radii(s)),
         lambda s: all(within(v, 110, 175) for v in radii(s)),
+        quoted(_radius_there, FILMS),
     ),
     "film_particles_are_smaller_than_those_of_the": Rule(
         lambda s: f"{radius(10)(s)} against {radius(10)(stored('wear-steel-brass'))}",
@@ -195,10 +220,12 @@ RULES: dict[str, Rule] = {
     "soft_body_s_roughness_500_1000_1500_nm_radius": Rule(
         lambda s: listed(radii(s)),
         lambda s: unchanged(radii(s)) and all(near(v, 240) for v in radii(s)),
+        quoted(lambda s: f"{radii(s)[0]} nm", {"hard-roughness-all-cycles": "with the smoothest"}),
     ),
     "hard_body_s_roughness_50_500_1500_nm_radius": Rule(
         lambda s: listed(radii(s)),
         lambda s: falling(radii(s)[::-1]) and near(radii(s)[0], 360) and near(radii(s)[-1], 460),
+        quoted(_radii_there, HARD),
     ),
     "radius_by_volume_over_radius_by_number_steel": Rule(
         lambda s: f"{_spread_of_sizes(s):.2f}",

@@ -126,3 +126,26 @@ def test_whatever_goes_wrong_with_one_leaves_the_others(small, tmp_path, monkeyp
     other = Job("broken", small.scene, small.settings, tmp_path / "kept" / "broken.json")
     assert renew([other, small], folder=tmp_path / "runs") == ["broken: ValueError: no such dimension"]
     assert small.target.exists()
+
+
+def test_measured_surfaces_without_their_files_are_left_alone(tmp_path):
+    said = []
+    job = Job("stribeck-measured", "stribeck-measured", (), tmp_path / "kept.json")
+    assert renew([job], folder=tmp_path / "runs", say=said.append) == []
+    assert "--set stribeck-measured:lower.surface.path=" in said[0]
+    assert not job.target.exists()
+
+
+def test_scripts_are_run_where_their_result_is_stale(monkeypatch):
+    ran, module = [], SimpleNamespace(main=lambda: ran.append("main"))
+    monkeypatch.setattr(validation_renewal, "import_module", lambda name: module)
+    monkeypatch.setattr(validation_renewal.kept, "stale", lambda name: "" if name == "fresh" else "not run")
+    scripts = [validation_renewal.Script(name) for name in ("fresh", "old")]
+    assert validation_renewal.rerun(scripts) == []
+    assert ran == ["main"]
+
+    def broken():
+        raise ValueError("no")
+
+    module.main = broken
+    assert validation_renewal.rerun(scripts) == ["old: ValueError: no"]
