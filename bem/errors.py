@@ -10,6 +10,7 @@ class Status(StrEnum):
     """Outcome of an iterative solver; `message` says what it means and what to do."""
 
     CONVERGED = "converged"
+    INACCURATE = "inaccurate"
     MAX_ITERATIONS = "max_iterations"
     STALLED = "stalled"
     INFEASIBLE = "infeasible"
@@ -22,6 +23,7 @@ class Status(StrEnum):
 
 _MESSAGES = {
     Status.CONVERGED: "converged to the requested tolerance",
+    Status.INACCURATE: "solved, but the accuracy that was asked for is not met; ask for less, or of fewer figures",
     Status.MAX_ITERATIONS: "stopped at the iteration limit before the tolerance was met; raise either of them",
     Status.STALLED: "no further progress is possible in double precision; the residual says how far it came",
     Status.INFEASIBLE: (

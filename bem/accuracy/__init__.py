@@ -16,7 +16,15 @@ from bem.lazy import loader
 if TYPE_CHECKING:
     from bem.accuracy.asperities import asperity_bars
     from bem.accuracy.bars import ErrorBars
-    from bem.accuracy.contact import Coarser, ContactCase, contact_bars, figures_of, solve_coarser, surface_is_resolved
+    from bem.accuracy.contact import (
+        Coarser,
+        ContactCase,
+        coarser_before,
+        contact_bars,
+        figures_of,
+        solve_coarser,
+        surface_is_resolved,
+    )
     from bem.accuracy.film import FilmCase, OtherFilm, film_bars, film_figures, solve_coarser_film
     from bem.accuracy.march import MarchCase, march_bars, march_figures
     from bem.accuracy.mixed import CoarserShares, MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
@@ -34,6 +42,7 @@ __all__ = [
     "OtherFilm",
     "RubbingCase",
     "asperity_bars",
+    "coarser_before",
     "contact_bars",
     "figures_of",
     "film_bars",

@@ -2,7 +2,7 @@
 
 The coarser grid takes every second height, the same surface where it is band-limited, and begins from the finer
 pressure. On a free axis its cells are centred on every second of the finer ones, so that it ends elsewhere by half a
-cell: means over the grid are compared over the same points.
+cell: means over the grid are compared over the same points. Where an accuracy is refined to, the level before serves.
 """
 
 from __future__ import annotations
@@ -83,16 +83,34 @@ class ContactCase:
 
 @dataclass(frozen=True)
 class Coarser:
-    """The same contact on the grid of twice the cell, or why there is none."""
+    """The same contact on the grid of twice the cell, or why there is none.
+
+    nested : each of its cells is four of the finer grid, over the same rectangle.
+    """
 
     grid: Grid | None
     solution: ContactSolution | None
     why: str = ""
+    nested: bool = False
+
+
+def coarser_before(case: ContactCase, solution: ContactSolution) -> Coarser | None:
+    """The contact as it was solved before each cell was cut in four; None where that was another, or cannot serve."""
+    (nx, ny), (dx, dy) = case.grid.shape, case.grid.spacing
+    halved = solution.pressure.shape == (nx / 2, ny / 2) and solution.status is Status.CONVERGED
+    if not halved or _reaches_edge(solution) or _reaches_edge(case.solution):
+        return None
+    grid = Grid((nx // 2, ny // 2), (2 * dx, 2 * dy), periodic=case.grid.periodic)
+    return Coarser(grid, solution, nested=True)
+
+
+def _reaches_edge(solution: ContactSolution) -> bool:
+    return any("reaches the edge" in note for note in solution.notes)
 
 
 def solve_coarser(case: ContactCase, max_iterations: int = 2000) -> Coarser:
     """Solve the case on the grid of twice the cell, from its own pressure."""
-    if any("reaches the edge" in note for note in case.solution.notes):
+    if _reaches_edge(case.solution):
         return Coarser(None, None, _FREE_EDGE)
     operator = case.operator.coarsened()
     if operator is None:
@@ -147,7 +165,7 @@ def contact_bars(case: ContactCase, coarser: Coarser) -> ErrorBars:
         return ErrorBars.unknown(RULES, coarser.why)
     fine = figures_of(case.solution, case.grid.area)
     coarse = figures_of(coarser.solution, case.grid.area)
-    if not all(case.grid.periodic):
+    if not all(case.grid.periodic) and not coarser.nested:
         shared = sample(case.solution.gap, coarser.grid.shape, coarser.grid.periodic)
         coarse["mean_gap"] += fine["mean_gap"] - mean_opening(shared)
     resolved = is_resolved(case)

@@ -67,7 +67,7 @@ def campaign_of(scene: SceneModel) -> Campaign:
     InputError : too many of them; values of `over` that make a bad scene, or lists of another length.
     """
     kind = get_kind(scene.kind)
-    bases = [kind.resolve(one) for one in scenes_over(scene)]
+    bases = [kind.resolved(one) for one in scenes_over(scene)]
     inner = [_own_axes(kind, base) for base in bases]
     if len({tuple(len(axis) for axis in axes) for axes in inner}) > 1:
         raise InputError("over: its values change how long the scene's own lists are; allowed: lists of one length")

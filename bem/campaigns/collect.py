@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.campaigns.cases import REPETITION, Campaign, Case, campaign_of
+from bem.campaigns.refine import told_in_summary
 from bem.errors import Status
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
@@ -28,7 +29,7 @@ from bem.scenes.records import (
     without_bars,
 )
 
-_WORST = (Status.CONVERGED, Status.MAX_ITERATIONS, Status.STALLED, Status.INFEASIBLE)
+_WORST = (Status.CONVERGED, Status.INACCURATE, Status.MAX_ITERATIONS, Status.STALLED, Status.INFEASIBLE)
 _FAILURES_NAMED = 5
 
 
@@ -48,7 +49,7 @@ def collect(campaign: Campaign, given: Sequence[Given]) -> Outcome:
     status, where = worst(given)
     known = described(campaign.kind.record)
     summary = _summary(campaign, known, records)
-    own = campaign.kind.summarise(campaign.scene, campaign.axes, records)
+    own = campaign.kind.summarise(campaign.scene, campaign.axes, records) | told_in_summary(campaign, records)
     variables = _variables(campaign, known, records)
     volumes = campaign.kind.volumes(campaign.scene)
     return Outcome({**summary, **own}, variables, status, where, volumes, tuple(axis.name for axis in campaign.axes))

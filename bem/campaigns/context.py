@@ -115,3 +115,7 @@ class CaseContext:
     def saved(self) -> dict[str, Any] | None:
         """See `bem.scenes.Context`."""
         return None if self._state is None else dict(self._state)
+
+    def coarser(self) -> dict[str, Any] | None:
+        """See `bem.scenes.Context`."""
+        return None

@@ -18,6 +18,7 @@ from bem.campaigns.cases import Campaign, Case
 from bem.campaigns.collect import Given, collect, words_of_bars
 from bem.campaigns.context import CaseContext, Silent, Watcher
 from bem.campaigns.jobs import Staff, hand_out, words_of
+from bem.campaigns.refine import solve_case, words_of_levels
 from bem.compiled import load_registries
 from bem.errors import BemError, ConvergenceError, InputError, ResultsError, Status
 from bem.lazy import collecting
@@ -72,7 +73,7 @@ class CaseJob:
         context = CaseContext(self.case, self.file, state, watcher, self.epoch)
         try:
             with collecting():
-                record = get_kind(self.case.scene.kind).run(self.case.scene, context)
+                record = solve_case(get_kind(self.case.scene.kind), self.case.scene, context)
         except ResultsError:
             raise  # no case can be kept on a disk that is full
         except (BemError, MemoryError) as error:
@@ -188,7 +189,7 @@ def _together(campaign: Campaign, results: Sequence[Result], board: Board, epoch
         for stage, spent in result.seconds.items():
             seconds[stage] = seconds.get(stage, 0.0) + spent
     notes = notes_of([(case.label, result.notes) for case, result in zip(campaign.cases, results, strict=True)])
-    for text in words_of_bars(campaign, records):
+    for text in (*words_of_bars(campaign, records), *words_of_levels(campaign, records)):
         notes.append(text)
         board.note(text)
     return Computed(collect(campaign, given), notes, seconds, epoch)

@@ -7,8 +7,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from bem.campaigns.cases import REPETITION, Campaign
+from bem.campaigns.refine import expected_levels, shown
 from bem.errors import InputError
-from bem.scenes.planner import Plan, Step
+from bem.scenes.common import SceneModel
+from bem.scenes.kind import Kind
+from bem.scenes.planner import Plan, Step, available_memory
 
 _CASES_NAMED = 10
 
@@ -28,7 +31,7 @@ def plan(campaign: Campaign) -> Plan:
     repetitions = next((len(axis) for axis in campaign.axes if axis.name == REPETITION), 1)
     for case in campaign.cases[::repetitions]:  # the last axis: those of one scene follow one another
         try:
-            plans.append(campaign.kind.plan(case.scene))
+            plans.append(_of_case(campaign.kind, case.scene))
         except InputError as error:
             refused.append(error)
     if refused:
@@ -40,6 +43,26 @@ def plan(campaign: Campaign) -> Plan:
     steps = [_together([s for one in plans for s in one.steps if s.name == name], repetitions) for name in names]
     each = tuple(one for one in plans for _ in range(repetitions))
     return Plan(tuple(steps), cases=len(campaign.cases), of_cases=each)
+
+
+def _of_case(kind: Kind, scene: SceneModel) -> Plan:
+    """The plan of a case; where it asks for an accuracy, that of all levels that are expected and fit into memory."""
+    if scene.accuracy is None:
+        return kind.plan(scene)
+    levels = expected_levels(kind, scene)
+    plans = [kind.plan(levels[0])]
+    free = available_memory()
+    for level in levels[1:]:
+        further = kind.plan(level)
+        if further.memory > free:
+            break
+        plans.append(further)
+    names = dict.fromkeys(step.name for one in plans for step in one.steps)
+    steps = [_together([s for one in plans for s in one.steps if s.name == name], 1) for name in names]
+    chosen = ", ".join(shown(kind, level) for level in levels[: len(plans)])
+    fit = "" if len(plans) == len(levels) else f"; {shown(kind, levels[len(plans)])} do not fit into memory"
+    expected = Step("levels", f"expected: {chosen}{fit}; error bars decide", per="run")
+    return Plan((expected, *steps))
 
 
 def _together(steps: Sequence[Step], repetitions: int) -> Step:

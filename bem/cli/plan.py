@@ -6,14 +6,14 @@ from typing import Any
 
 import typer
 
-from bem.cli.run import SceneArgument, SetOption
+from bem.cli.run import AccuracyOption, SceneArgument, SetOption, with_accuracy
 
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
     @app.command(short_help="Show what would be computed and warned of, what is skipped, memory, time.")
-    def plan(scene: SceneArgument, set_: SetOption = None) -> None:
+    def plan(scene: SceneArgument, set_: SetOption = None, accuracy: AccuracyOption = None) -> None:
         """Show what a scene would compute: bodies, surfaces and what is done to them, grid, Hertz contact, steps with
         estimated memory and time, what is skipped and why, and what an expert would warn of.
 
@@ -30,7 +30,7 @@ def register(app: typer.Typer) -> None:
         from bem.scenes.checks import examine, scene_warnings
         from bem.scenes.planner import available_memory, show_bytes
 
-        resolved, planned = plan_scene(scene, set_ or ())
+        resolved, planned = plan_scene(scene, with_accuracy(set_, accuracy))
         facts = examine(resolved)
         warnings = scene_warnings(facts)
         typer.echo(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Annotated
 
@@ -32,6 +33,30 @@ SetOption = Annotated[
     ),
 ]
 
+AccuracyOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--accuracy",
+        metavar="[FIGURE=]SHARE",
+        help="How exact the answer shall be: 1% for all headline figures, contact_area=0.5% for one; cells, points, "
+        "depths and steps are refined until the error bars say so. May be repeated.",
+    ),
+]
+
+
+def with_accuracy(settings: list[str] | None, accuracy: list[str] | None) -> list[str]:
+    """Settings of a scene, with what `--accuracy` asks for."""
+    if not accuracy:
+        return list(settings or ())
+    asked = {}
+    for text in accuracy:
+        name, equals, share = text.rpartition("=")
+        asked[name.strip() if equals else "all"] = share.strip()
+    if list(asked) == ["all"]:
+        return [*(settings or ()), f"accuracy={json.dumps(asked['all'])}"]
+    table = ", ".join(f"{json.dumps(name)} = {json.dumps(share)}" for name, share in asked.items())
+    return [*(settings or ()), f"accuracy={{{table}}}"]
+
 
 def register(app: typer.Typer) -> None:  # reason: the command in it; its arguments are the options
     """Add the command."""
@@ -43,6 +68,7 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
             Path | None, typer.Option(help="The run's folder; without it the next free runs/NAME-001.")
         ] = None,
         set_: SetOption = None,
+        accuracy: AccuracyOption = None,
         resume: Annotated[
             bool, typer.Option("--resume", help="Go on from the checkpoint of an interrupted run.")
         ] = False,
@@ -73,6 +99,7 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
         Examples:
           bem run rough-contact
           bem run my-scene.toml --out first --set contact.load="5 N"
+          bem run my-scene.toml --accuracy 1%
           bem run my-scene.toml --out first --resume
         """
         from bem.cli._terminal import print_files, print_numbers, resumable
@@ -88,7 +115,7 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
             done = run_scene(
                 scene,
                 out,
-                settings=set_ or (),
+                settings=with_accuracy(set_, accuracy),
                 resume=resume,
                 overwrite=overwrite,
                 figures=figures,
@@ -101,5 +128,6 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
             print_numbers(done.summary, get_kind(done.summary["kind"]).headline)
         print_files(done.path)
         if done.summary["status"] != "converged":
-            typer.echo(f"bem: not converged: {done.summary['where']}", err=True)
+            what = "" if done.summary["status"] == "inaccurate" else "not converged: "
+            typer.echo(f"bem: {what}{done.summary['where']}", err=True)
             raise typer.Exit(3)

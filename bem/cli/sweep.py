@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from bem.cli.run import SceneArgument, SetOption
+from bem.cli.run import AccuracyOption, SceneArgument, SetOption, with_accuracy
 
 
 def register(app: typer.Typer) -> None:  # reason: the command in it; its arguments are the options
@@ -28,6 +28,7 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
         ] = None,
         out: Annotated[Path | None, typer.Option(help="The sweep's folder; without it sweeps/NAME.")] = None,
         set_: SetOption = None,
+        accuracy: AccuracyOption = None,
         resume: Annotated[
             bool, typer.Option("--resume", help="Go on in a folder that holds a sweep; values may be added.")
         ] = False,
@@ -65,7 +66,7 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
                 scene,
                 over or (),
                 out,
-                settings=set_ or (),
+                settings=with_accuracy(set_, accuracy),
                 workers=workers,
                 scheduler=scheduler,
                 threads=threads,

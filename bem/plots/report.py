@@ -13,11 +13,23 @@ from pathlib import Path
 from typing import Any
 
 from bem.plots.draw import Drawn
-from bem.plots.tables import figure_tables, is_error, is_list, name_and_unit, origin_table
+from bem.plots.tables import accuracy_tables, figure_tables, is_error, is_list, name_and_unit, origin_table
 from bem.results.atomic import write_text
 from bem.results.directory import REPORT
 
-_HIDDEN = ("notes", "seconds_by_stage", "scene", "kind", "version", "seed", "status", "where", "wall_time_s")
+_HIDDEN = (
+    "notes",
+    "seconds_by_stage",
+    "scene",
+    "kind",
+    "version",
+    "seed",
+    "status",
+    "where",
+    "wall_time_s",
+    "accuracy",
+    "seconds_by_level",
+)
 
 
 def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> Path:
@@ -37,7 +49,7 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
         scene=run.scene,
         converged=summary["status"] == "converged",
         headline=summary_rows(summary, [name for name in first if not is_list(summary[name])]),
-        headline_tables=figure_tables(summary, first),
+        headline_tables=[*figure_tables(summary, first), *accuracy_tables(summary)],
         figures=summary_rows(summary, [name for name in rest if not is_list(summary[name])]),
         figure_tables=figure_tables(summary, rest),
         origins=origin_table(summary, [*first, *rest]),

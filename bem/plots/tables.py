@@ -99,6 +99,23 @@ def figure_tables(summary: Mapping[str, Any], names: Sequence[str], title: str =
     return found
 
 
+def accuracy_tables(summary: Mapping[str, Any]) -> list[FigureTable]:
+    """How an accuracy that was asked for was reached: the levels of each case, their relative errors and seconds."""
+    cases = summary.get("accuracy", {}).get("cases", ())
+    rows, names = [], list(dict.fromkeys(n for case in cases for level in case["levels"] for n in level["errors"]))
+    for case, spent in zip(cases, summary.get("seconds_by_level", ()), strict=True):
+        for number, (level, seconds) in enumerate(zip(case["levels"], spent, strict=True)):
+            errors = (level["errors"].get(name) for name in names)
+            shown = ("-" if error is None else f"{100 * error:.2g} %" for error in errors)
+            first = (case["case"] or "levels") if number == 0 else ""
+            rows.append((first, level["resolution"], *shown, f"{seconds:.2g} s"))
+    if not rows:
+        return []
+    head = ("", "resolution", *(" ".join(name.split("_")) for name in names), "time")
+    title = "Levels up to the accuracy asked for, with the error bar of each figure relative to it"
+    return [FigureTable(title, head, tuple(rows[:_MOST_ROWS]))]
+
+
 def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str) -> list[FigureTable]:
     """Lists of one length side by side, in tables of a few columns that repeat the first."""
     names = [name for name in names if not _is_spread(name, summary) and not is_error(name, summary)]

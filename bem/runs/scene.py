@@ -34,7 +34,7 @@ def plan_scene(
     """
     scene = source if isinstance(source, SceneModel) else load_scene(source, settings)
     if scene.over is None:  # else each of its cases is resolved by itself
-        scene = get_kind(scene.kind).resolve(scene)
+        scene = get_kind(scene.kind).resolved(scene)
     return scene, plan(campaign_of(scene))
 
 

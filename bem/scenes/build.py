@@ -24,7 +24,14 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 Scene = TypeVar("Scene", bound=SceneModel)
-_NO_SIZE = "grid: no size is given; allowed: shape with spacing or lengths, or a measured surface to take them from"
+_NO_SHAPE = (
+    "grid: lengths are given without shape; allowed: shape with spacing, shape with lengths, none of them, or an "
+    'accuracy that is asked for, such as accuracy = "1 %"'
+)
+_NO_SIZE = (
+    "grid: no size is given; allowed: shape with spacing or lengths, a measured surface to take them from, or an "
+    'accuracy to choose them by, such as accuracy = "1 %"'
+)
 AnySurface = SmoothSurface | GeneratedSurface | MeasuredSurface
 
 
@@ -52,6 +59,8 @@ def resolved_grid(scene: GridScene, *surfaces: AnySurface) -> GridScene:
     if scene.shape is not None and (scene.spacing is not None or scene.lengths is not None):
         grid = grid_of(scene)
         return scene.model_copy(update={"spacing": grid.spacing, "lengths": None})
+    if scene.lengths is not None and scene.shape is None:
+        raise InputError(_NO_SHAPE)
     sizes = [_map_size(surface) for surface in surfaces if isinstance(surface, MeasuredSurface)]
     if not sizes:
         raise InputError(_NO_SIZE)
@@ -191,7 +200,7 @@ def check_surfaces(grid: Grid, **surfaces: AnySurface) -> None:
             from bem.surfaces.generate import check_statistics
 
             try:
-                check_statistics(grid, **_statistics(surface))
+                check_statistics(_drawn_on(surface, grid), **_statistics(surface))
             except InputError as error:
                 messages += [f"{name}.surface: {m.removeprefix('generate_surface: ')}" for m in error.messages]
     if messages:
@@ -216,8 +225,18 @@ def _statistics(surface: GeneratedSurface) -> dict[str, Any]:
 
 def _generated(surface: GeneratedSurface, grid: Grid, seed: int) -> FloatArray:
     from bem.surfaces import generate_surface
+    from bem.surfaces.waves import on_cells
 
-    return generate_surface(grid, seed=seed if surface.seed is None else surface.seed, **_statistics(surface))
+    seed = seed if surface.seed is None else surface.seed
+    return on_cells(generate_surface(_drawn_on(surface, grid), seed=seed, **_statistics(surface)), grid.shape)
+
+
+def _drawn_on(surface: GeneratedSurface, grid: Grid) -> Grid:
+    """The grid that a surface is drawn on: its own cells over the rectangle of the grid, or the grid itself."""
+    if surface.drawn_on is None:
+        return grid
+    nx, ny = surface.drawn_on
+    return Grid((nx, ny), (grid.lengths[0] / nx, grid.lengths[1] / ny), periodic=grid.periodic)
 
 
 def read_map(surface: MeasuredSurface) -> Surface:

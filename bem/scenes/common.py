@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -9,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, field_validator,
 from pydantic_core import PydanticCustomError
 
 from bem.materials import CATALOGUE, Body, Layer, Material
+from bem.scenes.asked import AskedAccuracy
 from bem.scenes.ranges import values_of_keys
 from bem.scenes.units import Density, Force, HeatCapacity, Length, Pressure, Ratio, ThermalConductivity
 
@@ -143,7 +145,8 @@ class GeneratedSurface(Table):
     """A random surface of prescribed statistics; see `bem.generate_surface`.
 
     `elongation` is the ratio of the correlation lengths along x and y, of which `correlation_length` is then the
-    geometric mean.
+    geometric mean. `drawn_on` draws the surface on so many cells whatever the grid has, and carries its waves to the
+    grid: the same surface on all grids that are as fine.
     """
 
     kind: Literal["generated"] = "generated"
@@ -156,6 +159,9 @@ class GeneratedSurface(Table):
     skewness: Ratio = 0.0
     kurtosis: Annotated[Ratio, Field(gt=1)] = 3.0
     seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] | None = None
+    drawn_on: tuple[Cells, Cells] | None = None
+
+    _pairs = field_validator("drawn_on", mode="before")(one_for_both)
 
     @model_validator(mode="after")
     def _one_spectrum(self) -> GeneratedSurface:
@@ -277,7 +283,7 @@ class GridScene(Table):
     """Cells along x (sliding) and y; one value stands for both axes.
 
     Without `shape` and `spacing` (or `lengths`) those of the measured surfaces are taken: the finer spacing, the
-    common area.
+    common area; where an accuracy is asked for, shape and, of a round contact, lengths are chosen.
     """
 
     shape: tuple[Cells, Cells] | None = None
@@ -291,8 +297,6 @@ class GridScene(Table):
     def _one_size(self) -> GridScene:
         if self.spacing is not None and self.lengths is not None:
             raise problem("spacing and lengths are both given", "one of them")
-        if self.lengths is not None and self.shape is None:
-            raise problem("lengths are given without shape", "shape with spacing, shape with lengths, or none of them")
         return self
 
 
@@ -332,6 +336,14 @@ class ShapeScene(Table):
                 f"{' and '.join(wanted) or 'none'} for this kind",
             )
         return self
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Of the shape along x and y [m], infinite where it does not bend (a sinusoid's are none)."""
+        if self.kind in ("flat", "sinusoid"):
+            return math.inf, math.inf
+        assert self.radius is not None
+        return self.radius, {"sphere": self.radius, "ellipsoid": self.radius_y}.get(self.kind) or math.inf
 
 
 class OutputsScene(Table):
@@ -373,7 +385,8 @@ class SceneModel(Table):
 
     `repetitions` runs every case so often, with seeds of its own; means and spreads of all figures are then reported.
     `over` holds dotted keys with several values each, of which all combinations are run: lists, or ranges as of
-    `bem sweep --over`.
+    `bem sweep --over`. `accuracy` is the relative error that the headline figures, or those that it names, may have:
+    what the scene resolves is then refined until the error bars say so.
     """
 
     kind: str
@@ -383,6 +396,7 @@ class SceneModel(Table):
     seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] = 1
     repetitions: Repetitions | None = None
     over: dict[str, list[Any]] | None = None
+    accuracy: AskedAccuracy | None = None
     _source: dict[str, Any] | None = PrivateAttr(default=None)
 
     @field_validator("over", mode="before")

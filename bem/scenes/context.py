@@ -47,6 +47,10 @@ class Context(Protocol):
     def saved(self) -> dict[str, Any] | None:
         """The state last saved for this very scene if the run is resumed and one exists, else None."""
 
+    def coarser(self) -> dict[str, Any] | None:
+        """The state last saved for the same scene on half the cells, points or steps, where an accuracy is refined to:
+        a start, and a level to compare with. None on a first level."""
+
 
 class Bars(Protocol):
     """What of `bem.accuracy.ErrorBars` matters here."""
@@ -187,3 +191,7 @@ class PlainContext:
     def saved(self) -> dict[str, Any] | None:
         """See `Context`."""
         return dict(self.state) if self.resumed and self.state is not None else None
+
+    def coarser(self) -> dict[str, Any] | None:
+        """See `Context`."""
+        return None

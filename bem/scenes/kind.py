@@ -17,12 +17,14 @@ from typing import Any
 
 from bem.errors import InputError
 from bem.extensions import load_extensions, same_origin
+from bem.scenes.asked import ALL, figures_that_may_be_asked
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Context
 from bem.scenes.planner import Plan
 from bem.scenes.records import Record
 from bem.scenes.records import headline as headline_of
+from bem.scenes.resolutions import Resolution
 
 _NAME = re.compile(r"[a-z][a-z0-9-]{0,63}")
 
@@ -39,7 +41,8 @@ class Kind:
     headline : keys of the summary to show first; the figures that the record marks so follow.
     resolve : fills in what files decide, first of all. axes : what a scene runs over.
     summarise : further keys of the summary, from all records. volumes : variables for ParaView.
-    always_lists : whether the summary has lists for a single case too.
+    always_lists : whether the summary has lists for a single case too. resolutions : what is refined where an accuracy
+        is asked for.
     """
 
     name: str
@@ -55,6 +58,7 @@ class Kind:
     summarise: Callable[[Any, Sequence[Axis], Sequence[Any]], dict[str, Any]] = lambda scene, axes, records: {}
     volumes: Callable[[Any], tuple[str, ...]] = lambda scene: ()
     always_lists: bool = False
+    resolutions: tuple[Resolution, ...] = ()
 
     def __post_init__(self) -> None:
         marked = (key for key in headline_of(self.record) if key not in self.headline)
@@ -67,6 +71,32 @@ class Kind:
         parts = {name: file[name] for name in _PARTS if name in file}
         name = model.model_fields["kind"].default
         return cls(**({"name": name, "title": title, "model": model, "record": record} | parts | own))
+
+    def resolved(self, scene: Any) -> Any:
+        """The scene with what files decide filled in, and, where it asks for an accuracy, with its first level.
+
+        Raises
+        ------
+        InputError : an accuracy that cannot be asked for; what `resolve` refuses.
+        """
+        if scene.accuracy is not None:
+            self._check_accuracy(scene)
+            for one in self.resolutions:
+                scene = one.first(scene)
+        return self.resolve(scene)
+
+    def _check_accuracy(self, scene: Any) -> None:
+        """Refuse an accuracy of figures that there are not, or that this kind cannot refine to."""
+        if not self.resolutions:
+            raise InputError(f"accuracy: a scene of kind {self.name} has no error bars that it could be refined by")
+        if not getattr(getattr(scene, "outputs", None), "errors", True):
+            raise InputError("accuracy: outputs.errors is false; allowed: true, error bars say whether it is met")
+        names = figures_that_may_be_asked(self.record, self.headline)
+        asked = scene.accuracy if isinstance(scene.accuracy, Mapping) else {}
+        unknown = [name for name in asked if name != ALL and name not in names]
+        if unknown:
+            listed = ", ".join([ALL, *names])
+            raise InputError([f"accuracy.{n}: no figure of kind {self.name}; allowed: {listed}" for n in unknown])
 
     def enter(self) -> None:
         """Enter it, for a kind from outside the package; see `bem.register`.

@@ -29,6 +29,12 @@ def kept(context: Context, given: Sequence[Any] = ()) -> Any:
     return None if saved is None else unpacked(saved["state"], given)
 
 
+def kept_coarser(context: Context, given: Sequence[Any] = ()) -> Any:
+    """The state last kept on the level before, where an accuracy is refined to; None on a first level."""
+    saved = context.coarser()
+    return None if saved is None else unpacked(saved["state"], given)
+
+
 def packed(value: Any, given: Sequence[Any] = ()) -> Any:
     """Dataclasses, enums, tuples and lists as dictionaries and lists of plain values and arrays."""
     for number, known in enumerate(given):

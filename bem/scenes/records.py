@@ -54,6 +54,7 @@ class Figure:
     headline : whether it is shown first, on the terminal and in the report.
     no_bar : why it never has an error bar, in words, as one that follows the mesh; its error is then null everywhere,
         and the run and the guide say why.
+    part_of : fields whose sum it is a part of, and against which an accuracy that is asked for counts; itself if none.
     """
 
     unit: str = ""
@@ -63,6 +64,7 @@ class Figure:
     name: str = ""
     headline: bool = False
     no_bar: str = ""
+    part_of: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.unit not in UNITS:
@@ -135,6 +137,7 @@ class Record:
     errors : error bars of figures by their fields' names, SI; None for a figure that does not converge. Summary and
         dataset have them beside the figures, under `error_key`; a figure that is not named has no bar.
     error_parts : what each origin, in words, adds to them, in the same way; an error is the sum of its parts.
+    refinement : how an accuracy that was asked for was reached, level by level (`bem.campaigns.refine`).
     scatters : fields of figures whose error over repetitions is their scatter alone, where nothing else is known of it.
     """
 
@@ -144,6 +147,7 @@ class Record:
     where: str = dataclasses.field(default="", kw_only=True)
     errors: Mapping[str, Any] = dataclasses.field(default_factory=dict, kw_only=True)
     error_parts: Mapping[str, Mapping[str, Any]] = dataclasses.field(default_factory=dict, kw_only=True)
+    refinement: Mapping[str, Any] = dataclasses.field(default_factory=dict, kw_only=True)
 
     def __post_init__(self) -> None:
         if self.status is Status.CONVERGED:

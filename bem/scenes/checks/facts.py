@@ -172,34 +172,15 @@ def _bodies(scene: Any) -> dict[str, Any]:
     return {"lower": scene.lower.build(), "upper": upper, "surfaces": surfaces}
 
 
-def _shape(shape: Any) -> tuple[float, float]:
-    """Radii of the upper body's shape [m]."""
-    if shape.kind == "sphere":
-        return shape.radius, shape.radius
-    if shape.kind == "ellipsoid":
-        return shape.radius, shape.radius_y
-    return (shape.radius, math.inf) if shape.kind == "cylinder" else (math.inf, math.inf)
-
-
 def _contact(scene: Any) -> list[Case]:
     grid, bodies, control = build.grid_of(scene.grid), _bodies(scene), scene.contact
-    load = control.load if control.mean_pressure is None else control.mean_pressure * grid.area
-    radii = _shape(scene.shape)
-    line = math.isinf(radii[1])
-    smooth = smooth_contact(
-        bodies["lower"],
-        bodies["upper"],
-        radii,
-        load=load / grid.lengths[1] if line and load is not None else load,
-        approach=None if line or load is not None else control.approach,
-    )
     outputs: Any = getattr(scene, "outputs", None)  # the kind `surface-temperature` has none
     wanted = outputs is not None and (outputs.von_mises or outputs.stresses) and outputs.depths is not None
     return [
         Case(
             grid=grid,
-            load=load,
-            smooth=smooth,
+            load=control.load_on(grid.area),
+            smooth=scene.smooth_contact(grid.lengths),
             cap=control.hardness,
             friction=control.friction,
             depths=outputs.depths.build() if wanted else (),
@@ -256,7 +237,7 @@ def _wear(scene: Any) -> list[Case]:
 def _tribofilm(scene: Any) -> list[Case]:
     from bem.tribofilm.properties import Constant
 
-    grid, bodies, radii = build.grid_of(scene.grid), _bodies(scene), _shape(scene.shape)
+    grid, bodies, radii = build.grid_of(scene.grid), _bodies(scene), scene.shape.radii
     (load,), hardness = scene.rubbing.loads, scene.film.hardness
     on_it = load / grid.lengths[1] if math.isinf(radii[1]) else load
     return [

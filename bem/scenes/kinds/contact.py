@@ -19,9 +19,10 @@ from bem.scenes.axes import changed
 from bem.scenes.common import DepthsScene, problem
 from bem.scenes.context import Context, error_bars, release, tell
 from bem.scenes.kind import Kind
-from bem.scenes.packing import keep, kept
+from bem.scenes.packing import keep, kept, kept_coarser
 from bem.scenes.planner import Plan
 from bem.scenes.records import Figure, GridRecord, Series, filled
+from bem.scenes.resolutions import CELLS, DEPTHS
 from bem.scenes.tables.pressing import ContactOutputs, PressedScene
 
 if TYPE_CHECKING:
@@ -90,7 +91,10 @@ class ContactRecord(GridRecord):
 
     load: Annotated[float, Figure("N", "load", headline=True)]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid", headline=True)]
-    plastic_area_fraction: Annotated[float, Figure("", "area at the hardness over that of the grid", headline=True)]
+    plastic_area_fraction: Annotated[
+        float,
+        Figure("", "area at the hardness over that of the grid", headline=True, part_of=("contact_area_fraction",)),
+    ]
     contact_area: Annotated[float, Figure("m2", "real contact area")]
     counted_contact_area_fraction: Annotated[float, Figure("", "cells in contact over all")]
     counted_plastic_area_fraction: Annotated[float, Figure("", "cells at the hardness over all")]
@@ -152,7 +156,9 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         with context.timer("stresses"):
             below = _stresses(scene, grid, solution.pressure, context)
     wanted = scene.outputs.errors and solution.status is Status.CONVERGED
-    errors = error_bars(context, wanted, lambda: _bars(scene, undeformed, solution, below, bool(rough)))
+    errors = error_bars(
+        context, wanted, lambda: _bars(scene, undeformed, solution, below, bool(rough), _level_before(context))
+    )
     return filled(
         ContactRecord,
         figures_of(solution, grid.area),
@@ -207,12 +213,26 @@ def _solve(
         context.progress(int(100 * min(share, 1.0)), 100, "contact", residual=residual, area_fraction=fraction)
 
     asked = scene.contact.prescribed(grid.area) | scene.contact.accuracy()
-    solution = solve_contact(undeformed, operator, **asked, callback=watch)
+    solution = solve_contact(undeformed, operator, **asked, initial_pressure=_begin(context, grid), callback=watch)
     del operator  # and with it its spectra
     context.progress(100, 100, "contact", residual=solution.residual)
     solved = solution, np.array(history, dtype=np.float64).reshape(-1, 2)
     keep(context, solved)
     return solved
+
+
+def _begin(context: Context, grid: Grid) -> FloatArray | None:
+    """The pressure of the level before: each of its cells cut in four with the same force, or as it is."""
+    before = _level_before(context)
+    if before is None or before.pressure.shape == grid.shape:
+        return None if before is None else before.pressure
+    return np.repeat(np.repeat(before.pressure, 2, axis=0), 2, axis=1)
+
+
+def _level_before(context: Context) -> ContactSolution | None:
+    """The contact on the grid of twice the cell, where an accuracy is refined to."""
+    before: tuple[ContactSolution, FloatArray] | None = kept_coarser(context)
+    return None if before is None else before[0]
 
 
 def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Context) -> StressBelow:
@@ -231,14 +251,20 @@ def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Co
 
 
 def _bars(
-    scene: ContactScene, undeformed: FloatArray, solution: ContactSolution, below: StressBelow | None, rough: bool
+    scene: ContactScene,
+    undeformed: FloatArray,
+    solution: ContactSolution,
+    below: StressBelow | None,
+    rough: bool,
+    before: ContactSolution | None,
 ) -> ErrorBars:
-    from bem.accuracy import ContactCase, contact_bars, solve_coarser, stress_bars
+    from bem.accuracy import ContactCase, coarser_before, contact_bars, solve_coarser, stress_bars
 
     grid = build.grid_of(scene.grid)
     operator = build.operator_of(scene, grid, scene.contact.friction)
     case = ContactCase(operator, undeformed, solution, **scene.contact.prescribed(grid.area), from_touch=rough)
-    coarser = solve_coarser(case, scene.contact.max_iterations)
+    nested = None if before is None else coarser_before(case, before)
+    coarser = nested or solve_coarser(case, scene.contact.max_iterations)
     bars = contact_bars(case, coarser)
     if below is None:
         return bars
@@ -267,6 +293,7 @@ KIND = Kind.of(
     ContactScene,
     ContactRecord,
     "two rough, possibly coated bodies pressed together: pressure, contact area, approach, stresses below",
+    resolutions=(CELLS, DEPTHS),
     figures=(
         "pressure-map",
         "contact-map",

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, Self
+import math
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -22,6 +23,9 @@ from bem.scenes.common import (
     problem,
 )
 from bem.scenes.units import Length, Ratio
+
+if TYPE_CHECKING:
+    from bem.scenes.checks.hertz import SmoothContact
 
 
 class ContactControl(Table):
@@ -98,6 +102,26 @@ class PressedScene(SceneModel):
         """With the grid filled in where measured surfaces decide it, and the softer surface's hardness where capped."""
         scene = build.with_grid(self)
         return build.with_hardness(scene, needed=True) if self.contact.behaviour == "capped" else scene
+
+    def smooth_contact(self, lengths: tuple[float, float] | None = None) -> SmoothContact | None:
+        """Hertz contact of the substrates, where shape and load, or approach, say enough, on a grid of these sides."""
+        from bem.scenes.checks.hertz import smooth_contact
+
+        control, shape = self.contact, self.shape
+        load = control.load if control.load is not None or lengths is None else control.load_on(math.prod(lengths))
+        if load is not None and lengths is not None and math.isinf(shape.radii[1]):
+            load /= lengths[1]
+        elif math.isinf(shape.radii[1]):
+            load = None
+        approach = control.approach if load is None else None
+        return smooth_contact(self.lower.build(), self.upper.build(), shape.radii, load=load, approach=approach)
+
+    def plastic_spread(self, smooth: SmoothContact) -> float:
+        """By how much a capped contact is larger than the smooth elastic one, at least."""
+        hardness = self.contact.hardness or build.softer_hardness(self.lower.build(), self.upper.build())
+        if self.contact.behaviour == "elastic" or hardness is None:
+            return 1.0
+        return math.sqrt(max(1.0, smooth.maximum_pressure * 2 / 3 / hardness))
 
 
 class ContactOutputs(Table):

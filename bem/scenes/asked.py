@@ -1,0 +1,105 @@
+"""The accuracy that a scene asks for: of all headline figures, or figure by figure, each relative to the figure.
+
+    accuracy = "1 %"
+    accuracy = { contact_area = "0.5 %", film_load = "2 %" }
+    accuracy = { all = "1 %", max_pressure = "any" }
+
+Knows numbers and names, and the records of kinds; verified in tests/campaigns/test_accuracy.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import BeforeValidator, WithJsonSchema
+from pydantic_core import PydanticCustomError
+
+from bem.scenes.records import Figure, Record, described
+from bem.scenes.units import Dimension
+
+ALL, ANY = "all", "any"
+LEAST, MOST = 1e-5, 0.5
+_NUMBER = Dimension("", "a number", "0.01")
+_ALLOWED = f'"1 %", or a table of figures with "all" for the others: numbers from {LEAST:g} to {MOST:g}, "any" for none'
+
+
+def _parsed(value: Any) -> Any:
+    """What a scene says, as one number or numbers by figures."""
+    if not isinstance(value, Mapping):
+        return _share("", value)
+    if not value:
+        raise _wrong("names no figure")
+    return {str(name): value[name] if value[name] == ANY else _share(f"{name} = ", value[name]) for name in value}
+
+
+def _share(name: str, value: Any) -> float:
+    try:
+        number = _NUMBER.parse(value)
+    except PydanticCustomError as error:
+        raise _wrong(f"{name}{str(value)[:40]} {error.message().partition(';')[0]}") from None
+    if not LEAST <= number <= MOST:
+        raise _wrong(f"{name}{number:g} is not between {LEAST:g} and {MOST:g}")
+    return number
+
+
+def _wrong(problem: str) -> PydanticCustomError:
+    return PydanticCustomError("scene", "{problem}; allowed: {allowed}", {"problem": problem, "allowed": _ALLOWED})
+
+
+_SHARE_SCHEMA = {"anyOf": [{"type": "number", "minimum": LEAST, "maximum": MOST}, {"type": "string"}]}
+AskedAccuracy = Annotated[
+    float | dict[str, float | str],
+    BeforeValidator(_parsed),
+    WithJsonSchema({"anyOf": [*_SHARE_SCHEMA["anyOf"], {"type": "object", "additionalProperties": _SHARE_SCHEMA}]}),
+]
+
+
+def figures_that_may_be_asked(record: type[Record], headline: Iterable[str]) -> dict[str, bool]:
+    """Names under which figures of a record can be asked for, and whether `all` means them too: headline figures that
+    follow no mesh."""
+    first = set(headline)
+    return {
+        item.name or name: item.key(name) in first
+        for name, item in described(record).items()
+        if isinstance(item, Figure) and not item.no_bar
+    }
+
+
+def wanted(asked: float | Mapping[str, float | str], record: Record, headline: Iterable[str]) -> dict[str, float]:
+    """The error that each figure of a record may have, by the names of its fields: of those that are named, and, where
+    all are meant, of those headline figures that this case has and that have or could have an error bar."""
+    table = asked if isinstance(asked, Mapping) else {ALL: asked}
+    meant = figures_that_may_be_asked(type(record), headline)
+    found: dict[str, float] = {}
+    for field, item in described(type(record)).items():
+        name = item.name or field if isinstance(item, Figure) else ""
+        if name not in meant:
+            continue
+        own = table.get(name, table.get(ALL, ANY) if meant[name] and field in record.errors else ANY)
+        if own != ANY and getattr(record, field) is not None:
+            found[field] = float(own)
+    return found
+
+
+def shortfall(record: Record, wanted: Mapping[str, float]) -> dict[str, float]:
+    """Error over what is asked for, by fields: met up to 1, infinite without an error bar.
+
+    Errors count against the figure, or against the sum of those that it is a part of (`Figure.part_of`), and in lists
+    over speeds against the largest there: what is next to nothing need not be known to a share of itself.
+    """
+    return {name: relative_error(record, name) / share for name, share in wanted.items()}
+
+
+def relative_error(record: Record, name: str) -> float:
+    """The largest relative error of a figure of a record, infinite where it has none."""
+    item = described(type(record))[name]
+    assert isinstance(item, Figure)
+    error = record.errors.get(name)
+    if error is None or not np.all(np.isfinite(error)):
+        return math.inf
+    whole = sum(np.abs(np.asarray(getattr(record, part))) for part in item.part_of or (name,))
+    largest, worst = float(np.max(whole)), float(np.max(np.abs(error)))
+    return 0.0 if worst == 0 else worst / largest if largest > 0 else math.inf

@@ -1,0 +1,211 @@
+"""What scenes resolve - cells, depths, points, steps - where an accuracy is asked for: chosen first, and refined.
+
+A kind lists its `Resolution`s; `bem.campaigns.refine` goes from level to level with them. What a scene gives is where
+it begins; what it leaves out follows from the shortest waves of its surfaces and from the size of the smooth contact.
+
+Knows tables of scenes; no solver. Verified in tests/campaigns/test_accuracy.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from bem.errors import InputError
+from bem.scenes import build
+from bem.scenes.axes import changed
+from bem.scenes.common import DepthsScene, GeneratedSurface, MeasuredSurface
+from bem.scenes.paths import parse_key
+
+_PER_WAVE, _PER_RADIUS, _PER_LAYER, _FEWEST = 4, 6, 1, 32
+"""Cells of the first level to the shortest wave or correlation length, to the radius of the smooth contact, to the
+thinnest layer, and along an axis: error bars come from a grid of twice the cell."""
+_MOST_CELLS = 65536
+_MARGIN, _HIGH = 1.25, 3.0
+"""Half the grid over the radius in which bodies may touch: where the smooth contact, pressed apart by so many times the
+rms height, is closed."""
+_DEEP, _DEPTHS = 1.5, 24
+"""Deepest depth over the radius of the smooth contact, and how many there are."""
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """One thing that the scenes of a kind resolve.
+
+    Parameters
+    ----------
+    what : what there are more of on a finer level, such as "cells".
+    first : the scene with its first choice, where the scene leaves it out.
+    finer : the scene with twice as many, or why there can be no more.
+    shown : how many, for a reader.
+    figures : fields of the figures that depend on it; all of them if none are named.
+    part : the origin in the parts of error bars that it answers for, where the record has parts.
+    """
+
+    what: str
+    first: Callable[[Any], Any]
+    finer: Callable[[Any], Any]
+    shown: Callable[[Any], str]
+    figures: tuple[str, ...] = ()
+    part: str = ""
+
+
+def counted(key: str, what: str, first: int, most: int, *, part: str = "", figures: tuple[str, ...] = ()) -> Resolution:
+    """A number at a dotted key of the scene, which begins with `first` where the scene does not give it."""
+    *path, name = (str(part) for part in parse_key(key) or ())
+
+    def table(scene: Any) -> Any:
+        for step in path:
+            scene = getattr(scene, step)
+        return scene
+
+    def begin(scene: Any) -> Any:
+        return scene if name in table(scene).model_fields_set else changed(scene, key, first)
+
+    def finer(scene: Any) -> Any:
+        number = 2 * getattr(table(scene), name)
+        return changed(scene, key, number) if number <= most else f"{key} can be {most} at most"
+
+    return Resolution(what, begin, finer, lambda scene: f"{getattr(table(scene), name)} {what}", figures, part)
+
+
+def _first_cells(scene: Any) -> Any:
+    """The grid, where the scene gives none, and what generated surfaces are drawn on: the cells of the first level, if
+    it is not given.
+
+    Raises
+    ------
+    InputError : a size, or a shortest wave, that nothing says.
+    """
+    if any(isinstance(body.surface, MeasuredSurface) for body in (scene.lower, scene.upper)):
+        return scene
+    grid = scene.grid
+    if grid.shape is None and grid.spacing is None:
+        lengths = grid.lengths or _lengths(scene)
+        least = [max(counts) for counts in zip(*_fewest_cells(scene, lengths), strict=True)]
+        grid = grid.model_copy(update={"lengths": lengths, "shape": (_even(least[0]), _even(least[1]))})
+    if grid.shape is None:
+        return scene
+    made = changed(scene, "grid", grid)
+    for name in ("lower", "upper"):
+        surface = getattr(scene, name).surface
+        if isinstance(surface, GeneratedSurface) and surface.drawn_on is None:
+            made = changed(made, f"{name}.surface.drawn_on", grid.shape)
+    return made
+
+
+def _lengths(scene: Any) -> tuple[float, float]:
+    """Sides of a grid that holds the contact of round bodies."""
+    smooth = scene.smooth_contact()
+    if smooth is None or smooth.line or any(scene.grid.periodic):
+        raise InputError(
+            "grid.lengths: missing; allowed: the sides of the patch. An accuracy that is asked for chooses the cells, "
+            "and the size only of a round contact under a known load on a free grid"
+        )
+    surfaces = [s for s in _surfaces(scene) if isinstance(s, GeneratedSurface)]
+    height = _HIGH * math.sqrt(math.fsum(surface.rms_height**2 for surface in surfaces))
+    longest = max((8 * (surface.correlation_length or 0.0) for surface in surfaces), default=0.0)
+    spread = scene.plastic_spread(smooth)
+    x, y = (
+        max(longest, 2 * _MARGIN * math.sqrt((spread * a) ** 2 + 2 * r * height))
+        for a, r in zip(smooth.semi_axes, smooth.radii, strict=True)
+    )
+    return float(f"{x:.2g}"), float(f"{y:.2g}")
+
+
+def _fewest_cells(scene: Any, lengths: tuple[float, float]) -> Iterator[tuple[float, float]]:
+    """Cells along x and y that the first level needs, each for its own reason."""
+    yield _FEWEST, _FEWEST
+    for name in ("lower", "upper"):
+        surface, body = getattr(scene, name).surface, getattr(scene, name)
+        for layer in body.stack:
+            yield _PER_LAYER * lengths[0] / layer.thickness, _PER_LAYER * lengths[1] / layer.thickness
+        if isinstance(surface, GeneratedSurface):
+            if surface.drawn_on is not None:
+                yield surface.drawn_on
+            for finest in _finest(name, surface):
+                yield _PER_WAVE * lengths[0] / finest[0], _PER_WAVE * lengths[1] / finest[1]
+    shape = getattr(scene, "shape", None)
+    if shape is not None and shape.wavelength is not None:
+        yield 4 * _PER_WAVE * lengths[0] / shape.wavelength, _FEWEST
+    smooth = scene.smooth_contact(lengths)
+    if smooth is not None:
+        yield _PER_RADIUS * lengths[0] / smooth.semi_axes[0], _PER_RADIUS * lengths[1] / smooth.semi_axes[1]
+
+
+def _finest(body: str, surface: GeneratedSurface) -> Iterator[tuple[float, float]]:
+    """The shortest wave or the correlation lengths along x and y [m]."""
+    if surface.cutoff_wavelength is not None:
+        yield surface.cutoff_wavelength, surface.cutoff_wavelength
+    elif surface.correlation_length is not None:
+        root = math.sqrt(surface.elongation or 1.0)
+        yield surface.correlation_length * root, surface.correlation_length / root
+    elif surface.drawn_on is None:
+        raise InputError(
+            f"{body}.surface.cutoff_wavelength: missing where an accuracy is asked for: without it a finer grid has "
+            "shorter waves and is another surface; allowed: cutoff_wavelength, drawn_on, or grid.shape, on which the "
+            "surface is then drawn"
+        )
+
+
+def _surfaces(scene: Any) -> tuple[Any, Any]:
+    return scene.lower.surface, scene.upper.surface
+
+
+def _even(cells: float) -> int:
+    """The next even number of cells that transforms are fast with."""
+    from scipy.fft import next_fast_len
+
+    return 2 * int(next_fast_len(max(1, math.ceil(cells / 2 * (1 - 1e-9)))))
+
+
+def _finer_cells(scene: Any) -> Any:
+    for name in ("lower", "upper"):
+        if isinstance(getattr(scene, name).surface, MeasuredSurface):
+            dx, dy = (f"{1e6 * d:.4g}" for d in build.grid_of(scene.grid).spacing)
+            return (
+                f"{name}.surface is measured, and cells of {dx} um x {dy} um are where the data of the files end: "
+                "finer ones would follow the interpolation"
+            )
+    grid = build.grid_of(scene.grid)
+    shape = tuple(2 * n if n > 1 else n for n in grid.shape)
+    if max(shape) > _MOST_CELLS:
+        return f"a grid can have {_MOST_CELLS} cells along an axis at most"
+    spacing = tuple(length / n for length, n in zip(grid.lengths, shape, strict=True))
+    return changed(scene, "grid", scene.grid.model_copy(update={"shape": shape, "spacing": spacing, "lengths": None}))
+
+
+def _cells_shown(scene: Any) -> str:
+    return "{} x {} cells".format(*build.grid_of(scene.grid).shape)
+
+
+CELLS = Resolution("cells", _first_cells, _finer_cells, _cells_shown)
+"""Cells of a scene's grid."""
+
+
+def _first_depths(scene: Any) -> Any:
+    outputs = scene.outputs
+    if not outputs.below or outputs.depths is not None or scene.grid.lengths is None:
+        return scene
+    smooth = scene.smooth_contact(scene.grid.lengths)
+    size = _DEEP * min(smooth.semi_axes) if smooth is not None else 0.0
+    deepest = max(size, min(scene.grid.lengths) / 4)
+    return changed(scene, "outputs.depths", DepthsScene(deepest=deepest, count=_DEPTHS))
+
+
+def _finer_depths(scene: Any) -> Any:
+    depths = scene.outputs.depths
+    if depths is None or depths.values is not None or 2 * depths.count - 1 > 1024:
+        return "outputs.depths are given one by one" if depths is not None else "no depths are asked for"
+    return changed(scene, "outputs.depths.count", 2 * depths.count - 1)
+
+
+def _depths_shown(scene: Any) -> str:
+    number = len(scene.outputs.wanted_depths())
+    return f"{number} depths" if number else ""
+
+
+DEPTHS = Resolution("depths", _first_depths, _finer_depths, _depths_shown, ("max_von_mises", "max_von_mises_depth"))
+"""Depths below a contact where stresses are wanted."""

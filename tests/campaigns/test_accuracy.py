@@ -1,0 +1,201 @@
+"""An accuracy asked for instead of a grid: refined until the error bars say so, and said where it cannot be had."""
+
+import numpy as np
+import pytest
+
+import bem.accuracy
+import bem.contact
+from bem.campaigns import refine
+from bem.errors import InputError
+from bem.reference_solutions.hertz import sphere_contact
+from bem.results import open_run
+from bem.runs import plan_scene, run_scene, run_sweep
+from bem.scenes import load_scene
+from bem.surfaces import Surface, write_surface
+from tests.campaigns.test_engine import Telling, content
+
+BALL = {
+    "kind": "contact",
+    "name": "ball",
+    "lower": {"material": "steel-52100"},
+    "upper": {"material": "steel-52100"},
+    "shape": {"kind": "sphere", "radius": "10 mm"},
+    "contact": {"load": "10 N"},
+    "accuracy": "1 %",
+}
+ROUGH = {"kind": "generated", "rms_height": "50 nm", "hurst": 0.8, "cutoff_wavelength": "4 um"}
+PATCH = {
+    "kind": "contact",
+    "name": "patch",
+    "grid": {"lengths": "32 um", "periodic": True},
+    "lower": {"material": "steel-52100", "surface": ROUGH},
+    "contact": {"mean_pressure": "300 MPa"},
+    "outputs": {"von_mises": True, "vtk": False},
+    "accuracy": {"contact_area_fraction": "2 %", "approach": "2 %"},
+}
+
+
+def run(scene, folder, *settings, **how):
+    return run_scene(scene, folder, settings=settings, figures=False, **how)
+
+
+def levels(done):
+    (case,) = done.summary["accuracy"]["cases"]
+    return [level["resolution"] for level in case["levels"]]
+
+
+def test_a_ball_needs_no_grid_and_is_as_exact_as_was_asked(tmp_path):
+    telling = Telling()
+    done = run(BALL, tmp_path / "run", "accuracy=0.3%", watcher=telling)
+    smooth = sphere_contact(radius=10e-3, contact_modulus=207e9 / (2 * (1 - 0.09)), load=10.0)
+    found, area = done.summary, np.pi * smooth.semi_axes[0] ** 2
+    assert found["status"] == "converged"
+    assert found["contact_area_m2"] == pytest.approx(area, rel=0.003)
+    assert found["max_pressure_Pa"] == pytest.approx(smooth.maximum_pressure, rel=0.003)
+    assert found["approach_m"] == pytest.approx(smooth.approach, rel=0.003)
+    assert found["max_pressure_Pa_error"] <= 0.003 * found["max_pressure_Pa"]
+    assert levels(done) == ["32 x 32 cells", "64 x 64 cells"]
+    assert found["accuracy"]["met"]
+    assert [text for text in telling.notes if "met on 64 x 64 cells" in text]
+    assert done.scene["grid"]["shape"] == [32, 32]  # of the first level, from which the scene goes the same way
+
+
+@pytest.fixture(scope="module")
+def patch(tmp_path_factory):
+    return run(PATCH, tmp_path_factory.mktemp("patch") / "run")
+
+
+def test_a_rough_patch_is_as_exact_as_was_asked_against_a_reference_four_times_finer(patch, tmp_path):
+    assert patch.summary["status"] == "converged"
+    assert len(levels(patch)) > 1
+    cells = 4 * len(patch.dataset["x"])
+    found = run(patch.path, tmp_path / "finer", f"grid.shape={cells}", f"grid.spacing={32e-6 / cells}", "accuracy=50%")
+    assert len(levels(found)) == 1
+    for key in ("contact_area_fraction", "approach_m"):
+        assert patch.summary[key] == pytest.approx(found.summary[key], rel=0.02)
+
+
+def test_its_scene_gives_the_same_bits_again(patch, tmp_path):
+    assert content(run(patch.path, tmp_path / "again")) == content(patch)
+
+
+@pytest.mark.parametrize("stop", [("level 1: stresses", 2), ("level 2: contact", 100), ("level 2: stresses", 3)])
+def test_killed_while_refining_it_goes_on_to_the_same_bits(patch, tmp_path, stop):
+    def interrupt(what, done):
+        if (what, done) == stop:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run(PATCH, tmp_path / "run", watcher=Telling(interrupt))
+    telling = Telling()
+    assert content(run(PATCH, tmp_path / "run", resume=True, watcher=telling)) == content(patch)
+    assert not [what for what, *_ in telling.seen if what.startswith("level 1: contact")]
+
+
+def test_a_level_before_serves_as_start_and_as_the_coarser_contact(tmp_path, monkeypatch):
+    again, starts = [], []
+
+    def solve_coarser(case, *rest):
+        again.append(case)
+        return bem.accuracy.contact.solve_coarser(case, *rest)
+
+    def solve_contact(*given, initial_pressure, **named):
+        starts.append(initial_pressure is not None)
+        return bem.contact.solve.solve_contact(*given, initial_pressure=initial_pressure, **named)
+
+    monkeypatch.setattr(bem.accuracy, "solve_coarser", solve_coarser)
+    monkeypatch.setattr(bem.contact, "solve_contact", solve_contact)
+    done = run(PATCH, tmp_path / "run")
+    assert len(again) == 1
+    assert starts == [False] + [True] * (len(levels(done)) - 1)
+
+
+def test_a_grid_that_is_given_is_where_it_begins(tmp_path):
+    done = run(BALL, tmp_path / "run", "grid.shape=48", "grid.lengths=200 um")
+    assert levels(done) == ["48 x 48 cells"]
+
+
+def test_two_measured_surfaces_need_no_grid_and_are_not_refined_beyond_their_data(tmp_path):
+    x = np.arange(64) * 2 * np.pi / 64
+    heights = 1e-7 * (np.cos(3 * x)[:, None] + np.sin(5 * x)[None, :] + np.cos(7 * x)[:, None] * np.cos(6 * x)[None, :])
+    write_surface(tmp_path / "a.npz", Surface(heights, (1e-6, 1e-6)))
+    write_surface(tmp_path / "b.npz", Surface(heights[:48, :60].T.copy(), (1e-6, 1e-6)))
+    pair = {
+        name: {"material": "steel-52100", "surface": {"kind": "measured", "path": str(tmp_path / f"{file}.npz")}}
+        for name, file in (("lower", "a"), ("upper", "b"))
+    }
+    scene = {"kind": "contact", "grid": {"periodic": True}, "contact": {"load": "0.5 N"}, **pair}
+    done = run(scene, tmp_path / "well", "accuracy=50%")
+    assert (done.summary["status"], levels(done)) == ("converged", ["60 x 48 cells"])
+    done = run(scene, tmp_path / "ill", "accuracy=0.1%")
+    assert done.summary["status"] == "inaccurate"
+    assert "where the data of the files end" in done.summary["where"]
+    assert "0.1 % asked for" in done.summary["where"]
+    assert not done.summary["accuracy"]["met"]
+    assert done.summary["contact_area_fraction"] > 0
+
+
+def test_a_figure_without_a_bar_is_said_and_the_others_can_be_asked_for(tmp_path):
+    punch = {**BALL, "shape": {"kind": "flat"}, "grid": {"lengths": "40 um"}}
+    done = run(punch, tmp_path / "run")
+    assert done.summary["status"] == "inaccurate"
+    assert "has no error bar" in done.summary["where"]
+    assert len(levels(done)) == 2
+
+
+def test_memory_that_is_not_there_ends_it(tmp_path, monkeypatch):
+    monkeypatch.setattr(refine, "available_memory", lambda: 0.0)
+    done = run(PATCH, tmp_path / "run")
+    assert done.summary["status"] == "inaccurate"
+    assert "the next level, 64 x 64 cells" in done.summary["where"]
+    assert "are available" in done.summary["where"]
+
+
+def test_cases_are_refined_each_by_itself_and_the_accuracy_can_be_swept(tmp_path):
+    over = {key: value for key, value in BALL.items() if key != "accuracy"} | {"over": {"accuracy": ["1 %", "0.3 %"]}}
+    done = run(over, tmp_path / "over", workers=1)
+    cases = done.summary["accuracy"]["cases"]
+    assert [len(case["levels"]) for case in cases] == [1, 2]
+    assert list(done.dataset["accuracy"].values) == [0.01, 0.003]
+    swept = run_sweep(BALL, ["accuracy=1%,0.3%"], tmp_path / "sweep", workers=1)
+    assert not swept.failed
+    alone = open_run(next((swept.path / "points").iterdir()))
+    assert alone.summary["max_pressure_Pa"] in done.summary["max_pressure_Pa"]
+
+
+def test_the_plan_tells_the_levels_that_are_expected():
+    scene, planned = plan_scene(PATCH)
+    step = planned.steps[0]
+    assert (step.name, scene.grid.shape) == ("levels", (32, 32))
+    assert step.why.startswith("expected: 32 x 32 cells, 24 depths, 64 x 64 cells")
+    one = plan_scene(PATCH, ["grid.shape=64", "accuracy=50%"])[1]
+    assert planned.memory > one.memory
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        (["accuracy=0"], 'accuracy = 0: 0 is not between 1e-05 and 0.5; allowed: "1 %"'),
+        (["accuracy=fine"], "fine is not a number"),
+        (["accuracy.area=1%"], "accuracy.area: no figure of kind contact; allowed: all, load, contact_area_fraction"),
+        (["accuracy.approach=2"], "approach = 2 is not between"),
+        (["outputs.errors=false"], "accuracy: outputs.errors is false"),
+        (["shape.kind=cylinder"], "grid.lengths: missing; allowed: the sides of the patch"),
+        (["lower.surface={kind='generated', rms_height='1 nm', hurst=0.8}"], "cutoff_wavelength: missing where an"),
+    ],
+)
+def test_what_cannot_be_asked_for_is_refused_before_any_work(settings, message):
+    with pytest.raises(InputError) as caught:
+        plan_scene(BALL, settings)
+    assert message in str(caught.value)
+
+
+def test_kinds_without_bars_to_refine_by_refuse_it():
+    with pytest.raises(InputError, match="kind flow-factors has no error bars"):
+        plan_scene("flow-factors", ["accuracy=1%"])
+
+
+def test_grid_lengths_without_shape_need_an_accuracy():
+    scene = load_scene({**BALL, "grid": {"lengths": "40 um"}, "accuracy": None})
+    with pytest.raises(InputError, match="lengths are given without shape"):
+        plan_scene(scene)
