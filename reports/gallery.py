@@ -236,6 +236,9 @@ def _reduced(scene: dict[str, Any]) -> dict[str, Any]:
     _smaller(scene, ("synthetic", "count"), 30)
     if scene["kind"] in ("wear", "running-in") and "cycles" not in scene:
         scene["cycles"] = {"count": 4, "settled": 2}
+    if "accuracy" in scene:  # the grid follows from it, and from the shortest waves
+        scene["accuracy"] = "10 %"
+        return scene
     _coarser(scene)
     _smoother(scene)
     return scene
