@@ -64,7 +64,15 @@ __getattr__ = loader(
     {
         "asperities": ["asperity_bars"],
         "bars": ["ErrorBars"],
-        "contact": ["Coarser", "ContactCase", "contact_bars", "figures_of", "solve_coarser", "surface_is_resolved"],
+        "contact": [
+            "Coarser",
+            "ContactCase",
+            "coarser_before",
+            "contact_bars",
+            "figures_of",
+            "solve_coarser",
+            "surface_is_resolved",
+        ],
         "film": ["FilmCase", "OtherFilm", "film_bars", "film_figures", "solve_coarser_film"],
         "march": ["MarchCase", "march_bars", "march_figures"],
         "mixed": ["CoarserShares", "MixedCase", "mixed_bars", "mixed_figures", "solve_coarser_mixed"],
