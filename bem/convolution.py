@@ -27,7 +27,15 @@ from bem.kernels.coefficients import Load, surface_coefficients
 from bem.kernels.spectral import surface_response
 from bem.materials import Body, Material
 from bem.threads import one_blas_thread
-from bem.transforms import Multiplier, PaddedTransform, kernel_spectrum, multiplier, padded_length, transform_of
+from bem.transforms import (
+    Multiplier,
+    PaddedTransform,
+    cosines,
+    kernel_spectrum,
+    multiplier,
+    padded_length,
+    transform_of,
+)
 
 FloatArray = NDArray[np.float64]
 
@@ -326,8 +334,8 @@ class DisplacementOperator:
         if radius not in self._near_fields:
             px, py = self.padded
             offsets = np.arange(-radius, radius + 1)
-            along_x = _cosines(px, offsets)
-            along_y = _cosines(py, offsets)
+            along_x = cosines(px, offsets)
+            along_y = cosines(py, offsets)
             # einsum: no threads of a BLAS library, the same bits everywhere
             rows = np.einsum("jk,kl->jl", along_y, self._spectra.even)
             self._near_fields[radius] = np.einsum("il,jl->ij", along_x, rows)
@@ -341,15 +349,10 @@ class DisplacementOperator:
         """The same bodies on a grid of half as many cells along each axis; None where that grid is too small."""
         if self._coarser:
             return self._coarser[0]
-        shape, spacing = [], []
-        for n, d, periodic in zip(self.grid.shape, self.grid.spacing, self.grid.periodic, strict=True):
-            coarse = (n + 1) // 2
-            shape.append(coarse)
-            spacing.append(n * d / coarse if periodic else (2 * d if n > 1 else d))
-        grid = Grid((shape[0], shape[1]), (spacing[0], spacing[1]), periodic=self.grid.periodic)
+        grid = self.grid.coarsened()
         coarser = (
             None
-            if max(shape) < _SMALLEST
+            if max(grid.shape) < SMALLEST
             else DisplacementOperator(
                 grid, self.bodies, self.friction, self.count, self.weight * grid.cells / self.grid.cells
             )
@@ -375,14 +378,8 @@ class DisplacementOperator:
         return displacement
 
 
-_SMALLEST = 16
-
-
-def _cosines(length: int, offsets: NDArray[np.int64]) -> FloatArray:
-    """Inverse transform of an even spectrum at a few offsets, from non-negative wavenumbers."""
-    wavenumbers = np.arange(length // 2 + 1)
-    weights = np.where((wavenumbers == 0) | (2 * wavenumbers == length), 1.0, 2.0) / length
-    return np.asarray(weights * np.cos(2 * np.pi / length * (np.outer(offsets, wavenumbers) % length)))
+SMALLEST = 16
+"""Cells along the longer side below which a grid is not made coarser."""
 
 
 @one_blas_thread

@@ -103,6 +103,17 @@ class Grid:
         ky = 2 * np.pi * np.fft.rfftfreq(ny, dy).astype(np.float64)
         return kx[:, None], ky[None, :]
 
+    def coarsened(self) -> Grid:
+        """A grid of half as many cells along each axis: on a free axis point k is point 2k of this one, a periodic axis
+        keeps its length.
+        """
+        shape = tuple((cells + 1) // 2 for cells in self.shape)
+        spacing = tuple(
+            cells * side / coarse if periodic else (2 * side if cells > 1 else side)
+            for cells, side, periodic, coarse in zip(self.shape, self.spacing, self.periodic, shape, strict=True)
+        )
+        return Grid((shape[0], shape[1]), (spacing[0], spacing[1]), periodic=self.periodic)
+
     def check_field(self, field: object, name: str) -> FloatArray:
         """Return `field` as a float64 array of this grid's shape.
 

@@ -17,6 +17,7 @@ ORDER = [
     {"convolution"},
     {"stress", "heat"},
     {"contact"},
+    {"tangential"},
     {"surfaces", "lubrication", "flow"},
     {"particles"},
     {"friction"},

@@ -15,10 +15,18 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.kernels import half_space, semi_periodic, subsurface
-from bem.kernels.loads import STRESS_PARITY, SURFACE_PARITY, Load
+from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load
 from bem.materials import Body
 
-__all__ = ["STRESS_PARITY", "SURFACE_PARITY", "Load", "stress_coefficients", "surface_coefficients"]
+__all__ = [
+    "IN_PLANE_PARITY",
+    "STRESS_PARITY",
+    "SURFACE_PARITY",
+    "Load",
+    "in_plane_coefficients",
+    "stress_coefficients",
+    "surface_coefficients",
+]
 
 
 def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
@@ -38,6 +46,27 @@ def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
         table = semi_periodic.surface_table(grid, body.surface_material, load)
     if not body.homogeneous:
         table += _layered(grid).surface_remainder(grid, body, load)
+    return table
+
+
+def in_plane_coefficients(grid: Grid, body: Body) -> FloatArray:
+    """In-plane surface displacements [m/Pa] of unit tractions on the cell at the origin, shape (3, nx, ny).
+
+    ux under traction along x, uy under traction along y, and of one under the other (the same both ways). Entry
+    [:, i, j] belongs to the offset (i dx, j dy); others follow from `IN_PLANE_PARITY`. On a grid with one periodic axis
+    the datum is that of `semi_periodic`.
+
+    Raises
+    ------
+    InputError : a doubly periodic grid.
+    """
+    _refuse_doubly_periodic(grid)
+    if grid.periodic == (False, False):
+        table = half_space.in_plane_table(grid.shape, grid.spacing, body.surface_material)
+    else:
+        table = semi_periodic.in_plane_table(grid, body.surface_material)
+    if not body.homogeneous:
+        table += _layered(grid).in_plane_remainder(grid, body)
     return table
 
 

@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, powers, rule
-from bem.kernels.loads import DISPLACEMENT_PARITY, Load, clear_odd
+from bem.kernels.loads import DISPLACEMENT_PARITY, IN_PLANE_PARITY, Load, clear_odd
 from bem.materials import Material
 
 
@@ -170,6 +170,24 @@ def _surface_table(
             out[i, j] = scale * local[2]
 
 
+@nb.njit(**COMPILE)
+def _in_plane_table(nx: int, ny: int, dx: float, dy: float, nu: float, out: FloatArray) -> None:
+    """4 pi G times ux under traction along x, uy under traction along y, uy under traction along x: (3, nx, ny)."""
+    scale = max(dx, dy)
+    a, b = 0.5 * dx / scale, 0.5 * dy / scale
+    local = np.zeros(3)
+    for i in range(nx):
+        for j in range(ny):
+            x, y = i * (dx / scale), j * (dy / scale)
+            local[:] = 0.0
+            add_rectangle(x, y, 0.0, a, b, nu, True, local)
+            out[0, i, j] = scale * local[0]
+            out[2, i, j] = scale * local[1]
+            local[:] = 0.0
+            add_rectangle(y, x, 0.0, b, a, nu, True, local)
+            out[1, i, j] = scale * local[0]
+
+
 def check_points(
     x: ArrayLike, y: ArrayLike, depth: ArrayLike, sides: tuple[float, ...], poissons_ratio: float = 0.0
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -245,3 +263,11 @@ def surface_table(
     if tangential:
         out[0] = 0.0
     return out
+
+
+def in_plane_table(shape: tuple[int, int], spacing: tuple[float, float], material: Material) -> FloatArray:
+    """In-plane surface displacements [m/Pa] at offsets (i dx, j dy) from a loaded cell, see `coefficients`."""
+    out = np.empty((3, *shape))
+    _in_plane_table(shape[0], shape[1], spacing[0], spacing[1], material.poissons_ratio, out)
+    out /= 4 * np.pi * material.shear_modulus
+    return clear_odd(out, np.arange(shape[0])[:, None], np.arange(shape[1])[None, :], IN_PLANE_PARITY)

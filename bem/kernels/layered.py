@@ -60,7 +60,8 @@ from bem.materials import Body
 __all__ = [
     "ACROSS_ET", "ACROSS_TZ", "ACROSS_U", "NORMAL_EE", "NORMAL_SIGMA", "NORMAL_TAU", "NORMAL_TT", "NORMAL_U",
     "NORMAL_W", "ROWS", "TANGENTIAL_EE", "TANGENTIAL_SIGMA", "TANGENTIAL_TAU", "TANGENTIAL_TT", "TANGENTIAL_U",
-    "TANGENTIAL_W", "Features", "features", "stress_response", "surface_response", "wave_functions",
+    "TANGENTIAL_W", "Features", "features", "in_plane_response", "stress_response", "surface_response",
+    "wave_functions",
 ]  # fmt: skip
 
 FloatArray = NDArray[np.float64]
@@ -169,6 +170,26 @@ def surface_response(
     if tangential:
         return scale * cosine * functions[TANGENTIAL_W].reshape(q.shape)
     return scale * functions[NORMAL_W].reshape(q.shape)
+
+
+def in_plane_response(kx: ArrayLike, ky: ArrayLike, body: Body, *, remainder: bool = False) -> FloatArray:
+    """In-plane surface displacements [m/Pa] under unit tractions exp(i k.x): (3, ...), real.
+
+    ux under traction along x, uy under traction along y, and of one under the other. kx and ky [rad/m] broadcast. Zero
+    where k = 0: there is no limit. `remainder` as in `wave_functions`.
+    """
+    cosine, sine, q = _directions(kx, ky)
+    functions = wave_functions(q, body, 0.0, remainder=remainder, load=Load.TANGENTIAL).reshape(ROWS, *q.shape)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        scale = np.where(q > 0, 0.5 / (body.surface_material.shear_modulus * q), 0.0)
+    along, across = -scale * functions[TANGENTIAL_U], scale * functions[ACROSS_U]
+    return np.stack(
+        [
+            cosine**2 * along + sine**2 * across,
+            sine**2 * along + cosine**2 * across,
+            sine * cosine * (along - across),
+        ]
+    )
 
 
 def stress_response(

@@ -11,6 +11,10 @@ from x to the point,
                 xz = -cos(phi) B1                       xz = B0 + cos(2 phi) B2
                 xy = -sin(2 phi) D2                     xy = -sin(phi) (X1 - Y1)/2 + sin(3 phi) W3
 
+and in the plane, under traction along x and y,
+
+    xx = I0 - cos(2 phi) I2        yy = I0 + cos(2 phi) I2        xy = yx = -sin(2 phi) I2.
+
 They are analytic on the scale D = hypot(r, d) (`Kernels.decay`): a cell takes the Gauss rule that reaches 1e-13 for
 its D over half a side, from 2 x 2 points far away to 16 x 16, and is quartered where that is not enough. Near the
 origin of a layer much thinner than a cell the quarters shrink geometrically, so any ratio of thickness to cell works.
@@ -23,9 +27,17 @@ import numpy as np
 
 from bem.grid import FloatArray, Grid
 from bem.kernels.cell_rules import COMPILE
-from bem.kernels.coefficients import STRESS_PARITY, SURFACE_PARITY
+from bem.kernels.coefficients import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY
 from bem.kernels.half_space import Load
-from bem.kernels.layered_hankel import RadialTable, evaluate, panel_of, radial_table, stress_kernels, surface_kernels
+from bem.kernels.layered_hankel import (
+    RadialTable,
+    evaluate,
+    in_plane_kernels,
+    panel_of,
+    radial_table,
+    stress_kernels,
+    surface_kernels,
+)
 from bem.kernels.subsurface import BLOCK, Six, add_six
 from bem.materials import Body
 
@@ -42,7 +54,7 @@ _WEIGHTS = np.zeros((_POINTS.size, _MOST))
 for _row, _n in enumerate(_POINTS):
     _NODES[_row, :_n], _WEIGHTS[_row, :_n] = np.polynomial.legendre.leggauss(int(_n))
 
-SURFACE_NORMAL, SURFACE_TANGENTIAL, STRESS_NORMAL, STRESS_TANGENTIAL = range(4)
+SURFACE_NORMAL, SURFACE_TANGENTIAL, STRESS_NORMAL, STRESS_TANGENTIAL, IN_PLANE = range(5)
 SURFACE = {Load.NORMAL: SURFACE_NORMAL, Load.TANGENTIAL: SURFACE_TANGENTIAL}
 STRESS = {Load.NORMAL: STRESS_NORMAL, Load.TANGENTIAL: STRESS_TANGENTIAL}
 
@@ -77,6 +89,12 @@ def _add_point(kind: int, x: float, y: float, r: float, g: FloatArray, weight: f
     c, s = _along(x, y, r)
     if kind == SURFACE_TANGENTIAL:
         out[0] -= weight * c * g[0]
+        return
+    if kind == IN_PLANE:
+        c2, s2 = (c - s) * (c + s), 2.0 * s * c
+        out[0] += weight * (g[0] - c2 * g[1])
+        out[1] += weight * (g[0] + c2 * g[1])
+        out[2] -= weight * s2 * g[1]
         return
     if kind == STRESS_NORMAL:
         stress = _pressed(c, s, g[0], g[1], g[2], g[3])
@@ -118,6 +136,14 @@ def _add_side_by_side(
         for k in range(count):
             c, _ = _along(x, scratch[_Y + k], scratch[_R + k])
             scratch[k] -= weight * c * scratch[_G + k]
+    elif kind == IN_PLANE:
+        for k in range(count):
+            c, s = _along(x, scratch[_Y + k], scratch[_R + k])
+            even, turned = weight * scratch[_G + k], weight * scratch[_G + BLOCK + k]
+            c2, s2 = (c - s) * (c + s), 2.0 * s * c
+            scratch[k] += even - c2 * turned
+            scratch[BLOCK + k] += even + c2 * turned
+            scratch[2 * BLOCK + k] -= s2 * turned
     elif kind == STRESS_NORMAL:
         for k in range(count):
             c, s = _along(x, scratch[_Y + k], scratch[_R + k])
@@ -307,6 +333,14 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     add_cells(out, grid, radial_table(surface_kernels(body, load), _reach(grid)), SURFACE[load])
     clear_odd(out, (SURFACE_PARITY[load],))
     return out[0]
+
+
+def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
+    """Same for the in-plane displacements: (3, nx, ny) [m/Pa]."""
+    out = np.zeros((3, *grid.shape))
+    add_cells(out, grid, radial_table(in_plane_kernels(body), _reach(grid)), IN_PLANE)
+    clear_odd(out, IN_PLANE_PARITY)
+    return out
 
 
 def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:

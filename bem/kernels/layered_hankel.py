@@ -129,6 +129,18 @@ def surface_kernels(body: Body, load: Load) -> Kernels:
     return _kernels(spectra, (0 if load is Load.NORMAL else 1,), layered.features(body, 0.0))
 
 
+def in_plane_kernels(body: Body) -> Kernels:
+    """In-plane surface displacements less those of a half-space of the outermost material, see `layered_cells`."""
+    scale = 0.25 / body.surface_material.shear_modulus
+
+    def spectra(q: NDArray) -> NDArray:
+        f = layered.wave_functions(q, body, 0.0, remainder=True, load=Load.TANGENTIAL)
+        along, across = -f[layered.TANGENTIAL_U], f[layered.ACROSS_U]
+        return np.stack([along + across, along - across]) * (scale / q)
+
+    return _kernels(spectra, (0, 2), layered.features(body, 0.0))
+
+
 def stress_kernels(body: Body, depth: float, load: Load) -> Kernels:
     """Six stresses: in the outermost layer less those of a half-space of its material, below it whole."""
     found = layered.features(body, depth)

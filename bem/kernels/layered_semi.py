@@ -30,9 +30,9 @@ from scipy import special
 
 from bem.grid import FloatArray, Grid
 from bem.kernels import layered
-from bem.kernels.coefficients import STRESS_PARITY, SURFACE_PARITY
+from bem.kernels.coefficients import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY
 from bem.kernels.half_space import Load
-from bem.kernels.layered_cells import STRESS, SURFACE, add_cells, clear_odd
+from bem.kernels.layered_cells import IN_PLANE, STRESS, SURFACE, add_cells, clear_odd
 from bem.kernels.layered_hankel import (
     END,
     NODES,
@@ -44,6 +44,7 @@ from bem.kernels.layered_hankel import (
     apply,
     fit,
     gauss_rule,
+    in_plane_kernels,
     panel_nodes,
     radial_table,
     stress_kernels,
@@ -73,12 +74,9 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     tangential = load is Load.TANGENTIAL
     parities = (SURFACE_PARITY[load],)
     free, along = _axes(grid)
-    period = grid.lengths[along]
+    decay = 0.5 * grid.lengths[along]
     kernels = surface_kernels(body, load)
-    step = 0.0
-    if not tangential:
-        one, two = body.surface_material, body.material
-        step = (1 - two.poissons_ratio) / two.shear_modulus - (1 - one.poissons_ratio) / one.shear_modulus
+    step = np.zeros(1) if tangential else _steps(body)[:1]
 
     def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
         return layered.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
@@ -86,18 +84,61 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     def mean(k: NDArray) -> NDArray:
         if tangential and free == 1:
             return np.zeros((1, k.size), dtype=k.dtype)
-        return kernels.spectra(k) - step * np.exp(-0.5 * period * k) / k
+        return kernels.spectra(k) - step[:, None] * np.exp(-decay * k) / k
 
     parts = _Parts(kernels, SURFACE[load], parities, response, mean, step)
     half = _half(grid, parts)
-    if step:
-        height, reference = 0.5 * period, grid.lengths[free]
-        line = -step / np.pi * _mean_log(grid.shape[free], grid.spacing[free], height, reference)
-        line -= table_values(_line_table(grid, parts, reference), np.array([reference]))[0, 0]
-        line += step / np.pi * np.log(np.hypot(reference, height) / reference)
-        line *= grid.cell_area / period
-        half[0] += line[:, None] if free == 0 else line
+    _add_steps(half, grid, parts)
     return _mirrored(half, grid, parities)[0]
+
+
+def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
+    """Same for the in-plane displacements under tractions along x and y: (3, nx, ny) [m/Pa]."""
+    free, along = _axes(grid)
+    decay = 0.5 * grid.lengths[along]
+    in_plane, across = _steps(body)
+    step = np.zeros(3)
+    step[free], step[along] = in_plane, across
+
+    def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
+        return layered.in_plane_response(kx, ky, body, remainder=True)
+
+    def mean(k: NDArray) -> NDArray:
+        even, turned = kernels.spectra(k)
+        out = np.zeros((3, k.size), dtype=k.dtype)
+        out[free], out[along] = even + turned, even - turned
+        return out - step[:, None] * np.exp(-decay * k) / k
+
+    kernels = in_plane_kernels(body)
+    parts = _Parts(kernels, IN_PLANE, IN_PLANE_PARITY, response, mean, step)
+    half = _half(grid, parts)
+    _add_steps(half, grid, parts)
+    return _mirrored(half, grid, IN_PLANE_PARITY)
+
+
+def _steps(body: Body) -> FloatArray:
+    """What the remainders are times q where q vanishes, of plane and of antiplane strain [1/Pa]: base less surface."""
+    one, two = body.surface_material, body.material
+    plane = (1 - two.poissons_ratio) / two.shear_modulus - (1 - one.poissons_ratio) / one.shear_modulus
+    return np.array([plane, 1 / two.shear_modulus - 1 / one.shear_modulus])
+
+
+def _add_steps(half: FloatArray, grid: Grid, parts: _Parts) -> None:
+    """Add the parts in closed form, and the datum, of the components that have a step."""
+    free, along = _axes(grid)
+    height, reference = 0.5 * grid.lengths[along], grid.lengths[free]
+    steps = [component for component in range(len(half)) if parts.step[component]]
+    if not steps:
+        return
+    logarithm = _mean_log(grid.shape[free], grid.spacing[free], height, reference)
+    there = table_values(_line_table(grid, parts, reference), np.array([reference]))[0]
+    for component in steps:
+        step = parts.step[component]
+        line = -step / np.pi * logarithm
+        line -= there[component]
+        line += step / np.pi * np.log(np.hypot(reference, height) / reference)
+        line *= grid.cell_area / grid.lengths[along]
+        half[component] += line[:, None] if free == 0 else line
 
 
 def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
@@ -121,7 +162,7 @@ def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatA
         out[free], out[1 - free], out[2], out[4 - free] = ee, tt, sigma, -tau if tangential else tau
         return out
 
-    parts = _Parts(stress_kernels(body, depth, load), STRESS[load], parities, response, mean, 0.0)
+    parts = _Parts(stress_kernels(body, depth, load), STRESS[load], parities, response, mean, np.zeros(6))
     return _mirrored(_half(grid, parts), grid, parities)
 
 
@@ -141,7 +182,7 @@ class _Parts:
     """One response as every part of the sum needs it.
 
     response: (kx, ky) -> (components, ...) as in `layered`; mean: the same along the free axis, complex k, less
-    step exp(-k s)/k, s half a period, whose transform is added in closed form.
+    step exp(-k s)/k, (components,), s half a period, whose transform is added in closed form.
     """
 
     kernels: Kernels
@@ -149,7 +190,7 @@ class _Parts:
     parities: Parities
     response: Response
     mean: Spectra
-    step: float
+    step: FloatArray
 
 
 def _axes(grid: Grid) -> tuple[int, int]:
@@ -207,7 +248,7 @@ def _line_table(grid: Grid, parts: _Parts, reach: float) -> RadialTable:
     """The mean along the period, less the part in closed form, as a function of the free distance."""
     free, along = _axes(grid)
     orders = tuple(0 if parity[free] > 0 else 1 for parity in parts.parities)
-    decay = min(parts.kernels.decay, 0.5 * grid.lengths[along]) if parts.step else parts.kernels.decay
+    decay = min(parts.kernels.decay, 0.5 * grid.lengths[along]) if parts.step.any() else parts.kernels.decay
     return radial_table(
         Kernels(parts.mean, orders, decay, parts.kernels.smallest, parts.kernels.path), reach, line=True
     )
@@ -228,9 +269,10 @@ def _long_waves(grid: Grid, near: int, cells: int, parts: _Parts) -> FloatArray:
     spectrum = parts.response(kx, ky)
     spectrum *= 0.5 * special.erfc((np.hypot(kx, ky) * period - _SPLIT) / _WIDTH)
     spectrum *= np.sinc(kx * grid.spacing[0] / (2 * np.pi)) * np.sinc(ky * grid.spacing[1] / (2 * np.pi))
-    if parts.step:
-        average = np.sinc(k * grid.spacing[free] / (2 * np.pi))
-        spectrum[0, :, 0] -= parts.step * np.exp(-0.5 * period * k) / k * average
+    average = np.sinc(k * grid.spacing[free] / (2 * np.pi))
+    for component, step in enumerate(parts.step):
+        if step:
+            spectrum[component, :, 0] -= step * np.exp(-0.5 * period * k) / k * average
     spectrum *= weights[:, None] * np.where(modes > 0, 2.0, 1.0) * (grid.cell_area / (np.pi * period))
     phase_free = np.arange(near)[:, None] * grid.spacing[free] * k
     phase_along = np.arange(cells)[:, None] * grid.spacing[along] * modes

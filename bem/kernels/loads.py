@@ -28,6 +28,9 @@ DISPLACEMENT_PARITY: dict[Load, Parities] = {
 SURFACE_PARITY: dict[Load, tuple[int, int]] = {load: table[2] for load, table in DISPLACEMENT_PARITY.items()}
 """Parity (in x, in y) of the normal displacement."""
 
+IN_PLANE_PARITY: Parities = ((1, 1), (1, 1), (-1, -1))
+"""Parity (in x, in y) of ux under traction along x, uy under traction along y, and of either under the other."""
+
 STRESS_PARITY: dict[Load, Parities] = {
     Load.NORMAL: ((1, 1), (1, 1), (1, 1), (1, -1), (-1, 1), (-1, -1)),
     Load.TANGENTIAL: ((-1, 1), (-1, 1), (-1, 1), (-1, -1), (1, 1), (1, -1)),

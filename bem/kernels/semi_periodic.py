@@ -20,7 +20,6 @@ free axis' mean is symmetric (a step from -c to c for a cell of traction across 
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import NamedTuple
 
 import numba as nb
@@ -29,8 +28,9 @@ import numpy as np
 from bem.grid import FloatArray, Grid
 from bem.kernels import half_space, subsurface
 from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS
+from bem.kernels.euler_maclaurin import euler_maclaurin
 from bem.kernels.half_plane import add_strip, log_strip
-from bem.kernels.loads import STRESS_PARITY, SURFACE_PARITY, Load, clear_odd
+from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, clear_odd
 from bem.kernels.subsurface import BLOCK, X_AT, Y_AT
 from bem.materials import Material
 
@@ -42,46 +42,14 @@ _GAUSS_POINTS = 24
 _MANY = 16  # cells in a period from which even the neighbouring images belong to the tail
 
 
-def _bernoulli_half(order: int) -> list[Fraction]:
-    """Bernoulli polynomials at 1/2: B_n(1/2) = (2^(1-n) - 1) B_n."""
-    numbers = [Fraction(1)]
-    for n in range(1, order + 1):
-        row = Fraction(1)
-        total = Fraction(0)
-        for k in range(n):
-            total += row * numbers[k]
-            row = row * (n + 1 - k) / (k + 1)
-        numbers.append(-total / (n + 1))
-    return [(Fraction(2) / 2**n - 1) * b for n, b in enumerate(numbers)]
-
-
-def _euler_maclaurin(points: int, span: int) -> tuple[FloatArray, FloatArray]:
-    """Positive nodes t and weights w: sum of g(k + 1/2), k >= 0, = integral of g from 0 + sum w (g(t) - g(-t)).
-
-    Exact where g is a polynomial of degree below `points`: on t^p the correction is -B_{p+1}(1/2) / (p + 1).
-    """
-    halves = _bernoulli_half(points + 1)
-    angles = (np.arange(points) + 0.5) * np.pi / points
-    weights = np.zeros(points)
-    previous, current = [Fraction(1)], [Fraction(0), Fraction(1)]
-    for n in range(1, points):
-        value = sum(c * (-halves[p + 1] / (p + 1)) * Fraction(1, span**p) for p, c in enumerate(current))
-        weights += 2.0 / points * float(value) * np.cos(n * angles)
-        following = [Fraction(0)] + [2 * c for c in current]
-        for p, c in enumerate(previous):
-            following[p] -= c
-        previous, current = current, following
-    half = points // 2
-    return (span * np.cos(angles[:half])).copy(), weights[:half].copy()
-
-
-_EULER_NODES, _EULER_WEIGHTS = _euler_maclaurin(_EULER_POINTS, int(_SPAN))
+_EULER_NODES, _EULER_WEIGHTS = euler_maclaurin(_EULER_POINTS, int(_SPAN))
 _LEGENDRE = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
 _TAIL_NODES = 0.5 * (_LEGENDRE[0] + 1)
 _TAIL_WEIGHTS = 0.5 * _LEGENDRE[1]
 
-# what is summed: six stresses, or one displacement
-_STRESS, _PRESSURE_DISPLACEMENT, _TRACTION_DISPLACEMENT = 0, 1, 2
+# what is summed: six stresses, one displacement, or with f along the free axis and a along the period the integrals of
+# f^2 / r^3 and f a / r^3, of which (with that of 1 / r) in-plane displacements are made
+_STRESS, _PRESSURE_DISPLACEMENT, _TRACTION_DISPLACEMENT, _IN_PLANE = 0, 1, 2, 3
 
 
 class _Response(NamedTuple):
@@ -137,6 +105,10 @@ def _add_pair(what: _Response, shift: float, weight: float, count: int, scratch:
         minus = (along - shift) ** 2 + free * free
         if what.kind == _PRESSURE_DISPLACEMENT:
             scratch[k] += weight * (1.0 / np.sqrt(plus) + 1.0 / np.sqrt(minus))
+        elif what.kind == _IN_PLANE:
+            one, other = weight * free / (plus * np.sqrt(plus)), weight * free / (minus * np.sqrt(minus))
+            scratch[k] += free * (one + other)
+            scratch[BLOCK + k] += one * (along + shift) + other * (along - shift)
         elif what.swap:
             scratch[k] += weight * 2.0 * along * (along * along + free * free - shift * shift) / (plus * minus)
         else:
@@ -202,6 +174,8 @@ def _add_line(what: _Response, free: float, half: float, fraction: float, out: F
         out[5] += 2.0 * fraction * strip[5]
     elif what.kind == _PRESSURE_DISPLACEMENT:
         out[0] -= 2.0 * fraction * what.reference * log_strip(free / what.reference, half / what.reference)
+    elif what.kind == _IN_PLANE:
+        out[0] += 4.0 * fraction * half
     elif not what.swap:
         out[0] += fraction * np.pi * 2.0 * min(max(free, -half), half)
 
@@ -223,6 +197,14 @@ def _add_cell(
         subsurface.add_rectangles(x, y, what.z, a, b, what.nu, what.pressure, what.traction, scratch, out)
         return
     displacement = np.zeros(3)
+    if what.kind == _IN_PLANE:
+        for k in range(along.size):
+            # at nu = 1, traction along the free axis: 4 pi G u = 2 (integral of f^2 / r^3, of f a / r^3)
+            displacement[:] = 0.0
+            half_space.add_rectangle(free, along[k], what.z, half, half_along, 1.0, True, displacement)
+            out[0, k] += 0.5 * displacement[0]
+            out[1, k] += 0.5 * displacement[1]
+        return
     for k in range(along.size):
         # at nu = 0: 4 pi G uz = 2 V under pressure, chi_x under traction
         displacement[:] = 0.0
@@ -422,6 +404,27 @@ def surface_table(grid: Grid, material: Material, load: Load) -> FloatArray:
     if traction:
         table[0] = 0.0
     return table
+
+
+def in_plane_table(grid: Grid, material: Material) -> FloatArray:
+    """In-plane surface displacements [m/Pa] of a loaded cell and its images, (3, nx, ny): see `coefficients`.
+
+    With V, E and S the sums of the integrals of 1/r, f^2/r^3 and f a/r^3, f along the free axis and a along the period:
+    2 pi G u = (1 - nu) V + nu E under traction along f, V - nu E under traction along a, nu S of one under the other.
+    Datum: as under pressure, the means along the period are those of lines of load, zero at the reference length; so E,
+    whose mean is the same everywhere, counts without it.
+    """
+    along = 0 if grid.periodic[0] else 1
+    newton = _table(grid, _PRESSURE_DISPLACEMENT, 0.0, 0.0, 1.0, 1.0, [1])[0]
+    even, odd = _table(grid, _IN_PLANE, 0.0, 0.0, 1.0, 1.0, [1, -1])
+    even -= 2.0 * grid.cell_area / grid.lengths[along] ** 2
+    nu = material.poissons_ratio
+    out = np.empty((3, *grid.shape))
+    out[1 - along] = (1 - nu) * newton + nu * even
+    out[along] = newton - nu * even
+    out[2] = nu * odd
+    out *= grid.lengths[along] / (2 * np.pi * material.shear_modulus)
+    return clear_odd(out, np.arange(grid.shape[0])[:, None], np.arange(grid.shape[1])[None, :], IN_PLANE_PARITY)
 
 
 def stress_table(grid: Grid, depth: float, poissons_ratio: float, load: Load) -> FloatArray:

@@ -21,7 +21,7 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.kernels import layered
-from bem.kernels.loads import STRESS_PARITY, SURFACE_PARITY, Load, Parities
+from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, Parities
 from bem.materials import Body
 
 
@@ -75,6 +75,30 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
     else:
         out = -(1 - 2 * material.poissons_ratio) / (2 * material.shear_modulus) * odd_x / q**2
     out[0, 0] = 0.0
+    return out
+
+
+def in_plane_response(grid: Grid, body: Body) -> FloatArray:
+    """In-plane surface displacements under harmonic unit tractions, shape (3, nx, ny//2 + 1) [m/Pa].
+
+    ux under traction along x, uy under traction along y: (1 - nu cos^2) / (G q) and (1 - nu sin^2) / (G q) with the
+    angle of the wavevector from x, the transform of Cerruti's solution; of one under the other: -nu cos sin / (G q).
+    Mean mode 0. With layers: see `layered`.
+
+    Raises
+    ------
+    InputError : a grid that is not periodic along both axes.
+    """
+    _check(grid)
+    kx, ky, q, odd_x, odd_y = _wavevectors(grid)
+    if body.homogeneous:
+        nu, scale = body.material.poissons_ratio, 1 / (body.material.shear_modulus * q)
+        out = np.stack([1 - nu * (kx / q) ** 2, 1 - nu * (ky / q) ** 2, -nu * odd_x * odd_y / q**2]) * scale
+        out[:, 0, 0] = 0.0
+        return out
+    half = grid.shape[0] // 2 + 1
+    out = _mirrored(layered.in_plane_response(kx[:half], ky[:half], body), grid.shape[0], IN_PLANE_PARITY)
+    out[2] *= (odd_x == kx) & (odd_y == ky)
     return out
 
 

@@ -47,6 +47,13 @@ def kernel_spectrum(coefficients: FloatArray, padded: tuple[int, int], parity: t
     return np.ascontiguousarray(_half_spectrum(result, padded[0], parity[0]))
 
 
+def cosines(length: int, offsets: NDArray[np.int64]) -> FloatArray:
+    """Inverse transform of an even spectrum at a few offsets, from non-negative wavenumbers: (offsets, wavenumbers)."""
+    wavenumbers = np.arange(length // 2 + 1)
+    weights = np.where((wavenumbers == 0) | (2 * wavenumbers == length), 1.0, 2.0) / length
+    return np.asarray(weights * np.cos(2 * np.pi / length * (np.outer(offsets, wavenumbers) % length)))
+
+
 def _half_spectrum(values: FloatArray, length: int, parity: int) -> FloatArray:
     """Real or imaginary part of the transform along the last axis of an even or odd sequence."""
     kept = length // 2 + 1

@@ -1,0 +1,16 @@
+"""Tangential contact: where bodies pressed together stick and slip, under forces, shifts, rotation and rolling.
+
+`operator` is the in-plane displacement from tractions, `discs` puts tractions inside Coulomb's bound, `rounds` solves
+partial slip on one grid, `cascade` goes from coarse grids to fine ones, `solve` is the front door of partial slip,
+`rolling` that of steady rolling.
+
+Knows the normal contact (its pressure, its sparse inverse); nothing of lubrication, wear or scenes. Verified in
+tests/tangential against Cattaneo and Mindlin, Mindlin and Deresiewicz, Carter, Spence and Kalker's linear theory.
+"""
+
+from bem.tangential.operator import TangentialOperator
+from bem.tangential.rolling import solve_rolling
+from bem.tangential.solution import TangentialSolution
+from bem.tangential.solve import solve_partial_slip, tangential_operator
+
+__all__ = ["TangentialOperator", "TangentialSolution", "solve_partial_slip", "solve_rolling", "tangential_operator"]

@@ -1,0 +1,81 @@
+"""From coarse grids to fine ones: tractions in parts of their bounds, and how much cells slip."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.contact.cascade import sample
+from bem.grid import FloatArray, Grid
+from bem.tangential.rounds import Effort, Slipped, Slipping, slip_on_grid
+
+_COARSE = 1e-3
+"""Relative violation that coarse grids are solved to: more is lost in the interpolation anyway."""
+
+_FEWEST = 4
+"""Cells in contact on a coarse grid below which it says nothing."""
+
+
+def slip(problem: Slipping, start: FloatArray | None, tolerance: float, effort: Effort) -> Slipped:
+    """From a start (2, nx, ny), or from the solution on the next coarser grid, itself begun in the same way."""
+    return slip_on_grid(problem, _from_coarser(problem, effort) if start is None else start, tolerance, effort)
+
+
+def _from_coarser(problem: Slipping, effort: Effort) -> FloatArray:
+    """Wanted tractions (2, nx, ny), outside their discs by the slip times the stiffness."""
+    nothing = np.zeros((2, *problem.operator.grid.shape))
+    coarse = _coarsened(problem)
+    if coarse is None:
+        return nothing
+    found = slip(coarse, None, _COARSE, effort)
+    shares, wishes = np.zeros((2, *found.cells.shape)), np.zeros((2, *found.cells.shape))
+    shares[:, found.cells] = found.traction / coarse.bound[found.cells]
+    wishes[:, found.cells] = np.where(found.slips, found.wish, 0.0)
+    grid = problem.operator.grid
+    fine = _interpolated(np.concatenate([shares, wishes]), found.cells, grid)
+    return np.where(problem.bound > 0, fine[:2] * problem.bound + fine[2:] * problem.stiffness, 0.0)
+
+
+def _coarsened(problem: Slipping) -> Slipping | None:
+    operator = problem.operator.coarsened()
+    grid = problem.operator.grid
+    if operator is None or operator.grid.cells == grid.cells:
+        return None
+    shape = operator.grid.shape
+    bound = sample(problem.bound, shape, grid.periodic)
+    if np.count_nonzero(bound > 0) < _FEWEST:
+        return None
+    bound = np.maximum(bound, 0.0)
+    drive = np.stack([sample(part, shape, grid.periodic) for part in problem.drive])
+    # the same share of what friction can carry
+    force = None if problem.force is None else problem.force * (bound.sum() / problem.bound.sum())
+    return replace(problem, operator=operator, bound=bound, drive=drive, force=force)
+
+
+@dataclass(frozen=True)
+class _Neighbours:
+    """Along an axis: the coarse points before and after each fine one, and how far it is from the first."""
+
+    before: NDArray[np.int64]
+    after: NDArray[np.int64]
+    part: FloatArray
+
+
+def _neighbours(cells: int, onto: int, periodic: bool) -> _Neighbours:
+    position = np.arange(onto) * (cells / onto if periodic else 0.5 if onto > cells else 1.0)
+    before = np.floor(position).astype(np.int64)
+    after = (before + 1) % cells if periodic else np.minimum(before + 1, cells - 1)
+    return _Neighbours(before, after, position - before)
+
+
+def _interpolated(fields: FloatArray, cells: NDArray[np.bool_], grid: Grid) -> FloatArray:
+    """Bilinear interpolation among the coarse cells in contact: (parts, nx, ny); 0 where there is none around."""
+    weighted = np.concatenate([np.where(cells, fields, 0.0), cells[None].astype(np.float64)])
+    for axis in (1, 2):
+        along = _neighbours(weighted.shape[axis], grid.shape[axis - 1], grid.periodic[axis - 1])
+        part = along.part[:, None] if axis == 1 else along.part
+        weighted = weighted.take(along.before, axis) * (1 - part) + weighted.take(along.after, axis) * part
+    total = weighted[-1]
+    return np.where(total > 0, weighted[:-1] / np.where(total > 0, total, 1.0), 0.0)

@@ -1,0 +1,56 @@
+"""The result of a tangential contact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from bem.errors import Status
+from bem.grid import FloatArray
+from bem.representation import readable
+
+
+@readable
+@dataclass(frozen=True)
+class TangentialSolution:
+    """Tractions and slip of two bodies pressed together; arrays (2, nx, ny): along x and y, SI units.
+
+    Attributes
+    ----------
+    traction : [Pa], on the first body; the second has the opposite one. Nowhere above friction x pressure.
+    force : (2,) [N], the sum of the tractions on the first body.
+    shift : (2,) [m], by which the traction carries the first body's surface against the second's where they stick,
+        relative to points deep inside the bodies, since before they touched: with it the force grows. Points deep
+        inside the first body move against those of the second by minus that. Of `solve_rolling`: 0.
+    rotation : the same as an angle about the grid's centre, from x to y [rad].
+    displacement : [m], of the first surface less the second's relative to their depths, of tractions and pressure.
+    slip : [m], by which the first surface slid over the second in this step, in contact; against the traction. Of
+        `solve_rolling` over a cell's length of rolling.
+    stick_area, slip_area : [m^2], of cells.
+    dissipated_energy : [J], by friction in this step, or [J] over a cell's length of rolling.
+    residual : largest violation of Coulomb's conditions, recomputed from `traction` alone: of the displacement's error
+        where the surfaces stick, and of the slip against the traction, over the largest displacement (or imposed
+        movement); what is missed of a given force relative to friction x load, where that is more.
+    convolutions : applications of the operator on all grids, each weighed by its share of the cells; each is worth two
+        of the normal contact's.
+    iterations : rounds of the active set on all grids.
+    status : outcome; `residual` is at most the tolerance if it is converged.
+    notes : sentences on what this should not be believed in.
+    """
+
+    traction: FloatArray
+    force: FloatArray
+    shift: FloatArray
+    rotation: float
+    displacement: FloatArray
+    slip: FloatArray
+    stick_area: float
+    slip_area: float
+    dissipated_energy: float
+    residual: float
+    convolutions: float
+    iterations: int
+    status: Status
+    creepage: FloatArray = field(default_factory=lambda: np.zeros(2))
+    notes: tuple[str, ...] = ()

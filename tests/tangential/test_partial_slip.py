@@ -1,0 +1,272 @@
+"""Partial slip against Cattaneo and Mindlin, their loops, superposition for lines, and by its own certificate."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bem import (
+    Body,
+    Grid,
+    InfeasibleError,
+    InputError,
+    Layer,
+    Material,
+    displacement_operator,
+    generate_surface,
+    solve_contact,
+    solve_partial_slip,
+)
+from bem.tangential import tangential_operator
+
+# CONTACT's example of Cattaneo's shift (Kalker, Vollebregt): R 50 mm, G 200 MPa, nu 0.42, 9.1954 N, friction 0.4
+MODULUS, NU, RADIUS, LOAD, FRICTION = 200e6, 0.42, 50e-3, 9.1954, 0.4
+SOLID = Material("solid", youngs_modulus=2 * MODULUS * (1 + NU), poissons_ratio=NU)
+BODIES = (Body(SOLID), Body(SOLID))
+HALF_WIDTH = (3 * LOAD * RADIUS * (1 - NU**2) / (2 * SOLID.youngs_modulus)) ** (1 / 3)
+
+
+def ball(cells):
+    grid = Grid((cells, cells), (2.4 * HALF_WIDTH / cells,) * 2)
+    x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
+    gap = (x[:, None] ** 2 + y**2) / (2 * RADIUS)
+    return grid, solve_contact(gap, displacement_operator(grid, BODIES), load=LOAD)
+
+
+@pytest.fixture(scope="module")
+def pressed():
+    return ball(48)
+
+
+def mindlin_shift(share):
+    """Johnson (1985) eq. 7.43 with both bodies' (2 - nu) / 4G."""
+    return 3 * FRICTION * LOAD / (16 * HALF_WIDTH) * 2 * (2 - NU) / MODULUS * (1 - (1 - share) ** (2 / 3))
+
+
+def test_cattaneo_s_shift_of_the_published_example(pressed):
+    """Fx = 7/8 of friction x load: shift 8.17e-3 mm in theory, 8.155e-3 by CONTACT, 15 x 15 cells; stick radius a/2."""
+    grid, contact = pressed
+    solution = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=(7 / 8 * FRICTION * LOAD, 0.0))
+    assert solution.status == "converged"
+    assert solution.residual <= 1e-8
+    assert solution.force == pytest.approx([7 / 8 * FRICTION * LOAD, 0.0], abs=1e-12 * LOAD)
+    # the closed form lets no cell slip sideways: the exact shift is 0.18 % below it, see the next test
+    assert solution.shift[0] == pytest.approx(8.17e-6, rel=4e-3)
+    assert abs(solution.shift[1]) < 1e-7 * solution.shift[0]
+    radius = np.sqrt(solution.stick_area / (solution.stick_area + solution.slip_area))
+    assert radius == pytest.approx(0.5, abs=0.5 * grid.spacing[0] / HALF_WIDTH)  # within half a cell
+    assert solution.stick_area + solution.slip_area == pytest.approx(contact.counted_area)
+
+
+def test_shift_converges_below_mindlin_s_by_what_slips_sideways():
+    """0.18 % at nu 0.42 (CONTACT: 0.22 % on 15 x 15 cells); with nu = 0 both directions uncouple and it is exact."""
+    shifts = []
+    for cells in (32, 64, 128):
+        grid, contact = ball(cells)
+        solved = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=(7 / 8 * FRICTION * LOAD, 0.0))
+        shifts.append(solved.shift[0] / mindlin_shift(7 / 8) - 1)
+    assert shifts[-1] == pytest.approx(-1.84e-3, abs=2e-4)
+    assert abs(shifts[2] - shifts[1]) < abs(shifts[1] - shifts[0]) / 4
+
+
+def test_without_poisson_the_traction_is_cattaneo_s_superposition():
+    """nu = 0: q = f (p(P) - p(P1)), P1 the load that the stick circle carries; exact, as is the shift."""
+    material = Material("cork", youngs_modulus=1e9, poissons_ratio=0.0)
+    errors = []
+    for cells in (32, 64):
+        grid = Grid((cells, cells), (2.4 / cells,) * 2)
+        x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
+        r2 = x[:, None] ** 2 + y**2
+        pressure = 1e6 * np.sqrt(np.maximum(1 - r2, 0))
+        total = float(pressure.sum()) * grid.cell_area
+        stick = 0.6
+        share = 1 - stick**3
+        bodies = (Body(material), Body(material))
+        solved = solve_partial_slip(pressure, grid, bodies, friction=0.3, force=(share * 0.3 * total, 0.0))
+        want = 0.3 * (pressure - 1e6 * stick * np.sqrt(np.maximum(1 - r2 / stick**2, 0)))
+        errors.append(np.abs(solved.traction[0] - want).mean() / want.mean())
+        assert np.abs(solved.traction[1]).max() < 1e-6 * want.max()  # what the tolerance leaves
+    assert errors[1] < 6e-3
+    assert errors[1] < errors[0] / 1.7  # of the edge of stick, a line of cells
+
+
+def test_force_and_shift_are_two_ways_to_one_answer(pressed):
+    grid, contact = pressed
+    one = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=(1.5, 1.0), rotation=0.01)
+    two = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, shift=one.shift, rotation=0.01)
+    assert two.status == "converged"
+    np.testing.assert_allclose(two.force, one.force, rtol=1e-6)  # the stick zone's stiffness times the tolerance
+    assert np.abs(two.traction - one.traction).max() < 1e-5 * np.abs(one.traction).max()
+
+
+def test_directions_are_alike(pressed):
+    grid, contact = pressed
+    along = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=(2.0, 0.0))
+    across = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=(0.0, 2.0))
+    turned = across.traction.swapaxes(1, 2)[::-1]
+    assert np.abs(turned - along.traction).max() < 1e-5 * along.traction.max()
+
+
+def test_mindlin_and_deresiewicz_s_loop_closes_and_dissipates_its_area(pressed):
+    """Force up to F, down to -F, up again: Johnson eq. 7.48 (shift) and 7.52 (energy of a cycle)."""
+    grid, contact = pressed
+    peak = 0.6 * FRICTION * LOAD
+    solution, shifts, energy = None, [], []
+    for force in np.concatenate([[peak], peak * np.cos(np.linspace(0, 2 * np.pi, 17))[1:]]):
+        solution = solve_partial_slip(
+            contact, grid, BODIES, friction=FRICTION, force=(force, 0.0), previous=solution, tolerance=1e-6
+        )
+        assert solution.status == "converged"
+        shifts.append(solution.shift[0])
+        energy.append(solution.dissipated_energy)
+    assert shifts[-1] == pytest.approx(shifts[0], rel=1e-4)  # the loop closes
+    # and is symmetric but for what slid sideways the first time, 1.3e-4
+    assert shifts[8] == pytest.approx(-shifts[0], rel=3e-4)
+    unloaded = shifts[4]  # no force, but a shift is left
+    theory = mindlin_shift(0.6) - 2 * mindlin_shift(0.3)
+    assert unloaded == pytest.approx(theory, rel=0.02)  # the sideways slip that the closed form leaves out
+    x = 0.6
+    cycle = (
+        9 * (2 - NU) * (FRICTION * LOAD) ** 2 / (10 * HALF_WIDTH * MODULUS)
+        * (1 - (1 - x) ** (5 / 3) - 5 * x / 6 * (1 + (1 - x) ** (2 / 3)))
+    )  # fmt: skip
+    # taken in steps: each step's end tractions times its slip, which overstate by the size of a step
+    assert sum(energy[1:]) == pytest.approx(cycle, rel=0.15)
+    assert min(energy) >= 0
+
+
+def test_growing_load_with_growing_force_sticks():
+    """Mindlin and Deresiewicz: where the force grows slower than friction x load nothing slips but the new edge."""
+    grid, _ = ball(32)
+    x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
+    gap = (x[:, None] ** 2 + y**2) / (2 * RADIUS)
+    operator = displacement_operator(grid, BODIES)
+    solution = None
+    for part in (0.25, 0.5, 0.75, 1.0):
+        contact = solve_contact(gap, operator, load=part * LOAD)
+        force = (0.2 * FRICTION * part * LOAD, 0.0)
+        solution = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=force, previous=solution)
+        assert solution.status == "converged"
+    at_once = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=force)
+    assert solution.slip_area < 0.5 * at_once.slip_area
+
+
+def test_different_bodies_slip_under_pressure_alone():
+    """Spence (1968): an annulus slips, self-similar, so that its share of the radius is the same at any load."""
+    soft = Material("soft", youngs_modulus=1e9, poissons_ratio=0.1)
+    shares = []
+    for load in (1.0, 8.0):  # twice the radius
+        half = (3 * load * 10e-3 * (1 - soft.poissons_ratio**2) / (4 * soft.youngs_modulus)) ** (1 / 3)
+        grid = Grid((64, 64), (2.4 * half / 64,) * 2)
+        x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
+        gap = (x[:, None] ** 2 + y**2) / (2 * 10e-3)
+        contact = solve_contact(gap, displacement_operator(grid, Body(soft)), load=load)
+        solution = solve_partial_slip(contact, grid, Body(soft), friction=0.2, shift=(0.0, 0.0))
+        assert solution.status == "converged"
+        radial = solution.traction[0] * x[:, None] + solution.traction[1] * y
+        # the soft body spreads less under the load than where it sticks: it is drawn inwards, friction acts outwards
+        assert radial.sum() * np.sign(radial[32 + 20, 32]) > 0
+        shares.append(np.sqrt(solution.stick_area / (solution.stick_area + solution.slip_area)))
+    assert shares[0] == pytest.approx(shares[1], rel=1e-9)
+    assert 0.05 < shares[0] < 0.95
+
+
+@pytest.mark.parametrize("periodic", [(False, False), (False, True), (True, False), (True, True)])
+def test_certificate_holds_from_the_traction_alone(periodic):
+    """Rough, coated, dissimilar: Coulomb's conditions formed here from the operator, on every kind of grid."""
+    grid = Grid((48, 40), (1e-6, 1.2e-6), periodic=periodic)
+    around = Grid(grid.shape, grid.spacing, periodic=(True, True))
+    height = generate_surface(around, rms_height=20e-9, seed=3, correlation_length=6e-6)
+    steel = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
+    hard = Material("hard", youngs_modulus=400e9, poissons_ratio=0.2)
+    bodies = (Body(steel, layer=Layer(hard, 2e-6)), Body(steel))
+    contact = solve_contact(height.max() - height, displacement_operator(grid, bodies), load=0.05)
+    friction = np.full(grid.shape, 0.3)
+    friction[:20] = 0.1
+    force = (0.5 * float((friction * contact.pressure).sum()) * grid.cell_area, 0.0)
+    solution = solve_partial_slip(contact, grid, bodies, friction=friction, force=force)
+    assert solution.status == "converged"
+    operator = tangential_operator(grid, bodies)
+    displacement = operator(solution.traction) + operator.under_pressure(contact.pressure)
+    np.testing.assert_allclose(solution.displacement, displacement, rtol=0, atol=1e-14 * np.abs(displacement).max())
+    slip = displacement - solution.shift[:, None, None]
+    bound = friction * contact.pressure
+    size = np.hypot(*solution.traction)
+    inside = (bound > 0) & (size < (1 - 1e-6) * bound)
+    scale = np.abs(displacement).max()
+    assert inside.any()
+    assert np.abs(slip[:, inside]).max() < 1e-6 * scale
+    assert (size <= bound * (1 + 1e-12)).all()
+    sliding = (bound > 0) & ~inside
+    along = (slip * solution.traction).sum(0)[sliding]
+    cross = (slip[0] * solution.traction[1] - slip[1] * solution.traction[0])[sliding]
+    assert along.max() < 1e-6 * scale * bound.max()  # against the slip
+    assert np.abs(cross).max() < 1e-6 * scale * bound.max()  # and parallel to it
+
+
+@settings(max_examples=15)
+@given(
+    seed=st.integers(0, 10**6),
+    share=st.floats(0.01, 0.99),
+    angle=st.floats(0, 6.28),
+    nu=st.floats(0.0, 0.49),
+    ratio=st.floats(-2, 2),
+    layered=st.booleans(),
+)
+def test_random_contacts_converge(seed, share, angle, nu, ratio, layered):
+    grid = Grid((32, 32), (1.0, 1.0), periodic=(True, True))
+    height = generate_surface(grid, rms_height=1.0, seed=seed, hurst=0.8, rolloff_wavelength=16, cutoff_wavelength=4)
+    first = Material("first", youngs_modulus=100.0, poissons_ratio=nu)
+    second = Material("second", youngs_modulus=100.0 * 10**ratio, poissons_ratio=0.3)
+    bodies = (Body(first, layer=Layer(second, 2.0)) if layered else Body(first), Body(second))
+    contact = solve_contact(height.max() - height, displacement_operator(grid, bodies), load=2.0 * 1024)
+    force = share * 0.4 * contact.load * np.array([np.cos(angle), np.sin(angle)])
+    solution = solve_partial_slip(contact, grid, bodies, friction=0.4, force=force)
+    assert solution.status == "converged", (solution.residual, solution.iterations)
+
+
+def test_a_history_keeps_what_sticks(pressed):
+    """The same force again changes nothing; a smaller one unloads from the edge only."""
+    grid, contact = pressed
+    first = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=(2.0, 0.0))
+    again = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=(2.0, 0.0), previous=first)
+    assert np.abs(again.traction - first.traction).max() < 1e-5 * first.traction.max()
+    assert again.dissipated_energy < 1e-6 * first.dissipated_energy
+    back = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=(1.0, 0.0), previous=again)
+    fresh = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=(1.0, 0.0))
+    assert np.abs(back.traction - fresh.traction).max() > 0.1 * fresh.traction.max()
+    assert back.shift[0] > fresh.shift[0]
+
+
+def test_few_convolutions():
+    """Counted: a 128 x 128 ball 49, rough ones of 128 to 256 cells 38 to 51, whatever the force."""
+    grid, contact = ball(128)
+    solution = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=(2.0, 0.0))
+    assert solution.convolutions <= 60
+
+
+def test_nothing_presses_and_nothing_rubs(pressed):
+    grid, contact = pressed
+    for pressure, friction in ((np.zeros(grid.shape), 0.3), (contact, 0.0)):
+        solution = solve_partial_slip(pressure, grid, BODIES, friction=friction, shift=(1e-6, 0.0))
+        assert solution.status == "converged"
+        assert not solution.traction.any()
+
+
+def test_messages(pressed):
+    grid, contact = pressed
+    with pytest.raises(InfeasibleError, match=r"must be less than friction x load = 3\.67"):
+        solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=(3.7, 0.0))
+    with pytest.raises(InputError, match="exactly one"):
+        solve_partial_slip(contact, grid, BODIES, friction=FRICTION)
+    with pytest.raises(InputError, match="friction: every coefficient"):
+        solve_partial_slip(contact, grid, BODIES, friction=-0.1, shift=(0.0, 0.0))
+    with pytest.raises(InputError, match="must not be negative"):
+        solve_partial_slip(-contact.pressure, grid, BODIES, friction=0.1, shift=(0.0, 0.0))
+    with pytest.raises(InputError, match="two finite numbers"):
+        solve_partial_slip(contact, grid, BODIES, friction=0.1, force=3.0)
+    with pytest.raises(InputError, match="rotation"):
+        solve_partial_slip(contact, grid, BODIES, friction=0.1, shift=(0.0, 0.0), rotation=np.nan)
+    other = solve_partial_slip(np.zeros((4, 4)), Grid((4, 4), (1.0, 1.0)), BODIES, friction=0.1, shift=(0.0, 0.0))
+    with pytest.raises(InputError, match="previous"):
+        solve_partial_slip(contact, grid, BODIES, friction=0.1, shift=(0.0, 0.0), previous=other)
