@@ -30,9 +30,9 @@ from bem.threads import one_blas_thread
 from bem.transforms import (
     Multiplier,
     PaddedTransform,
-    cosines,
     kernel_spectrum,
     multiplier,
+    offset_cosines,
     padded_length,
     transform_of,
 )
@@ -334,8 +334,8 @@ class DisplacementOperator:
         if radius not in self._near_fields:
             px, py = self.padded
             offsets = np.arange(-radius, radius + 1)
-            along_x = cosines(px, offsets)
-            along_y = cosines(py, offsets)
+            along_x = offset_cosines(px, offsets)
+            along_y = offset_cosines(py, offsets)
             # einsum: no threads of a BLAS library, the same bits everywhere
             rows = np.einsum("jk,kl->jl", along_y, self._spectra.even)
             self._near_fields[radius] = np.einsum("il,jl->ij", along_x, rows)

@@ -21,7 +21,7 @@ from bem.grid import FloatArray, Grid
 from bem.kernels import spectral
 from bem.kernels.coefficients import IN_PLANE_PARITY, Load, in_plane_coefficients, surface_coefficients
 from bem.materials import Body
-from bem.transforms import cosines, kernel_spectrum, padded_length, transform_of
+from bem.transforms import kernel_spectrum, offset_cosines, padded_length, transform_of
 
 ComplexArray = NDArray[np.complex128]
 
@@ -111,7 +111,7 @@ class TangentialOperator:
         """Displacements [m/Pa] of a cell along x and along y under a unit traction on itself alone."""
         px, py = self.padded
         here = np.zeros(1, np.int64)
-        across, along = cosines(px, here)[0], cosines(py, here)[0]
+        across, along = offset_cosines(px, here)[0], offset_cosines(py, here)[0]
         xx, yy = (float(np.einsum("i,ij,j->", along, part, across)) for part in self.spectra[:2])
         return xx, yy
 
@@ -120,8 +120,8 @@ class TangentialOperator:
         px, py = self.padded
         offsets = np.arange(-radius, radius + 1)
         mean = 0.5 * (self.spectra.xx + self.spectra.yy)
-        rows = np.einsum("jk,kl->jl", cosines(py, offsets), mean)
-        return np.einsum("il,jl->ij", cosines(px, offsets), rows)
+        rows = np.einsum("jk,kl->jl", offset_cosines(py, offsets), mean)
+        return np.einsum("il,jl->ij", offset_cosines(px, offsets), rows)
 
     def coarsened(self) -> TangentialOperator | None:
         """The same bodies on a grid of half as many cells along each axis; None where that grid is too small."""

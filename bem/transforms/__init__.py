@@ -18,7 +18,7 @@ numpy's and scipy's transforms.
 
 from bem.transforms.cache import set_transform_memory, transform_memory, transform_of
 from bem.transforms.count import COUNT, TransformCount
-from bem.transforms.kernel import cosines, kernel_spectrum, padded_length
+from bem.transforms.kernel import kernel_spectrum, offset_cosines, padded_length
 from bem.transforms.padded import PaddedTransform
 from bem.transforms.products import Multiplier, multiplier
 
@@ -27,9 +27,9 @@ __all__ = [
     "Multiplier",
     "PaddedTransform",
     "TransformCount",
-    "cosines",
     "kernel_spectrum",
     "multiplier",
+    "offset_cosines",
     "padded_length",
     "set_transform_memory",
     "transform_memory",

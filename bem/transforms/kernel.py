@@ -47,7 +47,7 @@ def kernel_spectrum(coefficients: FloatArray, padded: tuple[int, int], parity: t
     return np.ascontiguousarray(_half_spectrum(result, padded[0], parity[0]))
 
 
-def cosines(length: int, offsets: NDArray[np.int64]) -> FloatArray:
+def offset_cosines(length: int, offsets: NDArray[np.int64]) -> FloatArray:
     """Inverse transform of an even spectrum at a few offsets, from non-negative wavenumbers: (offsets, wavenumbers)."""
     wavenumbers = np.arange(length // 2 + 1)
     weights = np.where((wavenumbers == 0) | (2 * wavenumbers == length), 1.0, 2.0) / length
