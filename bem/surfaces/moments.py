@@ -17,6 +17,7 @@ import scipy.fft as fft
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.surfaces.distributions import standard_quantiles
+from bem.surfaces.ranks import in_order_of
 from bem.surfaces.spectrum import multiplicity
 
 STATISTICS_TOLERANCE = 1e-6
@@ -65,11 +66,9 @@ def impose_moments(heights: FloatArray, amplitude: FloatArray, skewness: float, 
 
 
 def _rank_and_spectrum(heights: FloatArray, amplitude: FloatArray, skewness: float, kurtosis: float) -> FloatArray:
-    target = standard_quantiles(heights.size, skewness, kurtosis)
+    target, heights = standard_quantiles(heights.size, skewness, kurtosis), heights.copy()
     for _ in range(_ITERATIONS):
-        ranked = np.empty(heights.size)
-        ranked[np.argsort(heights, axis=None, kind="stable")] = target
-        spectrum = fft.rfft2(ranked.reshape(heights.shape))
+        spectrum = fft.rfft2(in_order_of(heights, target))
         size = np.abs(spectrum)
         spectrum *= np.divide(amplitude, size, out=np.zeros_like(size), where=size > 0)
         heights = standardise(fft.irfft2(spectrum, heights.shape))

@@ -50,7 +50,7 @@ def test_a_disk_without_room_is_said_beforehand(tmp_path, monkeypatch):
 def test_results_are_the_same_on_disk_and_in_memory(tmp_path, monkeypatch):
     run_scene(SCENE, tmp_path / "memory")
     monkeypatch.setattr("bem.results.scratch.scratch_array.__defaults__", (1,))
-    monkeypatch.setattr("bem.results.dataset.LARGE", 1)
+    monkeypatch.setattr("bem.results.netcdf.LARGE", 1)
     run_scene(SCENE, tmp_path / "disk")
     first, second = open_run(tmp_path / "memory"), open_run(tmp_path / "disk")
     assert first.dataset.identical(second.dataset)
@@ -65,7 +65,7 @@ def test_results_are_the_same_on_disk_and_in_memory(tmp_path, monkeypatch):
 def test_a_field_written_in_parts_reads_the_same(tmp_path, monkeypatch):
     values = np.random.default_rng(1).normal(size=(5, 6, 7))
     variables = {"field": Variable(("a", "b", "c"), values, "Pa", "a field")}
-    monkeypatch.setattr("bem.results.dataset.LARGE", 1)
+    monkeypatch.setattr("bem.results.netcdf.LARGE", 1)
     write_variables(tmp_path / "parts.nc", variables, {})
     np.testing.assert_array_equal(read_dataset(tmp_path / "parts.nc")["field"], values)
 

@@ -95,4 +95,4 @@ def test_xarray_opens_it(tmp_path, variables):
     assert dataset.pressure.dims == ("x", "y")
     assert (dataset.x.values == variables["x"].values).all()
     assert dataset.component.values.tolist() == ["xx", "größer"]
-    assert float(dataset.load) == 2.5
+    assert float(dataset["load"]) == 2.5

@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 from bem import Grid, InputError, describe_surface, generate_surface
 from bem.surfaces import radial_spectrum
 from bem.surfaces.distributions import standard_quantiles
 from bem.surfaces.generate import SAMPLE_LENGTH_TOLERANCE
 from bem.surfaces.moments import STATISTICS_TOLERANCE
+from bem.surfaces.ranks import in_order_of
 
 CELL = 1e-7
 PERIODIC = (True, True)
@@ -329,3 +331,12 @@ def test_any_correlation_is_met_or_refused(nx, ny, length_x, length_y, model, cu
         ):
             if n > 1:
                 assert given_ == pytest.approx(wanted, rel=SAMPLE_LENGTH_TOLERANCE + 1e-9)
+
+
+@given(arrays(np.float64, st.tuples(st.integers(1, 9), st.integers(1, 300)), elements=st.floats(-2, 2, width=16)))
+def test_values_are_put_in_the_order_of_a_stable_sort(heights):
+    """Few different heights, so that many are equal; zeros of both signs are one height."""
+    target = np.arange(heights.size, dtype=float)
+    expected = np.empty(heights.size)
+    expected[np.argsort(heights, axis=None, kind="stable")] = target
+    assert (in_order_of(heights.copy(), target).reshape(-1) == expected).all()
