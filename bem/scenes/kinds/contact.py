@@ -73,7 +73,11 @@ def plan(scene: ContactScene) -> Plan:
     return Plan(
         (
             *bodies,
-            plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}"),
+            plans.contact(
+                grid,
+                f"{scene.contact.behaviour}, {scene.contact.words()}",
+                capped=scene.contact.behaviour == "capped",
+            ),
             plans.stresses(grid, stressed, outputs.body, depths, fields=fields, loads=1 if friction == 0 else 2),
             plans.error_bars(outputs.errors, "the contact on the grid of twice the cell", **coarser),
             plans.vtk(outputs.vtk and depths > 0),

@@ -43,7 +43,7 @@ def plan(scene: SurfaceTemperatureScene) -> Plan:
     return Plan(
         (
             *rubbing,
-            plans.contact(grid, scene.contact.behaviour),
+            plans.contact(grid, scene.contact.behaviour, capped=scene.contact.behaviour == "capped"),
             Step(
                 "surface temperature",
                 "heat of friction, shared between the bodies" if pair else "all heat enters the lower body",
