@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from bem.accuracy.mixed import CoarserShares, MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
     from bem.accuracy.rubbing import RubbingCase, rubbing_bars
     from bem.accuracy.stress import stress_bars
+    from bem.accuracy.traction import TractionCase, traction_bars, traction_figures
 
 __all__ = [
     "Coarser",
@@ -41,6 +42,7 @@ __all__ = [
     "MixedCase",
     "OtherFilm",
     "RubbingCase",
+    "TractionCase",
     "asperity_bars",
     "coarser_before",
     "contact_bars",
@@ -57,6 +59,8 @@ __all__ = [
     "solve_coarser_mixed",
     "stress_bars",
     "surface_is_resolved",
+    "traction_bars",
+    "traction_figures",
 ]
 
 __getattr__ = loader(
@@ -78,5 +82,6 @@ __getattr__ = loader(
         "mixed": ["CoarserShares", "MixedCase", "mixed_bars", "mixed_figures", "solve_coarser_mixed"],
         "rubbing": ["RubbingCase", "rubbing_bars"],
         "stress": ["stress_bars"],
+        "traction": ["TractionCase", "traction_bars", "traction_figures"],
     },
 )

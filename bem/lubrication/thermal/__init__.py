@@ -1,6 +1,6 @@
 """Heat in line films, lumped across the film: `solve_thermal_line_film` (in `lumped`).
 
-`inlet` has the factor of inlet heating, `energy` the balance along the film with two moving half-spaces,
+`inlet` has the factor of inlet heating, `strip` the film in cells, `energy` their balance with two moving half-spaces,
 `hot_viscosity` the oil over pressure and temperature. Sees films, oils and `bem.heat`. Names are loaded when they are
 first used. Verified in tests/lubrication/test_thermal_film.py.
 """

@@ -19,27 +19,24 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor, conductors_of
 from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_friction import upstream_of_mesh
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.oils.oil import HOTTEST
+from bem.lubrication.oils.oil import EXTRAPOLATED, HOTTEST, Oil
 from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.steady import KeptSteady, solve_line_film
 from bem.lubrication.thermal.energy import Channel, Temperatures, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.lubrication.thermal.inlet import InletHeating, hertz_over_modulus, inlet_heating_factor
+from bem.lubrication.thermal.strip import Strip, derivative_of, strip_of, summed
 from bem.lubrication.validity import HEATING_NOTES, Case, notes_on
 from bem.lubrication.viscosity import ViscosityLaw
 from bem.materials import Body
 from bem.threads import one_blas_thread
 
-CELLS = 200
-"""Along the film, where temperatures are found."""
 COARSE = 250
 """Points of the films that say how thin the oil must be."""
 FILM_EXPONENT = 0.69
@@ -236,71 +233,6 @@ def _thinned(
     return films
 
 
-@dataclass(frozen=True)
-class _Strip:
-    """A film along its entrainment: nodes (n,) [m], pressure [Pa], thickness [m], gradient [Pa/m]; `into` : the cell of
-    each piece between nodes (n-1,); heat of rolling in the cells [W/m]; sliding, along the entrainment [m/s]."""
-
-    x: FloatArray
-    pressure: FloatArray
-    thickness: FloatArray
-    gradient: FloatArray
-    cell: NDArray[np.intp]
-    edges: FloatArray
-    rolling: FloatArray
-    rolling_force: float
-    upstream: float
-    sliding: float
-
-
-def _strip(film: FilmSolution) -> _Strip:
-    kept = film.state
-    assert isinstance(kept, KeptSteady)
-    state, scales = kept.state, kept.scales
-    x, thickness = state.position * scales.length, state.film * scales.film
-    pressure = np.maximum(state.pressure, 0.0) * scales.pressure
-    first, second = (speed * (-1.0 if kept.reversed else 1.0) for speed in film.speeds)
-    tail_1, tail_2 = upstream_of_mesh(state)
-    edges = _cell_edges(x, pressure)
-    cell = np.searchsorted(edges, 0.5 * (x[1:] + x[:-1])) - 1
-    pieces = 0.25 * (thickness[1:] + thickness[:-1]) * np.diff(pressure)
-    upstream_force = 3 * (tail_1 - state.film[-1] * tail_2) * scales.film * scales.pressure
-    flow = 0.5 * (first + second) * thickness[-1]
-    # work of the pressure on what flows: integral of dp/rho, a function of the pressure alone
-    nodes, weights = np.polynomial.legendre.leggauss(8)
-    at = 0.5 * pressure[:, None] * (nodes + 1)
-    work = 0.5 * pressure * ((1 / film.lubricant.density_ratio(at)[0]) @ weights)
-    rolling = _summed(cell, (first + second) * pieces - flow * np.diff(work), len(edges) - 1)
-    rolling[0] += (first + second) * upstream_force - flow * work[0]
-    return _Strip(
-        x=x,
-        pressure=pressure,
-        thickness=thickness,
-        gradient=np.gradient(pressure, x),
-        cell=cell,
-        edges=edges,
-        rolling=rolling,
-        rolling_force=float(pieces.sum()) + upstream_force,
-        upstream=tail_1 * scales.length / scales.film,
-        sliding=first - second,
-    )
-
-
-def _summed(cell: NDArray[np.intp], values: FloatArray, cells: int) -> FloatArray:
-    """Of the pieces in each cell."""
-    return np.bincount(cell, values, cells).astype(np.float64)
-
-
-def _cell_edges(x: FloatArray, pressure: FloatArray) -> FloatArray:
-    """Some of the nodes: even where there is pressure, coarser in proportion upstream."""
-    loaded = x[pressure > 0.02 * pressure.max()]
-    half = 0.5 * float(loaded[-1] - loaded[0])
-    density = 1 / np.maximum(half, np.abs(x - 0.5 * (loaded[0] + loaded[-1])))
-    count = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * np.diff(x))])
-    chosen = np.searchsorted(count, np.linspace(0.0, count[-1], CELLS + 1))
-    return np.asarray(x[np.unique(np.clip(chosen, 0, len(x) - 1))])
-
-
 def _heated(
     film: FilmSolution,
     films: list[FilmSolution],
@@ -309,7 +241,7 @@ def _heated(
     bodies: tuple[Conductor, Conductor],
 ) -> ThermalFilm:
     """Temperatures and friction of a film."""
-    strip, viscosity = _strip(film), HotViscosity.of(lubricant)
+    strip, viscosity = strip_of(film), HotViscosity.of(lubricant)
     middle, width = 0.5 * (strip.edges[1:] + strip.edges[:-1]), np.diff(strip.edges)
     pieces = np.diff(strip.x)
 
@@ -328,15 +260,15 @@ def _heated(
 
     def heat(temperature: FloatArray) -> tuple[FloatArray, FloatArray]:
         stress, slope = stresses(temperature)
-        made = _summed(strip.cell, 0.5 * pieces * (stress[1:] + stress[:-1]), len(width))
+        made = summed(strip.cell, 0.5 * pieces * (stress[1:] + stress[:-1]), len(width))
         made[0] += ambient
-        derivative = _derivative(strip, middle, 0.5 * pieces * slope[:-1], 0.5 * pieces * slope[1:])
+        derivative = derivative_of(strip, middle, 0.5 * pieces * slope[:-1], 0.5 * pieces * slope[1:])
         return (strip.sliding * made + strip.rolling) / width, strip.sliding * derivative / width[:, None]
 
     density, capacity = lubricant.density or 0.0, lubricant.heat_capacity or 0.0
     flow = 0.5 * abs(sum(film.speeds)) * float(strip.thickness[-1])
     supply = float(lubricant.temperature or 0.0)
-    cells = _summed(strip.cell, 0.5 * pieces * (strip.thickness[1:] + strip.thickness[:-1]), len(width)) / width
+    cells = summed(strip.cell, 0.5 * pieces * (strip.thickness[1:] + strip.thickness[:-1]), len(width)) / width
     channel = Channel(
         strip.edges, cells, lubricant.thermal_conductivity or 0.0, density * capacity * flow, supply, bodies
     )
@@ -346,24 +278,12 @@ def _heated(
     return _result(film, films, inlet, lubricant, strip, channel, found, couette)
 
 
-def _derivative(strip: _Strip, middle: FloatArray, before: FloatArray, after: FloatArray) -> FloatArray:
-    """Of what the cells sum up with the temperatures at their middles (m, m), from what pieces do at both their nodes;
-    temperatures at nodes are interpolated linearly."""
-    out = np.zeros((len(middle), len(middle)))
-    right = np.clip(np.searchsorted(middle, strip.x), 1, len(middle) - 1)
-    share = np.clip((strip.x - middle[right - 1]) / (middle[right] - middle[right - 1]), 0.0, 1.0)
-    for values, node in ((before, slice(None, -1)), (after, slice(1, None))):
-        np.add.at(out, (strip.cell, right[node]), values * share[node])
-        np.add.at(out, (strip.cell, right[node] - 1), values * (1 - share[node]))
-    return out
-
-
 def _result(  # reason: what was found on the way, gathered once
     film: FilmSolution,
     films: list[FilmSolution],
     inlet: InletHeating,
     lubricant: Lubricant,
-    strip: _Strip,
+    strip: Strip,
     channel: Channel,
     found: Temperatures,
     couette: float,
@@ -436,8 +356,19 @@ def _notes(
             "are extrapolated"
         )
     elif lubricant.oil is not None:
-        cool = set(lubricant.notes)
-        said += [f"at its hottest in the contact: {note}" for note in lubricant.oil.notes(hottest) if note not in cool]
+        said += _hot_oil(lubricant.oil, hottest)
     if min(abs(speed) for speed in speeds) == 0:
         said.append("a body at rest is taken as cool at a distance of the cylinder's radius")
     return tuple(said)
+
+
+def _hot_oil(oil: Oil, hottest: float) -> list[str]:
+    """What the oil's figures do not hold for at its hottest; without the temperature, which a curve has many of."""
+    if oil.boiling_point is not None and hottest > oil.boiling_point:
+        return [f"{oil.name} is above its boiling point in the contact: it is taken as a liquid there"]
+    if hottest > oil.viscosity.highest + EXTRAPOLATED:
+        return [
+            f"{oil.name} is more than {EXTRAPOLATED:g} K hotter in the contact than where its viscosity is known, "
+            f"{oil.viscosity.highest - _CELSIUS:.6g} degC: it is extrapolated"
+        ]
+    return []

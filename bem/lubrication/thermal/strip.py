@@ -1,0 +1,94 @@
+"""A solved film along its entrainment, cut into cells that heat is made in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.grid import FloatArray
+from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_friction import upstream_of_mesh
+from bem.lubrication.steady import KeptSteady
+
+CELLS = 200
+"""Along the film, where temperatures are found."""
+
+
+@dataclass(frozen=True)
+class Strip:
+    """A film along its entrainment: nodes (n,) [m], pressure [Pa], thickness [m], gradient [Pa/m]; `into` : the cell of
+    each piece between nodes (n-1,); heat of rolling in the cells [W/m]; sliding, along the entrainment [m/s]."""
+
+    x: FloatArray
+    pressure: FloatArray
+    thickness: FloatArray
+    gradient: FloatArray
+    cell: NDArray[np.intp]
+    edges: FloatArray
+    rolling: FloatArray
+    rolling_force: float
+    upstream: float
+    sliding: float
+
+
+def strip_of(film: FilmSolution) -> Strip:
+    """Of a steady film."""
+    kept = film.state
+    assert isinstance(kept, KeptSteady)
+    state, scales = kept.state, kept.scales
+    x, thickness = state.position * scales.length, state.film * scales.film
+    pressure = np.maximum(state.pressure, 0.0) * scales.pressure
+    first, second = (speed * (-1.0 if kept.reversed else 1.0) for speed in film.speeds)
+    tail_1, tail_2 = upstream_of_mesh(state)
+    edges = cell_edges(x, pressure)
+    cell = np.searchsorted(edges, 0.5 * (x[1:] + x[:-1])) - 1
+    pieces = 0.25 * (thickness[1:] + thickness[:-1]) * np.diff(pressure)
+    upstream_force = 3 * (tail_1 - state.film[-1] * tail_2) * scales.film * scales.pressure
+    flow = 0.5 * (first + second) * thickness[-1]
+    # work of the pressure on what flows: integral of dp/rho, a function of the pressure alone
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    at = 0.5 * pressure[:, None] * (nodes + 1)
+    work = 0.5 * pressure * ((1 / film.lubricant.density_ratio(at)[0]) @ weights)
+    rolling = summed(cell, (first + second) * pieces - flow * np.diff(work), len(edges) - 1)
+    rolling[0] += (first + second) * upstream_force - flow * work[0]
+    return Strip(
+        x=x,
+        pressure=pressure,
+        thickness=thickness,
+        gradient=np.gradient(pressure, x),
+        cell=cell,
+        edges=edges,
+        rolling=rolling,
+        rolling_force=float(pieces.sum()) + upstream_force,
+        upstream=tail_1 * scales.length / scales.film,
+        sliding=first - second,
+    )
+
+
+def summed(cell: NDArray[np.intp], values: FloatArray, cells: int) -> FloatArray:
+    """Of the pieces in each cell."""
+    return np.bincount(cell, values, cells).astype(np.float64)
+
+
+def cell_edges(x: FloatArray, pressure: FloatArray) -> FloatArray:
+    """Some of the nodes: even where there is pressure, coarser in proportion upstream."""
+    loaded = x[pressure > 0.02 * pressure.max()]
+    half = 0.5 * float(loaded[-1] - loaded[0])
+    density = 1 / np.maximum(half, np.abs(x - 0.5 * (loaded[0] + loaded[-1])))
+    count = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * np.diff(x))])
+    chosen = np.searchsorted(count, np.linspace(0.0, count[-1], CELLS + 1))
+    return np.asarray(x[np.unique(np.clip(chosen, 0, len(x) - 1))])
+
+
+def derivative_of(strip: Strip, middle: FloatArray, before: FloatArray, after: FloatArray) -> FloatArray:
+    """Of what the cells sum up with the temperatures at their middles (m, m), from what pieces do at both their nodes;
+    temperatures at nodes are interpolated linearly."""
+    out = np.zeros((len(middle), len(middle)))
+    right = np.clip(np.searchsorted(middle, strip.x), 1, len(middle) - 1)
+    share = np.clip((strip.x - middle[right - 1]) / (middle[right] - middle[right - 1]), 0.0, 1.0)
+    for values, node in ((before, slice(None, -1)), (after, slice(1, None))):
+        np.add.at(out, (strip.cell, right[node]), values * share[node])
+        np.add.at(out, (strip.cell, right[node] - 1), values * (1 - share[node]))
+    return out

@@ -1,0 +1,192 @@
+"""Kind `traction`: friction of a smooth rolling and sliding line contact, with the heat that it makes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import numpy as np
+from pydantic import model_validator
+
+from bem.errors import Status
+from bem.grid import FloatArray
+from bem.scenes import build, plans
+from bem.scenes.common import BodyScene, OutputsScene, SceneModel, problem
+from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.kind import Kind
+from bem.scenes.oil import OilScene
+from bem.scenes.planner import Plan, Step
+from bem.scenes.records import Figure, Record, Series, filled
+from bem.scenes.tables.rolling import FilmPointsScene, RollerScene, RollingScene
+
+if TYPE_CHECKING:
+    from bem.accuracy import TractionCase
+
+_NEEDED = ("temperature", "density", "heat_capacity", "thermal_conductivity", "temperature_viscosity")
+_SHOWN = np.linspace(-2.5, 1.5, 401)
+"""Where curves are given, in half-widths of the Hertz contact along the entrainment."""
+
+
+class TractionScene(SceneModel):
+    """A smooth roller on a smooth flat with oil between them, in steady motion.
+
+    `thermal`: "lumped" for `bem.solve_thermal_line_film`, or "off".
+    """
+
+    kind: Literal["traction"] = "traction"
+    lower: BodyScene
+    upper: BodyScene
+    roller: RollerScene
+    oil: OilScene
+    rolling: RollingScene
+    thermal: Literal["off", "lumped"] = "lumped"
+    film: FilmPointsScene = FilmPointsScene()
+    outputs: OutputsScene = OutputsScene()
+
+    @model_validator(mode="after")
+    def _complete(self) -> TractionScene:
+        if self.lower.surface.kind != "smooth" or self.upper.surface.kind != "smooth":
+            raise problem("a rough surface", 'smooth surfaces, or kind = "friction"')
+        if self.thermal == "off":
+            return self
+        oil = self.oil.build()
+        missing = [key for key in _NEEDED if getattr(oil, key) is None]
+        if missing:
+            raise problem(
+                f"heat of an oil without {', '.join(missing)}",
+                'an oil by grade and temperature, those keys of the oil, or thermal = "off"',
+            )
+        for name in ("lower", "upper"):
+            body = getattr(self, name).build()
+            if body.layers or None in (body.material.thermal_conductivity, body.material.thermal_diffusivity):
+                raise problem(
+                    f"heat of {name}, which has layers or a material without thermal constants",
+                    'materials with thermal_conductivity, density and heat_capacity, or thermal = "off"',
+                )
+        return self
+
+
+def plan(scene: TractionScene) -> Plan:
+    """What will be computed."""
+    points, hot, errors = scene.film.points, scene.thermal != "off", scene.outputs.errors
+    seconds = 0.15 + 1e-4 * points
+    return Plan(
+        (
+            Step("film", f"Newton's method on {points} points", seconds=seconds, memory=600.0 * points),
+            Step(
+                "heat",
+                "inlet heating, mean temperature of the oil along the film" if hot else 'thermal is "off"',
+                skipped=not hot,
+                seconds=0.3,
+                memory=2e7,
+            ),
+            Step(
+                "error bars",
+                "the same on half the points" if errors else "outputs.errors is false",
+                skipped=not errors,
+                seconds=0.5 * seconds + (0.3 if hot else 0.0),
+            ),
+            plans.figures(),
+        )
+    )
+
+
+_along = partial(Series, ("x",))
+_FORMULA = "it is a formula's"
+_ALGEBRA = "it closes by construction, to rounding"
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TractionRecord(Record):
+    """One steady motion; temperatures only with heat."""
+
+    traction_coefficient: Annotated[float, Figure("", "friction force over load", headline=True)]
+    sliding_traction: Annotated[float, Figure("", "its part from sliding")]
+    minimum_thickness: Annotated[float, Figure("nm", "minimum film", headline=True)]
+    central_thickness: Annotated[float, Figure("nm", "film at the centre", headline=True)]
+    maximum_pressure: Annotated[float, Figure("Pa", "highest pressure")]
+    film_temperature: Annotated[float | None, Figure("C", "highest mean temperature of the oil", headline=True)] = None
+    lower_temperature: Annotated[float | None, Figure("C", "highest temperature of the lower surface")] = None
+    upper_temperature: Annotated[float | None, Figure("C", "highest temperature of the upper surface")] = None
+    inlet_factor: Annotated[float | None, Figure("", "film over that without inlet heating", no_bar=_FORMULA)] = None
+    friction_power: Annotated[float | None, Figure("W", "heat made by friction")] = None
+    share_of_lower: Annotated[float | None, Figure("", "share of it that enters the lower body")] = None
+    share_of_upper: Annotated[float | None, Figure("", "share that enters the upper body")] = None
+    share_of_oil: Annotated[float | None, Figure("", "share that the oil carries on")] = None
+    energy_imbalance: Annotated[float | None, Figure("", "friction power less all of these", no_bar=_ALGEBRA)] = None
+    newton_steps: Annotated[int, Figure("", "Newton steps of all films")]
+    x: Annotated[FloatArray, _along("1", "x over the Hertz half-width, along the entrainment")]
+    pressure: Annotated[FloatArray, _along("Pa", "film pressure")]
+    thickness: Annotated[FloatArray, _along("m", "film thickness")]
+    oil_temperature: Annotated[FloatArray | None, _along("K", "mean temperature of the oil across the film")] = None
+    lower_surface_temperature: Annotated[FloatArray | None, _along("K", "temperature of the lower surface")] = None
+    upper_surface_temperature: Annotated[FloatArray | None, _along("K", "temperature of the upper surface")] = None
+    heat_made: Annotated[FloatArray | None, _along("W/m^2", "heat made by friction")] = None
+
+
+def run(scene: TractionScene, context: Context) -> TractionRecord:
+    """Solve the film, with its heat where asked."""
+    from bem.accuracy import traction_bars, traction_figures
+
+    case = _case(scene)
+    with context.timer("film"):
+        found = case.on(case.points)
+    film = found.film if case.hot else found
+    tell(context, found.notes)
+    wanted = scene.outputs.errors and found.status is Status.CONVERGED
+    return filled(
+        TractionRecord,
+        traction_figures(case, found),
+        _curves(scene, case, found, film),
+        newton_steps=int(found.iterations),
+        **error_bars(context, wanted, lambda: traction_bars(case, found)),
+        status=found.status,
+        where=f"film: {film.status.message}, residual {film.residual:.1e}",
+    )
+
+
+def _case(scene: TractionScene) -> TractionCase:
+    from bem.accuracy import TractionCase
+
+    modulus, oil, rolling = build.modulus_of(scene), scene.oil.build(), scene.rolling
+    return TractionCase(
+        load=scene.roller.per_length(modulus),
+        radius=scene.roller.radius,
+        contact_modulus=modulus,
+        speeds=rolling.speeds,
+        lubricant=oil,
+        points=scene.film.points,
+        width=scene.roller.width,
+        bodies=(scene.lower.build(), scene.upper.build()) if scene.thermal == "lumped" else None,
+        bulk=tuple(oil.temperature or 0.0 if t is None else t for t in (rolling.lower_bulk, rolling.upper_bulk)),
+    )
+
+
+def _curves(scene: TractionScene, case: TractionCase, found: Any, film: Any) -> dict[str, FloatArray]:
+    """Along the film at the same places of every case."""
+    half = math.sqrt(4 * case.load * case.radius / (math.pi * case.contact_modulus))
+    at = _SHOWN * half
+    pressure, thickness = film.at(at)
+    curves = {"x": _SHOWN, "pressure": pressure, "thickness": thickness}
+    if not case.hot:
+        return curves
+    rows = {
+        "oil_temperature": found.film_temperature,
+        "lower_surface_temperature": found.surface_temperatures[0],
+        "upper_surface_temperature": found.surface_temperatures[1],
+        "heat_made": found.heat_made,
+    }
+    # behind the film's exit nothing is known of the oil
+    inside = at <= found.position[-1]
+    return curves | {name: np.where(inside, np.interp(at, found.position, row), np.nan) for name, row in rows.items()}
+
+
+KIND = Kind.of(
+    vars(),
+    TractionScene,
+    TractionRecord,
+    "traction of a smooth rolling and sliding line contact, with the heat in its film",
+    figures=("traction-curve", "film-temperatures", "rolling-film"),
+)

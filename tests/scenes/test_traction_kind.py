@@ -1,0 +1,108 @@
+"""The kind `traction`: a scene from tables to figures, over the slide-to-roll ratio, and its mistakes in words."""
+
+import numpy as np
+import pytest
+
+from bem import InputError, load_scene, solve_line_film, solve_thermal_line_film
+from bem.runs import run_scene
+
+ROUGH = {"kind": "generated", "rms_height": "1 um", "correlation_length": "9 um"}
+
+
+def scene(**changes):
+    table = {
+        "kind": "traction",
+        "lower": {"material": "steel-52100"},
+        "upper": {"material": "steel-52100"},
+        "roller": {"radius": "10 mm", "width": "8 mm", "hertz_pressure": "0.7 GPa"},
+        "oil": {
+            "grade": "ISO VG 68",
+            "temperature": "60 degC",
+            "density_law": "dowson_higginson",
+            "shear_law": "eyring",
+            "shear_stress_limit": "5 MPa",
+        },
+        "rolling": {"mean_speed": "5 m/s"},
+        "film": {"points": 200},
+    }
+    return {**table, **changes}
+
+
+def test_a_curve_over_the_slide_to_roll_ratio(tmp_path):
+    run = run_scene(scene(over={"rolling.slide_roll_ratio": [0.0, 0.1, 2.0]}), tmp_path / "run")
+    summary = run.summary
+    loaded = load_scene(scene())
+    modulus = loaded.lower.build().material.youngs_modulus / (1 - loaded.lower.build().material.poissons_ratio ** 2) / 2
+    found = solve_thermal_line_film(
+        load=np.pi * 10e-3 * 0.7e9**2 / modulus,
+        radius=10e-3,
+        contact_modulus=modulus,
+        speeds=(5.25, 4.75),
+        lubricant=loaded.oil.build(),
+        bodies=(loaded.lower.build(), loaded.upper.build()),
+        points=200,
+    )
+    assert summary["traction_coefficient"][1] == pytest.approx(found.shear_force / found.film.load, rel=1e-9)
+    assert summary["friction_power_W"][1] == pytest.approx(8e-3 * found.friction_power, rel=1e-9)
+    assert summary["film_temperature_C"][1] == pytest.approx(found.highest_film_temperature - 273.15, rel=1e-9)
+    assert summary["traction_coefficient"][1] > summary["traction_coefficient"][2] > summary["traction_coefficient"][0]
+    bars, values = (np.array(summary[f"traction_coefficient{end}"]) for end in ("_error", ""))
+    assert (bars > 0).all()
+    assert (bars < 0.05 * values).all()
+    shares = [np.array(summary[f"share_of_{name}"]) for name in ("lower", "upper", "oil")]
+    np.testing.assert_allclose(sum(shares), 1.0, rtol=1e-6)
+    for name in ("traction-curve", "film-temperatures", "rolling-film"):
+        assert (run.path / "figures" / f"{name}.png").exists()
+
+
+def test_bars_cover_the_mesh(tmp_path):
+    """The same on eight times the points, which leave a sixtieth of the error."""
+    coarse = run_scene(scene(rolling={"mean_speed": "5 m/s", "slide_roll_ratio": 0.3}), tmp_path / "coarse").summary
+    fine = run_scene(
+        scene(
+            rolling={"mean_speed": "5 m/s", "slide_roll_ratio": 0.3},
+            film={"points": 1600},
+            outputs={"errors": False},
+        ),
+        tmp_path / "fine",
+    ).summary
+    films = ("minimum_thickness_nm", "central_thickness_nm")
+    for name in ("traction_coefficient", "film_temperature_C", "friction_power_W", *films):
+        assert abs(coarse[name] - fine[name]) <= coarse[f"{name}_error"], name
+
+
+def test_without_heat_it_is_the_isothermal_film(tmp_path):
+    rolling = {"mean_speed": "5 m/s", "slide_roll_ratio": 1.0}
+    run = run_scene(scene(thermal="off", rolling=rolling), tmp_path / "run")
+    loaded = load_scene(scene())
+    modulus = loaded.lower.build().material.youngs_modulus / (1 - loaded.lower.build().material.poissons_ratio ** 2) / 2
+    found = solve_line_film(
+        load=np.pi * 10e-3 * 0.7e9**2 / modulus,
+        radius=10e-3,
+        contact_modulus=modulus,
+        speeds=(7.5, 2.5),
+        lubricant=loaded.oil.build(),
+        points=200,
+    )
+    assert run.summary["traction_coefficient"] == pytest.approx(found.shear_force / found.load, rel=1e-12)
+    assert run.summary.get("film_temperature_C") is None
+    assert any("isothermal" in note for note in run.summary["notes"])
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"oil": {"viscosity": "0.05 Pa*s"}}, "heat of an oil without temperature"),
+        ({"rolling": {"mean_speed": "5 m/s", "slide_roll_ratio": 2.5}}, "slide_roll_ratio"),
+        ({"rolling": {"mean_speed": "0 m/s"}}, "mean_speed"),
+        ({"roller": {"radius": "1 mm", "width": "1 mm"}}, "exactly one of load, hertz_pressure"),
+        (
+            {"upper": {"material": {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}}},
+            "upper, which has layers or a material without thermal constants",
+        ),
+        ({"lower": {"material": "steel-52100", "surface": ROUGH}}, "a rough surface"),
+    ],
+)
+def test_mistakes_are_said(changes, words):
+    with pytest.raises(InputError, match=words):
+        load_scene(scene(**changes))
