@@ -14,14 +14,18 @@ from bem.benchmarks.cases import CASES
 from bem.benchmarks.history import Run, compare, read_history
 from bem.benchmarks.measure import Point
 from bem.benchmarks.show import (
+    MEMORY_HEADERS,
     PAIR_GOALS,
     PEER_HEADERS,
     POINT_HEADERS,
     SPLIT_HEADERS,
+    THREAD_HEADERS,
     by_case,
+    memory_rows,
     peer_rows,
     point_rows,
     split_rows,
+    thread_rows,
     time_exponent,
     work_precision,
 )
@@ -236,6 +240,7 @@ def build() -> Page:
     sections = [_goals(run), *_work_sections(run), _finite_element_section(run), *_peer_sections(run)]
     sections += [
         Section("Where the time goes", _split(run)),
+        Section("More threads, and memory", _threads_and_memory(run)),
         Section("All points", table(POINT_HEADERS, point_rows(run))),
         Section(
             "Where each part holds",
@@ -304,6 +309,17 @@ def _split(run: Run) -> str:
         body += table(("cells - bits - threads", "FFTW pair, ms"), pairs, caption="Floor of this machine.")
         body += text(f"Memory bandwidth of a copy, one thread: {run.floor.bandwidth / 1e9:.3g} GB/s.")
     return body
+
+
+def _threads_and_memory(run: Run) -> str:
+    words = (
+        "What four and eight threads would gain follows from what two did: the share of the work that a second one "
+        "does not help with is taken as serial, waiting for memory included. Below 1024 cells threads are better spent "
+        "on cases than within one."
+    )
+    body = text(words) + table(THREAD_HEADERS, thread_rows(run))
+    caption = "Beyond what the process held before, arrays that are asked for included."
+    return body + table(MEMORY_HEADERS, memory_rows(run), caption=caption)
 
 
 def _changes(old: Run, new: Run) -> str:

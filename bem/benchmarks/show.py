@@ -105,6 +105,42 @@ def split_rows(run: Run) -> list[tuple[str, ...]]:
     return rows
 
 
+def thread_rows(run: Run) -> list[tuple[str, ...]]:
+    """What a second thread gained, the share of the work that it did not help with, and what four and eight would gain.
+
+    By Amdahl (*AFIPS Conf. Proc.* 30, 1967): with the share s, n threads take s + (1 - s)/n of the time of one. s is
+    what follows from two, so that memory that both wait for counts as serial.
+    """
+    points = {(p.case, p.size, p.threads): p for p in run.points}
+    rows = []
+    for (case, size, threads), two in points.items():
+        one = points.get((case, size, 1))
+        if threads != 2 or one is None or not one.wall_median > 0:
+            continue
+        serial = min(1.0, max(0.0, 2 * two.wall_median / one.wall_median - 1))
+        gains = [1 / (serial + (1 - serial) / n) for n in (4, 8)]
+        measured = one.wall_median / two.wall_median
+        rows.append((case, f"{size:g}", f"{measured:.2f}", f"{100 * serial:.0f}", *(f"{gain:.1f}" for gain in gains)))
+    return rows
+
+
+THREAD_HEADERS = ("case", "size", "gain of two threads", "serial share, %", "gain of four", "gain of eight")
+
+
+def memory_rows(run: Run) -> list[tuple[str, ...]]:
+    """Most bytes that the largest point of each case took beyond what was there, a cell (and depth)."""
+    rows = []
+    for name, points in by_case(run).items():
+        point = points[-1]
+        if name.startswith(("contact-", "stress", "von-mises")) and name != "contact-tolerance" and point.memory > 0:
+            cells = point.size**2 * point.counts.get("depths", 1.0)
+            rows.append((name, f"{point.size:g}", f"{point.memory / 2**20:.0f}", f"{point.memory / cells:.0f}"))
+    return rows
+
+
+MEMORY_HEADERS = ("case", "cells a side", "memory, MiB", "bytes a cell (and depth)")
+
+
 SPLIT_HEADERS = (
     "case",
     "size",

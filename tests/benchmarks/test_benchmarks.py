@@ -13,6 +13,7 @@ from bem.benchmarks.floor import Floor, bandwidth, transform_pair
 from bem.benchmarks.history import append_run, compare, find_run, new_run, read_history
 from bem.benchmarks.measure import Point, growth, measure, measure_apart, watched
 from bem.benchmarks.run import check_names, sizes_of
+from bem.benchmarks.show import memory_rows, thread_rows
 from bem.grid import Grid
 
 
@@ -140,6 +141,18 @@ def test_names_and_sizes():
 def test_growth_is_the_exponent_of_a_power_law():
     assert growth([1, 2, 4], [3, 12, 48]) == pytest.approx(2)
     assert math.isnan(growth([1], [1]))
+
+
+def test_what_more_threads_would_gain_follows_from_two():
+    """A fifth of the work serial: two threads take 0.6 of the time, four 0.4, eight 0.3."""
+    run = new_run([point(wall=(1.0, 1.0, 1.0)), point(wall=(0.6, 0.6, 0.6), threads=2), point(size=512, threads=2)])
+    assert thread_rows(run) == [("contact-periodic", "256", "1.67", "20", "2.5", "3.3")]
+    slower = new_run([point(wall=(1.0, 1.0, 1.0)), point(wall=(1.2, 1.2, 1.2), threads=2)])
+    assert thread_rows(slower)[0][3:] == ("100", "1.0", "1.0")
+
+
+def test_memory_is_told_by_the_cell():
+    assert memory_rows(new_run([point(memory=256.0**2 * 50)])) == [("contact-periodic", "256", "3", "50")]
 
 
 def test_the_floor_is_positive():
