@@ -112,7 +112,7 @@ def thread_rows(run: Run) -> list[tuple[str, ...]]:
     what follows from two, so that memory that both wait for counts as serial.
     """
     points = {(p.case, p.size, p.threads): p for p in run.points}
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for (case, size, threads), two in points.items():
         one = points.get((case, size, 1))
         if threads != 2 or one is None or not one.wall_median > 0:
@@ -129,7 +129,7 @@ THREAD_HEADERS = ("case", "size", "gain of two threads", "serial share, %", "gai
 
 def memory_rows(run: Run) -> list[tuple[str, ...]]:
     """Most bytes that the largest point of each case took beyond what was there, a cell (and depth)."""
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for name, points in by_case(run).items():
         point = points[-1]
         if name.startswith(("contact-", "stress", "von-mises")) and name != "contact-tolerance" and point.memory > 0:
@@ -200,7 +200,7 @@ def print_comparison(path: Path, old: str, new: str, table: Table) -> None:
     """
     runs = read_history(path)
     before, after = find_run(runs, old), find_run(runs, new)
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for c in compare(before, after):
         counts = ", ".join(f"{name} {a:.4g} -> {b:.4g}" for name, (a, b) in c.counts.items())
         verdict = ("slower" if c.ratio > 1 else "faster") if c.clear else "within noise"
