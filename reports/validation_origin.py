@@ -64,7 +64,13 @@ def code_hash(kind: str) -> str:
 def bare_digest(paths: Sequence[Path]) -> str:
     """Of modules of this repository, without comments, docstrings and layout."""
     names = [path.relative_to(CODE if path.is_relative_to(CODE) else CODE.parent) for path in paths]
-    return _digest("\n".join(f"{name}\n{_bare(path)}" for name, path in zip(names, paths, strict=True)))
+    return _digest("\n".join(f"{name}\n{_bare_once(path)}" for name, path in zip(names, paths, strict=True)))
+
+
+@cache
+def _bare_once(path: Path) -> str:
+    """As `_bare`, which is asked for the same rooms by every kind."""
+    return _bare(path)
 
 
 @cache

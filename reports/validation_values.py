@@ -353,13 +353,18 @@ def experiment(name: str) -> Summary:
 
 
 def quoted(show: Callable[[Summary], str], runs: dict[str, str]) -> Callable[[Summary], str]:
-    """For a remark: what experiments show, by name, each with what was done there; a stale one says so."""
+    """For a remark: what experiments show, by name, each with what was done there; says which were not run or stale."""
 
     def words(summary: Summary) -> str:
-        parts = []
+        parts, aged = [], 0
         for name, done in runs.items():
-            found = experiment(name)
-            parts.append(f"{show(found)} {done}" + (" (stale)" if stale(found["scene"], found) else ""))
-        return "; ".join(parts)
+            try:
+                found = experiment(name)
+            except FileNotFoundError:
+                parts.append(f"not run {done}")
+                continue
+            parts.append(f"{show(found)} {done}")
+            aged += bool(stale(found["scene"], found))
+        return "; ".join(parts) + (f" ({aged} of {len(runs)} stale)" if aged else "")
 
     return words

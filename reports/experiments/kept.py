@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ def result_of(name: str) -> Path:
     return RESULTS / f"{name}.json"
 
 
+@cache
 def code_hash(name: str) -> str:
     """Of an experiment and of all that computes a contact or a film, without comments, docstrings and layout."""
     here = Path(__file__).parent
