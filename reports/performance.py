@@ -27,8 +27,11 @@ from bem.benchmarks.show import (
     split_rows,
     thread_rows,
     time_exponent,
-    work_precision,
 )
+from bem.benchmarks.show import (
+    work_precision as residual_curves,
+)
+from reports import work_precision
 from reports.builder import Page, Section, figure, table, text
 
 RESULTS = Path(__file__).resolve().parent / "results" / "performance.json"
@@ -237,7 +240,8 @@ def build() -> Page:
         missing = text("No run is stored yet: bem bench --json reports/results/performance.json makes one.")
         return Page("performance", "Run time against error", "Nothing measured yet.", [Section("Nothing yet", missing)])
     run = runs[-1]
-    sections = [_goals(run), *_work_sections(run), _finite_element_section(run), *_peer_sections(run)]
+    sections = [*work_precision.sections(), _goals(run), *_work_sections(run)]
+    sections += [_finite_element_section(run), *_peer_sections(run)]
     sections += [
         Section("Where the time goes", _split(run)),
         Section("More threads, and memory", _threads_and_memory(run)),
@@ -270,7 +274,7 @@ def _work_sections(run: Run) -> Iterator[Section]:
         if not any(p.case in names for p in run.points):
             continue
         caption = f"{title}: error over processor time and memory; numbers are sizes, bars the extremes."
-        body = figure(work_precision(run, names, title), caption)
+        body = figure(residual_curves(run, names, title), caption)
         exponents = [
             (CASES[name].title, time_exponent(points), CASES[name].size_name)
             for name, points in by_case(run).items()

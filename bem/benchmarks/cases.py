@@ -27,6 +27,7 @@ from bem.benchmarks.contact_cases import (
 )
 from bem.benchmarks.lubricated_cases import line_film, load_sharing, stribeck
 from bem.benchmarks.measure import Timed
+from bem.benchmarks.physical_cases import PHYSICAL
 from bem.benchmarks.surface_change_cases import one_wear_cycle, stress_of_sphere, tribofilm
 
 
@@ -194,5 +195,8 @@ CASES = {
     )
 }
 
-INNER = {"peer-tolerance": _cells("peer-tolerance", "Beside peers", peer_tolerance, warm_size=64.02)}
+INNER = {"peer-tolerance": _cells("peer-tolerance", "Beside peers", peer_tolerance, warm_size=64.02)} | {
+    case.name: Case(case.name, case.title, case.prepare, (), (), case.points(quick=True)[0], case.size_name, "")
+    for case in PHYSICAL.values()
+}
 """Cases that other modules measure; they are not part of a run of their own."""

@@ -20,21 +20,23 @@ import numpy as np
 from bem.benchmarks.contact_cases import MEAN_PRESSURE, PERIODIC, UNIT, common_residual, rough_gap
 from bem.benchmarks.measure import THREAD_VARIABLES, Point, measure_apart
 from bem.errors import InputError
+from bem.grid import FloatArray
 
 PACKAGES = ("tamaas", "ContactMechanics", "SurfaceTopography", "aspher", "numpy", "scipy")
 GOALS = {("tamaas", 1024): 60.0, ("aspher", 1024): 8.0, ("tamaas", 2048): 80.0, ("aspher", 2048): 10.0}
 """How many times faster bem is meant to be, at equal residual on one thread."""
 
 _TIMER = """
-import sys, time, numpy as np
+import resource, sys, time, numpy as np
 folder, pressure, tolerance = sys.argv[1], float(sys.argv[2]), float(sys.argv[3])
 gap = np.load(folder + "/gap.npy")
 n = gap.shape[0]
 def keep(solve):
-    times = []
+    times, held = [], resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     for _ in range(int(sys.argv[4])):
         start = time.process_time(); result = solve(); times.append(time.process_time() - start)
-    np.save(folder + "/pressure.npy", np.ascontiguousarray(result, dtype=float)); print(repr(times))
+    np.save(folder + "/pressure.npy", np.ascontiguousarray(result, dtype=float))
+    print(repr(times)); print(1024.0 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - held))
 """
 SCRIPTS = {
     "tamaas": """
@@ -105,12 +107,15 @@ def environment(folder: Path, say: Callable[[str], None]) -> Path:
     return python
 
 
-def run_peer(python: Path, peer: str, cells: int, repeats: int, limit: float = 1800.0) -> dict[str, Any]:
-    """One peer on the rough surface: processor times, and its residuals by the common routine."""
-    from bem.convolution import displacement_operator
-    from bem.grid import Grid
+def solve_by_peer(
+    python: Path, peer: str, gap: FloatArray, repeats: int, limit: float = 1800.0
+) -> tuple[list[float], float, FloatArray]:
+    """One peer on a gap of side 1: processor times [s], memory beyond its inputs [bytes], pressure (n, n) in E*.
 
-    gap = rough_gap(cells)
+    Raises
+    ------
+    RuntimeError : it failed; its last line says why.
+    """
     with tempfile.TemporaryDirectory() as folder:
         np.save(f"{folder}/gap.npy", gap)
         done = subprocess.run(
@@ -131,11 +136,21 @@ def run_peer(python: Path, peer: str, cells: int, repeats: int, limit: float = 1
         )
         if done.returncode != 0:
             last = (done.stderr.strip().splitlines() or ["no message"])[-1]
-            raise RuntimeError(f"{peer} at {cells}: {last}")
-        times = [float(word) for word in done.stdout.strip().splitlines()[-1].strip("[]").split(",")]
-        pressure = np.load(f"{folder}/pressure.npy")
+            raise RuntimeError(f"{peer} at {gap.shape[0]}: {last}")
+        times, memory = done.stdout.strip().splitlines()[-2:]
+        pressure = np.maximum(np.load(f"{folder}/pressure.npy"), 0.0)
+    return [float(word) for word in times.strip("[]").split(",")], float(memory), pressure
+
+
+def run_peer(python: Path, peer: str, cells: int, repeats: int) -> dict[str, Any]:
+    """One peer on the rough surface: processor times, and its residuals by the common routine."""
+    from bem.convolution import displacement_operator
+    from bem.grid import Grid
+
+    gap = rough_gap(cells)
+    times, _, pressure = solve_by_peer(python, peer, gap, repeats)
     operator = displacement_operator(Grid((cells, cells), (1 / cells, 1 / cells), periodic=PERIODIC), UNIT)
-    complementarity, violation = common_residual(np.maximum(pressure, 0.0), gap, operator)
+    complementarity, violation = common_residual(pressure, gap, operator)
     return {
         "peer": peer,
         "cells": cells,

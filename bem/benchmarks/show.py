@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from bem.benchmarks.cases import CASES
 from bem.benchmarks.history import Run, compare, find_run, read_history
 from bem.benchmarks.measure import Point, growth
+from bem.benchmarks.work_precision import CELLS_ALONE, OURS, TARGETS, best, curves
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -265,3 +266,80 @@ def work_precision(run: Run, names: Sequence[str], title: str, extra: Sequence[d
 def draw_run(run: Run, path: Path) -> None:
     """All cases in one figure."""
     work_precision(run, list(CASES), "error against time and memory").savefig(path, dpi=150)
+
+
+def draw_reach(run: Run) -> Figure:
+    """The time that an error of 10, 3, 1 and 0.3 % takes, a row for each figure and solver; open circles are drawn on
+    from the last two grids."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    found = curves(run)
+    figures = list(dict.fromkeys((c.kind, c.figure) for c in found))
+    rows = sorted(dict.fromkeys((c.kind, c.figure, c.solver) for c in found), key=lambda row: figures.index(row[:2]))
+    picture = Figure(figsize=(9, 1.2 + 0.2 * len(rows)), layout="constrained")
+    FigureCanvasAgg(picture)
+    axes = picture.subplots()
+    colours = ("#9ecae1", "#4292c6", "#08519c", "#08102c")
+    for number, row in enumerate(rows):
+        least = best(found, *row)
+        known = [reach.time for reach in least if reach is not None]
+        if known:
+            axes.plot([min(known), max(known)], [number, number], color="0.8", lw=1, zorder=1)
+        for place, (reach, colour) in enumerate(zip(least, colours, strict=True)):
+            if reach is None:
+                continue
+            face = colour if reach.measured else "white"
+            size = 64 - 12 * place  # smaller ones in front: where a grid has several errors at once all are seen
+            axes.scatter(reach.time, number, s=size, facecolor=face, edgecolor=colour, zorder=2 + place)
+        if number and rows[number - 1][:2] != row[:2]:
+            axes.axhline(number - 0.5, color="0.9", lw=0.6, zorder=0)
+    labels = [f"{figure.replace('_', ' ')} - {solver}" for _, figure, solver in rows]
+    axes.set_yticks(range(len(rows)), labels, fontsize=7)
+    axes.set_ylim(len(rows) - 0.5, -0.5)
+    axes.set_xscale("log")
+    axes.set_xlabel("processor time, s")
+    axes.grid(True, axis="x", which="major", lw=0.3)
+    for target, colour in zip(TARGETS, colours, strict=True):
+        axes.scatter([], [], s=40, color=colour, label=f"{100 * target:g} %")
+    axes.scatter([], [], s=40, facecolor="white", edgecolor="0.3", label="drawn on")
+    picture.legend(*axes.get_legend_handles_labels(), ncols=5, fontsize=7, loc="outside upper center")
+    return picture
+
+
+def draw_errors(run: Run, kind: str) -> Figure:
+    """Errors of a kind's figures over processor time and over memory: with corrections (full lines), of cells alone
+    (broken), by peers (grey); thin lines are of looser tolerances."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    own = [c for c in curves(run) if c.kind == kind]
+    figures = list(dict.fromkeys(c.figure for c in own))
+    picture = Figure(figsize=(9, 3.8), layout="constrained")
+    FigureCanvasAgg(picture)
+    panels = picture.subplots(1, 2, sharey=True)
+    most = max((c.digits for c in own), default=0)
+    for c in own:
+        ours = c.solver in (OURS, CELLS_ALONE)
+        style = {OURS: "o-", CELLS_ALONE: "o--"}.get(c.solver, "s:")
+        tight = c.digits in (0, most)
+        label = f"{c.figure.replace('_', ' ')}" if c.solver == OURS and tight else None
+        for axes, across in zip(panels, (c.times, [m / 2**20 for m in c.memory]), strict=True):
+            axes.plot(
+                across,
+                [100 * max(e, 1e-6) for e in c.errors],
+                style,
+                ms=3 if ours else 2.5,
+                lw=1.2 if tight else 0.5,
+                color=f"C{figures.index(c.figure)}",
+                alpha=1.0 if ours else 0.5,
+                label=label,
+            )
+    for axes, words in zip(panels, ("processor time, s", "memory beyond the inputs, MiB"), strict=True):
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlabel(words)
+        axes.grid(True, which="major", lw=0.3)
+    panels[0].set_ylabel("error, %")
+    panels[0].legend(fontsize=7)
+    return picture

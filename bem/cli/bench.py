@@ -17,6 +17,15 @@ def bench(  # reason: the arguments are the options
     only: Annotated[
         list[str] | None, typer.Option("--only", metavar="NAME", help="A case; may be repeated. Without it, all.")
     ] = None,
+    kind: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--kind",
+            metavar="NAME",
+            help="Physical figures of a kind over time and memory, instead of cases: contact, stress, film, mixed, "
+            "wear, tribofilm or all; may be repeated.",
+        ),
+    ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Small sizes, a look in a minute.")] = False,
     size: Annotated[
         list[float] | None,
@@ -60,6 +69,9 @@ def bench(  # reason: the arguments are the options
     if compare is not None:
         print_comparison(json_ or Path("bench.json"), *compare, table)
         return
+    if kind:
+        _bench_kinds(kind, quick, min(repeats, 3), peers_folder if peers else None, json_, figure)
+        return
     names = check_names(only)
     run = run_cases(
         names,
@@ -79,7 +91,45 @@ def bench(  # reason: the arguments are the options
     if figure is not None:
         draw_run(run, figure)
         print(f"figure: {figure}")
-    if run.failures:
-        for what, why in run.failures.items():
-            typer.echo(f"bem: {what} failed: {why}", err=True)
+    _say_failures(run.failures)
+
+
+def _bench_kinds(
+    names: list[str], quick: bool, repeats: int, peers: Path | None, history: Path | None, picture: Path | None
+) -> None:
+    """`--kind`."""
+    from bem.benchmarks.history import append_run
+    from bem.benchmarks.peers import environment
+    from bem.benchmarks.show import draw_reach
+    from bem.benchmarks.work_precision import (
+        ERROR_HEADERS,
+        REACH_HEADERS,
+        check_kinds,
+        error_rows,
+        measure_kinds,
+        reach_rows,
+    )
+    from bem.cli._terminal import table
+
+    def say(words: str) -> None:
+        typer.echo(words, err=True)
+
+    kinds = check_kinds(names)
+    python = None if peers is None else environment(peers, say)
+    run = measure_kinds(kinds, quick=quick, repeats=repeats, peers=python, say=say)
+    table(ERROR_HEADERS, error_rows(run), title="errors against the limit of the two finest grids", right=range(3, 8))
+    table(REACH_HEADERS, reach_rows(run), title="processor time to an error; in brackets: drawn on", right=range(3, 7))
+    if history is not None:
+        append_run(history, run)
+        print(f"history: {history}")
+    if picture is not None:
+        draw_reach(run).savefig(picture, dpi=150)
+        print(f"figure: {picture}")
+    _say_failures(run.failures)
+
+
+def _say_failures(failures: dict[str, str]) -> None:
+    for what, why in failures.items():
+        typer.echo(f"bem: {what} failed: {why}", err=True)
+    if failures:
         raise typer.Exit(1)

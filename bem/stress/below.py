@@ -4,6 +4,9 @@ The highest stress lies between points and depths (`bem.subcell`), and what yiel
 stress lies within a cell of the surface, where a pressure that is constant on cells, or ends, leaves no smooth stress:
 then it is that of a point. Along the depth nothing is looked for across an interface of layers, where stresses jump.
 
+A pressure that is bilinear between cells would leave less in the half cell next to the surface, more below it, and as
+much at the edge of contact, where errors are largest (`reports/experiments/near_surface.py`): cells stay.
+
 Knows `stress.sweeps` and bodies' yield stresses. Verified in tests/stress/test_stress_below.py.
 """
 

@@ -1,0 +1,53 @@
+"""The top of the performance page: how long an asked-for error of each physical figure takes, ours and others'.
+
+Drawn from `reports/results/work_precision.json`, which `bem bench --kind all --peers --json` appends to.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from bem.benchmarks.history import Run, read_history
+from bem.benchmarks.physical_cases import PHYSICAL
+from bem.benchmarks.show import draw_errors, draw_reach
+from bem.benchmarks.work_precision import ERROR_HEADERS, REACH_HEADERS, error_rows, reach_rows
+from reports.builder import Section, figure, table, text
+
+RESULTS = Path(__file__).resolve().parent / "results" / "work_precision.json"
+COMMAND = "bem bench --kind all --peers --json reports/results/work_precision.json"
+_WORDS = (
+    "What a user waits for is an error of a figure, not a residual. Each figure is compared with the limit of its two "
+    "finest grids; an error counts as reached on a grid if all finer ones have it too. On the rough surface (no waves "
+    "shorter than 1/48 of the side, 8 % in contact) the peers solve the same discrete problem and count its cells; "
+    "`cells alone` is what bem's cells and points have without what it finds between them. Open circles are drawn on "
+    "from the last two grids."
+)
+
+
+def sections() -> Iterator[Section]:
+    """The picture with its table, and the curves of each kind; nothing where no run is stored."""
+    runs = read_history(RESULTS)
+    if not runs:
+        return
+    run = runs[-1]
+    body = text(_WORDS) + figure(draw_reach(run), "Processor time, one thread, to errors of 10, 3, 1 and 0.3 %.")
+    body += table(REACH_HEADERS, reach_rows(run), caption=f"Seconds; in brackets: drawn on. {measured_on(run)}")
+    yield Section("Time to an error, ours and others'", body)
+    for case in PHYSICAL.values():
+        if any(point.case == case.name for point in run.points):
+            caption = (
+                "Full lines: as bem gives it; broken: cells alone; grey: peers; thin: looser tolerances. "
+                f"Sizes are {case.size_name}."
+            )
+            yield Section(
+                f"Error over time and memory: {case.title[0].lower()}{case.title[1:]}",
+                figure(draw_errors(run, case.kind), caption),
+            )
+    yield Section("All errors of figures", table(ERROR_HEADERS, error_rows(run)))
+
+
+def measured_on(run: Run) -> str:
+    """Where and when, in words; a busy machine is told."""
+    load = run.machine.get("load average at the end", "unknown")
+    return f"Commit {run.commit}, {run.date}, {run.machine.get('processor', '')}, load average {load} ({COMMAND})."
