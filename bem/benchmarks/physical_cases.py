@@ -33,7 +33,7 @@ RAW = "raw:"
 FINEST = 2048
 SHORTEST = 48
 """Waves of the rough surface on a side: the finest grid has 43 cells to the shortest, 256 have five."""
-_YIELD = 0.09
+_YIELD = 0.065
 """Yield stress in units of E*, some two thirds of the highest von Mises stress."""
 
 

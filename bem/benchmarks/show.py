@@ -294,7 +294,7 @@ def draw_reach(run: Run) -> Figure:
             axes.scatter(reach.time, number, s=size, facecolor=face, edgecolor=colour, zorder=2 + place)
         if number and rows[number - 1][:2] != row[:2]:
             axes.axhline(number - 0.5, color="0.9", lw=0.6, zorder=0)
-    labels = [f"{figure.replace('_', ' ')} - {solver}" for _, figure, solver in rows]
+    labels = [f"{kind}: {figure.replace('_', ' ')} - {solver}" for kind, figure, solver in rows]
     axes.set_yticks(range(len(rows)), labels, fontsize=7)
     axes.set_ylim(len(rows) - 0.5, -0.5)
     axes.set_xscale("log")
