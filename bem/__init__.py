@@ -35,8 +35,10 @@ _HOMES = {
     "lubrication": [
         "Cavitation",
         "FilmSolution",
+        "InletDistance",
         "Lubricant",
         "Oil",
+        "OilLayer",
         "find_oil",
         "march_line_film",
         "solve_line_film",

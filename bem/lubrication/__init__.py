@@ -3,8 +3,9 @@
 Laws of the oil: `viscosity`, `density`, `shear`, gathered in `lubricant`; grades of it in `oils`; what a shear law does
 across a film: `shear_profile`. The steady film: `steady`, by Newton's method (`line_newton`, from the starts of
 `line_continuation`) on a mesh that follows it (`line_mesh`), with hierarchical weights of the deflection
-(`line_kernel`). In time: `transient`, in steps (`line_step`) with a ruptured film (`line_rupture`, `cavitation`).
-Heat: `thermal`. `validity` says where a model ends. Names are loaded when first used, so that laws cost no solver.
+(`line_kernel`); starved: `supply`, `line_starved`. In time: `transient`, in steps (`line_step`) with a ruptured film
+(`line_rupture`, `cavitation`). Heat: `thermal`. `validity` says where a model ends. Names are loaded when first used,
+so that laws cost no solver.
 
 Sees grids and laws, no rough contact and no scene. Verified in tests/lubrication: Martin's and Hertz' limits, both
 equations by plain quadrature, order of convergence, closed forms of cavitation, conservation.
@@ -20,14 +21,17 @@ if TYPE_CHECKING:
     from bem.lubrication.lubricant import Lubricant
     from bem.lubrication.oils import Oil, find_oil
     from bem.lubrication.steady import solve_line_film
+    from bem.lubrication.supply import InletDistance, OilLayer
     from bem.lubrication.thermal import ThermalFilm, solve_thermal_line_film
     from bem.lubrication.transient import march_line_film
 
 __all__ = [
     "Cavitation",
     "FilmSolution",
+    "InletDistance",
     "Lubricant",
     "Oil",
+    "OilLayer",
     "ThermalFilm",
     "find_oil",
     "march_line_film",
@@ -43,6 +47,7 @@ __getattr__ = loader(
         "lubricant": ["Lubricant"],
         "oils": ["Oil", "find_oil"],
         "steady": ["solve_line_film"],
+        "supply": ["InletDistance", "OilLayer"],
         "thermal": ["ThermalFilm", "solve_thermal_line_film"],
         "transient": ["march_line_film"],
     },

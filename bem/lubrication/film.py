@@ -12,6 +12,7 @@ from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import middle_stress
+from bem.lubrication.supply import Starvation
 from bem.representation import readable
 
 
@@ -52,6 +53,7 @@ class FilmSolution:
     film_fraction : (n,) share of the gap that is filled with oil; 1 in the full film. None with Swift and Stieber's
         cavitation, which keeps no account of it.
     volume_imbalance : relative error of the volume balance of a time step; None for a steady film.
+    starvation : what a supply of oil made of a steady film; None where none was given: flooded.
     state : the discrete solution as its solver left it, to start the next one from; None where none is kept.
     notes : where the model is outside its validity, a sentence each (`bem.lubrication.validity`).
     """
@@ -75,6 +77,7 @@ class FilmSolution:
     volume_imbalance: float | None = None
     film_fraction: FloatArray | None = None
     notes: tuple[str, ...] = ()
+    starvation: Starvation | None = None
     state: KeptFilm | None = field(default=None, repr=False, compare=False)
 
     def shear_stress(self, position: FloatArray | None = None) -> FloatArray:

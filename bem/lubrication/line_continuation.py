@@ -50,7 +50,7 @@ def from_neighbour(
     if spike_cell(problem, state, min(cells, MIDDLE)) < SPIKE_CELLS[0] and (
         len(state.offset) != cells + 1 or SPIKE_SHIFT * change * spike_cells_to_exit(state) > MAX_SHIFT
     ):
-        return _refined(problem, state, ATTEMPTS[0][0], cells, tolerance, limit)
+        return refined(problem, state, ATTEMPTS[0][0], cells, tolerance, limit)
     if len(state.offset) != cells + 1:
         state = remesh(problem, state, cells, SPIKE_CELLS[-1])
     outcome = newton(problem, state, tolerance, min(limit, 20))
@@ -94,7 +94,7 @@ def from_newtonian(problem: Problem, cells: int, tolerance: float, limit: int) -
             continue
         last, share, factor = trial, target, factor * 1.5
         if share == 1.0:
-            last = _refined(problem, last.state, coarse, cells, tolerance, limit)
+            last = refined(problem, last.state, coarse, cells, tolerance, limit)
             return replace(last, iterations=spent + last.iterations)
     return replace(last, iterations=spent, residual=max(last.residual, 1 - share), converged=False)
 
@@ -126,7 +126,7 @@ def from_scratch(problem: Problem, cells: int, tolerance: float, limit: int) -> 
             else:
                 step = math.sqrt(step)
         if last.converged and load == problem.load:
-            final = _refined(problem, last.state, coarse, cells, tolerance, limit)
+            final = refined(problem, last.state, coarse, cells, tolerance, limit)
             spent += final.iterations
             if final.converged:
                 return replace(final, iterations=spent)
@@ -137,7 +137,7 @@ def from_scratch(problem: Problem, cells: int, tolerance: float, limit: int) -> 
     return replace(last, iterations=spent, residual=residual, converged=False)
 
 
-def _refined(problem: Problem, state: State, coarse: int, cells: int, tolerance: float, limit: int) -> Outcome:
+def refined(problem: Problem, state: State, coarse: int, cells: int, tolerance: float, limit: int) -> Outcome:
     """From a coarse solution to the wanted number of cells, a spike refined little by little."""
     middle = min(cells, MIDDLE)
     stages: list[tuple[int, float | None]] = [(coarse, None)]

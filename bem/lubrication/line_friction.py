@@ -16,10 +16,11 @@ from bem.lubrication.shear_profile import middle_stress
 
 
 def upstream_of_mesh(state: State) -> tuple[float, float]:
-    """Integrals of 1/H and 1/H^2 upstream of the mesh, where H = X^2/2 + c with c small against X^2/2."""
+    """Integrals of 1/H and 1/H^2 upstream of the mesh, where H = X^2/2 + c with c small against X^2/2; upstream of a
+    meniscus the gap is not full, and they are zero."""
     start = abs(float(state.position[0]))
     offset = float(state.film[0]) - 0.5 * start**2
-    return 2 / start * (1 - 2 * offset / start**2 / 3), 4 / (3 * start**3)
+    return state.far_field * 2 / start * (1 - 2 * offset / start**2 / 3), state.far_field * 4 / (3 * start**3)
 
 
 def friction_forces(

@@ -45,7 +45,8 @@ SHORTEST_STEP = 1e-3
 class State:
     """Node offsets from the exit (n+1,), their elastic operator, pressure, film, datum H0 and exit X_e.
 
-    The datum is that of the kernel ln|x - x'|, whatever the operator's unit.
+    The datum is that of the kernel ln|x - x'|, whatever the operator's unit. far_field : 1 where the gap is full from
+    far upstream of the nodes on, 0 where it begins to be full at the first of them, a meniscus.
     """
 
     offset: FloatArray
@@ -54,6 +55,7 @@ class State:
     film: FloatArray
     datum: float
     exit: float
+    far_field: float = 1.0
 
     @property
     def position(self) -> FloatArray:
@@ -91,6 +93,17 @@ class Discretisation:
     offset: FloatArray
     quadrature: FloatArray
     operator: LineOperator
+    far_field: float
+
+    def inlet_pressure(self, position: float) -> tuple[float, float]:
+        """At the first node, and its derivative with X."""
+        value, slope = inlet_pressure(position)
+        return self.far_field * value, self.far_field * slope
+
+    def inlet_load(self, position: float) -> tuple[float, float]:
+        """Upstream of the first node, and its derivative with X."""
+        value, slope = inlet_load(position)
+        return self.far_field * value, self.far_field * slope
 
     @property
     def problem(self) -> Problem:
@@ -129,7 +142,7 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
         at = following
         iterations += 1
     datum = at.datum + DEFLECTION * mesh.operator.log_unit * float(mesh.quadrature @ at.pressure)
-    state = State(mesh.offset, mesh.operator, at.pressure, at.film, datum, at.exit)
+    state = State(mesh.offset, mesh.operator, at.pressure, at.film, datum, at.exit, mesh.far_field)
     return Outcome(state, iterations, largest, converged)
 
 
@@ -138,10 +151,10 @@ def _begun(problem: Problem, start: State) -> tuple[Discretisation, Iterate]:
     offset, width = start.offset, np.diff(start.offset)
     pressure, film = start.pressure.copy(), start.film
     pressure[-1] = 0.0
-    pressure[0] = inlet_pressure(start.exit + offset[0])[0]
+    pressure[0] = start.far_field * inlet_pressure(start.exit + offset[0])[0]
     scale = film.copy()
     flow = Flow(problem, width, upwind_extrapolation(width), scale[:-1])
-    mesh = Discretisation(flow, scale, offset, trapezoidal_weights(offset), start.operator)
+    mesh = Discretisation(flow, scale, offset, trapezoidal_weights(offset), start.operator, start.far_field)
     missed = film - (0.5 * (start.exit + offset) ** 2 - DEFLECTION * (start.operator @ pressure))
     error, parts = _errors(mesh, pressure, film, start.exit)
     return mesh, Iterate(pressure, film, float(missed[-1]), start.exit, missed - missed[-1], error, parts)
@@ -150,7 +163,7 @@ def _begun(problem: Problem, start: State) -> tuple[Discretisation, Iterate]:
 def _errors(mesh: Discretisation, pressure: FloatArray, film: FloatArray, exit_: float) -> tuple[FloatArray, Parts]:
     """Of the flow through the cells (n,) and of the load, and what the derivatives share with them."""
     through, parts = mesh.flow.residual(pressure, film, float(film[-1]))
-    load = mesh.quadrature @ pressure + inlet_load(exit_ + mesh.offset[0])[0]
+    load = mesh.quadrature @ pressure + mesh.inlet_load(exit_ + mesh.offset[0])[0]
     return np.append(through, 1 - load / mesh.problem.load), parts
 
 
@@ -188,7 +201,7 @@ def _improved(mesh: Discretisation, at: Iterate) -> Iterate | None:
 def _equations(mesh: Discretisation, at: Iterate) -> Equations:
     """Those of the Newton step in (P_1 .. P_{n-1}, H0, X_e)."""
     load, inlet = mesh.problem.load, at.exit + mesh.offset[0]
-    inlet_slope, load_slope = inlet_pressure(inlet)[1], inlet_load(inlet)[1]
+    inlet_slope, load_slope = mesh.inlet_pressure(inlet)[1], mesh.inlet_load(inlet)[1]
     before, here, after, low, diagonal, high = mesh.flow.derivatives(at.parts)
     return Equations(
         before=before,
@@ -216,7 +229,7 @@ def _moved(mesh: Discretisation, at: Iterate, change: Change, length: float) -> 
         return None
     pressure = at.pressure.copy()
     pressure[1:-1] += length * change.pressure
-    pressure[0] = inlet_pressure(inlet)[0]
+    pressure[0] = mesh.inlet_pressure(inlet)[0]
     return _iterate(mesh, pressure, datum, exit_, (1 - length) * at.mismatch)
 
 
@@ -265,11 +278,14 @@ def remesh(problem: Problem, state: State, cells: int, smallest: float | None) -
     nodes = redistribute(state.offset, size, cells, top)
     pressure = np.maximum(PchipInterpolator(state.offset, state.pressure)(nodes), 0.0)
     film = np.exp(PchipInterpolator(state.offset, np.log(state.film))(nodes))
-    return State(nodes, LineOperator.of(nodes), pressure, film, state.datum, state.exit)
+    return State(nodes, LineOperator.of(nodes), pressure, film, state.datum, state.exit, state.far_field)
 
 
 def _with_inlet(state: State) -> State:
-    """The state cut, or continued by the far field, to where the mesh should start; without its weights."""
+    """The state cut, or continued by the far field, to where the mesh should start; without its weights. A meniscus
+    stays where it is."""
+    if state.far_field == 0:
+        return state
     reach = -FAR_INLET * max(state.exit, np.sqrt(2 * state.film.min()))
     position, pressure, film = state.position, state.pressure, state.film
     if position[0] > 0.8 * reach:
@@ -322,6 +338,7 @@ def stretched(state: State, factor: float, pressure_factor: float, film_factor: 
         state.film * film_factor,
         state.datum,
         state.exit * factor,
+        state.far_field,
     )
 
 

@@ -19,8 +19,10 @@ from bem.lubrication.line_friction import friction_forces
 from bem.lubrication.line_kernel import DEFLECTION, logarithmic_weights
 from bem.lubrication.line_newton import Outcome, State
 from bem.lubrication.line_scales import Scales, line_scales, scaled_problem
+from bem.lubrication.line_starved import Wanted, WantedDistance, WantedLayer, starved, through
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
+from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply
 from bem.lubrication.validity import Case, notes_on
 from bem.threads import one_blas_thread
 
@@ -44,6 +46,7 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     max_iterations: int = 40,
     cavitation: Cavitation | str = Cavitation.SWIFT_STIEBER,
     flow_factors: WallFactors | str = "off",
+    supply: Supply | None = None,
 ) -> FilmSolution:
     """Steady film between a cylinder and a flat: Reynolds' equation with cavitation and elastic deflection.
 
@@ -69,6 +72,9 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         In time (`march_line_film`) the two differ.
     flow_factors : "off", or a table of `bem.flow_factors`: pressure flow is then phi_x times, Couette flow h + k s
         phi_s (`bem.lubrication.rough_walls`). Shear stress and what is behind the exit stay those of smooth walls.
+    supply : oil that reaches the contact, an `OilLayer` or an `InletDistance` (`bem.lubrication.supply`); None is
+        flooded. `FilmSolution.starvation` has the meniscus, the oil that goes through, and how much thinner the film is
+        than flooded. Upstream of the meniscus there is no pressure and no friction.
 
     Returns
     -------
@@ -86,7 +92,7 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     L = 6 to 10 the pressure spike has no limit: it grows with the mesh as the inverse root of a cell, while the film
     thickness converges.
     """
-    cavitation = cavitation_of(cavitation)
+    cavitation, supply = cavitation_of(cavitation), checked_supply(supply)
     scales, reversed_ = _check(load, radius, contact_modulus, speeds, lubricant, points, tolerance, position)
     walls = walls_of(flow_factors, scales.film, speeds)
     problem = scaled_problem(scales, scales.load, lubricant, walls, float(speeds[0]) - float(speeds[1]))
@@ -95,7 +101,7 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     if initial is not None:
         if not isinstance(initial, FilmSolution):
             raise InputError(f"initial: {type(initial).__name__} is not a FilmSolution")
-        if isinstance(initial.state, KeptSteady):
+        if isinstance(initial.state, KeptSteady) and initial.state.state.far_field == 1:
             kept = initial.state
             unit = kept.scales.pressure / scales.pressure
             outcome = from_neighbour(problem, kept.state, kept.load, unit, points - 1, tolerance, max_iterations)
@@ -105,7 +111,11 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         if problem.shear is not None and not outcome.converged:
             spent += outcome.iterations
             outcome = from_newtonian(problem, points - 1, tolerance, max_iterations)
-    outcome = replace(outcome, iterations=outcome.iterations + spent)
+    flooded = outcome = replace(outcome, iterations=outcome.iterations + spent)
+    if supply is not None:
+        wanted = _wanted(supply, problem, flooded.state, scales)
+        if wanted is not None:
+            outcome = starved(problem, flooded, wanted, points - 1, tolerance, max_iterations)
     case = Case(
         position=outcome.state.position * scales.length,
         pressure=np.maximum(outcome.state.pressure, 0.0) * scales.pressure,
@@ -117,11 +127,42 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     )
     film = replace(_result(outcome, problem, scales, speeds, reversed_, lubricant, position), notes=notes_on(case))
     film = replace(film, notes=film.notes + notes_on_factors(flow_factors, film.minimum_thickness))
+    if supply is not None:
+        film = replace(film, starvation=_starvation(problem, outcome.state, flooded.state, scales, reversed_))
     if cavitation is Cavitation.SWIFT_STIEBER:
         return film
     exit_film = outcome.state.film[-1] * scales.film
-    behind = film.position * (-1.0 if reversed_ else 1.0) > outcome.state.exit * scales.length
-    return replace(film, film_fraction=np.where(behind, exit_film / film.thickness, 1.0))
+    along = film.position * (-1.0 if reversed_ else 1.0)
+    ruptured = along > outcome.state.exit * scales.length
+    if outcome.state.far_field == 0:
+        ruptured |= along < outcome.state.position[0] * scales.length
+    return replace(film, film_fraction=np.where(ruptured, exit_film / film.thickness, 1.0))
+
+
+def _wanted(supply: Supply, problem: Problem, flooded: State, scales: Scales) -> Wanted | None:
+    """What is wanted of a film by a supply; None where that floods the contact.
+
+    Raises
+    ------
+    InputError : a meniscus inside Hertz' contact.
+    """
+    if isinstance(supply, OilLayer):
+        share = supply.thickness / scales.film / through(problem, flooded)
+        return WantedLayer(problem, share) if share < 1 else None
+    half_width = math.sqrt(8 * problem.load / math.pi) * scales.length
+    if supply.distance <= half_width:
+        raise InputError(
+            f"supply: a meniscus {supply.distance!r} m before the axis is inside Hertz' contact; allowed: more than "
+            f"its half-width {half_width:.4g} m"
+        )
+    return WantedDistance(supply.distance / scales.length)
+
+
+def _starvation(problem: Problem, state: State, flooded: State, scales: Scales, reversed_: bool) -> Starvation:
+    first = state.position[0] * scales.length if state.far_field == 0 else -math.inf
+    layers = [through(problem, one) * scales.film for one in (state, flooded)]
+    central = [float(PchipInterpolator(one.position, one.film)(0.0)) for one in (state, flooded)]
+    return Starvation(-first if reversed_ else first, layers[0], central[0] / central[1], layers[1])
 
 
 @dataclass(frozen=True)
@@ -255,7 +296,8 @@ def _result(
     own_x = x * scales.length
     own_p = pressure * scales.pressure
     own_h = film * scales.film
-    upstream = 4 / x[0] ** 2 / problem.load
+    beyond = state.far_field * 4 / x[0] ** 2
+    upstream = beyond / problem.load
     if position is None:
         at, p, h = own_x, own_p, own_h
     else:
@@ -271,9 +313,7 @@ def _result(
         thickness=h,
         minimum_thickness=lowest_film(x, film) * scales.film,
         central_thickness=central * scales.film,
-        load=float(
-            np.sum(0.5 * np.diff(own_x) * (own_p[1:] + own_p[:-1])) + 4 / x[0] ** 2 * scales.pressure * scales.length
-        ),
+        load=float(np.sum(0.5 * np.diff(own_x) * (own_p[1:] + own_p[:-1])) + beyond * scales.pressure * scales.length),
         shear_force=sign * shear,
         striated_shear_force=sign * striated,
         exit_position=sign * state.exit * scales.length,
@@ -294,7 +334,7 @@ def _sampled(at: FloatArray, state: State, scales: Scales) -> tuple[FloatArray, 
     inside = (target >= x[0]) & (target <= x[-1])
     pressure = np.interp(target, x, np.maximum(state.pressure, 0.0), right=0.0)
     upstream = target < x[0]
-    pressure[upstream] = 8 / np.abs(target[upstream]) ** 3
+    pressure[upstream] = state.far_field * 8 / np.abs(target[upstream]) ** 3
     film = np.empty_like(target)
     film[inside] = PchipInterpolator(x, state.film)(target[inside])
     far = inside & (np.abs(target) > 1.5 * state.exit)
@@ -310,8 +350,8 @@ def _check_reach(at: FloatArray, state: State, scales: Scales, load: float) -> f
     """Share of the load upstream of ascending positions [m]; refuses positions that leave out much of the film."""
     x, first = state.position, at[0] / scales.length
     total = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(x) * (state.pressure[1:] + state.pressure[:-1]))])
-    total += 4 / x[0] ** 2
-    missed = 4 / first**2 if first < x[0] else float(np.interp(first, x, total))
+    total += state.far_field * 4 / x[0] ** 2
+    missed = state.far_field * 4 / first**2 if first < x[0] else float(np.interp(first, x, total))
     if missed > MAX_INLET_SHARE * load:
         needed = float(np.interp(0.5 * MAX_INLET_SHARE * load, total, x)) * scales.length
         raise InputError(

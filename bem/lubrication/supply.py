@@ -1,0 +1,74 @@
+"""How much oil reaches a line contact, and what is said of a film that gets less than it would take.
+
+Supplies are small frozen dataclasses given to `solve_line_film`; the solver is in `line_starved`. Verified in
+tests/lubrication/test_supply.py.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from bem.errors import InputError
+
+
+@dataclass(frozen=True)
+class OilLayer:
+    """Oil that the surfaces bring along: `thickness` [m] of both layers together, as if all of it moved at the mean
+    speed: (u1 h1 + u2 h2) / ((u1 + u2)/2). All of it goes through the contact, or as much as a flooded one takes."""
+
+    thickness: float
+
+    def __post_init__(self) -> None:
+        _check(self.thickness, "OilLayer.thickness")
+
+
+@dataclass(frozen=True)
+class InletDistance:
+    """Where the gap begins to be full: a meniscus at `distance` [m] upstream of the axis, beyond Hertz' contact."""
+
+    distance: float
+
+    def __post_init__(self) -> None:
+        _check(self.distance, "InletDistance.distance")
+
+
+Supply = OilLayer | InletDistance
+
+
+@dataclass(frozen=True)
+class Starvation:
+    """What a supply makes of a film.
+
+    meniscus_position : where the gap begins to be full [m]; infinite, upstream, of a flooded contact. layer : oil that
+    goes through, as `OilLayer.thickness` [m]. reduction : central thickness over that of the flooded contact.
+    flooded_layer : what a flooded contact would take [m].
+    """
+
+    meniscus_position: float
+    layer: float
+    reduction: float
+    flooded_layer: float
+
+    @property
+    def flooded(self) -> bool:
+        """Whether there is as much oil as the contact takes."""
+        return math.isinf(self.meniscus_position)
+
+
+def checked_supply(supply: object) -> Supply | None:
+    """The supply.
+
+    Raises
+    ------
+    InputError : neither a supply nor None.
+    """
+    if supply is None or isinstance(supply, OilLayer | InletDistance):
+        return supply
+    raise InputError(f"supply: {supply!r} must be an OilLayer, an InletDistance, or None for a flooded inlet")
+
+
+def _check(value: object, name: str) -> None:
+    real = isinstance(value, int | float) and not isinstance(value, bool)
+    if not (real and math.isfinite(value) and value > 0):  # type: ignore[operator,arg-type]
+        raise InputError(f"{name}: {value!r} must be positive and finite [m]")
