@@ -26,6 +26,13 @@ def chapter() -> list[Section]:
     return [
         Section("How wrong a figure is", "".join(text(item) for item in _WORDS["lead"])),
         Section(
+            "An accuracy instead of a grid",
+            "".join(text(item) for item in _WORDS["asked"])
+            + text(_WORDS["asked_measured"])
+            + table(("figure", "scenes", "met", "allowed over true error, median"), list(_asked())),
+            level=3,
+        ),
+        Section(
             "What bars are made of",
             table(("where", "what is solved again, and what its difference becomes"), list(_WORDS["made"].items())),
             level=3,
@@ -54,6 +61,13 @@ def _covered() -> Iterator[tuple[str, ...]]:
                 f"{row['median_ratio']:.1f}",
                 f"{row['median_relative_error']:.2g}",
             )
+
+
+def _asked() -> Iterator[tuple[str, ...]]:
+    found = json.loads((RESULTS / "accuracy_asked.json").read_text("utf-8"))
+    for figure, row in found["figures"].items():
+        name = figure.replace("_", " ").replace("von mises", "von Mises")
+        yield name, str(row["bars"]), f"{row['covered']:.0%}", f"{row['median_ratio']:.1f}"
 
 
 def _without() -> Iterator[tuple[str, ...]]:

@@ -37,6 +37,7 @@ from bem.scenes.units import Pressure, Ratio, Speed
 
 if TYPE_CHECKING:
     from bem.friction.setup import MixedSetup
+    from bem.scenes.checks.hertz import SmoothContact
     from bem.scenes.context import Context
 
 
@@ -198,6 +199,13 @@ class LineContactScene(SceneModel):
         values = getattr(self.contact, key)
         loads = tuple(self.contact.forces(self.modulus))
         return Axis("load", loads, Figure("N", "load"), lambda scene, i: changed(scene, f"contact.{key}", [values[i]]))
+
+    def smooth_contact(self, lengths: tuple[float, float] | None = None) -> SmoothContact | None:
+        """Hertz contact of the substrates under the smallest of the loads; the grid's `lengths` have no say in it."""
+        from bem.scenes.checks.hertz import smooth_contact
+
+        load = min(self.contact.forces(self.modulus)) / self.contact.width
+        return smooth_contact(*self.bodies, (self.contact.radius, math.inf), load=load)
 
     def check(self, film: FilmMeshScene | None = None) -> Grid:
         """The grid of a case, if film and surfaces can be expected to carry the load on it.

@@ -13,11 +13,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from bem.accuracy.bars import DEPTHS as BELOW
+from bem.accuracy.bars import GRID
 from bem.errors import InputError
 from bem.scenes import build
 from bem.scenes.axes import changed
 from bem.scenes.common import DepthsScene, GeneratedSurface, MeasuredSurface
-from bem.scenes.paths import parse_key
 
 _PER_WAVE, _PER_RADIUS, _PER_LAYER, _FEWEST = 4, 6, 1, 32
 """Cells of the first level to the shortest wave or correlation length, to the radius of the smooth contact, to the
@@ -52,23 +53,38 @@ class Resolution:
     part: str = ""
 
 
-def counted(key: str, what: str, first: int, most: int, *, part: str = "", figures: tuple[str, ...] = ()) -> Resolution:
-    """A number at a dotted key of the scene, which begins with `first` where the scene does not give it."""
-    *path, name = (str(part) for part in parse_key(key) or ())
-
-    def table(scene: Any) -> Any:
-        for step in path:
-            scene = getattr(scene, step)
-        return scene
+def counted(key: str, what: str, first: int, most: int) -> Resolution:
+    """A number at a key of a table of the scene, such as "march.steps", which begins with `first` where the scene does
+    not give it. What there are so many of is the origin of its part of error bars, too."""
+    table, name = key.split(".")
 
     def begin(scene: Any) -> Any:
-        return scene if name in table(scene).model_fields_set else changed(scene, key, first)
+        return scene if name in getattr(scene, table).model_fields_set else changed(scene, key, first)
+
+    def number(scene: Any) -> int:
+        return int(getattr(getattr(scene, table), name))
 
     def finer(scene: Any) -> Any:
-        number = 2 * getattr(table(scene), name)
-        return changed(scene, key, number) if number <= most else f"{key} can be {most} at most"
+        twice = 2 * number(scene)
+        return changed(scene, key, twice) if twice <= most else f"{key} can be {most} at most"
 
-    return Resolution(what, begin, finer, lambda scene: f"{getattr(table(scene), name)} {what}", figures, part)
+    return Resolution(what, begin, finer, lambda scene: f"{number(scene)} {what}", part=what)
+
+
+def cell_at(key: str) -> Resolution:
+    """The size of the cells at a key of a table of the scene, such as "array.cell"; it begins with what is given."""
+    table, name = key.split(".")
+
+    def size(scene: Any) -> float:
+        return float(getattr(getattr(scene, table), name))
+
+    return Resolution(
+        "cells",
+        lambda scene: scene,
+        lambda scene: changed(scene, key, size(scene) / 2),
+        lambda scene: f"cells of {1e9 * size(scene):.4g} nm",
+        part=GRID,
+    )
 
 
 def _first_cells(scene: Any) -> Any:
@@ -181,7 +197,7 @@ def _cells_shown(scene: Any) -> str:
     return "{} x {} cells".format(*build.grid_of(scene.grid).shape)
 
 
-CELLS = Resolution("cells", _first_cells, _finer_cells, _cells_shown)
+CELLS = Resolution("cells", _first_cells, _finer_cells, _cells_shown, part=GRID)
 """Cells of a scene's grid."""
 
 
@@ -207,5 +223,6 @@ def _depths_shown(scene: Any) -> str:
     return f"{number} depths" if number else ""
 
 
-DEPTHS = Resolution("depths", _first_depths, _finer_depths, _depths_shown, ("max_von_mises", "max_von_mises_depth"))
+_STRESSES = ("max_von_mises", "max_von_mises_depth")
+DEPTHS = Resolution("depths", _first_depths, _finer_depths, _depths_shown, _STRESSES, BELOW)
 """Depths below a contact where stresses are wanted."""

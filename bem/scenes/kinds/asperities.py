@@ -20,6 +20,7 @@ from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
+from bem.scenes.resolutions import cell_at
 from bem.scenes.tables.asperities import ArrayScene
 
 if TYPE_CHECKING:
@@ -151,6 +152,7 @@ KIND = Kind.of(
     AsperityRecord,
     "a regular array of spherical asperities against a flat: load per asperity over depth",
     always_lists=True,
+    resolutions=(cell_at("array.cell"),),
     figures=("asperity-loads", "pressure-map"),
     headline=("spacing_um", "load_over_hertz", "load_over_hertz_finite_array", "hertz_load_N"),
 )

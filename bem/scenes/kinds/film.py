@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from pydantic import model_validator
 
+from bem.accuracy.bars import POINTS, STEPS
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.scenes import build, plans
@@ -20,6 +21,7 @@ from bem.scenes.oil import OilScene
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, columns, filled
+from bem.scenes.resolutions import counted
 from bem.scenes.tables.motion import FilmCylinderScene, MarchScene, MotionScene
 
 if TYPE_CHECKING:
@@ -182,5 +184,6 @@ KIND = Kind.of(
     FilmScene,
     FilmTimeRecord,
     "film of a smooth line contact in time: start and stop, reciprocating, changing load",
+    resolutions=(counted("march.points", POINTS, 201, 5000), counted("march.steps", STEPS, 50, 100_000)),
     figures=("film-over-time", "film-profiles", "film-pressures", "film-fraction"),
 )

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
+from bem.accuracy.bars import POINTS
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans
@@ -25,6 +26,7 @@ from bem.scenes.lubrication import FilmMeshScene, LineContactScene, tell_of_film
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, columns, filled, mean, spread
+from bem.scenes.resolutions import CELLS, counted
 from bem.scenes.tables.sharing import SharingScene, SurfaceVariant
 
 if TYPE_CHECKING:
@@ -105,6 +107,7 @@ def plan(scene: FrictionScene) -> Plan:
 
 
 _curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="first")
+_LOADS = ("contact_load", "film_load")
 _other_oil = partial(_curve, no_bar="they are to compare with, to a thousandth of the oil")
 
 
@@ -116,8 +119,8 @@ class CurveRecord(Record):
     friction: Annotated[FloatArray, _curve("", "coefficient of friction", headline=True)]
     boundary_part: Annotated[FloatArray, _curve("", "boundary part of the friction", name="boundary_friction_part")]
     film_part: Annotated[FloatArray, _curve("", "film part of the friction", name="film_friction_part")]
-    contact_load: Annotated[FloatArray, _curve("N", "load carried by contact", headline=True)]
-    film_load: Annotated[FloatArray, _curve("N", "load carried by the film", headline=True)]
+    contact_load: Annotated[FloatArray, _curve("N", "load carried by contact", headline=True, part_of=_LOADS)]
+    film_load: Annotated[FloatArray, _curve("N", "load carried by the film", headline=True, part_of=_LOADS)]
     minimum_film: Annotated[FloatArray, _curve("nm", "minimum film thickness", headline=True)]
     lambda_ratio: Annotated[FloatArray, _curve("", "film under the whole load over roughness", headline=True)]
     contact_area_fraction: Annotated[FloatArray, _curve("", "real contact area over patch")]
@@ -301,6 +304,7 @@ KIND = Kind.of(
     FrictionScene,
     CurveRecord,
     "load sharing between oil film and rough contact over speed: the Stribeck curve",
+    resolutions=(CELLS, counted("film.points", POINTS, 400, 20000)),
     figures=(
         "stribeck-curve",
         "load-sharing",
