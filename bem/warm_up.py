@@ -17,6 +17,7 @@ SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("rough-contact", ("grid.shape=256",)),
     ("sinusoid", ()),
     ("flash-temperature", ("grid.shape=96",)),
+    ("fretting-ball", ("grid.shape=48", "push.steps=2")),
     ("coated-sphere", ("grid.shape=96",)),
     ("film-reciprocating", ("march.duration=5 ms", "march.steps=20")),
     ("stribeck-mineral-oil", ("repetitions=1", "speeds.count=3", "grid.shape=100", "film.points=500")),

@@ -24,6 +24,7 @@ class TangentialSolution:
         relative to points deep inside the bodies, since before they touched: with it the force grows. Points deep
         inside the first body move against those of the second by minus that. Of `solve_rolling`: 0.
     rotation : the same as an angle about the grid's centre, from x to y [rad].
+    creepage : (2,), of `solve_rolling`: velocity of the first body against the second over the rolling velocity.
     displacement : [m], of the first surface less the second's relative to their depths, of tractions and pressure.
     slip : [m], by which the first surface slid over the second in this step, in contact; against the traction. Of
         `solve_rolling` over a cell's length of rolling.

@@ -280,6 +280,7 @@ def _asperities(scene: Any) -> list[Case]:
 _CASES: dict[str, Callable[[Any], list[Case]]] = {
     "asperities": _asperities,
     "contact": _contact,
+    "partial-slip": _contact,
     "surface-temperature": _contact,
     "film": _film,
     "friction": _lubricated,

@@ -1,0 +1,89 @@
+"""Figures of partial slip: where it sticks, tractions under their bound, force over shift."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+
+from bem.plots.figures import FigureKind
+from bem.plots.style import BLACK, BLUE, ORANGE, VERMILION, label, map_of, prefix
+
+
+def _sticks(run: Any, figure: Figure) -> None:
+    """Open, stick and slip at the end, beside the distance slid."""
+    data = run.dataset
+    left, right = figure.subplots(1, 2)
+    x, y = data["x"].values, data["y"].values
+    factor, unit = prefix([float(np.ptp(x)), float(np.ptp(y))], "m")
+    extent = (x[0] * factor, x[-1] * factor, y[0] * factor, y[-1] * factor)
+    colours = ListedColormap(["white", BLUE, VERMILION])
+    left.imshow(data["stick_state"].values.T, origin="lower", extent=extent, cmap=colours, vmin=0, vmax=2)
+    left.set_title("blue sticks, red slips")
+    left.set_xlabel(label("x", unit))
+    left.set_ylabel(label("y", unit))
+    slid = np.where(data["stick_state"].values > 0, data["slip"].values, np.nan)
+    map_of(figure, right, x, y, slid, "distance slid", "m", cmap="viridis")
+
+
+def _section(run: Any, figure: Figure) -> None:
+    """Along x through the middle of the load."""
+    data = run.dataset
+    x, pressure = data["x"].values, data["pressure"].values
+    row = int(np.argmax(pressure.sum(axis=0)))
+    axes = figure.add_subplot()
+    factor, unit = prefix([float(np.ptp(x))], "m")
+    friction = float(run.scene["push"]["friction"])
+    scale, pressure_unit = prefix([float(friction * pressure[:, row].max())], "Pa")
+    for sign in (1, -1):
+        axes.plot(x * factor, sign * friction * pressure[:, row] * scale, color="0.6", linewidth=0.9,
+                  label="friction x pressure" if sign > 0 else None)  # fmt: skip
+    axes.plot(x * factor, data["traction_x"].values[:, row] * scale, color=BLACK, label="traction along x")
+    axes.plot(x * factor, data["traction_y"].values[:, row] * scale, color=ORANGE, linewidth=0.9, label="along y")
+    axes.set_xlabel(label("x", unit))
+    axes.set_ylabel(label("traction on the lower body", pressure_unit))
+    axes.legend()
+
+
+def _loop(run: Any, figure: Figure) -> None:
+    data = run.dataset
+    axes = figure.add_subplot()
+    shift = np.concatenate([[0.0], data["step_shift"].values])
+    force = np.concatenate([[0.0], data["step_force"].values])
+    factor, unit = prefix([float(np.abs(shift).max())], "m")
+    scale, force_unit = prefix([float(np.abs(force).max())], "N")
+    axes.plot(shift * factor, force * scale, "o-", color=BLACK, markersize=2.5, linewidth=0.9)
+    axes.axhline(0, color="0.6", linewidth=0.6)
+    axes.axvline(0, color="0.6", linewidth=0.6)
+    axes.set_xlabel(label("shift", unit))
+    axes.set_ylabel(label("tangential force", force_unit))
+
+
+def _two_dimensional(run: Any) -> bool:
+    return min(run.dataset.sizes["x"], run.dataset.sizes["y"]) > 1
+
+
+FIGURES = (
+    FigureKind(
+        "slip-map",
+        "Left: where the surfaces stick and where they slip in the last step; right: how far they slid in all steps.",
+        ("x", "y", "stick_state", "slip"),
+        _sticks,
+        (8.0, 3.6),
+        applies=_two_dimensional,
+    ),
+    FigureKind(
+        "traction-section",
+        "Tractions along x through the row with most load, at the end, between the bounds of friction.",
+        ("x", "y", "pressure", "traction_x", "traction_y"),
+        _section,
+    ),
+    FigureKind(
+        "slip-loop",
+        "Force over shift, step by step from rest; what a cycle encloses is the energy of friction.",
+        ("step_shift", "step_force"),
+        _loop,
+    ),
+)

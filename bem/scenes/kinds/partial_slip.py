@@ -1,0 +1,242 @@
+"""Kind `partial-slip`: where pressed bodies stick and slip while they are pushed along, once or there and back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import numpy as np
+from pydantic import model_validator
+
+from bem.errors import Status
+from bem.grid import FloatArray, Grid
+from bem.scenes import build, plans
+from bem.scenes.common import problem
+from bem.scenes.context import Context, tell
+from bem.scenes.kind import Kind
+from bem.scenes.packing import keep, kept
+from bem.scenes.planner import Plan, Step, padded_points
+from bem.scenes.records import Figure, GridRecord, Series, filled
+from bem.scenes.tables.tangential import PushedScene
+
+if TYPE_CHECKING:
+    from bem.contact import ContactSolution
+    from bem.tangential import TangentialSolution
+
+_CONVOLUTIONS = 40
+"""Of a step, each worth two of the normal contact's; 30 to 50 were counted, a third of that in later steps."""
+
+_NO_BAR = "of first order in the cell at the edge of stick; compare with the grid of twice the cell"
+
+
+class PartialSlipScene(PushedScene):
+    """Two bodies, what presses them together and what pushes them along."""
+
+    kind: Literal["partial-slip"] = "partial-slip"
+
+    @model_validator(mode="after")
+    def _friction_in_one_place(self) -> PartialSlipScene:
+        if self.contact.friction != 0:
+            raise problem(
+                f"contact.friction = {self.contact.friction:g}: in this kind traction is not everywhere friction x "
+                "pressure",
+                "push.friction alone",
+            )
+        return self
+
+
+def plan(scene: PartialSlipScene) -> Plan:
+    """What will be computed.
+
+    Raises
+    ------
+    InfeasibleError : a load beyond hardness x area. InputError : surfaces that cannot be generated on the grid.
+    """
+    grid = build.grid_of(scene.grid)
+    scene.contact.check_load(grid.area)
+    points, steps = padded_points(grid.shape, grid.periodic), len(scene.push.path())
+    return Plan(
+        (
+            *plans.of_bodies(scene, grid, 1.0),
+            plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}"),
+            Step(
+                "partial slip",
+                f"{steps} steps along x, friction {scene.push.friction:g}",
+                transforms=4.0 * _CONVOLUTIONS * (1 + (steps - 1) / 3),
+                points=points,
+                memory=8.0 * points * 6 + 8.0 * grid.cells * 40,
+                kept=8.0 * grid.cells * 10,
+                seconds=0.2,
+            ),
+            plans.figures(grid.cells),
+        )
+    )
+
+
+_map = partial(Series, ("x", "y"))
+_step = partial(Series, ("step",))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PartialSlipRecord(GridRecord):
+    """A contact that was pushed along."""
+
+    load: Annotated[float, Figure("N", "load")]
+    contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid")]
+    force: Annotated[float, Figure("N", "tangential force at the end", headline=True, no_bar=_NO_BAR)]
+    shift: Annotated[float, Figure("m", "shift at the end", headline=True, no_bar=_NO_BAR)]
+    stick_fraction: Annotated[
+        float, Figure("", "share of the contact that sticks at the end", headline=True, no_bar=_NO_BAR)
+    ]
+    first_stiffness: Annotated[
+        float, Figure("N_m", "force over shift of the first step", headline=True, no_bar=_NO_BAR)
+    ]
+    dissipated: Annotated[float, Figure("J", "energy of friction in all steps", headline=True, no_bar=_NO_BAR)]
+    dissipated_in_cycle: Annotated[
+        float | None, Figure("J", "energy of friction in the last cycle", optional=True, headline=True, no_bar=_NO_BAR)
+    ] = None
+    contact_residual: Annotated[float, Figure("", "relative residual of the contact")]
+    slip_residual: Annotated[float, Figure("", "largest relative residual of the steps")]
+    convolutions: Annotated[float, Figure("", "convolutions of all steps")]
+    pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
+    traction_x: Annotated[FloatArray, _map("Pa", "traction on the lower body along x, at the end")]
+    traction_y: Annotated[FloatArray, _map("Pa", "traction on the lower body along y, at the end")]
+    slip: Annotated[FloatArray, _map("m", "distance slid in all steps")]
+    friction_energy: Annotated[FloatArray, _map("J/m^2", "energy of friction in all steps")]
+    stick_state: Annotated[FloatArray, _map("1", "0 open, 1 sticks, 2 slips in the last step")]
+    step: Annotated[FloatArray, _step("1", "step")]
+    step_force: Annotated[FloatArray, _step("N", "tangential force")]
+    step_shift: Annotated[FloatArray, _step("m", "shift")]
+    step_stick_fraction: Annotated[FloatArray, _step("1", "share of the contact that sticks")]
+    step_dissipated: Annotated[FloatArray, _step("J", "energy of friction in the step")]
+
+
+@dataclass(frozen=True, eq=False)
+class _Path:
+    """What came of the steps so far: `steps` (steps, 5), force, shift, share that sticks, energy, residual; `sums`
+    (2, nx, ny), distance slid and energy by area.
+    """
+
+    last: TangentialSolution | None
+    steps: FloatArray
+    sums: FloatArray
+    convolutions: float
+    status: Status
+
+
+def run(scene: PartialSlipScene, context: Context) -> PartialSlipRecord:
+    """Solve the contact, then step after step."""
+    from bem.contact import solve_contact
+
+    grid = build.grid_of(scene.grid)
+    gap = build.undeformed_gap(scene, grid, *build.both_heights(scene, grid, context))
+    with context.timer("contact"):
+        asked = scene.contact.prescribed(grid.area) | scene.contact.accuracy()
+        contact = solve_contact(gap, build.operator_of(scene, grid, 0.0), **asked)
+    tell(context, contact.notes)
+    with context.timer("partial slip"):
+        path = _pushed(scene, grid, contact, context)
+    if _coupled(scene):
+        context.note(
+            "the bodies differ in elasticity, so that tractions change the pressure: the pressure is that of the "
+            "contact without friction"
+        )
+    return _record(scene, grid, contact, path)
+
+
+def _coupled(scene: PartialSlipScene) -> bool:
+    from bem.convolution import couples
+
+    bodies = build.bodies_of(scene)
+    return couples(bodies if isinstance(bodies, tuple) else (bodies,))
+
+
+def _pushed(scene: PartialSlipScene, grid: Grid, contact: ContactSolution, context: Context) -> _Path:
+    """All steps, going on from the last one that was kept."""
+    from bem.tangential import solve_partial_slip
+
+    push = scene.push
+    wanted = push.path() * push.peak * (push.friction * contact.load if push.share is not None else 1.0)
+    name = "shift" if push.shift is not None else "force"
+    nothing = _Path(None, np.zeros((0, 5)), np.zeros((2, *grid.shape)), 0.0, Status.CONVERGED)
+    path: _Path = kept(context) or nothing
+    for number in range(len(path.steps), len(wanted)):
+        given: dict[str, Any] = {name: (float(wanted[number]), 0.0)}
+        found = solve_partial_slip(
+            contact,
+            grid,
+            build.bodies_of(scene),
+            friction=push.friction,
+            previous=path.last,
+            tolerance=push.tolerance,
+            **given,
+        )
+        path = _after(path, found)
+        keep(context, path)
+        context.progress(number + 1, len(wanted), "steps", residual=found.residual)
+    return path
+
+
+def _after(path: _Path, found: TangentialSolution) -> _Path:
+    """With one step more."""
+    area = found.stick_area + found.slip_area
+    row = [
+        found.force[0],
+        found.shift[0],
+        found.stick_area / area if area > 0 else 1.0,
+        found.dissipated_energy,
+        found.residual,
+    ]
+    slid = np.stack([np.hypot(*found.slip), -(found.traction * found.slip).sum(axis=0)])
+    worse = found.status if path.status is Status.CONVERGED else path.status
+    return _Path(
+        found, np.concatenate([path.steps, [row]]), path.sums + slid, path.convolutions + found.convolutions, worse
+    )
+
+
+def _record(scene: PartialSlipScene, grid: Grid, contact: ContactSolution, path: _Path) -> PartialSlipRecord:
+    last = path.last
+    assert last is not None
+    force, shift, sticks, energy, residual = path.steps.T
+    state = np.where(contact.pressure > 0, np.where(last.slip.any(axis=0), 2.0, 1.0), 0.0)
+    in_cycle = 4 * scene.push.steps
+    status = contact.status if contact.status is not Status.CONVERGED else path.status
+    return filled(
+        PartialSlipRecord,
+        grid,
+        load=contact.load,
+        contact_area_fraction=contact.contact_area / grid.area,
+        force=float(force[-1]),
+        shift=float(shift[-1]),
+        stick_fraction=float(sticks[-1]),
+        first_stiffness=float(force[0] / shift[0]),
+        dissipated=float(energy.sum()),
+        dissipated_in_cycle=float(energy[-in_cycle:].sum()) if scene.push.cycles else None,
+        contact_residual=contact.residual,
+        slip_residual=float(residual.max()),
+        convolutions=path.convolutions,
+        pressure=contact.pressure,
+        traction_x=last.traction[0],
+        traction_y=last.traction[1],
+        slip=path.sums[0],
+        friction_energy=path.sums[1],
+        stick_state=state,
+        step=np.arange(1.0, len(force) + 1),
+        step_force=force,
+        step_shift=shift,
+        step_stick_fraction=sticks,
+        step_dissipated=energy,
+        status=status,
+        where=f"contact: {contact.status.message}; partial slip: {path.status.message}",
+    )
+
+
+KIND = Kind.of(
+    vars(),
+    PartialSlipScene,
+    PartialSlipRecord,
+    "pressed bodies pushed along, once or there and back: where they stick and slip, loop, energy of friction",
+    resolve=PartialSlipScene.resolved,
+    figures=("slip-map", "traction-section", "slip-loop", "pressure-map"),
+)

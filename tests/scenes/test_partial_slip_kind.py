@@ -1,0 +1,113 @@
+"""Kind `partial-slip`: a ball against Mindlin and Deresiewicz, controls, messages, going on to the same bits."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from bem import CATALOGUE, InputError
+from bem.scenes import PlainContext, get_kind, load_scene
+
+STEEL = CATALOGUE["steel-52100"].material
+PUSH = {"friction": 0.4, "share": 0.6, "steps": 3}
+
+
+def scene(**changes):
+    table = {
+        "kind": "partial-slip",
+        "grid": {"shape": 48, "lengths": "300 um"},
+        "lower": {"material": "steel-52100"},
+        "upper": {"material": "steel-52100"},
+        "shape": {"kind": "sphere", "radius": "10 mm"},
+        "contact": {"load": "20 N"},
+        "push": PUSH,
+    }
+    return load_scene(table | changes)
+
+
+def run(context=None, **changes):
+    kind = get_kind("partial-slip")
+    resolved = kind.resolve(scene(**changes))
+    kind.plan(resolved)
+    context = context or PlainContext(resolved)
+    return kind.run(resolved, context), context
+
+
+def stiffness_of_mindlin(radius):
+    """Johnson (1985) eq. 7.42: 8 a / sum (2 - nu) / G, of two equal bodies."""
+    return 8 * radius / (2 * (2 - STEEL.poissons_ratio) / STEEL.shear_modulus)
+
+
+def test_a_cycle_is_mindlin_and_deresiewicz_s():
+    record, context = run(push=PUSH | {"cycles": 1})
+    assert record.status == "converged"
+    assert not context.notes
+    radius = (3 * 20.0 * 10e-3 / (4 * STEEL.plane_strain_modulus / 2)) ** (1 / 3)
+    share, limit = 0.6, 0.4 * 20.0
+    assert record.force == pytest.approx(share * limit, rel=1e-6)
+    assert record.step_force[3 + 5] == pytest.approx(-share * limit, rel=1e-6)
+    theory = 1.5 * limit / stiffness_of_mindlin(radius) * (1 - (1 - share) ** (2 / 3))
+    # 35 cells across: the edge of stick is found to half a cell
+    assert record.shift == pytest.approx(theory, rel=0.01)
+    assert record.stick_fraction == pytest.approx((1 - share) ** (2 / 3), abs=0.05)
+    cycle = (
+        7.2 * limit**2 / (stiffness_of_mindlin(radius))
+        * (1 - (1 - share) ** (5 / 3) - 5 * share / 6 * (1 + (1 - share) ** (2 / 3)))
+    )  # fmt: skip
+    assert record.dissipated_in_cycle == pytest.approx(cycle, rel=0.03)
+    assert record.friction_energy.sum() * (300e-6 / 48) ** 2 == pytest.approx(record.dissipated, rel=1e-9)
+    assert (np.hypot(record.traction_x, record.traction_y) <= 0.4 * record.pressure * (1 + 1e-9)).all()
+
+
+def test_share_force_and_shift_ask_for_the_same():
+    share, _ = run()
+    force, _ = run(push={"friction": 0.4, "force": "4.8 N", "steps": 3})
+    shift, _ = run(push={"friction": 0.4, "shift": float(share.shift), "steps": 3})
+    assert force.shift == pytest.approx(share.shift, rel=1e-6)
+    assert shift.force == pytest.approx(share.force, rel=1e-2)  # its steps are even in shift, not in force
+
+
+def test_bodies_that_differ_say_so():
+    _, context = run(upper={"material": "pom"}, push=PUSH | {"steps": 1})
+    assert any("tractions change the pressure" in note for note in context.notes)
+
+
+def test_messages():
+    with pytest.raises(InputError, match=r"push.*share.*force.*shift"):
+        scene(push={"friction": 0.4})
+    with pytest.raises(InputError, match=r"push\.share"):
+        scene(push={"friction": 0.4, "share": 1.2})
+    with pytest.raises(InputError, match=r"push\.friction alone"):
+        scene(contact={"load": "20 N", "friction": 0.1})
+
+
+class _Stopping(PlainContext):
+    """Stops after a number of steps were kept."""
+
+    def __init__(self, scene, after):
+        super().__init__(scene)
+        self.left = after
+        self.state = None
+
+    def save(self, state):
+        self.state = state
+        self.left -= 1
+        if self.left == 0:
+            raise KeyboardInterrupt
+
+    def saved(self):
+        return self.state
+
+
+def test_stopped_between_steps_it_goes_on_to_the_same_bits():
+    whole, _ = run(push=PUSH | {"cycles": 1})
+    stopping = _Stopping(scene(push=PUSH | {"cycles": 1}), after=5)
+    with pytest.raises(KeyboardInterrupt):
+        run(stopping, push=PUSH | {"cycles": 1})
+    rest, _ = run(stopping, push=PUSH | {"cycles": 1})
+    for field in dataclasses.fields(whole):
+        one, two = getattr(whole, field.name), getattr(rest, field.name)
+        if isinstance(one, np.ndarray):
+            assert np.array_equal(one, two), field.name
+        elif isinstance(one, float):
+            assert one == two, field.name
