@@ -59,7 +59,7 @@ _ALGEBRAIC = 10.0
 """Relative change of a figure over the residual of the equations, relative to the film."""
 
 _UNSOLVED = "no error bars of the film: on another mesh it did not converge"
-_SPIKE = "the highest pressure of the film has no error bar: its spike is as high as the mesh is fine"
+SPIKE = "the highest pressure of the film has no error bar: its spike is as high as the mesh is fine"
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ def film_bars(case: FilmCase, other: OtherFilm) -> ErrorBars:
     residual["load"] += abs(case.solution.load - case.load)
     bars = ErrorBars.together({POINTS: points, RESIDUAL: residual})
     no_limit = spike_is_unresolved(case) or spike_is_unresolved(replace(case, solution=other.solution))
-    return bars.without("maximum_pressure", _SPIKE) if no_limit else bars
+    return bars.without("maximum_pressure", SPIKE) if no_limit else bars
 
 
 def spike_is_unresolved(case: FilmCase) -> bool:

@@ -1,32 +1,37 @@
-"""Error bars of a rolling and sliding line contact, with or without heat: the same on half the points.
+"""Error bars of a rolling and sliding line contact, with or without heat: the same on half the points, and half the
+cells of the heat.
 
-The bar is the difference to half the points, which order two makes three times the error, and a share of what the film
-changes by, since differences may pass zero: an estimate and no proved bound, of the mesh alone. What the lumped model
-of heat leaves out is not in it.
+The bar is twice the difference to these and a share of what the film changes by, since differences may pass zero: an
+estimate and no proved bound, of the meshes alone. Of 152 figures of 16 random contacts (0.2 to 1.6 GPa, 0.1 to 20 m/s,
+slide-to-roll ratios 0 to 2, 20 to 127 degrees Celsius, 200 to 800 points) against 4000 points and 600 cells one was
+beyond it, by a tenth. What the lumped model of heat leaves out is not in it.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from bem.accuracy.bars import POINTS, RESIDUAL, ErrorBars
-from bem.accuracy.film import FEWEST
+from bem.accuracy.film import FEWEST, SPIKE, FilmCase, spike_is_unresolved
 from bem.errors import Status
 from bem.lubrication import FilmSolution, Lubricant, ThermalFilm, solve_line_film, solve_thermal_line_film
 from bem.materials import Body
 
-FILM_SHARE = 0.3
+FILM_SHARE = 1.0
 """Of the relative change of the film, in the bar of every figure that is no temperature."""
-RISE_SHARE = 0.3
+RISE_SHARE = 2.0
 """Of the same, over the rise, in that of temperatures."""
+DIFFERENCE = 2.0
+"""Of what half the cells of the heat change, which are of first order, and half the points, which are of second."""
+CELLS = 200
 _ALGEBRAIC = 10.0
 """Relative change of a figure over the residual of the equations, relative to the film."""
 _UNSOLVED = "no error bars of traction: on half the points the film did not converge"
-_BARE = ("energy_imbalance", "inlet_factor")
-"""Rounding, and a formula that no mesh changes."""
+_BARE = ("energy_imbalance", "inlet_factor", "highest_film_temperature")
+"""Rounding, a formula that no mesh changes, and what stands at a spike of pressure in pure rolling."""
 _TEMPERATURES = ("film_temperature", "lower_temperature", "upper_temperature")
 
 
@@ -50,8 +55,8 @@ class TractionCase:
         """Whether heat is solved for."""
         return self.bodies is not None
 
-    def on(self, points: int, initial: FilmSolution | None = None) -> Any:
-        """The film on a mesh of so many points: a `ThermalFilm` with heat, else a `FilmSolution`."""
+    def on(self, points: int, cells: int = CELLS) -> Any:
+        """The film on a mesh of so many points: a `ThermalFilm` with heat on so many cells, else a `FilmSolution`."""
         asked: dict[str, Any] = {
             "load": self.load,
             "radius": self.radius,
@@ -59,11 +64,10 @@ class TractionCase:
             "speeds": self.speeds,
             "lubricant": self.lubricant,
             "points": points,
-            "initial": initial,
         }
         if self.bodies is None:
             return solve_line_film(**asked)
-        return solve_thermal_line_film(**asked, bodies=self.bodies, bulk=self.bulk)
+        return solve_thermal_line_film(**asked, bodies=self.bodies, bulk=self.bulk, cells=cells)
 
 
 def traction_figures(case: TractionCase, found: FilmSolution | ThermalFilm) -> dict[str, float]:
@@ -81,7 +85,8 @@ def traction_figures(case: TractionCase, found: FilmSolution | ThermalFilm) -> d
         return figures
     power = found.friction_power or 1.0
     return figures | {
-        "film_temperature": found.highest_film_temperature,
+        "film_temperature": _by_pressure(found),
+        "highest_film_temperature": found.highest_film_temperature,
         "lower_temperature": float(found.surface_temperatures[0].max()),
         "upper_temperature": float(found.surface_temperatures[1].max()),
         "inlet_factor": found.inlet.factor,
@@ -93,6 +98,12 @@ def traction_figures(case: TractionCase, found: FilmSolution | ThermalFilm) -> d
     }
 
 
+def _by_pressure(found: ThermalFilm) -> float:
+    """Mean temperature of the oil weighted with the pressure [K]."""
+    weights = np.interp(found.position, found.film.position, found.film.pressure) * found.width
+    return float(weights @ found.film_temperature / weights.sum())
+
+
 def _rolling(film: FilmSolution) -> float:
     """Four times the integral of (h/2) dp/dx on the mesh."""
     return float(np.sum((film.thickness[1:] + film.thickness[:-1]) * np.diff(film.pressure)))
@@ -102,15 +113,23 @@ def traction_bars(case: TractionCase, found: FilmSolution | ThermalFilm) -> Erro
     """Bars of the figures of a solution on all points."""
     figures = {name: value for name, value in traction_figures(case, found).items() if name not in _BARE}
     film = found.film if isinstance(found, ThermalFilm) else found
-    other = case.on(max(case.points // 2, FEWEST) if case.points > FEWEST else 2 * case.points)
+    other = case.on(max(case.points // 2, FEWEST) if case.points > FEWEST else 2 * case.points, CELLS // 2)
     if other.status is not Status.CONVERGED:
         return ErrorBars.unknown(figures, _UNSOLVED)
     there = traction_figures(case, other)
     changed = max(abs(there[name] / figures[name] - 1) for name in ("minimum_thickness", "central_thickness"))
     points, residual = {}, {}
     for name, value in figures.items():
-        size = abs(value if name not in _TEMPERATURES else value - min(case.bulk))
-        share = RISE_SHARE if name in _TEMPERATURES else FILM_SHARE
-        points[name] = abs(there[name] - value) + share * changed * size
+        if name in _TEMPERATURES:
+            size = abs(value - min(case.bulk))
+            share = RISE_SHARE
+        else:
+            size, share = abs(value), FILM_SHARE
+        points[name] = DIFFERENCE * abs(there[name] - value) + share * changed * size
         residual[name] = _ALGEBRAIC * film.residual * size
-    return ErrorBars.together({POINTS: points, RESIDUAL: residual})
+    bars = ErrorBars.together({POINTS: points, RESIDUAL: residual})
+    of_film = FilmCase(film, case.load, case.radius, case.contact_modulus, case.speeds, case.lubricant, case.points)
+    coarser = replace(of_film, solution=other.film if case.hot else other)
+    if any(spike_is_unresolved(one) for one in (of_film, coarser)):
+        return bars.without("maximum_pressure", SPIKE)
+    return bars

@@ -44,7 +44,7 @@ def test_a_curve_over_the_slide_to_roll_ratio(tmp_path):
     )
     assert summary["traction_coefficient"][1] == pytest.approx(found.shear_force / found.film.load, rel=1e-9)
     assert summary["friction_power_W"][1] == pytest.approx(8e-3 * found.friction_power, rel=1e-9)
-    assert summary["film_temperature_C"][1] == pytest.approx(found.highest_film_temperature - 273.15, rel=1e-9)
+    assert summary["highest_film_temperature_C"][1] == pytest.approx(found.highest_film_temperature - 273.15, rel=1e-9)
     assert summary["traction_coefficient"][1] > summary["traction_coefficient"][2] > summary["traction_coefficient"][0]
     bars, values = (np.array(summary[f"traction_coefficient{end}"]) for end in ("_error", ""))
     assert (bars > 0).all()

@@ -131,6 +131,7 @@ def solve_thermal_line_film(
     bulk: Sequence[float] | None = None,
     points: int = 2000,
     initial: FilmSolution | None = None,
+    cells: int = 200,
     **asked: Any,
 ) -> ThermalFilm:
     """Steady thermal film between a cylinder and a flat, lumped over the film's thickness.
@@ -143,6 +144,7 @@ def solve_thermal_line_film(
         is taken as cool at a distance of the radius.
     bulk : temperatures of both far from the contact [K]; the oil's by default.
     points, initial : as of `solve_line_film`.
+    cells : along the film, where temperatures are found.
     asked : further arguments of it: tolerance, max_iterations, flow_factors.
 
     Returns
@@ -168,7 +170,7 @@ def solve_thermal_line_film(
         hertz_over_modulus(load, radius, contact_modulus),
     )
     films = _thinned(case, lubricant, points, initial, inlet.factor)
-    thermal = _heated(films[-1], films, inlet, lubricant, conductors)
+    thermal = _heated(films, inlet, lubricant, conductors, cells)
     notes = _notes_of_film(films[-1], lubricant, radius, contact_modulus)
     return replace(thermal, notes=notes + thermal.notes)
 
@@ -234,14 +236,15 @@ def _thinned(
 
 
 def _heated(
-    film: FilmSolution,
     films: list[FilmSolution],
     inlet: InletHeating,
     lubricant: Lubricant,
     bodies: tuple[Conductor, Conductor],
+    cells: int,
 ) -> ThermalFilm:
-    """Temperatures and friction of a film."""
-    strip, viscosity = strip_of(film), HotViscosity.of(lubricant)
+    """Temperatures and friction of the last film."""
+    film = films[-1]
+    strip, viscosity = strip_of(film, cells), HotViscosity.of(lubricant)
     middle, width = 0.5 * (strip.edges[1:] + strip.edges[:-1]), np.diff(strip.edges)
     pieces = np.diff(strip.x)
 
@@ -268,9 +271,9 @@ def _heated(
     density, capacity = lubricant.density or 0.0, lubricant.heat_capacity or 0.0
     flow = 0.5 * abs(sum(film.speeds)) * float(strip.thickness[-1])
     supply = float(lubricant.temperature or 0.0)
-    cells = summed(strip.cell, 0.5 * pieces * (strip.thickness[1:] + strip.thickness[:-1]), len(width)) / width
+    thickness = summed(strip.cell, 0.5 * pieces * (strip.thickness[1:] + strip.thickness[:-1]), len(width)) / width
     channel = Channel(
-        strip.edges, cells, lubricant.thermal_conductivity or 0.0, density * capacity * flow, supply, bodies
+        strip.edges, thickness, lubricant.thermal_conductivity or 0.0, density * capacity * flow, supply, bodies
     )
     found = film_temperatures(channel, heat)
     stress = stresses(found.oil)[0]

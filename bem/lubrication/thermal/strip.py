@@ -12,9 +12,6 @@ from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_friction import upstream_of_mesh
 from bem.lubrication.steady import KeptSteady
 
-CELLS = 200
-"""Along the film, where temperatures are found."""
-
 
 @dataclass(frozen=True)
 class Strip:
@@ -33,8 +30,8 @@ class Strip:
     sliding: float
 
 
-def strip_of(film: FilmSolution) -> Strip:
-    """Of a steady film."""
+def strip_of(film: FilmSolution, cells: int) -> Strip:
+    """Of a steady film, in so many cells at most."""
     kept = film.state
     assert isinstance(kept, KeptSteady)
     state, scales = kept.state, kept.scales
@@ -42,7 +39,7 @@ def strip_of(film: FilmSolution) -> Strip:
     pressure = np.maximum(state.pressure, 0.0) * scales.pressure
     first, second = (speed * (-1.0 if kept.reversed else 1.0) for speed in film.speeds)
     tail_1, tail_2 = upstream_of_mesh(state)
-    edges = cell_edges(x, pressure)
+    edges = cell_edges(x, pressure, cells)
     cell = np.searchsorted(edges, 0.5 * (x[1:] + x[:-1])) - 1
     pieces = 0.25 * (thickness[1:] + thickness[:-1]) * np.diff(pressure)
     upstream_force = 3 * (tail_1 - state.film[-1] * tail_2) * scales.film * scales.pressure
@@ -72,13 +69,13 @@ def summed(cell: NDArray[np.intp], values: FloatArray, cells: int) -> FloatArray
     return np.bincount(cell, values, cells).astype(np.float64)
 
 
-def cell_edges(x: FloatArray, pressure: FloatArray) -> FloatArray:
+def cell_edges(x: FloatArray, pressure: FloatArray, cells: int) -> FloatArray:
     """Some of the nodes: even where there is pressure, coarser in proportion upstream."""
     loaded = x[pressure > 0.02 * pressure.max()]
     half = 0.5 * float(loaded[-1] - loaded[0])
     density = 1 / np.maximum(half, np.abs(x - 0.5 * (loaded[0] + loaded[-1])))
     count = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * np.diff(x))])
-    chosen = np.searchsorted(count, np.linspace(0.0, count[-1], CELLS + 1))
+    chosen = np.searchsorted(count, np.linspace(0.0, count[-1], cells + 1))
     return np.asarray(x[np.unique(np.clip(chosen, 0, len(x) - 1))])
 
 

@@ -33,7 +33,7 @@ def _curve(run: Any, figure: Figure) -> None:
     panels[0].set_ylim(0)
     if hot:
         _lines(panels[1], data, "film_temperature", ratio, _CELSIUS)
-        panels[1].set_ylabel("oil, at its hottest (°C)")
+        panels[1].set_ylabel("oil in the contact (°C)")
     panels[-1].set_xlabel("slide-to-roll ratio")
     if panels[0].get_legend_handles_labels()[1]:
         panels[0].legend()
@@ -99,7 +99,7 @@ def _film(run: Any, figure: Figure) -> None:
 FIGURES = (
     FigureKind(
         "traction-curve",
-        "Friction over load and the oil's highest mean temperature, over the slide-to-roll ratio.",
+        "Friction over load and the oil's mean temperature by pressure, over the slide-to-roll ratio.",
         ("traction_coefficient",),
         _curve,
         size=(5.0, 5.0),

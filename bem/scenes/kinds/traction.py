@@ -94,6 +94,7 @@ def plan(scene: TractionScene) -> Plan:
 
 
 _along = partial(Series, ("x",))
+_HOTTEST = "in pure rolling it stands at the spike of pressure and follows the mesh"
 _FORMULA = "it is a formula's"
 _ALGEBRA = "it closes by construction, to rounding"
 
@@ -107,7 +108,10 @@ class TractionRecord(Record):
     minimum_thickness: Annotated[float, Figure("nm", "minimum film", headline=True)]
     central_thickness: Annotated[float, Figure("nm", "film at the centre", headline=True)]
     maximum_pressure: Annotated[float, Figure("Pa", "highest pressure")]
-    film_temperature: Annotated[float | None, Figure("C", "highest mean temperature of the oil", headline=True)] = None
+    film_temperature: Annotated[float | None, Figure("C", "oil in the contact, mean by pressure", headline=True)] = None
+    highest_film_temperature: Annotated[
+        float | None, Figure("C", "oil at its hottest, mean across the film", no_bar=_HOTTEST)
+    ] = None
     lower_temperature: Annotated[float | None, Figure("C", "highest temperature of the lower surface")] = None
     upper_temperature: Annotated[float | None, Figure("C", "highest temperature of the upper surface")] = None
     inlet_factor: Annotated[float | None, Figure("", "film over that without inlet heating", no_bar=_FORMULA)] = None
