@@ -2,9 +2,9 @@
 cells of the heat.
 
 The bar is twice the difference to these and a share of what the film changes by, since differences may pass zero: an
-estimate and no proved bound, of the meshes alone. Of 152 figures of 16 random contacts (0.2 to 1.6 GPa, 0.1 to 20 m/s,
+estimate and no proved bound, of the meshes alone. Of 159 figures of 16 random contacts (0.2 to 1.6 GPa, 0.1 to 20 m/s,
 slide-to-roll ratios 0 to 2, 20 to 127 degrees Celsius, 200 to 800 points) against 4000 points and 600 cells one was
-beyond it, by a tenth. What the lumped model of heat leaves out is not in it.
+beyond it, by a sixth. What the lumped model of heat leaves out is not in it.
 """
 
 from __future__ import annotations

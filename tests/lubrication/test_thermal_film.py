@@ -178,6 +178,8 @@ def test_an_oil_known_at_one_temperature_will_do():
 def test_what_cannot_be_computed_is_refused_in_words():
     with pytest.raises(InputError, match="lubricant lacks temperature, density"):
         film(1.0, 0.1, lubricant=Lubricant(0.05))
+    with pytest.raises(InputError, match="cells 3 must be an integer from 20 to 2000"):
+        film(1.0, 0.1, cells=3)
     with pytest.raises(InputError, match="320 degC is above 300 degC"):
         film(1.0, 0.1, bulk=(593.15, 333.15))
     with pytest.raises(InputError, match="thermal_conductivity"):

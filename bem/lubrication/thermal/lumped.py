@@ -120,7 +120,7 @@ class ThinnedLaw(ViscosityLaw):
 
 
 @one_blas_thread
-def solve_thermal_line_film(
+def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and what heat needs
     *,
     load: float,
     radius: float,
@@ -158,6 +158,8 @@ def solve_thermal_line_film(
 
     Jaeger (1942) for moving heat, Crook (1961) for heat across the film, Gupta et al. (1992) for the inlet.
     """
+    if not (isinstance(cells, int) and 20 <= cells <= 2000):
+        raise InputError(f"solve_thermal_line_film: cells {cells!r} must be an integer from 20 to 2000")
     conductors = _checked(lubricant, bodies, speeds, bulk, radius)
     case = {"load": load, "radius": radius, "contact_modulus": contact_modulus, "speeds": speeds, **asked}
     assert lubricant.temperature_viscosity is not None
