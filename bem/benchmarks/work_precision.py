@@ -229,7 +229,7 @@ def error_rows(run: Run) -> list[tuple[str, ...]]:
             str(n),
             f"{100 * e:.2g}",
             f"{t:.2g}",
-            f"{m / 2**20:.0f}",
+            f"{m / 2**20:.2g}",
         )
         for c in curves(run)
         for n, e, t, m in zip(c.sizes, c.errors, c.times, c.memory, strict=True)
