@@ -27,6 +27,7 @@ from bem.scenes.context import Context
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, available_memory, show_bytes
 from bem.scenes.records import Figure, Record, described
+from bem.scenes.resolutions import Resolution
 
 _MOST_LEVELS = 12
 _SHARE = 0.25
@@ -102,7 +103,7 @@ def expected_levels(kind: Kind, scene: SceneModel) -> list[SceneModel]:
     found = [scene]
     for _ in range(min(_MOST_LEVELS - 1, further)):
         refined = tuple(i for i, one in enumerate(kind.resolutions) if not isinstance(one.finer(found[-1]), str))
-        if not refined:
+        if 0 not in refined:
             break
         found.append(_finer(kind, found[-1], refined))
     return found
@@ -135,18 +136,19 @@ def _what_next(
         return (), "no error bars there (see the notes), and finer cells give none"
     if len(levels) >= _MOST_LEVELS:
         return (), f"{_MOST_LEVELS} levels are over"
-    if len(levels) > _PATIENCE and levels[-1].worst > _FALL * min(level.worst for level in levels[:-_PATIENCE]):
+    if len(levels) > _PATIENCE and not levels[-1].worst < _FALL * min(level.worst for level in levels[:-_PATIENCE]):
         return (), f"the error has not fallen in {_PATIENCE} levels"
-    refined, reasons = [], []
+    refined, reasons, hopeless = [], [], False
     for number, one in enumerate(kind.resolutions):
         if not _matters(one.part, one.figures, record, short):
             continue
         found = one.finer(scene)
         if isinstance(found, str):
             reasons.append(found)
+            hopeless = hopeless or _is_too_large_alone(one, record, ratios)
         else:
             refined.append(number)
-    if not refined:
+    if not refined or hopeless:
         return (), "; ".join(dict.fromkeys(reasons)) or "nothing that is refined changes it"
     finer = _finer(kind, scene, refined)
     plan: Plan = kind.plan(finer)
@@ -167,6 +169,16 @@ def _matters(part: str, figures: Sequence[str], record: Record, short: set[str])
         if whole is None or share is None or not np.all(np.isfinite(whole)):
             return True
         if np.max(np.abs(share)) >= _SHARE * np.max(np.abs(whole)):
+            return True
+    return False
+
+
+def _is_too_large_alone(one: Resolution, record: Record, ratios: Mapping[str, float]) -> bool:
+    """Whether what a resolution leaves is more than a figure may have in all."""
+    parts = record.error_parts.get(one.part, {})
+    for name, share in parts.items():
+        whole, ratio = record.errors.get(name), ratios.get(name, 0.0)
+        if whole is not None and 1 < ratio < math.inf and np.max(np.abs(share)) * ratio > np.max(np.abs(whole)):
             return True
     return False
 

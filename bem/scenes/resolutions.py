@@ -27,8 +27,8 @@ _MOST_CELLS = 65536
 _MARGIN, _HIGH = 1.25, 3.0
 """Half the grid over the radius in which bodies may touch: where the smooth contact, pressed apart by so many times the
 rms height, is closed."""
-_DEEP, _DEPTHS = 1.5, 24
-"""Deepest depth over the radius of the smooth contact, and how many there are."""
+_DEEP, _DEPTHS, _MOST_DEPTHS = 1.5, 24, 1024
+"""Deepest depth over the radius of the smooth contact, how many there are, and can be."""
 
 
 @dataclass(frozen=True)
@@ -213,8 +213,12 @@ def _first_depths(scene: Any) -> Any:
 
 def _finer_depths(scene: Any) -> Any:
     depths = scene.outputs.depths
-    if depths is None or depths.values is not None or 2 * depths.count - 1 > 1024:
-        return "outputs.depths are given one by one" if depths is not None else "no depths are asked for"
+    if depths is None:
+        return "no depths are asked for"
+    if depths.values is not None:
+        return "outputs.depths are given one by one"
+    if 2 * depths.count - 1 > _MOST_DEPTHS:
+        return f"outputs.depths.count can be {_MOST_DEPTHS} at most"
     return changed(scene, "outputs.depths.count", 2 * depths.count - 1)
 
 

@@ -309,6 +309,16 @@ def test_what_has_no_part_in_the_error_is_not_refined():
     assert context.notes == ["16 cells"]  # those of coarser levels are nobody's business
 
 
+def test_what_cannot_be_refined_and_leaves_too_much_ends_it_at_once():
+    kind = coils(order=1)
+    grid, steps = kind.resolutions
+    stuck = dataclasses.replace(grid, finer=lambda scene: "the data end")
+    kind = dataclasses.replace(kind, resolutions=(stuck, dataclasses.replace(steps, part="")))
+    found = refine.solve_case(kind, CoilScene(accuracy=0.01), PlainContext())
+    assert (found.status, len(found.refinement["levels"])) == ("inaccurate", 1)
+    assert found.where.endswith("the data end")
+
+
 def test_an_error_that_does_not_fall_ends_it():
     found = refine.solve_case(coils(order=0), CoilScene(accuracy=0.01), PlainContext())
     assert found.status == "inaccurate"
