@@ -5,9 +5,11 @@ from __future__ import annotations
 import html
 import io
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
+from itertools import zip_longest
+from typing import Any
 
 import numpy as np
 
@@ -290,14 +292,19 @@ def _draw_stored(done: _Done) -> bytes:
     sketches.draw(axes[0, 0], case)
     _draw_mesh(axes[0, 1], case)
     _draw_convergence(axes[0, 2], case)
-    groups = _groups(done.curves, 3)
-    for column in range(3):
-        if column < len(groups):
-            _draw_curves(axes[1, column], axes[2, column], groups[column])
-        else:
-            axes[1, column].axis("off")
-            axes[2, column].axis("off")
+    for upper, lower, group in _columns(axes[1:], done.curves):
+        _draw_curves(upper, lower, group)
     return _png(drawing)
+
+
+def _columns(axes: np.ndarray[Any, Any], curves: Sequence[Curve]) -> Iterator[tuple[Any, Any, Sequence[Curve]]]:
+    """Both axes (2, columns) of each group of curves; those without one are left blank."""
+    for (upper, lower), group in zip_longest(axes.T, _groups(curves, axes.shape[1])):
+        if group is None:
+            upper.axis("off")
+            lower.axis("off")
+        else:
+            yield upper, lower, group
 
 
 def _draw_mesh(ax: object, case: stored.StoredCase) -> None:
@@ -346,16 +353,10 @@ def _draw_convergence(ax: object, case: stored.StoredCase) -> None:
 
 
 def _draw_closed(done: _Done) -> bytes:
-    groups = _groups(done.curves, 3)
     drawing, axes = _panels(2)
-    for column in range(3):
-        if column < len(groups) and np.ptp(np.concatenate([c.coordinates for c in groups[column]])) > 0:
-            _draw_curves(axes[0, column], axes[1, column], groups[column])
-        elif column < len(groups):
-            _draw_cells(axes[0, column], axes[1, column], groups[column])
-        else:
-            axes[0, column].axis("off")
-            axes[1, column].axis("off")
+    for upper, lower, group in _columns(axes, done.curves):
+        flat = np.ptp(np.concatenate([curve.coordinates for curve in group])) == 0
+        (_draw_cells if flat else _draw_curves)(upper, lower, group)
     return _png(drawing)
 
 

@@ -1,8 +1,8 @@
 """What is measured: one entry of `CASES` is one curve of error, time and memory over a size.
 
 To add a case, write a function of the size that returns `Timed` and enter it in `CASES`; tables, figures, the history
-and the command line follow. The functions are in `contact_cases`, `lubricated_cases`, `surface_change_cases` and
-`campaign_cases`.
+and the command line follow. The functions are in `contact_cases`, `lubricated_cases`, `surface_change_cases`,
+`campaign_cases` and `checkpoint_cases`.
 Verified in tests/benchmarks/test_benchmarks.py: every case runs at its smallest size.
 """
 
@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from bem.benchmarks.campaign_cases import sweep_of_spheres, wear_campaign
+from bem.benchmarks.checkpoint_cases import checkpoint
 from bem.benchmarks.contact_cases import (
     FREE,
     SEMI,
@@ -161,6 +162,16 @@ CASES = {
             size_name="depths over 6 um",
             error_name="error of the worn volume",
             threads=True,
+        ),
+        Case(
+            "checkpoint",
+            "Saving the state of a march, beside netCDF-4",
+            checkpoint,
+            (20, 200, 2000),
+            (20, 200),
+            5,
+            "films of 501 nodes",
+            "arrays that differ",
         ),
         Case(
             "campaign",

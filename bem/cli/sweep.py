@@ -54,11 +54,7 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
           bem sweep rough-contact --over seed=1:8 --out s --resume
           bem sweep rough-contact --over seed=1:9 --scheduler tcp://10.0.0.1:8786
         """
-        import os
-
         from bem.cli._terminal import resumable
-
-        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers share the cores already
         from bem.runs.sweep import DATASET, FIGURE, TABLE, run_sweep
 
         with resumable() as terminal:

@@ -7,8 +7,9 @@ tests/scenes/test_friction_kinds.py and test_film_kind.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable
-from typing import TYPE_CHECKING, Annotated, Any
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -207,6 +208,22 @@ class LineContactScene(SceneModel):
         load = min(self.contact.forces(self.modulus)) / self.contact.width
         return smooth_contact(*self.bodies, (self.contact.radius, math.inf), load=load)
 
+    def with_hardness(self, hardness: float) -> Self:
+        """With that hardness of the lower body [Pa]; its yield stress follows it, and so does the cap."""
+        material = self.lower.material.model_copy(update={"hardness": hardness, "yield_stress": None})
+        upper = self.upper.build().surface_material.hardness
+        cap = hardness if upper is None else min(hardness, upper)
+        return changed(changed(self, "lower.material", material), "contact.hardness", cap)
+
+    def speed_axis(self) -> Axis:
+        """The speeds of the flat, each a case of its own."""
+        pairs = self.speeds.build()
+
+        def at(scene: Any, i: int) -> Any:
+            return changed(scene, "speeds", SpeedsScene(values=[pairs[i][0]], cylinder=scene.speeds.cylinder))
+
+        return Axis("speed", tuple(pair[0] for pair in pairs), Figure("m_s", "speed of the flat"), at)
+
     def check(self, film: FilmMeshScene | None = None) -> Grid:
         """The grid of a case, if film and surfaces can be expected to carry the load on it.
 
@@ -263,6 +280,15 @@ def _check_patch(grid: Grid, film: FilmMeshScene, half_width: float) -> None:
         )
     if messages:
         raise InputError(messages)
+
+
+@contextmanager
+def in_words_of_the_scene() -> Iterator[None]:
+    """Messages about `position` are about the table `film`."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError([m.replace("position: ", "film: the film grid ", 1) for m in error.messages]) from None
 
 
 def tell_of_film(context: Context, notes: Iterable[str], of_film: Collection[str], about: str = "") -> None:

@@ -55,6 +55,11 @@ class Plan:
     cases: int = 1
     of_cases: tuple[Plan, ...] = ()
 
+    @classmethod
+    def of(cls, *steps: Step) -> Plan:
+        """That of one case."""
+        return cls(steps)
+
     @property
     def memory(self) -> float:
         """Estimated bytes of the process at the peak."""

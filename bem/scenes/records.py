@@ -18,6 +18,7 @@ import math
 import typing
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
 import numpy as np
@@ -126,6 +127,10 @@ class Series:
     text: str
     of: Which = "each"
     rows: bool = False
+
+
+grid_map = partial(Series, ("x", "y"))
+"""A map over the cells of a grid: `grid_map("Pa", "contact pressure", of="last")`."""
 
 
 @dataclass(frozen=True, eq=False)

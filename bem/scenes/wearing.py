@@ -300,6 +300,15 @@ def sizes_without_bars(sizes: SizesScene) -> dict[str, None]:
     return dict.fromkeys(f"reported_{quantity}" for quantity in _QUANTITIES) if "number" in sizes.report else {}
 
 
+def mean_radii(particles: NDArray[np.void], sizes: SizesScene, *names: str) -> dict[str, float]:
+    """Mean equivalent radii [m] under three names: the reported one, by number and by volume; 0 of no particles."""
+    if not particles.size:
+        return dict.fromkeys(names, 0.0)
+    statistics = size_statistics(particles, sizes.smallest)
+    weights = (sizes.report, "number", "volume")
+    return {name: statistics[weight]["equivalent_radius"] for name, weight in zip(names, weights, strict=True)}
+
+
 def size_statistics(particles: NDArray[np.void], smallest: float) -> dict[str, dict[str, float]]:
     """Means of radius, length, width and thickness [m] by number, area and volume, and by number above a size."""
     from bem.particles import particle_statistics

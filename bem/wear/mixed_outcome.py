@@ -5,6 +5,7 @@ Knows the load sharing of its cycles (`wear.mixed`); no scene. Verified in tests
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,3 +62,9 @@ def run_in(step: MixedContact, cycles: NDArray[np.void], averaged: int) -> RunIn
 
 _MEANS = ("friction", "boundary_force", "film_force", "contact_load", "film_load", "minimum_film", "lambda_ratio")
 """Columns of `MIXED_FIELDS` whose means over the last cycles are figures."""
+
+
+def least_friction(hardnesses: Sequence[float], friction: FloatArray) -> float:
+    """The hardness at which run-in friction (hardness, speed, repetition), a mean over repetitions, is least at any
+    speed."""
+    return hardnesses[int(np.nanargmin(friction.mean(axis=2))) // friction.shape[1]]

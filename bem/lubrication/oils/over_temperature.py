@@ -10,6 +10,7 @@ import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar, Self
 
 from bem.errors import InputError
 
@@ -26,10 +27,40 @@ class OverTemperature:
     """Kinematic viscosity over temperature.
 
     lowest, highest : temperatures [K] between which the law was measured; it is extrapolated beyond.
+    name : in messages. takes : how many points make one; None for two or more. least : viscosity [m^2/s] above which it
+        holds.
     """
 
+    name: ClassVar[str]
+    takes: ClassVar[int | None] = None
+    least: ClassVar[float] = 0.0
     lowest: float
     highest: float
+
+    @classmethod
+    def through(cls, points: Points) -> Self:
+        """Through points, exactly.
+
+        Raises
+        ------
+        InputError : other than as many points as the law takes, temperatures twice, viscosities that do not fall with
+            temperature or are too low for the law, points that no such curve joins.
+        """
+        ordered = sorted((float(t), float(v)) for t, v in points)
+        if (cls.takes is not None and len(ordered) != cls.takes) or len(ordered) < 2:
+            raise InputError(f"{cls.name}: takes {cls.takes or 'two or more'} temperatures, not {len(ordered)}")
+        good = all(math.isfinite(t) and math.isfinite(v) and t > 0 and v > cls.least for t, v in ordered)
+        if not good or not all(t1 < t2 and v1 > v2 for (t1, v1), (t2, v2) in itertools.pairwise(ordered)):
+            raise InputError(
+                f"{cls.name}: temperatures must differ and viscosities fall with temperature, all positive"
+                + (f" and above {cls.least / MM2_S:g} mm^2/s" if cls.least else "")
+            )
+        return cls._joining(ordered)
+
+    @classmethod
+    def _joining(cls, points: list[tuple[float, float]]) -> Self:
+        """That of points in rising order of temperature that are fit for it."""
+        raise NotImplementedError
 
     def logarithm(self, temperature: float) -> tuple[float, float]:
         """ln(viscosity / 1 mm^2/s) at a temperature [K], and its slope [1/K], negative."""
@@ -58,15 +89,13 @@ class Walther(OverTemperature):
     intercept: float
     slope: float
 
-    @classmethod
-    def through(cls, points: Points) -> Walther:
-        """Through two points, exactly.
+    name: ClassVar[str] = "Walther"
+    takes: ClassVar[int | None] = 2
+    least: ClassVar[float] = 0.31 * MM2_S
 
-        Raises
-        ------
-        InputError : other than two points, or viscosities that do not fall with temperature or are below 0.31 mm^2/s.
-        """
-        (t1, v1), (t2, v2) = _sorted(points, 2, least=0.31 * MM2_S, law="Walther")
+    @classmethod
+    def _joining(cls, points: list[tuple[float, float]]) -> Self:
+        (t1, v1), (t2, v2) = points
         z1, z2 = (math.log10(math.log10(v / MM2_S + _SHIFT)) for v in (v1, v2))
         slope = (z1 - z2) / math.log10(t2 / t1)
         return cls(t1, t2, z1 + slope * math.log10(t1), slope)
@@ -93,15 +122,13 @@ class Vogel(OverTemperature):
     b: float
     c: float
 
-    @classmethod
-    def through(cls, points: Points) -> Vogel:
-        """Through three points, exactly: C by equating the slopes between them, in closed form.
+    name: ClassVar[str] = "Vogel"
+    takes: ClassVar[int | None] = 3
 
-        Raises
-        ------
-        InputError : other than three points, viscosities that do not fall, or points that no such curve joins.
-        """
-        (t1, v1), (t2, v2), (t3, v3) = _sorted(points, 3, law="Vogel")
+    @classmethod
+    def _joining(cls, points: list[tuple[float, float]]) -> Self:
+        # C by equating the slopes between the points, in closed form
+        (t1, v1), (t2, v2), (t3, v3) = points
         y1, y2, y3 = (math.log(v / MM2_S) for v in (v1, v2, v3))
         # (y1 - y2)(t2 - c)... : ratio r = (y1-y2)(t3-t2) / ((y2-y3)(t2-t1)) = (t3 - c)/(t1 - c)
         r = (y1 - y2) * (t3 - t2) / ((y2 - y3) * (t2 - t1))
@@ -136,15 +163,12 @@ class Andrade(OverTemperature):
     a: float
     b: float
 
-    @classmethod
-    def through(cls, points: Points) -> Andrade:
-        """Through two points, exactly.
+    name: ClassVar[str] = "Andrade"
+    takes: ClassVar[int | None] = 2
 
-        Raises
-        ------
-        InputError : other than two points, or viscosities that do not fall.
-        """
-        (t1, v1), (t2, v2) = _sorted(points, 2, law="Andrade")
+    @classmethod
+    def _joining(cls, points: list[tuple[float, float]]) -> Self:
+        (t1, v1), (t2, v2) = points
         b = math.log(v1 / v2) / (1 / t1 - 1 / t2)
         return cls(t1, t2, math.log(v1 / MM2_S) - b / t1, b)
 
@@ -164,17 +188,13 @@ class ViscosityTable(OverTemperature):
 
     pieces: tuple[Walther, ...]
 
-    @classmethod
-    def through(cls, points: Points) -> ViscosityTable:
-        """Through all points, exactly.
+    name: ClassVar[str] = "table"
+    least: ClassVar[float] = Walther.least
 
-        Raises
-        ------
-        InputError : fewer than two points, or viscosities that do not fall with temperature.
-        """
-        ordered = _sorted(points, None, least=0.31 * MM2_S, law="table")
-        pieces = tuple(Walther.through(pair) for pair in itertools.pairwise(ordered))
-        return cls(ordered[0][0], ordered[-1][0], pieces)
+    @classmethod
+    def _joining(cls, points: list[tuple[float, float]]) -> Self:
+        pieces = tuple(Walther._joining(list(pair)) for pair in itertools.pairwise(points))
+        return cls(points[0][0], points[-1][0], pieces)
 
     def logarithm(self, temperature: float) -> tuple[float, float]:
         """That of the piece the temperature is in."""
@@ -194,17 +214,3 @@ LAWS: dict[str, type[Walther] | type[Vogel] | type[Andrade] | type[ViscosityTabl
     "table": ViscosityTable,
 }
 """Laws that points make, by name."""
-
-
-def _sorted(points: Points, count: int | None, *, law: str, least: float = 0.0) -> list[tuple[float, float]]:
-    ordered = sorted((float(t), float(v)) for t, v in points)
-    if (count is not None and len(ordered) != count) or len(ordered) < 2:
-        raise InputError(f"{law}: takes {count or 'two or more'} temperatures, not {len(ordered)}")
-    good = all(math.isfinite(t) and math.isfinite(v) and t > 0 and v > least for t, v in ordered)
-    pairs = list(itertools.pairwise(ordered))
-    if not good or not all(t1 < t2 and v1 > v2 for (t1, v1), (t2, v2) in pairs):
-        raise InputError(
-            f"{law}: temperatures must differ and viscosities fall with temperature, all positive"
-            + (f" and above {least / MM2_S:g} mm^2/s" if least else "")
-        )
-    return ordered

@@ -47,13 +47,11 @@ def plan(scene: AsperitiesScene) -> Plan:
     grid, convolutions = scene.array.grid(max(scene.array.spacings)), _CONVOLUTIONS * LOADS
     why = f"{LOADS} loads for each spacing, one asperity each"
     coarser = plans.coarser_contacts(grid, convolutions, plans.CONVOLUTION)
-    return Plan(
-        (
-            plans.contacts(grid, convolutions, why, name="contacts"),
-            plans.error_bars(scene.outputs.errors, "all contacts on the grid of twice the cell", **coarser),
-            Step("the other asperities of the array", "all carry the same, by symmetry", skipped=True),
-            plans.figures(grid.cells),
-        )
+    return Plan.of(
+        plans.contacts(grid, convolutions, why, name="contacts"),
+        plans.error_bars(scene.outputs.errors, "all contacts on the grid of twice the cell", **coarser),
+        Step("the other asperities of the array", "all carry the same, by symmetry", skipped=True),
+        plans.figures(grid.cells),
     )
 
 

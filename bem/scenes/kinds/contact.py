@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
@@ -21,7 +20,7 @@ from bem.scenes.context import Context, error_bars, release, tell
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept, kept_coarser
 from bem.scenes.planner import Plan
-from bem.scenes.records import Figure, GridRecord, Series, filled
+from bem.scenes.records import Figure, GridRecord, Series, filled, grid_map
 from bem.scenes.resolutions import CELLS, DEPTHS
 from bem.scenes.tables.pressing import ContactOutputs, PressedScene
 
@@ -69,24 +68,15 @@ def plan(scene: ContactScene) -> Plan:
     scene.contact.check_load(grid.area)
     stressed = (scene.lower if outputs.body == "lower" else scene.upper).build()
     depths, fields = len(outputs.wanted_depths()), 7 if outputs.stresses else 1
-    coarser = plans.coarser_contact(grid, depths)
-    return Plan(
-        (
-            *bodies,
-            plans.contact(
-                grid,
-                f"{scene.contact.behaviour}, {scene.contact.words()}",
-                capped=scene.contact.behaviour == "capped",
-            ),
-            plans.stresses(grid, stressed, outputs.body, depths, fields=fields, loads=1 if friction == 0 else 2),
-            plans.error_bars(outputs.errors, "the contact on the grid of twice the cell", **coarser),
-            plans.vtk(outputs.vtk and depths > 0),
-            plans.figures(grid.cells),
-        )
+    coarser, capped = plans.coarser_contact(grid, depths), scene.contact.behaviour == "capped"
+    return Plan.of(
+        *bodies,
+        plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}", capped=capped),
+        plans.stresses(grid, stressed, outputs.body, depths, fields=fields, loads=1 if friction == 0 else 2),
+        plans.error_bars(outputs.errors, "the contact on the grid of twice the cell", **coarser),
+        plans.vtk(outputs.vtk and depths > 0),
+        plans.figures(grid.cells),
     )
-
-
-_map = partial(Series, ("x", "y"))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -123,14 +113,14 @@ class ContactRecord(GridRecord):
     ] = None
     yielded_volume: Annotated[float | None, Figure("m3", "volume beyond the yield stress", optional=True)] = None
     counted_yielded_volume: Annotated[float | None, Figure("m3", "that of whole cells", optional=True)] = None
-    pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
-    displacement: Annotated[FloatArray, _map("m", "normal displacement of both bodies together")]
-    gap: Annotated[FloatArray, _map("m", "gap between the deformed surfaces")]
-    contact_state: Annotated[NDArray[np.int8], _map("1", "0 open, 1 elastic, 2 capped")]
-    undeformed_gap: Annotated[FloatArray, _map("m", "gap before deformation, zero at first touch")]
-    plastic_depth: Annotated[FloatArray | None, _map("m", "overlap of the surfaces where capped")] = None
-    lower_height: Annotated[FloatArray | None, _map("m", "height of the lower surface")] = None
-    upper_height: Annotated[FloatArray | None, _map("m", "height of the upper surface")] = None
+    pressure: Annotated[FloatArray, grid_map("Pa", "contact pressure")]
+    displacement: Annotated[FloatArray, grid_map("m", "normal displacement of both bodies together")]
+    gap: Annotated[FloatArray, grid_map("m", "gap between the deformed surfaces")]
+    contact_state: Annotated[NDArray[np.int8], grid_map("1", "0 open, 1 elastic, 2 capped")]
+    undeformed_gap: Annotated[FloatArray, grid_map("m", "gap before deformation, zero at first touch")]
+    plastic_depth: Annotated[FloatArray | None, grid_map("m", "overlap of the surfaces where capped")] = None
+    lower_height: Annotated[FloatArray | None, grid_map("m", "height of the lower surface")] = None
+    upper_height: Annotated[FloatArray | None, grid_map("m", "height of the upper surface")] = None
     iteration: Annotated[NDArray[np.int64] | None, Series(("iteration",), "1", "iteration")] = None
     residual_history: Annotated[
         FloatArray | None, Series(("iteration",), "1", "relative residual of the contact solver")
@@ -167,6 +157,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         ContactRecord,
         figures_of(solution, grid.area),
         _counted(solution, grid),
+        solution,
         {f"{name}_Sq": float(heights.std()) for name, heights in rough.items()},
         {f"{name}_height": heights for name, heights in rough.items()},
         {} if below is None else below,
@@ -177,7 +168,6 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         plastic_depth=solution.plastic_depth if np.any(solution.plastic_depth) else None,
         depth=None if below is None else below.depths,
         component=None if below is None or below.stress is None else list(_STRESS_COMPONENTS),
-        **{name: getattr(solution, name) for name in _SOLVED},
         **errors,
         where=f"contact solve: {solution.status.message}, residual {solution.residual:.2g}",
     )
@@ -193,9 +183,6 @@ def _counted(solution: ContactSolution, grid: Grid) -> dict[str, float]:
         "contact_spots": count_spots(solution.pressure, grid),
         "max_pressure_of_cells": float(solution.pressure.max()),
     }
-
-
-_SOLVED = ("pressure", "displacement", "gap", "residual", "iterations", "convolutions", "status")
 
 
 def _solve(
@@ -286,18 +273,13 @@ def _stressed(scene: ContactScene) -> tuple[Body, float]:
     return upper, -scene.contact.friction
 
 
-def volumes(scene: ContactScene) -> tuple[str, ...]:
-    """Fields for ParaView."""
-    wanted = ("von_mises", "stress") if scene.outputs.stresses else ("von_mises",)
-    return wanted if scene.outputs.vtk and scene.outputs.wanted_depths() else ()
-
-
 KIND = Kind.of(
     vars(),
     ContactScene,
     ContactRecord,
     "two rough, possibly coated bodies pressed together: pressure, contact area, approach, stresses below",
     resolutions=(CELLS, DEPTHS),
+    volumes=lambda scene: scene.outputs.volumes,
     figures=(
         "pressure-map",
         "contact-map",

@@ -5,29 +5,27 @@ A case is one curve: one load, one surface, one contact model; each speed starts
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields
 from functools import partial
-from itertools import product
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
 from bem.accuracy.bars import POINTS
-from bem.errors import InputError, Status
+from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import OutputsScene, Repetitions
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
-from bem.scenes.lubrication import FilmMeshScene, LineContactScene, tell_of_film
+from bem.scenes.lubrication import in_words_of_the_scene, tell_of_film
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, columns, filled, mean, spread
 from bem.scenes.resolutions import CELLS, counted
-from bem.scenes.tables.sharing import SharingScene, SurfaceVariant
+from bem.scenes.tables.sharing import BASELINE, CurveScene, SurfaceVariant
 
 if TYPE_CHECKING:
     from bem.flow import FlowFactors
@@ -37,16 +35,12 @@ if TYPE_CHECKING:
 
 _CONVOLUTIONS = 120  # of the contacts of one speed
 _SEPARATIONS = 10  # of the flow factors' table
-_BASELINE = {"capped": "uncoupled", "elastic": "uncoupled_elastic"}  # of the rough half-space
-_CAPPED = ("capped", "uncoupled")
 
 
-class FrictionScene(LineContactScene):
+class FrictionScene(CurveScene):
     """A rough cylinder on a rough flat with oil between them, at many speeds."""
 
     kind: Literal["friction"] = "friction"
-    film: FilmMeshScene = FilmMeshScene()
-    sharing: SharingScene = SharingScene()
     outputs: OutputsScene = OutputsScene()
     variants: list[SurfaceVariant] = []  # noqa: RUF012
     repetitions: Repetitions = 1
@@ -54,9 +48,8 @@ class FrictionScene(LineContactScene):
 
 def resolve(scene: FrictionScene) -> FrictionScene:
     """Fill in the grid and the softer surface's hardness."""
-    capped = any(model in _CAPPED for model in scene.sharing.models)
     scene = build.with_grid(scene)
-    return build.with_hardness(scene, needed=True) if capped else scene
+    return build.with_hardness(scene, needed=True) if scene.capped else scene
 
 
 def axes(scene: FrictionScene) -> tuple[Axis, ...]:
@@ -75,34 +68,31 @@ def plan(scene: FrictionScene) -> Plan:
     ------
     InputError : a patch that does not fit. InfeasibleError : a load that neither film nor surfaces can carry.
     """
-    grid, (model,), speeds = scene.check(scene.film), scene.sharing.models, len(scene.speeds.build())
-    coupled = model in _BASELINE
-    return Plan(
-        (
-            plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
-            Step(
-                "films",
-                f"about 8 for each of {speeds} speeds of a curve, most of them on a coarser mesh",
-                seconds=speeds * (0.3 + 5e-8 * scene.film.points**2),
-                memory=16.0 * scene.film.points**2,
-            ),
-            plans.contacts(
-                grid,
-                _CONVOLUTIONS * speeds,
-                "each speed from the one before; none where the film clears the roughness",
-                name="rough contacts",
-                skipped=not coupled,
-            ),
-            plans.error_bars(
-                scene.outputs.errors,
-                "each balance on the grid of twice the cell, and there with half the film's points",
-                **plans.coarser_contacts(grid, _CONVOLUTIONS * speeds if coupled else 0, 2.0),
-            ),
-            plans.flow_factors(grid, _SEPARATIONS, wanted=scene.sharing.flow_factors != "off"),
-            Step("stresses", "friction alone needs none", skipped=True),
-            plans.traction_kernels(grid, *scene.bodies, scene.contact.boundary_friction, wanted=coupled),
-            plans.figures(grid.cells),
-        )
+    grid, speeds, coupled = scene.check(scene.film), len(scene.speeds.build()), scene.coupled
+    return Plan.of(
+        plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
+        Step(
+            "films",
+            f"about 8 for each of {speeds} speeds of a curve, most of them on a coarser mesh",
+            seconds=speeds * (0.3 + 5e-8 * scene.film.points**2),
+            memory=16.0 * scene.film.points**2,
+        ),
+        plans.contacts(
+            grid,
+            _CONVOLUTIONS * speeds,
+            "each speed from the one before; none where the film clears the roughness",
+            name="rough contacts",
+            skipped=not coupled,
+        ),
+        plans.error_bars(
+            scene.outputs.errors,
+            "each balance on the grid of twice the cell, and there with half the film's points",
+            **plans.coarser_contacts(grid, _CONVOLUTIONS * speeds if coupled else 0, 2.0),
+        ),
+        plans.flow_factors(grid, _SEPARATIONS, wanted=scene.sharing.flow_factors != "off"),
+        Step("stresses", "friction alone needs none", skipped=True),
+        plans.traction_kernels(grid, *scene.bodies, scene.contact.boundary_friction, wanted=coupled),
+        plans.figures(grid.cells),
     )
 
 
@@ -155,13 +145,13 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     grid, pairs = build.grid_of(scene.grid), scene.speeds.build()
     lower, upper = build.both_heights(scene, grid, context)
     height = lower + upper
-    with _in_words_of_the_scene():
-        setup = _setup(scene, _flow_factors(scene, grid, lower, upper, context))
+    with in_words_of_the_scene():
+        setup = scene.curve_setup(_flow_factors(scene, grid, lower, upper, context))
     made_again = (setup.grid, setup.lubricant, setup.boundary_friction)
     nothing: tuple[Curve, list[FloatArray]] = (Curve(), [])
     curve, errors = kept(context, made_again) or nothing
     for speeds in pairs[len(curve.points) :]:
-        with context.timer("load sharing"), _in_words_of_the_scene():
+        with context.timer("load sharing"), in_words_of_the_scene():
             own = solve_setup(setup, height, speeds, curve.last)
         said_at_the_end = oil_notes([own.oil])  # once for all speeds
         notes = tuple(note for note in own.notes if note not in said_at_the_end)
@@ -172,8 +162,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
         if len(curve.points) < len(pairs):
             keep(context, (curve, errors), made_again)
         context.progress(len(curve.points), len(pairs), "speeds", friction=own.friction)
-    for note in oil_notes([point.oil for point in curve.points]):
-        context.note(note)
+    tell(context, oil_notes([point.oil for point in curve.points]))
     return _record(grid, curve, height, errors)
 
 
@@ -193,18 +182,6 @@ def _errors(setup: MixedSetup, height: FloatArray, solution: MixedSolution, cont
     return table(bars.get("errors", {}), bars.get("error_parts", {}), RULES, ORIGINS)
 
 
-def _setup(scene: FrictionScene, factors: FlowFactors | Literal["off"]) -> MixedSetup:
-    sharing, (model,) = scene.sharing, scene.sharing.models
-    return scene.setup(
-        hardness=scene.contact.hardness if model in _CAPPED else None,
-        **sharing.model_dump(exclude={"models", "flow_factors"}),
-        film_points=scene.film.points,
-        film_position=scene.film.positions(),
-        contact_model="coupled" if model in _BASELINE else "uncoupled",
-        flow_factors=factors,
-    )
-
-
 def _flow_factors(
     scene: FrictionScene, grid: Grid, lower: FloatArray, upper: FloatArray, context: Context
 ) -> FlowFactors | Literal["off"]:
@@ -213,23 +190,12 @@ def _flow_factors(
         return "off"
     from bem.flow import factors_for_films
 
-    (model,) = scene.sharing.models
     with context.timer("flow factors"):
-        hardness = scene.contact.hardness if model in _CAPPED else None
-        table = factors_for_films(lower, upper, grid, scene.bodies, hardness=hardness)
+        table = factors_for_films(lower, upper, grid, scene.bodies, hardness=scene.cap)
     tell(context, table.notes, "flow factors: ")
     if table.status is not Status.CONVERGED:
         context.note(f"flow factors: {table.status.message}, residual {float(table.residual.max()):.2g}")
     return table
-
-
-@contextmanager
-def _in_words_of_the_scene() -> Iterator[None]:
-    """Messages about `position` are about the table `film`."""
-    try:
-        yield
-    except InputError as error:
-        raise InputError([m.replace("position: ", "film: the film grid ", 1) for m in error.messages]) from None
 
 
 def _record(grid: Grid, curve: Curve, height: FloatArray, errors: list[FloatArray]) -> CurveRecord:
@@ -277,15 +243,13 @@ def summarise(
     loads, names, models, _ = (axis.values for axis in axes[-4:])
     table = table.reshape(-1, *table.shape[-4:])[0]
     found = []
-    for (i, load), (j, variant), (k, model) in product(enumerate(loads), enumerate(names), enumerate(models)):
-        if _BASELINE.get(model) not in models:
+    for i, j, k in np.ndindex(table.shape[:3]):
+        load, variant, model = loads[i], names[j], models[k]
+        if BASELINE.get(model) not in models:
             continue
-        both = zip(table[i, j, k], table[i, j, models.index(_BASELINE[model])], strict=True)
-        values = [
-            100 * relative_difference(one.friction, base.friction)
-            for one, base in both
-            if one is not None and base is not None
-        ]
+        both = zip(table[i, j, k], table[i, j, models.index(BASELINE[model])], strict=True)
+        solved = [(one.friction, base.friction) for one, base in both if one is not None and base is not None]
+        values = [100 * relative_difference(*pair) for pair in solved]
         percent, scatter = mean(values), spread(values)
         row = {"load_N": load, "variant": variant, "model": model, "d_percent": percent, "d_percent_spread": scatter}
         found.append(row)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import model_validator
@@ -40,15 +40,13 @@ def plan(scene: ParticlesScene) -> Plan:
     cells = 4.0 * 1024**2 if scene.synthetic is None else float(np.prod(scene.synthetic.shape))
     number = "wear volume by Archard over the mean particle volume" if scene.archard else "no wear rate is given"
     spun = "Stokes in the centrifuge" if scene.sedimentation else "no centrifuge is given"
-    return Plan(
-        (
-            Step("map", "read from its file" if scene.synthetic is None else "made up", seconds=2.0, memory=24 * cells),
-            Step("particles", "level the plate, threshold, label", seconds=3.0, memory=40 * cells),
-            Step("number of particles", number, skipped=scene.archard is None),
-            Step("sedimentation", spun, skipped=scene.sedimentation is None),
-            Step("contact and stresses", "the particles are measured, not computed", skipped=True),
-            plans.figures(int(cells)),
-        )
+    return Plan.of(
+        Step("map", "read from its file" if scene.synthetic is None else "made up", seconds=2.0, memory=24 * cells),
+        Step("particles", "level the plate, threshold, label", seconds=3.0, memory=40 * cells),
+        Step("number of particles", number, skipped=scene.archard is None),
+        Step("sedimentation", spun, skipped=scene.sedimentation is None),
+        Step("contact and stresses", "the particles are measured, not computed", skipped=True),
+        plans.figures(int(cells)),
     )
 
 
@@ -117,7 +115,7 @@ def run(scene: ParticlesScene, context: Context) -> ParticlesRecord:
         {f"{one.weight}_mean_radius": one.mean_equivalent_radius for one in statistics},
         {f"{one.weight}_std_radius": one.std_equivalent_radius for one in statistics},
         archard,
-        _sedimentation(scene),
+        scene.sedimentation.figures() if scene.sedimentation else {},
         columns(found, _COLUMNS, "particle_"),
         {f"particle_{name}": np.array([float(p.position[axis]) for p in found]) for axis, name in enumerate("xy")},
         Grid(heights.shape, spacing),
@@ -132,17 +130,6 @@ def run(scene: ParticlesScene, context: Context) -> ParticlesRecord:
 
 
 _COLUMNS = ("volume", "equivalent_radius", "length", "width", "thickness")
-
-
-def _sedimentation(scene: ParticlesScene) -> dict[str, Any]:
-    """Time that particles take to settle [s], and whether there is so much, where a centrifuge is given."""
-    if scene.sedimentation is None:
-        return {}
-    from bem.particles import sedimentation_time
-
-    needed = sedimentation_time(**scene.sedimentation.model_dump(exclude={"available"}))
-    available = scene.sedimentation.available
-    return {"sedimentation_time": needed, "sedimented": None if available is None else needed <= available}
 
 
 KIND = Kind.of(

@@ -12,7 +12,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import model_validator
 
 from bem.grid import FloatArray
@@ -21,7 +20,7 @@ from bem.scenes.axes import Axis, changed
 from bem.scenes.common import PositivePressure, Repetitions, problem
 from bem.scenes.context import Context
 from bem.scenes.kind import Kind
-from bem.scenes.lubrication import LineContactScene, SpeedsScene, tell_of_film
+from bem.scenes.lubrication import LineContactScene, tell_of_film
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled
 from bem.scenes.tables.sharing import RunningInCycles, RunningInSharing
@@ -61,29 +60,15 @@ def resolve(scene: RunningInScene) -> RunningInScene:
     return scene if scene.hardnesses else build.with_hardness(scene, needed=True)
 
 
-def with_hardness(scene: RunningInScene, hardness: float) -> RunningInScene:
-    """The scene with that hardness of the lower body; its yield stress follows it."""
-    material = scene.lower.material.model_copy(update={"hardness": hardness, "yield_stress": None})
-    upper = scene.upper.build().surface_material.hardness
-    scene = changed(scene, "lower.material", material)
-    return changed(scene, "contact.hardness", hardness if upper is None else min(hardness, upper))
-
-
 def axes(scene: RunningInScene) -> tuple[Axis, ...]:
     """Hardnesses, then speeds."""
-    given, pairs = scene.hardnesses, scene.speeds.build()
-    caps = tuple(with_hardness(scene, h).contact.hardness for h in given) if given else (scene.contact.hardness,)
+    given = scene.hardnesses
+    caps = tuple(scene.with_hardness(h).contact.hardness for h in given) if given else (scene.contact.hardness,)
 
-    def at_hardness(scene: RunningInScene, i: int) -> RunningInScene:
-        return changed(with_hardness(scene, given[i]), "hardnesses", []) if given else scene
+    def at(scene: RunningInScene, i: int) -> RunningInScene:
+        return changed(scene.with_hardness(given[i]), "hardnesses", []) if given else scene
 
-    def at_speed(scene: RunningInScene, i: int) -> RunningInScene:
-        return changed(scene, "speeds", SpeedsScene(values=[pairs[i][0]], cylinder=scene.speeds.cylinder))
-
-    return (
-        Axis("hardness", caps, Figure("Pa", "hardness of the softer body"), at_hardness),
-        Axis("speed", tuple(pair[0] for pair in pairs), Figure("m_s", "speed of the flat"), at_speed),
-    )
+    return (Axis("hardness", caps, Figure("Pa", "hardness of the softer body"), at), scene.speed_axis())
 
 
 def plan(scene: RunningInScene) -> Plan:
@@ -95,20 +80,18 @@ def plan(scene: RunningInScene) -> Plan:
     """
     grid = scene.check()
     cycles = {"convolutions": _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": 4 * _DEPTHS_NEEDED}
-    return Plan(
-        (
-            plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
-            Step(
-                "film tables",
-                "about 20 films for each speed, shared by all cycles and repetitions",
-                per="grid",
-                seconds=20 * 2e-7 * scene.sharing.film_points**2,
-                memory=16.0 * scene.sharing.film_points**2,
-            ),
-            Step("a film for every balance", "films are interpolated in the tables", skipped=True),
-            *wearing.cycle_steps(scene, grid, contacts=_CONTACTS, **cycles),
-            plans.figures(grid.cells),
-        )
+    return Plan.of(
+        plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
+        Step(
+            "film tables",
+            "about 20 films for each speed, shared by all cycles and repetitions",
+            per="grid",
+            seconds=20 * 2e-7 * scene.sharing.film_points**2,
+            memory=16.0 * scene.sharing.film_points**2,
+        ),
+        Step("a film for every balance", "films are interpolated in the tables", skipped=True),
+        *wearing.cycle_steps(scene, grid, contacts=_CONTACTS, **cycles),
+        plans.figures(grid.cells),
     )
 
 
@@ -233,7 +216,7 @@ def _record(
         worn.figures,
         # the same strip before and after, at all speeds
         worn.strip(hertz_strip(setup.grid.x, setup.line.half_width(setup.load))),
-        _radii(scene, worn.late),
+        wearing.mean_radii(worn.late, scene.sizes, *_RADII),
         over,
         setup.grid,
         friction_run_in=figures.friction,
@@ -244,31 +227,21 @@ def _record(
     )
 
 
-def _radii(scene: RunningInScene, particles: NDArray[np.void]) -> dict[str, Any]:
-    """Mean equivalent radii [m] of the settled particles, 0 of none."""
-    names = ("particle_equivalent_radius", "number_mean_radius", "volume_mean_radius")
-    if not particles.size:
-        return dict.fromkeys(names, 0.0)
-    sizes = wearing.size_statistics(particles, scene.sizes.smallest)
-    weights = (scene.sizes.report, "number", "volume")
-    return {name: sizes[weight]["equivalent_radius"] for name, weight in zip(names, weights, strict=True)}
+_RADII = ("particle_equivalent_radius", "number_mean_radius", "volume_mean_radius")
 
 
 def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[RunningInRecord | None]) -> dict[str, Any]:
     """What is the same for all cases, and the hardness of least friction where several were tried."""
-    summary: dict[str, Any] = {
-        "cycles": scene.cycles.count,
-        "load_N": scene.load,
-        "reported_mean": scene.sizes.report,
-    }
-    if len(scene.hardnesses) > 2:
-        sizes = [len(axis) for axis in axes[-3:]]
-        friction = np.array([np.nan if r is None else r.friction_run_in for r in records]).reshape(-1, *sizes)[0]
-        caps = axes[-3].values
-        best = caps[int(np.nanargmin(friction.mean(axis=2))) // sizes[1]]
-        summary["hardness_of_least_friction_Pa"] = best
-        summary["least_friction_inside_range"] = best not in (min(scene.hardnesses), max(scene.hardnesses))
-    return summary
+    from bem.wear.mixed_outcome import least_friction
+
+    summary = {"cycles": scene.cycles.count, "load_N": scene.load, "reported_mean": scene.sizes.report}
+    if len(scene.hardnesses) <= 2:
+        return summary
+    sizes = [len(axis) for axis in axes[-3:]]
+    friction = np.array([np.nan if r is None else r.friction_run_in for r in records]).reshape(-1, *sizes)[0]
+    best = least_friction(axes[-3].values, friction)
+    inside = best not in (min(scene.hardnesses), max(scene.hardnesses))
+    return summary | {"hardness_of_least_friction_Pa": best, "least_friction_inside_range": inside}
 
 
 KIND = Kind.of(

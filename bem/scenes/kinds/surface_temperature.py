@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
 from typing import Annotated, Literal
 
 from bem.errors import Status
@@ -12,7 +11,7 @@ from bem.scenes import build, plans
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step, padded_points
-from bem.scenes.records import Figure, GridRecord, Series, filled
+from bem.scenes.records import Figure, GridRecord, filled, grid_map
 from bem.scenes.tables.heat import RubbingScene
 
 
@@ -40,25 +39,20 @@ def plan(scene: SurfaceTemperatureScene) -> Plan:
     check_steady(grid, conductors_of("heat", case.bodies, case.speeds[: len(case.bulk)], case.bulk))
     points = padded_points(grid.shape, grid.periodic)
     pair = len(case.bulk) == 2
-    return Plan(
-        (
-            *rubbing,
-            plans.contact(grid, scene.contact.behaviour, capped=scene.contact.behaviour == "capped"),
-            Step(
-                "surface temperature",
-                "heat of friction, shared between the bodies" if pair else "all heat enters the lower body",
-                transforms=200.0,  # some forty products of both bodies, and two kernels
-                points=points,
-                memory=8.0 * points * 8 + 8.0 * grid.cells * 30,
-                kept=8.0 * grid.cells * 8,
-                seconds=0.5,
-            ),
-            plans.figures(grid.cells),
-        )
+    return Plan.of(
+        *rubbing,
+        plans.contact(grid, scene.contact.behaviour, capped=scene.contact.behaviour == "capped"),
+        Step(
+            "surface temperature",
+            "heat of friction, shared between the bodies" if pair else "all heat enters the lower body",
+            transforms=200.0,  # some forty products of both bodies, and two kernels
+            points=points,
+            memory=8.0 * points * 8 + 8.0 * grid.cells * 30,
+            kept=8.0 * grid.cells * 8,
+            seconds=0.5,
+        ),
+        plans.figures(grid.cells),
     )
-
-
-_map = partial(Series, ("x", "y"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,10 +69,10 @@ class SurfaceTemperatureRecord(GridRecord):
     mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
     contact_residual: Annotated[float, Figure("", "relative residual of the contact")]
     temperature_residual: Annotated[float, Figure("", "difference of both surfaces over the largest rise")]
-    pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
-    surface_temperature: Annotated[FloatArray, _map("K", "surface temperature, of the lower body out of contact")]
-    heat_lower: Annotated[FloatArray, _map("W/m^2", "heat into the lower body")]
-    heat_made: Annotated[FloatArray, _map("W/m^2", "heat made by friction")]
+    pressure: Annotated[FloatArray, grid_map("Pa", "contact pressure")]
+    surface_temperature: Annotated[FloatArray, grid_map("K", "surface temperature, of the lower body out of contact")]
+    heat_lower: Annotated[FloatArray, grid_map("W/m^2", "heat into the lower body")]
+    heat_made: Annotated[FloatArray, grid_map("W/m^2", "heat made by friction")]
 
 
 def run(scene: SurfaceTemperatureScene, context: Context) -> SurfaceTemperatureRecord:

@@ -20,7 +20,7 @@ from bem.scenes.context import Context
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, layered_kernel_seconds, padded_points
-from bem.scenes.records import Figure, GridRecord, Series, columns, filled
+from bem.scenes.records import Figure, GridRecord, Series, columns, filled, grid_map
 from bem.scenes.tables.tribofilm import RubbedScene, VariantScene
 from bem.scenes.units import Ratio
 from bem.tribofilm.properties import Constant
@@ -70,35 +70,32 @@ def plan(scene: TribofilmScene) -> Plan:
     scene.check_load(grid)
     lags = scene.rubbing.duration / film.lag if film.lag > 0 else 0.0  # integrated one by one
     same = film.youngs_modulus == Constant(scene.lower.build().material.youngs_modulus)
-    return Plan(
-        (
-            surfaces,
-            Step(
-                "layered kernels",
-                "one thickness per contact that is solved" if not same else "the film is as stiff as what it grows on",
-                # closed forms where the grid is doubly periodic; elsewhere a quarter of the first one, as measured
-                seconds=0.0 if all(grid.periodic) else 0.25 * layered_kernel_seconds(grid.cells) * _CONTACTS,
-                memory=8.0 * padded_points(grid.shape, grid.periodic) / 4 + 16.0 * grid.cells * _CONTACTS,
-            ),
-            plans.contacts(grid, _CONVOLUTIONS * _CONTACTS, f"about {_CONTACTS} for each film, from the last pressure"),
-            Step(
-                "contacts at other times",
-                f"growth follows thickness alone: it is interpolated to {scene.reuse_tolerance:g}",
-                skipped=scene.reuse_tolerance > 0,
-            ),
-            Step("tangential kernels", "shear stress is friction times pressure", skipped=True),
-            Step(
-                "balance of growth and wear",
-                "implicit integration with error control, lag by lag",
-                seconds=0.25 + 3e-3 * lags,
-            ),
-            plans.figures(grid.cells),
-        )
+    return Plan.of(
+        surfaces,
+        Step(
+            "layered kernels",
+            "one thickness per contact that is solved" if not same else "the film is as stiff as what it grows on",
+            # closed forms where the grid is doubly periodic; elsewhere a quarter of the first one, as measured
+            seconds=0.0 if all(grid.periodic) else 0.25 * layered_kernel_seconds(grid.cells) * _CONTACTS,
+            memory=8.0 * padded_points(grid.shape, grid.periodic) / 4 + 16.0 * grid.cells * _CONTACTS,
+        ),
+        plans.contacts(grid, _CONVOLUTIONS * _CONTACTS, f"about {_CONTACTS} for each film, from the last pressure"),
+        Step(
+            "contacts at other times",
+            f"growth follows thickness alone: it is interpolated to {scene.reuse_tolerance:g}",
+            skipped=scene.reuse_tolerance > 0,
+        ),
+        Step("tangential kernels", "shear stress is friction times pressure", skipped=True),
+        Step(
+            "balance of growth and wear",
+            "implicit integration with error control, lag by lag",
+            seconds=0.25 + 3e-3 * lags,
+        ),
+        plans.figures(grid.cells),
     )
 
 
-_over_time, _map = partial(Series, ("time",)), partial(Series, ("x", "y"))
-_sample = partial(Series, ("sample",), rows=True)
+_over_time, _sample = partial(Series, ("time",)), partial(Series, ("sample",), rows=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,8 +129,8 @@ class FilmRecord(GridRecord):
     sample_hardness: Annotated[FloatArray, _sample("Pa", "hardness of a solved contact")]
     sample_growth: Annotated[FloatArray, _sample("m/s", "growth rate of a solved contact")]
     sample_contact_area: Annotated[FloatArray, _sample("m^2", "contact area of a solved contact")]
-    film_map: Annotated[FloatArray, _map("m", "local film thickness at the end")]
-    film_pressure: Annotated[FloatArray, _map("Pa", "contact pressure at the end")]
+    film_map: Annotated[FloatArray, grid_map("m", "local film thickness at the end")]
+    film_pressure: Annotated[FloatArray, grid_map("Pa", "contact pressure at the end")]
 
 
 def run(scene: TribofilmScene, context: Context) -> FilmRecord:

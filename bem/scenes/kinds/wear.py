@@ -20,7 +20,7 @@ from bem.scenes.common import BodyScene, Repetitions, SceneModel, ShapeScene, pr
 from bem.scenes.context import Context
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Series, filled
+from bem.scenes.records import Figure, Series, filled, grid_map
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 
 if TYPE_CHECKING:
@@ -62,11 +62,6 @@ def axes(scene: WearScene) -> tuple[Axis, ...]:
     )
 
 
-def resolve(scene: WearScene) -> WearScene:
-    """Fill in the hardness of the softer surface, where either has one."""
-    return build.with_hardness(scene, "cylinder", needed=False)
-
-
 def plan(scene: WearScene) -> Plan:
     """What will be computed for one case.
 
@@ -81,20 +76,18 @@ def plan(scene: WearScene) -> Plan:
             "smaller load, a larger domain or a higher hardness"
         )
     cycles = {"convolutions": _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": _DEPTHS_AT_FIRST}
-    return Plan(
-        (
-            *plans.of_bodies(scene, grid, scene.cylinder.friction, min(scene.depths.count, _DEPTHS_NEEDED)),
-            *wearing.cycle_steps(scene, grid, contacts="each from the last pressure", **cycles),
-            Step("kernels of an earlier run", _KERNELS, skipped=True),
-            Step(f"deeper stresses, down to {scene.depths.count} depths", _DEEPER, skipped=True),
-            plans.figures(grid.cells),
-        )
+    return Plan.of(
+        *plans.of_bodies(scene, grid, scene.cylinder.friction, min(scene.depths.count, _DEPTHS_NEEDED)),
+        *wearing.cycle_steps(scene, grid, contacts="each from the last pressure", **cycles),
+        Step("kernels of an earlier run", _KERNELS, skipped=True),
+        Step(f"deeper stresses, down to {scene.depths.count} depths", _DEEPER, skipped=True),
+        plans.figures(grid.cells),
     )
 
 
 _KERNELS = "not kept on disk: made once for all cycles, in a few per cent of the run's time"
 _DEEPER = "no piece that reaches the surface gets past a depth at which nothing yields"
-_over, _map = partial(Series, ("cycle",)), partial(Series, ("x", "y"), of="last")
+_over, _map = partial(Series, ("cycle",)), partial(grid_map, of="last")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -226,6 +219,7 @@ KIND = Kind.of(
     WearScene,
     WearRecord,
     "wear particles and running-in of a cylinder on a flat in boundary lubrication",
+    resolve=partial(build.with_hardness, table="cylinder", needed=False),
     figures=(
         "particle-radius-over-cycles",
         "wear-volume-over-cycles",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -49,3 +49,13 @@ class SedimentationScene(Table):
     liquid_density: Annotated[Density, Field(ge=0)]
     particle_radius: PositiveLength
     available: Annotated[Time, Field(gt=0)] | None = None
+
+    def figures(self) -> dict[str, Any]:
+        """Time that particles take to settle [s], and whether there is so much, where that is known."""
+        from bem.particles import sedimentation_time
+
+        needed = sedimentation_time(**self.model_dump(exclude={"available"}))
+        return {
+            "sedimentation_time": needed,
+            "sedimented": None if self.available is None else needed <= self.available,
+        }

@@ -139,6 +139,12 @@ class ContactOutputs(Table):
         """Whether anything below the surface is wanted."""
         return self.von_mises or self.stresses
 
+    @property
+    def volumes(self) -> tuple[str, ...]:
+        """Fields for ParaView."""
+        wanted = ("von_mises", "stress") if self.stresses else ("von_mises",)
+        return wanted if self.vtk and self.wanted_depths() else ()
+
     def wanted_depths(self) -> tuple[float, ...]:
         """Depths of what is wanted below the surface [m]; none where nothing is."""
         return self.depths.build() if self.below and self.depths is not None else ()

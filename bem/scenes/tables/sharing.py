@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
 from pydantic import Field, model_validator
 
 from bem.errors import InputError
 from bem.scenes.axes import with_keys
 from bem.scenes.common import PositiveLength, Table, Variant, problem
-from bem.scenes.lubrication import LineContactScene
+from bem.scenes.lubrication import FilmMeshScene, LineContactScene
 from bem.scenes.units import Ratio
 from bem.scenes.wearing import Count, LastCycles
 
+if TYPE_CHECKING:
+    from bem.flow import FlowFactors
+    from bem.friction.setup import MixedSetup
+
 Line = TypeVar("Line", bound=LineContactScene)
 Model = Literal["elastic", "capped", "uncoupled", "uncoupled_elastic"]
+BASELINE = {"capped": "uncoupled", "elastic": "uncoupled_elastic"}
+"""Models of the rough half-space, and what each is compared with."""
 
 
 class SharingScene(Table):
@@ -40,6 +46,40 @@ class SharingScene(Table):
         if len(set(self.models)) != len(self.models):
             raise problem("a model is named twice", "each model once")
         return self
+
+
+class CurveScene(LineContactScene):
+    """A rough cylinder on a rough flat with oil between them, at many speeds; in a case there is one model."""
+
+    film: FilmMeshScene = FilmMeshScene()
+    sharing: SharingScene = SharingScene()
+
+    @property
+    def capped(self) -> bool:
+        """Whether any of the models has a cap."""
+        return any(model in ("capped", "uncoupled") for model in self.sharing.models)
+
+    @property
+    def coupled(self) -> bool:
+        """Whether the model is the rough half-space."""
+        (model,) = self.sharing.models
+        return model in BASELINE
+
+    @property
+    def cap(self) -> float | None:
+        """Hardness of the model [Pa]."""
+        return self.contact.hardness if self.capped else None
+
+    def curve_setup(self, factors: FlowFactors | Literal["off"]) -> MixedSetup:
+        """As `bem.friction.setup.MixedSetup`, of the one model."""
+        return self.setup(
+            hardness=self.cap,
+            **self.sharing.model_dump(exclude={"models", "flow_factors"}),
+            film_points=self.film.points,
+            film_position=self.film.positions(),
+            contact_model="coupled" if self.coupled else "uncoupled",
+            flow_factors=factors,
+        )
 
 
 class SurfaceVariant(Variant):
