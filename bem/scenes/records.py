@@ -185,13 +185,14 @@ Made = TypeVar("Made", bound=Record)
 
 
 def filled(record: type[Made], *sources: Any, **own: Any) -> Made:
-    """The record with `own` in it; its other fields are what the sources have under their names, the first that has it.
+    """The record with `own` in it; its other fields, and its status, are what the sources have under their names, the
+    first that has it.
 
     sources : solutions, grids (their attributes), tables and mappings (their columns and keys). A field without a value
     anywhere keeps its default; one without default is a `TypeError`.
     """
     for source in sources:
-        wanted = described(record).keys() - own.keys()
+        wanted = {*described(record), "status"} - own.keys()
         if isinstance(source, Mapping | np.ndarray):
             has = source.keys() if isinstance(source, Mapping) else set(source.dtype.names or ())
             own |= {name: source[name] for name in wanted & has}

@@ -1,12 +1,16 @@
 """The kind `flow-factors`: a scene from tables to figures, and its mistakes in words."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from bem import InputError, flow_factors, load_scene
+from bem.errors import Status
 from bem.runs import run_scene
 from bem.scenes import build
 from bem.scenes.context import PlainContext
+from bem.scenes.records import Record, filled
 
 
 def scene(**changes):
@@ -93,3 +97,11 @@ def test_a_stribeck_curve_with_the_flow_factors_of_its_surfaces(tmp_path):
 def test_mistakes(changes, words):
     with pytest.raises(InputError, match=words):
         load_scene(scene(**changes))
+
+
+def test_a_record_has_the_status_of_what_it_was_filled_from():
+    """Factors that did not converge were said to be: the kind gave where, but no status."""
+    solved = SimpleNamespace(status=Status.STALLED)
+    assert filled(Record, solved, where="separation 3 nm").status is Status.STALLED
+    assert filled(Record, solved, where="separation 3 nm").where == "separation 3 nm"
+    assert filled(Record, SimpleNamespace(status=Status.CONVERGED), where="separation 3 nm").where == ""
