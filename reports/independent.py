@@ -146,12 +146,13 @@ def _load_shares(curves: list[dict[str, Any]]) -> str:
     lines = []
     for number, curve in enumerate(curves):
         rows, length = curve["rows"], curve["length_over_hertz"]
+        counted = {"patch": "oil on the patch", "loaded": "oil where the film is loaded"}[curve["oil_volume"]]
         ratio, share = [row["lambda"] for row in rows], [row["contact_share"] for row in rows]
-        axes.plot(ratio, share, "o-", color=COLOURS[number], label=f"ours, patch {length:g} times Hertz'")
+        axes.plot(ratio, share, "o-", color=COLOURS[number], label=f"ours, {length:g} times Hertz', {counted}")
         inside = all(low <= curve[key] <= high for key, (low, *_, high) in zip("BC", constants, strict=True))
         lines.append(
             (
-                f"share of the load in contact, patch {length:g} times as long as Hertz' contact",
+                f"share of the load in contact, patch {length:g} times as long as Hertz' contact, {counted}",
                 "exp(-B Lambda^C): "
                 + ", ".join(f"{name} {b}, {c}" for name, (b, c) in SHARES.items())
                 + f"; half at Lambda = {half[0]:.2f} to {half[-1]:.2f}",
@@ -176,7 +177,8 @@ def _load_shares(curves: list[dict[str, Any]]) -> str:
             "Where film and contact carry side by side in a contact many times wider than the waves, keeping one "
             "volume of oil over the rough patch lets the film carry a share at any speed however low: most of that oil "
             "lies beside Hertz' contact, and the longer the patch, the more of it there is. At small Lambda such a "
-            "share is the patch's and not the surface's; see the guide on lubrication."
+            "share is the patch's and not the surface's. Counted where the film is loaded (sharing.oil_volume), the oil "
+            "beside has no say, nor has the length. See the guide on lubrication."
         )
     )
 
