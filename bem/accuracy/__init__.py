@@ -26,11 +26,14 @@ if TYPE_CHECKING:
         surface_is_resolved,
     )
     from bem.accuracy.film import FilmCase, OtherFilm, film_bars, film_figures, solve_coarser_film
+    from bem.accuracy.flow import flow_bars
     from bem.accuracy.march import MarchCase, march_bars, march_figures
     from bem.accuracy.mixed import CoarserShares, MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
+    from bem.accuracy.particles import map_figures, particle_bars
     from bem.accuracy.rubbing import RubbingCase, rubbing_bars
     from bem.accuracy.stress import stress_bars
     from bem.accuracy.traction import TractionCase, traction_bars, traction_figures
+    from bem.accuracy.tribofilm import TribofilmCase, history_figures, tribofilm_bars
 
 __all__ = [
     "Coarser",
@@ -43,16 +46,21 @@ __all__ = [
     "OtherFilm",
     "RubbingCase",
     "TractionCase",
+    "TribofilmCase",
     "asperity_bars",
     "coarser_before",
     "contact_bars",
     "figures_of",
     "film_bars",
     "film_figures",
+    "flow_bars",
+    "history_figures",
+    "map_figures",
     "march_bars",
     "march_figures",
     "mixed_bars",
     "mixed_figures",
+    "particle_bars",
     "rubbing_bars",
     "solve_coarser",
     "solve_coarser_film",
@@ -61,6 +69,7 @@ __all__ = [
     "surface_is_resolved",
     "traction_bars",
     "traction_figures",
+    "tribofilm_bars",
 ]
 
 __getattr__ = loader(
@@ -78,10 +87,13 @@ __getattr__ = loader(
             "surface_is_resolved",
         ],
         "film": ["FilmCase", "OtherFilm", "film_bars", "film_figures", "solve_coarser_film"],
+        "flow": ["flow_bars"],
         "march": ["MarchCase", "march_bars", "march_figures"],
         "mixed": ["CoarserShares", "MixedCase", "mixed_bars", "mixed_figures", "solve_coarser_mixed"],
+        "particles": ["map_figures", "particle_bars"],
         "rubbing": ["RubbingCase", "rubbing_bars"],
         "stress": ["stress_bars"],
         "traction": ["TractionCase", "traction_bars", "traction_figures"],
+        "tribofilm": ["TribofilmCase", "history_figures", "tribofilm_bars"],
     },
 )

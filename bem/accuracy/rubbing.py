@@ -1,6 +1,8 @@
 """Error bars of surface temperatures under a rubbing contact: contact and heat again on the grid of twice the cell.
 
-The coarser gap is the mean over two by two cells. The bar is the whole difference, an estimate and no proved bound.
+Contact area and mean pressure have the bars of a contact (`bem.accuracy.contact`), on its coarser solution: there the
+heat's temperature is found as well, and its difference, times a factor, is the bar. The highest temperature has by how
+much a parabola rises above the hottest cell besides. An estimate and no proved bound.
 """
 
 from __future__ import annotations
@@ -10,14 +12,27 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from bem.accuracy.bars import ErrorBars
+from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars, Rule
+from bem.accuracy.contact import ContactCase, contact_bars, is_resolved, rise, share_at_edge, solve_coarser
 from bem.contact import ContactSolution, solve_contact
 from bem.convolution import displacement_operator
+from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.heat import TemperatureSolution, flash_temperature
 from bem.materials import Body
 
-_ODD = "grid.shape: no error bars, which need even numbers of cells along x and y"
+_TEMPERATURE = Rule(0.7, 1.0, edge=0.005, rough_edge=0.01)
+RULES: dict[str, Rule] = {
+    "maximum_temperature": _TEMPERATURE,
+    "mean_temperature": Rule(0.7, 1.0, edge=0.002, rough_edge=0.005),
+    "maximum_rise": _TEMPERATURE,
+    "share_of_lower": Rule(1.0, 1.0, edge=0.005, rough_edge=0.01),
+}
+"""On the difference to twice the cell; set by `reports/experiments/rubbing_error_bars.py`."""
+_OF_CONTACT = {name: name for name in ("contact_area_fraction", "mean_contact_pressure", "load")}
+_RESIDUAL = 10.0
+"""Relative change of a rise over the residuals."""
+_UNSOLVED = "no error bars: the temperature on the grid of twice the cell did not converge"
 
 
 @dataclass(frozen=True)
@@ -55,12 +70,37 @@ class RubbingCase:
         }
 
 
-def rubbing_bars(case: RubbingCase, grid: Grid, gap: FloatArray, figures: Mapping[str, float]) -> ErrorBars:
-    """Bars of the figures that were found on a grid under an undeformed gap (nx, ny) [m]."""
-    (nx, ny), (dx, dy) = grid.shape, grid.spacing
-    if nx % 2 or ny % 2:
-        return ErrorBars(notes=(_ODD,))
-    coarse = Grid((nx // 2, ny // 2), (2 * dx, 2 * dy), periodic=grid.periodic)
-    contact = case.contact(coarse, gap.reshape(nx // 2, 2, ny // 2, 2).mean(axis=(1, 3)))
-    there = case.figures(coarse, contact, case.temperature(coarse, contact))
-    return ErrorBars({name: abs(there[name] - value) for name, value in figures.items()})
+def rubbing_bars(
+    case: RubbingCase, grid: Grid, gap: FloatArray, solved: tuple[ContactSolution, TemperatureSolution]
+) -> ErrorBars:
+    """Bars of the figures of a contact and its temperature on a grid, under an undeformed gap (nx, ny) [m]."""
+    contact, found = solved
+    asked: dict[str, Any] = {name: case.asked.get(name) for name in ("load", "approach", "mean_gap", "hardness")}
+    operator = displacement_operator(grid, case.bodies, friction=case.friction)
+    pressed = ContactCase(operator, gap, contact, **asked)
+    coarser = solve_coarser(pressed, case.asked.get("max_iterations", 2000))
+    figures = case.figures(grid, contact, found)
+    if coarser.solution is None or coarser.grid is None:
+        return ErrorBars.unknown(figures, coarser.why)
+    bars = contact_bars(pressed, coarser)
+    there = case.temperature(coarser.grid, coarser.solution)
+    if there.status is not Status.CONVERGED:
+        return ErrorBars.unknown(figures, _UNSOLVED)
+    heat = case.figures(coarser.grid, coarser.solution, there)
+    resolved, edge = is_resolved(pressed), share_at_edge(pressed)
+    # temperatures count from the bulk that is nearest to them
+    size = {"maximum_temperature": figures["maximum_rise"], "mean_temperature": found.mean - min(case.bulk)}
+    cells = {
+        name: rule.bar(figures[name] - heat[name], edge * size.get(name, figures[name]), resolved=resolved)
+        for name, rule in RULES.items()
+    }
+    between = (1.0 if resolved else 2.0) * rise(found.temperature, grid)
+    for name in ("maximum_temperature", "maximum_rise"):
+        cells[name] += between
+    relative = _RESIDUAL * max(contact.residual, found.residual)
+    residual = {name: relative * abs(size.get(name, figures[name])) for name in RULES}
+    # the heat is friction times the load, whatever the cells
+    load = {name: part.get("load", 0.0) for name, part in bars.parts.items()}
+    for part, origin in ((cells, GRID), (residual, RESIDUAL)):
+        part["friction_power"] = figures["friction_power"] * load[origin] / max(contact.load, 1e-300)
+    return ErrorBars.together({GRID: cells, RESIDUAL: residual}) | bars.renamed(_OF_CONTACT)

@@ -22,7 +22,7 @@ s/100, Patir and Cheng's own cut.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -66,6 +66,7 @@ class FlowFactors:
     statuses : outcome at each separation. status : the worst of them.
     rms_height : s [m]. notes : sentences on what should not be believed.
     wall_share : (s1^2 - s2^2)/s^2, for films that use the table: 1 is all roughness on wall 1, -1 on wall 2.
+    coarser : all factors on cells twice as large, by name; None where not asked for, or not to be had.
     """
 
     separations: FloatArray
@@ -89,6 +90,7 @@ class FlowFactors:
     rms_height: float
     wall_share: float = 1.0
     notes: tuple[str, ...] = ()
+    coarser: Mapping[str, FloatArray] | None = None
 
     @property
     def status(self) -> Status:
@@ -160,12 +162,14 @@ def flow_factors(
             callback(len(rows))
     columns = {name: np.array([row[0][name] for row in rows]) for name in rows[0][0]}
     coarse = patch.coarsened(bodies) if errors else None
+    other: dict[str, FloatArray] | None = None
     for name in ("pressure_x", "pressure_y", "shear_x"):
         columns[f"{name}_error"] = np.full(len(apart), np.nan)
     if coarse is not None:
-        other = [coarse.row(d)[0] for d in apart]
+        rows_there = [coarse.row(d)[0] for d in apart]
+        other = {name: np.array([row[name] for row in rows_there]) for name in rows_there[0]}
         for name in ("pressure_x", "pressure_y", "shear_x"):
-            columns[f"{name}_error"] = np.abs(columns[name] - [row[name] for row in other]) / 3
+            columns[f"{name}_error"] = np.abs(columns[name] - other[name]) / 3
     shut = [f"{1e9 * d:.4g} nm" for d, row in zip(apart, rows, strict=True) if row[0]["pressure_x"] == 0]
     if shut:
         notes.append(f"contact bars all flow along x at separations of {', '.join(shut)}: the pressure factor is zero")
@@ -175,6 +179,7 @@ def flow_factors(
         statuses=tuple(row[1] for row in rows),
         rms_height=rms,
         notes=tuple(notes),
+        coarser=other,
         **columns,
     )
 

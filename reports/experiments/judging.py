@@ -32,7 +32,7 @@ def rows_with_parts(found: dict[str, float], truth: dict[str, float], bars: Any,
             "figure": name,
             **told,
             "value": found[name],
-            "parts": {origin: part[name] for origin, part in bars.parts.items()},
+            "parts": {origin: part[name] for origin, part in bars.parts.items() if name in part},
             "error": abs(found[name] - truth[name]),
             "bar": bar,
         }

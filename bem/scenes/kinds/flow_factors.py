@@ -4,21 +4,25 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import model_validator
 
 from bem.errors import Status
-from bem.grid import FloatArray
+from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, SceneModel, UpperBodyScene, problem
-from bem.scenes.context import Context, tell
+from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.tables.flow import FlowScene, PatchGridScene
+
+if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars
+    from bem.flow import FlowFactors
 
 
 class FlowFactorsScene(SceneModel):
@@ -115,7 +119,7 @@ def run(scene: FlowFactorsScene, context: Context) -> FlowRecord:
         )
     tell(context, found.notes)
     first, second = (float(part.var()) for part in rough)
-    bars = {name: getattr(found, f"{name}_error") for name in ("pressure_x", "pressure_y", "shear_x") if flow.errors}
+    pair = (first - second) / (first + second)
     wrong = [f"{1e9 * d:.4g} nm" for d, s in zip(apart, found.statuses, strict=True) if s is not Status.CONVERGED]
     return filled(
         FlowRecord,
@@ -124,14 +128,22 @@ def run(scene: FlowFactorsScene, context: Context) -> FlowRecord:
         combined_Sq=found.rms_height,
         separation=found.separations,
         separation_over_Sq=found.separations / found.rms_height,
-        shear_pair=found.shear_x * (first - second) / (first + second),
+        shear_pair=found.shear_x * pair,
         residual=float(found.residual.max()),
         flows_through_x=found.flows_through_x.astype(np.int64),
         flows_through_y=found.flows_through_y.astype(np.int64),
         height=heights,
-        errors={name: bar for name, bar in bars.items() if np.isfinite(bar).all()},
+        **error_bars(context, flow.errors, lambda: _bars(found, heights, grid, pair)),
         where=f"separation {', '.join(wrong)}: {found.status.message}",
     )
+
+
+def _bars(found: FlowFactors, heights: FloatArray, grid: Grid, pair: float) -> ErrorBars:
+    """With that of roughness on both walls."""
+    from bem.accuracy import flow_bars
+
+    bars = flow_bars(found, heights, grid)
+    return bars | bars.renamed({"shear_x": "shear_pair"}, lambda error: abs(pair) * error)
 
 
 KIND = Kind.of(

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from pydantic import model_validator
 
 from bem.grid import FloatArray, Grid
 from bem.scenes import plans
-from bem.scenes.common import MeasuredSurface, SceneModel, exactly_one
-from bem.scenes.context import Context
+from bem.scenes.common import MeasuredSurface, OutputsScene, SceneModel, exactly_one
+from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, columns, filled
 from bem.scenes.tables.particles import ArchardScene, SedimentationScene, SeparationScene, SyntheticMapScene
 from bem.scenes.wearing import ParticleTable, particle_rows
+
+if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars
+    from bem.particles import Particle
 
 
 class ParticlesScene(SceneModel):
@@ -28,6 +33,7 @@ class ParticlesScene(SceneModel):
     separation: SeparationScene = SeparationScene()
     archard: ArchardScene | None = None
     sedimentation: SedimentationScene | None = None
+    outputs: OutputsScene = OutputsScene()
 
     @model_validator(mode="after")
     def _one_map(self) -> ParticlesScene:
@@ -45,6 +51,7 @@ def plan(scene: ParticlesScene) -> Plan:
         Step("particles", "level the plate, threshold, label", seconds=3.0, memory=40 * cells),
         Step("number of particles", number, skipped=scene.archard is None),
         Step("sedimentation", spun, skipped=scene.sedimentation is None),
+        plans.error_bars(scene.outputs.errors, "the map at every second pixel", seconds=3.0),
         Step("contact and stresses", "the particles are measured, not computed", skipped=True),
         plans.figures(int(cells)),
     )
@@ -64,6 +71,9 @@ def _map(scene: ParticlesScene, context: Context) -> tuple[FloatArray, tuple[flo
     return surface.heights, surface.spacing
 
 
+_FEW_DECIDE = "the few largest particles decide it: it does not settle before there are thousands"
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ParticlesRecord(ParticleTable):
     """The particles of a map."""
@@ -72,9 +82,9 @@ class ParticlesRecord(ParticleTable):
     number_mean_radius: Annotated[float, Figure("nm", "equivalent radius, mean by number", headline=True)]
     number_std_radius: Annotated[float, Figure("nm", "its standard deviation by number")]
     area_mean_radius: Annotated[float, Figure("nm", "equivalent radius, mean by area", headline=True)]
-    area_std_radius: Annotated[float, Figure("nm", "its standard deviation by area")]
+    area_std_radius: Annotated[float, Figure("nm", "its standard deviation by area", no_bar=_FEW_DECIDE)]
     volume_mean_radius: Annotated[float, Figure("nm", "equivalent radius, mean by volume", headline=True)]
-    volume_std_radius: Annotated[float, Figure("nm", "its standard deviation by volume")]
+    volume_std_radius: Annotated[float, Figure("nm", "its standard deviation by volume", no_bar=_FEW_DECIDE)]
     length: Annotated[float, Figure("nm", "mean length by number", headline=True)]
     width: Annotated[float, Figure("nm", "mean width by number", headline=True)]
     thickness: Annotated[float, Figure("nm", "mean thickness by number", headline=True)]
@@ -97,7 +107,8 @@ class ParticlesRecord(ParticleTable):
 
 def run(scene: ParticlesScene, context: Context) -> ParticlesRecord:
     """Read, separate, measure."""
-    from bem.particles import level_background, particle_statistics, particles_from_height_map
+    from bem.accuracy import map_figures
+    from bem.particles import level_background, particles_from_height_map
 
     with context.timer("map"):
         heights, spacing = _map(scene, context)
@@ -107,26 +118,44 @@ def run(scene: ParticlesScene, context: Context) -> ParticlesRecord:
         level = level_background(
             heights, spacing, threshold=choices.threshold, method=choices.background, lines=choices.level_lines
         )
-    statistics = [particle_statistics(found, weight=weight) for weight in ("number", "area", "volume")]
-    number = statistics[0]
-    archard = scene.archard.figures(scene.archard.load, number.mean_volume) if scene.archard and found else {}
+    figures = map_figures(found)
+    archard = scene.archard.figures(scene.archard.load, figures["volume"]) if scene.archard and found else {}
     return filled(
         ParticlesRecord,
-        {f"{one.weight}_mean_radius": one.mean_equivalent_radius for one in statistics},
-        {f"{one.weight}_std_radius": one.std_equivalent_radius for one in statistics},
+        figures,
         archard,
         scene.sedimentation.figures() if scene.sedimentation else {},
         columns(found, _COLUMNS, "particle_"),
         {f"particle_{name}": np.array([float(p.position[axis]) for p in found]) for axis, name in enumerate("xy")},
         Grid(heights.shape, spacing),
-        count=len(found),
-        length=number.mean_length,
-        width=number.mean_width,
-        thickness=number.mean_thickness,
         threshold=choices.threshold,
         width_over_thickness=float(np.mean([p.width / p.thickness for p in found])) if found else None,
         level_height=level,
+        **error_bars(context, scene.outputs.errors, lambda: _bars(scene, found, heights, spacing, archard)),
     )
+
+
+def _bars(
+    scene: ParticlesScene,
+    found: list[Particle],
+    heights: FloatArray,
+    spacing: tuple[float, float],
+    archard: Mapping[str, float],
+) -> ErrorBars:
+    """With those of the number of particles, which goes as their mean volume to the power of -1."""
+    from bem.accuracy import particle_bars
+
+    bars = particle_bars(found, heights, spacing, scene.separation.model_dump())
+    if not archard:
+        return bars
+    volume = float(np.mean([particle.volume for particle in found]))
+
+    def of_number(number: float) -> Callable[[float], float]:
+        return lambda error: number * error / volume
+
+    for name in ("particle_number", "particles_per_mm_and_N"):
+        bars |= bars.renamed({"volume": name}, of_number(archard[name]))
+    return bars
 
 
 _COLUMNS = ("volume", "equivalent_radius", "length", "width", "thickness")

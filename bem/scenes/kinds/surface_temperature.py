@@ -88,6 +88,8 @@ def run(scene: SurfaceTemperatureScene, context: Context) -> SurfaceTemperatureR
         found = case.temperature(grid, contact)
     tell(context, (*contact.notes, *found.notes))
     figures = case.figures(grid, contact, found)
+    status = contact.status if contact.status is not Status.CONVERGED else found.status
+    wanted = status is Status.CONVERGED
     return filled(
         SurfaceTemperatureRecord,
         figures,
@@ -99,8 +101,8 @@ def run(scene: SurfaceTemperatureScene, context: Context) -> SurfaceTemperatureR
         surface_temperature=found.temperature,
         heat_lower=found.heat[0],
         heat_made=found.heat.sum(axis=0),
-        **error_bars(context, True, lambda: rubbing_bars(case, grid, gap, figures)),
-        status=contact.status if contact.status is not Status.CONVERGED else found.status,
+        **error_bars(context, wanted, lambda: rubbing_bars(case, grid, gap, (contact, found))),
+        status=status,
         where=f"contact: {contact.status}, temperature: {found.status}",
     )
 

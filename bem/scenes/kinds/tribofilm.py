@@ -15,8 +15,8 @@ from pydantic import Field, model_validator
 from bem.grid import FloatArray
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed, variants
-from bem.scenes.common import Repetitions, problem
-from bem.scenes.context import Context
+from bem.scenes.common import OutputsScene, Repetitions, problem
+from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, layered_kernel_seconds, padded_points
@@ -40,6 +40,7 @@ class TribofilmScene(RubbedScene):
     kind: Literal["tribofilm"] = "tribofilm"
     variants: list[VariantScene] = []  # noqa: RUF012
     reuse_tolerance: Annotated[Ratio, Field(ge=0, lt=1)] = 2e-3
+    outputs: OutputsScene = OutputsScene()
     repetitions: Repetitions = 1
 
     @model_validator(mode="after")
@@ -91,6 +92,11 @@ def plan(scene: TribofilmScene) -> Plan:
             "implicit integration with error control, lag by lag",
             seconds=0.25 + 3e-3 * lags,
         ),
+        plans.error_bars(
+            scene.outputs.errors,
+            "the film again under the contact on the grid of twice the cell",
+            **plans.coarser_contacts(grid, _CONVOLUTIONS * _CONTACTS, 2.0),
+        ),
         plans.figures(grid.cells),
     )
 
@@ -135,25 +141,32 @@ class FilmRecord(GridRecord):
 
 def run(scene: TribofilmScene, context: Context) -> FilmRecord:
     """Grow one film."""
+    from bem.accuracy import TribofilmCase, history_figures, tribofilm_bars
+
     report = scene.rubbing.report
     times = np.unique(np.concatenate([np.linspace(0.0, scene.rubbing.duration, scene.rubbing.points), report or ()]))
     grid = build.grid_of(scene.grid)
     contact = scene.contact(grid, *build.both_heights(scene, grid, context))
     with context.timer("films"):
-        film = (_local_film if scene.film.feedback == "local" else _mean_film)(scene, contact, times, context)
-    history = film.history
+        local = scene.film.feedback == "local"
+        film = (_local_film if local else _mean_film)(scene, contact, times, context)
+    figures = history_figures(film.history, film.steady_thickness, report)
+    case = TribofilmCase(
+        contact,
+        times,
+        {name: value for name, value in asdict(scene.film.balance()).items() if name != "lag" or not local},
+        None if local else scene.reuse_tolerance,
+        scene.film.local_tolerance,
+        report,
+    )
     return filled(
         FilmRecord,
-        history,
+        figures,
+        film.history,
         film,
         columns(film.samples, _SAMPLED, "sample_"),
         grid,
-        film_thickness=float(history.thickness[-1]),
-        largest_thickness=float(history.thickness.max()),
-        film_wear_rate=float(history.wear_rate[-1]),
-        wear_depth=None if report is None else history.wear_depth(*report),
-        total_wear_depth=float(history.substrate_wear[-1]),
-        final_concentration=float(history.concentration[-1]),
+        **error_bars(context, scene.outputs.errors, lambda: tribofilm_bars(case, figures)),
     )
 
 

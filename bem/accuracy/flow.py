@@ -1,0 +1,52 @@
+"""Error bars of flow factors: the same patch, deformed and flowed through, on the grid of twice the cell.
+
+Each factor's bar is its difference times a factor, and a share of what the patch changes it by where that difference
+happens to pass zero; the residual of contact and flow apart. Where fluid hangs together on one grid and not on the
+other the difference is the factor itself. Factors are set by `reports/experiments/flow_error_bars.py`: an estimate, no
+proved bound.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars, Rule
+from bem.accuracy.contact import surface_is_resolved
+from bem.flow import FlowFactors
+from bem.grid import FloatArray, Grid
+
+_SMOOTH = {"pressure_x": 1.0, "pressure_y": 1.0, "friction_sliding": 1.0, "friction_pressure": 1.0}
+"""What factors are between smooth walls; others are 0."""
+_FACTOR = Rule(0.7, 1.0, edge=0.01, rough_edge=0.01)
+# the mean of 1/h grows towards contact to where gaps are cut: cells converge with half an order or less, by jumps
+_INVERSE = Rule(1.5, 2.5, edge=0.1, rough_edge=0.1)
+RULES: dict[str, Rule] = {
+    "pressure_x": _FACTOR,
+    "pressure_y": _FACTOR,
+    "pressure_xy": _FACTOR,
+    "shear_x": _FACTOR,
+    "friction_sliding": _INVERSE,
+    "friction_shear": _INVERSE,
+    "friction_pressure": _FACTOR,
+    "mean_gap": Rule(0.8, 0.6),
+    "contact_area_fraction": Rule(0.7, 1.0, edge=0.01, rough_edge=0.01),
+}
+"""On the difference, 1/3 of which order two would leave; and of how far the factor is from that of smooth walls."""
+_RESIDUAL = 10.0
+"""Relative change of a factor over the residual."""
+_NONE = "no error bars: they need even numbers of cells, eight at least"
+
+
+def flow_bars(found: FlowFactors, heights: FloatArray, grid: Grid) -> ErrorBars:
+    """Bars of factors found with `errors`, an entry for each separation; heights (nx, ny) [m] on the grid."""
+    if found.coarser is None:
+        return ErrorBars.unknown(RULES, _NONE)
+    resolved = surface_is_resolved(heights, grid)
+    cells, residual = {}, {}
+    for name, rule in RULES.items():
+        value = getattr(found, name)
+        changed = np.abs(value - _SMOOTH.get(name, 0.0))
+        bars = [rule.bar(*pair, resolved=resolved) for pair in zip(value - found.coarser[name], changed, strict=True)]
+        cells[name] = np.array(bars)
+        residual[name] = _RESIDUAL * found.residual * np.abs(value)
+    return ErrorBars.together({GRID: cells, RESIDUAL: residual})

@@ -1,0 +1,99 @@
+"""Error bars of particles in a height map: the map at every second pixel, and how few particles there are.
+
+Every second pixel along both axes makes four maps, each as if scanned with twice the pixel; the largest difference to
+them, times a factor, is what pixels leave: sides of particles are whole pixels, so that it is of first order. The
+scatter is that of the sample: the standard error of a weighted mean, and the root of a count (particles land on a plate
+independently of one another), so that it says how far another map of the same plate may be. Set by
+`reports/experiments/particle_error_bars.py`: an estimate, no proved bound.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from scipy import stats
+
+from bem.accuracy.bars import GRID, ErrorBars
+from bem.grid import FloatArray
+from bem.particles import particle_statistics, particles_from_height_map
+from bem.particles.particle import Particle
+
+SAMPLE = "sample"
+WEIGHTS = ("number", "area", "volume")
+_GRID = 1.0
+"""On the largest difference: what first order leaves."""
+_LEVEL = 0.95
+"""Of Student's distribution, with as many degrees of freedom as particles count: nine in ten errors within it."""
+_FEW = "no error bars: fewer than two particles"
+
+
+def map_figures(found: Sequence[Particle]) -> dict[str, float]:
+    """Headline figures of the particles of a map, SI units."""
+    figures: dict[str, float] = {"count": len(found)}
+    for weight in WEIGHTS:
+        statistics = particle_statistics(found, weight=weight)
+        figures[f"{weight}_mean_radius"] = statistics.mean_equivalent_radius
+        figures[f"{weight}_std_radius"] = statistics.std_equivalent_radius
+    number = particle_statistics(found, weight="number")
+    for name in ("length", "width", "thickness", "volume"):
+        figures[name] = getattr(number, f"mean_{name}")
+    return figures
+
+
+def particle_bars(
+    found: Sequence[Particle], heights: FloatArray, spacing: tuple[float, float], choices: Mapping[str, Any]
+) -> ErrorBars:
+    """Bars of `map_figures`.
+
+    Parameters
+    ----------
+    found : in the map. heights, spacing : (nx, ny) [m] and [m]. choices : what else
+        `bem.particles.particles_from_height_map` was given.
+    """
+    figures = map_figures(found)
+    if len(found) < 2:
+        return ErrorBars.unknown(figures, _FEW)
+    # as large a piece has a quarter of the pixels
+    fewest = max(1, round(choices.get("smallest_columns", 1) / 4))
+    coarse = {**choices, "smallest_columns": fewest}
+    twice = (2 * spacing[0], 2 * spacing[1])
+    pixels = dict.fromkeys(figures, 0.0)
+    for i in (0, 1):
+        for j in (0, 1):
+            there = map_figures(particles_from_height_map(heights[i::2, j::2], twice, **coarse))
+            for name, value in figures.items():
+                pixels[name] = max(pixels[name], _GRID * abs(value - there[name]))
+    scatter = _scatter(found, figures)
+    return ErrorBars.together({GRID: {name: pixels[name] for name in scatter}, SAMPLE: scatter})
+
+
+def _scatter(found: Sequence[Particle], figures: Mapping[str, float]) -> dict[str, float]:
+    radius = np.array([p.equivalent_radius for p in found])
+    area = np.array([p.length * p.width for p in found])
+    volume = np.array([p.volume for p in found])
+    scatter = {"count": float(stats.norm.ppf(_LEVEL)) * math.sqrt(len(found))}
+    for name, weights in zip(WEIGHTS, (np.ones_like(radius), area, volume), strict=True):
+        mean, std = figures[f"{name}_mean_radius"], figures[f"{name}_std_radius"]
+        scatter[f"{name}_mean_radius"] = _scattered(radius, weights, mean)
+        if name == "number":  # by the variance, whose root it is
+            squares = _scattered((radius - mean) ** 2, weights, std**2)
+            scatter["number_std_radius"] = squares / (2 * std) if std > 0 else 0.0
+    for name in ("length", "width", "thickness", "volume"):
+        values = np.array([getattr(p, name) for p in found])
+        scatter[name] = _scattered(values, np.ones_like(values), figures[name])
+    return scatter
+
+
+def _scattered(values: FloatArray, weights: FloatArray, mean: float) -> float:
+    """How far a weighted mean may be: its standard error, the root of the sum of u^2 = w^2 (x - mean)^2 over the sum of
+    w, times Student's quantile for as many degrees of freedom as that has, (sum u^2)^2 / sum u^4 less 1 (Satterthwaite,
+    Biometrics Bulletin 2 (1946) 110): few where a large particle or two decide the mean."""
+    squares = (weights * (values - mean)) ** 2
+    if not squares.any():
+        return 0.0
+    count = float(squares.sum() ** 2 / (squares**2).sum())
+    quantile = float(stats.t.ppf(_LEVEL, max(count - 1, 1.0)))
+    return quantile * float(np.sqrt(squares.sum()) / np.sum(weights))

@@ -1,0 +1,65 @@
+"""Error bars of particles in random maps against maps of a quarter of the pixel and four times the sides.
+
+    python -m reports.experiments.particle_error_bars [CASES]
+
+Plates with 8 to 40 flat, round particles a map of 96 to 160 pixels a side, radii from a log-normal distribution around
+3 to 8 pixels, thresholds of a tenth to a third of the mean thickness. The reference has the particles of sixteen such
+maps, so that the sample's scatter is judged as well as the pixels. The result is stored in
+`reports/results/particle_error_bars.json`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem.accuracy import map_figures, particle_bars
+from bem.particles import particles_from_height_map
+from reports.experiments.contact_error_bars import FloatArray
+from reports.experiments.judging import judge, rows_with_parts
+
+RESULT = Path(__file__).resolve().parents[1] / "results" / "particle_error_bars.json"
+FINER, PIXEL = 4, 20e-9
+
+
+def plate(rng: np.random.Generator, pixels: int, finer: int, radii: FloatArray) -> FloatArray:
+    """Heights [m] of so many pixels a side, each cut in finer x finer, under particles at random places that do not
+    touch; what finds no room is left out."""
+    n = pixels * finer
+    x = (np.arange(n) + 0.5) / finer
+    heights, placed = np.zeros((n, n)), np.empty((0, 3))
+    for radius in np.sort(radii)[::-1]:
+        for _ in range(50):
+            place = rng.uniform(radius + 1, pixels - radius - 1, 2)
+            if (np.hypot(*(placed[:, :2] - place).T) > placed[:, 2] + radius + 2).all():
+                break
+        else:
+            continue
+        placed = np.vstack([placed, [*place, radius]])
+        near = [np.flatnonzero(np.abs(x - p) <= radius) for p in place]
+        rho2 = sum(((x[i] - p) / radius)[s] ** 2 for i, p, s in zip(near, place, ((..., None), (None,)), strict=True))
+        heights[np.ix_(*near)] += 0.3 * radius * PIXEL * np.maximum(1 - rho2**4, 0.0)
+    return heights
+
+
+def rows_of(rng: np.random.Generator) -> list[dict[str, Any]]:
+    """Bar and true error of every figure of a random map."""
+    pixels, count = int(rng.integers(96, 161)), int(rng.integers(8, 41))
+    mean, spread = float(rng.uniform(3, 8)), float(rng.uniform(0.1, 0.5))
+    seen = {"threshold": float(rng.uniform(0.1, 0.33)) * 0.3 * mean * PIXEL, "background": "none"}
+    own, many = (np.minimum(mean * np.exp(spread * rng.standard_normal(n)), pixels / 6) for n in (count, 16 * count))
+    heights = plate(rng, pixels, 1, own)
+    found = particles_from_height_map(heights, (PIXEL, PIXEL), **seen)
+    fine = plate(rng, 4 * pixels, FINER, many)
+    truth = map_figures(particles_from_height_map(fine, (PIXEL / FINER,) * 2, **seen))
+    bars = particle_bars(found, heights, (PIXEL, PIXEL), seen)
+    words = f"{pixels} pixels, {len(found)} particles of {mean:.1f} pixels"
+    # a count is that of the plate that was scanned: how many land on another one is its scatter alone
+    truth["count"] /= 16
+    return rows_with_parts(map_figures(found), truth, bars, map=words)
+
+
+if __name__ == "__main__":
+    judge(rows_of, RESULT, 60)

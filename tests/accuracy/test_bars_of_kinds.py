@@ -1,0 +1,66 @@
+"""Error bars of flow factors, rubbing heat, tribofilms and particles: they cover, say where errors come from, and are
+not far too large. `reports/experiments` have more cases of each, and the verdict for each figure."""
+
+import numpy as np
+import pytest
+
+from bem.accuracy import TribofilmCase, particle_bars, tribofilm_bars
+from bem.particles import particles_from_height_map
+from reports.experiments import flow_error_bars, particle_error_bars, rubbing_error_bars, tribofilm_error_bars
+
+
+@pytest.mark.parametrize(
+    ("experiment", "cases", "origins"),
+    [
+        (flow_error_bars, 3, {"grid", "residual"}),
+        (rubbing_error_bars, 6, {"grid", "residual"}),
+        (tribofilm_error_bars, 4, {"grid", "reused contacts", "time steps"}),
+        (particle_error_bars, 12, {"grid", "sample"}),
+    ],
+    ids=lambda item: getattr(item, "__name__", None),
+)
+def test_bars_cover_nine_errors_in_ten_and_are_not_far_too_large(experiment, cases, origins):
+    rng = np.random.default_rng(77)
+    rows = [row for _ in range(cases) for row in experiment.rows_of(rng)]
+    known = [r for r in rows if r["bar"] is not None and r["error"] > 1e-7 * abs(r["value"])]
+    ratios = np.array([row["bar"] / row["error"] for row in known])
+    assert len(ratios) > 20
+    # figures of one case go together: of so few cases the share scatters by a tenth and the median by a half
+    assert np.mean(ratios >= 1) >= 0.8
+    assert np.median(ratios) <= 7.5
+    assert {origin for row in rows for origin in row["parts"]} <= origins
+    for row in known:
+        assert sum(row["parts"].values()) == pytest.approx(row["bar"]), row["figure"]
+
+
+def test_an_error_of_growth_is_that_of_a_steady_film():
+    """A film that is steady is as thick as growth over wear: growth wrong by a share makes it wrong by that share."""
+    rng = np.random.default_rng(3)
+    words, case, _, _ = tribofilm_error_bars.draw(rng)
+    while "mean" not in words or "lag" in case.constants:
+        words, case, _, _ = tribofilm_error_bars.draw(rng)
+    wear = case.constants["wear_coefficient"]
+    times = np.linspace(0, 12 / wear, 7)
+    steady = TribofilmCase(case.contact, times, case.constants, 0.01)
+    found = tribofilm_error_bars.grown(steady)
+    reused = tribofilm_bars(steady, found).parts["reused contacts"]
+    # growth falls with thickness or rises with it, so that the share is not kept to the last digit
+    assert reused["film_thickness"] == pytest.approx(0.01 * found["film_thickness"], rel=0.5)
+    assert found["wear_depth"] is None
+    assert "wear_depth" not in reused
+
+
+def test_more_particles_have_a_smaller_scatter_and_smaller_pixels_a_smaller_error():
+    rng, pixel, seen = np.random.default_rng(5), 20e-9, {"threshold": 8e-9, "background": "none"}
+    bars = []
+    for pixels, finer, count in ((96, 1, 12), (288, 1, 108), (96, 4, 12)):
+        heights = particle_error_bars.plate(rng, pixels, finer, 5 * np.exp(0.3 * rng.standard_normal(count)))
+        found = particles_from_height_map(heights, (pixel / finer,) * 2, **seen)
+        bars.append(particle_bars(found, heights, (pixel / finer,) * 2, seen).parts)
+    # nine times as many: a third, within what a sample of twelve knows of its own scatter
+    assert bars[1]["sample"]["number_mean_radius"] < 0.6 * bars[0]["sample"]["number_mean_radius"]
+    assert bars[2]["grid"]["width"] < 0.5 * bars[0]["grid"]["width"]
+    one = particles_from_height_map(np.pad(np.full((4, 4), 1e-7), 6), (pixel, pixel), **seen)
+    none = particle_bars(one, np.zeros((16, 16)), (pixel, pixel), seen)
+    assert set(none.values.values()) == {None}
+    assert "fewer than two" in none.notes[0]
