@@ -30,9 +30,9 @@ RULES: dict[str, Rule] = {
     "plastic_area_fraction": Rule(0.67, 1.0, edge=0.05, rough_edge=0.05),
     "mean_contact_pressure": _AREA,
     "max_pressure": Rule(0.5, 0.67, edge=0.002, rough_edge=0.003),
-    "load": Rule(0.5, 0.8, edge=0.003, rough_edge=0.003),
+    "load": Rule(0.5, 1.0, edge=0.005, rough_edge=0.005),
     "approach": Rule(0.5, 0.5, edge=0.005, rough_edge=0.005),
-    "mean_gap": Rule(0.6, 0.8, edge=0.001),
+    "mean_gap": Rule(0.67, 0.8, edge=0.001),
 }
 """Figures of a contact that have bars; set by `reports/experiments/contact_error_bars.py` with seeds that it does not
 store."""

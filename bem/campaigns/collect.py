@@ -107,7 +107,9 @@ def _summary(
     if any(item.dimensions for item in told.values()):
         return summary | groups[0] | ({"curves": groups} if len(groups) > 1 else {})
     lists = len(groups) > 1 or campaign.kind.always_lists
-    return summary | {key: [group[key] for group in groups] if lists else groups[0][key] for key in groups[0]}
+    # a case without a bar has no parts of it
+    keys = dict.fromkeys(key for group in groups for key in group)
+    return summary | {key: [group.get(key) for group in groups] if lists else groups[0][key] for key in keys}
 
 
 def _is_told(name: str, figure: Figure, records: Sequence[Record | None]) -> bool:

@@ -13,8 +13,11 @@ import numpy as np
 Rows = list[dict[str, Any]]
 
 
-def judge(rows_of_next: Callable[[np.random.Generator], Rows], path: Path, cases: int, seed: int = 14) -> None:
-    """Draw, solve, judge, store at `path`; so many cases, or as many as the command line says."""
+def judge(rows_of_next: Callable[[np.random.Generator], Rows], path: Path, cases: int, seed: int = 2611) -> None:
+    """Draw, solve, judge, store at `path`; so many cases, or as many as the command line says.
+
+    seed : none of those that factors were chosen on, which is what makes it a judgement.
+    """
     cases = int(sys.argv[1]) if len(sys.argv) > 1 else cases
     rng, rows = np.random.default_rng(seed), []
     for _ in range(cases):
