@@ -245,7 +245,7 @@ def _further(case: ContactCase, *, resolved: bool) -> dict[str, float]:
     cap = math.inf if case.hardness is None else case.hardness
     highest = case.solution.maximum_pressure
     peak = (_PEAK if resolved else _ROUGH_PEAK) * abs(highest - float(case.solution.pressure.max()))
-    touch = _TOUCH * _rise(-case.undeformed, case.grid) if case.from_touch else 0.0
+    touch = _TOUCH * rise(-case.undeformed, case.grid) if case.from_touch else 0.0
     # N spots of width d that know nothing of one another are as stiff as N E* d, which is E* perimeter / pi
     perimeter = case.solution.contact_perimeter
     spot = math.pi * case.solution.contact_area / perimeter if perimeter > 0 else math.sqrt(case.grid.cell_area)
@@ -258,7 +258,7 @@ def _further(case: ContactCase, *, resolved: bool) -> dict[str, float]:
     }
 
 
-def _rise(field: FloatArray, grid: Grid) -> float:
+def rise(field: FloatArray, grid: Grid) -> float:
     """By how much a paraboloid through the highest value and its neighbours rises above it."""
     place = np.unravel_index(int(np.argmax(field)), field.shape)
     patch = around(field, grid, (int(place[0]), int(place[1])))
