@@ -84,6 +84,14 @@ def plan(scene: FrictionScene) -> Plan:
             name="rough contacts",
             skipped=not coupled,
         ),
+        Step(
+            "balance without the oil beside the contact",
+            "it is left out anyway"
+            if scene.sharing.oil_volume == "loaded"
+            else "once more at each speed where film and contact share the load, to tell what that oil decides",
+            seconds=speeds * 0.2,
+            skipped=scene.sharing.oil_volume == "loaded",
+        ),
         plans.error_bars(
             scene.outputs.errors,
             "each balance on the grid of twice the cell, and there with half the film's points",
