@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from bem.scenes import get_kind, kind_names
 from bem.scenes.records import Figure, described, without_bars
 from reports.builder import Section, table, text
+from reports.experiments.judging import judged
 from reports.prose import prose
 
 _WORDS = prose("guide")["error_bars"]
@@ -51,16 +52,24 @@ def chapter() -> list[Section]:
 
 
 def _covered() -> Iterator[tuple[str, ...]]:
-    for name, found in measured().items():
-        for figure, row in found["figures"].items():
-            yield (
-                f"{found['cases']} {_WORDS['drawn'][name]}",
-                figure.replace("_", " ").replace("von mises", "von Mises"),
-                str(row["bars"]),
-                f"{row['covered']:.0%}",
-                f"{row['median_ratio']:.1f}",
-                f"{row['median_relative_error']:.2g}",
-            )
+    found = measured()
+    everything = [row for each in found.values() for row in each["rows"]]
+    yield _row(f"{sum(each['cases'] for each in found.values())} cases", "all figures", together(everything))
+    for name, each in found.items():
+        drawn = f"{each['cases']} {_WORDS['drawn'][name]}"
+        yield _row(drawn, "all figures", together(each["rows"]))
+        for figure, row in each["figures"].items():
+            yield _row(drawn, figure.replace("_", " ").replace("von mises", "von Mises"), row)
+
+
+def together(rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
+    """The verdict on bars of several figures as if they were one."""
+    return judged([{**row, "figure": "all"} for row in rows])["all"]
+
+
+def _row(drawn: str, figure: str, row: Mapping[str, float]) -> tuple[str, ...]:
+    covered, ratio, error = (row[name] for name in ("covered", "median_ratio", "median_relative_error"))
+    return drawn, figure, str(row["bars"]), f"{covered:.0%}", f"{ratio:.1f}", f"{error:.2g}"
 
 
 def _asked() -> Iterator[tuple[str, ...]]:
