@@ -53,6 +53,8 @@ class FilmSolution:
     film_fraction : (n,) share of the gap that is filled with oil; 1 in the full film. None with Swift and Stieber's
         cavitation, which keeps no account of it.
     volume_imbalance : relative error of the volume balance of a time step; None for a steady film.
+    mean_temperature, maximum_temperature : of the oil [K], mean across the film: weighted by pressure, and the highest.
+        None where heat was not solved for.
     starvation : what a supply of oil made of a steady film; None where none was given: flooded.
     state : the discrete solution as its solver left it, to start the next one from; None where none is kept.
     notes : where the model is outside its validity, a sentence each (`bem.lubrication.validity`).
@@ -78,6 +80,8 @@ class FilmSolution:
     film_fraction: FloatArray | None = None
     notes: tuple[str, ...] = ()
     starvation: Starvation | None = None
+    mean_temperature: float | None = None
+    maximum_temperature: float | None = None
     state: KeptFilm | None = field(default=None, repr=False, compare=False)
 
     def shear_stress(self, position: FloatArray | None = None) -> FloatArray:
@@ -98,6 +102,12 @@ class FilmSolution:
         sliding = middle_stress(self.lubricant, newtonian, positive, self.thickness, gradient)
         stress = np.where(full, sliding + 0.5 * self.thickness * gradient, 0.0)
         return stress if position is None else np.interp(position, self.position, stress, left=0.0, right=0.0)
+
+    @property
+    def rolling_force(self) -> float:
+        """Rolling part of the shear force [N/m], integral h/2 dp/dx, from the solution's own points on."""
+        film, pressure = self.thickness, self.pressure
+        return 0.25 * float(np.sum((film[1:] + film[:-1]) * np.diff(pressure)))
 
     def at(self, position: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Pressure [Pa] and thickness [m] at positions [m]: anywhere for a steady film, else within its mesh.

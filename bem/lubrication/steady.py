@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -24,6 +25,7 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
 from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply
 from bem.lubrication.validity import Case, notes_on
+from bem.materials import Body
 from bem.threads import one_blas_thread
 
 MOES_LOADS = (1e-5, 1e4)
@@ -46,7 +48,10 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     max_iterations: int = 40,
     cavitation: Cavitation | str = Cavitation.SWIFT_STIEBER,
     flow_factors: WallFactors | str = "off",
-    supply: Supply | None = None,
+    supply: Supply | float | None = None,
+    thermal: str = "off",
+    bodies: Sequence[Body] | None = None,
+    bulk: Sequence[float] | None = None,
 ) -> FilmSolution:
     """Steady film between a cylinder and a flat: Reynolds' equation with cavitation and elastic deflection.
 
@@ -72,9 +77,13 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         In time (`march_line_film`) the two differ.
     flow_factors : "off", or a table of `bem.flow_factors`: pressure flow is then phi_x times, Couette flow h + k s
         phi_s (`bem.lubrication.rough_walls`). Shear stress and what is behind the exit stay those of smooth walls.
-    supply : oil that reaches the contact, an `OilLayer` or an `InletDistance` (`bem.lubrication.supply`); None is
-        flooded. `FilmSolution.starvation` has the meniscus, the oil that goes through, and how much thinner the film is
-        than flooded. Upstream of the meniscus there is no pressure and no friction.
+    supply : oil that reaches the contact, an `OilLayer` or an `InletDistance` (`bem.lubrication.supply`), or the
+        thickness of a layer [m]; None is flooded. `FilmSolution.starvation` has the meniscus, the oil that goes
+        through, and how much thinner the film is than flooded. Upstream of the meniscus there is no pressure and no
+        friction.
+    thermal : "off", or "lumped": inlet shear heating and the oil's mean temperature, see `solve_thermal_line_film`,
+        which also gives the temperatures along the film. Friction and temperatures of the result are then those.
+    bodies, bulk : with heat: flat and cylinder with their heat constants, and their temperatures far away [K].
 
     Returns
     -------
@@ -92,6 +101,14 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     L = 6 to 10 the pressure spike has no limit: it grows with the mesh as the inverse root of a cell, while the film
     thickness converges.
     """
+    if thermal != "off":
+        asked = {"tolerance": tolerance, "max_iterations": max_iterations, "flow_factors": flow_factors}
+        unusual = (position is not None, cavitation_of(cavitation) is not Cavitation.SWIFT_STIEBER, supply is not None)
+        return _with_heat(
+            thermal, bodies, bulk, unusual,
+            load=load, radius=radius, contact_modulus=contact_modulus, speeds=speeds, lubricant=lubricant,
+            points=points, initial=initial, **asked,
+        )  # fmt: skip
     cavitation, supply = cavitation_of(cavitation), checked_supply(supply)
     scales, reversed_ = _check(load, radius, contact_modulus, speeds, lubricant, points, tolerance, position)
     walls = walls_of(flow_factors, scales.film, speeds)
@@ -137,6 +154,40 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     if outcome.state.far_field == 0:
         ruptured |= along < outcome.state.position[0] * scales.length
     return replace(film, film_fraction=np.where(ruptured, exit_film / film.thickness, 1.0))
+
+
+def _with_heat(
+    thermal: str, bodies: Sequence[Body] | None, bulk: Sequence[float] | None, unusual: tuple[bool, ...], **asked: Any
+) -> FilmSolution:
+    """The film of `solve_thermal_line_film` with its friction and temperatures.
+
+    Raises
+    ------
+    InputError : another model of heat, no bodies, and what is not solved for with heat.
+    """
+    from bem.lubrication.thermal.lumped import solve_thermal_line_film
+
+    messages = []
+    if thermal != "lumped":
+        messages.append(f'solve_line_film: thermal {thermal!r} is not there; allowed: "off", "lumped"')
+    if bodies is None:
+        messages.append("solve_line_film: with heat, bodies (flat, cylinder) with heat constants must be given")
+    names = ("position", "mass-conserving cavitation", "supply")
+    given = (name for name, is_so in zip(names, unusual, strict=True) if is_so)
+    messages += [f"solve_line_film: {name} cannot be given with heat" for name in given]
+    if messages or bodies is None:
+        raise InputError(messages)
+    found = solve_thermal_line_film(bodies=bodies, bulk=bulk, **asked)
+    return replace(
+        found.film,
+        shear_force=found.shear_force,
+        striated_shear_force=math.nan,
+        mean_temperature=found.mean_film_temperature,
+        maximum_temperature=found.highest_film_temperature,
+        iterations=found.iterations,
+        status=found.status,
+        notes=found.notes,
+    )
 
 
 def _wanted(supply: Supply, problem: Problem, flooded: State, scales: Scales) -> Wanted | None:

@@ -57,7 +57,7 @@ class Starvation:
 
 
 def checked_supply(supply: object) -> Supply | None:
-    """The supply.
+    """The supply; a number is the thickness of a layer [m].
 
     Raises
     ------
@@ -65,7 +65,11 @@ def checked_supply(supply: object) -> Supply | None:
     """
     if supply is None or isinstance(supply, OilLayer | InletDistance):
         return supply
-    raise InputError(f"supply: {supply!r} must be an OilLayer, an InletDistance, or None for a flooded inlet")
+    if isinstance(supply, int | float) and not isinstance(supply, bool):
+        return OilLayer(float(supply))
+    raise InputError(
+        f"supply: {supply!r} must be an OilLayer, a thickness of one [m], an InletDistance, or None for a flooded inlet"
+    )
 
 
 def _check(value: object, name: str) -> None:

@@ -59,6 +59,27 @@ def test_energy_closes(mean, slide, rheology):
     assert found.status is Status.CONVERGED
 
 
+def test_the_film_s_own_solver_asks_for_heat():
+    """`thermal="lumped"` is the same film with its friction and temperatures; what it cannot have is said at once."""
+    case = {"load": load(0.8e9), "speeds": pair(3.0, 0.3), "lubricant": oil(), "points": 500}
+    whole = solve_thermal_line_film(**(ROLLER | case))
+    film_alone = solve_line_film(thermal="lumped", **(ROLLER | case))
+    assert film_alone.shear_force == whole.shear_force
+    assert film_alone.maximum_temperature == whole.highest_film_temperature
+    assert whole.film_temperature.min() < film_alone.mean_temperature < film_alone.maximum_temperature
+    isothermal = {name: value for name, value in ROLLER.items() if name != "bodies"}
+    cold = solve_line_film(**(isothermal | case))
+    assert cold.mean_temperature is None
+    assert film_alone.minimum_thickness < cold.minimum_thickness
+    assert abs(film_alone.shear_force) < abs(cold.shear_force)
+    with pytest.raises(InputError, match='"off", "lumped"'):
+        solve_line_film(thermal="full", **(ROLLER | case))
+    with pytest.raises(InputError, match="bodies"):
+        solve_line_film(thermal="lumped", **(isothermal | case))
+    with pytest.raises(InputError, match="supply cannot be given with heat"):
+        solve_line_film(thermal="lumped", supply=1e-6, **(ROLLER | case))
+
+
 def test_surfaces_are_as_warm_as_the_solver_on_a_grid_says():
     """The heat into the flat, on even cells, by `surface_temperature`."""
     found = film(5.0, 0.5)

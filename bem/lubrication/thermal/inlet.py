@@ -15,7 +15,7 @@ import math
 from dataclasses import dataclass
 
 LEAST_NUMERATOR = 0.5
-"""Below it the fit is extrapolated: the published solutions stay above."""
+"""Below it the fit, which no film follows to zero, is called extrapolated: our own bound, not the source's."""
 
 
 @dataclass(frozen=True)

@@ -99,6 +99,12 @@ class ThermalFilm:
         return self.film.central_thickness
 
     @property
+    def mean_film_temperature(self) -> float:
+        """Mean along the film by pressure [K], that of the contact."""
+        weights = np.interp(self.position, self.film.position, self.film.pressure) * self.width
+        return float((weights * self.film_temperature).sum() / weights.sum())
+
+    @property
     def highest_film_temperature(self) -> float:
         """Mean across the film, where it is highest [K]."""
         return float(self.film_temperature.max())
