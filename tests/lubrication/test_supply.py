@@ -188,12 +188,20 @@ def test_the_reversed_contact_is_the_mirrored_one(flooded):
     assert (film.film_fraction[~outside] == 1).all()
 
 
+def test_a_number_is_the_thickness_of_a_layer():
+    one, two = (solve_line_film(**RIGID, supply=supply) for supply in (1e-7, OilLayer(1e-7)))
+    assert one.starvation == two.starvation
+    assert np.array_equal(one.pressure, two.pressure)
+
+
 def test_refuses_what_is_no_supply():
     with pytest.raises(InputError, match=r"OilLayer.thickness: 0 must be positive"):
         OilLayer(0)
     with pytest.raises(InputError, match=r"InletDistance.distance: nan must be positive"):
         InletDistance(math.nan)
-    with pytest.raises(InputError, match="supply: 1e-07 must be an OilLayer, an InletDistance, or None"):
-        solve_line_film(**RIGID, supply=1e-7)
+    with pytest.raises(InputError, match="supply: 'little' must be an OilLayer, a thickness of one"):
+        solve_line_film(**RIGID, supply="little")
+    with pytest.raises(InputError, match=r"OilLayer.thickness: -1e-07 must be positive"):
+        solve_line_film(**RIGID, supply=-1e-7)
     with pytest.raises(InputError, match=r"inside Hertz' contact; allowed: more than its half-width 0\.000158"):
         solve_line_film(**BEARING, supply=InletDistance(1e-4))
