@@ -1,16 +1,14 @@
-"""A rough steel cylinder on steel under 5.5 N, as the arguments of `solve_mixed` and `stribeck_curve`."""
+"""A steel cylinder on steel under 5.5 N, as the arguments of `solve_mixed`, `stribeck_curve` and `MixedSetup`."""
 
 from bem import Body, Grid, Material, generate_surface
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 
 
-def mixed_case(cells, spacing, correlation_length, **more):
-    """A patch of so many cells a side, with the arguments in `more` (the lubricant among them) beside or instead."""
-    whole, patch = (Grid((cells, cells), (spacing, spacing), periodic=(along, True)) for along in (True, False))
+def steel_line(grid, **more):
+    """The contact on a grid, with the arguments in `more` (the lubricant among them) beside or instead."""
     return {
-        "height": generate_surface(whole, rms_height=100e-9, seed=3, correlation_length=correlation_length),
-        "grid": patch,
+        "grid": grid,
         "bodies": (Body(STEEL), Body(STEEL)),
         "radius": 2e-3,
         "width": 6e-3,
@@ -18,3 +16,10 @@ def mixed_case(cells, spacing, correlation_length, **more):
         "hardness": 6e9,
         "film_points": 200,
     } | more
+
+
+def mixed_case(cells, spacing, correlation_length, **more):
+    """A rough patch of so many cells a side, with its height; `more` as in `steel_line`."""
+    whole, patch = (Grid((cells, cells), (spacing, spacing), periodic=(along, True)) for along in (True, False))
+    height = generate_surface(whole, rms_height=100e-9, seed=3, correlation_length=correlation_length)
+    return steel_line(patch, height=height, **more)

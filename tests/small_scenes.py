@@ -1,4 +1,4 @@
-"""Small scenes that several tests run: a rough contact, and a mixed-lubrication patch as the tables of its scene."""
+"""Small scenes that several tests run: a rough contact whole; a mixed-lubrication patch and a film without motion."""
 
 CONTACT = {
     "kind": "contact",
@@ -22,3 +22,12 @@ PATCH = {
     "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
     "grid": {"shape": [64, 32], "spacing": "0.8 um", "periodic": [False, True]},
 }
+
+FILM = {
+    "kind": "film",
+    "lower": {"material": {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}},
+    "upper": {"material": {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}},
+    "cylinder": {"radius": "2 mm", "width": "6 mm", "load": "5.5 N"},
+    "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
+}
+"""Wants `motion` and `march`."""

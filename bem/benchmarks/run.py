@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import subprocess
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -11,7 +10,7 @@ from bem.benchmarks.cases import CASES, Case
 from bem.benchmarks.floor import measure_floor
 from bem.benchmarks.history import Run, new_run
 from bem.benchmarks.measure import Point, measure_apart
-from bem.errors import InputError
+from bem.benchmarks.names import refuse_unknown
 
 
 def check_names(names: Sequence[str] | None) -> list[str]:
@@ -23,14 +22,7 @@ def check_names(names: Sequence[str] | None) -> list[str]:
     """
     if not names:
         return list(CASES)
-    messages = []
-    for name in names:
-        if name not in CASES:
-            near = difflib.get_close_matches(name, CASES, 1)
-            hint = f"; nearest: {near[0]}" if near else ""
-            messages.append(f"--only: {name!r} is not a case; allowed: {', '.join(CASES)}{hint}")
-    if messages:
-        raise InputError(messages)
+    refuse_unknown("--only", names, CASES, "a case")
     return list(names)
 
 

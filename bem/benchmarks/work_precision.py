@@ -8,7 +8,6 @@ Verified in tests/benchmarks/test_work_precision.py.
 
 from __future__ import annotations
 
-import difflib
 import math
 import subprocess
 from collections.abc import Callable, Sequence
@@ -17,8 +16,8 @@ from pathlib import Path
 
 from bem.benchmarks.history import Run, new_run
 from bem.benchmarks.measure import Point, measure_apart
+from bem.benchmarks.names import refuse_unknown
 from bem.benchmarks.physical_cases import PHYSICAL, RAW, PhysicalCase, pressure_figures, rough_surface, size_and_digits
-from bem.errors import InputError
 
 TARGETS = (0.1, 0.03, 0.01, 0.003)
 OURS, CELLS_ALONE = "bem", "bem, cells alone"
@@ -60,14 +59,7 @@ def check_kinds(names: Sequence[str]) -> list[str]:
     InputError : one message for each name that is not known.
     """
     allowed = [*PHYSICAL, "all"]
-    messages = []
-    for name in names:
-        if name not in allowed:
-            near = difflib.get_close_matches(name, allowed, 1)
-            hint = f"; nearest: {near[0]}" if near else ""
-            messages.append(f"--kind: {name!r} is not measured; allowed: {', '.join(allowed)}{hint}")
-    if messages:
-        raise InputError(messages)
+    refuse_unknown("--kind", names, allowed, "measured")
     return list(PHYSICAL) if "all" in names else list(dict.fromkeys(names))
 
 

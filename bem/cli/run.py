@@ -43,6 +43,19 @@ AccuracyOption = Annotated[
     ),
 ]
 
+WorkersOption = Annotated[
+    int | None,
+    typer.Option(
+        min=1,
+        max=1024,
+        help="Processes, where there are several cases; without it one per core, as far as the work is worth it.",
+    ),
+]
+
+SchedulerOption = Annotated[
+    str | None, typer.Option(metavar="ADDRESS", help="Use the Dask cluster of this scheduler for the cases.")
+]
+
 
 def with_accuracy(settings: list[str] | None, accuracy: list[str] | None) -> list[str]:
     """Settings of a scene, with what `--accuracy` asks for."""
@@ -82,13 +95,8 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
         threads: Annotated[
             int | None, typer.Option(min=1, max=1024, help="Threads of each case; without it BEM_THREADS, or 1.")
         ] = None,
-        workers: Annotated[
-            int | None,
-            typer.Option(min=1, max=1024, help="Processes, where a scene has several cases; without it one per core."),
-        ] = None,
-        scheduler: Annotated[
-            str | None, typer.Option(metavar="ADDRESS", help="Use the Dask cluster of this scheduler for the cases.")
-        ] = None,
+        workers: WorkersOption = None,
+        scheduler: SchedulerOption = None,
     ) -> None:
         """Run a scene: results, figures and a report in one folder.
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from bem.cli.run import AccuracyOption, SceneArgument, SetOption, with_accuracy
+from bem.cli.run import AccuracyOption, SceneArgument, SchedulerOption, SetOption, WorkersOption, with_accuracy
 
 
 def register(app: typer.Typer) -> None:  # reason: the command in it; its arguments are the options
@@ -32,13 +32,8 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
         resume: Annotated[
             bool, typer.Option("--resume", help="Go on in a folder that holds a sweep; values may be added.")
         ] = False,
-        workers: Annotated[
-            int | None,
-            typer.Option(min=1, max=1024, help="Processes; without it one per core, as far as the work is worth it."),
-        ] = None,
-        scheduler: Annotated[
-            str | None, typer.Option(metavar="ADDRESS", help="Use the Dask cluster of this scheduler instead.")
-        ] = None,
+        workers: WorkersOption = None,
+        scheduler: SchedulerOption = None,
         threads: Annotated[int, typer.Option(min=1, max=1024, help="Threads of each run.")] = 1,
         pdf: Annotated[bool, typer.Option("--pdf", help="Draw the figure as PDF too, for print.")] = False,
     ) -> None:

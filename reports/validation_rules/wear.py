@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from reports.validation_values import (
     READING,
     SCATTER,
@@ -93,6 +95,13 @@ def _sizes_there(summary: Summary) -> str:
     return f"{sizes(lambda _: 0)(summary)} nm"
 
 
+def _sizes_at(
+    newtons: float, wanted: tuple[float, float, float], quote: Callable[[Summary], str] = lambda summary: ""
+) -> Rule:
+    """Length, width and thickness [nm] at a load, each within the source's own scatter of its."""
+    return Rule(sizes(load(newtons)), near_sizes(newtons, *wanted), quote)
+
+
 SLOPES = {"steel-slopes-of-the-source": "with slopes of 0.28 and 0.22"}
 ALL_CYCLES = {"steel-all-cycles": "over all 200 cycles"}
 DEPTHS = {"depths-95-48-24-nm": "at 95, 48, 24 nm between depths"}
@@ -113,16 +122,8 @@ HARD = {"hard-roughness-all-cycles": "for 50, 500, 1500 nm"}
 
 
 RULES: dict[str, Rule] = {
-    "steel_10_n_length_width_thickness_nm": Rule(
-        sizes(load(10)),
-        near_sizes(10, 442, 245, 197),
-        quoted(_sizes_there, SLOPES),
-    ),
-    "steel_2_5_n_length_width_thickness_nm": Rule(
-        sizes(load(2.5)),
-        near_sizes(2.5, 267, 161, 151),
-        _other_weights,
-    ),
+    "steel_10_n_length_width_thickness_nm": _sizes_at(10, (442, 245, 197), quoted(_sizes_there, SLOPES)),
+    "steel_2_5_n_length_width_thickness_nm": _sizes_at(2.5, (267, 161, 151), _other_weights),
     "steel_radius_at_2_5_5_10_n_nm": Rule(
         lambda s: listed(radii(s)),
         lambda s: all(within(v, 110, 175) for v in radii(s)),
@@ -196,15 +197,8 @@ RULES: dict[str, Rule] = {
         lambda s: within(at(s, "particle_equivalent_radius_nm", load(10)(s)), 500, 600),
         quoted(_radius_there, CYLINDERS),
     ),
-    "brass_film_10_n_length_width_thickness_nm": Rule(
-        sizes(load(10)),
-        near_sizes(10, 635, 262, 95),
-        quoted(_sizes_there, FILMS),
-    ),
-    "brass_film_2_5_n_length_width_thickness_nm": Rule(
-        sizes(load(2.5)),
-        near_sizes(2.5, 300, 195, 89),
-    ),
+    "brass_film_10_n_length_width_thickness_nm": _sizes_at(10, (635, 262, 95), quoted(_sizes_there, FILMS)),
+    "brass_film_2_5_n_length_width_thickness_nm": _sizes_at(2.5, (300, 195, 89)),
     "brass_film_radius_at_2_5_5_10_n_nm": Rule(
         lambda s: listed(radii(s)),
         lambda s: all(within(v, 110, 175) for v in radii(s)),

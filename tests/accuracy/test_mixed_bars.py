@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from mixed_case import steel_line
 
-from bem import Body, Grid, Lubricant, Material
+from bem import Grid, Lubricant
 from bem.accuracy import MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
 from bem.accuracy.mixed import half_grid
 from bem.errors import Status
@@ -14,23 +15,18 @@ from bem.friction.load_sharing import solve_setup
 from bem.friction.setup import MixedSetup
 from reports.experiments.mixed_error_bars import draw, rows_of
 
-STEEL = Body(Material("steel", youngs_modulus=206e9, poissons_ratio=0.3))
-
 
 def case_of(speed, cells=(48, 24), rms=100e-9, **changes):
     grid = Grid(cells, (96e-6 / cells[0], 48e-6 / cells[1]), periodic=(False, True))
     given = {
-        "grid": grid,
-        "bodies": (STEEL, STEEL),
         "radius": 5e-3,
         "width": 1e-3,
         "load": 20.0,
         "lubricant": Lubricant(0.05, pressure_viscosity=1.5e-8),
         "boundary_friction": 0.12,
-        "hardness": 6e9,
         "film_points": 300,
     }
-    setup = MixedSetup(**{**given, **changes})
+    setup = MixedSetup(**steel_line(grid, **{**given, **changes}))
     waves = np.sin(2 * np.pi * grid.x / 12e-6)[:, None] * np.sin(2 * np.pi * grid.y / 16e-6)
     height = 2 * rms * waves
     return MixedCase(setup, height, solve_setup(setup, height, (speed, 0.0)))

@@ -26,6 +26,7 @@ from bem.scenes.resolutions import Resolution
 from bem.surfaces import Surface, write_surface
 from reports.experiments.accuracy_asked import RESULT, draw, rows_of
 from tests.campaigns.test_engine import Telling, content
+from tests.small_scenes import FILM
 from tests.small_scenes import PATCH as PATCH_OF_A_LINE
 
 BALL = {
@@ -222,13 +223,8 @@ WORN = {
     "grid": {"lengths": ["48 um", "16 um"]},
     "speeds": ["0.05 m/s"],
 }
-MARCH = {
-    "kind": "film",
+MARCH = FILM | {
     "name": "march",
-    "lower": {"material": "steel-52100"},
-    "upper": {"material": "steel-52100"},
-    "cylinder": {"radius": "2 mm", "width": "6 mm", "load": "5.5 N"},
-    "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
     "motion": {"kind": "table", "times": ["0 s", "2 ms"], "speeds": ["0.1 m/s", "0.12 m/s"]},
     "march": {"duration": "2 ms", "steps": 6, "points": 101},
 }

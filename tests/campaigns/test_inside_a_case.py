@@ -2,19 +2,15 @@
 
 import numpy as np
 import pytest
+import small_scenes
 from test_engine import Telling, content
 
 from bem.errors import InputError
 from bem.runs import run_scene
 from bem.tribofilm import grow_tribofilm
 
-STEEL = {"material": {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}}
-FILM = {
-    "kind": "film",
-    "lower": STEEL,
-    "upper": STEEL,
-    "cylinder": {"radius": "2 mm", "width": "6 mm", "load": "5.5 N", "load_end": "6 N"},
-    "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
+FILM = small_scenes.FILM | {
+    "cylinder": small_scenes.FILM["cylinder"] | {"load_end": "6 N"},
     "motion": {"kind": "reciprocating", "speed": "0.05 m/s", "period": "4 ms"},
     "march": {"duration": "2 ms", "steps": 24, "points": 151},
 }

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from mixed_case import STEEL, steel_line
 
 from bem import (
     Body,
@@ -24,23 +25,17 @@ from bem.friction.rough_contact import boundary_traction, rough_contact
 from bem.friction.setup import MixedSetup
 from bem.wear.mixed import MixedContact
 
-STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
 POLYMER = Body(Material("polymer", youngs_modulus=3e9, poissons_ratio=0.38))
 GRID = Grid((64, 32), (0.8e-6, 0.8e-6), periodic=(False, True))
 HEIGHT = generate_surface(GRID, rms_height=100e-9, correlation_length=2e-6, seed=4)
-CASE = {
-    "grid": GRID,
-    "bodies": (STEEL, STEEL),
-    "radius": 2e-3,
-    "width": 6e-3,
-    "load": 5.5,
-    "lubricant": Lubricant(0.36, pressure_viscosity=25e-9),
-    "boundary_friction": 0.15,
-    "hardness": 1.08e9,
-    "film_points": 200,
-    "tolerance": 5e-4,
-    "contact_tolerance": 1e-4,
-}
+CASE = steel_line(
+    GRID,
+    lubricant=Lubricant(0.36, pressure_viscosity=25e-9),
+    boundary_friction=0.15,
+    hardness=1.08e9,
+    tolerance=5e-4,
+    contact_tolerance=1e-4,
+)
 THIN_OIL = Lubricant(0.005, pressure_viscosity=25e-9)
 
 
@@ -70,7 +65,7 @@ def test_boundary_lubrication_is_an_answer(speed, rms_height, oil):
         assert contact_load + film_load == pytest.approx(5.5, rel=5e-4)  # the tolerance
         assert friction == pytest.approx(0.15, rel=2e-4)  # boundary friction, but for the film's share
     # the contact solved by itself for the whole load: a film at the end carries a tenth of the tolerance
-    operator = displacement_operator(GRID, (STEEL, STEEL))
+    operator = displacement_operator(GRID, (Body(STEEL), Body(STEEL)))
     parabola = GRID.x[:, None] ** 2 / 4e-3
     dry = solve_contact(parabola - height, operator, load=5.5 * GRID.lengths[1] / 6e-3, hardness=1.08e9, tolerance=1e-6)
     # cells touch or not: ten of some hundred may differ between tolerances of 1e-4 and 1e-6 and gaps 1e-4 apart
@@ -108,7 +103,7 @@ def test_boundary_answer_joins_the_balance():
 def test_friction_couples_into_the_gap_by_one_rule(speeds):
     """Polymer on steel: pressures of the two load sharings were 8.8 % apart."""
     # a polymer's contact is wide: a lower load keeps it on the patch
-    changes = {"bodies": (POLYMER, STEEL), "load": 0.2, "boundary_friction": 0.3, "hardness": 150e6}
+    changes = {"bodies": (POLYMER, Body(STEEL)), "load": 0.2, "boundary_friction": 0.3, "hardness": 150e6}
     tight = {"tolerance": 1e-5, "contact_tolerance": 1e-7}
     step, outcome, point = both(HEIGHT, speeds, **changes, **tight)
     assert outcome.status is point.status is Status.CONVERGED
@@ -125,14 +120,14 @@ def test_friction_couples_into_the_gap_by_one_rule(speeds):
     else:
         assert moved > 0.02
     # against the law itself: the operator of the traction gives back the gap
-    operator = displacement_operator(GRID, (POLYMER, STEEL), friction=outcome.friction)
+    operator = displacement_operator(GRID, (POLYMER, Body(STEEL)), friction=outcome.friction)
     displacement = operator(point.contact_pressure)
     assert np.abs(displacement - point.contact.displacement).max() < 1e-9 * np.abs(displacement).max()
 
 
 def test_the_mirrored_contact_is_the_mirrored_answer():
     """Everything turned round along x, sliding included: the sign of the coupling follows it."""
-    changes = CASE | {"bodies": (POLYMER, STEEL), "load": 0.2, "boundary_friction": 0.3, "hardness": 150e6}
+    changes = CASE | {"bodies": (POLYMER, Body(STEEL)), "load": 0.2, "boundary_friction": 0.3, "hardness": 150e6}
     changes |= {"tolerance": 1e-6, "contact_tolerance": 1e-7}
     one = solve_mixed(height=HEIGHT, speeds=(0.002, 0.0), **changes)
     other = solve_mixed(height=HEIGHT[::-1], speeds=(-0.002, 0.0), **changes)

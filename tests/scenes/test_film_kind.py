@@ -3,18 +3,13 @@
 import numpy as np
 import pytest
 from pydantic import ValidationError
+from small_scenes import FILM
 
 from bem.campaigns.collect import outcome_of
 from bem.scenes import PlainContext
 from bem.scenes.kinds.film import KIND, FilmScene
 
-STEEL = {"material": {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}}
-SCENE = {
-    "kind": "film",
-    "lower": STEEL,
-    "upper": STEEL,
-    "cylinder": {"radius": "2 mm", "width": "6 mm", "load": "5.5 N"},
-    "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
+SCENE = FILM | {
     "motion": {"kind": "table", "times": ["0 s", "5 ms", "10 ms"], "speeds": ["0.05 m/s", "0 m/s", "0.05 m/s"]},
     "march": {"duration": "12 ms", "steps": 40, "points": 201},
 }
@@ -99,7 +94,7 @@ def test_plan_skips_the_rough_contact():
         ({"motion": {"kind": "table", "times": ["1 s", "0 s"], "speeds": [0.1, 0.1]}}, "rise"),
         ({"motion": {"kind": "table", "times": ["0 s", "1 s", "2 s"], "speeds": [0.1, 0.1]}}, "as many"),
         ({"motion": {"kind": "reciprocating", "speed": 0.1}}, "period"),
-        ({"lower": STEEL | {"surface": {"kind": "generated", "rms_height": 1e-7, "hurst": 0.8}}}, "rough"),
+        ({"lower": FILM["lower"] | {"surface": {"kind": "generated", "rms_height": 1e-7, "hurst": 0.8}}}, "rough"),
     ],
 )
 def test_refusals(changes, word):

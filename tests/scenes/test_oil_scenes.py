@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 import pytest
+import small_scenes
 
 from bem import InputError, Lubricant
 from bem.runs import run_scene
@@ -12,11 +13,8 @@ from bem.scenes import load_scene
 from bem.scenes.checks.overview import oil as described
 from bem.scenes.load import dump_scene
 
-FILM = {
-    "kind": "film",
-    "lower": {"material": "steel-cylinder"},
-    "upper": {"material": "steel-cylinder"},
-    "cylinder": {"radius": "2 mm", "width": "6 mm", "load": "55 N"},
+FILM = small_scenes.FILM | {
+    "cylinder": small_scenes.FILM["cylinder"] | {"load": "55 N"},
     "oil": {"grade": "iso-vg 68", "temperature": "60 C"},
     "motion": {"kind": "table", "times": ["0 s", "5 ms"], "speeds": ["1 m/s", "1 m/s"]},
     "march": {"duration": "5 ms", "steps": 10, "points": 201},

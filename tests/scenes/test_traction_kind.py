@@ -28,20 +28,25 @@ def scene(**changes):
     return {**table, **changes}
 
 
+def line(loaded):
+    """The line contact of the scene: two rollers of one steel, the load by Hertz of the scene's pressure."""
+    steel = loaded.lower.build().material
+    modulus = steel.youngs_modulus / (1 - steel.poissons_ratio**2) / 2
+    return {
+        "load": np.pi * 10e-3 * 0.7e9**2 / modulus,
+        "radius": 10e-3,
+        "contact_modulus": modulus,
+        "lubricant": loaded.oil.build(),
+        "points": 200,
+    }
+
+
 def test_a_curve_over_the_slide_to_roll_ratio(tmp_path):
     run = run_scene(scene(over={"rolling.slide_roll_ratio": [0.0, 0.1, 2.0]}), tmp_path / "run")
     summary = run.summary
     loaded = load_scene(scene())
-    modulus = loaded.lower.build().material.youngs_modulus / (1 - loaded.lower.build().material.poissons_ratio ** 2) / 2
-    found = solve_thermal_line_film(
-        load=np.pi * 10e-3 * 0.7e9**2 / modulus,
-        radius=10e-3,
-        contact_modulus=modulus,
-        speeds=(5.25, 4.75),
-        lubricant=loaded.oil.build(),
-        bodies=(loaded.lower.build(), loaded.upper.build()),
-        points=200,
-    )
+    bodies = (loaded.lower.build(), loaded.upper.build())
+    found = solve_thermal_line_film(speeds=(5.25, 4.75), bodies=bodies, **line(loaded))
     assert summary["traction_coefficient"][1] == pytest.approx(found.shear_force / found.film.load, rel=1e-9)
     assert summary["friction_power_W"][1] == pytest.approx(8e-3 * found.friction_power, rel=1e-9)
     assert summary["highest_film_temperature_C"][1] == pytest.approx(found.highest_film_temperature - 273.15, rel=1e-9)
@@ -74,16 +79,7 @@ def test_bars_cover_the_mesh(tmp_path):
 def test_without_heat_it_is_the_isothermal_film(tmp_path):
     rolling = {"mean_speed": "5 m/s", "slide_roll_ratio": 1.0}
     run = run_scene(scene(thermal="off", rolling=rolling), tmp_path / "run")
-    loaded = load_scene(scene())
-    modulus = loaded.lower.build().material.youngs_modulus / (1 - loaded.lower.build().material.poissons_ratio ** 2) / 2
-    found = solve_line_film(
-        load=np.pi * 10e-3 * 0.7e9**2 / modulus,
-        radius=10e-3,
-        contact_modulus=modulus,
-        speeds=(7.5, 2.5),
-        lubricant=loaded.oil.build(),
-        points=200,
-    )
+    found = solve_line_film(speeds=(7.5, 2.5), **line(load_scene(scene())))
     assert run.summary["traction_coefficient"] == pytest.approx(found.shear_force / found.load, rel=1e-12)
     assert run.summary.get("film_temperature_C") is None
     assert any("isothermal" in note for note in run.summary["notes"])

@@ -1,12 +1,15 @@
 """Wear with all cells yielding, none, one; tribofilms from 0 to 400 degrees Celsius; balances hold throughout."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bem import Body, Grid, Material, grow_tribofilm, run_in
-from bem.tribofilm import Constant, FilmContact, StressActivatedGrowth
+from bem.benchmarks.surface_change_cases import tip
+from bem.tribofilm import Constant
 from bem.wear import WearModel, WearSetup, yielded_pieces
 from bem.wear.segmentation import segment
 
@@ -92,24 +95,10 @@ def test_a_loop_at_the_edges_keeps_its_balance(yield_stress):
         assert lost == 0
 
 
-TIP = Grid((16, 16), (2.4e-9, 2.4e-9))
-
-
 @pytest.mark.parametrize("celsius", [0, 25, 100, 200, 300, 400])
 @pytest.mark.parametrize("wear", [0.0, 3e-3])
 def test_tribofilm_from_freezing_to_four_hundred_degrees(celsius, wear):
-    contact = FilmContact(
-        gap=(TIP.x[:, None] ** 2 + TIP.y[None, :] ** 2) / 2 / 53e-9,
-        grid=TIP,
-        substrate=Material("iron", youngs_modulus=210e9, poissons_ratio=0.3),
-        counterface=Material("dlc", youngs_modulus=200e9, poissons_ratio=0.25),
-        load=600e-9,
-        growth=StressActivatedGrowth.from_electron_volts(1e-2, 0.8, 85),
-        hardness=Constant(2e9),
-        modulus=Constant(15e9),
-        temperature=273.15 + celsius,
-        average="nominal",
-    )
+    contact = replace(tip(16), hardness=Constant(2e9), temperature=273.15 + celsius)
     film = grow_tribofilm(np.linspace(0, 1000, 6), contact, wear_coefficient=wear)
     history = film.history
     assert np.isfinite(history.thickness).all()

@@ -84,30 +84,34 @@ SURFACE = [
     ("bem.verification.rectangle.rectangle_displacement", 2, Load.TANGENTIAL, "rectangle-tangential"),
     ("bem.verification.rectangle.rectangle_displacement", 0, Load.TANGENTIAL, "rectangle-tangential"),
 ]
-STRESSES = [
-    (function, component, load, gate)
-    for function, gates in (
-        ("bem.kernels.subsurface.stress_table", ("disc-uniform", "disc-tangential-uniform")),
-        ("bem.kernels.semi_periodic.stress_table", ("images-bare-x", "images-bare-x")),
-        ("bem.stress.spectra.stress_response", ("oblique-wave", "oblique-wave")),
-        ("bem.kernels.layered_cells.stress_remainder", ("disc-uniform-soft", "disc-tangential-uniform-soft")),
-        ("bem.kernels.layered_semi.stress_remainder", ("images-coated-x", "images-coated-x")),
-        ("bem.verification.rectangle.rectangle_stress", ("rectangle-normal", "rectangle-tangential")),
-    )
-    for load, gate in zip(Load, gates, strict=True)
-    for component in range(6)
-]
-PLANE = [
-    (function, component, load, gate)
-    for function, gates in (
-        ("bem.kernels.semi_periodic.stress_table", ("strip-normal", "strip-tangential")),
-        ("bem.kernels.layered_semi.stress_remainder", ("strip-normal-soft", "strip-tangential-soft")),
-        ("bem.verification.strip.strip_stress", ("strip-normal", "strip-tangential")),
-        ("bem.kernels.layered.stress_response", ("harmonic-normal-soft", "harmonic-tangential-soft")),
-    )
-    for load, gate in zip(Load, gates, strict=True)
-    for component in (0, 1, 2, 4)
-]
+
+
+def each_load_and_component(components, *functions):
+    """Every component under either load, of functions with their gates for the normal and the tangential one."""
+    return [
+        (function, component, load, gate)
+        for function, gates in functions
+        for load, gate in zip(Load, gates, strict=True)
+        for component in components
+    ]
+
+
+STRESSES = each_load_and_component(
+    range(6),
+    ("bem.kernels.subsurface.stress_table", ("disc-uniform", "disc-tangential-uniform")),
+    ("bem.kernels.semi_periodic.stress_table", ("images-bare-x", "images-bare-x")),
+    ("bem.stress.spectra.stress_response", ("oblique-wave", "oblique-wave")),
+    ("bem.kernels.layered_cells.stress_remainder", ("disc-uniform-soft", "disc-tangential-uniform-soft")),
+    ("bem.kernels.layered_semi.stress_remainder", ("images-coated-x", "images-coated-x")),
+    ("bem.verification.rectangle.rectangle_stress", ("rectangle-normal", "rectangle-tangential")),
+)
+PLANE = each_load_and_component(
+    (0, 1, 2, 4),
+    ("bem.kernels.semi_periodic.stress_table", ("strip-normal", "strip-tangential")),
+    ("bem.kernels.layered_semi.stress_remainder", ("strip-normal-soft", "strip-tangential-soft")),
+    ("bem.verification.strip.strip_stress", ("strip-normal", "strip-tangential")),
+    ("bem.kernels.layered.stress_response", ("harmonic-normal-soft", "harmonic-tangential-soft")),
+)
 ACROSS = [("bem.kernels.layered.stress_response", c, Load.TANGENTIAL, "harmonic-antiplane-soft") for c in (4, 5)]
 WAVES = [
     ("bem.kernels.layered.wave_functions", row, None, gate)

@@ -82,9 +82,7 @@ def all_figures() -> dict[str, FigureKind]:
     package = _of_the_package()
     taken = sorted(set(package) & set(_registered))
     if taken:
-        raise InputError(
-            [f"register: the figure {name!r} is taken by {package[name].draw.__module__}" for name in taken]
-        )
+        raise InputError([f"register: the figure {name!r} is taken by {__name__}" for name in taken])
     return {**package, **_registered}
 
 

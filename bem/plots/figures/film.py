@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -56,14 +57,6 @@ def _profiles(run: Any, figure: Figure, name: str, text: str, base: str) -> None
     axes.legend()
 
 
-def _thickness(run: Any, figure: Figure) -> None:
-    _profiles(run, figure, "thickness", "film thickness", "m")
-
-
-def _pressure(run: Any, figure: Figure) -> None:
-    _profiles(run, figure, "film_pressure", "film pressure", "Pa")
-
-
 def _fraction(run: Any, figure: Figure) -> None:
     data = run.dataset
     axes = figure.add_subplot()
@@ -98,10 +91,16 @@ FIGURES = (
         (5.0, 6.0),
     ),
     FigureKind(
-        "film-profiles", "Film thickness along sliding, at six times.", ("thickness", "film_x", "time"), _thickness
+        "film-profiles",
+        "Film thickness along sliding, at six times.",
+        ("thickness", "film_x", "time"),
+        partial(_profiles, name="thickness", text="film thickness", base="m"),
     ),
     FigureKind(
-        "film-pressures", "Film pressure along sliding, at six times.", ("film_pressure", "film_x", "time"), _pressure
+        "film-pressures",
+        "Film pressure along sliding, at six times.",
+        ("film_pressure", "film_x", "time"),
+        partial(_profiles, name="film_pressure", text="film pressure", base="Pa"),
     ),
     FigureKind(
         "film-fraction",

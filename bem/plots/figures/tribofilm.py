@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -39,22 +40,6 @@ def _over_time(run: Any, figure: Figure, name: str, text: str, unit: str) -> Non
         axes.legend()
 
 
-def _thickness(run: Any, figure: Figure) -> None:
-    _over_time(run, figure, "thickness", "mean film thickness", "m")
-
-
-def _wear_rate(run: Any, figure: Figure) -> None:
-    _over_time(run, figure, "wear_rate", "wear rate of the film", "m/s")
-
-
-def _substrate(run: Any, figure: Figure) -> None:
-    _over_time(run, figure, "substrate_wear", "wear depth of the substrate", "m")
-
-
-def _concentration(run: Any, figure: Figure) -> None:
-    _over_time(run, figure, "concentration", "concentration of substrate", "1")
-
-
 def _pressure(run: Any, figure: Figure) -> None:
     """Mean contact pressure and hardness of every contact that was solved."""
     data = run.dataset
@@ -89,27 +74,31 @@ def _maps(run: Any, figure: Figure, name: str, text: str, unit: str) -> None:
         axes.set_title(film)
 
 
-def _film_map(run: Any, figure: Figure) -> None:
-    _maps(run, figure, "film_map", "local film thickness", "m")
-
-
-def _pressure_map(run: Any, figure: Figure) -> None:
-    _maps(run, figure, "film_pressure", "contact pressure", "Pa")
-
-
 def _wears_substrate(run: Any) -> bool:
     return bool((run.dataset["substrate_wear"].values > 0).any())
 
 
 ALL_CASES = True
 FIGURES = (
-    FigureKind("film-thickness", "Mean film thickness.", ("time", "thickness"), _thickness, (5.0, 3.4)),
-    FigureKind("film-wear-rate", "Rate at which the film itself wears.", ("time", "wear_rate"), _wear_rate, (5.0, 3.4)),
+    FigureKind(
+        "film-thickness",
+        "Mean film thickness.",
+        ("time", "thickness"),
+        partial(_over_time, name="thickness", text="mean film thickness", unit="m"),
+        (5.0, 3.4),
+    ),
+    FigureKind(
+        "film-wear-rate",
+        "Rate at which the film itself wears.",
+        ("time", "wear_rate"),
+        partial(_over_time, name="wear_rate", text="wear rate of the film", unit="m/s"),
+        (5.0, 3.4),
+    ),
     FigureKind(
         "substrate-wear",
         "Depth of substrate that has left with the film.",
         ("time", "substrate_wear"),
-        _substrate,
+        partial(_over_time, name="substrate_wear", text="wear depth of the substrate", unit="m"),
         (5.0, 3.4),
         _wears_substrate,
     ),
@@ -117,7 +106,7 @@ FIGURES = (
         "substrate-concentration",
         "Concentration of substrate at the surface of the film.",
         ("time", "concentration"),
-        _concentration,
+        partial(_over_time, name="concentration", text="concentration of substrate", unit="1"),
         (5.0, 3.4),
         _wears_substrate,
     ),
@@ -128,8 +117,18 @@ FIGURES = (
         _pressure,
         (5.0, 3.4),
     ),
-    FigureKind("film-map", "Local film thickness at the end.", ("x", "y", "film_map"), _film_map, (10.0, 3.4)),
     FigureKind(
-        "film-pressure-map", "Contact pressure at the end.", ("x", "y", "film_pressure"), _pressure_map, (10.0, 3.4)
+        "film-map",
+        "Local film thickness at the end.",
+        ("x", "y", "film_map"),
+        partial(_maps, name="film_map", text="local film thickness", unit="m"),
+        (10.0, 3.4),
+    ),
+    FigureKind(
+        "film-pressure-map",
+        "Contact pressure at the end.",
+        ("x", "y", "film_pressure"),
+        partial(_maps, name="film_pressure", text="contact pressure", unit="Pa"),
+        (10.0, 3.4),
     ),
 )
