@@ -101,6 +101,11 @@ def _first_cells(scene: Any) -> Any:
     if grid.shape is None and grid.spacing is None:
         lengths = grid.lengths or _lengths(scene)
         least = [max(counts) for counts in zip(*_fewest_cells(scene, lengths), strict=True)]
+        if not max(least) <= _MOST_CELLS:
+            raise InputError(
+                f"grid: {max(least):.3g} cells along a side would be needed to begin with, of {lengths[0]:.3g} m by "
+                f"{lengths[1]:.3g} m; allowed: {_MOST_CELLS}, or grid.lengths and grid.shape of your own"
+            )
         grid = grid.model_copy(update={"lengths": lengths, "shape": (_even(least[0]), _even(least[1]))})
     if grid.shape is None:
         return scene
@@ -121,11 +126,11 @@ def _lengths(scene: Any) -> tuple[float, float]:
             "and the size only of a round contact under a known load on a free grid"
         )
     surfaces = [s for s in _surfaces(scene) if isinstance(s, GeneratedSurface)]
-    height = _HIGH * math.sqrt(math.fsum(surface.rms_height**2 for surface in surfaces))
+    height = _HIGH * math.hypot(*(surface.rms_height for surface in surfaces))
     longest = max((8 * (surface.correlation_length or 0.0) for surface in surfaces), default=0.0)
     spread = scene.plastic_spread(smooth)
     x, y = (
-        max(longest, 2 * _MARGIN * math.sqrt((spread * a) ** 2 + 2 * r * height))
+        max(longest, 2 * _MARGIN * math.hypot(spread * a, math.sqrt(2 * r) * math.sqrt(height)))
         for a, r in zip(smooth.semi_axes, smooth.radii, strict=True)
     )
     return float(f"{x:.2g}"), float(f"{y:.2g}")

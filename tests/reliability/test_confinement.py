@@ -38,7 +38,7 @@ def watch(event, arguments):
         seen.append("EVENT " + event + " " + repr(arguments)[:200])
 import bem.runs, bem.contact, bem.convolution, bem.plots.draw, bem.plots.report  # what these write is not the scene's
 sys.addaudithook(watch)
-bem.runs.run_scene(json.loads(sys.argv[1]), "out")
+bem.runs.run_scene(json.loads(sys.argv[1]), "out", workers=1)  # figures are drawn here, where they are watched
 print(json.dumps(seen))
 """
 
