@@ -1,4 +1,4 @@
-"""Small scenes that several tests run: a rough contact whole; a mixed-lubrication patch and a film without motion."""
+"""Small scenes that several tests run: a contact, a patch in mixed lubrication, a film, wear."""
 
 CONTACT = {
     "kind": "contact",
@@ -31,3 +31,28 @@ FILM = {
     "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
 }
 """Wants `motion` and `march`."""
+
+WEAR = """
+kind = "wear"
+repetitions = 1
+[lower]
+material = "steel-disk"
+surface = { kind = "generated", rms_height = "120 nm", correlation_length = "0.4 um" }
+[upper]
+material = "steel-cylinder"
+surface = { kind = "generated", rms_height = "30 nm", correlation_length = "0.3 um" }
+[cylinder]
+radius = "2 mm"
+width = "6 mm"
+loads = ["2.5 N"]
+friction = 0.16
+[domain]
+cells = 40
+lengths = "4 um"
+[depths]
+count = 20
+spacing = "95 nm"
+[cycles]
+count = 12
+settled = 4
+"""

@@ -11,6 +11,7 @@ from typing import ClassVar
 
 import numpy as np
 import pytest
+from small_scenes import WEAR
 
 import bem
 from bem import Lubricant, laws
@@ -70,30 +71,6 @@ march = { duration = "1e-3 s", steps = 2, points = 101 }
 viscosity = "0.2 Pa*s"
 pressure_viscosity = "20 1/GPa"
 """
-WEAR = """
-kind = "wear"
-[lower]
-material = { catalogue = "steel-disk", yield_stress = "%s" }
-surface = { kind = "generated", rms_height = "120 nm", correlation_length = "0.4 um" }
-[upper]
-material = "steel-cylinder"
-[cylinder]
-radius = "2 mm"
-width = "6 mm"
-loads = ["2.5 N"]
-friction = 0.16
-[domain]
-cells = 32
-lengths = "3.2 um"
-[depths]
-count = 12
-spacing = "95 nm"
-[cycles]
-count = 2
-settled = 2
-[wear]
-criterion = %s
-"""
 
 
 @pytest.fixture
@@ -109,10 +86,11 @@ def outside(tmp_path, monkeypatch):
             laws.unregister(law)
 
 
-def bem_run(folder, text, *more, **environment):
+def bem_run(folder, text, *more, settings=(), **environment):
     (folder / "scene.toml").write_text(text)
+    asked = (f"--set={one}" for one in settings)
     return subprocess.run(
-        [sys.executable, "-m", "bem", *more, "run", "scene.toml", "--out", "out"],
+        [sys.executable, "-m", "bem", *more, "run", "scene.toml", "--out", "out", *asked],
         cwd=folder, capture_output=True, text=True, timeout=300, check=False, env={**os.environ, **environment},
     )  # fmt: skip
 
@@ -184,7 +162,9 @@ def test_a_wear_criterion_from_a_scene_is_a_higher_strength(tmp_path, outside):
     ):
         folder = tmp_path / str(len(found))
         folder.mkdir()
-        done = bem_run(folder, WEAR % (strength, criterion), BEM_LAWS=str(tmp_path / "my_laws.py"))
+        soft = f'lower.material={{ catalogue = "steel-disk", yield_stress = "{strength}" }}'
+        settings = (soft, f"wear.criterion={criterion}", "cycles.count=2", "cycles.settled=2")
+        done = bem_run(folder, WEAR, settings=settings, BEM_LAWS=str(tmp_path / "my_laws.py"))
         assert done.returncode == 0, done.stderr
         found.append(json.loads((folder / "out" / "summary.json").read_text()))
     ours, same, weaker = ((one["particles_per_cycle"], one["particle_thickness_nm"]) for one in found)

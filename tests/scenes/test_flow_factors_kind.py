@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from small_scenes import PATCH
 
 from bem import InputError, flow_factors, load_scene
 from bem.accuracy import flow_bars
@@ -55,15 +56,9 @@ def test_a_stribeck_curve_with_the_flow_factors_of_its_surfaces(tmp_path):
 
     table = {
         "kind": "friction",
-        "grid": {"shape": [64, 16], "spacing": "1.5 um"},
-        "lower": {
-            "material": "steel-52100",
-            "surface": {"kind": "generated", "rms_height": "0.1 um", "correlation_length": "3 um"},
-        },
-        "upper": {"material": "steel-52100"},
-        "contact": {"radius": "2 mm", "width": "1 mm", "loads": ["5 N"], "boundary_friction": 0.1},
-        "oil": {"viscosity": "0.1 Pa*s", "pressure_viscosity": "15 1/GPa"},
-        "speeds": {"values": ["0.3 m/s"]},
+        **PATCH,
+        "grid": {"shape": [64, 16], "spacing": "1.6 um"},
+        "speeds": {"values": ["0.03 m/s"]},
         "film": {"points": 300},
         "outputs": {"errors": False},
         "sharing": {"models": ["elastic"]},

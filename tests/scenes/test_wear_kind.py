@@ -6,36 +6,12 @@ import sys
 
 import numpy as np
 import pytest
+from small_scenes import WEAR
 
 from bem.campaigns import campaign_of, compute, plan
 from bem.errors import InfeasibleError, InputError
 from bem.scenes import load_scene
 from bem.scenes.kind import get_kind
-
-SMALL = """
-kind = "wear"
-repetitions = 1
-[lower]
-material = "steel-disk"
-surface = { kind = "generated", rms_height = "120 nm", correlation_length = "0.4 um" }
-[upper]
-material = "steel-cylinder"
-surface = { kind = "generated", rms_height = "30 nm", correlation_length = "0.3 um" }
-[cylinder]
-radius = "2 mm"
-width = "6 mm"
-loads = ["2.5 N"]
-friction = 0.16
-[domain]
-cells = 40
-lengths = "4 um"
-[depths]
-count = 20
-spacing = "95 nm"
-[cycles]
-count = 12
-settled = 4
-"""
 
 KEYS = {
     "particle_equivalent_radius_nm",
@@ -58,7 +34,7 @@ KEYS = {
 
 @pytest.fixture
 def scene_file(tmp_path):
-    def write(text=SMALL, **replaced):
+    def write(text=WEAR, **replaced):
         for old, new in replaced.items():
             assert f"{old} = " in text, old
             head, _, rest = text.rpartition(f"{old} = ")  # the last one: cycles.count, not depths.count
@@ -94,7 +70,7 @@ def test_summary_has_its_figures_and_the_balance_holds(scene_file):
 
 def test_loads_variants_and_repetitions_make_lists_in_the_order_of_the_scene(scene_file):
     text = (
-        SMALL + '[[variants]]\nname = "coarse"\ncells = 20\n[[variants]]\nname = "rough"\nupper_rms_height = "60 nm"\n'
+        WEAR + '[[variants]]\nname = "coarse"\ncells = 20\n[[variants]]\nname = "rough"\nupper_rms_height = "60 nm"\n'
     )
     outcome = run(scene_file(text, loads='["2.5 N", "5 N"]', repetitions="2", count="4", settled="2"))
     assert outcome.summary["load_N"] == [2.5, 2.5, 5.0, 5.0]
@@ -107,7 +83,7 @@ def test_loads_variants_and_repetitions_make_lists_in_the_order_of_the_scene(sce
 def test_a_load_beyond_the_hardness_and_wrong_variants_are_refused_by_the_plan(scene_file):
     with pytest.raises(InfeasibleError, match=r"cylinder\.loads"):
         plan(campaign(scene_file(loads='["1 MN"]')))
-    text = SMALL + '[[variants]]\nname = "film"\nlayer_thickness = "50 nm"\n'
+    text = WEAR + '[[variants]]\nname = "film"\nlayer_thickness = "50 nm"\n'
     with pytest.raises(InputError, match="layer_thickness"):
         plan(campaign(scene_file(text)))
     with pytest.raises(InputError, match="settled"):

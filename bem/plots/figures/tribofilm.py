@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -78,36 +79,36 @@ def _wears_substrate(run: Any) -> bool:
     return bool((run.dataset["substrate_wear"].values > 0).any())
 
 
+def _line(
+    name: str, caption: str, variable: str, text: str, unit: str, applies: Callable[[Any], bool] = lambda run: True
+) -> FigureKind:
+    draw = partial(_over_time, name=variable, text=text, unit=unit)
+    return FigureKind(name, caption, ("time", variable), draw, (5.0, 3.4), applies)
+
+
+def _map(name: str, caption: str, variable: str, text: str, unit: str) -> FigureKind:
+    draw = partial(_maps, name=variable, text=text, unit=unit)
+    return FigureKind(name, caption, ("x", "y", variable), draw, (10.0, 3.4))
+
+
 ALL_CASES = True
 FIGURES = (
-    FigureKind(
-        "film-thickness",
-        "Mean film thickness.",
-        ("time", "thickness"),
-        partial(_over_time, name="thickness", text="mean film thickness", unit="m"),
-        (5.0, 3.4),
-    ),
-    FigureKind(
-        "film-wear-rate",
-        "Rate at which the film itself wears.",
-        ("time", "wear_rate"),
-        partial(_over_time, name="wear_rate", text="wear rate of the film", unit="m/s"),
-        (5.0, 3.4),
-    ),
-    FigureKind(
+    _line("film-thickness", "Mean film thickness.", "thickness", "mean film thickness", "m"),
+    _line("film-wear-rate", "Rate at which the film itself wears.", "wear_rate", "wear rate of the film", "m/s"),
+    _line(
         "substrate-wear",
         "Depth of substrate that has left with the film.",
-        ("time", "substrate_wear"),
-        partial(_over_time, name="substrate_wear", text="wear depth of the substrate", unit="m"),
-        (5.0, 3.4),
+        "substrate_wear",
+        "wear depth of the substrate",
+        "m",
         _wears_substrate,
     ),
-    FigureKind(
+    _line(
         "substrate-concentration",
         "Concentration of substrate at the surface of the film.",
-        ("time", "concentration"),
-        partial(_over_time, name="concentration", text="concentration of substrate", unit="1"),
-        (5.0, 3.4),
+        "concentration",
+        "concentration of substrate",
+        "1",
         _wears_substrate,
     ),
     FigureKind(
@@ -117,18 +118,6 @@ FIGURES = (
         _pressure,
         (5.0, 3.4),
     ),
-    FigureKind(
-        "film-map",
-        "Local film thickness at the end.",
-        ("x", "y", "film_map"),
-        partial(_maps, name="film_map", text="local film thickness", unit="m"),
-        (10.0, 3.4),
-    ),
-    FigureKind(
-        "film-pressure-map",
-        "Contact pressure at the end.",
-        ("x", "y", "film_pressure"),
-        partial(_maps, name="film_pressure", text="contact pressure", unit="Pa"),
-        (10.0, 3.4),
-    ),
+    _map("film-map", "Local film thickness at the end.", "film_map", "local film thickness", "m"),
+    _map("film-pressure-map", "Contact pressure at the end.", "film_pressure", "contact pressure", "Pa"),
 )
