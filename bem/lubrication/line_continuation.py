@@ -10,6 +10,7 @@ from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_newton import (
     Outcome,
     State,
+    is_start,
     martin_start,
     mesh_imbalance,
     newton,
@@ -151,4 +152,6 @@ def refined(problem: Problem, state: State, coarse: int, cells: int, tolerance: 
         outcome = newton(problem, remesh(problem, state, size, smallest), goal, limit)
         spent += outcome.iterations
         state = outcome.state
+        if not outcome.converged and not is_start(state):
+            break
     return replace(outcome, iterations=spent)

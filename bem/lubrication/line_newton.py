@@ -41,6 +41,10 @@ SHARP_FROM = 1500
 SHORTEST_STEP = 1e-3
 
 
+FEWEST_NODES = 8
+"""Of a state that a mesh is made from."""
+
+
 @dataclass(frozen=True)
 class State:
     """Node offsets from the exit (n+1,), their elastic operator, pressure, film, datum H0 and exit X_e.
@@ -279,6 +283,14 @@ def remesh(problem: Problem, state: State, cells: int, smallest: float | None) -
     pressure = np.maximum(PchipInterpolator(state.offset, state.pressure)(nodes), 0.0)
     film = np.exp(PchipInterpolator(state.offset, np.log(state.film))(nodes))
     return State(nodes, LineOperator.of(nodes), pressure, film, state.datum, state.exit, state.far_field)
+
+
+def is_start(state: State) -> bool:
+    """Whether a mesh can be made for a state: what did not converge may be anything, down to no pressure at all."""
+    arrays = (state.pressure, state.film, np.array([state.exit, state.datum]))
+    if not all(np.isfinite(array).all() for array in arrays):
+        return False
+    return bool(state.pressure.max() > 0 and state.film.min() > 0 and _with_inlet(state).offset.size >= FEWEST_NODES)
 
 
 def _with_inlet(state: State) -> State:

@@ -18,7 +18,7 @@ from bem.lubrication.line_continuation import from_neighbour, from_newtonian, fr
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_friction import friction_forces
 from bem.lubrication.line_kernel import DEFLECTION, logarithmic_weights
-from bem.lubrication.line_newton import Outcome, State
+from bem.lubrication.line_newton import Outcome, State, is_start
 from bem.lubrication.line_scales import Scales, line_scales, scaled_problem
 from bem.lubrication.line_starved import Wanted, WantedDistance, WantedLayer, starved, through
 from bem.lubrication.lubricant import Lubricant
@@ -118,8 +118,8 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     if initial is not None:
         if not isinstance(initial, FilmSolution):
             raise InputError(f"initial: {type(initial).__name__} is not a FilmSolution")
-        if isinstance(initial.state, KeptSteady) and initial.state.state.far_field == 1:
-            kept = initial.state
+        kept = initial.state
+        if isinstance(kept, KeptSteady) and kept.state.far_field == 1 and is_start(kept.state):
             unit = kept.scales.pressure / scales.pressure
             outcome = from_neighbour(problem, kept.state, kept.load, unit, points - 1, tolerance, max_iterations)
             spent += outcome.iterations

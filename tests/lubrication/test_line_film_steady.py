@@ -1,6 +1,7 @@
 """Steady line-contact film: limits, order, invariances, warm starts, refusals."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -441,3 +442,23 @@ def test_viscosity_slopes(law, pressure):
     assert np.diff(value)[0] / step == pytest.approx(slope.mean(), rel=1e-6, abs=1e-15)
     density, density_slope = oil.density_ratio(at)
     assert np.diff(density)[0] / step == pytest.approx(density_slope.mean(), rel=1e-4, abs=1e-15)
+
+
+@pytest.mark.parametrize("spoilt", ["no pressure", "an exit of next to nothing", "not a number"])
+def test_what_did_not_converge_is_no_start(spoilt):
+    """A film that stalled without any pressure ended in an empty mesh, and the run with it; it begins anew now."""
+    case = {
+        "load": 2e4, "radius": 2e-3, "contact_modulus": 115e9, "speeds": (0.1, 0.0), "points": 800,
+        "lubricant": Lubricant(0.36, pressure_viscosity=25e-9),
+    }  # fmt: skip
+    good = solve_line_film(**case)
+    state = good.state.state
+    bad = {
+        "no pressure": replace(state, pressure=0 * state.pressure),
+        "an exit of next to nothing": replace(state, exit=1e-12, film=1e-24 * state.film),
+        "not a number": replace(state, film=np.nan * state.film),
+    }[spoilt]
+    start = replace(good, state=replace(good.state, state=bad))
+    again = solve_line_film(**case, initial=start)
+    assert again.status == "converged"
+    assert np.array_equal(again.pressure, good.pressure)
