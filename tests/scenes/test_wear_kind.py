@@ -99,7 +99,7 @@ def test_the_plan_says_what_is_skipped(scene_file):
 
 @pytest.mark.slow
 def test_killed_ten_times_it_ends_in_the_same_bits(scene_file, tmp_path):
-    path = scene_file(count="600", settled="20")  # some ten seconds: long enough to be killed in
+    path = scene_file(count="3000", settled="20")  # some ten seconds: long enough to be killed in
     bem = [sys.executable, "-m", "bem", "run", str(path)]
     whole, torn = tmp_path / "whole", tmp_path / "torn"
     subprocess.run([*bem, "--out", str(whole)], check=True, capture_output=True, timeout=300)
