@@ -102,33 +102,25 @@ def solve_coarser_film(case: FilmCase) -> OtherFilm:
     return OtherFilm(case.on(points), points / case.points)
 
 
-def film_figures(solution: FilmSolution, radius: float) -> dict[str, float]:
-    """Headline figures of a steady film on its own mesh, per unit length, SI units.
-
-    The rolling force is the integral of (h/2) dp/dx: what is left of the friction where nothing slides. Upstream of the
-    mesh h = x^2 / 2R and dp/dx = 24 mu (u1 + u2) R^2 / x^4 add 6 mu (u1 + u2) R / |x|.
-    """
-    film, pressure = solution.thickness, np.maximum(solution.pressure, 0.0)
-    entrainment = sum(solution.speeds)
-    inlet = abs(solution.position[0 if entrainment > 0 else -1])
-    upstream = 6 * solution.lubricant.viscosity * entrainment * radius / inlet
+def film_figures(solution: FilmSolution) -> dict[str, float]:
+    """Headline figures of a steady film on its own mesh, per unit length, SI units."""
     return {
         "central_thickness": solution.central_thickness,
         "minimum_thickness": solution.minimum_thickness,
         "load": solution.load,
         "shear_force": solution.shear_force,
         "striated_shear_force": solution.striated_shear_force,
-        "rolling_force": upstream + 0.25 * float(np.sum((film[1:] + film[:-1]) * np.diff(pressure))),
-        "maximum_pressure": float(pressure.max()),
+        "rolling_force": solution.rolling_force,
+        "maximum_pressure": float(solution.pressure.max()),
     }
 
 
 def film_bars(case: FilmCase, other: OtherFilm) -> ErrorBars:
     """Bars of the figures of a film."""
-    found = film_figures(case.solution, case.radius)
+    found = film_figures(case.solution)
     if other.solution.status is not Status.CONVERGED:
         return ErrorBars.unknown(found, _UNSOLVED)
-    there = film_figures(other.solution, case.radius)
+    there = film_figures(other.solution)
     # what the difference would be to half the points, by order two
     halved = _TWICE if other.ratio > 1 else 3 / (1 / other.ratio**2 - 1)
     changed = max(_relative(found[name], there[name]) for name in ("central_thickness", "minimum_thickness"))

@@ -12,8 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
 from bem.accuracy.bars import POINTS, RESIDUAL, ErrorBars
 from bem.accuracy.film import FEWEST, SPIKE, FilmCase, spike_is_unresolved
 from bem.errors import Status
@@ -73,10 +71,11 @@ class TractionCase:
 def traction_figures(case: TractionCase, found: FilmSolution | ThermalFilm) -> dict[str, float]:
     """Headline figures, SI units; the power is that on the case's width."""
     film = found.film if isinstance(found, ThermalFilm) else found
-    force, rolling = found.shear_force, 0.25 * _rolling(film)
+    force = found.shear_force
+    sliding = found.sliding_force if isinstance(found, ThermalFilm) else force - film.rolling_force
     figures = {
         "traction_coefficient": force / film.load,
-        "sliding_traction": (found.sliding_force if isinstance(found, ThermalFilm) else force - rolling) / film.load,
+        "sliding_traction": sliding / film.load,
         "minimum_thickness": film.minimum_thickness,
         "central_thickness": film.central_thickness,
         "maximum_pressure": float(film.pressure.max()),
@@ -85,7 +84,7 @@ def traction_figures(case: TractionCase, found: FilmSolution | ThermalFilm) -> d
         return figures
     power = found.friction_power or 1.0
     return figures | {
-        "film_temperature": _by_pressure(found),
+        "film_temperature": found.mean_film_temperature,
         "highest_film_temperature": found.highest_film_temperature,
         "lower_temperature": float(found.surface_temperatures[0].max()),
         "upper_temperature": float(found.surface_temperatures[1].max()),
@@ -96,17 +95,6 @@ def traction_figures(case: TractionCase, found: FilmSolution | ThermalFilm) -> d
         "share_of_oil": found.power_carried / power,
         "energy_imbalance": found.energy_imbalance,
     }
-
-
-def _by_pressure(found: ThermalFilm) -> float:
-    """Mean temperature of the oil weighted with the pressure [K]."""
-    weights = np.interp(found.position, found.film.position, found.film.pressure) * found.width
-    return float(weights @ found.film_temperature / weights.sum())
-
-
-def _rolling(film: FilmSolution) -> float:
-    """Four times the integral of (h/2) dp/dx on the mesh."""
-    return float(np.sum((film.thickness[1:] + film.thickness[:-1]) * np.diff(film.pressure)))
 
 
 def traction_bars(case: TractionCase, found: FilmSolution | ThermalFilm) -> ErrorBars:

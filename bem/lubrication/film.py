@@ -42,7 +42,9 @@ class FilmSolution:
         rolling, in rigid films far beyond: a cylinder a little faster than the flat still finds the flat dragged back.
         The full film ends where the pressure does (Swift-Stieber exit); `striated_shear_force` adds the streamers
         behind it.
-    striated_shear_force : the same with the oil behind the exit, which covers the fraction h_exit/h of the surface.
+    rolling_force : its rolling part [N/m], upstream of the positions included, with the sign of u1 + u2.
+    striated_shear_force : the same with the oil behind the exit, which covers the fraction h_exit/h of the surface;
+        NaN with heat, which is not followed beyond the exit.
     exit_position : where the film ruptures [m].
     inlet_load_fraction : share of the load that lies upstream of the first position.
     iterations : Newton steps in all, continuation included.
@@ -67,6 +69,7 @@ class FilmSolution:
     central_thickness: float
     load: float
     shear_force: float
+    rolling_force: float
     striated_shear_force: float
     exit_position: float
     inlet_load_fraction: float
@@ -91,7 +94,7 @@ class FilmSolution:
         profile where the oil's `film_rheology` is "shear_law". The second part follows from equilibrium of the oil
         across the film whatever its shear law, so it stays; of an oil with "newtonian" film it has no limit, and next
         to a wall the sum may exceed that of tau by it. It acts along -x. At the solution's own positions, or
-        interpolated linearly at others [m].
+        interpolated linearly at others [m]. Of a film with heat it is that without the heat inside the contact.
         """
         difference = self.speeds[0] - self.speeds[1]
         full = self.pressure > 0
@@ -102,12 +105,6 @@ class FilmSolution:
         sliding = middle_stress(self.lubricant, newtonian, positive, self.thickness, gradient)
         stress = np.where(full, sliding + 0.5 * self.thickness * gradient, 0.0)
         return stress if position is None else np.interp(position, self.position, stress, left=0.0, right=0.0)
-
-    @property
-    def rolling_force(self) -> float:
-        """Rolling part of the shear force [N/m], integral h/2 dp/dx, from the solution's own points on."""
-        film, pressure = self.thickness, self.pressure
-        return 0.25 * float(np.sum((film[1:] + film[:-1]) * np.diff(pressure)))
 
     def at(self, position: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Pressure [Pa] and thickness [m] at positions [m]: anywhere for a steady film, else within its mesh.

@@ -1,12 +1,14 @@
-"""Friction force of a steady line-contact film."""
+"""Friction force of a line-contact film."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
+from bem.grid import FloatArray
 from bem.lubrication.line_kernel import logarithmic_weights
 from bem.lubrication.line_linear import DEFLECTION
 from bem.lubrication.line_newton import State
@@ -23,29 +25,50 @@ def upstream_of_mesh(state: State) -> tuple[float, float]:
     return state.far_field * 2 / start * (1 - 2 * offset / start**2 / 3), state.far_field * 4 / (3 * start**3)
 
 
+def rolling_part(thickness: FloatArray, pressure: FloatArray) -> float:
+    """Integral of h/2 dp/dx [N/m] of films (n,) [m] and pressures (n,) [Pa] on nodes, by trapezoids."""
+    return 0.25 * float(np.sum((thickness[1:] + thickness[:-1]) * np.diff(pressure)))
+
+
+def rolling_upstream(state: State) -> float:
+    """The same upstream of the mesh, where h^3/(12 mu) dp/dx is half (u1 + u2)(h - h_e), in units of pressure x film;
+    zero upstream of a meniscus."""
+    tail_1, tail_2 = upstream_of_mesh(state)
+    return 3 * (tail_1 - float(state.film[-1]) * tail_2)
+
+
+@dataclass(frozen=True)
+class Friction:
+    """Forces per length of a film with positive entrainment [N/m]: in the full film, its rolling part, and with the
+    striated exit."""
+
+    full: float
+    rolling: float
+    striated: float
+
+
 def friction_forces(
     state: State,
     scales: Scales,
     speeds: Sequence[float],
     reversed_: bool,
     lubricant: Lubricant,
-) -> tuple[float, float]:
-    """Friction force per length without and with the striated exit, for positive entrainment [N/m]."""
+) -> Friction:
+    """Of a steady film."""
     x, film = state.position, state.film
     pressure = np.maximum(state.pressure, 0.0)
     difference = (speeds[0] - speeds[1]) * (-1.0 if reversed_ else 1.0)
     thickness = film * scales.film
     position = x * scales.length
 
-    tail_1, tail_2 = upstream_of_mesh(state)
+    tail_1 = upstream_of_mesh(state)[0]
     viscosity = lubricant.viscosity_at(pressure * scales.pressure)
     newtonian, own = viscosity * difference / thickness, pressure * scales.pressure
     sliding = middle_stress(lubricant, newtonian, own, thickness, np.gradient(own, position))
     couette = float(np.sum(0.5 * np.diff(position) * (sliding[1:] + sliding[:-1])))
     couette += lubricant.viscosity * difference * tail_1 * scales.length / scales.film
-    poiseuille = 0.25 * float(np.sum((film[1:] + film[:-1]) * np.diff(pressure)))
-    poiseuille += 3 * (tail_1 - film[-1] * tail_2)
-    full = couette + poiseuille * scales.film * scales.pressure
+    rolling = (rolling_part(film, pressure) + rolling_upstream(state)) * scales.film * scales.pressure
+    full = couette + rolling
 
     # streamers behind the exit cover the fraction h_e/h: integral of (h_e/h) tau(h), out to where it no longer counts
     span = math.log(1e3) - math.log(1e-6)
@@ -60,4 +83,4 @@ def friction_forces(
     ambient = lubricant.shear_stress(lubricant.viscosity * difference / (behind * scales.film), 0.0)
     ambient = ambient * film[-1] / behind
     streamers = near * ambient[0] + 0.5 * span * float(np.sum(weights * ambient[1:] * reach[1:]))
-    return full, full + streamers * scales.length
+    return Friction(full, rolling, full + streamers * scales.length)

@@ -13,6 +13,7 @@ from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_flow import Problem
+from bem.lubrication.line_friction import rolling_part
 from bem.lubrication.line_rupture import Nodes
 from bem.lubrication.line_scales import Scales
 from bem.lubrication.line_step import Film, FixedMesh, StepOutcome, elastic_film, time_step
@@ -201,7 +202,7 @@ def _solution(march: March, film: Film, time: float, outcome: StepOutcome | None
     pressure, thickness = film.pressure * scales.pressure, film.film * scales.film
     first, second = (float(u) for u in march.operation.speeds(time))
     case = Case(x, pressure, thickness, (first, second), contact.lubricant, contact.radius, contact.contact_modulus)
-    force = _full_force(case)
+    force, rolling = _full_force(case)
     exit_, streamers = _ruptured(march, film, case)
     return FilmSolution(
         position=x,
@@ -211,6 +212,7 @@ def _solution(march: March, film: Film, time: float, outcome: StepOutcome | None
         central_thickness=float(np.interp(0.0, x, thickness)),
         load=_integral(x, pressure),
         shear_force=force,
+        rolling_force=rolling,
         striated_shear_force=force + streamers,
         exit_position=exit_,
         inlet_load_fraction=0.0,
@@ -230,18 +232,17 @@ def _integral(x: FloatArray, values: FloatArray) -> float:
     return float(np.sum(0.5 * np.diff(x) * (values[1:] + values[:-1])))
 
 
-def _full_force(case: Case) -> float:
-    """Friction force on the flat in the full film, along -x [N/m]: that of sliding, and half of h dp/dx."""
+def _full_force(case: Case) -> tuple[float, float]:
+    """Friction force on the flat in the full film, along -x [N/m], and its rolling part, half of h dp/dx."""
     x, lubricant, (first, second) = case.position, case.lubricant, case.speeds
     newtonian = lubricant.viscosity_at(case.pressure) * (first - second) / case.thickness
     gradient = np.gradient(case.pressure, x)
     sliding = middle_stress(lubricant, newtonian, case.pressure, case.thickness, gradient)
     stress = np.where(case.pressure > 0, sliding, 0.0)
-    force = _integral(x, stress)
-    force += 0.25 * float(np.sum((case.thickness[1:] + case.thickness[:-1]) * np.diff(case.pressure)))
     # upstream of the mesh h = x^2/2R: integrals of mu (u1 - u2)/h and, as h p' = 6 mu (u1 + u2)/h there, of h p'/2
     tail = 2 * case.radius / float(x[-1]) * lubricant.viscosity
-    return force + tail * (first - second + 3 * (first + second))
+    rolling = rolling_part(case.thickness, case.pressure) + 3 * tail * (first + second)
+    return _integral(x, stress) + tail * (first - second) + rolling, rolling
 
 
 def _ruptured(march: March, film: Film, case: Case) -> tuple[float, float]:

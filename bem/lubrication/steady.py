@@ -341,7 +341,7 @@ def _result(
     pressure = np.maximum(state.pressure, 0.0)
     central = float(PchipInterpolator(x, film)(0.0))
     status = Status.CONVERGED if outcome.converged else Status.STALLED
-    shear, striated = friction_forces(state, scales, speeds, reversed_, lubricant)
+    friction = friction_forces(state, scales, speeds, reversed_, lubricant)
     sign = -1.0 if reversed_ else 1.0
 
     own_x = x * scales.length
@@ -365,8 +365,9 @@ def _result(
         minimum_thickness=lowest_film(x, film) * scales.film,
         central_thickness=central * scales.film,
         load=float(np.sum(0.5 * np.diff(own_x) * (own_p[1:] + own_p[:-1])) + beyond * scales.pressure * scales.length),
-        shear_force=sign * shear,
-        striated_shear_force=sign * striated,
+        shear_force=sign * friction.full,
+        rolling_force=sign * friction.rolling,
+        striated_shear_force=sign * friction.striated,
         exit_position=sign * state.exit * scales.length,
         inlet_load_fraction=upstream,
         iterations=outcome.iterations,

@@ -61,7 +61,7 @@ def rows_of(words: str, given: dict[str, Any]) -> list[dict[str, Any]]:
     reference = solve_line_film(**{**given, "points": FINER * given["points"]}, initial=case.solution)
     if {case.solution.status, reference.status} != {Status.CONVERGED}:
         return []
-    found, truth, there = (film_figures(one, case.radius) for one in (case.solution, reference, other.solution))
+    found, truth, there = (film_figures(one) for one in (case.solution, reference, other.solution))
     return [
         {
             "figure": name,

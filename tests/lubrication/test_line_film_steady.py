@@ -462,3 +462,24 @@ def test_what_did_not_converge_is_no_start(spoilt):
     again = solve_line_film(**case, initial=start)
     assert again.status == "converged"
     assert np.array_equal(again.pressure, good.pressure)
+
+
+@pytest.mark.parametrize("speeds", [(1.0, 0.9), (-1.0, -0.9)])
+@pytest.mark.parametrize("supply", [None, 1e-7])
+def test_rolling_force_is_the_moment_of_the_pressure(speeds, supply):
+    """Integral h/2 dp/dx = -1/(2R) integral p x: the deflection does no work on its own pressure. Wherever it is looked
+    at, with what lies upstream."""
+    case = {"load": 373e3, "radius": 6e-3, "contact_modulus": 113.7e9, "speeds": speeds, "points": 400,
+            "lubricant": Lubricant(0.02, pressure_viscosity=21e-9, density_law="dowson_higginson")}  # fmt: skip
+    film = solve_line_film(**case, supply=supply)
+    x, upstream = film.position, np.abs(film.position[0 if speeds[0] > 0 else -1])
+    moment = -np.trapezoid(film.pressure * x, x) / (2 * 6e-3)
+    if supply is None:  # p = 16 mu u R^2/|x|^3 with the mean speed
+        moment += 4 * 0.02 * sum(speeds) * 6e-3 / upstream
+    # both by trapezoids on 400 points
+    assert film.rolling_force == pytest.approx(moment, rel=5e-3)
+    assert film.rolling_force * sum(speeds) > 0
+    at = solve_line_film(**case, supply=supply, position=np.linspace(-2e-3, 2e-3, 50))
+    assert at.rolling_force == film.rolling_force
+    rolling = solve_line_film(**case | {"speeds": (speeds[0], speeds[0])}, supply=supply)
+    assert rolling.shear_force == pytest.approx(rolling.rolling_force, rel=1e-12)

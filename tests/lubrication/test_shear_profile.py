@@ -227,6 +227,7 @@ def test_in_time_the_film_tends_to_the_steady_one():
     # 301 points on two unlike meshes
     assert last.minimum_thickness == pytest.approx(steady.minimum_thickness, rel=1e-3)
     assert last.shear_force == pytest.approx(steady.shear_force, rel=3e-3)
+    assert last.rolling_force == pytest.approx(steady.rolling_force, rel=3e-3)
     moving = march_line_film(
         np.linspace(0, 2e-3, 5), load=lambda t: load, speeds=lambda t: (1.0 + 200 * t, 0.2), lubricant=oil, **case
     )

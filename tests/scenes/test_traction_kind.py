@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from bem import InputError, load_scene, solve_line_film, solve_thermal_line_film
+from bem.accuracy import TractionCase, traction_figures
 from bem.runs import run_scene
 
 ROUGH = {"kind": "generated", "rms_height": "1 um", "correlation_length": "9 um"}
@@ -74,6 +75,14 @@ def test_bars_cover_the_mesh(tmp_path):
     films = ("minimum_thickness_nm", "central_thickness_nm")
     for name in ("traction_coefficient", "film_temperature_C", "friction_power_W", *films):
         assert abs(coarse[name] - fine[name]) <= coarse[f"{name}_error"], name
+
+
+def test_pure_rolling_has_no_traction_of_sliding():
+    case = line(load_scene(scene()))
+    film = solve_line_film(speeds=(5.0, 5.0), **case)
+    figures = traction_figures(TractionCase(speeds=(5.0, 5.0), **case), film)
+    assert figures["traction_coefficient"] > 1e-5
+    assert abs(figures["sliding_traction"]) < 1e-12
 
 
 def test_without_heat_it_is_the_isothermal_film(tmp_path):

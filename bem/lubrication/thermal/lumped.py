@@ -302,7 +302,7 @@ def _result(  # reason: what was found on the way, gathered once
     width = np.diff(strip.edges)
     into = found.into @ width
     carried = channel.capacity_flow * float(found.oil[-1] - channel.supply)
-    power = strip.sliding * couette + abs(sum(film.speeds)) * strip.rolling_force
+    power = strip.sliding * couette + sum(film.speeds) * film.rolling_force
     imbalance = abs(power - float(into.sum()) - carried) / max(abs(power), 1e-300)
     kept = film.state
     assert isinstance(kept, KeptSteady)
@@ -319,7 +319,7 @@ def _result(  # reason: what was found on the way, gathered once
         surface_temperatures=found.surfaces[:, order],
         heat_made=found.made[order],
         heat_into=found.into[:, order],
-        shear_force=sign * (couette + strip.rolling_force),
+        shear_force=sign * couette + film.rolling_force,
         sliding_force=sign * couette,
         friction_power=power,
         power_into=(float(into[0]), float(into[1])),

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from bem.grid import FloatArray
 from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_friction import upstream_of_mesh
+from bem.lubrication.line_friction import rolling_upstream, upstream_of_mesh
 from bem.lubrication.steady import KeptSteady
 
 
@@ -25,7 +25,6 @@ class Strip:
     cell: NDArray[np.intp]
     edges: FloatArray
     rolling: FloatArray
-    rolling_force: float
     upstream: float
     sliding: float
 
@@ -38,11 +37,10 @@ def strip_of(film: FilmSolution, cells: int) -> Strip:
     x, thickness = state.position * scales.length, state.film * scales.film
     pressure = np.maximum(state.pressure, 0.0) * scales.pressure
     first, second = (speed * (-1.0 if kept.reversed else 1.0) for speed in film.speeds)
-    tail_1, tail_2 = upstream_of_mesh(state)
     edges = cell_edges(x, pressure, cells)
     cell = np.searchsorted(edges, 0.5 * (x[1:] + x[:-1])) - 1
     pieces = 0.25 * (thickness[1:] + thickness[:-1]) * np.diff(pressure)
-    upstream_force = 3 * (tail_1 - state.film[-1] * tail_2) * scales.film * scales.pressure
+    upstream_force = rolling_upstream(state) * scales.film * scales.pressure
     flow = 0.5 * (first + second) * thickness[-1]
     # work of the pressure on what flows: integral of dp/rho, a function of the pressure alone
     nodes, weights = np.polynomial.legendre.leggauss(8)
@@ -58,8 +56,7 @@ def strip_of(film: FilmSolution, cells: int) -> Strip:
         cell=cell,
         edges=edges,
         rolling=rolling,
-        rolling_force=float(pieces.sum()) + upstream_force,
-        upstream=tail_1 * scales.length / scales.film,
+        upstream=upstream_of_mesh(state)[0] * scales.length / scales.film,
         sliding=first - second,
     )
 
