@@ -51,9 +51,9 @@ _LEAST_COSINE = 0.24
 _BEFORE, _BEYOND = -0.3, 1.0
 """How far from the cell inside, in links, a crossing may lie: behind the centre of a cell that barely touches."""
 
-_ASLANT = 1.0039
-"""Chords are measured along the smoothed edge, from which they turn by some 5 degrees, so that they are short by
-1 - cos; measured on balls of 24 to 64 cells, of all directions. Another 8 / R^2 % is missing on spots of R cells."""
+_ASLANT = 1.5
+"""A chord counts with its length, backwards where it runs against the smoothed edge; but no longer than this many times
+what it runs along it, for the chords that crossings at one place make lie in any direction."""
 
 _STEP = 5.0
 """A parabola's steps grow by 3, 5/3, ...: on a smooth surface none is this many times both its neighbours."""
@@ -110,9 +110,7 @@ def _region(
     # chords cut off curvature x chord^3 / 12; the curvature of all edges adds up to 2 pi a piece, less that of holes
     segments = 2 * math.pi * turns * (squares / length) / 12 if length > 0 else 0.0
     area = count * grid.cell_area + excess + segments
-    return Region(
-        min(max(area, _LEAST_SHARE * count * grid.cell_area), grid.area), _ASLANT * length, count * grid.cell_area
-    )
+    return Region(min(max(area, _LEAST_SHARE * count * grid.cell_area), grid.area), length, count * grid.cell_area)
 
 
 def count_spots(pressure: FloatArray, grid: Grid) -> int:
@@ -149,9 +147,7 @@ def _root(parent, cell):  # type: ignore[no-untyped-def]
 
 
 @_strict
-def _sum_squares(  # type: ignore[no-untyped-def]  # reason: one pass; a call for each part would cost more
-    given, spacing, wraps, factor, constants
-):
+def _sum_squares(given, spacing, wraps, factor, constants):  # type: ignore[no-untyped-def]
     """Over the squares between four centres: area within the polygons beyond a quarter of a cell for each centre inside
     [m^2], length of the edge [m], sum of chord^3 [m^3], Euler's number of the region.
 
@@ -187,44 +183,64 @@ def _sum_squares(  # type: ignore[no-untyped-def]  # reason: one pass; a call fo
                 left = _cut(fields, i, j, 1, place, constants)
             right = _cut(fields, k, j, 1, place, constants)
             rights[j] = right
-            # (u, v): from crossing to crossing, with the region on the left
-            if number == 2 and a == c:
-                # a saddle: the mean of both centres joined and parted
-                first = 0.5 * (low * left + (1 - high) * (1 - right))
-                second = 0.5 * ((1 - low) * right + high * (1 - left))
-                share = 0.5 * (first + 1 - second) if a else 0.5 * (second + 1 - first)
-                u, v = 0.0, 0.0
-            elif number == 2:
-                if a == b:
-                    share, u, v = 0.5 * (left + right), -1.0, left - right
-                else:
-                    share, u, v = 0.5 * (low + high), high - low, 1.0
-                if not a:
-                    share, u, v = 1 - share, -u, -v
-            else:
-                one = number == 1
-                if a == one and b != one and c != one and d != one:
-                    share, u, v = 0.5 * low * left, -low, left
-                elif b == one and a != one and c != one and d != one:
-                    share, u, v = 0.5 * (1 - low) * right, low - 1, -right
-                elif c == one and a != one and b != one and d != one:
-                    share, u, v = 0.5 * (1 - high) * (1 - right), 1 - high, right - 1
-                else:
-                    share, u, v = 0.5 * high * (1 - left), high, 1 - left
-                if not one:
-                    share, u, v = 1 - share, -u, -v
-                corners += 1 if one else -1
-            # along the smoothed edge: where it runs at 45 degrees crossings change places and a chord runs back
+            share, u, v, turn = _polygon((a, b, c, d), number, (low, high, left, right))
+            corners += turn
+            # across the smoothed edge: where it runs at 45 degrees crossings change places and a chord runs back
             lower, upper = float(blurred[i, j]), float(blurred[k, m])
             ahead, aside = float(blurred[k, j]), float(blurred[i, m])
             along, across = (upper + ahead - lower - aside) / dx, (upper + aside - lower - ahead) / dy
-            norm = np.hypot(along, across)
-            u, v = u * dx, v * dy
-            chord = (u * across - v * along) / norm if norm > 0 else np.hypot(u, v)
+            chord = _chord(u * dx, v * dy, along, across)
             area += (share - 0.25 * number) * dx * dy
             length += chord
             cubes += abs(chord) ** 3
     return area, length, cubes, 0.25 * corners
+
+
+@_strict
+def _polygon(centres, number, crossings):  # type: ignore[no-untyped-def]
+    """Of a square with some of its four centres inside: share of it inside, chord from crossing to crossing with the
+    region on the left [sides], and a quarter turn to the left (1), to the right (-1) or neither.
+
+    centres : whether inside, counter-clockwise from the lowest; `number` of them are. crossings : of the lower, upper,
+    left and right side, from their lower end.
+    """
+    a, b, c, d = centres
+    low, high, left, right = crossings
+    if number == 2 and a == c:
+        # a saddle: the mean of both centres joined and parted
+        first = 0.5 * (low * left + (1 - high) * (1 - right))
+        second = 0.5 * ((1 - low) * right + high * (1 - left))
+        return 0.5 * (first + 1 - second) if a else 0.5 * (second + 1 - first), 0.0, 0.0, 0
+    turn = 0
+    if number == 2 and a == b:
+        share, u, v = 0.5 * (left + right), -1.0, left - right
+    elif number == 2:
+        share, u, v = 0.5 * (low + high), high - low, 1.0
+    else:
+        one = number == 1
+        turn = 1 if one else -1
+        if a == one and b != one and c != one and d != one:
+            share, u, v = 0.5 * low * left, -low, left
+        elif b == one and a != one and c != one and d != one:
+            share, u, v = 0.5 * (1 - low) * right, low - 1, -right
+        elif c == one and a != one and b != one and d != one:
+            share, u, v = 0.5 * (1 - high) * (1 - right), 1 - high, right - 1
+        else:
+            share, u, v = 0.5 * high * (1 - left), high, 1 - left
+    if (number == 2 and not a) or number == 3:
+        share, u, v = 1 - share, -u, -v
+    return share, u, v, turn
+
+
+@_strict
+def _chord(u, v, along, across):  # type: ignore[no-untyped-def]
+    """Length of the chord (u, v) [m], negative where it runs backwards along an edge whose normal is (along, across);
+    that of a saddle is none."""
+    length, norm = np.hypot(u, v), np.hypot(along, across)
+    if not norm > 0:
+        return length
+    forward = (u * across - v * along) / norm
+    return math.copysign(min(length, _ASLANT * abs(forward)), forward)
 
 
 @_strict

@@ -74,7 +74,7 @@ def test_straight_edges_in_any_direction_on_a_periodic_grid(direction):
     grid = Grid((128, 128), (1 / 128, 1 / 128), periodic=(True, True))
     operator = displacement_operator(grid, Body(UNIT))
     wavelength, amplitude = 1 / np.hypot(m, n), 0.01 / np.hypot(m, n)
-    errors = []
+    errors, perimeters = [], []
     for seed in range(4):
         rng = np.random.default_rng(seed)
         fraction, phase = rng.uniform(0.3, 0.6), rng.uniform()
@@ -83,8 +83,10 @@ def test_straight_edges_in_any_direction_on_a_periodic_grid(direction):
         load = np.pi * amplitude / wavelength * np.sin(0.5 * np.pi * fraction) ** 2
         solution = solve_contact(gap, operator, load=load)
         errors.append((solution.contact_area - fraction) * 128 / (2 / wavelength))  # place of the edge, in cells
-        assert solution.contact_perimeter == pytest.approx(2 / wavelength, rel=0.02)
+        perimeters.append(solution.contact_perimeter * wavelength / 2 - 1)
     assert np.abs(errors).max() < 0.06  # half a cell is what a count leaves
+    # along an axis and at 45 degrees exact, else 0.05 % from place to place (0.25 % at one in four and flatter)
+    assert np.abs(perimeters).max() < (1e-9 if m * n in (0, 1) else 2e-3)
 
 
 @pytest.mark.parametrize("mean_pressure", [0.002, 0.008, 0.02])
@@ -185,10 +187,11 @@ def test_spots_hang_together_through_sides_and_round_a_periodic_grid():
 
 def test_perimeter_of_balls_is_of_second_order():
     errors = {}
-    for radius in (2.0, 4.0, 16.0):
-        solved = [ball(radius, seed) for seed in range(6)]
+    for radius in (2.0, 4.0, 16.0, 32.0):
+        solved = [ball(radius, seed) for seed in range(2 if radius > 20 else 6)]
         errors[radius] = np.mean([s.contact_perimeter / (2 * np.pi * r.semi_axes[0]) - 1 for s, r in solved])
-    # measured -1.9, -0.4 and 0.0 %: 8 / R^2 %
+    # measured -1.8, -0.4, 0.00 and 0.04 %: 7 / R^2 %, and what crossings scatter
     assert -0.03 < errors[2.0] < -0.01
-    assert abs(errors[4.0]) < 0.01
-    assert abs(errors[16.0]) < 0.002
+    assert abs(errors[4.0]) < 0.007
+    assert abs(errors[16.0]) < 0.001
+    assert abs(errors[32.0]) < 0.001
