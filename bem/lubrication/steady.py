@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -101,34 +100,24 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     L = 6 to 10 the pressure spike has no limit: it grows with the mesh as the inverse root of a cell, while the film
     thickness converges.
     """
-    if thermal != "off":
-        asked = {"tolerance": tolerance, "max_iterations": max_iterations, "flow_factors": flow_factors}
-        unusual = (position is not None, cavitation_of(cavitation) is not Cavitation.SWIFT_STIEBER, supply is not None)
-        return _with_heat(
-            thermal, bodies, bulk, unusual,
-            load=load, radius=radius, contact_modulus=contact_modulus, speeds=speeds, lubricant=lubricant,
-            points=points, initial=initial, **asked,
-        )  # fmt: skip
     cavitation, supply = cavitation_of(cavitation), checked_supply(supply)
-    scales, reversed_ = _check(load, radius, contact_modulus, speeds, lubricant, points, tolerance, position)
+    scales, reversed_ = checked_case(
+        load, radius, contact_modulus, speeds, lubricant, points, tolerance, position, initial
+    )
+    if thermal != "off":
+        own = {"position": position is not None, "supply": supply is not None}
+        own["mass-conserving cavitation"] = cavitation is not Cavitation.SWIFT_STIEBER
+        _check_heat(thermal, bodies, [name for name, given in own.items() if given])
+        from bem.lubrication.thermal.lumped import solve_thermal_line_film
+
+        return solve_thermal_line_film(
+            load=load, radius=radius, contact_modulus=contact_modulus, speeds=speeds, lubricant=lubricant,
+            bodies=bodies or (), bulk=bulk, points=points, initial=initial, tolerance=tolerance,
+            max_iterations=max_iterations, flow_factors=flow_factors,
+        ).as_film()  # fmt: skip
     walls = walls_of(flow_factors, scales.film, speeds)
     problem = scaled_problem(scales, scales.load, lubricant, walls, float(speeds[0]) - float(speeds[1]))
-    outcome = None
-    spent = 0
-    if initial is not None:
-        if not isinstance(initial, FilmSolution):
-            raise InputError(f"initial: {type(initial).__name__} is not a FilmSolution")
-        kept = initial.state
-        if isinstance(kept, KeptSteady) and kept.state.far_field == 1 and is_start(kept.state):
-            unit = kept.scales.pressure / scales.pressure
-            outcome = from_neighbour(problem, kept.state, kept.load, unit, points - 1, tolerance, max_iterations)
-            spent += outcome.iterations
-    if outcome is None or not outcome.converged:
-        outcome = from_scratch(problem, points - 1, tolerance, max_iterations)
-        if problem.shear is not None and not outcome.converged:
-            spent += outcome.iterations
-            outcome = from_newtonian(problem, points - 1, tolerance, max_iterations)
-    flooded = outcome = replace(outcome, iterations=outcome.iterations + spent)
+    flooded = outcome = _flooded(problem, scales, initial, points - 1, tolerance, max_iterations)
     if supply is not None:
         wanted = _wanted(supply, problem, flooded.state, scales)
         if wanted is not None:
@@ -156,38 +145,35 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     return replace(film, film_fraction=np.where(ruptured, exit_film / film.thickness, 1.0))
 
 
-def _with_heat(
-    thermal: str, bodies: Sequence[Body] | None, bulk: Sequence[float] | None, unusual: tuple[bool, ...], **asked: Any
-) -> FilmSolution:
-    """The film of `solve_thermal_line_film` with its friction and temperatures.
-
-    Raises
-    ------
-    InputError : another model of heat, no bodies, and what is not solved for with heat.
-    """
-    from bem.lubrication.thermal.lumped import solve_thermal_line_film
-
+def _check_heat(thermal: str, bodies: Sequence[Body] | None, given: Sequence[str]) -> None:
+    """Refuse another model of heat, no bodies, and what is given that is not solved for with heat."""
     messages = []
     if thermal != "lumped":
         messages.append(f'solve_line_film: thermal {thermal!r} is not there; allowed: "off", "lumped"')
     if bodies is None:
         messages.append("solve_line_film: with heat, bodies (flat, cylinder) with heat constants must be given")
-    names = ("position", "mass-conserving cavitation", "supply")
-    given = (name for name, is_so in zip(names, unusual, strict=True) if is_so)
     messages += [f"solve_line_film: {name} cannot be given with heat" for name in given]
-    if messages or bodies is None:
+    if messages:
         raise InputError(messages)
-    found = solve_thermal_line_film(bodies=bodies, bulk=bulk, **asked)
-    return replace(
-        found.film,
-        shear_force=found.shear_force,
-        striated_shear_force=math.nan,
-        mean_temperature=found.mean_film_temperature,
-        maximum_temperature=found.highest_film_temperature,
-        iterations=found.iterations,
-        status=found.status,
-        notes=found.notes,
-    )
+
+
+def _flooded(
+    problem: Problem, scales: Scales, initial: FilmSolution | None, cells: int, tolerance: float, limit: int
+) -> Outcome:
+    """From the film of another case where that will do, else from nothing."""
+    kept = None if initial is None else initial.state
+    spent = 0
+    if isinstance(kept, KeptSteady) and kept.state.far_field == 1 and is_start(kept.state):
+        unit = kept.scales.pressure / scales.pressure
+        outcome = from_neighbour(problem, kept.state, kept.load, unit, cells, tolerance, limit)
+        if outcome.converged:
+            return outcome
+        spent = outcome.iterations
+    outcome = from_scratch(problem, cells, tolerance, limit)
+    if problem.shear is not None and not outcome.converged:
+        spent += outcome.iterations
+        outcome = from_newtonian(problem, cells, tolerance, limit)
+    return replace(outcome, iterations=outcome.iterations + spent)
 
 
 def _wanted(supply: Supply, problem: Problem, flooded: State, scales: Scales) -> Wanted | None:
@@ -236,7 +222,7 @@ class KeptSteady:
         return pressure, film
 
 
-def _check(
+def checked_case(
     load: float,
     radius: float,
     contact_modulus: float,
@@ -245,7 +231,14 @@ def _check(
     points: int,
     tolerance: float,
     position: FloatArray | None,
+    initial: FilmSolution | None,
 ) -> tuple[Scales, bool]:
+    """Moes' units of a case, as of `solve_line_film`, and whether the entrainment is along -x.
+
+    Raises
+    ------
+    InputError : with a message for each mistake.
+    """
     messages = []
     for name, value, unit in (("load", load, "N/m"), ("radius", radius, "m")):
         if not (_real(value) and math.isfinite(value) and value > 0):
@@ -263,6 +256,8 @@ def _check(
         array = np.asarray(position, dtype=np.float64)
         if array.ndim != 1 or len(array) < 2 or not np.isfinite(array).all() or not (np.diff(array) > 0).all():
             messages.append("position: must be a one-dimensional, ascending array of finite abscissae [m]")
+    if not (initial is None or isinstance(initial, FilmSolution)):
+        messages.append(f"initial: {type(initial).__name__} is not a FilmSolution")
     if messages:
         raise InputError(messages)
     entrainment = check_entrainment(speeds)

@@ -16,6 +16,7 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear import LimitedShear
+from bem.lubrication.thermal.inlet import hertz_over_modulus, inlet_heating_factor
 
 LARGEST_SHEAR_COEFFICIENT = 0.12
 """Largest limiting shear stress over pressure that was measured; Hoglund and Jacobson (1986), Bair (2007)."""
@@ -150,19 +151,12 @@ def spike_unresolved(case: Case) -> str | None:
 def inlet_heating(case: Case) -> str | None:
     """Shear in the inlet heats the oil, and the film is thinner for it.
 
-    Factor on the isothermal thickness by Gupta, Cheng, Zhu, Forster and Schrand, J. Tribol. 114 (1992) 55, from
-    L = mu0 beta u^2 / k with the mean speed u, slide-to-roll ratio S and Hertz pressure p_h over E' = 2 E*.
+    By the factor of `bem.lubrication.thermal.inlet`, for a mineral oil.
     """
-    mean = 0.5 * abs(sum(case.speeds))
-    if mean == 0:
-        return None
-    number = case.lubricant.viscosity * OIL_SOFTENING * mean**2 / OIL_CONDUCTIVITY
-    slide = abs(case.speeds[0] - case.speeds[1]) / mean
-    hertz = math.sqrt(max(case.integral(case.pressure), 0.0) / (case.contact_modulus * math.pi * case.radius))
-    factor = (1 - 6.6 * hertz * number**0.42) / (1 + 0.213 * (1 + 2.23 * slide**0.83) * number**0.64)
-    if factor >= LEAST_INLET_FACTOR:
-        return None
-    return HEATING_NOTES[0]
+    load = max(case.integral(case.pressure), 0.0)
+    hertz = hertz_over_modulus(load, case.radius, case.contact_modulus)
+    heating = inlet_heating_factor(case.lubricant.viscosity, OIL_SOFTENING, OIL_CONDUCTIVITY, case.speeds, hertz)
+    return HEATING_NOTES[0] if heating.factor < LEAST_INLET_FACTOR else None
 
 
 def film_heating(case: Case) -> str | None:

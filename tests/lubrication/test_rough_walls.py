@@ -141,3 +141,15 @@ def test_a_film_below_percolation_says_so(table):
 def test_what_is_no_table():
     with pytest.raises(InputError, match="flow_factors: 'on'"):
         film(factors="on")
+
+
+def test_notes_on_the_table_stay_with_heat():
+    """They had been lost on the way from the film to that with heat."""
+
+    class Far(Simple):
+        separations = np.array([1e-5])
+
+    hot = Lubricant.of("ISO VG 68", temperature=333.15)
+    asked = CASE | {"points": 150, "speeds": (1.0, 0.9), "lubricant": hot, "flow_factors": Far(1.0, 0.0)}
+    for heat in ({}, {"thermal": "lumped", "bodies": (STEEL, STEEL)}):
+        assert any("smallest separation" in note for note in solve_line_film(**asked, **heat).notes)

@@ -169,8 +169,8 @@ def test_the_film_obeys_reynolds_with_the_profile():
 @pytest.mark.parametrize(("exponent", "critical"), [(0.75, 1e5), (0.6, 3e5)])
 def test_film_reduction_is_near_bairs(slide, exponent, critical):
     """Bair, Proc. IMechE J 219 (2005) 69: h_N/h = {1 + 0.79 [(1 + S) mu0 u/(h_N G)]^(1/(1 + 0.2 S))}^(3.6 (1 - n)^1.7),
-    fitted to Carreau oils in rolling and sliding. It gives more thinning than a solution of these equations: 3 % to
-    15 % here, a third at n = 0.5."""
+    fitted to Carreau oils in rolling and sliding; written from memory and not compared with the paper. It gives more
+    thinning than a solution of these equations: 3 % to 15 % here, a third at n = 0.5."""
     speeds = (2 * (1 + slide / 2), 2 * (1 - slide / 2))
     law = {"shear_law": "carreau", "shear_stress_limit": critical, "carreau_exponent": exponent}
     newtonian = film(speeds, "newtonian", **law).central_thickness

@@ -12,7 +12,7 @@ from bem.heat import surface_temperature
 from bem.heat.bodies import Conductor
 from bem.lubrication import Lubricant, solve_line_film
 from bem.lubrication.line_newton import newton
-from bem.lubrication.thermal import solve_thermal_line_film
+from bem.lubrication.thermal import lumped, solve_thermal_line_film
 from bem.lubrication.thermal.energy import Channel, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.lubrication.thermal.inlet import inlet_heating_factor
@@ -37,9 +37,8 @@ def pair(mean, slide):
 
 
 def film(mean, slide, hertz=0.8e9, lubricant=None, **asked):
-    return solve_thermal_line_film(
-        load=load(hertz), speeds=pair(mean, slide), lubricant=lubricant or oil(), **(ROLLER | asked)
-    )
+    case = {"load": load(hertz), "speeds": pair(mean, slide), "lubricant": lubricant or oil()}
+    return solve_thermal_line_film(**(ROLLER | case | asked))
 
 
 @pytest.mark.parametrize(("mean", "slide"), [(1.0, 0.0), (10.0, 0.3), (-5.0, 1.0), (3.0, 2.0)])
@@ -78,6 +77,47 @@ def test_the_film_s_own_solver_asks_for_heat():
         solve_line_film(thermal="lumped", **(isothermal | case))
     with pytest.raises(InputError, match="supply cannot be given with heat"):
         solve_line_film(thermal="lumped", supply=1e-6, **(ROLLER | case))
+    assert math.isnan(film_alone.striated_shear_force)
+    assert film_alone.rolling_force == pytest.approx(whole.shear_force - whole.sliding_force, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("mistake", "words"),
+    [
+        ({"load": -1.0}, "load: -1.0 must be positive"),
+        ({"radius": 0}, "radius: 0 must be positive"),
+        ({"contact_modulus": -1.0}, "contact_modulus: -1.0 must be positive"),
+        ({"points": "many"}, "points: 'many' must be an integer"),
+        ({"bodies": STEEL}, "bodies must be the flat and the cylinder"),
+        ({"initial": 3}, "initial: int is not a FilmSolution"),
+    ],
+)
+def test_a_film_with_heat_refuses_what_one_without_does(mistake, words):
+    """Before anything is computed of it: the inlet's factor had ended in errors of arithmetic."""
+    case = {"load": load(0.8e9), "speeds": pair(3.0, 0.3), "lubricant": oil()}
+    with pytest.raises(InputError, match=words):
+        solve_line_film(thermal="lumped", **(ROLLER | case | mistake))
+    with pytest.raises(InputError, match=words):
+        solve_thermal_line_film(**(ROLLER | case | mistake))
+
+
+def test_an_oil_too_thin_after_its_inlet_is_refused_for_that():
+    """A polymer at M 9000 with the oil as it is, and 2.3 times the largest M with that which the inlet leaves."""
+    thin, modulus, speed = Lubricant.of("ISO VG 10", temperature=373.15), 1e9, 50.0
+    heavy = 9000 * math.sqrt(2 * modulus * 10e-3 * thin.viscosity * 2 * speed)
+    with pytest.raises(InputError, match=r"shear heating in the inlet leaves 0\.28 of the film"):
+        film(speed, 2.0, lubricant=thin, contact_modulus=modulus, load=heavy)
+
+
+def test_a_film_that_misses_what_the_inlet_leaves_is_not_converged(monkeypatch):
+    """Of one thinner oil alone; where a search ended had been taken for where it was to end."""
+    whole = film(30.0, 0.5)
+    assert whole.status is Status.CONVERGED
+    assert whole.inlet_missed <= lumped.FACTOR_TOLERANCE
+    monkeypatch.setattr(lumped, "MOST_FILMS", 2)
+    found = film(30.0, 0.5)
+    assert found.inlet_missed > lumped.FACTOR_TOLERANCE
+    assert found.status is Status.STALLED
 
 
 def test_surfaces_are_as_warm_as_the_solver_on_a_grid_says():

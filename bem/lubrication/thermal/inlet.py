@@ -5,8 +5,10 @@ roll ratio S and Hertz pressure p_h over E' = 2 E*,
 
     factor = (1 - 13.2 p_h/E' L^0.42) / (1 + 0.213 (1 + 2.23 S^0.83) L^0.64),
 
-fitted to thermal solutions of loads and speeds as bearings have. Beyond them its numerator passes zero; it is kept at
-`LEAST_NUMERATOR`, and said. Verified in tests/lubrication/test_thermal_film.py.
+fitted to thermal solutions of loads and speeds as bearings have. The constants are written from memory of how others
+quote them: they were not compared with the paper, and no test holds them against a thermal solution. Beyond those loads
+and speeds the numerator passes zero; it is kept at `LEAST_NUMERATOR`, and said. That films follow it is verified in
+tests/lubrication/test_thermal_film.py.
 """
 
 from __future__ import annotations

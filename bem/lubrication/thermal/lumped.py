@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -26,8 +26,9 @@ from bem.heat.bodies import Conductor, conductors_of
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.oils.oil import EXTRAPOLATED, HOTTEST, Oil
+from bem.lubrication.rough_walls import WallFactors, notes_on_factors
 from bem.lubrication.shear_profile import middle_stress
-from bem.lubrication.steady import KeptSteady, solve_line_film
+from bem.lubrication.steady import KeptSteady, checked_case, load_range, solve_line_film
 from bem.lubrication.thermal.energy import Channel, Temperatures, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.lubrication.thermal.inlet import InletHeating, hertz_over_modulus, inlet_heating_factor
@@ -63,7 +64,8 @@ class ThermalFilm:
     shear_force : as of `FilmSolution`, at these temperatures [N/m]. sliding_force : its part from sliding [N/m].
     friction_power, power_into, power_carried : per unit length [W/m]: of the friction; (2,) into flat and cylinder;
         carried on by the oil. energy_imbalance : of the three, relative to the friction.
-    inlet : factor of inlet heating. inlet_viscosity : at ambient pressure that leaves such a film [Pa s].
+    inlet : factor of inlet heating. inlet_missed : by how much the film misses it, relative, on its coarse mesh.
+    inlet_viscosity : at ambient pressure that leaves such a film [Pa s].
     films : solved. iterations : Newton steps of all films. status : of film and temperatures. notes : sentences.
     """
 
@@ -82,6 +84,7 @@ class ThermalFilm:
     power_carried: float
     energy_imbalance: float
     inlet: InletHeating
+    inlet_missed: float
     inlet_viscosity: float
     films: int
     iterations: int
@@ -108,6 +111,19 @@ class ThermalFilm:
     def highest_film_temperature(self) -> float:
         """Mean across the film, where it is highest [K]."""
         return float(self.film_temperature.max())
+
+    def as_film(self) -> FilmSolution:
+        """The film with its friction and temperatures, as `solve_line_film` gives it."""
+        return replace(
+            self.film,
+            shear_force=self.shear_force,
+            striated_shear_force=math.nan,
+            mean_temperature=self.mean_film_temperature,
+            maximum_temperature=self.highest_film_temperature,
+            iterations=self.iterations,
+            status=self.status,
+            notes=self.notes,
+        )
 
 
 @dataclass(frozen=True)
@@ -137,8 +153,10 @@ def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and 
     bulk: Sequence[float] | None = None,
     points: int = 2000,
     initial: FilmSolution | None = None,
+    tolerance: float = 1e-8,
+    max_iterations: int = 40,
+    flow_factors: WallFactors | str = "off",
     cells: int = 200,
-    **asked: Any,
 ) -> ThermalFilm:
     """Steady thermal film between a cylinder and a flat, lumped over the film's thickness.
 
@@ -149,25 +167,28 @@ def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and 
     bodies : flat and cylinder, whose materials have `thermal_conductivity`, `density` and `heat_capacity`. One at rest
         is taken as cool at a distance of the radius.
     bulk : temperatures of both far from the contact [K]; the oil's by default.
-    points, initial : as of `solve_line_film`.
+    points, initial, tolerance, max_iterations, flow_factors : as of `solve_line_film`.
     cells : along the film, where temperatures are found.
-    asked : further arguments of it: tolerance, max_iterations, flow_factors.
 
     Returns
     -------
-    ThermalFilm.
+    ThermalFilm, converged where the film, its temperatures and what inlet heating leaves of the film are.
 
     Raises
     ------
     InputError : as `solve_line_film`; a lubricant without temperature and heat constants, bodies without theirs, a bulk
-        temperature above 300 degrees Celsius.
+        temperature above 300 degrees Celsius; inlet heating that leaves an oil too thin for a film to be looked for.
 
     Jaeger (1942) for moving heat, Crook (1961) for heat across the film, Gupta et al. (1992) for the inlet.
     """
     if not (isinstance(cells, int) and 20 <= cells <= 2000):
         raise InputError(f"solve_thermal_line_film: cells {cells!r} must be an integer from 20 to 2000")
+    checked_case(load, radius, contact_modulus, speeds, lubricant, points, tolerance, None, initial)
     conductors = _checked(lubricant, bodies, speeds, bulk, radius)
-    case = {"load": load, "radius": radius, "contact_modulus": contact_modulus, "speeds": speeds, **asked}
+    case = {
+        "load": load, "radius": radius, "contact_modulus": contact_modulus, "speeds": speeds, "tolerance": tolerance,
+        "max_iterations": max_iterations, "flow_factors": flow_factors,
+    }  # fmt: skip
     assert lubricant.temperature_viscosity is not None
     assert lubricant.thermal_conductivity is not None
     inlet = inlet_heating_factor(
@@ -177,9 +198,10 @@ def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and 
         (float(speeds[0]), float(speeds[1])),
         hertz_over_modulus(load, radius, contact_modulus),
     )
-    films = _thinned(case, lubricant, points, initial, inlet.factor)
-    thermal = _heated(films, inlet, lubricant, conductors, cells)
-    notes = _notes_of_film(films[-1], lubricant, radius, contact_modulus)
+    thinned = _thinned(case, lubricant, points, initial, inlet)
+    thermal = _heated(thinned, lubricant, conductors, cells)
+    notes = _notes_of_film(thermal.film, lubricant, radius, contact_modulus)
+    notes += notes_on_factors(flow_factors, thermal.minimum_thickness)
     return replace(thermal, notes=notes + thermal.notes)
 
 
@@ -196,7 +218,7 @@ def _checked(
         )
     temperature = float(lubricant.temperature or 0.0)
     bulks = (temperature, temperature) if bulk is None else bulk
-    if len(bodies) != 2:
+    if not isinstance(bodies, Sequence) or len(bodies) != 2:
         raise InputError("solve_thermal_line_film: bodies must be the flat and the cylinder")
     found = conductors_of("solve_thermal_line_film", bodies, speeds, bulks)
     hot = [value for value in (*(body.bulk for body in found), temperature) if value > HOTTEST]
@@ -213,45 +235,79 @@ def _checked(
     return moving[0], moving[1]
 
 
+@dataclass
+class _Thinned:
+    """Films of ever thinner oils, the first of them isothermal; the last one is as thin as inlet heating leaves it but
+    for `missed`, relative, which is infinite where one did not converge."""
+
+    inlet: InletHeating
+    films: list[FilmSolution] = field(default_factory=list)
+    missed: float = math.inf
+    steps: int = 0
+
+    def add(self, film: FilmSolution) -> None:
+        """One more."""
+        self.films.append(film)
+        self.steps += film.iterations
+
+
 def _thinned(
-    case: dict[str, Any], lubricant: Lubricant, points: int, initial: FilmSolution | None, factor: float
-) -> list[FilmSolution]:
-    """The isothermal film and those of thinner oils, the last one as much thinner as the factor says. How thin the oil
-    must be is found on a coarse mesh; only the last film is on all points."""
-    few = min(points, COARSE)
-    isothermal = solve_line_film(**case, lubricant=lubricant, initial=initial if few == points else None, points=few)
-    if isothermal.status is not Status.CONVERGED and few < points:
-        few = points
-        isothermal = solve_line_film(**case, lubricant=lubricant, initial=initial, points=few)
-    films = [isothermal]
-    wanted, exponent = math.log(factor), FILM_EXPONENT
-    ratio = 0.0
-    while films[-1].status is Status.CONVERGED and len(films) < MOST_FILMS:
-        reached = math.log(films[-1].central_thickness / isothermal.central_thickness)
-        if abs(reached - wanted) <= FACTOR_TOLERANCE:
-            break
-        if len(films) > 1 and reached != 0:
+    case: dict[str, Any], lubricant: Lubricant, points: int, initial: FilmSolution | None, inlet: InletHeating
+) -> _Thinned:
+    """How thin the oil must be is found on a coarse mesh, where that has films; only the last film is on all points."""
+    found = _search(case | {"points": min(points, COARSE)}, lubricant, initial if points <= COARSE else None, inlet)
+    if points <= COARSE:
+        return found
+    if found.missed > FACTOR_TOLERANCE:
+        spent, found = found.steps, _search(case | {"points": points}, lubricant, initial, inlet)
+        found.steps += spent
+        return found
+    found.add(
+        solve_line_film(**case, points=points, lubricant=found.films[-1].lubricant, initial=initial or found.films[-1])
+    )
+    return found
+
+
+def _search(case: dict[str, Any], lubricant: Lubricant, initial: FilmSolution | None, inlet: InletHeating) -> _Thinned:
+    """All on one mesh, with the exponent of the film in the viscosity that was found last."""
+    found = _Thinned(inlet)
+    found.add(solve_line_film(**case, lubricant=lubricant, initial=initial))
+    isothermal, wanted, exponent, ratio = found.films[0], math.log(inlet.factor), FILM_EXPONENT, 0.0
+    while found.films[-1].status is Status.CONVERGED:
+        reached = math.log(found.films[-1].central_thickness / isothermal.central_thickness)
+        found.missed = abs(math.expm1(reached - wanted))
+        if found.missed <= FACTOR_TOLERANCE or len(found.films) == MOST_FILMS:
+            return found
+        if reached != 0 and ratio != 0:
             exponent = reached / ratio
         ratio = wanted / exponent
-        share = math.exp(ratio)
-        law = ThinnedLaw(lubricant.viscosity_law, share)
-        thinner = replace(lubricant, viscosity=lubricant.viscosity * share, viscosity_law=law)
-        films.append(solve_line_film(**case, lubricant=thinner, initial=films[-1], points=few))
-    if few < points:
-        oil = films[-1].lubricant
-        films.append(solve_line_film(**case, lubricant=oil, initial=initial or films[-1], points=points))
-    return films
+        thinner = _of_share(lubricant, math.exp(ratio))
+        _check_load(case, thinner, inlet)
+        found.add(solve_line_film(**case, lubricant=thinner, initial=found.films[-1]))
+    found.missed = math.inf
+    return found
 
 
-def _heated(
-    films: list[FilmSolution],
-    inlet: InletHeating,
-    lubricant: Lubricant,
-    bodies: tuple[Conductor, Conductor],
-    cells: int,
-) -> ThermalFilm:
+def _of_share(lubricant: Lubricant, share: float) -> Lubricant:
+    """The oil with a share of its viscosity at every pressure."""
+    law = ThinnedLaw(lubricant.viscosity_law, share)
+    return replace(lubricant, viscosity=lubricant.viscosity * share, viscosity_law=law)
+
+
+def _check_load(case: dict[str, Any], thinner: Lubricant, inlet: InletHeating) -> None:
+    """Refuse a load that the oil as thin as inlet heating makes it cannot carry."""
+    highest = load_range(case["radius"], case["contact_modulus"], case["speeds"], thinner)[1]
+    if case["load"] > highest:
+        raise InputError(
+            f"solve_thermal_line_film: shear heating in the inlet leaves {inlet.factor:.2g} of the film, as of an oil "
+            f"of {thinner.viscosity:.3g} Pa s, with which a film is looked for up to {highest:.4g} N/m: load "
+            f"{case['load']!r} N/m is beyond it. Lower the load or the speeds."
+        )
+
+
+def _heated(thinned: _Thinned, lubricant: Lubricant, bodies: tuple[Conductor, Conductor], cells: int) -> ThermalFilm:
     """Temperatures and friction of the last film."""
-    film = films[-1]
+    film = thinned.films[-1]
     strip, viscosity = strip_of(film, cells), HotViscosity.of(lubricant)
     middle, width = 0.5 * (strip.edges[1:] + strip.edges[:-1]), np.diff(strip.edges)
     pieces = np.diff(strip.x)
@@ -286,19 +342,13 @@ def _heated(
     found = film_temperatures(channel, heat)
     stress = stresses(found.oil)[0]
     couette = float(np.sum(0.5 * pieces * (stress[1:] + stress[:-1]))) + ambient
-    return _result(film, films, inlet, lubricant, strip, channel, found, couette)
+    return _result(thinned, lubricant, strip, channel, found, couette)
 
 
-def _result(  # reason: what was found on the way, gathered once
-    film: FilmSolution,
-    films: list[FilmSolution],
-    inlet: InletHeating,
-    lubricant: Lubricant,
-    strip: Strip,
-    channel: Channel,
-    found: Temperatures,
-    couette: float,
+def _result(
+    thinned: _Thinned, lubricant: Lubricant, strip: Strip, channel: Channel, found: Temperatures, couette: float
 ) -> ThermalFilm:
+    film, inlet = thinned.films[-1], thinned.inlet
     width = np.diff(strip.edges)
     into = found.into @ width
     carried = channel.capacity_flow * float(found.oil[-1] - channel.supply)
@@ -307,12 +357,12 @@ def _result(  # reason: what was found on the way, gathered once
     kept = film.state
     assert isinstance(kept, KeptSteady)
     sign = -1.0 if kept.reversed else 1.0
-    hot = found.residual > 1e-6 or not math.isfinite(found.residual)
-    status = film.status if film.status is not Status.CONVERGED or not hot else Status.STALLED
+    right = found.residual <= 1e-6 and thinned.missed <= FACTOR_TOLERANCE
+    status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
     order = slice(None, None, -1) if kept.reversed else slice(None)
     return ThermalFilm(
         film=film,
-        isothermal=films[0],
+        isothermal=thinned.films[0],
         position=sign * (0.5 * (strip.edges[1:] + strip.edges[:-1]))[order],
         width=width[order],
         film_temperature=found.oil[order],
@@ -326,9 +376,10 @@ def _result(  # reason: what was found on the way, gathered once
         power_carried=carried,
         energy_imbalance=imbalance,
         inlet=inlet,
+        inlet_missed=thinned.missed,
         inlet_viscosity=film.lubricant.viscosity,
-        films=len(films),
-        iterations=sum(one.iterations for one in films),
+        films=len(thinned.films),
+        iterations=thinned.steps,
         status=status,
         notes=_notes(lubricant, inlet, found, film.speeds),
     )

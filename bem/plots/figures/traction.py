@@ -30,7 +30,8 @@ def _curve(run: Any, figure: Figure) -> None:
     panels = figure.subplots(2 if hot else 1, 1, sharex=True, squeeze=False)[:, 0]
     _lines(panels[0], data, "traction_coefficient", ratio, 0.0)
     panels[0].set_ylabel("traction coefficient")
-    panels[0].set_ylim(0)
+    if (data["traction_coefficient"].values >= 0).all():
+        panels[0].set_ylim(0)
     if hot:
         _lines(panels[1], data, "film_temperature", ratio, _CELSIUS)
         panels[1].set_ylabel("oil in the contact (°C)")
