@@ -483,3 +483,20 @@ def test_rolling_force_is_the_moment_of_the_pressure(speeds, supply):
     assert at.rolling_force == film.rolling_force
     rolling = solve_line_film(**case | {"speeds": (speeds[0], speeds[0])}, supply=supply)
     assert rolling.shear_force == pytest.approx(rolling.rolling_force, rel=1e-12)
+
+
+@pytest.mark.parametrize("ratio", [7.0, 8.0, 9.0])
+def test_a_start_under_several_times_the_load_between_bodies_as_much_stiffer(ratio):
+    """Films of a load that all deforms (`OilVolume.LOADED`): at 8 Newton's method went to an exit in front of the
+    middle, from where nothing is left of the pressure to make the next mesh of; a scene ended with it."""
+
+    def film(load, **start):
+        return solve_line_film(
+            load=load, radius=2e-3, contact_modulus=72.9e9 * load / 16.86e3, speeds=(0.0304549604, 0.0), points=400,
+            lubricant=Lubricant(0.36, pressure_viscosity=25e-9, density_law="dowson_higginson"), **start,
+        )  # fmt: skip
+
+    found, anew = film(16.86e3 / ratio, initial=film(16.86e3)), film(16.86e3 / ratio)
+    assert found.status is anew.status is Status.CONVERGED
+    # meshes are made of where each comes from: 400 cells are good to 1e-3
+    assert found.minimum_thickness == pytest.approx(anew.minimum_thickness, rel=1e-3)
