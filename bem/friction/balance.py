@@ -2,7 +2,8 @@
 
 The sum of both grows with the film load, so its ends are looked at by one rule each:
 
-- *full film*: a film under the whole load that clears the roughness; nothing else is to be done;
+- *full film*: a film under the whole load that clears the roughness, or is thicker than what the surfaces leave open
+  under next to no load; nothing else is to be done;
 - *boundary*: a film that is left with a negligible share of the load, a tenth of the tolerance, and is even then
   thinner than what the surfaces leave open when they carry all the rest. It would be left with less still, and the
   rest is known to within the tolerance: the contact under that load is the answer. So it is where the film's model
@@ -261,9 +262,11 @@ class _Search:
         rest = -math.expm1(at - math.log(self.load))
         found = falling_zero(evaluate, self.odds(at), slope * rest, (bottom, self.odds(self.top)), MAX_TRIALS)
         (trial,) = last
+        slope = found / max(1 - trial.film.load / self.load, LEAST_REST)
+        if trial.logarithm >= math.log(self.load) - _SAME and self.mismatch(trial) > self.goal:
+            return self.trial(trial.logarithm, trial.film, None), slope, Regime.FULL_FILM
         at_bottom = trial.logarithm <= self.bottom + _SAME and self.is_boundary(trial)
-        share = 1 - trial.film.load / self.load
-        return trial, found / max(share, LEAST_REST), Regime.BOUNDARY if at_bottom else Regime.MIXED
+        return trial, slope, Regime.BOUNDARY if at_bottom else Regime.MIXED
 
     def odds(self, logarithm: float) -> float:
         """ln(film load / rest) of a film load, by its logarithm."""

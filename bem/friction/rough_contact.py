@@ -83,13 +83,19 @@ class RoughContact(Protocol):
         """Where the oil is counted. Only of a whole patch can its volume be prescribed (`at_volume`)."""
 
     def clears(self, film: PatchFilm) -> bool:
-        """Whether the undeformed roughness does not reach through the film."""
+        """Whether undeformed surfaces that hold the film's oil do not touch."""
 
     def at_volume(self, film: PatchFilm, tolerance: float, start: FloatArray | None) -> Pressed:
         """Pressed together until the patch holds the film's oil; `start` is a pressure nearby."""
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """Pressed together by a load [N] on the whole contact."""
+
+
+def shift_apart(film: PatchFilm, rough: FloatArray, counted: OilVolume) -> float:
+    """By how much the mean planes are closer than the film is thick [m] where surfaces (nx, ny) [m] that do not touch
+    hold its oil: nothing on the whole patch, else what they lie lower where the film carries."""
+    return 0.0 if counted is OilVolume.PATCH else -mean_where_counted(rough, film, counted)
 
 
 def boundary_traction(speeds: Sequence[float], boundary_friction: float) -> float:
@@ -149,7 +155,7 @@ class CoupledContact:
 
     def clears(self, film: PatchFilm) -> bool:
         """As `RoughContact`."""
-        return bool((film.thickness - self.rough).min() >= 0)
+        return bool((film.thickness - self.rough).min() >= shift_apart(film, self.rough, self.counted))
 
     def at_volume(self, film: PatchFilm, tolerance: float, start: FloatArray | None) -> Pressed:
         """As `RoughContact`."""
@@ -215,9 +221,11 @@ class UncoupledAsperities:
 
     def clears(self, film: PatchFilm) -> bool:
         """As `RoughContact`; the tops of summits, between cells, count as well."""
-        if (film.thickness - self.rough).min() < 0:
+        of_planes = self.setup.asperity_separation == "film"
+        shift = 0.0 if of_planes else shift_apart(film, self.rough, self.counted)
+        if (film.thickness - self.rough).min() < shift:
             return False
-        return bool((self._separation(film) - self._summits.height >= 0).all())
+        return bool((self._separation(film) - self._summits.height >= shift).all())
 
     def at_volume(self, film: PatchFilm, tolerance: float, start: FloatArray | None) -> Pressed:
         """As `RoughContact`; with the separation "film" the mean planes are as far apart as the film is thick."""

@@ -208,6 +208,30 @@ def test_a_contact_that_does_not_hold_the_oil_is_not_converged():
     assert balance.status is not Status.CONVERGED or abs(balance.oil_imbalance) <= 1e-4
 
 
+@pytest.mark.parametrize("model", ["coupled", "uncoupled"])
+@pytest.mark.parametrize("higher", [60e-9, -60e-9])
+def test_full_film_begins_where_surfaces_that_hold_the_oil_come_apart(model, higher):
+    """Where the film carries the surfaces lie higher, or lower, than on the whole patch. By its mean plane they touched
+    beyond the film for ever, and it stalled; or they were far apart where they carry some of the load."""
+    case = bearing(64, oil_volume="loaded", contact_model=model)
+    wave = np.cos(2 * np.pi * (np.arange(64) - 31.5) / 64)[:, None]
+    case["height"] = 0.3 * case["height"] + higher * wave
+    curve = [solve_mixed(**case, speeds=(speed, 0.0)) for speed in (1.0, 1.4, 2.0, 2.8)]
+    assert all(point.status is Status.CONVERGED for point in curve)
+    rough = case["height"] - case["height"].mean()
+    for point in curve:
+        pressure, thickness = (values[:, None] for values in point.film.at(point.grid.x))
+        lower = (pressure * rough).sum() / (pressure.sum() * rough.shape[1])
+        apart = (thickness - (rough - lower)).min() > 0
+        assert not (apart and point.contact_load > 0)
+        if model == "coupled":  # of the others only summits carry anything
+            assert apart == (point.regime is Regime.FULL_FILM)
+    assert curve[0].regime is Regime.MIXED
+    assert curve[-1].regime is Regime.FULL_FILM
+    shares = [point.contact_load / point.load for point in curve]
+    assert shares == sorted(shares, reverse=True)
+
+
 def test_means_where_the_oil_is_counted():
     pressure = np.array([[0.0], [1.0], [3.0], [0.0]])
     film = PatchFilm(1.0, np.ones((4, 1)), pressure, 0 * pressure, 0.0, 1.0)
