@@ -2,10 +2,15 @@
 
 import ast
 import json
+import re
 import subprocess
 import sys
+import tomllib
+from pathlib import Path
 
 import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
 
 HEAVY = {
     *("numpy", "scipy", "numba", "pyfftw", "matplotlib", "xarray", "pydantic", "pint", "h5py", "h5netcdf", "pandas"),
@@ -34,6 +39,27 @@ try:
 except SystemExit as end:
     assert not end.code, end.code
 """
+
+
+def imports():
+    """Top-level modules that the package imports anywhere, beside itself and the standard library."""
+    for path in sorted((ROOT / "bem").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                yield from (item.name.partition(".")[0] for item in node.names)
+            elif isinstance(node, ast.ImportFrom) and node.module:
+                yield node.module.partition(".")[0]
+
+
+def test_what_is_imported_is_declared():
+    """h5py came with another package, and would have gone with it: h5netcdf gave it up."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    needed = [*project["dependencies"], *project["optional-dependencies"]["dask"]]
+    declared = {re.split(r"[<>=\[]", text)[0].lower() for text in needed}
+    # parts of what is declared, under names of their own
+    parts = {"pydantic_core": "pydantic", "llvmlite": "numba", "cycler": "matplotlib", "distributed": "dask"}
+    wanted = set(imports()) - set(sys.stdlib_module_names) - {"bem"}
+    assert not {name for name in wanted if parts.get(name, name).lower() not in declared}
 
 
 def test_importing_bem_loads_nothing_heavy():
