@@ -1,6 +1,7 @@
 """Pruned real transforms against numpy's full ones; counts; bits across threads and processes."""
 
 import hashlib
+import importlib
 import subprocess
 import sys
 from pathlib import Path
@@ -201,6 +202,31 @@ def test_scipys_transforms_without_scipy_fft_have_its_bits(monkeypatch, compiled
     assert (pocketfft.sines(part) == scipy.fft.dst(part, type=1)).all()
     for length in (1, 7, 97, 241, 1023):
         assert pocketfft.fast_length(length) == scipy.fft.next_fast_len(length, real=True)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        "def dct(x, axes, type): return x",
+        "def dct(x, type, axes): return 2 * x",
+        "del dst",
+        "raise ImportError",
+        "gone",
+    ],
+)
+def test_another_version_of_scipys_compiled_module_is_not_used(monkeypatch, tmp_path, change):
+    """Moved, not to be loaded, with other arguments, other values, or fewer functions."""
+    folder = tmp_path / "fft" / "_pocketfft"
+    folder.mkdir(parents=True)
+    begin = "from scipy.fft._pocketfft.pypocketfft import dct, dst, good_size\n"
+    if change != "-":
+        (folder / "other.py").write_text(begin + change)
+    elsewhere = importlib.machinery.ModuleSpec("scipy", None, is_package=True)
+    elsewhere.submodule_search_locations = [str(tmp_path)]
+    real = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: elsewhere if name == "scipy" else real(name))
+    monkeypatch.setattr(pocketfft, "_NAME", "scipy.fft._pocketfft.other")
+    assert pocketfft._compiled.__wrapped__() is None
 
 
 def test_scipy_finds_the_compiled_transforms_that_were_loaded_before():
