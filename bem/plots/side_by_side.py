@@ -10,7 +10,7 @@ import os
 import pickle
 import signal
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import Any
 
@@ -19,6 +19,7 @@ from bem.threads import cores
 
 _MOST = 4
 """Copies and this process together: each holds a picture in memory."""
+_INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
 
 
 def side_by_side(work: Callable[[int], Any], count: int, processes: int | None = None) -> dict[int, Any]:
@@ -36,8 +37,14 @@ def side_by_side(work: Callable[[int], Any], count: int, processes: int | None =
     copies: list[tuple[int, int]] = []
     found: dict[int, Any] = {}
     try:
-        for _ in range(number - 1):
-            copies.append(_copy(work, tasks))
+        # an interrupt between a copy's start and its place in the list would leave it behind, or let it return
+        usual = signal.pthread_sigmask(signal.SIG_BLOCK, _INTERRUPTS)
+        try:
+            with suppress(OSError):  # the system allows no further process: this one does what is left
+                for _ in range(number - 1):
+                    copies.append(_copy(work, tasks, usual))
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, usual)
         found = _do(work, tasks)
         for _, answers in copies:
             with suppress(EOFError, pickle.UnpicklingError), os.fdopen(os.dup(answers), "rb") as stream:
@@ -53,17 +60,29 @@ def side_by_side(work: Callable[[int], Any], count: int, processes: int | None =
 
 
 def _alone() -> bool:
-    """Whether this process has one thread: a copy of several may wait for ever for what another one had locked."""
+    """Whether this process has one thread: a copy of several may wait for ever for what another one had locked.
+
+    And nobody else who waits for processes that end (a handler of SIGCHLD): copies would be taken for theirs.
+    """
     try:
-        return sys.platform == "linux" and len(os.listdir("/proc/self/task")) == 1
+        one = sys.platform == "linux" and len(os.listdir("/proc/self/task")) == 1
+        return one and signal.getsignal(signal.SIGCHLD) is signal.SIG_DFL
     except OSError:
         return False
 
 
-def _copy(work: Callable[[int], Any], tasks: int) -> tuple[int, int]:
-    """Start a copy of this process that does tasks; its number, and the pipe that its answers come through."""
-    answers, theirs = os.pipe()
-    process = os.fork()
+def _copy(work: Callable[[int], Any], tasks: int, signals: Iterable[int]) -> tuple[int, int]:
+    """Start a copy of this process that does tasks; its number, and the pipe that its answers come through.
+
+    Interrupts are held back meanwhile; `signals` are those that are held back in the copy.
+    """
+    parent, (answers, theirs) = os.getpid(), os.pipe()
+    try:
+        process = os.fork()
+    except OSError:
+        os.close(answers)
+        os.close(theirs)
+        raise
     if process:
         os.close(theirs)
         return process, answers
@@ -71,8 +90,10 @@ def _copy(work: Callable[[int], Any], tasks: int) -> tuple[int, int]:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal interrupts all; this one's parent decides
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
         end_with_parent()
-        with os.fdopen(theirs, "wb") as stream:
-            pickle.dump(_do(work, tasks), stream)
+        signal.pthread_sigmask(signal.SIG_SETMASK, signals)
+        if os.getppid() == parent:  # else it ended before it could be watched
+            with os.fdopen(theirs, "wb") as stream:
+                pickle.dump(_do(work, tasks), stream)
     finally:
         os._exit(0)
 

@@ -1,8 +1,10 @@
 """Copies of this process: each number once, nothing left over, and whatever fails is the caller's."""
 
 import os
+import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -58,6 +60,55 @@ def test_what_fails_or_dies_is_left_to_the_caller(copies):
     assert 3 not in found
     assert all(i == value for i, value in found.items())
     assert len(copies) == 1
+
+
+@ALONE
+def test_where_no_process_can_be_had_the_caller_does_it_all(monkeypatch):
+    def refused():
+        raise BlockingIOError(11, "Resource temporarily unavailable")
+
+    monkeypatch.setattr(os, "fork", refused)
+    monkeypatch.setattr(module, "_alone", lambda: True)
+    before = os.listdir("/proc/self/fd")
+    assert side_by_side(lambda i: i, 5, 3) == {i: i for i in range(5)}
+    assert os.listdir("/proc/self/fd") == before
+
+
+@ALONE
+def test_an_interrupt_leaves_no_copy_and_one_right_after_a_start_waits(copies, monkeypatch):
+    """The copy sleeps for longer than the test may take."""
+    here, real = os.getpid(), os.fork
+
+    def fork():
+        process = real()
+        if process:
+            os.kill(here, signal.SIGINT)
+        return process
+
+    def work(i):
+        time.sleep(0.01 if os.getpid() == here else 600)
+
+    monkeypatch.setattr(os, "fork", fork)
+    with pytest.raises(KeyboardInterrupt):
+        side_by_side(work, 6, 2)
+    assert len(copies) == 1
+    with pytest.raises(ChildProcessError):
+        os.waitpid(copies[0], 0)
+    assert not signal.pthread_sigmask(signal.SIG_BLOCK, ()) & {signal.SIGINT, signal.SIGTERM}
+
+
+@ALONE
+@pytest.mark.parametrize("handler", ["signal.SIG_IGN", "lambda *_: None"])
+def test_who_waits_for_processes_of_its_own_is_not_copied(handler):
+    code = f"""
+import signal
+from bem.plots.side_by_side import _alone
+assert _alone()
+signal.signal(signal.SIGCHLD, {handler})
+assert not _alone()
+"""
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    subprocess.run([sys.executable, "-c", code], timeout=60, check=True, env=environment)
 
 
 def test_a_process_of_several_threads_is_not_copied(monkeypatch):

@@ -27,41 +27,52 @@ SCENE = {
 
 WATCHED = """
 import json, os, sys
-seen = []
+# one log for this process and copies of it
+log = os.open(sys.argv[2], os.O_WRONLY | os.O_CREAT | os.O_APPEND)
+def say(*texts):
+    for text in texts:
+        os.write(log, (json.dumps([os.getpid(), text]) + chr(10)).encode())
 def watch(event, arguments):
     if event == "open" and isinstance(arguments[0], (str, bytes)) and arguments[2] is not None:
         if arguments[2] & (os.O_WRONLY | os.O_RDWR | os.O_CREAT):
-            seen.append(os.path.abspath(os.fsdecode(arguments[0])))
+            say(os.path.abspath(os.fsdecode(arguments[0])))
     elif event in ("os.mkdir", "os.rename", "os.remove", "os.rmdir", "os.symlink", "os.link", "shutil.rmtree"):
-        seen.extend(os.path.abspath(os.fsdecode(a)) for a in arguments[:2] if isinstance(a, (str, bytes)))
+        say(*(os.path.abspath(os.fsdecode(a)) for a in arguments[:2] if isinstance(a, (str, bytes))))
     elif event in ("subprocess.Popen", "os.system", "os.exec", "os.posix_spawn", "os.fork", "socket.connect"):
-        seen.append("EVENT " + event + " " + repr(arguments)[:200])
+        say("EVENT " + event + " " + repr(arguments)[:200])
 import bem.runs, bem.contact, bem.convolution, bem.plots.draw, bem.plots.report  # what these write is not the scene's
+import bem.plots.side_by_side
+bem.plots.side_by_side.cores = lambda: 2  # one copy draws, whatever machine this is
 sys.addaudithook(watch)
-bem.runs.run_scene(json.loads(sys.argv[1]), "out", workers=1)  # figures are drawn here, where they are watched
-print(json.dumps(seen))
+bem.runs.run_scene(json.loads(sys.argv[1]), "out")
 """
 
 
 @pytest.mark.slow
-def test_a_run_writes_into_its_folder_only_and_starts_nothing(tmp_path):
+def test_a_run_writes_into_its_folder_only_and_starts_nothing_but_the_copy_that_draws(tmp_path):
     environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache"), "MPLCONFIGDIR": str(tmp_path / "cache")}
-    command = [sys.executable, "-c", WATCHED, json.dumps(SCENE)]
+    environment["OPENBLAS_NUM_THREADS"] = "1"  # a process of several threads is not copied
+    log = tmp_path / "seen"
+    command = [sys.executable, "-c", WATCHED, json.dumps(SCENE), str(log)]
     for attempt in range(2):  # the first fills caches of compiled loops
         done = subprocess.run(
             command, cwd=tmp_path, capture_output=True, text=True, timeout=200, check=False, env=environment
         )
         assert done.returncode == 0, done.stderr
         if attempt == 0:
-            subprocess.run(["rm", "-r", "out"], cwd=tmp_path, check=True)
-    seen = json.loads(done.stdout.splitlines()[-1])
+            subprocess.run(["rm", "-r", "out", "seen"], cwd=tmp_path, check=True)
+    told = [json.loads(line) for line in log.read_text().splitlines()]
+    processes, seen = {process for process, _ in told}, [text for _, text in told]
+    drawn = {process for process, text in told if text.startswith(str(tmp_path / "out" / "figures"))}
     inside = [path for path in seen if path.startswith(str(tmp_path / "out"))]
     caches = (str(tmp_path / "cache"), "/dev/null")
     others = [p for p in seen if p not in inside and not p.startswith(caches) and "__pycache__" not in p]
     # the standard library asks for the processor's name; nothing of the scene goes into it
     others = [p for p in others if p != "EVENT subprocess.Popen ('uname', ['uname', '-p'], None, None)"]
     assert len(inside) > 10
-    assert others == []
+    assert drawn == processes
+    assert len(processes) == 2
+    assert others == ["EVENT os.fork ()"]
     assert "escaped" not in os.listdir(tmp_path)
     report = (tmp_path / "out" / "report.html").read_text()
     assert "<script>alert" not in report
