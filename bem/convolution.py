@@ -13,9 +13,10 @@ from __future__ import annotations
 import math
 import threading
 from collections import OrderedDict
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol, TypeVar, cast
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -57,10 +58,11 @@ class KernelCount:
 
     normal: int = 0
     tangential: int = 0
+    in_plane: int = 0
 
     def reset(self) -> None:
         """Back to zero."""
-        self.normal = self.tangential = 0
+        self.normal = self.tangential = self.in_plane = 0
 
 
 COUNT = KernelCount()
@@ -82,22 +84,30 @@ class _Spectra:
         return self.even.nbytes + (0 if self.odd is None else self.odd.nbytes)
 
 
+class Sized(Protocol):
+    """What the cache keeps."""
+
+    @property
+    def nbytes(self) -> int:
+        """Memory [bytes]."""
+
+
 class _SpectraCache:
     """Least recently used spectra are dropped when a limit in bytes is exceeded."""
 
     def __init__(self, limit: int) -> None:
         self.limit = limit
-        self.kept: OrderedDict[Any, _Spectra] = OrderedDict()
+        self.kept: OrderedDict[Any, Sized] = OrderedDict()
         self.lock = threading.Lock()
 
-    def get(self, key: Any) -> _Spectra | None:
+    def get(self, key: Any) -> Sized | None:
         with self.lock:
             found = self.kept.get(key)
             if found is not None:
                 self.kept.move_to_end(key)
             return found
 
-    def put(self, key: Any, spectra: _Spectra) -> None:
+    def put(self, key: Any, spectra: Sized) -> None:
         with self.lock:
             self.kept[key] = spectra
             self.kept.move_to_end(key)
@@ -130,7 +140,19 @@ def spectra_memory() -> int:
     return sum(s.nbytes for s in _CACHE.kept.values())
 
 
-def _elastic(body: Body) -> tuple[float, ...]:
+_Kept = TypeVar("_Kept", bound=Sized)
+
+
+def shared(key: tuple[Any, ...], make: Callable[[], _Kept]) -> _Kept:
+    """Spectra by what decides them, made where the cache has them no more."""
+    found = cast("_Kept | None", _CACHE.get(key))
+    if found is None:
+        found = make()
+        _CACHE.put(key, found)
+    return found
+
+
+def elastic(body: Body) -> tuple[float, ...]:
     """What of a body decides its elastic response."""
     return (*(value for solid in body.media for value in _moduli(solid)), *body.interfaces)
 
@@ -147,7 +169,7 @@ def _coupling(body: Body) -> float:
 def couples(bodies: tuple[Body, ...]) -> bool:
     """Whether traction changes the normal gap: Dundurs' beta is not zero, or layered bodies differ."""
     if not all(body.homogeneous for body in bodies):
-        return len(bodies) == 1 or _elastic(bodies[0]) != _elastic(bodies[1])
+        return len(bodies) == 1 or elastic(bodies[0]) != elastic(bodies[1])
     total = sum((-1) ** i * _coupling(body) for i, body in enumerate(bodies))
     return abs(total) > _SAME * sum(abs(_coupling(body)) + 1 / body.material.shear_modulus for body in bodies)
 
@@ -191,17 +213,16 @@ def _padded(grid: Grid) -> tuple[int, int]:
 
 def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float) -> _Spectra:
     coupled = friction != 0 and couples(bodies)
-    key = (grid, tuple(_elastic(body) for body in bodies), friction if coupled else 0.0)
-    found = _CACHE.get(key)
-    if found is None:
+
+    def make() -> _Spectra:
         even = _kernel(grid, bodies, Load.NORMAL)
         largest = float(np.abs(even).max())
         unit = 2.0 ** round(math.log2(largest)) if largest > 0 else 1.0
         even /= unit
         odd = _kernel(grid, bodies, Load.TANGENTIAL) * (friction / unit) if coupled else None
-        found = _Spectra(even, odd, unit)
-        _CACHE.put(key, found)
-    return found
+        return _Spectra(even, odd, unit)
+
+    return shared((grid, tuple(elastic(body) for body in bodies), friction if coupled else 0.0), make)
 
 
 @dataclass(frozen=True)

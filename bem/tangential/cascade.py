@@ -30,11 +30,11 @@ def _from_coarser(problem: Slipping, effort: Effort) -> FloatArray:
     if coarse is None:
         return nothing
     found = slip(coarse, None, _COARSE, effort)
-    shares, wishes = np.zeros((2, *found.cells.shape)), np.zeros((2, *found.cells.shape))
+    shares, unmet = np.zeros((2, *found.cells.shape)), np.zeros((2, *found.cells.shape))
     shares[:, found.cells] = found.traction / coarse.bound[found.cells]
-    wishes[:, found.cells] = np.where(found.slips, found.wish, 0.0)
+    unmet[:, found.cells] = np.where(found.slips, found.unmet, 0.0)
     grid = problem.operator.grid
-    fine = _interpolated(np.concatenate([shares, wishes]), found.cells, grid)
+    fine = _interpolated(np.concatenate([shares, unmet]), found.cells, grid)
     return np.where(problem.bound > 0, fine[:2] * problem.bound + fine[2:] * problem.stiffness, 0.0)
 
 
@@ -48,10 +48,10 @@ def _coarsened(problem: Slipping) -> Slipping | None:
     if np.count_nonzero(bound > 0) < _FEWEST:
         return None
     bound = np.maximum(bound, 0.0)
-    drive = np.stack([sample(part, shape, grid.periodic) for part in problem.drive])
+    imposed = np.stack([sample(part, shape, grid.periodic) for part in problem.imposed])
     # the same share of what friction can carry
     force = None if problem.force is None else problem.force * (bound.sum() / problem.bound.sum())
-    return replace(problem, operator=operator, bound=bound, drive=drive, force=force)
+    return replace(problem, operator=operator, bound=bound, imposed=imposed, force=force)
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from bem.convolution import SMALLEST, ConvolutionCount, couples
+from bem.convolution import COUNT, SMALLEST, ConvolutionCount, couples, elastic, shared
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.kernels import spectral
@@ -34,6 +34,23 @@ class InPlaneSpectra(NamedTuple):
     xx: FloatArray
     yy: FloatArray
     xy: FloatArray
+
+    @property
+    def nbytes(self) -> int:
+        """Memory [bytes]."""
+        return self.xx.nbytes + self.yy.nbytes + self.xy.nbytes
+
+
+class PushedSpectra(NamedTuple):
+    """Of displacements along x (odd in x) and along y (odd in y) under pressure, imaginary."""
+
+    x: FloatArray
+    y: FloatArray
+
+    @property
+    def nbytes(self) -> int:
+        """Memory [bytes]."""
+        return self.x.nbytes + self.y.nbytes
 
 
 @_fast
@@ -81,25 +98,35 @@ class TangentialOperator:
         (nx, ny), (along_x, along_y) = self.grid.shape, self.grid.periodic
         return padded_length(nx, along_x), padded_length(ny, along_y)
 
-    @cached_property
-    def spectra(self) -> InPlaneSpectra:
-        """Of both bodies together [m/Pa]."""
-        parts = [_in_plane(self.grid, body, self.padded) for body in self.bodies]
-        xx, yy, xy = (np.ascontiguousarray(part) for part in np.sum(parts, axis=0))
-        return InPlaneSpectra(xx, yy, xy)
+    @property
+    def _key(self) -> tuple[Any, ...]:
+        return self.grid, tuple(elastic(body) for body in self.bodies)
 
     @cached_property
-    def _pressed(self) -> tuple[FloatArray, FloatArray] | None:
-        """Imaginary spectra of displacements under pressure, first body less second; None where they cancel."""
-        if not couples(self.bodies):
+    def spectra(self) -> InPlaneSpectra:
+        """Of both bodies together [m/Pa]; shared between operators."""
+
+        def make() -> InPlaneSpectra:
+            COUNT.in_plane += len(self.bodies)
+            parts = [_in_plane(self.grid, body, self.padded) for body in self.bodies]
+            return InPlaneSpectra(*(np.ascontiguousarray(part) for part in np.sum(parts, axis=0)))
+
+        return shared(("in plane", *self._key), make)
+
+    @cached_property
+    def _pushed(self) -> PushedSpectra | None:
+        """Of displacements under pressure, first body less second; None where they cancel."""
+        if not self.coupled:
             return None
-        signs = (1.0, -1.0)
-        found = [_pressed(self.grid, body, self.padded) for body in self.bodies]
-        odd_x, odd_y = (
-            np.ascontiguousarray(sum(sign * part[axis] for sign, part in zip(signs, found, strict=False)))
-            for axis in range(2)
-        )
-        return odd_x, odd_y
+
+        def make() -> PushedSpectra:
+            COUNT.tangential += 2 * len(self.bodies)
+            signs = (1.0, -1.0)
+            found = [_pressed(self.grid, body, self.padded) for body in self.bodies]
+            parts = (sum(sign * part[axis] for sign, part in zip(signs, found, strict=False)) for axis in range(2))
+            return PushedSpectra(*(np.ascontiguousarray(part) for part in parts))
+
+        return shared(("pushed", *self._key), make)
 
     @property
     def coupled(self) -> bool:
@@ -153,12 +180,12 @@ class TangentialOperator:
     def under_pressure(self, pressure: FloatArray) -> FloatArray:
         """In-plane displacement (2, nx, ny) [m] of the first surface less the second under `pressure` (nx, ny) [Pa]."""
         pressure = self.grid.check_field(pressure, "pressure")
-        if self._pressed is None:
+        if self._pushed is None:
             return np.zeros((2, *self.grid.shape))
         transform = transform_of(self.grid.shape, self.padded)
         along_y = transform.forward(pressure)
         along_x = transform.empty_spectrum()
-        _push(*self._pressed, along_y, along_x)
+        _push(*self._pushed, along_y, along_x)
         self._counted()
         return np.stack([transform.inverse(along_x), transform.inverse(along_y)])
 

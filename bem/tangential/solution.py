@@ -26,7 +26,7 @@ class TangentialSolution:
     rotation : the same as an angle about the grid's centre, from x to y [rad].
     creepage : (2,), of `solve_rolling`: velocity of the first body against the second over the rolling velocity.
     displacement : [m], of the first surface less the second's relative to their depths, of tractions and pressure.
-    slip : [m], by which the first surface slid over the second in this step, in contact; against the traction. Of
+    slip : [m], by which the first surface slid over the second in this step, where there is friction; against it. Of
         `solve_rolling` over a cell's length of rolling.
     stick_area, slip_area : [m^2], of cells.
     dissipated_energy : [J], by friction in this step, or [J] over a cell's length of rolling.

@@ -1,4 +1,4 @@
-"""The front door of tangential contact: checks, the step's drive, coarse to fine, certificate."""
+"""The front door of tangential contact: checks, the step's imposed, coarse to fine, certificate."""
 
 from __future__ import annotations
 
@@ -19,6 +19,13 @@ from bem.tangential.operator import TangentialOperator
 from bem.tangential.rounds import Effort, Slipped, Slipping, reach
 from bem.tangential.solution import TangentialSolution
 from bem.threads import one_blas_thread
+
+AT_ONCE = (
+    "the bodies differ in elasticity, and their whole pressure came at once: surfaces slip while pressure grows, so "
+    "that what sticks depends on how it grew (a ball's stick radius comes out half as large); give the contact in "
+    "steps, each with the one before as `previous`"
+)
+"""Note on a first step: Spence (1968), tests/tangential."""
 
 _TIGHTER = 0.9
 """Share of the tolerance that the solver aims at, so that what is formed anew cannot spoil the certificate."""
@@ -53,7 +60,8 @@ def solve_partial_slip(  # reason: a promise to users' scripts, each of them a c
         `TangentialSolution`.
     rotation : [rad], about the grid's centre from x to y, in addition to the shift or the force.
     previous : the step before, of the same grid and bodies: what sticks keeps what it had, so that a history of forces
-        (and of pressures) is a sequence of calls. None: bodies that touch for the first time.
+        (and of pressures) is a sequence of calls. None: bodies that touch for the first time; where they differ in
+        elasticity pressure alone makes them slip, and the pressure should grow in steps (a note says so).
     tolerance : bound on the residual, see `TangentialSolution`.
     max_iterations : limit on rounds of the active set over all grids.
 
@@ -65,25 +73,26 @@ def solve_partial_slip(  # reason: a promise to users' scripts, each of them a c
     Notes
     -----
     Cattaneo (1938), Mindlin (1949); Johnson, *Contact Mechanics* (1985), chapter 7; the discrete conditions are those
-    of Kalker's CONTACT for shifts. The pressure is not changed by the tractions: where bodies differ, alternate with
-    `solve_contact`.
+    of Kalker's CONTACT for shifts. The pressure is not changed by the tractions; of bodies that differ it would be.
+    Cells without friction slide freely and count neither as sticking nor as slipping.
     """
     request = _checked(contact, grid, bodies, friction=friction, force=force, shift=shift, previous=previous)
-    _check_numbers(rotation, tolerance, max_iterations)
+    check_numbers(rotation, tolerance, max_iterations)
     operator, bound = request.operator, request.bound
     pushed = operator.under_pressure(request.pressure) if operator.coupled else np.zeros((2, *grid.shape))
     movement = _turned(grid, rotation) + (0.0 if request.shift is None else request.shift[:, None, None])
-    drive = movement - pushed
+    imposed = movement - pushed
     if previous is not None:
-        drive = drive + previous.displacement - _turned(grid, previous.rotation) - previous.shift[:, None, None]
+        imposed = imposed + previous.displacement - _turned(grid, previous.rotation) - previous.shift[:, None, None]
     total = None if request.force is None else request.force / grid.cell_area
     effort = Effort(max_iterations)
     found: Slipped | None = None
     if (bound > 0).any():
         start = None if previous is None else previous.traction
-        found = slip(Slipping(operator, bound, drive, total), start, _TIGHTER * tolerance, effort)
+        found = slip(Slipping(operator, bound, imposed, total), start, _TIGHTER * tolerance, effort)
     given = request.shift if request.shift is not None else np.zeros(2) if found is None else found.shift
-    return _certified(request, found, drive, pushed, given, rotation, tolerance, effort)
+    notes = (AT_ONCE,) if previous is None and pushed.any() else ()
+    return _certified(request, found, imposed, pushed, given, rotation, tolerance, effort, notes)
 
 
 @dataclass(frozen=True)
@@ -128,7 +137,8 @@ def _checked(
     return _Request(operator, pressure, bound, asked, vectors["shift"])
 
 
-def _check_numbers(rotation: float, tolerance: float, max_iterations: int) -> None:
+def check_numbers(rotation: float, tolerance: float, max_iterations: int) -> None:
+    """Refuse a rotation that is not finite, a tolerance outside (0, 1), a negative limit of rounds (InputError)."""
     messages = []
     if not math.isfinite(rotation):
         messages.append(f"rotation: {rotation!r} must be a finite angle [rad]")
@@ -202,12 +212,13 @@ def _turned(grid: Grid, rotation: float) -> FloatArray:
 def _certified(  # reason: what a step was asked and what came of it, nothing of which belongs together elsewhere
     request: _Request,
     found: Slipped | None,
-    drive: FloatArray,
+    imposed: FloatArray,
     pushed: FloatArray,
     shift: FloatArray,
     rotation: float,
     tolerance: float,
     effort: Effort,
+    notes: tuple[str, ...],
 ) -> TangentialSolution:
     """Everything formed anew from the tractions; `converged` is said of that."""
     operator, bound = request.operator, request.bound
@@ -216,20 +227,20 @@ def _certified(  # reason: what a step was asked and what came of it, nothing of
     if found is not None:
         traction[:, found.cells] = found.traction
     elastic = operator.apply(traction)
-    wish = drive - elastic
+    unmet = imposed - elastic
     if request.force is not None:
-        wish = wish + shift[:, None, None]
+        unmet = unmet + shift[:, None, None]
     cells = bound > 0
-    violation, slips = _violation(operator, bound[cells], traction[:, cells], wish[:, cells])
-    scale = reach(elastic[:, cells], drive[:, cells])
+    violation, slips = _violation(operator, bound[cells], traction[:, cells], unmet[:, cells])
+    scale = reach(elastic[:, cells], imposed[:, cells])
     residual = violation / scale if scale > 0 else 0.0
     force = traction.sum((1, 2)) * area
     if request.force is not None:
         most = float(bound.sum()) * area
         residual = max(residual, float(np.abs(force - request.force).max()) / most if most > 0 else 0.0)
     slid = np.zeros_like(traction)
-    slid[:, cells] = np.where(slips, -wish[:, cells], 0.0)
-    unmet = Status.MAX_ITERATIONS if effort.left <= 0 else Status.STALLED
+    slid[:, cells] = np.where(slips, -unmet[:, cells], 0.0)
+    failed = Status.MAX_ITERATIONS if effort.left <= 0 else Status.STALLED
     return TangentialSolution(
         traction=traction,
         force=force,
@@ -243,16 +254,17 @@ def _certified(  # reason: what a step was asked and what came of it, nothing of
         residual=residual,
         convolutions=operator.count.weighted,
         iterations=effort.rounds,
-        status=Status.CONVERGED if residual <= tolerance else unmet,
+        status=Status.CONVERGED if residual <= tolerance else failed,
+        notes=notes,
     )
 
 
 def _violation(
-    operator: TangentialOperator, bound: FloatArray, traction: FloatArray, wish: FloatArray
+    operator: TangentialOperator, bound: FloatArray, traction: FloatArray, unmet: FloatArray
 ) -> tuple[float, NDArray[np.bool_]]:
     """Largest violation of Coulomb's conditions [m], and which cells slip (n,)."""
     stiffness = 2 / sum(operator.compliance)
-    wanted = traction + stiffness * wish
+    wanted = traction + stiffness * unmet
     allowed = np.empty_like(wanted)
     nearest(wanted, bound, allowed)
     return float(np.abs(allowed - traction).max(initial=0.0)) / stiffness, np.hypot(wanted[0], wanted[1]) > bound

@@ -67,9 +67,29 @@ def test_share_force_and_shift_ask_for_the_same():
     assert shift.force == pytest.approx(share.force, rel=1e-2)  # its steps are even in shift, not in force
 
 
-def test_bodies_that_differ_say_so():
-    _, context = run(upper={"material": "pom"}, push=PUSH | {"steps": 1})
-    assert any("tractions change the pressure" in note for note in context.notes)
+def test_bodies_that_differ_are_pressed_in_steps_and_say_so():
+    """Steel on POM: at once less than half of what sticks is found."""
+    more = {"upper": {"material": "pom"}, "grid": {"shape": 48, "lengths": "1.1 mm"}}
+    push = PUSH | {"steps": 1, "share": 0.01}
+    sticks = {}
+    for steps in (None, 32, 1):
+        given = {} if steps is None else {"pressing_steps": steps}
+        record, context = run(**more, push=push | given)
+        assert record.status == "converged"
+        assert any("tractions change the pressure" in note for note in context.notes)
+        assert any(
+            ("far too little sticks" if steps == 1 else "take twice push.pressing_steps") in n for n in context.notes
+        )
+        sticks[steps] = record.stick_fraction
+    assert sticks[None] == pytest.approx(sticks[32], rel=0.08)
+    assert sticks[1] < 0.7 * sticks[32]
+
+
+def test_without_contact_nothing_sticks_and_nothing_breaks():
+    record, _ = run(contact={"approach": "-1 um"})
+    assert record.status == "converged"
+    assert record.force == 0
+    assert np.isnan(record.first_stiffness)
 
 
 def test_messages():

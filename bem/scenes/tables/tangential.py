@@ -24,6 +24,8 @@ class PushScene(Table):
     cycles: Annotated[int, Field(strict=True, ge=0, le=10_000)] = 0
     steps: Annotated[int, Field(strict=True, ge=1, le=10_000)] = 8
     """From rest to the peak; a cycle has four times as many."""
+    pressing_steps: Annotated[int, Field(strict=True, ge=1, le=1000)] | None = None
+    """In which the load comes, before the push; 1 for bodies alike, which do not slip under pressure, else 16."""
     tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = 1e-7
 
     @model_validator(mode="after")
