@@ -18,24 +18,34 @@ _FEWEST = 4
 """Cells in contact on a coarse grid below which it says nothing."""
 
 
-def slip(problem: Slipping, start: FloatArray | None, tolerance: float, effort: Effort) -> Slipped:
-    """From a start (2, nx, ny), or from the solution on the next coarser grid, itself begun in the same way."""
-    return slip_on_grid(problem, _from_coarser(problem, effort) if start is None else start, tolerance, effort)
+def slip(problem: Slipping, before: FloatArray | None, tolerance: float, effort: Effort) -> Slipped:
+    """From the solution on the next coarser grid, itself begun in the same way; with the tractions of the step before,
+    (2, nx, ny), only the change since then comes from there.
+    """
+    return slip_on_grid(problem, _from_coarser(problem, before, effort), tolerance, effort)
 
 
-def _from_coarser(problem: Slipping, effort: Effort) -> FloatArray:
+def _from_coarser(problem: Slipping, before: FloatArray | None, effort: Effort) -> FloatArray:
     """Wanted tractions (2, nx, ny), outside their discs by the slip times the stiffness."""
-    nothing = np.zeros((2, *problem.operator.grid.shape))
+    grid = problem.operator.grid
+    old = np.zeros((2, *grid.shape)) if before is None else before
     coarse = _coarsened(problem)
     if coarse is None:
-        return nothing
-    found = slip(coarse, None, _COARSE, effort)
-    shares, unmet = np.zeros((2, *found.cells.shape)), np.zeros((2, *found.cells.shape))
-    shares[:, found.cells] = found.traction / coarse.bound[found.cells]
-    unmet[:, found.cells] = np.where(found.slips, found.unmet, 0.0)
-    grid = problem.operator.grid
-    fine = _interpolated(np.concatenate([shares, unmet]), found.cells, grid)
-    return np.where(problem.bound > 0, fine[:2] * problem.bound + fine[2:] * problem.stiffness, 0.0)
+        return old
+    sampled = None if before is None else _sampled(before, coarse.operator.grid.shape, grid)
+    found = slip(coarse, sampled, _COARSE, effort)
+    cells, bound = found.cells, coarse.bound[found.cells]
+    change = found.traction if sampled is None else found.traction - sampled[:, cells]
+    shares, unmet = np.zeros((2, *cells.shape)), np.zeros((2, *cells.shape))
+    shares[:, cells] = change / bound
+    unmet[:, cells] = np.where(found.slips, found.unmet, 0.0)
+    fine = _interpolated(np.concatenate([shares, unmet]), cells, grid)
+    return np.where(problem.bound > 0, old + fine[:2] * problem.bound + fine[2:] * problem.stiffness, 0.0)
+
+
+def _sampled(fields: FloatArray, shape: tuple[int, int], grid: Grid) -> FloatArray:
+    """Fields (2, nx, ny) on a coarser grid."""
+    return np.stack([sample(field, shape, grid.periodic) for field in fields])
 
 
 def _coarsened(problem: Slipping) -> Slipping | None:
@@ -48,7 +58,7 @@ def _coarsened(problem: Slipping) -> Slipping | None:
     if np.count_nonzero(bound > 0) < _FEWEST:
         return None
     bound = np.maximum(bound, 0.0)
-    imposed = np.stack([sample(part, shape, grid.periodic) for part in problem.imposed])
+    imposed = _sampled(problem.imposed, shape, grid)
     # the same share of what friction can carry
     force = None if problem.force is None else problem.force * (bound.sum() / problem.bound.sum())
     return replace(problem, operator=operator, bound=bound, imposed=imposed, force=force)

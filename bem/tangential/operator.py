@@ -174,8 +174,7 @@ class TangentialOperator:
         transform = transform_of(self.grid.shape, self.padded)
         along_x, along_y = transform.forward(traction[0]), transform.forward(traction[1])
         _combine(self.spectra, along_x, along_y)
-        self._counted()
-        return np.stack([transform.inverse(along_x), transform.inverse(along_y)])
+        return self._back(along_x, along_y)
 
     def under_pressure(self, pressure: FloatArray) -> FloatArray:
         """In-plane displacement (2, nx, ny) [m] of the first surface less the second under `pressure` (nx, ny) [Pa]."""
@@ -186,12 +185,17 @@ class TangentialOperator:
         along_y = transform.forward(pressure)
         along_x = transform.empty_spectrum()
         _push(*self._pushed, along_y, along_x)
-        self._counted()
-        return np.stack([transform.inverse(along_x), transform.inverse(along_y)])
+        return self._back(along_x, along_y)
 
-    def _counted(self) -> None:
+    def _back(self, along_x: ComplexArray, along_y: ComplexArray) -> FloatArray:
+        """Displacements (2, nx, ny) of their spectra, counted."""
         self.count.applications += 1
         self.count.weighted += self.weight
+        transform = transform_of(self.grid.shape, self.padded)
+        out = np.empty((2, *self.grid.shape))
+        for spectrum, part in ((along_x, out[0]), (along_y, out[1])):
+            transform.inverse(spectrum, out=part)
+        return out
 
 
 def _coarse(fine: TangentialOperator, grid: Grid) -> TangentialOperator:

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,7 +38,7 @@ _REDUCTION = 0.1
 convolutions; the sum is flat."""
 
 _INNER = 200
-_HALVINGS = 12
+_HALVINGS = 10
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,9 @@ class Slipped:
 
 @dataclass(frozen=True)
 class _Cells:
-    """The problem on the cells in contact, as vectors."""
+    """The problem on the cells in contact, as vectors; `numbers` are their flat indices, `room` a field of both
+    directions, zero elsewhere.
+    """
 
     problem: Slipping
     cells: NDArray[np.bool_]
@@ -92,12 +94,13 @@ class _Cells:
     imposed: FloatArray
     inverse: SparseInverseOnCells
     stiffness: float
-    room: FloatArray = field(repr=False)
+    numbers: NDArray[np.int64]
+    room: FloatArray
 
     def displaced(self, traction: FloatArray) -> FloatArray:
         """A q, (2, n)."""
-        self.room[:, self.cells] = traction
-        return self.problem.operator.apply(self.room)[:, self.cells]
+        self.room.reshape(2, -1)[:, self.numbers] = traction
+        return self.problem.operator.apply(self.room).reshape(2, -1).take(self.numbers, 1)
 
     def inside(self, wanted: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The nearest tractions that are allowed, and the shift times the stiffness that this takes."""
@@ -175,13 +178,15 @@ def _cells(problem: Slipping) -> _Cells:
     cells = problem.bound > 0
     near = problem.operator.near_field(2 * math.isqrt(_SQUARED_RADIUS))
     inverse = sparse_inverse(grid.shape, grid.periodic, near, _SQUARED_RADIUS)
+    numbers = np.flatnonzero(cells)
     return _Cells(
         problem,
         cells,
         problem.bound[cells],
         problem.imposed[:, cells],
-        inverse.on(np.flatnonzero(cells), None),
+        inverse.on(numbers, None),
         problem.stiffness,
+        numbers,
         np.zeros((2, *grid.shape)),
     )
 
@@ -207,7 +212,8 @@ def _judged(on: _Cells, traction: FloatArray, displacement: FloatArray) -> _Judg
     violation = float(np.abs(allowed - traction).max()) / on.stiffness
     wanted = traction + on.stiffness * unmet
     length = np.hypot(wanted[0], wanted[1])
-    slips = length > on.bound
+    # a cell alone is far stiffer than a spot that moves as a whole: one that is to turn round is let go first
+    slips = (length > on.bound) & ((wanted * traction).sum(0) > 0)
     normal = np.where(slips, wanted / np.where(slips, length, 1.0), 0.0)
     return _Judged(shift, unmet, slips, normal, violation)
 
@@ -227,18 +233,34 @@ def _face(on: _Cells, judged: _Judged) -> _Face:
 def _round(
     on: _Cells, traction: FloatArray, displacement: FloatArray, judged: _Judged
 ) -> tuple[FloatArray, FloatArray] | None:
-    """New tractions and their displacement; None where no step lowers the energy."""
-    slips, normal, unmet = judged.slips, judged.normal, judged.unmet
+    """New tractions and their displacement; None where no step lowers the energy.
+
+    Cells that are said to slip go to their discs at once, which may be too far where many go together; and a cell that
+    is let go may be driven out of its disc again. Where neither part of the step lowers the energy, one along what is
+    unmet does, short enough: putting it back is then the projection on a convex set.
+    """
     face = _face(on, judged)
-    # cells that are said to slip go to their discs at once; what they take is given back where the others stick
-    jump = np.where(slips, on.bound * normal - traction, 0.0)
-    if face.keeps is not None and not slips.all():
-        jump -= np.where(slips, 0.0, (jump.sum(1) / np.count_nonzero(~slips))[:, None])
-    residual = unmet
+    jump = np.where(judged.slips, on.bound * judged.normal - traction, 0.0)
+    if face.keeps is not None and not judged.slips.all():  # what they take is given back where the others stick
+        jump -= np.where(judged.slips, 0.0, (jump.sum(1) / np.count_nonzero(~judged.slips))[:, None])
+    residual = judged.unmet
     if float(np.abs(jump).max()) > 1e-9 * float(np.abs(traction).max()):
-        residual = unmet - on.displaced(jump)
-    goal = _REDUCTION * _norm(face.project(unmet))
-    step = jump + _conjugate_gradients(on, face, face.project(residual), goal)
+        residual = residual - on.displaced(jump)
+    step = jump + _newton_step(on, face, residual, judged.unmet)
+    return _shortened(on, traction, displacement, step) or _shortened(
+        on, traction, displacement, on.stiffness * judged.unmet
+    )
+
+
+def _newton_step(on: _Cells, face: _Face, residual: FloatArray, unmet: FloatArray) -> FloatArray:
+    """On the face, to a share of what is unmet there."""
+    return _conjugate_gradients(on, face, face.project(residual), _REDUCTION * _norm(face.project(unmet)))
+
+
+def _shortened(
+    on: _Cells, traction: FloatArray, displacement: FloatArray, step: FloatArray
+) -> tuple[FloatArray, FloatArray] | None:
+    """The step put back into the discs, halved until the energy does not rise; None where it always does."""
     before = on.energy(traction, displacement)
     share = 1.0
     for _ in range(_HALVINGS):

@@ -32,7 +32,7 @@ def test_carter_s_cylinder(share):
         stick = solution.stick_area / (solution.stick_area + solution.slip_area)
         assert stick == pytest.approx(np.sqrt(1 - share), abs=1.5 / cells)  # a cell and a half of the edges
         where = np.flatnonzero((np.hypot(*solution.traction) < (1 - 1e-9) * 0.3 * pressure) & (pressure > 0))
-            assert where.max() == np.flatnonzero(pressure[:, 0])[-1]  # up to the leading edge
+        assert where.max() == np.flatnonzero(pressure[:, 0])[-1]  # up to the leading edge
     assert abs(misses[1]) < 2.5e-3
     assert abs(misses[1]) < abs(misses[0])
 

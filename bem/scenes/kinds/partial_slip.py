@@ -25,8 +25,9 @@ if TYPE_CHECKING:
     from bem.contact import ContactSolution
     from bem.tangential import TangentialSolution
 
-_CONVOLUTIONS = 40
-"""Of a step, each worth two of the normal contact's; 30 to 50 were counted, a third of that in later steps."""
+_TRANSFORMS = 6.0 * 60
+"""Of a step: 40 to 60 convolutions were counted on 256 to 1024 cells a side, in every step of a history alike, each of
+four transforms and vector passes worth two more."""
 
 PRESSING_STEPS = 16
 """Of bodies that differ: the stick radius of a ball is then 4 % small, of first order in the steps (Spence, tests)."""
@@ -71,13 +72,13 @@ def plan(scene: PartialSlipScene) -> Plan:
                 if pressing > 1
                 else "pressure does not make these bodies slip, or push.pressing_steps is 1",
                 skipped=pressing == 1,
-                transforms=(40.0 + 4.0 * _CONVOLUTIONS) * (pressing - 1),
+                transforms=(40.0 + _TRANSFORMS) * (pressing - 1),
                 points=points,
             ),
             Step(
                 "partial slip",
                 f"{steps} steps along x, friction {scene.push.friction:g}",
-                transforms=4.0 * _CONVOLUTIONS * (1 + (steps - 1) / 3),
+                transforms=_TRANSFORMS * steps,
                 points=points,
                 memory=8.0 * points * 6 + 8.0 * grid.cells * 40,
                 kept=8.0 * grid.cells * 10,
