@@ -25,7 +25,8 @@ RISE_SHARE = 2.0
 """Of the same, over the rise, in that of temperatures."""
 DIFFERENCE = 2.0
 """Of what half the cells of the heat change, which are of first order, and half the points, which are of second."""
-CELLS = 200
+CELLS, MOST_CELLS = 200, 2000
+"""Of the heat along the film: on up to 1000 points, and the most."""
 _ALGEBRAIC = 10.0
 """Relative change of a figure over the residual of the equations, relative to the film."""
 _UNSOLVED = "no error bars of traction: on half the points the film did not converge"
@@ -54,7 +55,12 @@ class TractionCase:
         """Whether heat is solved for."""
         return self.bodies is not None
 
-    def on(self, points: int, cells: int = CELLS) -> Any:
+    @property
+    def cells(self) -> int:
+        """Of the heat; more of them go with more points."""
+        return min(max(CELLS, self.points // 5), MOST_CELLS)
+
+    def on(self, points: int, cells: int | None = None) -> Any:
         """The film on a mesh of so many points: a `ThermalFilm` with heat on so many cells, else a `FilmSolution`."""
         asked: dict[str, Any] = {
             "load": self.load,
@@ -66,7 +72,7 @@ class TractionCase:
         }
         if self.bodies is None:
             return solve_line_film(**asked)
-        return solve_thermal_line_film(**asked, bodies=self.bodies, bulk=self.bulk, cells=cells)
+        return solve_thermal_line_film(**asked, bodies=self.bodies, bulk=self.bulk, cells=cells or self.cells)
 
 
 def traction_figures(case: TractionCase, found: FilmSolution | ThermalFilm) -> dict[str, float]:
@@ -102,7 +108,7 @@ def traction_bars(case: TractionCase, found: FilmSolution | ThermalFilm) -> Erro
     """Bars of the figures of a solution on all points."""
     figures = {name: value for name, value in traction_figures(case, found).items() if name not in _BARE}
     film = found.film if isinstance(found, ThermalFilm) else found
-    other = case.on(max(case.points // 2, FEWEST) if case.points > FEWEST else 2 * case.points, CELLS // 2)
+    other = case.on(max(case.points // 2, FEWEST) if case.points > FEWEST else 2 * case.points, case.cells // 2)
     if other.status is not Status.CONVERGED:
         return ErrorBars.unknown(figures, _UNSOLVED)
     there = traction_figures(case, other)

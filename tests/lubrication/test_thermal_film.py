@@ -256,7 +256,8 @@ def test_what_is_beyond_an_oil_is_said():
 
 
 def test_costs_little_more_than_an_isothermal_film(monkeypatch):
-    """Newton steps on the fine mesh, which cost nearly all: the goal is 1.5 times those of the isothermal film."""
+    """Newton steps on the fine mesh, at most 1.5 times those of the isothermal film. Coarse films and temperatures come
+    on top: of 2000 points it takes some 1.8 times as long, of few points up to three times."""
     steps = []
 
     def counted(*arguments, **keywords):

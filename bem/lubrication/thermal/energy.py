@@ -12,7 +12,7 @@ tests/lubrication/test_thermal_film.py.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -64,7 +64,8 @@ Heat = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 
 def film_temperatures(channel: Channel, heat: Heat) -> Temperatures:
     """Temperatures at which the heat made goes where it can."""
-    into, oil = _responses(channel)
+    kernels = [band_temperatures(channel.edges, body) for body in channel.bodies]
+    into, oil = _responses(channel, kernels)
     base, resting = oil[:, 0], into[:, 0]
     response = oil[:, 1:]
     temperature = base.copy()
@@ -84,16 +85,15 @@ def film_temperatures(channel: Channel, heat: Heat) -> Temperatures:
         steps += 1
     fluxes = (resting + into[:, 1:] @ made).reshape(2, -1)
     bulk = np.array([[body.bulk] for body in channel.bodies])
-    kernels = [band_temperatures(channel.edges, body) for body in channel.bodies]
     surfaces = bulk + np.stack([kernel @ flux for kernel, flux in zip(kernels, fluxes, strict=True)])
     return Temperatures(temperature, surfaces, fluxes, made, steps, residual)
 
 
-def _responses(channel: Channel) -> tuple[FloatArray, FloatArray]:
+def _responses(channel: Channel, kernels: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
     """Fluxes into the bodies (2m, 1 + m) and temperatures of the oil (m, 1 + m): without heat, and per unit of heat
-    made in each cell."""
+    made in each cell; the kernels are the temperatures of both surfaces per flux in each cell (m, m)."""
     cells, width = len(channel.thickness), np.diff(channel.edges)
-    one, lower, upper = np.eye(cells), *(band_temperatures(channel.edges, body) for body in channel.bodies)
+    one, (lower, upper) = np.eye(cells), kernels
     first, second = (body.bulk for body in channel.bodies)
     across = channel.thickness / (12 * channel.conductivity)
     # oil temperature = mean bulk + by_flux @ (q1, q2)

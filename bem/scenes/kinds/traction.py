@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from pydantic import model_validator
 
+from bem.accuracy.bars import POINTS
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.scenes import build, plans
@@ -19,6 +20,7 @@ from bem.scenes.kind import Kind
 from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
+from bem.scenes.resolutions import counted
 from bem.scenes.tables.rolling import FilmPointsScene, RollerScene, RollingScene
 
 if TYPE_CHECKING:
@@ -140,6 +142,7 @@ def run(scene: TractionScene, context: Context) -> TractionRecord:
         found = case.on(case.points)
     film = found.film if case.hot else found
     tell(context, found.notes)
+    part = "film" if film.status is not Status.CONVERGED else "heat"
     wanted = scene.outputs.errors and found.status is Status.CONVERGED
     return filled(
         TractionRecord,
@@ -148,7 +151,7 @@ def run(scene: TractionScene, context: Context) -> TractionRecord:
         newton_steps=int(found.iterations),
         **error_bars(context, wanted, lambda: traction_bars(case, found)),
         status=found.status,
-        where=f"film: {film.status.message}, residual {film.residual:.1e}",
+        where=f"{part}: {found.status.message}, residual of the film {film.residual:.1e}",
     )
 
 
@@ -193,5 +196,6 @@ KIND = Kind.of(
     TractionScene,
     TractionRecord,
     "traction of a smooth rolling and sliding line contact, with the heat in its film",
+    resolutions=(counted("film.points", POINTS, 400, 20000),),
     figures=("traction-curve", "film-temperatures", "rolling-film"),
 )
