@@ -37,7 +37,7 @@ def sections() -> Iterator[Section]:
     for case in PHYSICAL.values():
         if any(point.case == case.name for point in run.points):
             caption = (
-                "Full lines: as bem gives it; broken: cells alone; grey: peers; thin: looser tolerances. "
+                "Full lines: as bem gives it; broken: cells alone; dotted and paler: peers; thin: looser tolerances. "
                 f"Sizes are {case.size_name}."
             )
             yield Section(

@@ -10,15 +10,18 @@ from typing import TYPE_CHECKING, Any
 from bem.benchmarks.cases import CASES
 from bem.benchmarks.history import Run, compare, find_run, read_history
 from bem.benchmarks.measure import Point, growth
-from bem.benchmarks.work_precision import CELLS_ALONE, OURS, TARGETS, best, curves
+from bem.benchmarks.work_precision import CELLS_ALONE, OURS, TARGETS, Curve, best, curves
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 Table = Callable[..., None]
 
 PAIR_GOALS = {512: 26.0, 1024: 32.0, 2048: 42.0}
 """Convolutions to 1e-8 of the periodic case."""
+_LEAST_MEMORY = 2**20
+"""Bytes below which a solve fitted into what its process held from before: its own share is not known."""
 
 
 def by_case(run: Run, threads: int | None = 1) -> dict[str, list[Point]]:
@@ -308,38 +311,54 @@ def draw_reach(run: Run) -> Figure:
 
 
 def draw_errors(run: Run, kind: str) -> Figure:
-    """Errors of a kind's figures over processor time and over memory: with corrections (full lines), of cells alone
-    (broken), by peers (grey); thin lines are of looser tolerances."""
+    """Errors of a kind's figures over processor time, and over memory where any curve is told by it: with corrections
+    (full lines), of cells alone (broken), by peers (dotted, paler); thin lines are of looser tolerances."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     own = [c for c in curves(run) if c.kind == kind]
-    figures = list(dict.fromkeys(c.figure for c in own))
+    over_memory = [c for c in own if _memory_rises(c)]
     picture = Figure(figsize=(9, 3.8), layout="constrained")
     FigureCanvasAgg(picture)
-    panels = picture.subplots(1, 2, sharey=True)
-    most = max((c.digits for c in own), default=0)
-    for c in own:
-        ours = c.solver in (OURS, CELLS_ALONE)
-        style = {OURS: "o-", CELLS_ALONE: "o--"}.get(c.solver, "s:")
-        tight = c.digits in (0, most)
-        label = f"{c.figure.replace('_', ' ')}" if c.solver == OURS and tight else None
-        for axes, across in zip(panels, (c.times, [m / 2**20 for m in c.memory]), strict=True):
-            axes.plot(
-                across,
-                [100 * max(e, 1e-6) for e in c.errors],
-                style,
-                ms=3 if ours else 2.5,
-                lw=1.2 if tight else 0.5,
-                color=f"C{figures.index(c.figure)}",
-                alpha=1.0 if ours else 0.5,
-                label=label,
-            )
-    for axes, words in zip(panels, ("processor time, s", "memory beyond the inputs, MiB"), strict=True):
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlabel(words)
-        axes.grid(True, which="major", lw=0.3)
-    panels[0].set_ylabel("error, %")
-    panels[0].legend(fontsize=7)
+    panels = picture.subplots(1, 2 if over_memory else 1, sharey=True, squeeze=False)[0]
+    _draw_curves(panels[0], own, lambda c: c.times, own)
+    panels[0].set(xlabel="processor time, s", ylabel="error, %")
+    if over_memory:
+        _draw_curves(panels[1], over_memory, _mebibytes, own)
+        panels[1].set(xlabel="memory beyond what the process held, MiB")
+    picture.legend(*panels[0].get_legend_handles_labels(), fontsize=7, ncols=5, loc="outside upper center")
     return picture
+
+
+def _memory_rises(curve: Curve) -> bool:
+    """Whether at least two grids needed more than the process held, and the finer ones the more."""
+    told = [m for m in curve.memory if m > _LEAST_MEMORY]
+    return len(told) > 1 and told == sorted(told)
+
+
+def _mebibytes(curve: Curve) -> tuple[float, ...]:
+    return tuple(m / 2**20 if m > _LEAST_MEMORY else math.nan for m in curve.memory)
+
+
+def _draw_curves(
+    axes: Axes, drawn: Sequence[Curve], across: Callable[[Curve], Sequence[float]], own: Sequence[Curve]
+) -> None:
+    """`own`, all curves of the kind, give the colours, one for each figure."""
+    figures = list(dict.fromkeys(c.figure for c in own))
+    most = max((c.digits for c in own), default=0)
+    for c in drawn:
+        ours = c.solver in (OURS, CELLS_ALONE)
+        tight = c.digits in (0, most)
+        axes.plot(
+            across(c),
+            [100 * max(error, 1e-6) for error in c.errors],
+            {OURS: "o-", CELLS_ALONE: "o--"}.get(c.solver, "s:"),
+            ms=3 if ours else 2.5,
+            lw=1.2 if tight else 0.5,
+            color=f"C{figures.index(c.figure)}",
+            alpha=1.0 if ours else 0.5,
+            label=c.figure.replace("_", " ") if c.solver == OURS and tight else None,
+        )
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.grid(True, which="major", lw=0.3)

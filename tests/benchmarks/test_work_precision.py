@@ -118,4 +118,14 @@ def test_unknown_kinds_are_named():
 def test_pictures_of_a_run():
     run = made_up()
     assert draw_reach(run).axes[0].get_xscale() == "log"
-    assert len(draw_errors(run, "contact").axes) == 2
+    assert len(draw_errors(run, "contact").axes) == 1  # all grids took as much memory: it says nothing
+
+
+def test_memory_is_drawn_where_the_grid_tells_it():
+    """Less than a mebibyte fitted into what the process held from before: that is not what a solve needs."""
+    run = made_up()
+    told = {128: 0.0, 256: 8e6, 512: 3e7, 1024: 1.2e8, 2048: 5e8}
+    points = [dataclasses.replace(p, memory=told[size_and_digits(p.size)[0]]) for p in run.points]
+    time, memory = draw_errors(dataclasses.replace(run, points=tuple(points)), "contact").axes
+    assert len(memory.lines) == len(time.lines) - 1  # the peer's did not rise
+    assert all(np.isnan(line.get_xdata()[0]) and line.get_xdata()[-1] > 100 for line in memory.lines)
