@@ -132,6 +132,8 @@ def _what_next(
     short = {name for name, ratio in ratios.items() if ratio > 1}
     if not ratios:
         return (), "none of the figures asked for has an error bar here"
+    if short - record.errors.keys():
+        return (), "the kind makes none of it"
     if all(math.isinf(ratios[name]) for name in short) and len(levels) > 1:
         return (), "no error bars there (see the notes), and finer cells give none"
     if len(levels) >= _MOST_LEVELS:
@@ -349,10 +351,13 @@ class _LevelContext:
 
     def saved(self) -> dict[str, Any] | None:
         """See `bem.scenes.Context`."""
-        if self._inner is None:
-            return None
-        return {key: value for key, value in self._inner.items() if key != "_notes"}
+        return _without_notes(self._inner)
 
     def coarser(self) -> dict[str, Any] | None:
         """See `bem.scenes.Context`."""
-        return self._coarser
+        return _without_notes(self._coarser)
+
+
+def _without_notes(state: Mapping[str, Any] | None) -> dict[str, Any] | None:
+    """What a kind saved, without what its level noted."""
+    return None if state is None else {key: value for key, value in state.items() if key != "_notes"}

@@ -6,7 +6,7 @@ from typing import Any
 
 import typer
 
-from bem.cli.run import AccuracyOption, SceneArgument, SetOption, with_accuracy
+from bem.cli.run import AccuracyOption, SceneArgument, SetOption, asked
 
 
 def register(app: typer.Typer) -> None:
@@ -30,7 +30,7 @@ def register(app: typer.Typer) -> None:
         from bem.scenes.checks import examine, scene_warnings
         from bem.scenes.planner import available_memory, show_bytes
 
-        resolved, planned = plan_scene(scene, with_accuracy(set_, accuracy))
+        resolved, planned = plan_scene(scene, set_ or (), asked(accuracy))
         facts = examine(resolved)
         warnings = scene_warnings(facts)
         typer.echo(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Annotated
 
@@ -57,18 +56,13 @@ SchedulerOption = Annotated[
 ]
 
 
-def with_accuracy(settings: list[str] | None, accuracy: list[str] | None) -> list[str]:
-    """Settings of a scene, with what `--accuracy` asks for."""
-    if not accuracy:
-        return list(settings or ())
-    asked = {}
-    for text in accuracy:
+def asked(accuracy: list[str] | None) -> str | dict[str, str | float] | None:
+    """What `--accuracy` asks for: of all figures, or figure by figure."""
+    table: dict[str, str | float] = {}
+    for text in accuracy or ():
         name, equals, share = text.rpartition("=")
-        asked[name.strip() if equals else "all"] = share.strip()
-    if list(asked) == ["all"]:
-        return [*(settings or ()), f"accuracy={json.dumps(asked['all'])}"]
-    table = ", ".join(f"{json.dumps(name)} = {json.dumps(share)}" for name, share in asked.items())
-    return [*(settings or ()), f"accuracy={{{table}}}"]
+        table[name.strip() if equals else "all"] = share.strip()
+    return str(table["all"]) if list(table) == ["all"] else table or None
 
 
 def register(app: typer.Typer) -> None:  # reason: the command in it; its arguments are the options
@@ -123,7 +117,8 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
             done = run_scene(
                 scene,
                 out,
-                settings=with_accuracy(set_, accuracy),
+                settings=set_ or (),
+                accuracy=asked(accuracy),
                 resume=resume,
                 overwrite=overwrite,
                 figures=figures,

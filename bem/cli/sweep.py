@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from bem.cli.run import AccuracyOption, SceneArgument, SchedulerOption, SetOption, WorkersOption, with_accuracy
+from bem.cli.run import AccuracyOption, SceneArgument, SchedulerOption, SetOption, WorkersOption, asked
 
 
 def register(app: typer.Typer) -> None:  # reason: the command in it; its arguments are the options
@@ -57,7 +57,8 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
                 scene,
                 over or (),
                 out,
-                settings=with_accuracy(set_, accuracy),
+                settings=set_ or (),
+                accuracy=asked(accuracy),
                 workers=workers,
                 scheduler=scheduler,
                 threads=threads,

@@ -16,6 +16,7 @@ from bem.campaigns.jobs import Staff
 from bem.errors import ConvergenceError, InputError, Status
 from bem.results.directory import RESULTS, RunDirectory, plain
 from bem.results.read import FinishedRun, open_run
+from bem.scenes.asked import Asked, with_accuracy
 from bem.scenes.checks import examine, outcome_warnings, scene_warnings
 from bem.scenes.common import SceneModel
 from bem.scenes.kind import get_kind
@@ -24,15 +25,21 @@ from bem.scenes.planner import Plan, check_memory
 
 
 def plan_scene(
-    source: str | os.PathLike[str] | Mapping[str, Any] | SceneModel, settings: Sequence[str] = ()
+    source: str | os.PathLike[str] | Mapping[str, Any] | SceneModel,
+    settings: Sequence[str] = (),
+    accuracy: Asked | None = None,
 ) -> tuple[SceneModel, Plan]:
-    """The resolved scene and what running it would compute; no work is done.
+    """The resolved scene and what running it would compute, as `run_scene` takes them; no work is done.
 
     Raises
     ------
     InputError : a bad scene.
     """
-    scene = source if isinstance(source, SceneModel) else load_scene(source, settings)
+    settings = with_accuracy(settings, accuracy)
+    if not isinstance(source, SceneModel):
+        scene = load_scene(source, settings)
+    else:
+        scene = load_scene(scene_table(source), settings) if settings else source
     if scene.over is None:  # else each of its cases is resolved by itself
         scene = get_kind(scene.kind).resolved(scene)
     return scene, plan(campaign_of(scene))
@@ -43,6 +50,7 @@ def run_scene(  # reason: a promise to users' scripts; each is an option of the 
     out: str | os.PathLike[str] | None = None,
     *,
     settings: Sequence[str] = (),
+    accuracy: Asked | None = None,
     resume: bool = False,
     overwrite: bool = False,
     figures: bool = True,
@@ -58,6 +66,7 @@ def run_scene(  # reason: a promise to users' scripts; each is an option of the 
     source : as `bem.scenes.load_scene` takes it, or a scene already loaded.
     out : the run's folder; the next free `runs/NAME-001` where not given.
     settings : `key=value` changes to the scene.
+    accuracy : asked for instead of a grid, as in a scene: "1 %", 0.01, or a table of figures.
     resume : go on from the checkpoint of an interrupted run; a finished run is returned as it is.
     overwrite : replace an older run in the folder; it stays until this one is finished. With `resume`, replace
         it only if it is of another scene.
@@ -80,7 +89,7 @@ def run_scene(  # reason: a promise to users' scripts; each is an option of the 
     KeyboardInterrupt : passed on; the folder can be resumed.
     """
     check_workers(workers)
-    scene, planned = plan_scene(source, settings)
+    scene, planned = plan_scene(source, settings, accuracy)
     check_memory(planned)
     formats = ("vtu", *(("png", "pdf") if pdf else ("png",))) if figures else ("vtu",)
     with RunDirectory.start(

@@ -27,6 +27,7 @@ from bem.runs.point import Point, finished_summary, store
 from bem.runs.scene import check_workers, plan_scene
 from bem.runs.table import dataset_variables, table_text
 from bem.scenes import get_kind
+from bem.scenes.asked import Asked, with_accuracy
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Variable
@@ -71,6 +72,7 @@ def run_sweep(  # reason: a promise to users' scripts
     out: str | os.PathLike[str] | None = None,
     *,
     settings: Sequence[str] = (),
+    accuracy: Asked | None = None,
     workers: int | None = None,
     scheduler: str | None = None,
     threads: int = 1,
@@ -87,7 +89,7 @@ def run_sweep(  # reason: a promise to users' scripts
         `key=value,value,...` or `key=@FILE` (a value on each line); units as in scenes, an index into lists as in
         `variants[0].name`.
     out : the sweep's folder; `sweeps/NAME` where not given.
-    settings : `key=value` changes to the scene.
+    settings, accuracy : as `run_scene` takes them.
     workers : processes on this machine; as many as cores (and memory) allow where not given.
     scheduler : address of a Dask scheduler, instead of processes on this machine.
     threads : threads of each run.
@@ -106,7 +108,7 @@ def run_sweep(  # reason: a promise to users' scripts
     ResultsError : the folder is in use, holds a sweep already, or cannot be written.
     KeyboardInterrupt : passed on; the sweep can be resumed.
     """
-    swept = parse_axes(over)
+    swept, settings = parse_axes(over), with_accuracy(settings, accuracy)
     check_workers(workers)
     planned = _plan_points(source, {axis.key: axis.values for axis in swept}, settings)
     scenes = [scene for scene, _ in planned]

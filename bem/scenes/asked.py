@@ -9,8 +9,9 @@ Knows numbers and names, and the records of kinds; verified in tests/campaigns/t
 
 from __future__ import annotations
 
+import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Annotated, Any
 
 import numpy as np
@@ -57,6 +58,24 @@ AskedAccuracy = Annotated[
 ]
 
 
+Asked = str | float | Mapping[str, str | float]
+"""What may be asked for: `"1 %"`, 0.01 or a table of figures."""
+
+
+def with_accuracy(settings: Sequence[str], accuracy: Asked | None) -> list[str]:
+    """Settings of a scene (`key=value`), with the accuracy asked for where there is one."""
+    if accuracy is None:
+        return list(settings)
+    if not isinstance(accuracy, Mapping):
+        return [*settings, f"accuracy={_toml(accuracy)}"]
+    table = ", ".join(f"{json.dumps(str(name))} = {_toml(share)}" for name, share in accuracy.items())
+    return [*settings, f"accuracy={{{table}}}"]
+
+
+def _toml(share: Any) -> str:
+    return repr(float(share)) if isinstance(share, float | int) else json.dumps(str(share))
+
+
 def figures_that_may_be_asked(record: type[Record], headline: Iterable[str]) -> dict[str, bool]:
     """Names under which figures of a record can be asked for, and whether `all` means them too: headline figures that
     follow no mesh."""
@@ -64,8 +83,20 @@ def figures_that_may_be_asked(record: type[Record], headline: Iterable[str]) -> 
     return {
         item.name or name: item.key(name) in first
         for name, item in described(record).items()
-        if isinstance(item, Figure) and not item.no_bar
+        if isinstance(item, Figure) and not item.no_bar and not item.unjudged
     }
+
+
+def figures_that_may_not(record: type[Record]) -> dict[str, str]:
+    """Why an accuracy cannot be asked of the other figures of a record, by their names."""
+    return {
+        item.name or name: f"it has no error bar: {item.no_bar or _UNJUDGED}"
+        for name, item in described(record).items()
+        if isinstance(item, Figure) and (item.no_bar or item.unjudged)
+    }
+
+
+_UNJUDGED = "a count, what cells or solvers tell of themselves, or what is given"
 
 
 def wanted(asked: float | Mapping[str, float | str], record: Record, headline: Iterable[str]) -> dict[str, float]:

@@ -48,8 +48,8 @@ class Context(Protocol):
         """The state last saved for this very scene if the run is resumed and one exists, else None."""
 
     def coarser(self) -> dict[str, Any] | None:
-        """The state last saved for the same scene on half the cells, points or steps, where an accuracy is refined to:
-        a start, and a level to compare with. None on a first level."""
+        """The state last saved on the level before, where an accuracy is refined to: the same scene with half of those
+        cells, depths, points or steps that were too few, and as many of the others. None on a first level."""
 
 
 class Bars(Protocol):

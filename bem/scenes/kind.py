@@ -17,7 +17,7 @@ from typing import Any
 
 from bem.errors import InputError
 from bem.extensions import load_extensions, same_origin
-from bem.scenes.asked import ALL, figures_that_may_be_asked
+from bem.scenes.asked import ALL, figures_that_may_be_asked, figures_that_may_not
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Context
@@ -95,8 +95,9 @@ class Kind:
         asked = scene.accuracy if isinstance(scene.accuracy, Mapping) else {}
         unknown = [name for name in asked if name != ALL and name not in names]
         if unknown:
-            listed = ", ".join([ALL, *names])
-            raise InputError([f"accuracy.{n}: no figure of kind {self.name}; allowed: {listed}" for n in unknown])
+            why, listed = figures_that_may_not(self.record), ", ".join([ALL, *names])
+            own = f"no figure of kind {self.name}"
+            raise InputError([f"accuracy.{name}: {why.get(name, own)}; allowed: {listed}" for name in unknown])
 
     def enter(self) -> None:
         """Enter it, for a kind from outside the package; see `bem.register`.

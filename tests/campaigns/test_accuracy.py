@@ -15,7 +15,7 @@ from bem.reference_solutions.hertz import sphere_contact
 from bem.results import open_run
 from bem.runs import plan_scene, run_scene, run_sweep
 from bem.scenes import load_scene
-from bem.scenes.asked import shortfall, wanted
+from bem.scenes.asked import figures_that_may_be_asked, shortfall, wanted
 from bem.scenes.axes import changed
 from bem.scenes.common import SceneModel
 from bem.scenes.context import PlainContext
@@ -54,6 +54,14 @@ def run(scene, folder, *settings, **how):
     return run_scene(scene, folder, settings=settings, figures=False, **how)
 
 
+def askable_without_bar(done):
+    """Figures of a run that an accuracy can be asked of but that have no error beside them."""
+    kind = get_kind(done.summary["kind"])
+    names = figures_that_may_be_asked(kind.record, kind.headline)
+    keys = {item.key(n): item.name or n for n, item in described(kind.record).items() if isinstance(item, Figure)}
+    return {key for key in keys if keys[key] in names and key in done.summary and f"{key}_error" not in done.summary}
+
+
 def levels(done):
     (case,) = done.summary["accuracy"]["cases"]
     return [level["resolution"] for level in case["levels"]]
@@ -61,7 +69,7 @@ def levels(done):
 
 def test_a_ball_needs_no_grid_and_is_as_exact_as_was_asked(tmp_path):
     telling = Telling()
-    done = run(BALL, tmp_path / "run", "accuracy=0.3%", watcher=telling)
+    done = run(BALL, tmp_path / "run", accuracy="0.3 %", watcher=telling)
     smooth = sphere_contact(radius=10e-3, contact_modulus=207e9 / (2 * (1 - 0.09)), load=10.0)
     found, area = done.summary, np.pi * smooth.semi_axes[0] ** 2
     assert found["status"] == "converged"
@@ -88,6 +96,10 @@ def test_a_rough_patch_is_as_exact_as_was_asked_against_a_reference_four_times_f
     assert len(levels(found)) == 1
     for key in ("contact_area_fraction", "approach_m"):
         assert patch.summary[key] == pytest.approx(found.summary[key], rel=0.02)
+
+
+def test_whatever_can_be_asked_has_a_bar(patch):
+    assert not askable_without_bar(patch)
 
 
 def test_its_scene_gives_the_same_bits_again(patch, tmp_path):
@@ -123,6 +135,16 @@ def test_a_level_before_serves_as_start_and_as_the_coarser_contact(tmp_path, mon
     done = run(PATCH, tmp_path / "run")
     assert len(again) == 1
     assert starts == [False] + [True] * (len(levels(done)) - 1)
+
+
+@pytest.mark.parametrize("asked", ["0.4 %", 0.004, {"approach": "0.4 %", "max_pressure": 0.01}])
+def test_it_can_be_asked_in_python_of_a_scene_that_is_loaded_too(asked):
+    given = {key: value for key, value in BALL.items() if key != "accuracy"}
+    table = {"approach": 0.004, "max_pressure": 0.01}
+    for source in (given, load_scene(given)):
+        scene, _ = plan_scene(source, ["contact.load=20 N"], asked)
+        assert scene.accuracy == (table if isinstance(asked, dict) else 0.004)
+        assert scene.contact.load == 20  # settings of a loaded scene were dropped without a word
 
 
 def test_a_grid_that_is_given_is_where_it_begins(tmp_path):
@@ -193,6 +215,7 @@ def test_the_plan_tells_the_levels_that_are_expected():
         (["accuracy=0"], 'accuracy = 0: 0 is not between 1e-05 and 0.5; allowed: "1 %"'),
         (["accuracy=fine"], "fine is not a number"),
         (["accuracy.area=1%"], "accuracy.area: no figure of kind contact; allowed: all, load, contact_area_fraction"),
+        (["accuracy.contact_spots=1%"], "accuracy.contact_spots: it has no error bar: a count"),
         (["accuracy.approach=2"], "approach = 2 is not between"),
         (["outputs.errors=false"], "accuracy: outputs.errors is false"),
         (["shape.kind=cylinder"], "grid.lengths: missing; allowed: the sides of the patch"),
@@ -256,6 +279,7 @@ def test_other_kinds_refine_what_they_resolve(tmp_path, scene, asked, least):
     assert done.summary["status"] == "converged"
     assert done.summary["accuracy"]["met"]
     assert all(words in levels(done)[-1] for words in least)
+    assert not askable_without_bar(done)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -313,6 +337,14 @@ def test_what_cannot_be_refined_and_leaves_too_much_ends_it_at_once():
     found = refine.solve_case(kind, CoilScene(accuracy=0.01), PlainContext())
     assert (found.status, len(found.refinement["levels"])) == ("inaccurate", 1)
     assert found.where.endswith("the data end")
+
+
+def test_a_figure_that_the_kind_makes_no_bar_of_ends_it_at_once():
+    kind = coils(order=2)
+    bare = dataclasses.replace(kind, run=lambda scene, context: Coil(turns=1.0))
+    found = refine.solve_case(bare, CoilScene(accuracy={"turns": 0.01}), PlainContext())
+    assert (found.status, len(found.refinement["levels"])) == ("inaccurate", 1)
+    assert found.where == "accuracy not met: turns has no error bar: the kind makes none of it"
 
 
 def test_an_error_that_does_not_fall_ends_it():

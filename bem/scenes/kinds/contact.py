@@ -79,6 +79,9 @@ def plan(scene: ContactScene) -> Plan:
     )
 
 
+_YIELDED = "how it converges has not been judged; beside it stands what whole cells count"
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ContactRecord(GridRecord):
     """A solved contact, and the stresses below it where they are asked for."""
@@ -90,29 +93,33 @@ class ContactRecord(GridRecord):
         Figure("", "area at the hardness over that of the grid", headline=True, part_of=("contact_area_fraction",)),
     ]
     contact_area: Annotated[float, Figure("m2", "real contact area")]
-    counted_contact_area_fraction: Annotated[float, Figure("", "cells in contact over all")]
-    counted_plastic_area_fraction: Annotated[float, Figure("", "cells at the hardness over all")]
-    contact_spots: Annotated[int, Figure("", "separate spots of contact")]
+    counted_contact_area_fraction: Annotated[float, Figure("", "cells in contact over all", unjudged=True)]
+    counted_plastic_area_fraction: Annotated[float, Figure("", "cells at the hardness over all", unjudged=True)]
+    contact_spots: Annotated[int, Figure("", "separate spots of contact", unjudged=True)]
     contact_perimeter: Annotated[float, Figure("m", "length of the edges of contact")]
     mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area", headline=True)]
     max_pressure: Annotated[float, Figure("Pa", "highest pressure", headline=True)]
-    max_pressure_of_cells: Annotated[float, Figure("Pa", "highest pressure of a cell")]
+    max_pressure_of_cells: Annotated[float, Figure("Pa", "highest pressure of a cell", unjudged=True)]
     approach: Annotated[float, Figure("m", "approach from first touch", headline=True)]
     mean_gap: Annotated[float, Figure("m", "mean of the open gap")]
-    residual: Annotated[float, Figure("", "relative residual", headline=True)]
-    iterations: Annotated[int, Figure("", "iterations")]
-    convolutions: Annotated[float, Figure("", "convolutions")]
-    lower_Sq: Annotated[float | None, Figure("m", "Sq of the lower surface", optional=True)] = None
-    upper_Sq: Annotated[float | None, Figure("m", "Sq of the upper surface", optional=True)] = None
+    residual: Annotated[float, Figure("", "relative residual", headline=True, unjudged=True)]
+    iterations: Annotated[int, Figure("", "iterations", unjudged=True)]
+    convolutions: Annotated[float, Figure("", "convolutions", unjudged=True)]
+    lower_Sq: Annotated[float | None, Figure("m", "Sq of the lower surface", optional=True, unjudged=True)] = None
+    upper_Sq: Annotated[float | None, Figure("m", "Sq of the upper surface", optional=True, unjudged=True)] = None
     max_von_mises: Annotated[float | None, Figure("Pa", "highest von Mises stress", optional=True, headline=True)] = (
         None
     )
     max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)] = None
     max_von_mises_of_points: Annotated[
-        float | None, Figure("Pa", "highest von Mises stress of a point", optional=True)
+        float | None, Figure("Pa", "highest von Mises stress of a point", optional=True, unjudged=True)
     ] = None
-    yielded_volume: Annotated[float | None, Figure("m3", "volume beyond the yield stress", optional=True)] = None
-    counted_yielded_volume: Annotated[float | None, Figure("m3", "that of whole cells", optional=True)] = None
+    yielded_volume: Annotated[
+        float | None, Figure("m3", "volume beyond the yield stress", optional=True, no_bar=_YIELDED)
+    ] = None
+    counted_yielded_volume: Annotated[
+        float | None, Figure("m3", "that of whole cells", optional=True, unjudged=True)
+    ] = None
     pressure: Annotated[FloatArray, grid_map("Pa", "contact pressure")]
     displacement: Annotated[FloatArray, grid_map("m", "normal displacement of both bodies together")]
     gap: Annotated[FloatArray, grid_map("m", "gap between the deformed surfaces")]

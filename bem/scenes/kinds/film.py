@@ -67,20 +67,25 @@ def plan(scene: FilmScene) -> Plan:
 
 
 _JUMPS = "a film is often nearly as thin at several times, and other steps may pick another of them"
+_BY_TIME = "the thinnest one and the last one have theirs"
 
 
 @dataclass(frozen=True, eq=False)
 class FilmTimeRecord(Record):
     """A film in time."""
 
-    times_reported: Annotated[FloatArray, Figure("s", "time", ("reported",), name="time")]
-    minimum_film_reported: Annotated[FloatArray, Figure("nm", "minimum film", ("reported",), name="minimum_film")]
+    times_reported: Annotated[FloatArray, Figure("s", "time", ("reported",), name="time", unjudged=True)]
+    minimum_film_reported: Annotated[
+        FloatArray, Figure("nm", "minimum film", ("reported",), name="minimum_film", no_bar=_BY_TIME)
+    ]
     thinnest_film: Annotated[float, Figure("nm", "thinnest film of all times", headline=True)]
     thinnest_film_time: Annotated[float, Figure("s", "when it is that thin", headline=True, no_bar=_JUMPS)]
     film_at_end: Annotated[float, Figure("nm", "minimum film at the end", headline=True)]
     largest_friction_force: Annotated[float, Figure("N", "largest friction force")]
-    volume_imbalance: Annotated[float, Figure("", "volume that appears or goes, over that in the film", headline=True)]
-    newton_steps: Annotated[int, Figure("", "Newton steps")]
+    volume_imbalance: Annotated[
+        float, Figure("", "volume that appears or goes, over that in the film", headline=True, unjudged=True)
+    ]
+    newton_steps: Annotated[int, Figure("", "Newton steps", unjudged=True)]
     time: Annotated[FloatArray, Series(("time",), "s", "time")]
     film_x: Annotated[FloatArray, Series(("film_x",), "m", "x, along sliding")]
     speed: Annotated[FloatArray, Series(("time",), "m/s", "speed of the flat")]

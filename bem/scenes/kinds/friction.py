@@ -106,14 +106,15 @@ def plan(scene: FrictionScene) -> Plan:
 
 _curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="first")
 _LOADS = ("contact_load", "film_load")
-_other_oil = partial(_curve, no_bar="they are to compare with, to a thousandth of the oil")
+_OTHER = "they are to compare with, to a thousandth of the oil"
+_other_oil = partial(_curve, no_bar=_OTHER)
 
 
 @dataclass(frozen=True, eq=False)
 class CurveRecord(Record):
     """A Stribeck curve, and the fields that make pictures, at the speed where film and contact share most evenly."""
 
-    speed: Annotated[FloatArray, _curve("m_s", "speed of the flat", headline=True)]
+    speed: Annotated[FloatArray, _curve("m_s", "speed of the flat", headline=True, unjudged=True)]
     friction: Annotated[FloatArray, _curve("", "coefficient of friction", headline=True)]
     boundary_part: Annotated[FloatArray, _curve("", "boundary part of the friction", name="boundary_friction_part")]
     film_part: Annotated[FloatArray, _curve("", "film part of the friction", name="film_friction_part")]
@@ -122,14 +123,16 @@ class CurveRecord(Record):
     minimum_film: Annotated[FloatArray, _curve("nm", "minimum film thickness", headline=True)]
     lambda_ratio: Annotated[FloatArray, _curve("", "film under the whole load over roughness", headline=True)]
     contact_area_fraction: Annotated[FloatArray, _curve("", "real contact area over patch")]
-    film_solves: Annotated[FloatArray, _curve("", "films solved")]
-    contact_solves: Annotated[FloatArray, _curve("", "rough contacts solved")]
-    oil_beside_contact: Annotated[FloatArray, _curve("", "share of the patch's oil that lies beside Hertz' contact")]
+    film_solves: Annotated[FloatArray, _curve("", "films solved", unjudged=True)]
+    contact_solves: Annotated[FloatArray, _curve("", "rough contacts solved", unjudged=True)]
+    oil_beside_contact: Annotated[
+        FloatArray, _curve("", "share of the patch's oil that lies beside Hertz' contact", no_bar=_OTHER)
+    ]
     loaded_contact_load: Annotated[
         FloatArray, _other_oil("N", "contact load with the oil counted where the film carries")
     ]
     loaded_friction: Annotated[FloatArray, _other_oil("", "friction with the oil counted where the film carries")]
-    rms_height: Annotated[float, Figure("nm", "rms height of both surfaces together", name="Sq")]
+    rms_height: Annotated[float, Figure("nm", "rms height of both surfaces together", name="Sq", unjudged=True)]
     shown_speed: Annotated[FloatArray, _shown((), "m/s", "speed at which the fields are shown")]
     x: Annotated[FloatArray, _shown(("x",), "m", "x, along sliding")]
     y: Annotated[FloatArray, _shown(("y",), "m", "y")]

@@ -123,7 +123,7 @@ class TractionRecord(Record):
     share_of_upper: Annotated[float | None, Figure("", "share that enters the upper body")] = None
     share_of_oil: Annotated[float | None, Figure("", "share that the oil carries on")] = None
     energy_imbalance: Annotated[float | None, Figure("", "friction power less all of these", no_bar=_ALGEBRA)] = None
-    newton_steps: Annotated[int, Figure("", "Newton steps of all films")]
+    newton_steps: Annotated[int, Figure("", "Newton steps of all films", unjudged=True)]
     x: Annotated[FloatArray, _along("1", "x over the Hertz half-width, along the entrainment")]
     pressure: Annotated[FloatArray, _along("Pa", "film pressure")]
     thickness: Annotated[FloatArray, _along("m", "film thickness")]
