@@ -96,7 +96,7 @@ def figures_that_may_not(record: type[Record]) -> dict[str, str]:
     }
 
 
-_UNJUDGED = "a count, what cells or solvers tell of themselves, or what is given"
+_UNJUDGED = "none is made of counts, of what cells or solvers tell of themselves, of what is given"
 
 
 def wanted(asked: float | Mapping[str, float | str], record: Record, headline: Iterable[str]) -> dict[str, float]:

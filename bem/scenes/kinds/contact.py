@@ -79,9 +79,6 @@ def plan(scene: ContactScene) -> Plan:
     )
 
 
-_YIELDED = "how it converges has not been judged; beside it stands what whole cells count"
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ContactRecord(GridRecord):
     """A solved contact, and the stresses below it where they are asked for."""
@@ -115,7 +112,7 @@ class ContactRecord(GridRecord):
         float | None, Figure("Pa", "highest von Mises stress of a point", optional=True, unjudged=True)
     ] = None
     yielded_volume: Annotated[
-        float | None, Figure("m3", "volume beyond the yield stress", optional=True, no_bar=_YIELDED)
+        float | None, Figure("m3", "volume beyond the yield stress", optional=True, unjudged=True)
     ] = None
     counted_yielded_volume: Annotated[
         float | None, Figure("m3", "that of whole cells", optional=True, unjudged=True)
