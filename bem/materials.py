@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import bisect
+import difflib
 import itertools
 import math
 import tomllib
@@ -10,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from numbers import Real
+from typing import Any
 
 from bem.errors import InputError
 from bem.representation import tabled
@@ -123,6 +125,11 @@ class Material:
         return self.youngs_modulus / (1 - self.poissons_ratio**2)
 
 
+def _of_the_catalogue(material: Any) -> Any:
+    """The material of an entry of the catalogue, anything else as it is."""
+    return material.material if isinstance(material, CatalogueEntry) else material
+
+
 @dataclass(frozen=True)
 class Layer:
     """A bonded surface layer of uniform thickness [m].
@@ -137,6 +144,7 @@ class Layer:
 
     def __post_init__(self) -> None:
         messages = []
+        object.__setattr__(self, "material", _of_the_catalogue(self.material))
         if not isinstance(self.material, Material):
             messages.append(f"Layer: material {self.material!r} must be a Material")
         if not _is_positive(self.thickness):
@@ -167,6 +175,7 @@ class Body:
 
     def __init__(self, material: Material, *, layer: Layer | None = None, layers: Sequence[Layer] = ()) -> None:
         messages: list[str] = []
+        material = _of_the_catalogue(material)
         if not isinstance(material, Material):
             messages.append(f"Body: material {material!r} must be a Material")
         if layer is not None and not isinstance(layer, Layer):
@@ -231,6 +240,7 @@ def contact_modulus(a: Material, b: Material | None = None) -> float:
     ------
     InputError : anything but materials, such as bodies.
     """
+    a, b = _of_the_catalogue(a), _of_the_catalogue(b)
     _check_materials("contact_modulus", a, b)
     compliance = 1 / a.plane_strain_modulus
     if b is not None:
@@ -248,6 +258,7 @@ def dundurs_beta(a: Material, b: Material | None = None) -> float:
     ------
     InputError : anything but materials, such as bodies.
     """
+    a, b = _of_the_catalogue(a), _of_the_catalogue(b)
     _check_materials("dundurs_beta", a, b)
     numerator = (1 - 2 * a.poissons_ratio) / a.shear_modulus
     denominator = 2 * (1 - a.poissons_ratio) / a.shear_modulus
@@ -265,21 +276,42 @@ def _check_materials(name: str, a: object, b: object) -> None:
         raise InputError(messages)
 
 
-@dataclass(frozen=True)
-class CatalogueEntry:
-    """A material and where its constants come from."""
+@dataclass(frozen=True, init=False)
+class CatalogueEntry(Body):
+    """A material of the catalogue and where its constants come from; it is a homogeneous body of it, too."""
 
-    material: Material
-    source: str
+    source: str = ""
+
+    def __init__(self, material: Material, source: str) -> None:
+        super().__init__(material)
+        object.__setattr__(self, "source", source)
 
 
-def _catalogue() -> dict[str, CatalogueEntry]:
-    found = {}
+class UnknownMaterialError(InputError, KeyError):
+    """A name that the catalogue does not have."""
+
+    __str__ = InputError.__str__  # a KeyError shows itself in quotes
+
+
+class Catalogue(dict[str, CatalogueEntry]):
+    """Materials by name."""
+
+    def __missing__(self, name: object) -> CatalogueEntry:
+        close = difflib.get_close_matches(str(name).lower().replace("_", "-").replace(" ", "-"), self, n=1)
+        hint = f' - did you mean "{close[0]}"?' if close else ""
+        raise UnknownMaterialError(f"CATALOGUE[{name!r}]: no such material{hint}; allowed: {', '.join(sorted(self))}")
+
+
+def _catalogue() -> Catalogue:
+    found = Catalogue()
     for name, table in tomllib.loads(files("bem").joinpath("materials.toml").read_text(encoding="utf-8")).items():
         source, heat = table.pop("source"), table.pop("heat_source", "")
         found[name] = CatalogueEntry(Material(name, **table), f"{source}; heat: {heat}" if heat else source)
     return found
 
 
-CATALOGUE: dict[str, CatalogueEntry] = _catalogue()
-"""Materials by name from `materials.toml`, each with the source of its constants. Hardness varies: check it."""
+CATALOGUE: Catalogue = _catalogue()
+"""Materials by name from `materials.toml`, each with the source of its constants. Hardness varies: check it.
+
+`CATALOGUE["silicon-nitride"]` may stand wherever a body may, and its `.material` wherever a material may.
+"""

@@ -62,6 +62,7 @@ def calibrate(  # reason: the arguments are the options
     table(("parameter", "value", "standard deviation"), rows, right=(1, 2))
     print(f"chi-square {result.chi_square:.4g} with {result.degrees} degrees of freedom")
     print(result.verdict())
+    print(f"lines of a scene (kind tribofilm):\n\n{result.scene_lines()}\n")
     if json_out is not None:
         _write(json_out, result)
         print(f"written: {json_out}")
@@ -122,5 +123,7 @@ def _write(path: Path, result: Calibration) -> None:
         "chi_square": result.chi_square,
         "degrees_of_freedom": result.degrees,
         "residuals_nm": (1e9 * result.residuals).tolist(),
+        "verdict": result.verdict(),
+        "scene": result.scene_lines(),
     }
     write_text(path, json.dumps(document, indent=1) + "\n")

@@ -21,7 +21,13 @@ def register(app: typer.Typer) -> None:
     @app.command(short_help="Write a commented scene of a kind, to start from.")
     def new(
         kind: Annotated[
-            str, typer.Argument(metavar="KIND", help="Kind of scene, such as contact.", autocompletion=complete_kind)
+            str,
+            typer.Argument(
+                metavar="KIND",
+                help="Kind of scene, such as contact (or what it is called elsewhere, such as stribeck), or a built-in "
+                "scene.",
+                autocompletion=complete_kind,
+            ),
         ],
         file: Annotated[
             Path | None, typer.Argument(metavar="[FILE]", help="File to write; without it KIND.toml.")
@@ -33,6 +39,7 @@ def register(app: typer.Typer) -> None:
         Examples:
           bem new contact
           bem new wear my-wear.toml
+          bem new stribeck
         """
         from bem.errors import ResultsError
         from bem.results.atomic import write_text

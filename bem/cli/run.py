@@ -28,7 +28,7 @@ SetOption = Annotated[
         "--set",
         metavar="KEY=VALUE",
         help='Change a key of the scene, such as contact.load="10 N" or, in a list, variants[0].cells=96; KEY=@FILE '
-        "takes a list from a file, one value a line. May be repeated.",
+        "takes a list from a file, one value a line; KEY= takes the key out. May be repeated.",
     ),
 ]
 

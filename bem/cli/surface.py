@@ -10,7 +10,14 @@ import typer
 if TYPE_CHECKING:
     from bem.surfaces import Surface
 
-FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="An instrument's file, or a map as .npz or table.")]
+FileArgument = Annotated[
+    Path,
+    typer.Argument(
+        metavar="FILE",
+        help="An instrument's file, or a map as .npz or table; the package's own are example/ground-disk.al3d and "
+        "example/polished-pin.x3p.",
+    ),
+]
 DetrendOption = Annotated[
     str | None, typer.Option(help="plane, curvature or none; plane, and none for an .npz, if not given.")
 ]
@@ -18,6 +25,9 @@ FillOption = Annotated[bool, typer.Option("--fill/--no-fill", help="Fill missing
 ChannelOption = Annotated[str | None, typer.Option(help="Name or number of the channel; the file's own default.")]
 SpacingOption = Annotated[
     str | None, typer.Option(help='Distance of points where the file does not say, "100 nm" or "100 nm,200 nm".')
+]
+SpikesOption = Annotated[
+    float | None, typer.Option(help="Take out points further from their neighbours than so many standard deviations.")
 ]
 UnitOption = Annotated[str | None, typer.Option(help="Unit of the heights where the file does not say, such as nm.")]
 
@@ -52,7 +62,7 @@ def generate(  # reason: the arguments are the options
     from bem.cli._quantity import length, new_file, pair_of_cells, pair_of_lengths
     from bem.errors import InputError
     from bem.grid import Grid
-    from bem.surfaces import Surface, generate_surface, write_surface
+    from bem.surfaces import Surface, write_surface
 
     new_file(out, "OUT", (".npz",))
     sides = pair_of_lengths(spacing, "--spacing")
@@ -71,14 +81,9 @@ def generate(  # reason: the arguments are the options
         "kurtosis": kurtosis,
     }
     try:
-        heights = generate_surface(grid, **asked)  # type: ignore[arg-type]
+        surface = Surface.generate(grid, **asked)
     except InputError as error:
         raise InputError([message.removeprefix("generate_surface: ") for message in error.messages]) from None
-    metadata = {
-        "generated": {key: value for key, value in asked.items() if value is not None},
-        "periodic": (True, True),
-    }
-    surface = Surface(heights, grid.spacing, metadata)
     path = write_surface(out, surface)
     _show(surface, path.name)
     print(f"written: {path}")
@@ -92,13 +97,14 @@ def read(
     channel: ChannelOption = None,
     spacing: SpacingOption = None,
     height_unit: UnitOption = None,
+    despike: SpikesOption = None,
 ) -> None:
     """Read a measured surface, level it, fill what is missing and write it as a plain map in metres."""
     from bem.cli._quantity import new_file
     from bem.surfaces import write_surface
 
     new_file(out, "OUT", (".npz",))
-    surface = _read(file, detrend, fill, channel, spacing, height_unit)
+    surface = _read(file, detrend, fill, channel, spacing, height_unit, despike)
     path = write_surface(out, surface)
     _show(surface, file.name)
     print(f"written: {path}")
@@ -111,10 +117,11 @@ def describe(
     channel: ChannelOption = None,
     spacing: SpacingOption = None,
     height_unit: UnitOption = None,
+    despike: SpikesOption = None,
     json: Annotated[bool, typer.Option("--json", help="As JSON, in SI units.")] = False,
 ) -> None:
     """Print height, slope and correlation of a surface."""
-    surface = _read(file, detrend, fill, channel, spacing, height_unit)
+    surface = _read(file, detrend, fill, channel, spacing, height_unit, despike)
     if json:
         import dataclasses
         import json as writer
@@ -138,12 +145,13 @@ def plot(
     channel: ChannelOption = None,
     spacing: SpacingOption = None,
     height_unit: UnitOption = None,
+    despike: SpikesOption = None,
 ) -> None:
     """Draw a surface: heights, their distribution, autocorrelation and spectrum."""
     from bem.cli._quantity import new_file
 
     new_file(out, "OUT", (".png", ".pdf", ".svg"))
-    surface = _read(file, detrend, fill, channel, spacing, height_unit)
+    surface = _read(file, detrend, fill, channel, spacing, height_unit, despike)
     from bem.plots.surface import draw_surface
 
     draw_surface(surface, out, periodic=_periodic(surface))
@@ -151,7 +159,13 @@ def plot(
 
 
 def _read(
-    file: Path, detrend: str | None, fill: bool, channel: str | None, spacing: str | None, height_unit: str | None
+    file: Path,
+    detrend: str | None,
+    fill: bool,
+    channel: str | None,
+    spacing: str | None,
+    height_unit: str | None,
+    despike: float | None,
 ) -> Surface:
     from bem.cli._quantity import pair_of_lengths
     from bem.surfaces import read_surface
@@ -164,6 +178,7 @@ def _read(
         channel=int(channel) if channel is not None and channel.isdigit() else channel,
         spacing=pair_of_lengths(spacing, "--spacing"),
         height_unit=height_unit,
+        despike=despike,
     )
 
 
@@ -198,7 +213,7 @@ def _show(surface: Surface, name: str) -> None:
         ("autocorrelation length, x", metres(d.autocorrelation_length_x)),
         ("autocorrelation length, y", metres(d.autocorrelation_length_y)),
     ]
-    missing = surface.metadata.get("missing_points")
-    if missing:
-        rows.append(("points filled", str(missing)))
+    for key, words in (("missing_points", "points filled"), ("spikes", "spikes taken out")):
+        if surface.metadata.get(key):
+            rows.append((words, str(surface.metadata[key])))
     table(("figure", "value"), rows, title=name)

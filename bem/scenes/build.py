@@ -250,6 +250,7 @@ def read_map(surface: MeasuredSurface) -> Surface:
         channel=surface.channel,
         spacing=surface.spacing,
         height_unit=surface.height_unit,
+        despike=surface.despike,
     )
     return found if surface.crop is None else crop(found, surface.crop, centre=surface.centre)
 
@@ -263,12 +264,24 @@ def _map_size(surface: MeasuredSurface) -> tuple[tuple[int, int], tuple[float, f
 
 def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[[str], None]) -> FloatArray:
     """A measured surface, as `read_map` gives it, on the grid; what had to be done to it is noted."""
-    from bem.surfaces import MirrorWarning, detrend, high_pass, low_pass, mirror_to_periodic, resample, scale_to_rms
+    from bem.surfaces import (
+        MirrorWarning,
+        close_seams,
+        detrend,
+        high_pass,
+        low_pass,
+        mirror_to_periodic,
+        resample,
+        scale_to_rms,
+    )
 
     name = Path(surface.path).name
     missing = int(found.metadata.get("missing_points", 0) or 0)
     if missing:
         note(f"{name}: {missing} points were missing and are filled from their neighbours")
+    spikes = int(found.metadata.get("spikes", 0) or 0)
+    if spikes:
+        note(f"{name}: {spikes} spikes were taken out and are filled from their neighbours")
     if surface.low_pass is not None:
         found = low_pass(found, surface.low_pass)
     if surface.high_pass is not None:
@@ -292,11 +305,14 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
             warnings.simplefilter("ignore", MirrorWarning)
             found = mirror_to_periodic(found, axes=axes)
         note(f"{name}: made periodic by mirroring; the surface is symmetric about its seams")
-    open_seams = [
-        axis for axis, wraps, mirrored in zip("xy", grid.periodic, axes, strict=True) if wraps and not mirrored
-    ]
-    if open_seams:
-        note(f"{name}: continued periodically along {' and '.join(open_seams)} as it is, with a step at the seam")
+    open_x, open_y = (wraps and not mirrored for wraps, mirrored in zip(grid.periodic, axes, strict=True))
+    if open_x or open_y:
+        found = close_seams(found, axes=(open_x, open_y))
+        along = " and ".join(axis for axis, is_open in zip("xy", (open_x, open_y), strict=True) if is_open)
+        note(
+            f"{name}: continued periodically along {along}; the step where its ends meet is spread out (Moisan 2011), "
+            f"which changes the heights by {1e9 * found.metadata['seams_closed']:.3g} nm rms"
+        )
     if surface.rms_height is not None:
         found = scale_to_rms(found, surface.rms_height)
     return np.ascontiguousarray(found.heights - found.heights.mean())

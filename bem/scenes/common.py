@@ -11,6 +11,7 @@ from pydantic_core import PydanticCustomError
 
 from bem.materials import CATALOGUE, Body, Layer, Material
 from bem.scenes.asked import AskedAccuracy
+from bem.scenes.paths import checksum_of, what_is_wrong_with
 from bem.scenes.ranges import values_of_keys
 from bem.scenes.units import Density, Force, HeatCapacity, Length, Pressure, Ratio, ThermalConductivity
 
@@ -179,13 +180,15 @@ class GeneratedSurface(Table):
 class MeasuredSurface(Table):
     """A surface from an instrument's file; see `bem.read_surface`. Paths are relative to the scene file.
 
-    In this order: read, levelled, missing points filled, cropped to lengths around `centre`, filtered, resampled to the
-    grid, levelled again, mirrored to be periodic, scaled to `rms_height`.
+    In this order: read, despiked, levelled, missing points filled, cropped to lengths around `centre`, filtered,
+    resampled to the grid, levelled again, made periodic (mirrored or seams closed), scaled to `rms_height`. A run's
+    scene has the file's checksum: one that has changed since is refused.
     """
 
     kind: Literal["measured"] = "measured"
     path: str
     detrend: Literal["plane", "curvature", "none"] = "plane"
+    despike: Annotated[Ratio, Field(ge=3)] | None = None
     fill: bool = Field(default=True, strict=True)
     channel: str | Annotated[int, Field(strict=True, ge=0)] | None = None
     spacing: tuple[PositiveLength, PositiveLength] | None = None
@@ -196,23 +199,25 @@ class MeasuredSurface(Table):
     high_pass: PositiveLength | None = None
     mirror: Axis = "none"
     rms_height: PositiveLength | None = None
+    sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$")] | None = None
 
     _pairs = field_validator("spacing", "crop", mode="before")(one_for_both)
 
     @field_validator("path")
     @classmethod
     def _readable(cls, path: str) -> str:
-        try:
-            if not path or not Path(path).is_file():
-                raise problem("no such file", "the path of a surface file, relative to the scene file")
-            with open(path, "rb") as file:
-                if not file.read(1):
-                    raise problem("the file is empty", "the path of a surface file")
-        except PydanticCustomError:
-            raise
-        except (OSError, ValueError) as error:
-            raise problem(f"cannot be read ({error})", "the path of a readable surface file") from None
+        if (wrong := what_is_wrong_with(path)) is not None:
+            raise problem(*wrong)
         return path
+
+    @model_validator(mode="after")
+    def _unchanged(self) -> Self:
+        if self.sha256 is not None and self.sha256 != (found := checksum_of(self.path)):
+            raise problem(
+                f"{Path(self.path).name} has changed since: its SHA-256 is {found[:12]}..., not {self.sha256[:12]}...",
+                "the file as it was, or no sha256",
+            )
+        return self
 
 
 SurfaceScene = Annotated[SmoothSurface | GeneratedSurface | MeasuredSurface, Field(discriminator="kind")]

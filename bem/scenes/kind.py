@@ -19,8 +19,9 @@ from bem.errors import InputError
 from bem.extensions import load_extensions, same_origin
 from bem.scenes.asked import ALL, figures_that_may_be_asked, figures_that_may_not
 from bem.scenes.axes import Axis
-from bem.scenes.common import SceneModel
+from bem.scenes.common import MeasuredSurface, SceneModel, Table
 from bem.scenes.context import Context
+from bem.scenes.paths import checksum_of
 from bem.scenes.planner import Plan
 from bem.scenes.records import Record
 from bem.scenes.records import headline as headline_of
@@ -83,7 +84,7 @@ class Kind:
             self._check_accuracy(scene)
             for one in self.resolutions:
                 scene = one.first(scene)
-        return self.resolve(scene)
+        return self.resolve(with_checksums(scene))
 
     def _check_accuracy(self, scene: Any) -> None:
         """Refuse an accuracy of figures that there are not, or that this kind cannot refine to."""
@@ -116,6 +117,20 @@ class Kind:
         if self.name in _of_the_package() or (other is not None and not same_origin(other.model, self.model)):
             raise InputError(f"register: the kind {self.name!r} is taken")
         _registered[self.name] = self
+
+
+def with_checksums(table: Any) -> Any:
+    """The table with the checksums of its surface files, at any depth; itself where there are none."""
+    changed: dict[str, Any] = {}
+    for name in type(table).model_fields:
+        inner = getattr(table, name)
+        if isinstance(inner, Table):
+            whole = with_checksums(inner)
+            if whole is not inner:
+                changed[name] = whole
+    if isinstance(table, MeasuredSurface) and table.sha256 is None:
+        changed["sha256"] = checksum_of(table.path)
+    return table.model_copy(update=changed) if changed else table
 
 
 _PARTS = ("plan", "run", "resolve", "axes", "summarise", "volumes")

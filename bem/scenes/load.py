@@ -20,7 +20,7 @@ from bem.laws import Law
 from bem.scenes.common import SceneModel
 from bem.scenes.kind import get_kind, kind_names
 from bem.scenes.laws import plain
-from bem.scenes.paths import MOST_PARTS, Key, parse_key, put, values_in_file
+from bem.scenes.paths import MOST_PARTS, Key, absolute, drop, parse_key, put, values_in_file
 from bem.scenes.units import Dimension
 from bem.scenes.validate import capped, is_pair, nearest, show, validate
 from bem.small_files import read_small
@@ -37,7 +37,7 @@ def load_scene(source: str | os.PathLike[str] | Mapping[str, Any], settings: Seq
     source : path of a TOML file, a run directory, the name of a built-in scene, or a table of plain values.
     settings : `key=value` with dotted keys (into lists with an index: `variants[0].name`), values as in TOML; quotes
         may be left out, and `key=@FILE` takes a list from a text file, one value a line. They replace what the file
-        says.
+        says; `key=` takes the key out of the scene.
 
     Raises
     ------
@@ -211,12 +211,15 @@ def _set(data: dict[str, Any], setting: str) -> None:
             f'--set {show(setting)}: not of the form key=value; allowed: for example contact.load="10 N", '
             'variants[0].name="a", or key=@FILE with a value on each line'
         )
+    if not value.strip():
+        drop(data, key)
+        return
     if value.strip().startswith("@"):
         found: Any = [_plain(line) for line in values_in_file(value.strip()[1:], f"--set {show(setting)}")]
     else:
         found = _plain(value)
     if key[-1] == "path" and isinstance(found, str):
-        found = str(Path(found).absolute())  # what is typed in a shell is relative to the shell's folder
+        found = absolute(found, Path.cwd())  # what is typed in a shell is relative to the shell's folder
     put(data, key, found, pair=_is_pair(data, key))
 
 
@@ -250,7 +253,7 @@ def _absolute(value: Any, folder: Path, depth: int = 0) -> Any:
         copy = {}
         for key, item in value.items():
             if key == "path" and isinstance(item, str) and item and "\0" not in item:
-                copy[key] = str(folder / item)
+                copy[key] = absolute(item, folder)
             else:
                 copy[key] = _absolute(item, folder, depth + 1)
         return copy

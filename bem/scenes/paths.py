@@ -1,13 +1,17 @@
-"""Keys of a scene as they are typed: `contact.load`; into lists by index, `variants[0].name` or `variants.0.name`."""
+"""Keys of a scene as they are typed: `contact.load`; into lists by index, `variants[0].name` or `variants.0.name`.
+And the files that it names."""
 
 from __future__ import annotations
 
+import hashlib
 import re
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from bem.errors import InputError
 from bem.small_files import read_small
+from bem.surfaces.examples import example_path
 
 Key = tuple[str | int, ...]
 
@@ -91,6 +95,31 @@ def put(data: dict[str, Any], key: Key, value: Any, pair: bool = False) -> None:
         place = below
 
 
+def drop(data: dict[str, Any], key: Key) -> None:
+    """Take a key out, in place, as if it had never been written; what `data` was made from stays as it is.
+
+    Raises
+    ------
+    InputError : nothing stands there, or an index into something that is no list.
+    """
+    place = value_at(data, key[:-1])
+    last = key[-1]
+    if value_at(data, key) is None:
+        known = [spell_key((*key[:-1], name)) for name in place] if isinstance(place, Mapping) else []
+        listed = f"keys that are set, {', '.join(known)}" if known else "a key that is set"
+        raise InputError(f"{spell_key(key)}=: is not set, so there is nothing to take out; allowed: {listed}")
+    if isinstance(last, int):
+        assert isinstance(place, list | tuple)
+        rest: Any = [item for index, item in enumerate(place) if index != last]
+    else:
+        assert isinstance(place, Mapping)
+        rest = {name: item for name, item in place.items() if name != last}
+    if len(key) > 1:
+        put(data, key[:-1], rest)
+    else:
+        del data[last]  # type: ignore[arg-type]
+
+
 def _check_index(place: Any, here: Key, index: int) -> None:
     if place is None:
         raise InputError(
@@ -134,3 +163,29 @@ def values_in_file(name: str, option: str) -> tuple[str, ...]:
     if not values:
         raise InputError(f"{option}: {name} holds no values; allowed: a text file, one value a line")
     return values
+
+
+def what_is_wrong_with(path: str) -> tuple[str, str] | None:
+    """Of the path of a surface file: what is wrong, and what is allowed; None where it can be read."""
+    try:
+        if not path or not Path(path).is_file():
+            return "no such file", "the path of a surface file, relative to the scene file"
+        with open(path, "rb") as file:
+            return None if file.read(1) else ("the file is empty", "the path of a surface file")
+    except (OSError, ValueError) as error:
+        return f"cannot be read ({error})", "the path of a readable surface file"
+
+
+def checksum_of(path: str) -> str:
+    """SHA-256 of a file, empty where it cannot be read."""
+    try:
+        with open(path, "rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError:
+        return ""
+
+
+def absolute(path: str, folder: Path) -> str:
+    """A path of a scene in `folder`; `example/NAME` is the package's own map unless the folder has such a file."""
+    whole = folder / path
+    return str(whole if whole.exists() else example_path(path) or whole)

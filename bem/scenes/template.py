@@ -15,23 +15,74 @@ from bem.errors import InputError
 from bem.laws import Law
 from bem.scenes.kind import get_kind, kind_names
 from bem.scenes.laws import LawOrNumber
-from bem.scenes.load import _dump_value, library
+from bem.scenes.load import _dump_value, library, library_text
 from bem.scenes.units import Dimension
 from bem.scenes.validate import _fields, _law, _literals, _member, _unwrap, _without_none, nearest, show
 
 _NOT_SHOWN = ("kind", "redoes", "name")
 
 
+_ALSO = {
+    "stribeck": "friction",
+    "stribeck-curve": "friction",
+    "mixed": "friction",
+    "mixed-lubrication": "friction",
+    "boundary": "friction",
+    "hertz": "contact",
+    "dry": "contact",
+    "rough": "contact",
+    "rough-contact": "contact",
+    "stress": "contact",
+    "ehl": "film",
+    "lubrication": "film",
+    "oil-film": "film",
+    "wear-particles": "wear",
+    "debris": "wear",
+    "archard": "wear",
+    "run-in": "running-in",
+    "runningin": "running-in",
+    "zddp": "tribofilm",
+    "antiwear": "tribofilm",
+    "afm": "particles",
+    "particle": "particles",
+    "fretting": "partial-slip",
+    "cattaneo": "partial-slip",
+    "flash-temperature": "surface-temperature",
+    "temperature": "surface-temperature",
+    "heat": "surface-temperature",
+    "traction-curve": "traction",
+    "flow-factor": "flow-factors",
+    "patir-cheng": "flow-factors",
+    "greenwood-williamson": "asperities",
+    "asperity": "asperities",
+}
+"""Names that people guess for the kinds; `bem new NAME` takes them."""
+
+
+def kind_meant(word: str) -> str:
+    """The kind that a word means: its name, one of the names people guess, or the word itself."""
+    name = word.strip().lower().replace("_", "-").replace(" ", "-")
+    return name if name in kind_names() else _ALSO.get(name, word)
+
+
 def scene_template(kind: str) -> str:
     """A TOML scene that runs as it is, with every other key of the kind as a comment: default, unit, choices.
+
+    `kind` may be one of the names that people guess, or that of a built-in scene: its own text is then given.
 
     Raises
     ------
     InputError : no such kind, or none of its built-in scenes can serve as a start.
     """
+    kind = kind_meant(kind)
+    if kind not in kind_names() and kind in library():
+        return library_text(kind)
     if kind not in kind_names():
         listed = ", ".join(f'"{name}"' for name in kind_names())
-        raise InputError(f"KIND {show(kind)}: not a kind of scene{nearest(kind, kind_names())}; allowed: {listed}")
+        close = nearest(kind, [*kind_names(), *_ALSO, *library()])
+        raise InputError(
+            f"KIND {show(kind)}: not a kind of scene{close}; allowed: {listed}, or a built-in scene of `bem scenes`"
+        )
     found = get_kind(kind)
     name, data = _start(kind)
     lines = [

@@ -1,7 +1,8 @@
 """Rough surfaces: generate, read measured ones, filter, describe.
 
 `generate` makes heights of a `spectrum` (`request` checks what is asked, `moments` imposes skewness and kurtosis),
-`read` opens an instrument's file by its `formats`, `filter` levels, fills, cuts and resamples, `describe` measures.
+`read` opens an instrument's file by its `formats`, `filter` levels, despikes, fills, cuts and resamples, `seams` makes
+a map periodic, `describe` measures; `examples` are two maps of our own.
 Names are loaded when first used: planning a contact of smooth bodies costs no transforms and no splines.
 
 Sees grids and no contact. Verified in tests/surfaces: what is asked for is what `describe` finds, the same seed gives
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from bem.surfaces.filter import (
         MirrorWarning,
         crop,
+        despike,
         detrend,
         fill_missing,
         high_pass,
@@ -34,6 +36,7 @@ if TYPE_CHECKING:
     from bem.surfaces.formats import SurfaceFormat
     from bem.surfaces.generate import generate_surface
     from bem.surfaces.read import read_surface, write_surface
+    from bem.surfaces.seams import close_seams
     from bem.surfaces.surface import Surface
 
 __all__ = [
@@ -43,8 +46,10 @@ __all__ = [
     "SurfaceDescription",
     "SurfaceFormat",
     "autocorrelation",
+    "close_seams",
     "crop",
     "describe_surface",
+    "despike",
     "detrend",
     "fill_missing",
     "generate_surface",
@@ -65,6 +70,7 @@ __getattr__ = loader(
         "filter": [
             "MirrorWarning",
             "crop",
+            "despike",
             "detrend",
             "fill_missing",
             "high_pass",
@@ -76,6 +82,7 @@ __getattr__ = loader(
         "formats": ["SurfaceFormat"],
         "generate": ["generate_surface"],
         "read": ["read_surface", "write_surface"],
+        "seams": ["close_seams"],
         "surface": ["Surface"],
     },
 )

@@ -10,7 +10,7 @@ import scipy.fft as fft
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.surfaces.surface import check_map
+from bem.surfaces.surface import Surface, check_map, spacing_of
 
 
 @dataclass(frozen=True)
@@ -52,17 +52,21 @@ class SurfaceDescription:
 
 
 def describe_surface(
-    heights: FloatArray, spacing: tuple[float, float], *, periodic: tuple[bool, bool] = (False, False)
+    heights: FloatArray | Surface,
+    spacing: tuple[float, float] | None = None,
+    *,
+    periodic: tuple[bool, bool] = (False, False),
 ) -> SurfaceDescription:
     """Describe heights (nx, ny) [m] with cells of `spacing` (dx, dy) [m]; nothing but the mean is removed.
 
+    spacing : that of the surface where a `Surface` is given.
     periodic : whether slopes and autocorrelation go on across the edges along x and y.
 
     Raises
     ------
     InputError : heights that are not a finite map, spacings that are not positive.
     """
-    heights, spacing = check_map(heights, spacing)
+    heights, spacing = check_map(heights, spacing_of(heights, spacing))
     deviation = heights - heights.mean()
     variance = float(np.mean(deviation**2))
     rms = math.sqrt(variance)

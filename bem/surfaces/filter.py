@@ -64,6 +64,39 @@ def trend(heights: FloatArray, *, curved: bool) -> FloatArray:
     return fitted
 
 
+LEAST_SPIKE = 3.0
+"""Smallest threshold of `despike`, in standard deviations: below it much of a sound surface would go."""
+
+
+def despike(heights: FloatArray, spacing: tuple[float, float], threshold: float = 6.0) -> FloatArray:
+    """Heights with the spikes of an instrument made missing (nan), for `fill_missing`.
+
+    A point is a spike where it differs from the median of the 5 x 5 points around it by more than `threshold` times
+    the standard deviation of that difference, which is taken as 1.4826 times its median absolute value, so that spikes
+    do not count in it (Hampel, *J. Am. Stat. Assoc.* 69 (1974) 383).
+
+    heights : (nx, ny) [m], nan where points are missing. threshold : at least 3; Gaussian roughness loses nothing at 6.
+
+    Raises
+    ------
+    InputError : heights that are no map, a threshold below 3.
+    """
+    from scipy.ndimage import distance_transform_edt, median_filter
+
+    if not (math.isfinite(threshold) and threshold >= LEAST_SPIKE):
+        raise InputError(f"despike: threshold {threshold!r} must be at least {LEAST_SPIKE:g} standard deviations")
+    heights, spacing = check_map(heights, spacing, missing=True)
+    known = ~np.isnan(heights)
+    if not known.any():
+        return heights
+    nearest = distance_transform_edt(~known, sampling=spacing, return_distances=False, return_indices=True)
+    whole = heights[tuple(nearest)]  # a point beside a hole is judged by what was measured around it
+    difference = np.abs(whole - median_filter(whole, size=5, mode="nearest"))
+    deviation = 1.4826 * float(np.median(difference[known]))
+    spikes = known & (difference > threshold * deviation)
+    return np.where(spikes, np.nan, heights) if deviation > 0 else heights
+
+
 def fill_missing(heights: FloatArray, spacing: tuple[float, float]) -> FloatArray:
     """Fill missing points (nan) with the harmonic surface through their neighbours: no new peak, no new valley.
 

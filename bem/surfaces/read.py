@@ -14,6 +14,7 @@ import os
 import warnings
 import zipfile
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
 
@@ -21,7 +22,8 @@ import numpy as np
 
 from bem.errors import InputError, ResultsError, SurfaceFileError
 from bem.grid import FloatArray
-from bem.surfaces.filter import DETRENDINGS, detrend, fill_missing
+from bem.surfaces.examples import example_path
+from bem.surfaces.filter import DETRENDINGS, LEAST_SPIKE, despike, detrend, fill_missing
 from bem.surfaces.formats import SurfaceFormat, format_of
 from bem.surfaces.surface import Surface
 
@@ -46,7 +48,8 @@ def read_surface(
     channel: str | int | None = None,
     spacing: tuple[float, float] | None = None,
     height_unit: str | None = None,
-) -> Surface:
+    despike: float | None = None,
+) -> Surface:  # reason: the arguments are a promise to users' scripts
     """Read a measured surface.
 
     Parameters
@@ -54,13 +57,16 @@ def read_surface(
     path : a file of any instrument format that SurfaceTopography reads (.al3d, .di, .opd, .x3p, .tmd, .sur, .gwy, ...);
         or a plain map: .npz with `heights` (nx, ny) [m] and `spacing` [m], as `write_surface` writes; .npy; or a table
         of numbers in .txt, .csv or .dat, one line for each ix, with `spacing` given (in .asc, as instruments write
-        it, a line is one iy); or a file of a format of your own (`bem.surfaces.formats`).
+        it, a line is one iy); a file of a format of your own (`bem.surfaces.formats`); or `example/NAME`, one of the
+        package's own (`bem.surfaces.examples`).
     detrend : "plane" (least squares over the points measured), "curvature" (second-order polynomial) or "none".
     fill : True: missing points are filled by the harmonic surface through their neighbours (at most half of the
         map); False: a map with missing points is refused.
     channel : name or number of the channel where a file has several; the reader's default is its topography.
     spacing : (dx, dy) [m], instead of what the file says; needed where it says nothing.
     height_unit : unit of the heights where the file does not say ("nm", "um", ...); plain maps are in metres.
+    despike : take out points that stand out of their neighbourhood by more than so many standard deviations (at least
+        3; 6 takes instruments' spikes and leaves roughness), before the map is levelled; see `bem.surfaces.despike`.
 
     Returns
     -------
@@ -79,9 +85,13 @@ def read_surface(
         messages.append(f"read_surface: height_unit {height_unit!r} is not one of {', '.join(METRES)}")
     if spacing is not None and not _are_lengths(spacing):
         messages.append(f"read_surface: spacing {spacing!r} must be two positive, finite lengths [m]")
+    if despike is not None and not (isinstance(despike, int | float) and despike >= LEAST_SPIKE):
+        messages.append(
+            f"read_surface: despike {despike!r} must be at least {LEAST_SPIKE:g} standard deviations, or None"
+        )
     if messages:
         raise InputError(messages)
-    file = Path(path)
+    file = example_path(path) or Path(path)
     _check_file(file)
     own = format_of(file)
     if own is not None:
@@ -103,7 +113,7 @@ def read_surface(
         raise SurfaceFileError(
             f"{file}: the file does not say how far its points are apart; give spacing=(dx, dy) in metres"
         )
-    return _finish(file, heights, cell, notes, detrend, fill)
+    return _finish(file, heights, cell, notes, _Treatment(detrend, fill, despike))
 
 
 def write_surface(path: str | os.PathLike[str], surface: Surface) -> Path:
@@ -130,6 +140,15 @@ def write_surface(path: str | os.PathLike[str], surface: Surface) -> Path:
         part.unlink(missing_ok=True) if part.parent.is_dir() else None
         raise ResultsError(f"{file}: cannot write the surface: {problem.strerror or problem}") from problem
     return file
+
+
+@dataclass(frozen=True)
+class _Treatment:
+    """What is done to heights that were read: see `read_surface`."""
+
+    detrend: str
+    fill: bool
+    despike: float | None
 
 
 def _are_lengths(pair: object) -> bool:
@@ -159,7 +178,7 @@ def _check_file(file: Path) -> None:
 
 
 def _finish(
-    file: Path, heights: FloatArray, cell: tuple[float, float], notes: dict[str, Any], method: str, fill: bool
+    file: Path, heights: FloatArray, cell: tuple[float, float], notes: dict[str, Any], asked: _Treatment
 ) -> Surface:
     if heights.ndim != 2 or min(heights.shape) < 2:
         raise SurfaceFileError(f"{file}: holds a profile or a point of shape {heights.shape}, not a height map")
@@ -178,16 +197,19 @@ def _finish(
             f"{file}: heights up to {largest:.3g} m on {longest:.3g} m with points {min(cell):.3g} m apart cannot be a "
             "measured surface; the file is damaged or its unit wrong"
         )
-    if missing and not fill:
+    if missing and not asked.fill:
         raise SurfaceFileError(
             f"{file}: {missing} of {heights.size} points are missing; read it with fill=True or crop it with the "
             "instrument's software"
         )
     try:
-        heights = fill_missing(detrend(heights, cell, method), cell)
+        if asked.despike is not None:
+            heights = despike(heights, cell, asked.despike)
+            notes = {**notes, "spikes": int(np.isnan(heights).sum()) - missing}
+        heights = fill_missing(detrend(heights, cell, asked.detrend), cell)
     except InputError as problem:
         raise SurfaceFileError([f"{file}: {message}" for message in problem.messages]) from problem
-    notes = {"file": file.name, **notes, "missing_points": missing, "detrend": method}
+    notes = {"file": file.name, **notes, "missing_points": missing, "detrend": asked.detrend}
     return Surface(np.ascontiguousarray(heights), cell, notes)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -17,10 +18,12 @@ from bem.representation import readable
 
 @readable
 @dataclass(frozen=True, eq=False)
-class Surface:
+class Surface(np.lib.mixins.NDArrayOperatorsMixin):
     """Heights (nx, ny) [m], positive out of the body, on cells of `spacing` (dx, dy) [m].
 
     `metadata` says where the heights come from and what was done to them. The heights are a read-only copy.
+    `Surface.generate` and `Surface.read` make one; where heights are asked for it may stand for them
+    (`solve_contact(-surface, ...)`, `np.std(surface)`), and what is computed of it is a plain array.
 
     Raises
     ------
@@ -38,6 +41,29 @@ class Surface:
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "spacing", spacing)
         object.__setattr__(self, "metadata", MappingProxyType(dict(self.metadata)))
+
+    @classmethod
+    def generate(cls, grid: Grid, **asked: Any) -> Surface:
+        """A random surface on a grid; arguments and errors of `bem.generate_surface`, whose heights these are."""
+        from bem.surfaces.generate import generate_surface
+
+        known = {key: value for key, value in asked.items() if value is not None}
+        return cls(generate_surface(grid, **asked), grid.spacing, {"generated": known, "periodic": (True, True)})
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str], **how: Any) -> Surface:
+        """A measured surface; arguments and errors of `bem.read_surface`, which is the same."""
+        from bem.surfaces.read import read_surface
+
+        return read_surface(path, **how)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> FloatArray:
+        heights = self.heights if dtype is None else self.heights.astype(dtype)
+        return heights.copy() if copy else heights
+
+    def __array_ufunc__(self, function: np.ufunc, method: str, *inputs: Any, **more: Any) -> Any:
+        plain = [one.heights if isinstance(one, Surface) else one for one in inputs]
+        return getattr(function, method)(*plain, **more)
 
     def __reduce__(self) -> tuple[type[Surface], tuple[FloatArray, tuple[float, float], dict[str, Any]]]:
         return Surface, (np.array(self.heights), self.spacing, dict(self.metadata))
@@ -59,6 +85,11 @@ class Surface:
     def replace(self, heights: FloatArray, *, spacing: tuple[float, float] | None = None, **notes: Any) -> Surface:
         """Other heights of the same origin; `notes` are added to the metadata."""
         return Surface(heights, self.spacing if spacing is None else spacing, {**self.metadata, **notes})
+
+
+def spacing_of(heights: object, spacing: object) -> object:
+    """The spacing, or that of a `Surface` where none is given."""
+    return heights.spacing if spacing is None and isinstance(heights, Surface) else spacing
 
 
 def check_map(heights: object, spacing: object, *, missing: bool = False) -> tuple[FloatArray, tuple[float, float]]:

@@ -8,6 +8,9 @@ All parameters are positive and fitted as logarithms. Uncertainties are those of
 (J^T J)^-1 of the weighted residuals, times the reduced chi-square where no errors of measurement are given. Directions
 in parameter space that the data do not feel (singular values below 1e-6 of the largest, or fewer data than parameters)
 are found by a singular value decomposition and named instead of being given a meaningless error bar.
+
+A fit is bad where a chi-square as large has a probability below `LEAST_PROBABILITY` were model and errors right;
+without errors of measurement, where the data lie further than `MOST_SCATTER` of their values from the model.
 """
 
 from __future__ import annotations
@@ -21,6 +24,7 @@ from pathlib import Path
 import numpy as np
 from scipy.constants import Boltzmann, electron_volt
 from scipy.optimize import least_squares
+from scipy.special import gammaincc
 
 from bem.errors import InputError
 from bem.grid import FloatArray
@@ -29,6 +33,10 @@ from bem.tribofilm.evolution import GrowthRate, evolve_film
 from bem.tribofilm.properties import FadingSubstrate
 
 _UNFELT = 1e-6
+LEAST_PROBABILITY = 1e-3
+MOST_SCATTER = 0.15
+_REACH = 30.0  # a parameter is looked for within this factor of its start
+_ASSUMED = 0.05  # relative error of a measurement that comes without one
 _COLUMNS = {
     "temperature": ("K", {"K": (1.0, 0.0), "degC": (1.0, 273.15), "C": (1.0, 273.15)}),
     "time": ("s", {"s": (1.0, 0.0), "min": (60.0, 0.0), "h": (3600.0, 0.0), "hour": (3600.0, 0.0)}),
@@ -136,6 +144,8 @@ class Calibration:
     undetermined : names of parameters that take part in a direction the data do not feel.
     chi_square : weighted sum of squares; degrees : data less parameters. residuals : data - model [m].
     errors_given : whether the data came with errors (else the errors of the fit are scaled to its scatter).
+    at_start : data at time zero, which tell nothing of the constants and are left out. at_bounds : parameters that ran
+    to the end of where they are looked for, a factor of 30 from their start.
     """
 
     model: ReducedModel
@@ -148,6 +158,8 @@ class Calibration:
     data: tuple[Measurement, ...] = field(repr=False)
     predicted: FloatArray = field(repr=False)
     errors_given: bool = True
+    at_start: tuple[Measurement, ...] = field(default=(), repr=False)
+    at_bounds: tuple[str, ...] = ()
 
     @property
     def residuals(self) -> FloatArray:
@@ -160,28 +172,93 @@ class Calibration:
         return not self.undetermined
 
     def verdict(self) -> str:
-        """In a sentence, what the data say about the parameters."""
+        """In a few sentences, what the data say about the parameters, and whether the model meets them."""
         if self.determined:
-            return f"{len(self.data)} data determine {len(self.names)} parameters."
+            said = [f"{len(self.data)} data determine {len(self.names)} parameters."]
+        else:
+            said = [
+                f"Underdetermined: {len(self.data)} data do not determine {len(self.names)} parameters. Combinations "
+                f"of {', '.join(self.undetermined)} can change without any effect on the fit; fix some of them or add "
+                "data."
+            ]
+        return " ".join([*said, *filter(None, (self.misfit, self._bounds_met(), self._start()))])
+
+    @property
+    def misfit(self) -> str:
+        """Why the fit is bad, in a sentence; empty where it is not, or where too few data are there to tell."""
+        if self.degrees <= 0:
+            return ""
+        if self.errors_given:
+            probability = float(gammaincc(0.5 * self.degrees, 0.5 * self.chi_square))
+            if probability >= LEAST_PROBABILITY:
+                return ""
+            why = f"chi-square {self.chi_square:.3g} with {self.degrees} degrees of freedom has a probability of "
+            return f"The fit is bad: {why}{probability:.1g} were the model and the errors of measurement right."
+        scatter = _ASSUMED * math.sqrt(self.chi_square / self.degrees)
+        if scatter <= MOST_SCATTER:
+            return ""
+        return f"The fit is bad: the data lie {scatter:.0%} of their values from the model (rms)."
+
+    def _bounds_met(self) -> str:
+        if not self.at_bounds:
+            return ""
         return (
-            f"Underdetermined: {len(self.data)} data do not determine {len(self.names)} parameters. Combinations of "
-            f"{', '.join(self.undetermined)} can change without any effect on the fit; fix some of them or add data."
+            f"{', '.join(self.at_bounds)} ran to the end of the range that is searched, a factor of {_REACH:g} from "
+            "the start: start elsewhere (--start), or the model is not this film's."
+        )
+
+    def _start(self) -> str:
+        if not self.at_start:
+            return ""
+        text = f"{len(self.at_start)} data at time zero tell nothing of the constants and are left out"
+        thickest = max(m.value for m in self.at_start)
+        limit = 3 * max((m.error or 1e-9) for m in self.at_start)
+        return f"{text}." if thickest <= limit else f"{text}, but the model starts without the {1e9 * thickest:.3g} nm."
+
+    def scene_lines(self) -> str:
+        """The lines of a scene of kind tribofilm that say this film, as TOML."""
+        m = self.model
+        hardness = (
+            f'{{ kind = "fading_substrate", substrate = "{m.substrate_hardness_GPa:.6g} GPa", '
+            f'film = "{m.film_hardness_GPa:.6g} GPa", length = "{m.hardness_length_nm:.6g} nm", '
+            f"temperature_slope = {m.temperature_slope:.6g} }}"
+        )
+        return "\n".join(
+            [
+                "[film]",
+                f'activation_energy = "{m.activation_energy_eV:.6g} eV"',
+                f'activation_volume = "{m.activation_volume_A3:.6g} angstrom^3"',
+                f'prefactor = "{m.prefactor:.6g} m/s"',
+                f'wear_coefficient = "{m.wear_coefficient_1_s:.6g} 1/s"',
+                f'lag = "{m.lag:.6g} s"',
+                f'concentration_constant = "{m.concentration_constant_1_m:.6g} 1/m"',
+                f"hardness = {hardness}",
+                "",
+                "[rubbing]",
+                f"friction = {m.friction:.6g}",
+            ]
         )
 
 
 def calibrate(data: list[Measurement], start: ReducedModel, names: tuple[str, ...] = FITTED) -> Calibration:
     """Fit the named parameters by weighted least squares from the start values.
 
-    Measurements without an error count with 5 % of their value (at least a tenth of a nanometre).
+    Measurements without an error count with 5 % of their value (at least a tenth of a nanometre). Those at time zero,
+    or of wear since the same time, are what any constants give: they are left out, and said to be.
 
     Raises
     ------
-    InputError : no data, unknown parameters, a quantity that is neither thickness nor wear depth.
+    InputError : no data (or none after the start), unknown parameters, a quantity that is neither thickness nor wear
+        depth.
     """
     _check(data, names)
+    at_start = tuple(m for m in data if m.time <= m.since)
+    data = [m for m in data if m.time > m.since]
+    if not data:
+        raise InputError(f"calibrate: all {len(at_start)} data are at time zero; needed: some later")
     given = all(m.error is not None for m in data)
     values = np.array([m.value for m in data])
-    errors = np.array([m.error if m.error is not None else max(0.05 * abs(m.value), 1e-10) for m in data])
+    errors = np.array([m.error if m.error is not None else max(_ASSUMED * abs(m.value), 1e-10) for m in data])
 
     def residuals(logs: FloatArray) -> FloatArray:
         model = replace(start, **{name: math.exp(v) for name, v in zip(names, logs.tolist(), strict=True)})
@@ -191,7 +268,7 @@ def calibrate(data: list[Measurement], start: ReducedModel, names: tuple[str, ..
     found = least_squares(
         residuals,
         begin,
-        bounds=(begin - math.log(30.0), begin + math.log(30.0)),
+        bounds=(begin - math.log(_REACH), begin + math.log(_REACH)),
         x_scale=0.1,
         diff_step=1e-4,
         xtol=1e-8,
@@ -221,6 +298,8 @@ def calibrate(data: list[Measurement], start: ReducedModel, names: tuple[str, ..
         data=tuple(data),
         predicted=model.predict(data),
         errors_given=given,
+        at_start=at_start,
+        at_bounds=tuple(name for name, met in zip(names, found.active_mask, strict=True) if met),
     )
 
 
@@ -247,9 +326,9 @@ def _check(data: list[Measurement], names: tuple[str, ...]) -> None:
     for row, m in enumerate(data, 1):
         if m.quantity not in ("thickness", "wear_depth"):
             messages.append(f"calibrate: datum {row}: quantity {m.quantity!r}; allowed: thickness, wear_depth")
-        elif not (m.temperature > 0 and m.time > m.since >= 0 and math.isfinite(m.value)):
+        elif not (m.temperature > 0 and m.time >= m.since >= 0 and math.isfinite(m.value)):
             messages.append(
-                f"calibrate: datum {row}: temperature above 0 K, and times with 0 <= since < time are needed"
+                f"calibrate: datum {row}: temperature above 0 K, and times with 0 <= since <= time are needed"
             )
         elif m.error is not None and not m.error > 0:
             messages.append(f"calibrate: datum {row}: error {m.error!r} must be positive")

@@ -290,7 +290,17 @@ def wear_outcome(lengths, **more):
 
 
 CELL = 50.5e-9
+MIRRORED = with_(
+    ROUGH,
+    grid={"shape": 64, "spacing": "0.8 um", "periodic": True},
+    lower__surface={"kind": "measured", "path": "example/polished-pin.x3p", "mirror": "x"},
+)
 OUTCOMES = {
+    "highest_pressure_at_a_seam": (
+        MIRRORED,
+        (contact_outcome(spot(1e9, width=1)), "on a seam of a mirrored surface (along x)"),
+        contact_outcome(spot(1e9, at=12, width=1)),
+    ),
     "contact_at_free_edges": (
         "tribofilm-macro",
         (contact_outcome(spot(1e9, at=2)), "along x and y: the outermost cells carry 25 % of the load"),

@@ -98,3 +98,57 @@ def test_bad_tables_are_refused_with_the_place(tmp_path, text, word):
 def test_unknown_parameters_are_refused():
     with pytest.raises(InputError, match="allowed"):
         calibrate(synthetic(0), TRUTH, ("magic",))
+
+
+def exact(*times):
+    data = [Measurement(temperature + 273.15, 60.0 * minutes, 0.0) for temperature in (60, 100) for minutes in times]
+    return [replace(m, value=float(v)) for m, v in zip(data, TRUTH.predict(data), strict=True)]
+
+
+def test_rows_at_time_zero_are_taken_and_left_out_of_the_fit():
+    later = exact(15, 45, 120)
+    start = [Measurement(333.15, 0.0, 0.0), Measurement(373.15, 0.0, 0.0)]
+    with_start, without = (calibrate(data, TRUTH, ("activation_energy_eV",)) for data in (start + later, later))
+    assert with_start.model == without.model
+    assert with_start.degrees == without.degrees
+    assert with_start.uncertainty == pytest.approx(without.uncertainty)
+    assert "2 data at time zero tell nothing" in with_start.verdict()
+    thick = calibrate([Measurement(333.15, 0.0, 20e-9), *later], TRUTH, ("activation_energy_eV",))
+    assert "starts without the 20 nm" in thick.verdict()
+    with pytest.raises(InputError, match="all 2 data are at time zero"):
+        calibrate(start, TRUTH)
+
+
+def test_a_bad_fit_is_said_to_be_one():
+    good = exact(15, 45, 120)
+    assert calibrate(good, TRUTH, ("activation_energy_eV",)).misfit == ""
+    wrong = [replace(m, value=m.value * (3 if m.time < 3600 else 0.4)) for m in good]
+    fit = calibrate(wrong, TRUTH, ("activation_energy_eV",))
+    assert "The fit is bad: the data lie" in fit.verdict()
+    with_errors = [replace(m, error=0.02 * m.value) for m in wrong]
+    assert "degrees of freedom has a probability" in calibrate(with_errors, TRUTH, ("activation_energy_eV",)).verdict()
+    assert calibrate([replace(m, error=0.02 * m.value) for m in good], TRUTH, ("activation_energy_eV",)).misfit == ""
+
+
+def test_a_parameter_at_the_end_of_its_range_is_named():
+    data = [replace(m, value=m.value * 1e-4, error=1e-14) for m in exact(15, 45)]
+    start = replace(TRUTH, wear_coefficient_1_s=1e-9)
+    assert "wear_coefficient_1_s ran to the end" in calibrate(data, start, ("wear_coefficient_1_s",)).verdict()
+
+
+def test_the_lines_of_a_scene_are_the_fit():
+    """They stand in for those of a built-in scene, which then has the constants."""
+    import tomllib
+
+    from bem import load_scene
+    from bem.scenes import library
+
+    fit = calibrate(exact(15, 45, 120), TRUTH, ("activation_energy_eV", "film_hardness_GPa"))
+    lines = tomllib.loads(fit.scene_lines())
+    table = library()["tribofilm-macro"]
+    table["film"] |= lines["film"]
+    table["rubbing"] |= lines["rubbing"]
+    film = load_scene(table).film
+    assert film.activation_energy == pytest.approx(fit.model.activation_energy_eV * 1.602176634e-19, rel=1e-5)
+    assert film.hardness.film == pytest.approx(1e9 * fit.model.film_hardness_GPa, rel=1e-5)
+    assert film.hardness.length == pytest.approx(1e-9 * fit.model.hardness_length_nm, rel=1e-5)

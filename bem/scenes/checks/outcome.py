@@ -67,6 +67,30 @@ def contact_at_free_edges(facts: Facts, outcome: Outcome) -> Iterator[str]:
 
 
 @outcome_check
+def highest_pressure_at_a_seam(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """A mirrored map is symmetric about its seams: a slope there becomes a ridge that no instrument has seen."""
+    for case in facts.cases[:1]:
+        mirrors = {getattr(table, "mirror", "none") for table in case.surfaces.values()}
+        axes = [axis for axis, name in enumerate("xy") if mirrors & {name, "both"}]
+        for maps in _pressures(outcome) if axes else ():
+            plane = maps[-1]
+            place = np.unravel_index(int(plane.argmax()), plane.shape)
+            beside = ["xy"[axis] for axis in axes if _from_seam(int(place[axis]), plane.shape[axis]) == 0]
+            if beside and plane.max() > 0:
+                yield (
+                    f"the highest pressure lies on a seam of a mirrored surface (along {joined(beside)}): it is the "
+                    "mirror's, and so are the stress and the particles below it; leave mirror out, and the seams are "
+                    "closed without ridges"
+                )
+
+
+def _from_seam(index: int, cells: int) -> int:
+    """Cells between a cell and the nearest seam of an axis that is mirrored at its middle and wraps."""
+    half = cells // 2
+    return min(index % half, half - 1 - index % half) if half else 0
+
+
+@outcome_check
 def elastic_pressure_above_hardness(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """Elastic summits carry any pressure; real ones flow at the hardness of the softer body."""
     if not facts.of_kind("contact") or facts.cases[0].cap is not None or facts.cases[0].softest is None:

@@ -1,0 +1,118 @@
+"""Keys taken out, names that people guess, checksums of surface files, seams that are no results."""
+
+import hashlib
+import shutil
+
+import numpy as np
+import pytest
+
+from bem import CATALOGUE, Body, InputError, Layer, Material, contact_modulus, load_scene, plan_scene, run_scene
+from bem.scenes.build import heights_of
+from bem.scenes.load import dump_scene
+from bem.scenes.template import scene_template
+from bem.surfaces.examples import FOLDER
+
+PAIR = ("lower.surface.path=example/ground-disk.al3d", "upper.surface.path=example/polished-pin.x3p")
+
+
+def test_a_key_is_taken_out():
+    scene = load_scene("rough-contact", ("contact.mean_pressure=", "contact.load=3 N"))
+    assert scene.contact.load == 3.0
+    assert scene.contact.mean_pressure is None
+    assert load_scene("hertz-sphere", ("description=",)).description == ""
+
+
+@pytest.mark.parametrize(
+    ("setting", "words"),
+    [
+        ("contact.laod=", r"contact.laod=: is not set.*contact.load"),
+        ("contact.load.more=", "is not set"),
+        ("contact[2]=", "is not set"),
+    ],
+)
+def test_what_is_not_there_cannot_be_taken_out(setting, words):
+    with pytest.raises(InputError, match=words):
+        load_scene("hertz-sphere", (setting,))
+
+
+def test_entries_of_lists_are_taken_out_and_the_source_stays():
+    table = {"kind": "film", "name": "x", "list": [1, 2, 3]}
+    from bem.scenes.load import read_table
+
+    assert read_table(table, ("list[1]=",))["list"] == [1, 3]
+    assert table["list"] == [1, 2, 3]
+
+
+@pytest.mark.parametrize(
+    ("word", "kind"),
+    [("stribeck", "friction"), ("Hertz", "contact"), ("running_in", "running-in"), ("zddp", "tribofilm")],
+)
+def test_new_takes_names_that_people_guess(word, kind):
+    assert scene_template(word) == scene_template(kind)
+
+
+def test_new_gives_built_in_scenes_and_near_spellings():
+    assert "Hertz' point contact" in scene_template("hertz-sphere")
+    with pytest.raises(InputError, match='did you mean "stribeck"'):
+        scene_template("stribek")
+
+
+def test_the_catalogue_knows_near_spellings_and_is_a_body():
+    with pytest.raises(KeyError, match='did you mean "silicon-nitride"') as caught:
+        CATALOGUE["silicon nitrid"]
+    assert isinstance(caught.value, InputError)
+    steel = CATALOGUE["steel-52100"]
+    assert isinstance(steel, Body)
+    assert steel.homogeneous
+    assert Body(steel, layer=Layer(CATALOGUE["dlc"], 1e-6)).layer.material == CATALOGUE["dlc"].material
+    assert contact_modulus(steel, CATALOGUE["dlc"]) == contact_modulus(steel.material, CATALOGUE["dlc"].material)
+    assert all(entry.source for entry in CATALOGUE.values())
+    assert all(isinstance(entry.material, Material) for entry in CATALOGUE.values())
+
+
+def test_a_run_keeps_the_checksum_and_a_changed_file_is_refused(tmp_path):
+    own = tmp_path / "disk.al3d"
+    shutil.copy(FOLDER / "ground-disk.al3d", own)
+    scene, _ = plan_scene("measured-surfaces", (f"lower.surface.path={own}", PAIR[1]))
+    assert scene.lower.surface.sha256 == hashlib.sha256(own.read_bytes()).hexdigest()
+    again = tmp_path / "scene.toml"
+    again.write_text(dump_scene(scene))
+    assert plan_scene(again)[0] == scene
+    own.write_bytes(own.read_bytes()[:-4] + b"\0\0\0\0")
+    with pytest.raises(InputError, match=r"lower.surface.*disk.al3d has changed since"):
+        load_scene(again)
+    assert load_scene(again, ("lower.surface.sha256=",)).lower.surface.sha256 is None
+
+
+def test_periodic_measured_maps_have_no_step():
+    scene, _ = plan_scene("measured-surfaces", (*PAIR, "lower.surface.despike=6"))
+    notes = []
+    from bem.scenes.build import grid_of
+
+    heights = heights_of(scene.lower.surface, grid_of(scene.grid), 1, notes.append)
+    across = np.sqrt(np.mean((heights[0] - heights[-1]) ** 2))
+    inside = np.sqrt(np.mean(np.diff(heights, axis=0) ** 2))
+    assert across < 1.5 * inside
+    assert any("spread out" in note for note in notes)
+    assert any("spikes were taken out" in note for note in notes)
+
+
+def test_a_pressure_on_a_mirror_seam_is_said_to_be_one(tmp_path):
+    """A slope along x: mirrored, it is a ridge along the seam, which carries all of the load."""
+    path = tmp_path / "slope.npz"
+    from bem import Surface, write_surface
+
+    x = np.linspace(0, 1, 32)[:, None]
+    write_surface(path, Surface(1e-7 * x + 1e-9 * np.cos(9 * np.arange(32)), (1e-6, 1e-6)))
+    table = {
+        "kind": "contact",
+        "grid": {"shape": [64, 32], "spacing": "1 um", "periodic": True},
+        "lower": {
+            "material": "steel-52100",
+            "surface": {"kind": "measured", "path": str(path), "detrend": "none", "mirror": "x"},
+        },
+        "contact": {"mean_pressure": "10 MPa"},
+        "outputs": {"errors": False},
+    }
+    done = run_scene(table, tmp_path / "run", figures=False)
+    assert [note for note in done.summary["notes"] if "lies on a seam" in note]
