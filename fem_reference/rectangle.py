@@ -62,6 +62,8 @@ def _curves(solution: Solution, load: str, width: float, thickness: float | None
             found.append(Curve("normal_displacement", unit, along, points, u[2]))
         if load == "tangential" or along != "surface, x = 0":
             found.append(Curve("tangential_displacement", unit, along, points, u[0]))
+        if along == "surface, diagonal":
+            found.append(Curve("transverse_displacement", unit, along, points, u[1]))
     depths = {"": np.array([0.25, 0.35, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0])}
     if thickness is not None:
         below = np.array([0.5, 0.75, 1.0, 1.5, 2.0, 3.0])

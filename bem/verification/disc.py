@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from bem.convolution import displacement_operator
 from bem.grid import FloatArray
-from bem.kernels.half_space import rectangle_displacement
 from bem.kernels.loads import Load
 from bem.materials import Body
 from bem.stress import subsurface_stress
-from bem.verification.patches import PointGrid, disc_means, free_grid, window
+from bem.verification.patches import PointGrid, disc_means, free_grid, surface_displacement, window
 from bem.verification.rows import Curve
 from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve, on_side
 
@@ -29,15 +27,12 @@ COUPLED = 1.5e-3
 
 
 def curves(case: StoredCase) -> list[Curve]:
-    """Both sides of a stored disc; tangential displacements of coated bodies are no result of bem and are left out."""
+    """Both sides of a stored disc."""
     tangential = case.problem == "disc-tangential"
     solution = Disc(case.body, case.parameters["pressure"], tangential=tangential, step=_step(case))
     found = []
     for curve in case.curves:
-        keep = _compared(case, curve)
-        if keep is None:
-            continue
-        curve = curve.only(keep)
+        curve = curve.only(_compared(case, curve))
         values = solution.values(curve)
         stress, across = curve.name.startswith("stress"), curve.name != _along(case)
         quantity = curve.name + (f" ({curve.side})" if curve.side else "")
@@ -53,11 +48,9 @@ def _along(case: StoredCase) -> str:
     return "normal_displacement" if case.problem == "disc" else "tangential_displacement"
 
 
-def _compared(case: StoredCase, curve: StoredCurve) -> NDArray[np.bool_] | None:
-    """Which points of a curve are compared; None where bem has no such result."""
+def _compared(case: StoredCase, curve: StoredCurve) -> NDArray[np.bool_]:
+    """Which points of a curve are compared."""
     x, y, z = curve.coordinates.T
-    if curve.name == "tangential_displacement" and not case.body.homogeneous:
-        return None
     if curve.name.startswith("stress"):
         return z > STEP / GLASS  # nearer to the surface than the smallest cell, shear is that of the cell's own edges
     if curve.name != _along(case) and case.parameters["pressure"] == "uniform":
@@ -89,58 +82,28 @@ class Disc:
     def values(self, curve: StoredCurve) -> FloatArray:
         """The stored curve's points."""
         x, y, z = curve.coordinates.T
-        if curve.name == "normal_displacement":
-            return self.normal_displacement(x, y)
-        if curve.name == "tangential_displacement":
-            return self.tangential_displacement(x, y)
+        if not curve.name.startswith("stress"):
+            return self.displacement(curve.name, x, y)
         component = STRESS_NAMES.index(curve.name)
         x, y, z = on_side(self.body, curve)
         return np.array(
             [self.stress(*point)[component] for point in zip(x.tolist(), y.tolist(), z.tolist(), strict=True)]
         )
 
-    def normal_displacement(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """Through the operator."""
-        where = free_grid(self.step, (-1.0, float(x.max())), (-1.0, 1.0))
-        values = self.surface(where)[where.at(x, y)]
+    def displacement(self, name: str, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Of the surface at points, through the operators."""
+        load = Load.TANGENTIAL if self.tangential else Load.NORMAL
+
+        def surface(where: PointGrid) -> FloatArray:
+            return surface_displacement(name, where.grid, self.body, disc_means(where, self.profile), load)
+
+        where = free_grid(self.step, (-1.0, max(1.0, float(x.max()))), (-1.0, max(1.0, float(y.max()))))
+        values = surface(where)[where.at(x, y)]
         for i in self.near_edge(x, y):
             fine, coarse = self.windows((x[i], y[i]))
             for part, sign in ((fine, 1), (coarse, -1)):
-                values[i] += sign * self.surface(part)[part.origin]
+                values[i] += sign * surface(part)[part.origin]
         return values
-
-    def surface(self, where: PointGrid) -> FloatArray:
-        """Normal displacement of the part of the load on a grid, (nx, ny)."""
-        pressure = disc_means(where, self.profile)
-        field = displacement_operator(where.grid, self.body, friction=self.friction)(pressure)
-        if self.tangential:
-            field = field - displacement_operator(where.grid, self.body)(pressure)
-        return field
-
-    def tangential_displacement(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """Rectangles summed at the points: no operator makes this."""
-        values = self.rectangles(self.below, x, y)
-        for i in self.near_edge(x, y):
-            fine, coarse = self.windows((x[i], y[i]))
-            values[i] += (self.rectangles(fine, x[i], y[i]) - self.rectangles(coarse, x[i], y[i]))[0]
-        return values
-
-    def rectangles(self, where: PointGrid, x: ArrayLike, y: ArrayLike) -> FloatArray:
-        """Displacement along x at points, of the part of the load on a grid."""
-        x, y = np.atleast_1d(x), np.atleast_1d(y)
-        at_x, at_y = where.axes
-        pressure = disc_means(where, self.profile)
-        cells = np.nonzero(pressure)
-        load = Load.TANGENTIAL if self.tangential else Load.NORMAL
-        field = rectangle_displacement(
-            x[:, None] - at_x[cells[0]],
-            y[:, None] - at_y[cells[1]],
-            0.0,
-            where.grid.spacing,
-            self.body.material,
-            load,
-        )
-        return np.einsum("pc,c->p", field[0], pressure[cells])
 
     def stress(self, x: float, y: float, z: float) -> FloatArray:
         """Six stresses at a point, through `subsurface_stress` plane by plane."""

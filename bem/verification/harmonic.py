@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bem.convolution import displacement_operator
 from bem.grid import FloatArray, Grid
 from bem.kernels.layered import ACROSS_U, NORMAL_U, NORMAL_W, TANGENTIAL_U, TANGENTIAL_W, wave_functions
+from bem.kernels.loads import Load
 from bem.materials import Body, Layer
 from bem.stress import subsurface_stress
+from bem.verification.patches import surface_displacement
 from bem.verification.rows import Curve
 from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve, depth_on_side
 from bem.verification.strip import ANTIPLANE
@@ -28,7 +29,7 @@ def curves(case: StoredCase) -> list[Curve]:
         waves = curve.name.endswith("displacement")
         quantity = curve.name + (f" ({curve.side})" if curve.side else " (surface)")
         sides = [(quantity + (", wave functions" if waves else ""), _waves if waves else _stress)]
-        if curve.along == "q h" and curve.name == "normal_displacement":
+        if curve.along == "q h" and waves:
             sides.append((quantity, _operator))
         for name, compute in sides:
             found.append(curve.beside(name, compute(case, curve), 1e-5, REASON))
@@ -74,16 +75,16 @@ def _cell(load: str) -> _Cell:
 
 
 def _operator(case: StoredCase, curve: StoredCurve) -> FloatArray:
-    """Normal displacement of the surface through the operator; sine at a quarter wavelength under traction."""
-    load = case.parameters["load"]
-    cell = _cell(load)
+    """Displacement of the surface through the operators; across the load it is a sine, a quarter wavelength on."""
+    name = case.parameters["load"]
+    cell, load = _cell(name), Load.NORMAL if name == "normal" else Load.TANGENTIAL
+    # across a wave along y, traction along x is what the reference calls transverse
+    of = "tangential_displacement" if name == "antiplane" else curve.name
+    across = (curve.name == "normal_displacement") != (name == "normal")
     values = []
     for thickness, _ in _points(curve):
-        body = _body(case, thickness)
-        field = displacement_operator(cell.grid, body)(cell.pressure)
-        if load == "tangential":
-            field = displacement_operator(cell.grid, body, friction=1.0)(cell.pressure) - field
-        values.append(cell.pick(field, CELLS // 4 if load == "tangential" else 0))
+        field = surface_displacement(of, cell.grid, _body(case, thickness), cell.pressure, load)
+        values.append(cell.pick(field, CELLS // 4 if across else 0))
     return np.array(values)
 
 

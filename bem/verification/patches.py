@@ -1,4 +1,6 @@
-"""Loads on grids: a disc of pressure as the means over its cells, and grids on whose points a reference has values."""
+"""Loads on grids: a disc of pressure as the means over its cells, grids on whose points a reference has values, and
+what the operators make of a load there.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.convolution import displacement_operator
 from bem.grid import FloatArray, Grid
+from bem.kernels.loads import Load
+from bem.materials import Body
+from bem.tangential.operator import TangentialOperator
 
 
 @dataclass(frozen=True)
@@ -43,6 +49,23 @@ class PointGrid:
                 raise ValueError(f"points {values!r} are not all centres of cells of side {step}")
             found.append(rounded.astype(np.int64))
         return found[0], found[1]
+
+
+DISPLACEMENTS = ("tangential_displacement", "transverse_displacement", "normal_displacement")
+"""Names of references, along x, y and z."""
+
+
+def surface_displacement(name: str, grid: Grid, body: Body, given: FloatArray, load: Load) -> FloatArray:
+    """One of DISPLACEMENTS through the operators, of a pressure or a traction along x of the size `given`, (nx, ny)."""
+    if name == "normal_displacement":
+        pressed = displacement_operator(grid, body)(given)
+        return pressed if load is Load.NORMAL else displacement_operator(grid, body, friction=1.0)(given) - pressed
+    operator = TangentialOperator(grid, (body,))
+    if load is Load.NORMAL:
+        found = operator.under_pressure(given)
+    else:
+        found = operator(np.stack([given, np.zeros_like(given)]))
+    return found[DISPLACEMENTS.index(name)]
 
 
 def free_grid(step: float, x: tuple[float, float], y: tuple[float, float]) -> PointGrid:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from bem.convolution import displacement_operator
 from bem.grid import FloatArray
 from bem.kernels.half_space import rectangle_displacement
 from bem.kernels.loads import Load
 from bem.kernels.subsurface import rectangle_stress
 from bem.stress import subsurface_stress
-from bem.verification.patches import PointGrid, free_grid
+from bem.verification.patches import DISPLACEMENTS, PointGrid, free_grid, surface_displacement
 from bem.verification.rows import Curve
 from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve, on_side
 
@@ -37,11 +36,10 @@ def curves(case: StoredCase) -> list[Curve]:
                 exact = rectangle_stress(x, y, z, sides, case.body.material.poissons_ratio, load)[component]
                 pairs.append((name + ", kernel", exact, 2e-3, EXACT))
         else:
-            if curve.name == "normal_displacement":
-                pairs.append((name, cells.displacement(curve), 1e-3, REASON))
+            pairs.append((name, cells.displacement(curve), 1e-3, REASON))
             if bare:
                 field = rectangle_displacement(x, y, 0.0, sides, case.body.material, load)
-                exact = field[0 if curve.name == "tangential_displacement" else 2]
+                exact = field[DISPLACEMENTS.index(curve.name)]
                 pairs.append((name + ", kernel", exact, 1e-3, EXACT))
         found += [
             Curve(name, curve.along, curve.unit, curve.coordinates, values, curve.values, curve.error_bar, share, why)
@@ -71,11 +69,8 @@ class _Cells:
         """Through the operator."""
         x, y, _ = curve.coordinates.T
         where = free_grid(STEP, (-1.0, max(1.0, x.max())), (-self.width, max(self.width, y.max())))
-        pressure = self.pressure(where)
-        field = displacement_operator(where.grid, self.body, friction=float(self.tangential))(pressure)
-        if self.tangential:
-            field = field - displacement_operator(where.grid, self.body)(pressure)
-        return field[where.at(x, y)]
+        load = Load.TANGENTIAL if self.tangential else Load.NORMAL
+        return surface_displacement(curve.name, where.grid, self.body, self.pressure(where), load)[where.at(x, y)]
 
     def stress(self, curve: StoredCurve, component: int) -> FloatArray:
         """Through `subsurface_stress`."""

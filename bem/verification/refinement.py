@@ -62,8 +62,8 @@ def _disc(name: str) -> list[Curve]:
     case = stored.read(name)
     tangential = case.problem == "disc-tangential"
     found = []
-    for quantity in ("normal_displacement", "stress_zz", "stress_xz"):
-        curves = [c for c in case.curves if c.name == quantity and (quantity[0] == "n" or c.side in ("", "substrate"))]
+    for quantity in ("normal_displacement", "tangential_displacement", "stress_zz", "stress_xz"):
+        curves = [c for c in case.curves if c.name == quantity and (quantity[0] != "s" or c.side in ("", "substrate"))]
         kept = [c.only(c.coordinates[:, 2] >= (0.29 if c.name[0] == "s" else 0)) for c in curves]
         # away from the edge, where it is not of the second order
         kept = [c.only(np.abs(np.hypot(*c.coordinates[:, :2].T) - 1) > 0.12) for c in kept]
@@ -78,13 +78,22 @@ def _disc(name: str) -> list[Curve]:
 
 
 def _strip(name: str) -> list[Curve]:
-    """Displacement of a stored strip as the cells shrink."""
+    """Surface displacements of a stored strip as the cells shrink."""
     case = stored.read(name)
-    kept = next(c for c in case.curves if c.name == "normal_displacement")
-    kept = kept.only(np.abs(kept.coordinates[:, 0] - 1) > 0.12)
     steps = (1 / 20, 1 / 60, 1 / 180)
-    found = errors(lambda step: strip.Strip(case, step).displacement(kept.coordinates[:, 0]), kept.values, steps)
-    return [_order("normal_displacement", steps, found, STRIP_SPREAD, STRIP_REASON)]
+    rows = []
+    # of a half-plane under pressure displacement along x is the load before a point, exact where cells end
+    names = ("normal_displacement", "tangential_displacement")
+    for quantity in names[:1] if case.body.homogeneous else names:
+        whole = next(c for c in case.curves if c.name == quantity)
+        kept = whole.only(np.abs(whole.coordinates[:, 0] - 1) > 0.12)
+
+        def solve(step: float, kept: stored.StoredCurve = kept) -> FloatArray:
+            return strip.Strip(case, step).values(kept)
+
+        found = errors(solve, kept.values, steps)
+        rows.append(_order(quantity, steps, found, STRIP_SPREAD, STRIP_REASON))
+    return rows
 
 
 def ball(cells: float) -> tuple[float, float]:

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from bem.convolution import displacement_operator
 from bem.grid import FloatArray, Grid
 from bem.kernels.half_plane import strip_displacement, strip_stress
 from bem.kernels.loads import Load
 from bem.stress import subsurface_stress
+from bem.verification.patches import surface_displacement
 from bem.verification.rows import Curve
 from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve, on_side
 
@@ -27,20 +27,19 @@ ANTIPLANE = (1, 0, 2, 4, 3, 5)
 
 
 def curves(case: StoredCase) -> list[Curve]:
-    """Both sides of a stored strip; what bem has no kernel for (tangential displacements) is left out."""
+    """Both sides of a stored strip."""
     found = []
     load = case.parameters["load"]
     solution = Strip(case, STEP)
     for stored in case.curves:
         curve = stored
-        if curve.name == "normal_displacement" and load == "tangential":
+        across = (curve.name == "normal_displacement") != (load == "normal")
+        if across and not curve.name.startswith("stress"):
             # the slope jumps at the edge of the load, which cells (and elements) round
             curve = curve.only(np.abs(curve.coordinates[:, 0] - 1) > 1e-9)
         quantity = curve.name + (f" ({curve.side})" if curve.side else "")
-        values = solution.values(curve)
-        if values is not None:
-            allowance = 1.5e-3 if curve.name.startswith("stress") else 5e-4
-            found.append(curve.beside(quantity, values, allowance, REASON))
+        allowance = 1.5e-3 if curve.name.startswith("stress") else 5e-4
+        found.append(curve.beside(quantity, solution.values(curve), allowance, REASON))
         if case.body.homogeneous and load != "antiplane":
             closed = _closed(case, curve)
             if closed is not None:
@@ -67,25 +66,25 @@ class Strip:
         grid = Grid((count, ROWS), (self.step, 1.0), periodic=(False, True))
         return grid, np.tile(cover[:, None], (1, ROWS)), x
 
-    def values(self, curve: StoredCurve) -> FloatArray | None:
-        """The stored curve's points, or None where bem has no such result."""
+    def values(self, curve: StoredCurve) -> FloatArray:
+        """The stored curve's points."""
         x, _, z = curve.coordinates.T
-        if curve.name == "normal_displacement":
-            return self.displacement(x)
         if not curve.name.startswith("stress"):
-            return None
+            return self.displacement(x, curve.name)
         x, _, z = on_side(self.body, curve)
         component = STRESS_NAMES.index(curve.name)
         return np.array([self.stress(component, *point) for point in zip(x.tolist(), z.tolist(), strict=True)])
 
-    def displacement(self, x: FloatArray) -> FloatArray:
-        """Normal displacement: under pressure less that at the datum."""
-        grid, pressure, at = self.across(max(DATUM, float(x.max())))
-        if self.load == "normal":
-            field = displacement_operator(grid, self.body)(pressure)[:, 0]
-            return np.interp(x, at, field) - np.interp(DATUM, at, field)
-        pair = (displacement_operator(grid, self.body, friction=f)(pressure)[:, 0] for f in (1.0, 0.0))
-        return np.interp(x, at, next(pair) - next(pair))
+    def displacement(self, x: FloatArray, name: str) -> FloatArray:
+        """Of the surface: along the load less that at the datum."""
+        grid, given, at = self.across(max(DATUM, float(x.max())))
+        load = Load.NORMAL if self.load == "normal" else Load.TANGENTIAL
+        if self.load == "antiplane":
+            field = surface_displacement("tangential_displacement", grid, self.body, given, load)[0]
+        else:
+            field = surface_displacement(name, grid, self.body, given, load)[:, 0]
+        across = (name == "normal_displacement") != (load is Load.NORMAL)
+        return np.interp(x, at, field) - (0.0 if across else np.interp(DATUM, at, field))
 
     def stress(self, component: int, x: float, z: float) -> float:
         """One stress at a point."""

@@ -85,6 +85,22 @@ SURFACE = [
     ("bem.verification.rectangle.rectangle_displacement", 0, Load.TANGENTIAL, "rectangle-tangential"),
 ]
 
+# along x under a traction along x, along y under it, and what pressure does in the plane
+IN_PLANE = [
+    ("bem.kernels.half_space.in_plane_table", 0, None, "disc-tangential-uniform"),
+    ("bem.kernels.half_space.in_plane_table", 2, None, "rectangle-tangential"),
+    ("bem.kernels.layered_cells.in_plane_remainder", 0, None, "disc-tangential-uniform-soft"),
+    ("bem.kernels.layered_cells.in_plane_remainder", 2, None, "rectangle-tangential-stiff"),
+    ("bem.kernels.semi_periodic.in_plane_table", 0, None, "strip-tangential"),
+    ("bem.kernels.semi_periodic.in_plane_table", 0, None, "strip-antiplane"),
+    ("bem.kernels.layered_semi.in_plane_remainder", 0, None, "strip-tangential-soft"),
+    ("bem.kernels.layered_semi.in_plane_remainder", 0, None, "strip-antiplane-soft"),
+    ("bem.kernels.spectral.in_plane_response", 0, None, "harmonic-tangential-soft"),
+    ("bem.kernels.spectral.in_plane_response", 0, None, "harmonic-antiplane-soft"),
+    ("bem.tangential.operator.surface_coefficients", None, Load.TANGENTIAL, "disc-hertz-soft"),
+    ("bem.kernels.spectral.surface_response", None, Load.TANGENTIAL, "harmonic-normal-soft"),
+]
+
 
 def each_load_and_component(components, *functions):
     """Every component under either load, of functions with their gates for the normal and the tangential one."""
@@ -133,8 +149,8 @@ OTHERS = [
     ("bem.verification.heat.moving_band", None, None, "heat-band-peclet-1"),
     ("bem.verification.heat.disc_at_rest", None, None, "heat-disc-uniform"),
 ]
-ALL = [*SURFACE, *STRESSES, *PLANE, *ACROSS, *WAVES, *OTHERS]
-QUICK = [SURFACE[0], SURFACE[3], SURFACE[8], STRESSES[4], STRESSES[11], PLANE[0], WAVES[3], OTHERS[2]]
+ALL = [*SURFACE, *IN_PLANE, *STRESSES, *PLANE, *ACROSS, *WAVES, *OTHERS]
+QUICK = [SURFACE[0], SURFACE[3], SURFACE[8], STRESSES[4], STRESSES[11], PLANE[0], WAVES[3], OTHERS[2], IN_PLANE[2]]
 
 
 def label(mutant):
