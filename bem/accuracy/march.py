@@ -46,6 +46,7 @@ class MarchCase:
     points: int
     initial_thickness: float | None = None
     cavitation: Cavitation | str = Cavitation.SWIFT_STIEBER
+    layer: float | None = None
 
     def again(self, points: int, every: int = 1, **going_on: Any) -> list[FilmSolution]:
         """The same march with other points, at every so many of the times and the last one; `going_on` from a state,
@@ -60,6 +61,7 @@ class MarchCase:
             points=points,
             initial_thickness=self.initial_thickness,
             cavitation=self.cavitation,
+            supply=self.layer,
             **going_on,
         )
 

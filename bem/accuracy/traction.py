@@ -10,6 +10,7 @@ heat leaves out is not in it.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,7 +18,9 @@ from bem.accuracy.bars import POINTS, RESIDUAL, ErrorBars
 from bem.accuracy.film import FEWEST, SPIKE, FilmCase, spike_is_unresolved
 from bem.errors import Status
 from bem.lubrication import FilmSolution, Lubricant, ThermalFilm, solve_line_film, solve_thermal_line_film
+from bem.lubrication.supply import Supply
 from bem.materials import Body
+from bem.reference_solutions.starved_inlet import inlet_length
 
 FILM_SHARE = 1.0
 """Of the relative change of the film, in the bar of every figure that is no temperature."""
@@ -37,8 +40,8 @@ _TEMPERATURES = ("film_temperature", "lower_temperature", "upper_temperature")
 
 @dataclass(frozen=True)
 class TractionCase:
-    """Arguments of `bem.solve_line_film`, or with `bodies` of `bem.solve_thermal_line_film`; `bulk` [K] then;
-    the power is that on a width [m]."""
+    """Arguments of `bem.solve_line_film`, or with `bodies` of `bem.solve_thermal_line_film`; `bulk` [K] then, and no
+    supply; the power is that on a width [m]."""
 
     load: float
     radius: float
@@ -49,6 +52,7 @@ class TractionCase:
     width: float = 1.0
     bodies: tuple[Body, Body] | None = None
     bulk: tuple[float, ...] = ()
+    supply: Supply | None = None
 
     @property
     def hot(self) -> bool:
@@ -71,7 +75,7 @@ class TractionCase:
             "points": points,
         }
         if self.bodies is None:
-            return solve_line_film(**asked)
+            return solve_line_film(**asked, supply=self.supply)
         return solve_thermal_line_film(**asked, bodies=self.bodies, bulk=self.bulk, cells=cells or self.cells)
 
 
@@ -87,6 +91,8 @@ def traction_figures(case: TractionCase, found: FilmSolution | ThermalFilm) -> d
         "central_thickness": film.central_thickness,
         "maximum_pressure": float(film.pressure.max()),
     }
+    if film.starvation is not None:
+        figures |= _of_supply(case, film)
     if not isinstance(found, ThermalFilm):
         return figures
     power = found.friction_power or 1.0
@@ -104,6 +110,19 @@ def traction_figures(case: TractionCase, found: FilmSolution | ThermalFilm) -> d
     }
 
 
+def _of_supply(case: TractionCase, film: FilmSolution) -> dict[str, float]:
+    """Figures of a film with a supply; a flooded one has no meniscus."""
+    found = film.starvation
+    assert found is not None
+    figures = {"film_reduction": found.reduction, "oil_layer": found.layer, "flooded_layer": found.flooded_layer}
+    if found.flooded:
+        return figures
+    half = math.sqrt(4 * case.load * case.radius / (math.pi * case.contact_modulus))
+    length = inlet_length(half, case.radius, film.central_thickness / found.reduction)
+    place = found.meniscus_position
+    return figures | {"meniscus_position": place, "inlet": (abs(place) - half) / length}
+
+
 def traction_bars(case: TractionCase, found: FilmSolution | ThermalFilm) -> ErrorBars:
     """Bars of the figures of a solution on all points."""
     figures = {name: value for name, value in traction_figures(case, found).items() if name not in _BARE}
@@ -111,7 +130,7 @@ def traction_bars(case: TractionCase, found: FilmSolution | ThermalFilm) -> Erro
     other = case.on(max(case.points // 2, FEWEST) if case.points > FEWEST else 2 * case.points, case.cells // 2)
     if other.status is not Status.CONVERGED:
         return ErrorBars.unknown(figures, _UNSOLVED)
-    there = traction_figures(case, other)
+    there = figures | traction_figures(case, other)  # nearly flooded, one mesh may have no meniscus
     changed = max(abs(there[name] / figures[name] - 1) for name in ("minimum_thickness", "central_thickness"))
     missed = found.inlet_missed if isinstance(found, ThermalFilm) else 0.0
     points, residual = {}, {}

@@ -5,6 +5,7 @@ Knows solved points of load sharing. Verified in tests/friction/test_load_sharin
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -21,7 +22,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class CurvePoint:
     """The numbers of one speed: [m/s], forces on the whole width [N], parts of the coefficient of friction, lengths
-    [m], ratios, counts; what was loaded is with the oil counted where the film carries (`OilBeside`)."""
+    [m], ratios, counts; what was loaded is with the oil counted where the film carries (`OilBeside`). With a supply of
+    oil: the film over the flooded one, and the meniscus [m], not-a-number where that is nowhere."""
 
     speed: float
     friction: float
@@ -39,6 +41,8 @@ class CurvePoint:
     loaded_friction: float
     load: float
     status: Status
+    film_reduction: float = 1.0
+    meniscus_position: float = math.nan
 
     @property
     def oil(self) -> OilBeside:
@@ -50,6 +54,7 @@ class CurvePoint:
     def of(cls, solution: MixedSolution) -> CurvePoint:
         """Those of a solution."""
         area = 0.0 if solution.contact is None else solution.contact.contact_area
+        starved = solution.film.starvation
         return cls(
             speed=solution.speeds[0],
             friction=solution.friction,
@@ -67,6 +72,8 @@ class CurvePoint:
             loaded_friction=solution.oil.loaded_friction,
             load=solution.load,
             status=solution.status,
+            film_reduction=1.0 if starved is None else starved.reduction,
+            meniscus_position=math.nan if starved is None or starved.flooded else starved.meniscus_position,
         )
 
 

@@ -91,6 +91,7 @@ def solved_line_film(
         initial=initial,
         position=position,
         flow_factors=contact.flow_factors,
+        supply=contact.supply,
     )
 
 

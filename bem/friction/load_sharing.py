@@ -32,6 +32,7 @@ from bem.grid import FloatArray, Grid
 from bem.lubrication import Lubricant
 from bem.lubrication.rough_walls import WallFactors
 from bem.lubrication.steady import check_entrainment
+from bem.lubrication.supply import Supply
 from bem.materials import Body
 
 
@@ -57,6 +58,7 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     initial: MixedSolution | None = None,
     flow_factors: WallFactors | str = "off",
     oil_volume: OilVolume | str = OilVolume.PATCH,
+    supply: Supply | float | None = None,
 ) -> MixedSolution:
     """Friction of a rough cylinder on a flat in mixed lubrication.
 
@@ -87,6 +89,7 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     oil_volume : where the rough surfaces hold as much oil as the smooth film: on the whole "patch", as the thesis has
         it, or where the film is "loaded", weighted by its pressure (`bem.friction.oil_volume`). The first follows the
         patch's length where nearly all oil lies beside Hertz' contact; `MixedSolution.oil` says how far.
+    supply : oil that reaches the contact, as of `solve_line_film`: `MixedSolution.film.starvation` says what it does.
 
     Returns
     -------
@@ -126,6 +129,7 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
         striated_exit=striated_exit,
         flow_factors=flow_factors,
         oil_volume=oil_volume,
+        supply=supply,
     )
     return solve_setup(setup, height, speeds, initial)
 

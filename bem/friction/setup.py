@@ -14,6 +14,7 @@ from bem.friction.oil_volume import OilVolume
 from bem.grid import FloatArray, Grid
 from bem.lubrication import Lubricant
 from bem.lubrication.rough_walls import WallFactors
+from bem.lubrication.supply import InletDistance, Supply, checked_supply, inside_hertz
 from bem.materials import Body, contact_modulus
 
 CONTACT_MODELS = ("coupled", "uncoupled")
@@ -24,7 +25,7 @@ SEPARATIONS = ("volume", "film")
 class LineContact:
     """A cylinder on a flat, and the oil: radius and width [m], E* of the pair [Pa]; how roughness changes the flow;
     load on the whole width [N] that deforms the bodies where a film has a part of it (`OilVolume.LOADED`), None where
-    the film's own does."""
+    the film's own does; how much oil there is, None where the inlet is flooded."""
 
     radius: float
     width: float
@@ -32,6 +33,7 @@ class LineContact:
     lubricant: Lubricant
     flow_factors: WallFactors | str = "off"
     deforming_load: float | None = None
+    supply: Supply | None = None
 
     def film_modulus(self, load: float) -> float:
         """E* [Pa] of the bodies as a film feels it that carries a load on the whole width [N]."""
@@ -71,6 +73,7 @@ class MixedSetup:
     striated_exit: bool = False
     flow_factors: WallFactors | str = "off"
     oil_volume: OilVolume | str = OilVolume.PATCH
+    supply: Supply | float | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.grid, Grid):
@@ -81,6 +84,7 @@ class MixedSetup:
         for name in ("radius", "width", "load"):
             object.__setattr__(self, name, float(getattr(self, name)))
         object.__setattr__(self, "oil_volume", OilVolume(self.oil_volume))
+        object.__setattr__(self, "supply", checked_supply(self.supply))
         friction = self.boundary_friction
         made = (
             float(friction)  # type: ignore[arg-type]
@@ -101,7 +105,7 @@ class MixedSetup:
             value = getattr(self, name)
             if not (_real(value) and value > 0):
                 messages.append(f"{name}: {value!r} must be positive and finite")
-        messages += self._boundary_friction()
+        messages += [*self._boundary_friction(), *self._supply()]
         if self.hardness is not None and not (_real(self.hardness) and self.hardness > 0):
             messages.append(f"hardness: {self.hardness!r} must be positive [Pa], or None for elastic contact")
         if not (_real(self.tolerance) and 1e-9 <= self.tolerance <= 0.1):
@@ -122,6 +126,13 @@ class MixedSetup:
             law = boundary_law(value)
             if isinstance(self.lubricant, Lubricant):
                 law.at_temperature(self.lubricant.temperature)
+        except InputError as error:
+            return list(error.messages)
+        return []
+
+    def _supply(self) -> list[str]:
+        try:
+            checked_supply(self.supply)
         except InputError as error:
             return list(error.messages)
         return []
@@ -153,6 +164,8 @@ class MixedSetup:
                 f"{position[0]:g} to {position[-1]:g} m; make the patch smaller or film_position longer"
             )
         half_width = self.line.half_width(self.load)
+        if isinstance(self.supply, InletDistance) and self.supply.distance <= half_width:
+            raise InputError(inside_hertz(self.supply, half_width))
         if 0.5 * self.grid.lengths[0] < half_width:
             raise InputError(
                 f"grid: the rough patch reaches {0.5 * self.grid.lengths[0]:.3g} m to either side, less than the "
@@ -165,7 +178,8 @@ class MixedSetup:
         bodies = (self.bodies,) if isinstance(self.bodies, Body) else self.bodies
         modulus = contact_modulus(*(body.material for body in bodies))
         deforming = self.load if self.counted is OilVolume.LOADED else None
-        return LineContact(self.radius, self.width, modulus, self.lubricant, self.flow_factors, deforming)
+        supply = checked_supply(self.supply)
+        return LineContact(self.radius, self.width, modulus, self.lubricant, self.flow_factors, deforming, supply)
 
     @property
     def counted(self) -> OilVolume:

@@ -63,7 +63,7 @@ class Scaling:
 
 @dataclass(frozen=True)
 class March:
-    """What stays the same during a march. tolerance : of a step."""
+    """What stays the same during a march. tolerance : of a step. layer : of oil that comes [m], infinite: flooded."""
 
     contact: Contact
     operation: Operation
@@ -71,6 +71,7 @@ class March:
     mesh: FixedMesh
     tolerance: float
     cavitation: Cavitation
+    layer: float = math.inf
 
     def problem_at(self, time: float) -> Problem:
         """The problem at the load and the sliding of a time."""
@@ -94,6 +95,7 @@ class March:
             history,
             self.tolerance,
             cavitation=self.cavitation,
+            layer=self.layer / self.scaling.scales.film,
         )
 
 
@@ -143,12 +145,16 @@ def _filled(
 
 
 def _fraction_of(march: March, initial: FilmSolution, film: FloatArray) -> FloatArray:
-    """Filled fraction of the gap at the start: behind the exit of a steady film, what flows through it."""
+    """Filled fraction of the gap at the start: behind the exit of a steady film, what flows through it, and as much in
+    front of the meniscus of a starved one."""
     x, length = march.mesh.position, march.scaling.scales.length
     if initial.film_fraction is not None and initial.time is not None:
         return np.interp(x, initial.position / length, initial.film_fraction)
     exit_ = initial.exit_position / length
     behind = x > exit_ if sum(initial.speeds) > 0 else x < exit_
+    if initial.starvation is not None and not initial.starvation.flooded:
+        meniscus = initial.starvation.meniscus_position / length
+        behind |= x < meniscus if sum(initial.speeds) > 0 else x > meniscus
     return np.where(behind, np.minimum(np.interp(exit_, x, film) / film, 1.0), 1.0)
 
 
@@ -202,7 +208,8 @@ def _solution(march: March, film: Film, time: float, outcome: StepOutcome | None
     pressure, thickness = film.pressure * scales.pressure, film.film * scales.film
     first, second = (float(u) for u in march.operation.speeds(time))
     case = Case(x, pressure, thickness, (first, second), contact.lubricant, contact.radius, contact.contact_modulus)
-    force, rolling = _full_force(case)
+    upstream = 1 if first + second >= 0 else -2
+    force, rolling = _full_force(case, flooded=math.isinf(march.layer) or bool(film.full[upstream]))
     exit_, streamers = _ruptured(march, film, case)
     return FilmSolution(
         position=x,
@@ -232,15 +239,16 @@ def _integral(x: FloatArray, values: FloatArray) -> float:
     return float(np.sum(0.5 * np.diff(x) * (values[1:] + values[:-1])))
 
 
-def _full_force(case: Case) -> tuple[float, float]:
-    """Friction force on the flat in the full film, along -x [N/m], and its rolling part, half of h dp/dx."""
+def _full_force(case: Case, *, flooded: bool) -> tuple[float, float]:
+    """Friction force on the flat in the full film, along -x [N/m], and its rolling part, half of h dp/dx; a flooded one
+    reaches far upstream of the mesh."""
     x, lubricant, (first, second) = case.position, case.lubricant, case.speeds
     newtonian = lubricant.viscosity_at(case.pressure) * (first - second) / case.thickness
     gradient = np.gradient(case.pressure, x)
     sliding = middle_stress(lubricant, newtonian, case.pressure, case.thickness, gradient)
     stress = np.where(case.pressure > 0, sliding, 0.0)
     # upstream of the mesh h = x^2/2R: integrals of mu (u1 - u2)/h and, as h p' = 6 mu (u1 + u2)/h there, of h p'/2
-    tail = 2 * case.radius / float(x[-1]) * lubricant.viscosity
+    tail = 2 * case.radius / float(x[-1]) * lubricant.viscosity if flooded else 0.0
     rolling = rolling_part(case.thickness, case.pressure) + 3 * tail * (first + second)
     return _integral(x, stress) + tail * (first - second) + rolling, rolling
 
@@ -258,6 +266,8 @@ def _ruptured(march: March, film: Film, case: Case) -> tuple[float, float]:
     behind = (x > exit_) if first + second >= 0 else (x < exit_)
     cover = np.where(behind, thickness[last] / thickness, 0.0)
     if march.cavitation is Cavitation.MASS_CONSERVING:
-        cover = np.where(full, 0.0, film.fraction)
+        # the layer that a supply brings lies on either surface, and nothing shears it
+        dry = full if math.isinf(march.layer) else full | ~behind
+        cover = np.where(dry, 0.0, film.fraction)
     newtonian = case.lubricant.viscosity * (first - second) / thickness
     return exit_, _integral(x, case.lubricant.shear_stress(newtonian, 0.0) * cover)

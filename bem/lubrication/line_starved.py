@@ -14,7 +14,7 @@ from typing import Protocol
 
 import numpy as np
 
-from bem.lubrication.line_continuation import COARSE_TOLERANCE, MIDDLE, SPIKE_CELLS, refined
+from bem.lubrication.line_continuation import COARSE_TOLERANCE, MIDDLE, SPIKE_CELLS, from_neighbour, refined
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_kernel import LineOperator
 from bem.lubrication.line_newton import Outcome, State, newton, remesh, stretched
@@ -91,9 +91,26 @@ def _odds(share: float) -> float:
     return math.log(share / max(1 - share, _LEAST))
 
 
-def starved(problem: Problem, flooded: Outcome, wanted: Wanted, cells: int, tolerance: float, limit: int) -> Outcome:
-    """From the flooded film of a problem to the one that misses nothing; the flooded one where oil beyond its mesh
-    would be wanted, of which it hardly knows."""
+@dataclass(frozen=True)
+class Neighbour:
+    """A starved film of another case, at a load M, its unit of pressure over the problem's."""
+
+    state: State
+    load: float
+    unit: float
+
+
+def starved(
+    problem: Problem,
+    flooded: Outcome,
+    wanted: Wanted,
+    cells: int,
+    tolerance: float,
+    limit: int,
+    near: Neighbour | None = None,
+) -> Outcome:
+    """From the flooded film of a problem, or from one nearby, to the one that misses nothing; the flooded one where oil
+    beyond its mesh would be wanted, of which it hardly knows."""
     if not flooded.converged:
         return flooded
     far = newton(problem, replace(flooded.state, far_field=0.0), tolerance, limit)
@@ -101,9 +118,16 @@ def starved(problem: Problem, flooded: Outcome, wanted: Wanted, cells: int, tole
     if far.converged and wanted.missed(far.state, flooded.state) <= 0:
         return replace(flooded, iterations=spent)
     search = _Search(problem, flooded.state, wanted, min(cells, MIDDLE), limit)
-    near = search.on_own_mesh(tolerance)
     if near is not None:
-        return search.judged(replace(near, iterations=spent + search.spent), tolerance)
+        start = from_neighbour(problem, near.state, near.load, near.unit, cells, tolerance, limit)
+        if start.converged and search.share(start.state) < NEARLY_FLOODED:
+            start = search.met(start, 1.0, tolerance)
+            if start.converged:
+                return replace(start, iterations=spent + start.iterations)
+        spent += start.iterations
+    own = search.on_own_mesh(tolerance)
+    if own is not None:
+        return search.judged(replace(own, iterations=spent + search.spent), tolerance)
     found, last, slope = search.coarse()
     if not found:
         return replace(last, iterations=spent + search.spent, converged=False)

@@ -172,10 +172,11 @@ def time_step(
     tolerance: float,
     max_iterations: int = 30,
     cavitation: Cavitation = Cavitation.SWIFT_STIEBER,
+    layer: float = np.inf,
 ) -> StepOutcome:
     """Solve for pressure and datum such that flow, `leading * rho H + history` (the time derivative) and load agree.
 
-    An infinite load keeps the datum as it is: a gap of given shape.
+    An infinite load keeps the datum as it is: a gap of given shape. The upstream end is filled by a layer, or full.
     """
     rupture = RUPTURES[cavitation]
     extrapolation = mesh.ahead if entrainment >= 0 else mesh.behind
@@ -183,7 +184,8 @@ def time_step(
         problem, mesh, entrainment, leading, history, rupture, *_upstream_nodes(mesh, entrainment), extrapolation
     )
     fraction = rupture.start(start.fraction)
-    fraction[0 if entrainment >= 0 else -1] = 1.0  # flooded
+    inlet = 0 if entrainment >= 0 else -1
+    fraction[inlet] = min(layer / start.film[inlet], 1.0)  # the gap is so wide there that it does not change
     at = Iterate(start.pressure.copy(), start.film.copy(), start.datum, fraction)
     full = start.full.copy()
     full[0] = full[-1] = False

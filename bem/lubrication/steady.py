@@ -19,10 +19,10 @@ from bem.lubrication.line_friction import friction_forces
 from bem.lubrication.line_kernel import DEFLECTION, logarithmic_weights
 from bem.lubrication.line_newton import Outcome, State, is_start
 from bem.lubrication.line_scales import Scales, line_scales, scaled_problem
-from bem.lubrication.line_starved import Wanted, WantedDistance, WantedLayer, starved, through
+from bem.lubrication.line_starved import Neighbour, Wanted, WantedDistance, WantedLayer, starved, through
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
-from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply
+from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply, inside_hertz
 from bem.lubrication.validity import Case, notes_on
 from bem.materials import Body
 from bem.threads import one_blas_thread
@@ -118,10 +118,13 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     walls = walls_of(flow_factors, scales.film, speeds)
     problem = scaled_problem(scales, scales.load, lubricant, walls, float(speeds[0]) - float(speeds[1]))
     flooded = outcome = _flooded(problem, scales, initial, points - 1, tolerance, max_iterations)
+    starvation = None
     if supply is not None:
         wanted = _wanted(supply, problem, flooded.state, scales)
         if wanted is not None:
-            outcome = starved(problem, flooded, wanted, points - 1, tolerance, max_iterations)
+            near = _starved_neighbour(initial, scales)
+            outcome = starved(problem, flooded, wanted, points - 1, tolerance, max_iterations, near)
+        starvation = _starvation(problem, outcome.state, flooded.state, scales, reversed_)
     case = Case(
         position=outcome.state.position * scales.length,
         pressure=np.maximum(outcome.state.pressure, 0.0) * scales.pressure,
@@ -130,11 +133,12 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         lubricant=lubricant,
         radius=radius,
         contact_modulus=contact_modulus,
+        reduction=1.0 if starvation is None else starvation.reduction,
     )
-    film = replace(_result(outcome, problem, scales, speeds, reversed_, lubricant, position), notes=notes_on(case))
-    film = replace(film, notes=film.notes + notes_on_factors(flow_factors, film.minimum_thickness))
-    if supply is not None:
-        film = replace(film, starvation=_starvation(problem, outcome.state, flooded.state, scales, reversed_))
+    film = replace(
+        _result(outcome, flooded, problem, scales, speeds, reversed_, lubricant, position), starvation=starvation
+    )
+    film = replace(film, notes=notes_on(case) + notes_on_factors(flow_factors, film.minimum_thickness))
     if cavitation is Cavitation.SWIFT_STIEBER:
         return film
     exit_film = outcome.state.film[-1] * scales.film
@@ -163,9 +167,9 @@ def _flooded(
     """From the film of another case where that will do, else from nothing."""
     kept = None if initial is None else initial.state
     spent = 0
-    if isinstance(kept, KeptSteady) and kept.state.far_field == 1 and is_start(kept.state):
+    if isinstance(kept, KeptSteady) and is_start(kept.flooded):
         unit = kept.scales.pressure / scales.pressure
-        outcome = from_neighbour(problem, kept.state, kept.load, unit, cells, tolerance, limit)
+        outcome = from_neighbour(problem, kept.flooded, kept.load, unit, cells, tolerance, limit)
         if outcome.converged:
             return outcome
         spent = outcome.iterations
@@ -174,6 +178,14 @@ def _flooded(
         spent += outcome.iterations
         outcome = from_newtonian(problem, cells, tolerance, limit)
     return replace(outcome, iterations=outcome.iterations + spent)
+
+
+def _starved_neighbour(initial: FilmSolution | None, scales: Scales) -> Neighbour | None:
+    """The film of another case, if that is starved and a start."""
+    kept = None if initial is None else initial.state
+    if not isinstance(kept, KeptSteady) or kept.state.far_field == 1 or not is_start(kept.state):
+        return None
+    return Neighbour(kept.state, kept.load, kept.scales.pressure / scales.pressure)
 
 
 def _wanted(supply: Supply, problem: Problem, flooded: State, scales: Scales) -> Wanted | None:
@@ -188,10 +200,7 @@ def _wanted(supply: Supply, problem: Problem, flooded: State, scales: Scales) ->
         return WantedLayer(problem, share) if share < 1 else None
     half_width = math.sqrt(8 * problem.load / math.pi) * scales.length
     if supply.distance <= half_width:
-        raise InputError(
-            f"supply: a meniscus {supply.distance!r} m before the axis is inside Hertz' contact; allowed: more than "
-            f"its half-width {half_width:.4g} m"
-        )
+        raise InputError(inside_hertz(supply, half_width))
     return WantedDistance(supply.distance / scales.length)
 
 
@@ -204,9 +213,10 @@ def _starvation(problem: Problem, state: State, flooded: State, scales: Scales, 
 
 @dataclass(frozen=True)
 class KeptSteady:
-    """What a warm start and a look at other positions need of a solve."""
+    """What a warm start and a look at other positions need of a solve; `flooded` is the state without a supply."""
 
     state: State
+    flooded: State
     load: float
     scales: Scales
     reversed: bool
@@ -324,6 +334,7 @@ def _real(value: object) -> bool:
 
 def _result(
     outcome: Outcome,
+    flooded: Outcome,
     problem: Problem,
     scales: Scales,
     speeds: Sequence[float],
@@ -370,7 +381,7 @@ def _result(
         status=status,
         speeds=(float(speeds[0]), float(speeds[1])),
         lubricant=lubricant,
-        state=KeptSteady(state, problem.load, scales, reversed_),
+        state=KeptSteady(state, flooded.state, problem.load, scales, reversed_),
     )
 
 

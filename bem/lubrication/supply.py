@@ -72,6 +72,14 @@ def checked_supply(supply: object) -> Supply | None:
     )
 
 
+def inside_hertz(supply: InletDistance, half_width: float) -> str:
+    """What to say of a meniscus that Hertz' half-width [m] reaches."""
+    return (
+        f"supply: a meniscus {supply.distance!r} m before the axis is inside Hertz' contact; allowed: more than its "
+        f"half-width {half_width:.4g} m"
+    )
+
+
 def _check(value: object, name: str) -> None:
     real = isinstance(value, int | float) and not isinstance(value, bool)
     if not (real and math.isfinite(value) and value > 0):  # type: ignore[operator,arg-type]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -29,9 +30,13 @@ from bem.lubrication.line_scales import line_scales, scaled_problem
 from bem.lubrication.line_step import FixedMesh, fixed_mesh
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.steady import check_speeds, solve_line_film
+from bem.lubrication.supply import OilLayer, checked_supply
 from bem.threads import one_blas_thread
 
 FAR = 50.0
+BARELY_FLOODED = 0.99
+"""Of the oil that a flooded film takes, with which a march begins where more than that comes: what is too much has no
+place in a steady film."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +63,7 @@ def march_line_film(  # reason: the signature is a promise to users' scripts; fr
     initial: FilmSolution | None = None,
     initial_thickness: float | None = None,
     cavitation: Cavitation | str = Cavitation.SWIFT_STIEBER,
+    supply: OilLayer | float | None = None,
     state: MarchState | None = None,
     callback: Callable[[MarchState], None] | None = None,
 ) -> list[FilmSolution]:
@@ -79,7 +85,10 @@ def march_line_film(  # reason: the signature is a promise to users' scripts; fr
         not yet felt.
     cavitation : `Cavitation.SWIFT_STIEBER`, or MASS_CONSERVING: oil behind a rupture is carried along and counts where
         the film forms again, as after a reversal; `film_fraction` of the solutions says how much there is. The mesh's
-        upstream end is flooded, downstream of it comes what comes.
+        upstream end is flooded, or has the layer of `supply`; downstream of it comes what comes.
+    supply : thickness [m] of the layer of oil that comes, as an `OilLayer` or a number, for mass-conserving cavitation;
+        None is flooded. The meniscus moves. A layer thicker than the first steady film takes begins with a meniscus
+        as far out as leaves `BARELY_FLOODED` of that film, and fills the inlet from there.
     state : of a march with the same arguments, to go on from to the same bits.
     callback : called with the state after the first film and after every step.
 
@@ -92,23 +101,24 @@ def march_line_film(  # reason: the signature is a promise to users' scripts; fr
 
     Raises
     ------
-    InputError : as `solve_line_film`, times that do not ascend, or no entrainment at the first time and no film to
-        start from.
+    InputError : as `solve_line_film`, times that do not ascend, no entrainment at the first time and no film to start
+        from, or a supply other than a layer or without mass-conserving cavitation.
     """
     contact, operation = Contact(radius, contact_modulus, lubricant), Operation(load, speeds)
     schedule = _schedule(times, operation)
     messages = _messages(schedule, contact, points) + _start_messages(initial, initial_thickness)
     try:
         model = cavitation_of(cavitation)
+        layer = _layer(supply, model)
     except InputError as error:
         messages += error.messages
     if messages:
         raise InputError(messages[:10])
     steady = initial is None and initial_thickness is None
     if steady:
-        initial = _steady_film(schedule, contact, int(points)) if state is None else state.steady
+        initial = _steady_film(schedule, contact, int(points), layer) if state is None else state.steady
     scaling, mesh = _discretised(schedule, contact, int(points), initial, initial_thickness)
-    march = March(contact, operation, scaling, mesh, tolerance, model)
+    march = March(contact, operation, scaling, mesh, tolerance, model, math.inf if layer is None else layer.thickness)
     tell = callback or (lambda state: None)
     if state is None:
         if initial is not None:
@@ -116,8 +126,12 @@ def march_line_film(  # reason: the signature is a promise to users' scripts; fr
         else:
             assert initial_thickness is not None
             film = film_of_gap(march, initial_thickness)
-        start = steady_start if steady else given_start
-        reached, opening = start(march, film, float(schedule.times[0]))
+        at = float(schedule.times[0])
+        if steady and initial is not None and initial.starvation is not None:
+            brought = min(march.layer, initial.starvation.layer)
+            reached, opening = steady_start(replace(march, layer=brought), film, at)
+        else:
+            reached, opening = (steady_start if steady else given_start)(march, film, at)
         state = MarchState(initial if steady else None, reached, (opening,))
         tell(state)
     solutions = list(state.solutions)
@@ -178,7 +192,19 @@ def _start_messages(initial: FilmSolution | None, initial_thickness: float | Non
     return messages
 
 
-def _steady_film(schedule: Schedule, contact: Contact, points: int) -> FilmSolution:
+def _layer(supply: object, cavitation: Cavitation) -> OilLayer | None:
+    """The layer of oil that comes; None where the inlet is flooded."""
+    found = checked_supply(supply)
+    if found is None:
+        return None
+    if not isinstance(found, OilLayer):
+        raise InputError(f"supply: {found!r}: in time the meniscus moves; give an OilLayer, or a thickness of one [m]")
+    if cavitation is not Cavitation.MASS_CONSERVING:
+        raise InputError('supply: a layer of oil is carried along only with cavitation "mass_conserving"')
+    return found
+
+
+def _steady_film(schedule: Schedule, contact: Contact, points: int, layer: OilLayer | None) -> FilmSolution:
     """That of the first time."""
     pair = schedule.speeds[0]
     if sum(pair) == 0:
@@ -186,7 +212,8 @@ def _steady_film(schedule: Schedule, contact: Contact, points: int) -> FilmSolut
             f"speeds: {tuple(pair)!r} at the first time entrain no oil, so there is no steady film to start "
             "from; give initial_thickness or initial"
         )
-    return solve_line_film(
+    steady = partial(
+        solve_line_film,
         load=schedule.loads[0],
         radius=contact.radius,
         contact_modulus=contact.contact_modulus,
@@ -194,6 +221,10 @@ def _steady_film(schedule: Schedule, contact: Contact, points: int) -> FilmSolut
         lubricant=contact.lubricant,
         points=min(points, 800),
     )
+    film = steady(supply=layer)
+    if film.starvation is None or not film.starvation.flooded:
+        return film
+    return steady(supply=OilLayer(BARELY_FLOODED * film.starvation.flooded_layer), initial=film)
 
 
 def _discretised(

@@ -53,7 +53,7 @@ class Case:
     """A film on the mesh that it was solved on.
 
     position, pressure, thickness : (n,) [m], [Pa], [m]. speeds : of flat and cylinder [m/s]. lubricant : the oil.
-    radius : [m]. contact_modulus : [Pa], infinite for rigid bodies.
+    radius : [m]. contact_modulus : [Pa], infinite for rigid bodies. reduction : by a supply, of the film.
     """
 
     position: FloatArray
@@ -63,6 +63,7 @@ class Case:
     lubricant: Lubricant
     radius: float
     contact_modulus: float
+    reduction: float = 1.0
 
     @cached_property
     def newtonian_stress(self) -> FloatArray:
@@ -151,12 +152,13 @@ def spike_unresolved(case: Case) -> str | None:
 def inlet_heating(case: Case) -> str | None:
     """Shear in the inlet heats the oil, and the film is thinner for it.
 
-    By the factor of `bem.lubrication.thermal.inlet`, for a mineral oil.
+    By the factor of `bem.lubrication.thermal.inlet`, for a mineral oil. A film that is starved by more than that is
+    as thick as the oil that comes, hot or not.
     """
     load = max(case.integral(case.pressure), 0.0)
     hertz = hertz_over_modulus(load, case.radius, case.contact_modulus)
     heating = inlet_heating_factor(case.lubricant.viscosity, OIL_SOFTENING, OIL_CONDUCTIVITY, case.speeds, hertz)
-    return HEATING_NOTES[0] if heating.factor < LEAST_INLET_FACTOR else None
+    return HEATING_NOTES[0] if heating.factor < LEAST_INLET_FACTOR * case.reduction else None
 
 
 def film_heating(case: Case) -> str | None:

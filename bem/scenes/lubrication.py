@@ -17,6 +17,7 @@ from pydantic import Field, model_validator
 from bem.errors import InfeasibleError, InputError
 from bem.friction.boundary import BoundaryFriction, boundary_law
 from bem.grid import Grid
+from bem.lubrication.supply import InletDistance, inside_hertz
 from bem.materials import Body
 from bem.reference_solutions.hertz import cylinder_contact
 from bem.scenes import build
@@ -34,6 +35,7 @@ from bem.scenes.common import (
 from bem.scenes.laws import LawOrNumber
 from bem.scenes.oil import OilScene
 from bem.scenes.records import Figure
+from bem.scenes.tables.supply import SupplyScene, build_supply
 from bem.scenes.units import Pressure, Ratio, Speed
 
 if TYPE_CHECKING:
@@ -176,6 +178,7 @@ class LineContactScene(SceneModel):
     contact: LubricatedScene
     oil: OilScene
     speeds: SpeedsScene
+    supply: SupplyScene | None = None
     grid: LineGridScene = LineGridScene()
 
     @property
@@ -237,6 +240,9 @@ class LineContactScene(SceneModel):
             radius=self.contact.radius, contact_modulus=self.modulus, load=load / self.contact.width
         )
         _check_patch(grid, film or FilmMeshScene(), smooth.half_width)
+        supply = build_supply(self.supply)
+        if isinstance(supply, InletDistance) and supply.distance <= smooth.half_width:
+            raise InputError(inside_hertz(supply, smooth.half_width))
         area = grid.lengths[0] * self.contact.width
         if hardness is not None and load > hardness * area:
             raise InfeasibleError(
@@ -258,6 +264,7 @@ class LineContactScene(SceneModel):
             load=self.load,
             lubricant=self.oil.build(),
             boundary_friction=self.contact.boundary_friction,
+            supply=build_supply(self.supply),
             **given,
         )
 

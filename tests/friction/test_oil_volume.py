@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_surface, solve_mixed, stribeck_curve
+from bem.friction import load_sharing, oil_sensitivity
 from bem.friction.balance import BalanceStart, Regime, share_load
 from bem.friction.falling_zero import falling_zero
 from bem.friction.film import PatchFilm
@@ -230,6 +231,28 @@ def test_full_film_begins_where_surfaces_that_hold_the_oil_come_apart(model, hig
     assert curve[-1].regime is Regime.FULL_FILM
     shares = [point.contact_load / point.load for point in curve]
     assert shares == sorted(shares, reverse=True)
+
+
+def test_what_that_oil_decides_costs_less_than_a_curve_without_telling(monkeypatch):
+    """The second balance starts from the first, on films of few points: over a curve it needs fewer of all."""
+    spent = {}
+
+    def counted(module, name):
+        inner = module.share_load
+
+        def balance(*arguments):
+            found = inner(*arguments)
+            spent[name] = spent.get(name, np.zeros(3)) + (found.films, found.contacts, found.convolutions)
+            return found
+
+        monkeypatch.setattr(module, "share_load", balance)
+
+    counted(load_sharing, "own")
+    counted(oil_sensitivity, "other")
+    curve = stribeck_curve([(0.1, 0.09), (0.3, 0.27), (1.0, 0.9)], **bearing(64))
+    assert all(point.oil.known for point in curve)
+    assert (spent["other"][1:] < spent["own"][1:]).all()
+    assert spent["other"][2] < 0.7 * spent["own"][2]
 
 
 def test_means_where_the_oil_is_counted():

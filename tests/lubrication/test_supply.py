@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from bem import Cavitation, InputError, Lubricant, Status, solve_line_film
+from bem import Cavitation, InputError, Lubricant, Status, march_line_film, solve_line_film
 from bem.lubrication.supply import InletDistance, OilLayer
 
 RIGID = {
@@ -171,6 +171,73 @@ def test_reduction_over_the_inlet_is_that_of_grubins_contact():
         film = solve_line_film(**BEARING, supply=InletDistance(distance))
         assert film.status is Status.CONVERGED
         assert film.starvation.reduction == pytest.approx(grubin(BEARING, distance) / far, abs=0.04)
+
+
+def test_a_starved_neighbour_is_a_start():
+    """As in load sharing, which looks for loads: a fifth of the steps, the same film."""
+    layer = OilLayer(0.3 * solve_line_film(**BEARING, supply=OilLayer(1.0)).starvation.flooded_layer)
+    other = solve_line_film(**BEARING | {"load": 0.9 * BEARING["load"]}, supply=layer)
+    warm, cold = (solve_line_film(**BEARING, supply=layer, initial=start) for start in (other, None))
+    assert warm.status is cold.status is Status.CONVERGED
+    assert warm.iterations < 0.2 * cold.iterations
+    assert warm.starvation.layer == pytest.approx(cold.starvation.layer, rel=2e-8)
+    # other meshes of 300 points
+    assert warm.minimum_thickness == pytest.approx(cold.minimum_thickness, rel=2e-3)
+    flooded = solve_line_film(**BEARING, initial=warm)
+    assert flooded.starvation is None
+    assert flooded.minimum_thickness == pytest.approx(solve_line_film(**BEARING).minimum_thickness, rel=2e-3)
+
+
+MARCHED = {"radius": 2e-3, "contact_modulus": 115e9, "lubricant": Lubricant(0.36, pressure_viscosity=25e-9)}
+
+
+def marched(speeds, steps=20, duration=4e-3, **more):
+    times = np.linspace(0.0, duration, steps + 1)
+    more = {"cavitation": "mass_conserving", "points": 201} | MARCHED | more
+    return march_line_film(times, load=lambda t: 917.0, speeds=lambda t: (speeds(t), 0.0), **more)
+
+
+def test_a_march_in_steady_motion_keeps_the_starved_film_and_its_meniscus():
+    steady = solve_line_film(load=917.0, speeds=(0.05, 0.0), supply=1e-7, points=800, **MARCHED)
+    films = marched(lambda t: 0.05, supply=1e-7)
+    assert {film.status for film in films} == {Status.CONVERGED}
+    last = films[-1]
+    # 201 points, of second order; the meniscus is at a node
+    assert last.minimum_thickness == pytest.approx(steady.minimum_thickness, rel=2e-3)
+    cell = np.diff(last.position).min()
+    assert last.position[last.pressure > 0][0] == pytest.approx(steady.starvation.meniscus_position, abs=2 * cell)
+    assert last.shear_force == pytest.approx(steady.shear_force, rel=0.01)
+    # a node's fraction is what goes through the face before it, where the gap is narrower: by a cell's width of it
+    near = (last.pressure == 0) & (last.position < 0) & (last.position > 1.5 * steady.starvation.meniscus_position)
+    np.testing.assert_allclose((last.film_fraction * last.thickness)[near][:-1], 1e-7, rtol=0.1)
+    assert max(film.volume_imbalance for film in films) < 1e-10
+
+
+def test_a_faster_march_takes_more_than_comes_and_its_meniscus_moves_in():
+    """A layer that floods 0.03 m/s starves 0.3 m/s: once the inlet is drained the film is as thick as the layer."""
+    films = marched(lambda t: 0.03 if t < 1e-3 else 0.3, 60, 40e-3, supply=1.5e-7)
+    flooded = marched(lambda t: 0.03 if t < 1e-3 else 0.3, 60, 40e-3)
+    assert films[-1].status is flooded[-1].status is Status.CONVERGED
+    assert films[0].minimum_thickness == pytest.approx(flooded[0].minimum_thickness, rel=0.015)  # with 0.99 of its oil
+    steady = solve_line_film(load=917.0, speeds=(0.3, 0.0), supply=1.5e-7, points=400, **MARCHED)
+    assert steady.starvation.reduction < 0.5
+    assert films[-1].minimum_thickness == pytest.approx(steady.minimum_thickness, rel=0.01)
+    assert flooded[-1].minimum_thickness > 2 * films[-1].minimum_thickness
+
+
+def test_a_march_refuses_a_supply_that_it_does_not_know():
+    with pytest.raises(InputError, match="in time the meniscus moves"):
+        marched(lambda t: 0.05, supply=InletDistance(1e-3))
+    with pytest.raises(InputError, match='only with cavitation "mass_conserving"'):
+        marched(lambda t: 0.05, supply=1e-7, cavitation="swift_stieber")
+
+
+def test_heat_of_the_inlet_is_said_of_films_that_have_one():
+    """Starved by more than heat takes, a film is as thick as the oil that comes."""
+    fast = BEARING | {"speeds": (8.0, 7.2)}
+    notes = [solve_line_film(**fast, supply=supply).notes for supply in (None, OilLayer(1e-7), OilLayer(1.0))]
+    heats = [any("shear heating in the inlet" in note for note in said) for said in notes]
+    assert heats == [True, False, True]
 
 
 def test_the_reversed_contact_is_the_mirrored_one(flooded):

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from bem.plots.cases import axes_of, first_case, grouped, label_of
 from bem.plots.figures import FigureKind
 from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, prefix
+from bem.reference_solutions.starved_inlet import starved_film
 
 ALL_CASES = True
 _COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PINK, SKY, BLACK)
@@ -89,12 +90,50 @@ def _film(run: Any, figure: Figure) -> None:
     upper.set_xlabel("x over the Hertz half-width")
     upper.set_ylabel(label("pressure", unit), color=BLUE)
     upper.set_ylim(0)
+    if "film_reduction" in data.variables and (data["pressure"].values == 0).any():
+        meniscus = x[np.flatnonzero(data["pressure"].values > 0)[0]]
+        if meniscus > x[0]:
+            upper.axvline(meniscus, color=BLACK, linestyle=":", label="meniscus")
+            upper.legend(loc="center left")
     lower = upper.twinx()
     inside = np.abs(x) < 1.2
     factor, unit = prefix(data["thickness"].values[inside], "m")
     lower.plot(x, data["thickness"].values * factor, color=VERMILION, label="film")
     lower.set_ylim(0, 2.5 * factor * float(data["thickness"].values[inside].max()))
     lower.set_ylabel(label("film thickness", unit), color=VERMILION)
+
+
+def _starvation(run: Any, figure: Figure) -> None:
+    data = run.dataset
+    upper, lower = figure.subplots(2, 1)
+    upper.plot(*starved_film(np.geomspace(1e-3, 1e3, 400)), color=BLACK, label="Wolveridge, Baglin and Archard (1971)")
+    inlet, reduction = data["inlet"].values.ravel(), data["film_reduction"].values.ravel()
+    upper.plot(inlet, reduction, "o", color=BLUE, label="this run")
+    upper.set_xscale("log")
+    upper.set_xlim(*_around(inlet))
+    upper.set_ylim(0, 1.05)
+    upper.set_xlabel("filled inlet over its natural length")
+    upper.set_ylabel("film over the flooded one")
+    upper.legend()
+    layer = data["oil_layer"].values.ravel() * 1e9
+    for name, colour in (("central", BLUE), ("minimum", VERMILION)):
+        lower.plot(layer, data[f"{name}_thickness"].values.ravel() * 1e9, "o", color=colour, label=f"{name} film")
+    lower.plot([0, layer.max()], [0, layer.max()], color=BLACK, linestyle=":", label="the layer, not compressed")
+    lower.set_xlim(0)
+    lower.set_ylim(0)
+    lower.set_xlabel("oil that goes through, as a layer (nm)")
+    lower.set_ylabel("film (nm)")
+    lower.legend()
+
+
+def _around(values: Any) -> tuple[float, float]:
+    """Limits of a logarithmic axis that holds all finite values."""
+    finite = values[np.isfinite(values)]
+    return 0.5 * float(finite.min()), max(4.0 * float(finite.max()), 10.0)
+
+
+def _starves(run: Any) -> bool:
+    return bool(np.isfinite(run.dataset["inlet"].values).sum() > 1)
 
 
 FIGURES = (
@@ -111,6 +150,15 @@ FIGURES = (
         "Mean temperature of the oil along the film, and of both surfaces.",
         ("oil_temperature", "lower_surface_temperature", "upper_surface_temperature"),
         _temperatures,
+    ),
+    FigureKind(
+        "starvation-curve",
+        "The film over that of a flooded inlet, over how much of the inlet is filled (over the length at which the gap "
+        "is as wide as the flooded film is thick); and the film over the oil that goes through.",
+        ("inlet", "film_reduction", "oil_layer"),
+        _starvation,
+        size=(5.0, 6.0),
+        applies=_starves,
     ),
     FigureKind("rolling-film", "Pressure and film thickness of the first case.", ("pressure", "thickness"), _film),
 )

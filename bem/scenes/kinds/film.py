@@ -23,6 +23,7 @@ from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, columns, filled
 from bem.scenes.resolutions import counted
 from bem.scenes.tables.motion import FilmCylinderScene, MarchScene, MotionScene
+from bem.scenes.tables.supply import SupplyScene
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars, MarchCase
@@ -42,6 +43,7 @@ class FilmScene(SceneModel):
     oil: OilScene
     motion: MotionScene
     march: MarchScene
+    supply: SupplyScene | None = None
     outputs: OutputsScene = OutputsScene()
 
     @model_validator(mode="after")
@@ -50,6 +52,13 @@ class FilmScene(SceneModel):
             raise problem("a rough surface", 'smooth surfaces, or kind = "friction"')
         if self.motion.at(0.0) == 0 and self.march.initial_thickness is None:
             raise problem("the motion starts from rest, where no steady film exists", "march.initial_thickness")
+        if self.supply is not None and self.supply.layer is None:
+            raise problem("supply.distance: in time the meniscus moves", "supply.layer")
+        if self.supply is not None and self.march.cavitation != "mass_conserving":
+            raise problem(
+                f'a supply of oil with march.cavitation "{self.march.cavitation}", which forgets oil',
+                'march.cavitation = "mass_conserving"',
+            )
         return self
 
 
@@ -96,6 +105,7 @@ class FilmTimeRecord(Record):
     ]
     thickness: Annotated[FloatArray, Series(("time", "film_x"), "m", "film thickness")]
     film_pressure: Annotated[FloatArray, Series(("time", "film_x"), "Pa", "film pressure")]
+    meniscus: Annotated[FloatArray | None, Series(("time",), "m", "where the gap begins to be full")]
     film_fraction: Annotated[FloatArray | None, Series(("time", "film_x"), "1", "share of the gap filled with oil")]
 
 
@@ -116,13 +126,14 @@ def run(scene: FilmScene, context: Context) -> FilmTimeRecord:
         points=march.points,
         initial_thickness=march.initial_thickness,
         cavitation=Cavitation(march.cavitation),
+        layer=None if scene.supply is None else scene.supply.layer,
     )
     with context.timer("film"):
         films = _march(case, context)
     tell(context, dict.fromkeys(note for film in films for note in film.notes), "film: ")
     wanted = scene.outputs.errors and films[-1].status is Status.CONVERGED
     errors = error_bars(context, wanted, lambda: _bars(replace(case, films=films), cylinder.width))
-    return _record(films, cylinder.width, errors)
+    return _record(films, cylinder.width, errors, starved=scene.supply is not None)
 
 
 def _march(case: MarchCase, context: Context) -> list[FilmSolution]:
@@ -146,7 +157,7 @@ def _bars(case: MarchCase, width: float) -> ErrorBars:
     return bars | bars.renamed({"largest_shear_force": "largest_friction_force"}, lambda force: force * width)
 
 
-def _record(films: Sequence[FilmSolution], width: float, errors: Mapping[str, Any]) -> FilmTimeRecord:
+def _record(films: Sequence[FilmSolution], width: float, errors: Mapping[str, Any], *, starved: bool) -> FilmTimeRecord:
     from bem.accuracy import march_figures
 
     last, figures, over = films[-1], march_figures(films), columns(films, _OVER_TIME)
@@ -169,11 +180,20 @@ def _record(films: Sequence[FilmSolution], width: float, errors: Mapping[str, An
         # a film that begins as a gap carries nothing at first
         friction=over["shear_force"] / np.where(over["load"] > 0, over["load"], np.nan),
         film_pressure=over["pressure"],
+        meniscus=np.array([_meniscus(film) for film in films]) if starved else None,
         film_fraction=None if last.film_fraction is None else over["film_fraction"],
         **errors,
         status=last.status,
         where=f"time {last.time:g} s: {last.status.message}",
     )
+
+
+def _meniscus(film: FilmSolution) -> float:
+    """Upstream end of the pressure [m]; not-a-number where there is none."""
+    full = film.position[film.pressure > 0]
+    if not len(full):
+        return math.nan
+    return float(full[0] if sum(film.speeds) >= 0 else full[-1])
 
 
 _OVER_TIME = (

@@ -108,9 +108,11 @@ _curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="fir
 _LOADS = ("contact_load", "film_load")
 _OTHER = "they are to compare with, to a thousandth of the oil"
 _other_oil = partial(_curve, no_bar=_OTHER)
+_supplied = partial(_curve, optional=True, no_bar="the minimum film, which goes with it, has one")
+_OF_SUPPLY = ("film_reduction", "meniscus_position")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class CurveRecord(Record):
     """A Stribeck curve, and the fields that make pictures, at the speed where film and contact share most evenly."""
 
@@ -132,6 +134,8 @@ class CurveRecord(Record):
         FloatArray, _other_oil("N", "contact load with the oil counted where the film carries")
     ]
     loaded_friction: Annotated[FloatArray, _other_oil("", "friction with the oil counted where the film carries")]
+    film_reduction: Annotated[FloatArray | None, _supplied("", "central film over that of a flooded inlet")] = None
+    meniscus_position: Annotated[FloatArray | None, _supplied("um", "where the gap begins to be full")] = None
     rms_height: Annotated[float, Figure("nm", "rms height of both surfaces together", name="Sq", unjudged=True)]
     shown_speed: Annotated[FloatArray, _shown((), "m/s", "speed at which the fields are shown")]
     x: Annotated[FloatArray, _shown(("x",), "m", "x, along sliding")]
@@ -174,7 +178,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
             keep(context, (curve, errors), made_again)
         context.progress(len(curve.points), len(pairs), "speeds", friction=own.friction)
     tell(context, oil_notes([point.oil for point in curve.points]))
-    return _record(grid, curve, height, errors)
+    return _record(grid, curve, height, errors, supplied=scene.supply is not None)
 
 
 def _at(solution: MixedSolution) -> str:
@@ -209,7 +213,7 @@ def _flow_factors(
     return table
 
 
-def _record(grid: Grid, curve: Curve, height: FloatArray, errors: list[FloatArray]) -> CurveRecord:
+def _record(grid: Grid, curve: Curve, height: FloatArray, errors: list[FloatArray], *, supplied: bool) -> CurveRecord:
     """A row for each speed; fields of the speed where film and contact share most evenly."""
     from bem.accuracy.bars import from_tables
     from bem.accuracy.mixed import ORIGINS, RULES
@@ -218,10 +222,11 @@ def _record(grid: Grid, curve: Curve, height: FloatArray, errors: list[FloatArra
     shown = curve.shown
     assert shown is not None
     film_pressure, film_thickness = shown.film.at(grid.x)
+    names = [item.name for item in fields(curve.points[0]) if supplied or item.name not in _OF_SUPPLY]
     bad = [one for one in curve.points if one.status is not Status.CONVERGED]
     return filled(
         CurveRecord,
-        columns(curve.points, (item.name for item in fields(curve.points[0]))),
+        columns(curve.points, names),
         grid,
         rms_height=float(height.std()),
         shown_speed=np.array(shown.speeds[0]),

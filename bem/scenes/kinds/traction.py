@@ -22,6 +22,7 @@ from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.resolutions import counted
 from bem.scenes.tables.rolling import FilmPointsScene, RollerScene, RollingScene
+from bem.scenes.tables.supply import SupplyScene, build_supply
 
 if TYPE_CHECKING:
     from bem.accuracy import TractionCase
@@ -44,6 +45,7 @@ class TractionScene(SceneModel):
     oil: OilScene
     rolling: RollingScene
     thermal: Literal["off", "lumped"] = "lumped"
+    supply: SupplyScene | None = None
     film: FilmPointsScene = FilmPointsScene()
     outputs: OutputsScene = OutputsScene()
 
@@ -53,6 +55,8 @@ class TractionScene(SceneModel):
             raise problem("a rough surface", 'smooth surfaces, or kind = "friction"')
         if self.thermal == "off":
             return self
+        if self.supply is not None:
+            raise problem("a supply of oil with heat", 'thermal = "off" with it, or no supply: a flooded inlet')
         oil = self.oil.build()
         missing = [key for key in _NEEDED if getattr(oil, key) is None]
         if missing:
@@ -73,11 +77,17 @@ class TractionScene(SceneModel):
 def plan(scene: TractionScene) -> Plan:
     """What will be computed."""
     points, hot, errors = scene.film.points, scene.thermal != "off", scene.outputs.errors
-    seconds = 0.15 + 1e-4 * points
+    starved = scene.supply is not None
+    seconds = 0.15 + 1e-4 * points + (0.3 if starved else 0.0)
     return Plan(
         (
             Step("rough contact", "the surfaces are smooth, the film carries all of the load", skipped=True),
-            Step("film", f"Newton's method on {points} points", seconds=seconds, memory=600.0 * points),
+            Step(
+                "film",
+                f"Newton's method on {points} points" + (", flooded and then with its supply" if starved else ""),
+                seconds=seconds,
+                memory=600.0 * points,
+            ),
             Step(
                 "heat",
                 "inlet heating, mean temperature of the oil along the film" if hot else 'thermal is "off"',
@@ -100,6 +110,7 @@ _along = partial(Series, ("x",))
 _HOTTEST = "in pure rolling it stands at the spike of pressure and follows the mesh"
 _FORMULA = "it is a formula's"
 _ALGEBRA = "it closes by construction, to rounding"
+_of_supply = partial(Figure, optional=True)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -122,6 +133,11 @@ class TractionRecord(Record):
     share_of_lower: Annotated[float | None, Figure("", "share of it that enters the lower body")] = None
     share_of_upper: Annotated[float | None, Figure("", "share that enters the upper body")] = None
     share_of_oil: Annotated[float | None, Figure("", "share that the oil carries on")] = None
+    film_reduction: Annotated[float | None, _of_supply("", "central film over that of a flooded inlet")] = None
+    oil_layer: Annotated[float | None, _of_supply("nm", "oil that goes through, as a layer")] = None
+    flooded_layer: Annotated[float | None, _of_supply("nm", "oil that a flooded contact would take")] = None
+    meniscus_position: Annotated[float | None, _of_supply("um", "where the gap begins to be full")] = None
+    inlet: Annotated[float | None, _of_supply("", "filled inlet before Hertz' contact over its natural length")] = None
     energy_imbalance: Annotated[float | None, Figure("", "friction power less all of these", no_bar=_ALGEBRA)] = None
     newton_steps: Annotated[int, Figure("", "Newton steps of all films", unjudged=True)]
     x: Annotated[FloatArray, _along("1", "x over the Hertz half-width, along the entrainment")]
@@ -167,6 +183,7 @@ def _case(scene: TractionScene) -> TractionCase:
         lubricant=oil,
         points=scene.film.points,
         width=scene.roller.width,
+        supply=build_supply(scene.supply),
         bodies=(scene.lower.build(), scene.upper.build()) if scene.thermal == "lumped" else None,
         bulk=tuple(oil.temperature or 0.0 if t is None else t for t in (rolling.lower_bulk, rolling.upper_bulk)),
     )
@@ -197,5 +214,5 @@ KIND = Kind.of(
     TractionRecord,
     "traction of a smooth rolling and sliding line contact, with the heat in its film",
     resolutions=(counted("film.points", POINTS, 400, 20000),),
-    figures=("traction-curve", "film-temperatures", "rolling-film"),
+    figures=("traction-curve", "film-temperatures", "starvation-curve", "rolling-film"),
 )

@@ -1,0 +1,44 @@
+"""How much oil reaches a line contact: the table `supply` of the kinds with an oil film.
+
+Verified in tests/scenes/test_supply_scenes.py.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, model_validator
+
+from bem.lubrication.supply import InletDistance, OilLayer, Supply
+from bem.scenes.common import Table, exactly_one
+from bem.scenes.units import Length
+
+SupplyLength = Annotated[Length, Field(gt=0)]
+
+
+class SupplyScene(Table):
+    """Oil of a starved contact; without this table the inlet is flooded.
+
+    layer : thickness of the oil on both surfaces together, as if all of it moved at their mean speed. distance : how
+    far before the axis the gap begins to be full.
+    """
+
+    layer: SupplyLength | None = None
+    distance: SupplyLength | None = None
+
+    @model_validator(mode="after")
+    def _one(self) -> SupplyScene:
+        exactly_one(self, "layer", "distance")
+        return self
+
+    def build(self) -> Supply:
+        """As `bem.lubrication.supply` has it."""
+        if self.layer is not None:
+            return OilLayer(self.layer)
+        assert self.distance is not None
+        return InletDistance(self.distance)
+
+
+def build_supply(scene: SupplyScene | None) -> Supply | None:
+    """As `SupplyScene.build`, None where there is no table: flooded."""
+    return None if scene is None else scene.build()
