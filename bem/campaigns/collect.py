@@ -133,7 +133,7 @@ def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[
     told = {
         name: " ".join((item.name or name).split("_"))
         for name, item in described(record).items()
-        if isinstance(item, Figure) and _is_told(name, item, records)
+        if isinstance(item, Figure) and any(getattr(one, name) is not None for one in records if one is not None)
     }
     reasons: dict[str, list[str]] = {}
     for name, why in _never_barred(campaign).items():

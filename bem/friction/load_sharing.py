@@ -22,7 +22,7 @@ from bem.friction.boundary import BoundaryFrictionGiven
 from bem.friction.curves import relative_difference
 from bem.friction.film import PatchFilm, SolvedFilm
 from bem.friction.forces import coupling_notes, friction_forces, lambda_ratio, validity_notes
-from bem.friction.oil_beside import oil_notes
+from bem.friction.oil_beside import OilBeside, oil_notes
 from bem.friction.oil_sensitivity import oil_beside
 from bem.friction.oil_volume import OilVolume
 from bem.friction.rough_contact import RoughContact, rough_contact
@@ -219,7 +219,7 @@ def solve_setup(
     whole, films = _whole_film(film, rough, setup.load)
     balance = share_load(film, rough, setup.load, setup.tolerance, whole, _start(setup, film.speeds, initial))
     balance = dataclasses.replace(balance, films=balance.films + films)
-    return _solution(setup, height, film, rough, whole, balance)
+    return _solution(setup, height, film, rough, whole, balance, None if initial is None else initial.oil)
 
 
 def _whole_film(film: SolvedFilm, rough: RoughContact, load: float) -> tuple[PatchFilm, int]:
@@ -245,12 +245,18 @@ def _start(setup: MixedSetup, speeds: tuple[float, float], initial: MixedSolutio
 
 
 def _solution(
-    setup: MixedSetup, height: FloatArray, film: SolvedFilm, rough: RoughContact, whole: PatchFilm, balance: Balance
+    setup: MixedSetup,
+    height: FloatArray,
+    film: SolvedFilm,
+    rough: RoughContact,
+    whole: PatchFilm,
+    balance: Balance,
+    before: OilBeside | None,
 ) -> MixedSolution:
     found, contact = balance.film, balance.contact
     forces = friction_forces(found, contact, setup, film.speeds)
     friction = (forces.boundary + forces.film) / setup.load
-    oil = oil_beside(setup, height, balance, whole, speeds=film.speeds, friction=friction)
+    oil = oil_beside(setup, height, balance, whole, speeds=film.speeds, friction=friction, before=before)
     returned = found.solution
     assert returned is not None
     if setup.film_position is not None:

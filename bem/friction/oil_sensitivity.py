@@ -33,11 +33,13 @@ def oil_beside(
     *,
     speeds: tuple[float, float],
     friction: float,
+    before: OilBeside | None = None,
 ) -> OilBeside:
     """Of a balance that was found for heights (nx, ny) [m] at a pair of speeds (u1, u2) [m/s].
 
     One more balance where the oil was counted on the whole patch and film and surfaces both carry, with films on few
-    points; `whole` is the film under the whole load, which is the same for both.
+    points; `whole` is the film under the whole load, which is the same for both. It starts from the found one, or as
+    far from that as at the speed `before`.
     """
     share = 0.0 if found.contact is None else found.contact.load / setup.load
     own = OilBeside(share_beside(setup, found.film), share, friction := float(friction))
@@ -51,7 +53,7 @@ def oil_beside(
     film = SolvedFilm(
         counted.line, speeds, setup.grid.x, min(setup.film_points, BALANCE_POINTS), striated_exit=setup.striated_exit
     )
-    start = BalanceStart(found.film.load, 1.0, found.contact.pressure)
+    start = BalanceStart(_first_load(found.film.load, setup.load, before), 1.0, found.contact.pressure)
     other = share_load(
         film, rough_contact(counted, height, speeds), setup.load, max(setup.tolerance, TOLERANCE), whole, start
     )
@@ -61,6 +63,17 @@ def oil_beside(
     carried = 0.0 if other.contact is None else other.contact.load / setup.load
     other_friction = float(forces.boundary + forces.film) / setup.load
     return replace(own, loaded_contact_share=carried, loaded_friction=other_friction)
+
+
+def _first_load(found: float, load: float, before: OilBeside | None) -> float:
+    """Film load [N] to begin with, from that of the found balance: its odds against the contact's times what the oil
+    made of them at another speed."""
+    if before is None or not before.known:
+        return found
+    shares = (found / load, 1 - before.loaded_contact_share, 1 - before.contact_share)
+    here, other, own = (max(share, 1e-12) / max(1 - share, 1e-12) for share in shares)
+    odds = here * other / own
+    return load * odds / (1 + odds)
 
 
 def share_beside(setup: MixedSetup, film: PatchFilm) -> float:

@@ -162,7 +162,7 @@ class Balance:
     highest: float
 
 
-def time_step(
+def time_step(  # reason: what acts, what was there, the rate that a scheme makes of it, and what comes at the inlet
     problem: Problem,
     mesh: FixedMesh,
     start: Film,

@@ -234,7 +234,7 @@ def test_full_film_begins_where_surfaces_that_hold_the_oil_come_apart(model, hig
 
 
 def test_what_that_oil_decides_costs_less_than_a_curve_without_telling(monkeypatch):
-    """The second balance starts from the first, on films of few points: over a curve it needs fewer of all."""
+    """The second balance starts from the first, as far from it as at the speed before: half the convolutions."""
     spent = {}
 
     def counted(module, name):
@@ -242,7 +242,7 @@ def test_what_that_oil_decides_costs_less_than_a_curve_without_telling(monkeypat
 
         def balance(*arguments):
             found = inner(*arguments)
-            spent[name] = spent.get(name, np.zeros(3)) + (found.films, found.contacts, found.convolutions)
+            spent[name] = spent.get(name, 0.0) + found.convolutions
             return found
 
         monkeypatch.setattr(module, "share_load", balance)
@@ -251,8 +251,7 @@ def test_what_that_oil_decides_costs_less_than_a_curve_without_telling(monkeypat
     counted(oil_sensitivity, "other")
     curve = stribeck_curve([(0.1, 0.09), (0.3, 0.27), (1.0, 0.9)], **bearing(64))
     assert all(point.oil.known for point in curve)
-    assert (spent["other"][1:] < spent["own"][1:]).all()
-    assert spent["other"][2] < 0.7 * spent["own"][2]
+    assert spent["other"] < 0.5 * spent["own"]
 
 
 def test_means_where_the_oil_is_counted():
