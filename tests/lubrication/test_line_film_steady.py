@@ -458,7 +458,7 @@ def test_what_did_not_converge_is_no_start(spoilt):
         "an exit of next to nothing": replace(state, exit=1e-12, film=1e-24 * state.film),
         "not a number": replace(state, film=np.nan * state.film),
     }[spoilt]
-    start = replace(good, state=replace(good.state, state=bad))
+    start = replace(good, state=replace(good.state, state=bad, flooded=bad))
     again = solve_line_film(**case, initial=start)
     assert again.status == "converged"
     assert np.array_equal(again.pressure, good.pressure)
