@@ -14,6 +14,7 @@ import difflib
 import importlib
 import math
 import re
+from abc import ABCMeta
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
@@ -117,7 +118,7 @@ def parameter(
 
 
 @dataclass(frozen=True)
-class Law:
+class Law(metaclass=ABCMeta):  # noqa: B024 - its families say what is abstract
     """What all laws share: parameters are checked and become floats when one is made.
 
     Raises
@@ -184,8 +185,8 @@ def register(law: LawClass) -> LawClass:
 
     Raises
     ------
-    InputError : no such class, no or a strange name, a name that another law of the family has, or a parameter that
-        another law of the family has in another unit.
+    InputError : no such class, one without the family's formula, no or a strange name, a name that another law of the
+        family has, or a parameter that another law of the family has in another unit.
     """
     if not (isinstance(law, type) and issubclass(law, Law) and law.family in FAMILIES):
         raise InputError(f"register: {law!r} does not derive from a family of laws; families: {', '.join(FAMILIES)}")
@@ -206,6 +207,9 @@ def register(law: LawClass) -> LawClass:
                     f"register: {law.__name__}.{key} is in [{about.unit}], but {beside.__name__} has it in "
                     f"[{beside.parameters()[key].unit}]"
                 )
+    if law.__abstractmethods__:
+        wanting = ", ".join(sorted(law.__abstractmethods__))
+        raise InputError(f"register: {law.__name__} does not define {wanting}, which every {law.family} needs")
     entered[law.name] = law
     return law
 

@@ -12,9 +12,15 @@ from bem.scenes.records import Figure, described, without_bars
 from reports.builder import Section, table, text
 from reports.experiments.judging import judged
 from reports.prose import prose
+from reports.validation_origin import changed_since_stored
 
 _WORDS = prose("guide")["error_bars"]
 RESULTS = Path(__file__).parent / "results"
+_KINDS = {
+    "contact": "contact", "film": "friction", "mixed": "friction", "march": "film", "asperities": "asperities",
+    "flow": "flow-factors", "rubbing": "surface-temperature", "tribofilm": "tribofilm", "particle": "particles",
+}  # fmt: skip
+"""The kind of scene whose code an experiment runs."""
 
 
 def measured() -> dict[str, dict[str, Any]]:
@@ -44,7 +50,8 @@ def chapter() -> list[Section]:
             + table(
                 ("drawn at random", "figure", "bars", "covered", "bar over error, median", "error, median"),
                 list(_covered()),
-            ),
+            )
+            + "".join(text(f"{_WORDS['drawn'][name]}: {state}.".capitalize()) for name, state in _stale()),
             level=3,
         ),
         Section("What has none", text(_WORDS["none"]) + table(("kind", "figures", "why"), list(_without())), level=3),
@@ -65,6 +72,14 @@ def _covered() -> Iterator[tuple[str, ...]]:
 def together(rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
     """The verdict on bars of several figures as if they were one."""
     return judged([{**row, "figure": "all"} for row in rows])["all"]
+
+
+def _stale() -> Iterator[tuple[str, str]]:
+    """Experiments whose code has changed since they were stored, and how."""
+    for name, kind in _KINDS.items():
+        state = changed_since_stored(RESULTS / f"{name}_error_bars.json", (kind,))
+        if state:
+            yield name, state
 
 
 def _row(drawn: str, figure: str, row: Mapping[str, float]) -> tuple[str, ...]:

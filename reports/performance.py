@@ -33,6 +33,7 @@ from bem.benchmarks.show import (
 )
 from reports import work_precision
 from reports.builder import Page, Section, figure, table, text
+from reports.validation_origin import changed_since_stored
 
 RESULTS = Path(__file__).resolve().parent / "results" / "performance.json"
 FEM_RESULTS = Path(__file__).resolve().parents[1] / "bem" / "verification" / "fem_results"
@@ -261,6 +262,7 @@ def build() -> Page:
         sections.append(Section("Since the run before", _changes(runs[-2], run)))
     facts = {"commit": run.commit, "measured": run.date} | {f"measured on: {k}": v for k, v in run.machine.items()}
     facts["measured with"] = ", ".join(f"{name} {number}" for name, number in run.versions.items())
+    facts["code"] = changed_since_stored(RESULTS, work_precision.KINDS) or "holds"
     lead = "Error against run time and memory, goals beside what was measured, other codes, and where each part holds."
     return Page("performance", "Run time against error", lead, sections, facts)
 

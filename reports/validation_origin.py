@@ -70,7 +70,7 @@ def bare_digest(paths: Sequence[Path]) -> str:
 @cache
 def _bare_once(path: Path) -> str:
     """As `_bare`, which is asked for the same rooms by every kind."""
-    return _bare(path)
+    return _bare(path.read_text("utf-8"))
 
 
 @cache
@@ -111,9 +111,8 @@ def _imports(path: Path) -> Iterator[list[str]]:
             yield from (a.name.split(".")[1:] for a in node.names if a.name.startswith("bem."))
 
 
-def _bare(path: Path) -> str:
-    """The source's own lines, so that every version of Python sees the same, without docstrings, comments and gaps."""
-    text = path.read_text("utf-8")
+def _bare(text: str) -> str:
+    """A source's own lines, so that every version of Python sees the same, without docstrings, comments and gaps."""
     lines = text.splitlines()
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT:
@@ -142,6 +141,29 @@ def commit() -> str:
         return head + ("+" if _git("status", "--porcelain", "--untracked-files=no", "--", "bem") else "")
     except (OSError, subprocess.CalledProcessError):
         return ""
+
+
+def changed_since_stored(path: Path, kinds: Sequence[str]) -> str:
+    """Why a stored result without hashes no longer stands, by the history of this source tree: which modules that these
+    kinds run differ from the commit that stored it, but for comments and layout. Empty where none does, or where the
+    tree has no history to tell."""
+    known = {module.relative_to(CODE.parent).as_posix(): module for kind in kinds for module in modules(kind)}
+    try:
+        if _git("rev-parse", "--is-shallow-repository") == "true" or _git("status", "--porcelain", "--", str(path)):
+            return ""
+        stored = _git("log", "-1", "--format=%h", "--", str(path))
+        lines = [line.split("\t") for line in _git("diff", "--name-status", stored, "--", "bem").splitlines()]
+        changed = [
+            name
+            for kind, *_, name in sorted(lines, key=lambda line: line[-1])
+            if name in known and (kind != "M" or _bare(_git("show", f"{stored}:{name}")) != _bare_once(known[name]))
+        ]
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+    if not changed:
+        return ""
+    more = f" and {len(changed) - 3} more" if len(changed) > 3 else ""
+    return f"stale: since it was stored at {stored}, code changed in {', '.join(changed[:3])}{more}"
 
 
 def _git(*words: str) -> str:

@@ -13,9 +13,12 @@ from bem.benchmarks.physical_cases import PHYSICAL
 from bem.benchmarks.show import draw_errors, draw_reach
 from bem.benchmarks.work_precision import ERROR_HEADERS, REACH_HEADERS, error_rows, reach_rows
 from reports.builder import Section, figure, table, text
+from reports.validation_origin import changed_since_stored
 
 RESULTS = Path(__file__).resolve().parent / "results" / "work_precision.json"
 COMMAND = "bem bench --kind all --peers --json reports/results/work_precision.json"
+KINDS = ("contact", "film", "friction", "wear", "tribofilm")
+"""Kinds of scene whose code the benchmarks run."""
 _WORDS = (
     "What a user waits for is an error of a figure, not a residual. Each figure is compared with the limit of its two "
     "finest grids; an error counts as reached on a grid if all finer ones have it too. On the rough surface (no waves "
@@ -48,6 +51,8 @@ def sections() -> Iterator[Section]:
 
 
 def measured_on(run: Run) -> str:
-    """Where and when, in words; a busy machine is told."""
+    """Where and when, in words; a busy machine is told, and code that has changed since."""
     load = run.machine.get("load average at the end", "unknown")
-    return f"Commit {run.commit}, {run.date}, {run.machine.get('processor', '')}, load average {load} ({COMMAND})."
+    where = f"Commit {run.commit}, {run.date}, {run.machine.get('processor', '')}, load average {load} ({COMMAND})."
+    state = changed_since_stored(RESULTS, KINDS)
+    return f"{where} {state[0].upper()}{state[1:]}." if state else where

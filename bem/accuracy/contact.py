@@ -29,7 +29,7 @@ RULES: dict[str, Rule] = {
     "contact_perimeter": Rule(0.5, 3.0, edge=0.02, rough_edge=0.02),
     "plastic_area_fraction": Rule(0.67, 1.0, edge=0.05, rough_edge=0.05),
     "mean_contact_pressure": _AREA,
-    "max_pressure": Rule(0.5, 0.67, edge=0.002, rough_edge=0.003),
+    "max_pressure": Rule(0.33, 0.67, edge=0.001, rough_edge=0.002),
     "load": Rule(0.5, 1.0, edge=0.005, rough_edge=0.005),
     "approach": Rule(0.5, 0.5, edge=0.005, rough_edge=0.005),
     "mean_gap": Rule(0.67, 0.8, edge=0.001),
@@ -46,7 +46,7 @@ _SPOT = 6.0
 """Fewest cells across the mean spot (4 area / perimeter) for contact areas to be of second order."""
 _TOUCH = 2.0
 """Factor on the height by which a parabola rises above first touch."""
-_PEAK, _ROUGH_PEAK = 0.3, 1.0
+_PEAK, _ROUGH_PEAK = 0.3, 0.7
 """Factors on what lies between the highest pressure and that of a cell, on a surface that is resolved or not."""
 _STEP, _STEPS = 5.0, 0.25
 """An edge is sharp where the undeformed gap changes by so many times what it does on both sides; a contact has sharp

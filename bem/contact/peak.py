@@ -1,13 +1,16 @@
 """The highest pressure of a contact, between the centres of cells.
 
 The square of the pressure is smooth up to the edge of contact (a paraboloid in Hertz' contact), so its top is that of a
-paraboloid through the highest cell and its neighbours. A pressure that is constant on cells is, where it is smooth,
-p - (dx^2 p_xx + dy^2 p_yy) / 24: the transform of a cell, sin(q dx / 2) / (q dx / 2), times that of such values is
-that of p, the waves that cells add cancelling one another in pairs; what p is follows from the same neighbours. On a
-ball of R cells 4 / R^2 % of the highest pressure stay, on random waves of five cells 0.1 % on average.
+paraboloid through the highest cell and its neighbours. Pressures that are constant on cells would be
+p - (dx^2 p_xx + dy^2 p_yy) / 24 if p were smooth everywhere: the transform of a cell, sin(q dx / 2) / (q dx / 2), times
+that of such values is that of p, the waves that cells add cancelling one another in pairs. The edge of contact, where p
+is not smooth, gives some of it back, in proportion: two fifths of balls of 3 to 20 cells, half of cylinders, a third to
+a half of rough contacts. Three fifths are taken; on balls of R cells no mean error stays, and 0.8 / R^2 % of scatter
+from place to place.
 
-Not where pressures are not smooth: at the hardness, in spots of a cell or two, at the end of a punch, at a free edge of
-the grid; there the highest pressure is that of a cell.
+Not corrected are spots of fewer than 1.5 cells to the radius: on waves of two to four cells that would be 4 % off
+where a cell's pressure is 1.3 % off. Nothing is looked for in spots of a cell, at the hardness, at the end of a punch,
+at a free edge of the grid; there the highest pressure is that of a cell.
 """
 
 from __future__ import annotations
@@ -18,6 +21,11 @@ import numpy as np
 
 from bem.grid import FloatArray, Grid
 from bem.subcell import around, top
+
+_SMOOTH = 0.6
+"""Of what a pressure without edges would be above its cells."""
+_LEAST_RADIUS = 1.5
+"""Cells across the radius of the ball that would bend as much: below, nothing is corrected."""
 
 
 def highest_pressure(pressure: FloatArray, grid: Grid, hardness: float = math.inf) -> float:
@@ -36,5 +44,7 @@ def highest_pressure(pressure: FloatArray, grid: Grid, hardness: float = math.in
     found = top(squares)
     if found is None:
         return highest
-    bend = 0.0 if all(grid.periodic) else float(beside.sum() - 6 * highest) / 24
-    return min(highest * math.sqrt(found) + bend, hardness)
+    bend = 0.0 if all(grid.periodic) else float(beside.sum() - 6 * highest)
+    if -bend * _LEAST_RADIUS**2 > 2 * highest:
+        bend = 0.0
+    return min(highest * math.sqrt(found) + _SMOOTH * bend / 24, hardness)

@@ -17,6 +17,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
+from abc import abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, cast
@@ -59,10 +60,10 @@ class BoundaryFriction(Law):
             )
         return dataclasses.replace(self, temperature=temperature)
 
+    @abstractmethod
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
         """Magnitude [Pa], shape (...), where surfaces in contact under pressures (...) [Pa], all positive, slide over
         each other at a speed [m/s], positive."""
-        raise NotImplementedError
 
     @property
     def constant(self) -> float | None:
@@ -210,8 +211,9 @@ class _FrictionTable(BoundaryFriction):
 
     coefficients: tuple[float, ...] = parameter("coefficients of friction", at_least=0, at_most=2, several=True)
 
+    @abstractmethod
     def _values(self) -> tuple[float, ...]:
-        raise NotImplementedError
+        """At which the coefficients are."""
 
     def rules(self) -> Iterable[str]:
         """As many values as coefficients, ascending."""

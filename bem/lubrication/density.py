@@ -5,6 +5,7 @@ To add a law, derive from `DensityLaw` and register it, here or in a file of you
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -20,9 +21,9 @@ class DensityLaw(Law):
 
     family: ClassVar[str] = "density_law"
 
+    @abstractmethod
     def density_ratio(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
         """rho/rho0 and its derivative [1/Pa] at pressures >= 0 [Pa]."""
-        raise NotImplementedError
 
 
 @register

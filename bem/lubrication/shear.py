@@ -8,6 +8,7 @@ across a film is in `shear_profile`.
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -48,9 +49,9 @@ class ShearLaw(Law):
 
     family: ClassVar[str] = "shear_law"
 
+    @abstractmethod
     def unlimited(self, newtonian: FloatArray) -> FloatArray:
         """Shear stress [Pa] at Newtonian shear stresses [Pa], before any limit."""
-        raise NotImplementedError
 
     def limit(self, pressure: FloatArray | float) -> FloatArray | float:
         """Largest shear stress [Pa] at pressures [Pa]; infinite unless a law says otherwise."""

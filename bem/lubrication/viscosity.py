@@ -6,6 +6,7 @@ To add a law, derive from `ViscosityLaw` and register it, here or in a file of y
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import ClassVar
@@ -33,11 +34,11 @@ class ViscosityLaw(Law):
     family: ClassVar[str] = "viscosity_law"
     largest_pressure: ClassVar[float] = math.inf
 
+    @abstractmethod
     def log_viscosity_ratio(
         self, pressure: FloatArray, viscosity: float, pressure_viscosity: float
     ) -> tuple[FloatArray, FloatArray]:
         """ln(mu / mu0) and its derivative [1/Pa] at pressures >= 0 [Pa]."""
-        raise NotImplementedError
 
     def refusals(self, viscosity: float, pressure_viscosity: float) -> Iterable[str]:
         """Messages about an oil that the law does not hold for; none by default."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -22,9 +23,9 @@ class GrowthLaw(Law):
 
     family: ClassVar[str] = "growth"
 
+    @abstractmethod
     def rate(self, shear_stress: FloatArray, temperature: float) -> FloatArray:
         """Growth rate [m/s] under a shear stress [Pa] at an absolute temperature [K], never falling with the stress."""
-        raise NotImplementedError
 
 
 @register

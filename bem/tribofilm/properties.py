@@ -8,6 +8,7 @@ substrate, Bosman and Schipper 2011 for the factor with temperature), so they ar
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -27,9 +28,9 @@ class PropertyLaw(Law):
 
     family: ClassVar[str] = "film_property"
 
+    @abstractmethod
     def __call__(self, thickness: float, temperature: float) -> float:
         """Value [Pa] of a film of a thickness [m] at a temperature [K]."""
-        raise NotImplementedError
 
     def lowest(self, thickness: float, temperature: float) -> float:
         """Lowest value from no film to this thickness [Pa]; by default of 400 thicknesses."""

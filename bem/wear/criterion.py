@@ -6,6 +6,7 @@ equivalent stress exceeds the yield stress.
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -27,9 +28,9 @@ class WearCriterion(Law):
         von Mises bounds it too; None where there is none and nothing may be skipped by that bound."""
         return None
 
+    @abstractmethod
     def equivalent_stress(self, stress: FloatArray) -> FloatArray:
         """Shape (...) of stresses (6, ...) in the order xx, yy, zz, yz, xz, xy, both [Pa]."""
-        raise NotImplementedError
 
 
 def principal_stresses(stress: FloatArray) -> FloatArray:

@@ -6,6 +6,7 @@ those of `bem.wear.yielded_runs`. Verified in tests/wear/test_segmentation.py.
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
@@ -25,11 +26,11 @@ class RemovalLaw(Law):
 
     family: ClassVar[str] = "removal"
 
+    @abstractmethod
     def remove(self, runs: Runs, parent: NDArray[np.int64], labels: NDArray[np.int32], thickness: FloatArray) -> int:
         """Fill the labels (1, 2, ... of pieces, 0 where nothing leaves) and the thickness [m] that leaves, of all
         columns of the grid, flat, both zero at first; return the number of pieces. `parent` is the union-find of the
         runs that touch, and may be changed."""
-        raise NotImplementedError
 
 
 @dataclass(frozen=True)

@@ -7,14 +7,15 @@ from test_contact_edge import UNIT, ball, waves
 from bem import Body, Grid, displacement_operator, solve_contact
 from bem.contact.peak import highest_pressure
 from bem.reference_solutions.hertz import ellipse_contact
+from reports.experiments.contact_error_bars import draw
 
 
-@pytest.mark.parametrize(("radius", "mean", "scatter"), [(2.0, 0.012, 0.008), (4.0, 4e-3, 2e-3), (8.0, 1e-3, 5e-4)])
+@pytest.mark.parametrize(("radius", "mean", "scatter"), [(2.0, 0.012, 0.008), (4.0, 1e-3, 2e-3), (8.0, 2e-4, 5e-4)])
 def test_hertz_pressure_wherever_the_ball_lies_in_its_cell(radius, mean, scatter):
     solved = [ball(radius, seed) for seed in range(10)]
     errors = np.array([s.maximum_pressure / r.maximum_pressure - 1 for s, r in solved])
     raw = np.array([s.pressure.max() / r.maximum_pressure - 1 for s, r in solved])
-    # measured 0.3, -0.2 and -0.05 %, 0.3, 0.08 and 0.02 % from place to place; of a cell 1.7, 0.4 and 0.1 %
+    # measured 1.1, 0.03 and 0.003 %, 0.12, 0.07 and 0.014 % from place to place; of a cell 1.7, 0.4 and 0.1 %
     assert abs(errors.mean()) < mean
     assert errors.std() < scatter
     assert errors.std() < 0.5 * raw.std()
@@ -47,6 +48,17 @@ def test_random_waves_against_a_finer_grid():
         raw.append(solution.pressure.max())
     assert abs(errors[1] / errors[0] - 1) < 1.5e-3
     assert abs(raw[1] / errors[0] - 1) > abs(errors[1] / errors[0] - 1)
+
+
+def test_where_cells_do_not_resolve_the_surface_a_cell_is_as_good():
+    """Free grids, waves of two to five cells, against four times the cells a side: 2.7 % off, 3.0 % of a cell."""
+    found, raw = [], []
+    for number in (16, 21, 22, 28, 39, 44, 49, 52):
+        problem = draw(np.random.default_rng([1302, number]))
+        coarse, fine = problem.case(1).solution, problem.case(4, 1e-6).solution
+        found.append(coarse.maximum_pressure / fine.maximum_pressure - 1)
+        raw.append(coarse.pressure.max() / fine.maximum_pressure - 1)
+    assert np.abs(found).mean() <= np.abs(raw).mean()
 
 
 def test_not_at_the_hardness_nor_in_a_cell_of_its_own_nor_at_the_end_of_a_punch():

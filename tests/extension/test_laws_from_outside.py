@@ -272,8 +272,13 @@ def test_what_is_no_law_is_refused():
     class Strange(ViscosityLaw):
         name: ClassVar[str] = "Not a name"
 
+    @dataclass(frozen=True)
+    class Empty(ViscosityLaw):
+        name: ClassVar[str] = "empty"
+
     for wrong, message in (
         (NotFrozen, "frozen dataclass"),
+        (Empty, "Empty does not define log_viscosity_ratio, which every viscosity_law needs"),
         (Taken, "'barus' is taken by bem.lubrication.viscosity.Barus"),
         (Strange, "lower-case"),
         (dict, "does not derive"),

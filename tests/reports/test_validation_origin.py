@@ -1,6 +1,7 @@
 """A stored result is stale when its scene or the code that its kind runs has changed; renewal runs just those."""
 
 import json
+import subprocess
 from types import SimpleNamespace
 
 import numpy as np
@@ -55,13 +56,44 @@ def test_code_of_a_kind_is_its_own_module_and_the_rooms_below():
     assert len({code_hash(kind) for kind in names}) == len(names)
 
 
-def test_comments_and_docstrings_are_no_code(tmp_path):
+def test_comments_and_docstrings_are_no_code():
     texts = ('"""A."""\nx = 1  # one\n', '"""B."""\n\n\nx = 1\n', "x = 2\n")
     bare = []
     for text in texts:
-        (tmp_path / "m.py").write_text(text)
-        bare.append(validation_origin._bare(tmp_path / "m.py"))
+        bare.append(validation_origin._bare(text))
     assert bare[0] == bare[1] != bare[2]
+
+
+def test_code_changed_since_a_result_was_stored_is_told_from_history(tmp_path, monkeypatch):
+    def git(*words):
+        return subprocess.run(
+            ["git", "-c", "user.name=a", "-c", "user.email=a@b", *words], cwd=tmp_path, check=True, capture_output=True
+        )
+
+    (tmp_path / "bem").mkdir()
+    module, beside, result = tmp_path / "bem" / "m.py", tmp_path / "bem" / "other.py", tmp_path / "result.json"
+    module.write_text("x = 1\n")
+    monkeypatch.setattr(validation_origin, "CODE", tmp_path / "bem")
+    monkeypatch.setattr(validation_origin, "modules", lambda kind: (module,))
+    monkeypatch.setattr(validation_origin, "_bare_once", lambda path: validation_origin._bare(path.read_text()))
+    assert validation_origin.changed_since_stored(result, ["any"]) == ""  # no history to tell
+    git("init", "-q")
+    result.write_text("{}")
+    git("add", ".")
+    git("commit", "-qm", "one")
+    module.write_text("x = 1  # the same\n")
+    beside.write_text("y = 1\n")
+    assert validation_origin.changed_since_stored(result, ["any"]) == ""
+    module.write_text("x = 2\n")
+    assert validation_origin.changed_since_stored(result, ["any"]).endswith("code changed in bem/m.py")
+    git("rm", "-q", "--cached", "bem/m.py")
+    git("commit", "-qm", "two")
+    (tmp_path / "result.json").write_text("{}\n")
+    git("commit", "-qam", "three")
+    git("add", ".")
+    assert validation_origin.changed_since_stored(result, ["any"]).endswith("code changed in bem/m.py")  # a new one
+    result.write_text("{} ")  # stored anew
+    assert validation_origin.changed_since_stored(result, ["any"]) == ""
 
 
 def test_renewal_keeps_a_result_with_its_origin_and_leaves_it_while_it_holds(small, tmp_path):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from abc import ABCMeta, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Self
@@ -23,7 +24,7 @@ Points = Sequence[tuple[float, float]]
 
 
 @dataclass(frozen=True)
-class OverTemperature:
+class OverTemperature(metaclass=ABCMeta):
     """Kinematic viscosity over temperature.
 
     lowest, highest : temperatures [K] between which the law was measured; it is extrapolated beyond.
@@ -58,18 +59,18 @@ class OverTemperature:
         return cls._joining(ordered)
 
     @classmethod
+    @abstractmethod
     def _joining(cls, points: list[tuple[float, float]]) -> Self:
         """That of points in rising order of temperature that are fit for it."""
-        raise NotImplementedError
 
+    @abstractmethod
     def logarithm(self, temperature: float) -> tuple[float, float]:
         """ln(viscosity / 1 mm^2/s) at a temperature [K], and its slope [1/K], negative."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def words(self) -> str:
         """The law, for a reader."""
-        raise NotImplementedError
 
     def kinematic(self, temperature: float) -> float:
         """Kinematic viscosity [m^2/s] at a temperature [K]."""
