@@ -41,7 +41,7 @@ _TEMPERATURES = ("film_temperature", "lower_temperature", "upper_temperature")
 @dataclass(frozen=True)
 class TractionCase:
     """Arguments of `bem.solve_line_film`, or with `bodies` of `bem.solve_thermal_line_film`; `bulk` [K] then, and no
-    supply; the power is that on a width [m]."""
+    supply; the power is that on a width [m]; roughness [m] for the lambda ratio."""
 
     load: float
     radius: float
@@ -53,6 +53,7 @@ class TractionCase:
     bodies: tuple[Body, Body] | None = None
     bulk: tuple[float, ...] = ()
     supply: Supply | None = None
+    roughness: float | None = None
 
     @property
     def hot(self) -> bool:
@@ -90,7 +91,10 @@ def traction_figures(case: TractionCase, found: FilmSolution | ThermalFilm) -> d
         "minimum_thickness": film.minimum_thickness,
         "central_thickness": film.central_thickness,
         "maximum_pressure": float(film.pressure.max()),
+        "friction_power": _power(film, sliding) * case.width,
     }
+    if case.roughness is not None:
+        figures["lambda_ratio"] = film.minimum_thickness / case.roughness
     if film.starvation is not None:
         figures |= _of_supply(case, film)
     if not isinstance(found, ThermalFilm):
@@ -108,6 +112,11 @@ def traction_figures(case: TractionCase, found: FilmSolution | ThermalFilm) -> d
         "share_of_oil": found.power_carried / power,
         "energy_imbalance": found.energy_imbalance,
     }
+
+
+def _power(film: FilmSolution, sliding: float) -> float:
+    """Of friction [W/m]: of sliding, and of the rolling force on either surface."""
+    return sliding * (film.speeds[0] - film.speeds[1]) + film.rolling_force * sum(film.speeds)
 
 
 def _of_supply(case: TractionCase, film: FilmSolution) -> dict[str, float]:

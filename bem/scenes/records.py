@@ -172,6 +172,7 @@ class GridRecord(Record):
 
 TELLING = {
     "speed": "m_s", "time": "s", "load": "N", "temperature": "C", "hardness": "Pa", "spacing": "um",
+    "position": "m",
 }  # fmt: skip
 """Figures that say which case or row it is, and their units; texts (a model, a variant) do so too."""
 

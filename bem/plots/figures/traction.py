@@ -126,6 +126,58 @@ def _starvation(run: Any, figure: Figure) -> None:
     lower.legend()
 
 
+def _along(run: Any, figure: Figure) -> None:
+    data = run.dataset
+    hot = "film_temperature" in data.variables
+    panels = figure.subplots(4 if hot else 3, 1, sharex=True)
+    place = data["position"].values * 1e3
+    for name, colour in (("central", BLUE), ("minimum", VERMILION)):
+        panels[0].plot(place, _row(data, f"{name}_thickness") * 1e9, "o-", markersize=3, color=colour, label=name)
+    panels[0].set_ylabel("film (nm)")
+    panels[0].set_ylim(0)
+    panels[0].legend()
+    panels[1].plot(place, np.abs(_row(data, "traction_coefficient")), "o-", markersize=3, color=BLACK)
+    panels[1].set_ylabel("traction coefficient")
+    panels[1].set_ylim(0)
+    panels[2].plot(place, _row(data, "friction_power"), "o-", markersize=3, color=BLACK)
+    panels[2].set_ylabel("friction power (W)")
+    panels[2].set_ylim(0)
+    if "lambda_ratio" in data.variables:
+        _lambda_beside(panels[0], place, _row(data, "lambda_ratio"))
+    if hot:
+        for name, words, colour in _SURFACES:
+            panels[3].plot(place, _row(data, name) - _CELSIUS, "o-", markersize=3, color=colour, label=words)
+        panels[3].set_ylabel("temperature (°C)")
+        panels[3].legend()
+    panels[-1].set_xlabel("place along the way (mm)")
+
+
+_SURFACES = (
+    ("film_temperature", "oil, mean in the contact", BLACK),
+    ("lower_temperature", "lower surface, highest", BLUE),
+    ("upper_temperature", "upper surface, highest", VERMILION),
+)
+
+
+def _row(data: Any, name: str) -> Any:
+    """A figure over the places, of the first of everything else."""
+    item = data[name]
+    place = tuple(slice(None) if axis == "position" else 0 for axis in item.dims)
+    return item.values[place]
+
+
+def _lambda_beside(axes: Any, place: Any, ratio: Any) -> None:
+    """The ratio on an axis of its own."""
+    beside = axes.twinx()
+    beside.plot(place, ratio, linestyle=":", color=GREEN)
+    beside.set_ylim(0)
+    beside.set_ylabel("lambda (dotted)", color=GREEN)
+
+
+def _has_way(run: Any) -> bool:
+    return "position" in axes_of(run.dataset) and run.dataset.sizes["position"] > 1
+
+
 def _around(values: Any) -> tuple[float, float]:
     """Limits of a logarithmic axis that holds all finite values."""
     finite = values[np.isfinite(values)]
@@ -159,6 +211,14 @@ FIGURES = (
         _starvation,
         size=(5.0, 6.0),
         applies=_starves,
+    ),
+    FigureKind(
+        "along-the-way",
+        "Film, friction, its power and temperatures over the rows of a way, such as a line of action.",
+        ("traction_coefficient", "friction_power"),
+        _along,
+        size=(5.5, 9.0),
+        applies=_has_way,
     ),
     FigureKind("rolling-film", "Pressure and film thickness of the first case.", ("pressure", "thickness"), _film),
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -14,13 +15,15 @@ from bem.accuracy.bars import POINTS
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.scenes import build, plans
-from bem.scenes.common import BodyScene, OutputsScene, SceneModel, problem
+from bem.scenes.axes import Axis
+from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneModel, problem
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.resolutions import counted
+from bem.scenes.tables.along import AlongScene, with_first_row
 from bem.scenes.tables.rolling import FilmPointsScene, RollerScene, RollingScene
 from bem.scenes.tables.supply import SupplyScene, build_supply
 
@@ -35,7 +38,9 @@ _SHOWN = np.linspace(-2.5, 1.5, 401)
 class TractionScene(SceneModel):
     """A smooth roller on a smooth flat with oil between them, in steady motion.
 
-    `thermal`: "lumped" for `bem.solve_thermal_line_film`, or "off".
+    `thermal`: "lumped" for `bem.solve_thermal_line_film`, or "off". `along`: rows of radius, load and speeds, each a
+    case; the scene then says nothing else of them. `roughness`: rms height of both surfaces together, for the lambda
+    ratio.
     """
 
     kind: Literal["traction"] = "traction"
@@ -46,8 +51,16 @@ class TractionScene(SceneModel):
     rolling: RollingScene
     thermal: Literal["off", "lumped"] = "lumped"
     supply: SupplyScene | None = None
+    along: AlongScene | None = None
+    roughness: PositiveLength | None = None
     film: FilmPointsScene = FilmPointsScene()
     outputs: OutputsScene = OutputsScene()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _first_row(cls, data: Any) -> Any:
+        given = isinstance(data, Mapping) and data.get("along") is not None
+        return with_first_row(data) if given else data
 
     @model_validator(mode="after")
     def _complete(self) -> TractionScene:
@@ -72,6 +85,23 @@ class TractionScene(SceneModel):
                     'materials with thermal_conductivity, density and heat_capacity, or thermal = "off"',
                 )
         return self
+
+
+def axes(scene: TractionScene) -> tuple[Axis, ...]:
+    """The rows of `along`."""
+    if scene.along is None:
+        return ()
+    places = tuple(float(place) for place in scene.along.position)
+    return (Axis("position", places, Figure("m", "place along the way"), _at_row),)
+
+
+def _at_row(scene: TractionScene, i: int) -> TractionScene:
+    """The scene with what one row says."""
+    assert scene.along is not None
+    radius, load, mean, ratio = scene.along.row(i)
+    roller = scene.roller.model_copy(update={"radius": radius, "load": load})
+    rolling = scene.rolling.model_copy(update={"mean_speed": mean, "slide_roll_ratio": ratio})
+    return scene.model_copy(update={"roller": roller, "rolling": rolling, "along": None})
 
 
 def plan(scene: TractionScene) -> Plan:
@@ -110,6 +140,10 @@ _along = partial(Series, ("x",))
 _HOTTEST = "in pure rolling it stands at the spike of pressure and follows the mesh"
 _FORMULA = "it is a formula's"
 _ALGEBRA = "it closes by construction, to rounding"
+_ROUGH = (
+    "the film is thinner than the roughness (lambda below 1): the surfaces touch, of which this smooth contact knows "
+    "nothing; kind friction shares the load between film and rough surfaces"
+)
 _of_supply = partial(Figure, optional=True)
 
 
@@ -129,7 +163,11 @@ class TractionRecord(Record):
     lower_temperature: Annotated[float | None, Figure("C", "highest temperature of the lower surface")] = None
     upper_temperature: Annotated[float | None, Figure("C", "highest temperature of the upper surface")] = None
     inlet_factor: Annotated[float | None, Figure("", "film over that without inlet heating", no_bar=_FORMULA)] = None
-    friction_power: Annotated[float | None, Figure("W", "heat made by friction")] = None
+    friction_power: Annotated[float, Figure("W", "power of friction", headline=True)]
+    hertz_pressure: Annotated[float, Figure("Pa", "highest pressure of the dry contact", unjudged=True)]
+    lambda_ratio: Annotated[float | None, Figure("", "minimum film over roughness", optional=True, headline=True)] = (
+        None
+    )
     share_of_lower: Annotated[float | None, Figure("", "share of it that enters the lower body")] = None
     share_of_upper: Annotated[float | None, Figure("", "share that enters the upper body")] = None
     share_of_oil: Annotated[float | None, Figure("", "share that the oil carries on")] = None
@@ -158,12 +196,15 @@ def run(scene: TractionScene, context: Context) -> TractionRecord:
         found = case.on(case.points)
     film = found.film if case.hot else found
     tell(context, found.notes)
+    if scene.roughness is not None and film.minimum_thickness < scene.roughness:
+        context.note(_ROUGH)
     part = "film" if film.status is not Status.CONVERGED else "heat"
     wanted = scene.outputs.errors and found.status is Status.CONVERGED
     return filled(
         TractionRecord,
         traction_figures(case, found),
         _curves(scene, case, found, film),
+        hertz_pressure=math.sqrt(case.load * case.contact_modulus / (math.pi * case.radius)),
         newton_steps=int(found.iterations),
         **error_bars(context, wanted, lambda: traction_bars(case, found)),
         status=found.status,
@@ -183,6 +224,7 @@ def _case(scene: TractionScene) -> TractionCase:
         lubricant=oil,
         points=scene.film.points,
         width=scene.roller.width,
+        roughness=scene.roughness,
         supply=build_supply(scene.supply),
         bodies=(scene.lower.build(), scene.upper.build()) if scene.thermal == "lumped" else None,
         bulk=tuple(oil.temperature or 0.0 if t is None else t for t in (rolling.lower_bulk, rolling.upper_bulk)),
@@ -214,5 +256,5 @@ KIND = Kind.of(
     TractionRecord,
     "traction of a smooth rolling and sliding line contact, with the heat in its film",
     resolutions=(counted("film.points", POINTS, 400, 20000),),
-    figures=("traction-curve", "film-temperatures", "starvation-curve", "rolling-film"),
+    figures=("traction-curve", "film-temperatures", "starvation-curve", "along-the-way", "rolling-film"),
 )
