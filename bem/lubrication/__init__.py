@@ -1,14 +1,14 @@
-"""Rheology and the film of a line contact, steady and in time.
+"""Rheology and the film of line and point contacts, steady and in time.
 
 Laws of the oil: `viscosity`, `density`, `shear`, gathered in `lubricant`; grades of it in `oils`; what a shear law does
 across a film: `shear_profile`. The steady film: `steady`, by Newton's method (`line_newton`, from the starts of
 `line_continuation`) on a mesh that follows it (`line_mesh`), with hierarchical weights of the deflection
 (`line_kernel`); starved: `supply`, `line_starved`. In time: `transient`, in steps (`line_step`) with a ruptured film
-(`line_rupture`, `cavitation`). Heat: `thermal`. `validity` says where a model ends. Names are loaded when first used,
-so that laws cost no solver.
+(`line_rupture`, `cavitation`). Point contacts: `point`. Heat: `thermal`. `validity` says where a model ends. Names are
+loaded when first used, so that laws cost no solver.
 
-Sees grids and laws, no rough contact and no scene. Verified in tests/lubrication: Martin's and Hertz' limits, both
-equations by plain quadrature, order of convergence, closed forms of cavitation, conservation.
+Sees grids, laws and the dry contact of smooth bodies, no scene. Verified in tests/lubrication: Martin's and Hertz'
+limits, both equations by plain quadrature, order of convergence, closed forms of cavitation, conservation.
 """
 
 from typing import TYPE_CHECKING
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from bem.lubrication.film import FilmSolution
     from bem.lubrication.lubricant import Lubricant
     from bem.lubrication.oils import Oil, find_oil
+    from bem.lubrication.point.film import PointFilmSolution
+    from bem.lubrication.point.solve import solve_point_film
     from bem.lubrication.steady import solve_line_film
     from bem.lubrication.supply import InletDistance, OilLayer
     from bem.lubrication.thermal import ThermalFilm, solve_thermal_line_film
@@ -32,10 +34,12 @@ __all__ = [
     "Lubricant",
     "Oil",
     "OilLayer",
+    "PointFilmSolution",
     "ThermalFilm",
     "find_oil",
     "march_line_film",
     "solve_line_film",
+    "solve_point_film",
     "solve_thermal_line_film",
 ]
 
@@ -46,6 +50,8 @@ __getattr__ = loader(
         "film": ["FilmSolution"],
         "lubricant": ["Lubricant"],
         "oils": ["Oil", "find_oil"],
+        "point.film": ["PointFilmSolution"],
+        "point.solve": ["solve_point_film"],
         "steady": ["solve_line_film"],
         "supply": ["InletDistance", "OilLayer"],
         "thermal": ["ThermalFilm", "solve_thermal_line_film"],

@@ -1,0 +1,111 @@
+"""From nothing to the film of a point contact: the dry contact lifted by a film on a coarse grid, then finer ones."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from bem.contact import solve_contact
+from bem.grid import FloatArray
+from bem.lubrication.point.levels import Level, PointProblem
+from bem.lubrication.point.newton import Outcome, State, newton
+
+COARSEST = 56
+"""Cells along the shorter side of the first grid, at least."""
+ON_THE_WAY = 1e-6
+"""Largest relative error on the grids before the last: their films are compared with the last one's."""
+DRY = 1e-4
+"""Tolerance of the dry contact."""
+RUPTURE = 0.5
+"""x over |y| up to which a start has pressure: the true edge is found faster from outside."""
+
+
+LEAST_PRESSURE = 1e-12
+"""Of the largest, where there is to be some."""
+
+
+@dataclass(frozen=True)
+class Reached:
+    """The last grid with its outcome, and the one before where that converged, too. convolutions : of all grids,
+    weighed by their cells over the last one's."""
+
+    level: Level
+    outcome: Outcome
+    coarse: tuple[Level, State] | None
+    convolutions: float
+
+
+def from_dry(level: Level) -> State:
+    """The dry contact with a film in it, and the far pressure around."""
+    problem = level.problem
+    film = level.gap + problem.typical_film
+    dry = np.zeros(level.shape)
+    size = 0.0
+    if level.kernel is not None:
+        operator, factor = level.kernel
+        load = problem.load * operator.grid.cell_area / level.cell
+        contact = solve_contact(level.gap / factor, operator, load=load, tolerance=DRY)
+        dry = contact.pressure
+        film = np.maximum(contact.gap, 0.0) * factor + problem.typical_film
+        size = 2 * float(contact.approach) * factor
+    # between bodies that are pressed flat it would be far too much
+    far = level.far_source / (film + size) ** 2
+    drag, x, y = problem.drag, level.x[:, None], level.y[None, :]
+    full = drag[0] * x + drag[1] * y < RUPTURE * np.abs(drag[0] * y - drag[1] * x)
+    far = np.where(full, np.maximum(far, LEAST_PRESSURE * max(far.max(), dry.max())), 0.0)
+    pressure = np.where(dry > 0, dry, far)
+    pressure *= problem.load / (float(pressure.sum()) * level.cell)
+    apart = film - level.gap - level.deflection(pressure)
+    inside = pressure >= 0.5 * pressure.max()
+    return State(pressure, film, float(np.median(apart[inside])))
+
+
+def interpolated(level: Level, coarse: Level, state: State) -> State:
+    """The state of another grid of the same rectangle."""
+
+    def on(values: FloatArray) -> FloatArray:
+        along = PchipInterpolator(coarse.x, values, axis=0)(np.clip(level.x, coarse.x[0], coarse.x[-1]))
+        return np.asarray(PchipInterpolator(coarse.y, along, axis=1)(np.clip(level.y, coarse.y[0], coarse.y[-1])))
+
+    lift = float(state.film.min())
+    film = np.exp(on(np.log(state.film / (coarse.gap + lift)))) * (level.gap + lift)
+    return State(np.maximum(on(state.pressure), 0.0), film, state.datum)
+
+
+def shapes_up_to(shape: tuple[int, int]) -> list[tuple[int, int]]:
+    """Shapes from a coarse one to this one, each twice as fine."""
+    shapes = [shape]
+    while min(shapes[0]) // 2 >= COARSEST:
+        shapes.insert(0, (-(-shapes[0][0] // 2), -(-shapes[0][1] // 2)))
+    return shapes
+
+
+def solved(problem: PointProblem, shape: tuple[int, int], tolerance: float, most: int) -> Reached:
+    """The film on a grid of this shape."""
+    coarse: tuple[Level, State] | None = None
+    outcome: Outcome | None = None
+    steps = cycles = 0
+    work = 0.0
+    for one in shapes_up_to(shape):
+        level, before, coarse = Level(problem, one), coarse, None
+        goal = tolerance if one == shape else ON_THE_WAY
+        for start in _starts(level, before):
+            outcome = newton(level, start(), goal, most)
+            steps, cycles = steps + outcome.steps, cycles + outcome.cycles
+            if outcome.converged:
+                coarse = (level, outcome.state)
+                break
+        work += level.convolutions * one[0] * one[1]
+    assert outcome is not None
+    final = replace(outcome, steps=steps, cycles=cycles)
+    return Reached(level, final, before, work / (shape[0] * shape[1]))
+
+
+def _starts(level: Level, before: tuple[Level, State] | None) -> list[Callable[[], State]]:
+    """In the order in which they are tried."""
+    if before is None:
+        return [lambda: from_dry(level)]
+    return [lambda: interpolated(level, *before), lambda: from_dry(level)]

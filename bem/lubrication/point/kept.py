@@ -1,0 +1,93 @@
+"""What the next solve can use of a point film, and what is recomputed of a film's own pressure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import RectBivariateSpline
+
+from bem.grid import FloatArray
+from bem.lubrication.point import loops
+from bem.lubrication.point.levels import Level
+from bem.lubrication.point.linear import flows
+from bem.lubrication.point.newton import State, balance, own_film
+from bem.lubrication.point.setting import Setting
+
+AROUND = 4
+"""Cells on either side that the central film is interpolated from."""
+
+
+@dataclass(frozen=True)
+class KeptPoint:
+    """Setting, grid and state of a film."""
+
+    setting: Setting
+    level: Level
+    state: State
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """Of a pressure and H0 alone: the film, the largest relative error of cells and load, differences in oil through
+    lines across, load over M, the film's balance."""
+
+    film: FloatArray
+    residual: float
+    mass: float
+    load: float
+
+
+def certificate(level: Level, pressure: FloatArray, datum: float) -> Certificate:
+    """Everything anew from pressures >= 0 and H0."""
+    film = own_film(level, pressure, datum)
+    if not film.min() > 0:
+        return Certificate(film, np.inf, np.inf, np.nan)
+    at = balance(level, State(pressure, film, datum), np.zeros(level.shape))
+    share = at.load / level.problem.load
+    residual = max(float(np.abs(at.wrong).max()), abs(share))
+    # a cell without pressure whose balance is negative is free: it is among the wrong ones
+    drag, cells = level.problem.drag, level.cell
+    lost = np.where(at.linear.held | level.border, 0.0, at.right) * cells
+    flow, _ = flows(level, pressure, film)
+    along = np.cumsum(lost.sum(axis=1))
+    through = float(np.abs(flow[0][:, 1:-1].sum(axis=1)).max()) * level.spacing[1]
+    mass = float(np.abs(along).max()) / through
+    if drag[1] > 0:
+        through = float(np.abs(flow[1][1:-1].sum(axis=0)).max()) * level.spacing[0]
+        mass = max(mass, float(np.abs(np.cumsum(lost.sum(axis=0))).max()) / through)
+    return Certificate(film, residual, mass, 1 + share)
+
+
+def film_fraction(level: Level, pressure: FloatArray, film: FloatArray) -> FloatArray:
+    """Share of the gap filled (nx, ny): where it is full oil flows as solved for, behind it goes on with what comes
+    in (Jakobsson and Floberg 1957, Olsson 1965)."""
+    flow, stencil = flows(level, pressure, film)
+    full = pressure > 0
+    share = np.ones(level.shape)
+    loops.carry_on(flow, stencil[6] * film, full, level.problem.drag, level.spacing, share)
+    return share
+
+
+def central_film(level: Level, film: FloatArray) -> float:
+    """At the origin, by a cubic spline around it."""
+    i, j = (int(np.clip(np.searchsorted(a, 0.0), AROUND, len(a) - AROUND)) for a in (level.x, level.y))
+    near = np.s_[i - AROUND : i + AROUND, j - AROUND : j + AROUND]
+    spline = RectBivariateSpline(level.x[near[0]], level.y[near[1]], film[near])
+    return float(spline(0.0, 0.0)[0, 0])
+
+
+def least_film(film: FloatArray) -> float:
+    """Smallest value of the paraboloid through the lowest cell and those around it."""
+    nx, ny = film.shape
+    i, j = np.unravel_index(int(film.argmin()), film.shape)
+    if not (0 < i < nx - 1 and 0 < j < ny - 1):
+        return float(film[i, j])
+    f = film[i - 1 : i + 2, j - 1 : j + 2]
+    slope = 0.5 * np.array([f[2, 1] - f[0, 1], f[1, 2] - f[1, 0]])
+    cross = 0.25 * (f[2, 2] + f[0, 0] - f[2, 0] - f[0, 2])
+    curve = np.array([[f[2, 1] - 2 * f[1, 1] + f[0, 1], cross], [cross, f[1, 2] - 2 * f[1, 1] + f[1, 0]]])
+    if np.linalg.eigvalsh(curve)[0] <= 0:
+        return float(f[1, 1])
+    step = np.clip(-np.linalg.solve(curve, slope), -1, 1)
+    return float(f[1, 1] + slope @ step + 0.5 * step @ curve @ step)

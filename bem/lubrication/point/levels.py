@@ -1,0 +1,187 @@
+"""A point contact on grids of one rectangle, each about half as fine as the one before: gap, deflection, transfers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from bem.convolution import DisplacementOperator
+from bem.grid import FloatArray
+from bem.lubrication.point import loops
+from bem.lubrication.point.far import far_load, far_source
+
+DENSE = 1100
+"""Cells of a grid whose matrix is inverted as a whole."""
+SEMI = 1.6
+"""Ratio of spacings from which only the finer axis is made coarser."""
+
+
+@dataclass(frozen=True)
+class PointProblem:
+    """The similarity problem: load M, lambda = Rx/Ry, direction of entrainment, laws of the oil, the elastic bodies.
+
+    oil : `loops.flows` has what it gives of pressures. rectangle : (x0, x1, y0, y1), the edges of the outermost cells.
+    operator : for a shape, the displacement of both bodies and the factor to films from what it makes of pressures in
+    their unit; None of rigid bodies. typical_film : what is expected in the middle.
+    """
+
+    load: float
+    ratio: float
+    drag: tuple[float, float]
+    oil: Callable[[FloatArray], FloatArray]
+    rectangle: tuple[float, float, float, float]
+    operator: Callable[[tuple[int, int]], tuple[DisplacementOperator, float]] | None
+    typical_film: float
+
+    def outside(self, datum: float) -> tuple[float, float]:
+        """Load outside the rectangle, and its derivative with H0."""
+        lifting = 0.0 if self.operator is None else self.load
+        return far_load(self.rectangle, self.drag, self.ratio, datum, lifting)
+
+
+@dataclass(frozen=True)
+class Level:
+    """One grid: shape, and the problem on it."""
+
+    problem: PointProblem
+    shape: tuple[int, int]
+
+    @cached_property
+    def spacing(self) -> tuple[float, float]:
+        """Sides of a cell."""
+        x0, x1, y0, y1 = self.problem.rectangle
+        return (x1 - x0) / self.shape[0], (y1 - y0) / self.shape[1]
+
+    @cached_property
+    def x(self) -> FloatArray:
+        """Centres of cells (nx,)."""
+        return self.problem.rectangle[0] + self.spacing[0] * (np.arange(self.shape[0], dtype=np.float64) + 0.5)
+
+    @cached_property
+    def y(self) -> FloatArray:
+        """Centres of cells (ny,)."""
+        return self.problem.rectangle[2] + self.spacing[1] * (np.arange(self.shape[1], dtype=np.float64) + 0.5)
+
+    @property
+    def cell(self) -> float:
+        """Area of a cell."""
+        return self.spacing[0] * self.spacing[1]
+
+    @cached_property
+    def gap(self) -> FloatArray:
+        """Of the undeformed bodies (nx, ny)."""
+        return 0.5 * self.x[:, None] ** 2 + 0.5 * self.problem.ratio * self.y[None, :] ** 2
+
+    @cached_property
+    def far_source(self) -> FloatArray:
+        """Pressure times film squared far away (nx, ny); zero in the ruptured film."""
+        return far_source(self.x, self.y, self.problem.drag, self.problem.ratio)
+
+    @cached_property
+    def border(self) -> np.ndarray:
+        """The outermost cells (nx, ny)."""
+        border = np.ones(self.shape, dtype=bool)
+        border[1:-1, 1:-1] = False
+        return border
+
+    @cached_property
+    def kernel(self) -> tuple[DisplacementOperator, float] | None:
+        """The operator, and the factor to films."""
+        return None if self.problem.operator is None else self.problem.operator(self.shape)
+
+    def deflection(self, pressure: FloatArray) -> FloatArray:
+        """Of both bodies under pressures (nx, ny)."""
+        if self.kernel is None:
+            return np.zeros(self.shape)
+        operator, factor = self.kernel
+        out = np.empty(self.shape)
+        operator.scaled().apply(pressure, out)
+        out *= factor * operator.unit
+        return out
+
+    @property
+    def convolutions(self) -> float:
+        """Of this grid and coarser ones so far, weighed by cells."""
+        own = 0.0 if self.kernel is None else float(self.kernel[0].count.applications)
+        if self.coarser is None:
+            return own
+        share = self.coarser.shape[0] * self.coarser.shape[1] / (self.shape[0] * self.shape[1])
+        return own + self.coarser.convolutions * share
+
+    @cached_property
+    def near(self) -> FloatArray:
+        """Films under a unit pressure on a cell, and under one with its counterpart around it (`loops.relax`), at
+        distances 0 .. along x and 0 .. 2 along y: (2, n, 3)."""
+        reach = loops.BAND + 2
+        if self.kernel is None:
+            return np.zeros((2, reach + 1, 3))
+        operator, factor = self.kernel
+        table = operator.near_field(reach + 1) * (operator.unit * factor)
+        dx, dy = self.spacing
+        along, across = 0.5 * dy**2 / (dx**2 + dy**2), 0.5 * dx**2 / (dx**2 + dy**2)
+        spread = table[1:-1, 1:-1].copy()
+        spread -= along * (table[2:, 1:-1] + table[:-2, 1:-1]) + across * (table[1:-1, 2:] + table[1:-1, :-2])
+        alone = table[1:-1, 1:-1]
+        return np.ascontiguousarray([one[reach:, reach : reach + 3] for one in (alone, spread)])
+
+    @cached_property
+    def dense_deflection(self) -> FloatArray | None:
+        """The matrix (n, n) of `deflection`; None of rigid bodies."""
+        if self.kernel is None:
+            return None
+        operator, factor = self.kernel
+        nx, ny = self.shape
+        table = operator.near_field(max(nx, ny))[max(nx, ny) :, max(nx, ny) :] * (operator.unit * factor)
+        along = np.abs(np.subtract.outer(np.arange(nx), np.arange(nx)))
+        across = np.abs(np.subtract.outer(np.arange(ny), np.arange(ny)))
+        return table[along[:, None, :, None], across[None, :, None, :]].reshape(nx * ny, nx * ny)
+
+    @cached_property
+    def coarser(self) -> Level | None:
+        """About half as fine; None where this one is small enough to be inverted."""
+        nx, ny = self.shape
+        if nx * ny <= DENSE:
+            return None
+        dx, dy = self.spacing
+        if dy >= SEMI * dx:
+            shape = ((nx + 1) // 2, ny)
+        elif dx >= SEMI * dy:
+            shape = (nx, (ny + 1) // 2)
+        else:
+            shape = ((nx + 1) // 2, (ny + 1) // 2)
+        return Level(self.problem, shape)
+
+    @cached_property
+    def _between(self) -> tuple[csr_matrix, csr_matrix, csr_matrix, csr_matrix]:
+        assert self.coarser is not None
+        pairs = [_linear(f, c) for f, c in zip(self.shape, self.coarser.shape, strict=True)]
+        means = []
+        for matrix in pairs:
+            weight = np.asarray(matrix.sum(axis=0)).ravel()
+            means.append(csr_matrix(matrix.multiply(1 / weight).T))
+        return pairs[0], pairs[1], means[0], means[1]
+
+    def refined(self, coarse: FloatArray) -> FloatArray:
+        """Values (cx, cy) of the coarser grid, interpolated linearly."""
+        px, py, _, _ = self._between
+        return np.ascontiguousarray((py @ (px @ coarse).T).T)
+
+    def averaged(self, fine: FloatArray) -> FloatArray:
+        """Means around the cells of the coarser grid."""
+        _, _, rx, ry = self._between
+        return np.ascontiguousarray((ry @ (rx @ fine).T).T)
+
+
+def _linear(fine: int, coarse: int) -> csr_matrix:
+    """Linear interpolation (fine, coarse) between centres of cells of one length."""
+    at = np.clip((np.arange(fine) + 0.5) * coarse / fine - 0.5, 0.0, coarse - 1.0)
+    first = np.minimum(np.floor(at).astype(int), coarse - 2)
+    share = at - first
+    rows = np.repeat(np.arange(fine), 2)
+    columns = np.column_stack([first, first + 1]).ravel()
+    values = np.column_stack([1 - share, share]).ravel()
+    return csr_matrix((values, (rows, columns)), shape=(fine, coarse))

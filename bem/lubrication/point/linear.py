@@ -1,0 +1,213 @@
+"""The equations of a Newton step of the point contact, and a multigrid cycle for them.
+
+Unknowns are the changes of the pressures of free cells and of H0; equations are the balances of inner free cells, the
+far pressure of the outermost ones, and the load. A cycle relaxes lines on each grid, and what changes H0 is solved for
+on the coarsest one, as a whole.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lu_factor, lu_solve
+from scipy.sparse import csr_matrix
+
+from bem.grid import FloatArray
+from bem.lubrication.point import loops
+from bem.lubrication.point.levels import Level
+
+BoolArray = NDArray[np.bool_]
+
+SPREADING = 1.0
+"""Pressure flow over what deflection drags, below which a cell is relaxed with a counterpart around it."""
+DAMPING = (0.9, 0.7)
+"""Of changes of a cell's own, and of those with a counterpart."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """Of pressures (nx, ny) and of H0."""
+
+    pressure: FloatArray
+    datum: float
+
+
+@dataclass(frozen=True)
+class Linear:
+    """The equations on one grid, around pressures and films there. held : cells without a balance (nx, ny), where the
+    pressure stays; stencil : see `loops`; tail_slope : derivative of the load outside the rectangle with H0."""
+
+    level: Level
+    pressure: FloatArray
+    film: FloatArray
+    held: BoolArray
+    stencil: FloatArray
+    tail_slope: float
+
+    @cached_property
+    def far_slope(self) -> FloatArray:
+        """Derivative of pressure - far pressure of the outermost cells with their film."""
+        return np.where(self.level.border, 2 * self.level.far_source / self.film**3, 0.0)
+
+    @cached_property
+    def kinds(self) -> NDArray[np.int8]:
+        """Of relaxation, see `loops.relax`."""
+        free = ~(self.held | self.level.border)
+        inside = free.copy()
+        inside[1:-1, 1:-1] &= free[:-2, 1:-1] & free[2:, 1:-1] & free[1:-1, :-2] & free[1:-1, 2:]
+        driven = np.zeros(self.level.shape)
+        loops.own_flow(self.stencil, self.level.spacing, driven)
+        drag, (dx, dy) = self.level.problem.drag, self.level.spacing
+        wedge = 6 * (drag[0] / dx + drag[1] / dy) * self.stencil[6] * self.level.near[0, 0, 0]
+        spread = inside & (driven < SPREADING * wedge)
+        return np.where(free, np.where(spread, 2, 1), 0).astype(np.int8)
+
+    def applied(self, change: Change) -> tuple[FloatArray, float]:
+        """Left side: balances (nx, ny), with zero for held cells, and the load."""
+        level = self.level
+        film = level.deflection(change.pressure) + change.datum
+        out = np.zeros(level.shape)
+        loops.applied(self.stencil, level.spacing, level.problem.drag, change.pressure, film, out)
+        np.copyto(out, change.pressure + self.far_slope * film, where=level.border)
+        out[self.held] = 0.0
+        return out, float(change.pressure.sum()) * level.cell + self.tail_slope * change.datum
+
+    def relaxed(self, residual: FloatArray, downwards: bool) -> FloatArray:
+        """Pressures that a sweep adds."""
+        level = self.level
+        out = np.zeros(level.shape)
+        drag = level.problem.drag
+        loops.relax(self.stencil, level.spacing, drag, level.near, self.kinds, residual, DAMPING, downwards, out)
+        np.copyto(out, residual, where=level.border)
+        out[self.held] = 0.0
+        return out
+
+    @cached_property
+    def coarser(self) -> Linear | None:
+        """The same on the coarser grid, around mean pressures and films."""
+        level, coarse = self.level, self.level.coarser
+        if coarse is None:
+            return None
+        held = level.averaged(self.held.astype(float)) > 0.5
+        return linearised(coarse, level.averaged(self.pressure), level.averaged(self.film), held, self.tail_slope)
+
+    @cached_property
+    def _factors(self) -> tuple[FloatArray, NDArray[np.int32], FloatArray]:
+        level = self.level
+        n = self.film.size
+        rows, by_film = np.zeros((n, n)), np.zeros((n, n))
+        loops.fill_rows(self.stencil, level.spacing, level.problem.drag, rows, by_film)
+        border = level.border.ravel()
+        rows[border], by_film[border] = 0.0, 0.0
+        index = np.flatnonzero(border)
+        rows[index, index] = 1.0
+        by_film[index, index] = self.far_slope.ravel()[index]
+        matrix = np.zeros((n + 1, n + 1))
+        matrix[:n, :n] = rows
+        deflection = level.dense_deflection
+        if deflection is not None:
+            matrix[:n, :n] += csr_matrix(by_film) @ deflection
+        matrix[:n, n] = by_film.sum(axis=1)
+        matrix[n, :n] = level.cell
+        matrix[n, n] = self.tail_slope
+        held = np.flatnonzero(self.held.ravel())
+        matrix[held] = 0.0
+        matrix[:, held] = 0.0
+        matrix[held, held] = 1.0
+        # rows of one size: they are of different kinds
+        scale = np.abs(matrix).max(axis=1)
+        factors = lu_factor(matrix / scale[:, None], check_finite=False)
+        return *factors, scale
+
+    def solved(self, residual: FloatArray, load: float) -> Change:
+        """The solution, on a grid small enough."""
+        lu, pivots, scale = self._factors
+        right = np.append(np.where(self.held, 0.0, residual).ravel(), load) / scale
+        found = lu_solve((lu, pivots), right, check_finite=False)
+        return Change(found[:-1].reshape(self.level.shape), float(found[-1]))
+
+    def cycle(self, residual: FloatArray, load: float) -> Change:
+        """About the solution: one multigrid cycle from nothing."""
+        coarse = self.coarser
+        if coarse is None:
+            return self.solved(residual, load)
+        level = self.level
+        pressure = self.relaxed(residual, downwards=False)
+        done, carried = self.applied(Change(pressure, 0.0))
+        rest = residual - done
+        rest[level.border | self.held] = 0.0
+        mean = level.averaged(rest)
+        mean[coarse.level.border] = 0.0
+        correction = coarse.cycle(mean, load - carried)
+        fine = level.refined(correction.pressure)
+        fine[self.held | level.border] = 0.0
+        pressure += fine
+        done, _ = self.applied(Change(pressure, correction.datum))
+        pressure += self.relaxed(residual - done, downwards=True)
+        return Change(pressure, correction.datum)
+
+
+def linearised(level: Level, pressure: FloatArray, film: FloatArray, held: BoolArray, tail_slope: float) -> Linear:
+    """The equations around pressures and films (nx, ny) of a grid."""
+    return Linear(level, pressure, film, held, flows(level, pressure, film)[1], tail_slope)
+
+
+def flows(level: Level, pressure: FloatArray, film: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Flow through the faces (2, nx, ny) and its stencil (8, nx, ny), see `loops`."""
+    flow, stencil = np.zeros((2, *level.shape)), np.zeros((8, *level.shape))
+    oil = level.problem.oil(pressure)
+    loops.flows(pressure, film, oil, level.spacing, level.problem.drag, flow, stencil)
+    return flow, stencil
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A change, cycles spent, and the residual left over that at first."""
+
+    change: Change
+    cycles: int
+    left: float
+
+
+def solve(linear: Linear, right: FloatArray, load: float, weight: FloatArray, tolerance: float, most: int) -> Solved:
+    """By flexible GMRES with cycles before it (Saad 1993); residuals weighted (nx, ny), the load over M."""
+    level = linear.level
+    if level.coarser is None:
+        return Solved(linear.solved(right, load), 1, 0.0)
+    total = level.problem.load
+
+    def vector(rest: FloatArray, carried: float) -> FloatArray:
+        return np.append((rest * weight).ravel(), carried / total)
+
+    first = vector(right, load)
+    size = float(np.linalg.norm(first))
+    if size == 0:
+        return Solved(Change(np.zeros(level.shape), 0.0), 0, 0.0)
+    basis, steps = [first / size], []
+    hessenberg = np.zeros((most + 1, most))
+    wanted = np.zeros(most + 1)
+    wanted[0] = size
+    count, left = 0, 1.0
+    y: FloatArray = np.zeros(0)
+    while count < most and left > tolerance:
+        v = basis[-1]
+        step = linear.cycle(v[:-1].reshape(level.shape) / weight, float(v[-1]) * total)
+        steps.append(step)
+        w: FloatArray = vector(*linear.applied(step))
+        for k, b in enumerate(basis):
+            hessenberg[k, count] = w @ b
+            w -= hessenberg[k, count] * b
+        hessenberg[count + 1, count] = np.linalg.norm(w)
+        basis.append(w / hessenberg[count + 1, count])
+        count += 1
+        h = hessenberg[: count + 1, :count]
+        y = np.linalg.lstsq(h, wanted[: count + 1], rcond=None)[0].astype(np.float64)
+        left = float(np.linalg.norm(wanted[: count + 1] - h @ y)) / size
+    pressure, datum = np.zeros(level.shape), 0.0
+    for share, step in zip(y, steps, strict=True):
+        pressure += share * step.pressure
+        datum += share * step.datum
+    return Solved(Change(pressure, datum), count, left)

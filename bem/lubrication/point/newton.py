@@ -1,0 +1,165 @@
+"""Newton's method for the steady point contact on one grid.
+
+Which cells carry no pressure is settled with each step: they stay so while more oil would leave than comes in
+(Swift-Stieber). As in the line contact, a start's film need not be that of its pressure: the mismatch is carried along
+and becomes smaller with each step, so that films are reasonable from the first step on.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from bem.grid import FloatArray
+from bem.lubrication.point import loops
+from bem.lubrication.point.levels import Level
+from bem.lubrication.point.linear import Change, Linear, flows, solve
+
+LEAST_FILM = 0.3
+"""Of a film, what a step leaves of it at least."""
+SHORTEST_STEP = 1e-3
+FORCING = (1e-3, 1e-2)
+"""Least and largest share of the errors that a step's equations are solved to."""
+CYCLES = 60
+"""Most of a step."""
+
+
+@dataclass(frozen=True)
+class State:
+    """Pressures (nx, ny), H0, and films (nx, ny), which need not be those of the pressures."""
+
+    pressure: FloatArray
+    film: FloatArray
+    datum: float
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """State, Newton steps, multigrid cycles, largest relative error, and whether the tolerance was met."""
+
+    state: State
+    steps: int
+    cycles: int
+    residual: float
+    converged: bool
+
+
+@dataclass(frozen=True)
+class Balance:
+    """What the equations leave of a state.
+
+    mismatch : of its film with that of its pressure. right : balances (nx, ny), of outermost cells pressure less far
+    pressure. load : what is missing of it, negative. linear : the equations around the state.
+    """
+
+    state: State
+    mismatch: FloatArray
+    right: FloatArray
+    load: float
+    linear: Linear
+
+    @cached_property
+    def weight(self) -> FloatArray:
+        """From balances to shares of what is dragged along locally."""
+        level, film = self.linear.level, self.state.film
+        drag, (dx, dy) = level.problem.drag, level.spacing
+        weight = 1 / (6 * self.linear.stencil[6] * film * (drag[0] / dx + drag[1] / dy))
+        weight[level.border] = 1 / max(float(self.state.pressure.max()), 1e-300)
+        return weight
+
+    @cached_property
+    def wrong(self) -> FloatArray:
+        """Errors of the cells (nx, ny): of free ones the balance."""
+        return np.where(self.linear.held, 0.0, self.right) * self.weight
+
+    @property
+    def largest(self) -> float:
+        """Largest relative error of balances, load and films."""
+        load = abs(self.load) / self.linear.level.problem.load
+        return float(max(np.abs(self.wrong).max(), load, np.abs(self.mismatch / self.state.film).max()))
+
+    @property
+    def size(self) -> float:
+        """What a step must reduce: mean squares of the errors."""
+        load = self.load / self.linear.level.problem.load
+        return float((self.wrong**2).mean() + ((self.mismatch / self.state.film) ** 2).mean()) + load**2
+
+
+def balance(level: Level, state: State, mismatch: FloatArray) -> Balance:
+    """What the equations leave of a state."""
+    problem, pressure, film = level.problem, state.pressure, state.film
+    flow, stencil = flows(level, pressure, film)
+    out = np.zeros(level.shape)
+    loops.divergence(flow, level.spacing, out)
+    np.copyto(out, pressure - level.far_source / film**2, where=level.border)
+    outside, tail_slope = problem.outside(state.datum)
+    held = np.where(level.border, level.far_source == 0, (pressure <= 0) & (out > 0))
+    load = float(pressure.sum()) * level.cell + outside - problem.load
+    return Balance(state, mismatch, out, load, Linear(level, pressure, film, held, stencil, tail_slope))
+
+
+def own_film(level: Level, pressure: FloatArray, datum: float) -> FloatArray:
+    """The film of pressures."""
+    return level.gap + level.deflection(pressure) + datum
+
+
+@np.errstate(over="ignore", invalid="ignore")  # of iterates that are refused
+def newton(level: Level, start: State, tolerance: float, most: int = 40) -> Outcome:
+    """Solve on a grid from a start with positive films."""
+    at = balance(level, start, start.film - own_film(level, start.pressure, start.datum))
+    steps = cycles = 0
+    sizes = [at.size]
+    while True:
+        largest = at.largest
+        converged = steps > 0 and largest <= tolerance
+        if converged or steps == most or not np.isfinite(largest):
+            break
+        change, spent = _change(at, float(np.clip(0.3 * tolerance / largest, *FORCING)))
+        cycles += spent
+        following = _improved(at, change, max(sizes[-2:]))
+        if following is None:
+            break
+        at = following
+        sizes.append(at.size)
+        steps += 1
+    return Outcome(at.state, steps, cycles, largest, bool(converged))
+
+
+def _change(at: Balance, forcing: float) -> tuple[Change, int]:
+    """The Newton step, and the cycles it took."""
+    linear = at.linear
+    level = linear.level
+    known = np.where(linear.held, -at.state.pressure, 0.0)
+    done = np.zeros(level.shape)
+    film = -at.mismatch
+    if known.any():
+        film = film + level.deflection(known)
+    loops.applied(linear.stencil, level.spacing, level.problem.drag, known, film, done)
+    np.copyto(done, known + linear.far_slope * film, where=level.border)
+    right = np.where(linear.held, 0.0, -at.right - done)
+    load = -at.load - float(known.sum()) * level.cell
+    solved = solve(linear, right, load, at.weight, forcing, CYCLES)
+    return Change(solved.change.pressure + known, solved.change.datum), solved.cycles
+
+
+def _improved(at: Balance, change: Change, size: float) -> Balance | None:
+    """A step as long as errors become smaller than `size`; None where there is none."""
+    level, state = at.linear.level, at.state
+    film_change = level.deflection(change.pressure) + change.datum - at.mismatch
+    length = 1.0
+    while length > SHORTEST_STEP:
+        wanted = state.pressure + length * change.pressure
+        film = state.film + length * film_change
+        pressure = np.maximum(wanted, 0.0)
+        if (wanted < 0).any():
+            film = film + level.deflection(pressure - wanted)
+        # a film that would vanish stays, as mismatch
+        kept = np.maximum(film, LEAST_FILM * state.film)
+        mismatch = (1 - length) * at.mismatch + (kept - film)
+        trial = balance(level, State(pressure, kept, state.datum + length * change.datum), mismatch)
+        if np.isfinite(trial.size) and trial.size < (1 - 0.05 * length) ** 2 * size:
+            return trial
+        length *= 0.5
+    return None

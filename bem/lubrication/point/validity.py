@@ -1,0 +1,115 @@
+"""Where the model of a point film is outside its validity: the checks of line films that hold for any, and its own."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bem.grid import FloatArray
+from bem.lubrication import validity
+from bem.lubrication.point.levels import Level
+from bem.lubrication.point.setting import Setting
+from bem.lubrication.thermal.inlet import inlet_heating_factor
+
+if TYPE_CHECKING:
+    from bem.lubrication.point.film import PointFilmSolution
+
+SHORTEST_INLET = 8.0
+"""Films to which the gap has opened where the grid begins, at least."""
+LARGEST_ERROR = 0.02
+"""Of a film, above which its error is said."""
+
+
+@dataclass(frozen=True)
+class PointCase(validity.Case):
+    """A point film for the checks of line films: fields (nx, ny), speeds of the same sum and difference along one axis,
+    `radius` along the flow."""
+
+    cell: float = 0.0
+    hertz_ratio: float = 0.0
+    length: float = 0.0
+
+    def integral(self, values: FloatArray) -> float:
+        """Of values over the plane."""
+        return float(values.sum()) * self.cell
+
+
+def inlet_heating(case: PointCase) -> str | None:
+    """Shear in the inlet heats the oil; by the factor of line contacts, for a mineral oil."""
+    heating = inlet_heating_factor(
+        case.lubricant.viscosity, validity.OIL_SOFTENING, validity.OIL_CONDUCTIVITY, case.speeds, case.hertz_ratio
+    )
+    return validity.HEATING_NOTES[0] if heating.factor < validity.LEAST_INLET_FACTOR else None
+
+
+def film_heating(case: PointCase) -> str | None:
+    """Sliding heats film and surfaces: as `validity.film_heating`, with the mean over the loaded area and its length
+    along the flow."""
+    loaded = case.pressure > 0.05 * case.pressure.max(initial=0.0)
+    root = math.sqrt(abs(case.speeds[0])) + math.sqrt(abs(case.speeds[1]))
+    slide = abs(case.speeds[0] - case.speeds[1])
+    if not loaded.any() or root == 0 or slide == 0:
+        return None
+    heat = float(case.sliding_stress[loaded].mean()) * slide
+    film = heat * float(np.median(case.thickness[loaded])) / (8 * validity.OIL_CONDUCTIVITY)
+    flash = 2 * heat * math.sqrt(case.length / math.pi) / (validity.STEEL_EFFUSIVITY * root)
+    return validity.HEATING_NOTES[1] if film + flash > validity.LARGEST_HEATING else None
+
+
+CHECKS: list[Callable[[PointCase], str | None]] = [
+    validity.shear_beyond_measurements,
+    validity.shear_at_the_limit,
+    validity.viscosity_beyond_range,
+    inlet_heating,
+    film_heating,
+    validity.molecular_film,
+]
+
+
+def notes_on_point(film: PointFilmSolution, setting: Setting, level: Level, contact_modulus: float) -> tuple[str, ...]:
+    """What a reader of the film must know, a sentence each."""
+    (first, second), frame, scales = film.speeds, setting.frame, setting.scales
+    total = math.hypot(first[0] + second[0], first[1] + second[1])
+    slide = math.hypot(first[0] - second[0], first[1] - second[1])
+    hertz = setting.hertz
+    case = PointCase(
+        position=film.x,
+        pressure=film.pressure,
+        thickness=film.thickness,
+        speeds=((total + slide) / 2, (total - slide) / 2),
+        lubricant=film.lubricant,
+        radius=scales.length,
+        contact_modulus=contact_modulus,
+        cell=level.cell * scales.length**2,
+        # of bodies as stiff as 1/2 in units of the pressure
+        hertz_ratio=0.0 if hertz is None else hertz.maximum_pressure * scales.pressure / contact_modulus,
+        length=0.0 if hertz is None else 2 * hertz.semi_axes[0] * scales.length,
+    )
+    notes = film.lubricant.notes + tuple(note for check in CHECKS if (note := check(case)) is not None)
+    return notes + _on_grid(film, frame.inner(film.thickness), setting, level)
+
+
+def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, level: Level) -> tuple[str, ...]:
+    """What the grid does to it."""
+    notes = []
+    begins = float(thickness[0].min())
+    if setting.problem.drag[1] > 0.1:
+        begins = min(begins, float(thickness[:, 0].min()))
+    if begins < SHORTEST_INLET * film.central_thickness:
+        notes.append(
+            f"the grid does not reach the inlet: it begins where the gap is less than {SHORTEST_INLET:g} central "
+            "films; upstream of it the pressure of rigid bodies is taken, and the film is too thick or too thin"
+        )
+    errors = (
+        (film.central_thickness_error, film.central_thickness),
+        (film.minimum_thickness_error, film.minimum_thickness),
+    )
+    if any(error is not None and error > LARGEST_ERROR * value for error, value in errors):
+        notes.append(
+            f"the grid is coarse: films are uncertain by more than {100 * LARGEST_ERROR:g} % (see their errors)"
+        )
+    return tuple(notes)
