@@ -5,6 +5,7 @@ Drawn from `reports/results/work_precision.json`, which `bem bench --kind all --
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -16,6 +17,9 @@ from reports.builder import Section, figure, table, text
 from reports.validation_origin import changed_since_stored
 
 RESULTS = Path(__file__).resolve().parent / "results" / "work_precision.json"
+AREA = RESULTS.with_name("contact_area.json")
+_AREA_ASKED = {256: 0.005, 512: 0.001}
+"""Relative error of the contact area that was hoped for, by cells a side."""
 COMMAND = "bem bench --kind all --peers --json reports/results/work_precision.json"
 KINDS = ("contact", "film", "friction", "wear", "tribofilm")
 """Kinds of scene whose code the benchmarks run."""
@@ -48,6 +52,39 @@ def sections() -> Iterator[Section]:
                 figure(draw_errors(run, case.kind), caption),
             )
     yield Section("All errors of figures", table(ERROR_HEADERS, error_rows(run)))
+    yield _area()
+
+
+def _area() -> Section:
+    """How far contact areas of rough surfaces are off, and whether what was asked for is met."""
+    stored = json.loads(AREA.read_text("utf-8"))["rows"]
+    loads, cells = sorted({row["load"] for row in stored}), sorted({row["cells"] for row in stored})
+    rows, met = [], []
+    for load in loads:
+        for n in cells:
+            own = [row for row in stored if (row["load"], row["cells"]) == (load, n)]
+            share = f"{100 * sum(row['area'] for row in own) / len(own):.0f} %"
+            ends = [
+                (min(row[way] for row in own), max(row[way] for row in own)) for way in ("counted", "perimeter", "edge")
+            ]
+            asked = _AREA_ASKED.get(n)
+            verdict = "" if asked is None else "met" if max(map(abs, ends[-1])) < asked else "missed"
+            met.append(verdict)
+            rows.append((share, n, *(f"{100 * a:+.2g} to {100 * b:+.2g} %" for a, b in ends), verdict))
+    asked_words = " and ".join(f"{100 * share:g} % at {n} cells a side" for n, share in _AREA_ASKED.items())
+    words = (
+        "Three band-limited surfaces (cut-off 48 waves a side), three loads, against 2048 cells a side. Asked for were "
+        f"{asked_words}: met at {met.count('met')} of {met.count('met') + met.count('missed')}."
+    )
+    head = (
+        "in contact",
+        "cells a side",
+        "counted",
+        "corrected by the perimeter",
+        "edge inside cells (bem)",
+        "asked for",
+    )
+    return Section("Contact area from few cells", text(words) + table(head, rows))
 
 
 def measured_on(run: Run) -> str:
