@@ -102,6 +102,7 @@ def traction_figures(case: TractionCase, found: FilmSolution | ThermalFilm) -> d
     power = found.friction_power or 1.0
     return figures | {
         "film_temperature": found.mean_film_temperature,
+        "film_rise": found.mean_film_temperature - min(case.bulk),
         "highest_film_temperature": found.highest_film_temperature,
         "lower_temperature": float(found.surface_temperatures[0].max()),
         "upper_temperature": float(found.surface_temperatures[1].max()),
@@ -145,8 +146,9 @@ def traction_bars(case: TractionCase, found: FilmSolution | ThermalFilm) -> Erro
     points, residual = {}, {}
     for name, value in figures.items():
         if name in _TEMPERATURES:
-            size = abs(value - min(case.bulk))
-            share = RISE_SHARE
+            size, share = abs(value - min(case.bulk)), RISE_SHARE
+        elif name == "film_rise":
+            size, share = abs(value), RISE_SHARE
         else:
             size, share = abs(value), FILM_SHARE
         points[name] = DIFFERENCE * abs(there[name] - value) + share * changed * size

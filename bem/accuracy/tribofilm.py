@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.accuracy.bars import GRID, STEPS, ErrorBars
+from bem.accuracy.bars import GRID, REUSE, STEPS, ErrorBars
 from bem.accuracy.mixed import half_grid
 from bem.contact.cascade import sample
 from bem.errors import ConvergenceError, InfeasibleError
@@ -32,7 +32,6 @@ from bem.tribofilm import (
 )
 from bem.tribofilm.evolution import steady_thickness
 
-REUSE = "reused contacts"
 FIGURES = (
     "film_thickness",
     "largest_thickness",

@@ -120,8 +120,13 @@ def shortfall(record: Record, wanted: Mapping[str, float]) -> dict[str, float]:
 
     Errors count against the figure, or against the sum of those that it is a part of (`Figure.part_of`), and in lists
     over speeds against the largest there: what is next to nothing need not be known to a share of itself.
+    Those of temperatures count against a rise, as they say, or 30 K if that is more.
     """
     return {name: relative_error(record, name) / share for name, share in wanted.items()}
+
+
+_KELVINS = 30.0
+"""Smallest rise that errors of temperatures count against [K]: over it an oil's viscosity falls to a third or less."""
 
 
 def relative_error(record: Record, name: str) -> float:
@@ -133,4 +138,6 @@ def relative_error(record: Record, name: str) -> float:
         return math.inf
     whole = sum(np.abs(np.asarray(getattr(record, part))) for part in item.part_of or (name,))
     largest, worst = float(np.max(whole)), float(np.max(np.abs(error)))
+    if item.unit in ("C", "K"):
+        largest = max(largest, _KELVINS)
     return 0.0 if worst == 0 else worst / largest if largest > 0 else math.inf

@@ -24,6 +24,7 @@ _PER_WAVE, _PER_RADIUS, _PER_LAYER, _FEWEST = 4, 6, 1, 32
 """Cells of the first level to the shortest wave or correlation length, to the radius of the smooth contact, to the
 thinnest layer, and along an axis: error bars come from a grid of twice the cell."""
 _MOST_CELLS = 65536
+_LEAST_TOLERANCE = 1e-8
 _MARGIN, _HIGH = 1.25, 3.0
 """Half the grid over the radius in which bodies may touch: where the smooth contact, pressed apart by so many times the
 rms height, is closed."""
@@ -84,6 +85,33 @@ def cell_at(key: str) -> Resolution:
         lambda scene: changed(scene, key, size(scene) / 2),
         lambda scene: f"cells of {1e9 * size(scene):.4g} nm",
         part=GRID,
+    )
+
+
+def tolerance_at(key: str, part: str, used: Callable[[Any], bool]) -> Resolution:
+    """A tolerance at a key of the scene, in whose proportion its part of error bars falls; it begins with what is
+    given. `used` : whether a scene has anything that follows it."""
+    name = key.rpartition(".")[2]
+
+    def of(scene: Any) -> float:
+        table = scene
+        for step in key.split("."):
+            table = getattr(table, step)
+        return float(table)
+
+    def finer(scene: Any) -> Any:
+        if not used(scene) or of(scene) == 0:
+            return f"{key} has no part in it"
+        if of(scene) / 4 < _LEAST_TOLERANCE:
+            return f"{key} is {of(scene):.2g} already"
+        return changed(scene, key, of(scene) / 4)
+
+    return Resolution(
+        name,
+        lambda scene: scene,
+        finer,
+        lambda scene: f"{name.replace('_', ' ')} {of(scene):.2g}" if used(scene) else "",
+        part=part,
     )
 
 

@@ -26,6 +26,7 @@ from bem.scenes.resolutions import Resolution
 from bem.surfaces import Surface, write_surface
 from reports.experiments.accuracy_asked import RESULT, draw, rows_of
 from tests.campaigns.test_engine import Telling, content
+from tests.campaigns.test_inside_a_case import GROWTH, TRIBOFILM
 from tests.small_scenes import FILM
 from tests.small_scenes import PATCH as PATCH_OF_A_LINE
 
@@ -229,8 +230,8 @@ def test_what_cannot_be_asked_for_is_refused_before_any_work(settings, message):
 
 
 def test_kinds_without_bars_to_refine_by_refuse_it():
-    with pytest.raises(InputError, match="kind flow-factors has no error bars"):
-        plan_scene("flow-factors", ["accuracy=1%"])
+    with pytest.raises(InputError, match="kind particles has no error bars"):
+        plan_scene("particles-afm-map", ["accuracy=1%"])
 
 
 def test_grid_lengths_without_shape_need_an_accuracy():
@@ -250,6 +251,24 @@ MARCH = FILM | {
     "name": "march",
     "motion": {"kind": "table", "times": ["0 s", "2 ms"], "speeds": ["0.1 m/s", "0.12 m/s"]},
     "march": {"duration": "2 ms", "steps": 6, "points": 101},
+}
+TIP = TRIBOFILM | {"name": "tip", "film": GROWTH}
+del TIP["grid"]
+RUBBED = {
+    "kind": "surface-temperature",
+    "name": "rubbed",
+    "lower": {"material": "steel-52100"},
+    "upper": {"material": "steel-52100"},
+    "shape": {"kind": "sphere", "radius": "5 mm"},
+    "contact": {"load": "20 N", "friction": 0.1},
+    "heat": {"lower_speed": "2 m/s"},
+}
+WALLS = {
+    "kind": "flow-factors",
+    "name": "walls",
+    "grid": {"lengths": "32 um"},
+    "lower": {"material": "steel-52100", "surface": ROUGH | {"rms_height": "200 nm"}},
+    "flow": {"ratios": [2.0, 4.0]},
 }
 ARRAY = {
     "kind": "asperities",
@@ -272,6 +291,9 @@ ARRAY = {
         (WORN, {"film_load": "5 %", "contact_load": "5 %", "friction": "5 %"}, ["96 x 32 cells", "400 film points"]),
         (MARCH, {"film_at_end": "1 %"}, ["film points", "time steps"]),
         (ARRAY, {"all": "0.3 %"}, ["cells of 115 nm"]),
+        (TIP, {"all": "2 %"}, ["64 x 64 cells", "reuse tolerance 0.002"]),
+        (RUBBED, {"all": "0.2 %"}, ["64 x 64 cells"]),
+        (WALLS, {"all": "2 %"}, ["cells"]),
     ],
 )
 def test_other_kinds_refine_what_they_resolve(tmp_path, scene, asked, least):
@@ -363,6 +385,20 @@ def test_a_part_of_a_whole_counts_against_the_whole_and_any_is_not_looked_at():
     asked = wanted({"all": 0.01, "max_pressure": "any"}, record, kind.headline)
     assert shortfall(record, asked) == pytest.approx({"plastic_area_fraction": 0.1, "contact_area_fraction": 0.1})
     assert shortfall(record, wanted(0.01, record, kind.headline))["max_pressure"] == np.inf
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Warm(Record):
+    """Temperatures of 100 C, which are so much over what is around."""
+
+    hot: Annotated[float, Figure("C", "temperature", part_of=("rise",))]
+    rise: Annotated[float, Figure("K", "rise")]
+
+
+@pytest.mark.parametrize(("rise", "against"), [(60.0, 60.0), (1.0, 30.0)])
+def test_errors_of_temperatures_count_against_a_rise_that_matters(rise, against):
+    record = Warm(hot=373.15, rise=rise, errors={"hot": 0.3, "rise": 0.3})
+    assert shortfall(record, {"hot": 0.01, "rise": 0.01}) == pytest.approx(dict.fromkeys(("hot", "rise"), 30 / against))
 
 
 @pytest.mark.parametrize("number", range(3))

@@ -18,6 +18,7 @@ from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
+from bem.scenes.resolutions import CELLS
 from bem.scenes.tables.flow import FlowScene, PatchGridScene
 
 if TYPE_CHECKING:
@@ -79,9 +80,9 @@ _factor = partial(Figure, "", dimensions=("asked",))
 class FlowRecord(Record):
     """Factors at every separation, in rising order."""
 
-    combined_Sq: Annotated[float, Figure("nm", "Sq of both surfaces together", headline=True)]
-    separation: Annotated[FloatArray, Figure("nm", "separation of the mean planes", ("asked",))]
-    separation_over_Sq: Annotated[FloatArray, _factor("separation over Sq", headline=True)]
+    combined_Sq: Annotated[float, Figure("nm", "Sq of both surfaces together", headline=True, unjudged=True)]
+    separation: Annotated[FloatArray, Figure("nm", "separation of the mean planes", ("asked",), unjudged=True)]
+    separation_over_Sq: Annotated[FloatArray, _factor("separation over Sq", headline=True, unjudged=True)]
     pressure_x: Annotated[FloatArray, _factor("pressure flow factor along x", headline=True)]
     pressure_y: Annotated[FloatArray, _factor("pressure flow factor along y", headline=True)]
     pressure_xy: Annotated[FloatArray, _factor("pressure flow factor along x of a gradient along y")]
@@ -92,9 +93,9 @@ class FlowRecord(Record):
     friction_pressure: Annotated[FloatArray, _factor("friction factor of pressure flow (phi_fp)")]
     mean_gap: Annotated[FloatArray, Figure("nm", "mean gap", ("asked",))]
     contact_area_fraction: Annotated[FloatArray, _factor("contact area over that of the patch", headline=True)]
-    flows_through_x: Annotated[NDArray[np.int64], _factor("1 where fluid hangs together along x")]
-    flows_through_y: Annotated[NDArray[np.int64], _factor("1 where fluid hangs together along y")]
-    residual: Annotated[float, Figure("", "largest relative residual", headline=True)]
+    flows_through_x: Annotated[NDArray[np.int64], _factor("1 where fluid hangs together along x", unjudged=True)]
+    flows_through_y: Annotated[NDArray[np.int64], _factor("1 where fluid hangs together along y", unjudged=True)]
+    residual: Annotated[float, Figure("", "largest relative residual", headline=True, unjudged=True)]
     x: Annotated[FloatArray, Series(("x",), "m", "x, along the flow", of="first")]
     y: Annotated[FloatArray, Series(("y",), "m", "y", of="first")]
     height: Annotated[FloatArray, Series(("x", "y"), "m", "height of both surfaces together", of="first")]
@@ -151,5 +152,6 @@ KIND = Kind.of(
     FlowFactorsScene,
     FlowRecord,
     "flow factors of rough surfaces over separation, as deformed in their contact",
+    resolutions=(CELLS,),
     figures=("flow-factors", "flow-heights"),
 )

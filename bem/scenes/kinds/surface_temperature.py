@@ -12,6 +12,7 @@ from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, GridRecord, filled, grid_map
+from bem.scenes.resolutions import CELLS
 from bem.scenes.tables.heat import RubbingScene
 
 
@@ -59,16 +60,22 @@ def plan(scene: SurfaceTemperatureScene) -> Plan:
 class SurfaceTemperatureRecord(GridRecord):
     """Temperatures of a rubbing contact."""
 
-    maximum_temperature: Annotated[float, Figure("C", "highest surface temperature", headline=True)]
-    mean_temperature: Annotated[float, Figure("C", "mean temperature of the contact, by heat", headline=True)]
+    maximum_temperature: Annotated[
+        float, Figure("C", "highest surface temperature", headline=True, part_of=("maximum_rise",))
+    ]
+    mean_temperature: Annotated[
+        float, Figure("C", "mean temperature of the contact, by heat", headline=True, part_of=("maximum_rise",))
+    ]
     maximum_rise: Annotated[float, Figure("K", "highest temperature over the hotter bulk", headline=True)]
     share_of_lower: Annotated[float, Figure("", "share of the heat that enters the lower body", headline=True)]
     friction_power: Annotated[float, Figure("W", "heat made by friction")]
     load: Annotated[float, Figure("N", "load")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid")]
     mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
-    contact_residual: Annotated[float, Figure("", "relative residual of the contact")]
-    temperature_residual: Annotated[float, Figure("", "difference of both surfaces over the largest rise")]
+    contact_residual: Annotated[float, Figure("", "relative residual of the contact", unjudged=True)]
+    temperature_residual: Annotated[
+        float, Figure("", "difference of both surfaces over the largest rise", unjudged=True)
+    ]
     pressure: Annotated[FloatArray, grid_map("Pa", "contact pressure")]
     surface_temperature: Annotated[FloatArray, grid_map("K", "surface temperature, of the lower body out of contact")]
     heat_lower: Annotated[FloatArray, grid_map("W/m^2", "heat into the lower body")]
@@ -113,5 +120,6 @@ KIND = Kind.of(
     SurfaceTemperatureRecord,
     "heat of friction in a rough or smooth contact: surface temperature, its share between the bodies",
     resolve=SurfaceTemperatureScene.resolved,
+    resolutions=(CELLS,),
     figures=("temperature-map", "temperature-section", "pressure-map"),
 )

@@ -144,7 +144,7 @@ _ROUGH = (
     "the film is thinner than the roughness (lambda below 1): the surfaces touch, of which this smooth contact knows "
     "nothing; kind friction shares the load between film and rough surfaces"
 )
-_of_supply = partial(Figure, optional=True)
+_of_supply, _hot = partial(Figure, optional=True), partial(Figure, "C", part_of=("film_rise",))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -156,12 +156,13 @@ class TractionRecord(Record):
     minimum_thickness: Annotated[float, Figure("nm", "minimum film", headline=True)]
     central_thickness: Annotated[float, Figure("nm", "film at the centre", headline=True)]
     maximum_pressure: Annotated[float, Figure("Pa", "highest pressure")]
-    film_temperature: Annotated[float | None, Figure("C", "oil in the contact, mean by pressure", headline=True)] = None
+    film_temperature: Annotated[float | None, _hot("oil in the contact, mean by pressure", headline=True)] = None
+    film_rise: Annotated[float | None, Figure("K", "that over the cooler body's bulk")] = None
     highest_film_temperature: Annotated[
         float | None, Figure("C", "oil at its hottest, mean across the film", no_bar=_HOTTEST)
     ] = None
-    lower_temperature: Annotated[float | None, Figure("C", "highest temperature of the lower surface")] = None
-    upper_temperature: Annotated[float | None, Figure("C", "highest temperature of the upper surface")] = None
+    lower_temperature: Annotated[float | None, _hot("highest temperature of the lower surface")] = None
+    upper_temperature: Annotated[float | None, _hot("highest temperature of the upper surface")] = None
     inlet_factor: Annotated[float | None, Figure("", "film over that without inlet heating", no_bar=_FORMULA)] = None
     friction_power: Annotated[float, Figure("W", "power of friction", headline=True)]
     hertz_pressure: Annotated[float, Figure("Pa", "highest pressure of the dry contact", unjudged=True)]

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
+from bem.accuracy.bars import REUSE, STEPS
 from bem.grid import FloatArray
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed, variants
@@ -21,6 +22,7 @@ from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, layered_kernel_seconds, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, columns, filled, grid_map
+from bem.scenes.resolutions import CELLS, tolerance_at
 from bem.scenes.tables.tribofilm import RubbedScene, VariantScene
 from bem.scenes.units import Ratio
 from bem.tribofilm.properties import Constant
@@ -121,7 +123,7 @@ class FilmRecord(GridRecord):
     steady_thickness: Annotated[
         float | None, Figure("nm", "thickness at which growth and wear are equal", headline=True)
     ]
-    contacts_solved: Annotated[int, Figure("", "contacts that were solved", headline=True)]
+    contacts_solved: Annotated[int, Figure("", "contacts that were solved", headline=True, unjudged=True)]
     time: Annotated[FloatArray, _over_time("s", "time of rubbing")]
     thickness: Annotated[FloatArray, _over_time("m", "mean film thickness")]
     grown: Annotated[FloatArray, _over_time("m", "film grown so far")]
@@ -210,12 +212,15 @@ def summarise(scene: TribofilmScene, axes: Any, records: Any) -> dict[str, Any]:
     return {"cycle_s": scene.rubbing.cycle}
 
 
+_REUSED = tolerance_at("reuse_tolerance", REUSE, lambda scene: scene.film.feedback == "mean")
+_LOCAL = tolerance_at("film.local_tolerance", STEPS, lambda scene: scene.film.feedback == "local")
 KIND = Kind.of(
     vars(),
     TribofilmScene,
     FilmRecord,
     "a tribofilm that grows under stress and heat, wears, and takes substrate with it",
     resolve=build.with_grid,
+    resolutions=(CELLS, _REUSED, _LOCAL),
     figures=(
         "film-thickness",
         "film-wear-rate",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 import numpy as np
@@ -20,6 +21,7 @@ from bem.tribofilm.growth import ZERO_CELSIUS, GrowthLaw, StressActivatedGrowth
 from bem.tribofilm.properties import PropertyLaw
 
 if TYPE_CHECKING:
+    from bem.scenes.checks.hertz import SmoothContact
     from bem.tribofilm import FilmContact
 
 
@@ -102,7 +104,7 @@ class RubbingScene(Table):
 class RubbedScene(SceneModel):
     """Two rough bodies that rub, and the film on the lower one; in a case there is one load and one temperature."""
 
-    grid: GridScene
+    grid: GridScene = GridScene()
     lower: BodyScene
     upper: BodyScene
     shape: ShapeScene = ShapeScene()
@@ -122,18 +124,45 @@ class RubbedScene(SceneModel):
         ------
         InfeasibleError : such a load.
         """
-        from bem.tribofilm.grow import softest_film
-
-        film, rubbing, (load,), (temperature,) = self.film, self.rubbing, self.rubbing.loads, self.rubbing.temperatures
-        laws = film.hardness, film.kinetics(), film.balance()
-        softest = softest_film(*laws, friction=rubbing.friction, temperature=temperature, duration=rubbing.duration)
-        other = None if self.upper.material is None else self.upper.material.hardness
-        limit = (softest if other is None else min(softest, other)) * grid.area
+        (load,), (temperature,) = self.rubbing.loads, self.rubbing.temperatures
+        limit = self._softest() * grid.area
         if load > limit:
             raise InfeasibleError(
                 f"rubbing.loads: {load:g} N is beyond the softest film's hardness x area of the grid, {limit:.4g} N at "
                 f"{temperature - ZERO_CELSIUS:.4g} degC; allowed: a smaller load, a larger grid or a harder film"
             )
+
+    def _softest(self) -> float:
+        """The softest hardness that film or counter-body can have [Pa]."""
+        from bem.tribofilm.grow import softest_film
+
+        film, rubbing = self.film, self.rubbing
+        laws = film.hardness, film.kinetics(), film.balance()
+        other = math.inf if self.upper.material is None else self.upper.material.hardness or math.inf
+        return min(
+            other,
+            *(
+                softest_film(*laws, friction=rubbing.friction, temperature=temperature, duration=rubbing.duration)
+                for temperature in rubbing.temperatures
+            ),
+        )
+
+    def smooth_contact(self, lengths: tuple[float, float] | None = None) -> SmoothContact | None:
+        """Hertz contact of the bodies under the smallest of the loads, without film, on a grid of these sides."""
+        from bem.scenes.checks.hertz import smooth_contact
+
+        load, radii = min(self.rubbing.loads), self.shape.radii
+        if math.isinf(radii[1]):
+            if lengths is None:
+                return None
+            load /= lengths[1]
+        return smooth_contact(self.lower.build(), self.upper.build(), radii, load=load)
+
+    def plastic_spread(self, smooth: SmoothContact) -> float:
+        """By how much the contact under the largest load and the softest film is larger than the smooth one."""
+        more = max(self.rubbing.loads) / min(self.rubbing.loads)
+        pressure = smooth.maximum_pressure * more ** (1 / 3)
+        return more ** (1 / 3) * math.sqrt(max(1.0, pressure * 2 / 3 / self._softest()))
 
     def contact(self, grid: Grid, lower: FloatArray, upper: FloatArray) -> FilmContact:
         """The rough contact under the film, as `bem.tribofilm.FilmContact`; heights (nx, ny) [m]."""
