@@ -79,12 +79,12 @@ def test_bars_cover_the_mesh(tmp_path):
 
 def test_an_accuracy_asked_for_refines_film_and_heat(tmp_path):
     """Heat has twice as many cells on twice 1000 points: it would keep its own error, else."""
-    asked = scene(accuracy=0.007, rolling={"mean_speed": "5 m/s", "slide_roll_ratio": 0.7})
+    asked = scene(accuracy=0.01, rolling={"mean_speed": "5 m/s", "slide_roll_ratio": 0.7})
     done = run_scene(asked, tmp_path / "run", figures=False).summary
     (case,) = done["accuracy"]["cases"]
     assert len(case["levels"]) > 1
     assert done["accuracy"]["met"]
-    assert done["film_temperature_C_error"] <= 0.007 * done["film_temperature_C"]
+    assert done["film_temperature_C_error"] <= 0.01 * done["film_rise_K"]  # not of degrees over freezing water
     cells = [TractionCase(speeds=(5.0, 5.0), **line(load_scene(scene())) | {"points": n}).cells for n in (400, 2000)]
     assert cells == [200, 400]
 
