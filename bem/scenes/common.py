@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, field_validator, model_validator
 from pydantic_core import PydanticCustomError
@@ -14,9 +14,6 @@ from bem.scenes.asked import AskedAccuracy
 from bem.scenes.paths import checksum_of, what_is_wrong_with
 from bem.scenes.ranges import values_of_keys
 from bem.scenes.units import Density, Force, HeatCapacity, Length, Pressure, Ratio, ThermalConductivity
-
-if TYPE_CHECKING:
-    from bem.scenes.checks.hertz import SmoothContact
 
 PositiveLength = Annotated[Length, Field(gt=0)]
 PositivePressure = Annotated[Pressure, Field(gt=0)]
@@ -422,10 +419,6 @@ class SceneModel(Table):
         made = self.model_copy()
         made._source = table
         return made
-
-    def smooth_contact(self, lengths: tuple[float, float] | None = None) -> SmoothContact | None:
-        """Hertz contact of the substrates on a grid of these sides, for kinds whose shape and load say enough."""
-        return None
 
 
 __all__ = [

@@ -41,6 +41,9 @@ class FlowFactorsScene(SceneModel):
             raise problem("both surfaces are smooth", "roughness on one of them, lower.surface or upper.surface")
         return self
 
+    def smooth_contact(self, lengths: tuple[float, float] | None = None) -> None:
+        """There is none between flat walls; see `bem.scenes.resolutions.CELLS`."""
+
 
 def resolve(scene: FlowFactorsScene) -> FlowFactorsScene:
     """Fill in the grid where measured surfaces decide it, and the hardness of the softer surface."""
