@@ -26,7 +26,7 @@ _HOMES = {
     ],
     "convolution": ["displacement_operator"],
     "contact": ["ContactSolution", "solve_contact"],
-    "tangential": ["TangentialSolution", "solve_partial_slip", "solve_rolling"],
+    "tangential": ["TangentialSolution", "solve_partial_slip", "solve_rolling", "tangential_stiffness"],
     "flow": ["FlowFactors", "flow_factors"],
     "stress": ["subsurface_stress", "von_mises"],
     "heat": ["TemperatureSolution", "flash_temperature", "surface_temperature", "surface_temperature_history"],

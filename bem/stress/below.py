@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -74,6 +75,7 @@ def stress_below(
     depths: ArrayLike,
     *,
     friction: float = 0.0,
+    traction: FloatArray | None = None,
     components: bool = False,
     out: FloatArray | None = None,
     after: Callable[[int], None] | None = None,
@@ -83,18 +85,19 @@ def stress_below(
     Parameters
     ----------
     pressure : (nx, ny) on the grid [Pa]. grid, body : where, and whose stresses.
-    depths : (nz,) [m], rising. friction : of the traction along +x.
+    depths : (nz,) [m], rising. friction : of the traction along +x. traction : (2, nx, ny) [Pa] instead.
     components : whether the six are kept. out : (nz, nx, ny) for von Mises, made if not given.
     after : called with the number of planes that are done, after each.
     """
     places = np.asarray(depths, dtype=np.float64)
     field = np.empty((len(places), *grid.shape)) if out is None else out
-    stress = subsurface_stress(pressure, grid, body, places, friction=friction) if components else None
+    asked: dict[str, Any] = {"friction": friction, "traction": traction}
+    stress = subsurface_stress(pressure, grid, body, places, **asked) if components else None
     limits = yield_stresses(body, places)
     highest, yielded, counted = np.empty((3, len(places)))
     planes: Iterator[FloatArray]
     if stress is None:
-        planes = von_mises_planes(pressure, grid, body, places, friction=friction, out=np.empty(grid.shape))
+        planes = von_mises_planes(pressure, grid, body, places, **asked, out=np.empty(grid.shape))
     else:
         planes = (von_mises(stress[:, i]) for i in range(len(places)))
     for i, plane in enumerate(planes):

@@ -167,9 +167,16 @@ def padded_lengths(grid: Grid) -> tuple[int, int]:
     return padded_length(grid.shape[0], grid.periodic[0]), padded_length(grid.shape[1], grid.periodic[1])
 
 
-def loads(friction: float) -> list[tuple[Load, float]]:
-    """The loads that act, each with its factor of the pressure."""
-    return [(Load.NORMAL, 1.0)] + ([(Load.TANGENTIAL, friction)] if friction != 0 else [])
+Loads = tuple[tuple[Load, float], ...]
+"""The loads that act, each with its factor of one field."""
+
+TRACTION: Loads = ((Load.TANGENTIAL, 1.0),)
+"""A traction along +x alone."""
+
+
+def loads(friction: float) -> Loads:
+    """A pressure, and friction x pressure along +x."""
+    return ((Load.NORMAL, 1.0), *(((Load.TANGENTIAL, friction),) if friction != 0 else ()))
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,14 +245,14 @@ def packs(grid: Grid) -> bool:
 _WORTH_PACKING = 1 << 16
 
 
-def factors_of(grid: Grid, body: Body, depth: float, friction: float) -> Factors:
+def factors_of(grid: Grid, body: Body, depth: float, acting: Loads) -> Factors:
     """Spectra of t, d, e, yz, xz, xy at a depth, computed now."""
     COUNT.spectra += 1
     padded = padded_lengths(grid)
     wraps, packed = all(grid.periodic), packs(grid)
-    shared = packed and body.homogeneous and friction != 0
+    shared = packed and body.homogeneous and len(acting) == 2
     parts: list[list[tuple[FloatArray, tuple[int, int], float]]] = [[] for _ in range(6)]
-    for load, factor in loads(friction):
+    for load, factor in acting:
         kernels = stress_response(grid, body, depth, load) if wraps else stress_coefficients(grid, body, depth, load)
         _combine(kernels)
         for component, parity in enumerate(STRESS_PARITY[load]):
@@ -266,5 +273,5 @@ def factors_of(grid: Grid, body: Body, depth: float, friction: float) -> Factors
     return Factors(
         tuple((kept(m.real), kept(m.imaginary)) for m in whole),
         tuple((m.real_parity, m.imaginary_parity) for m in whole),
-        friction if shared else None,
+        acting[1][1] if shared else None,
     )

@@ -1,13 +1,14 @@
 """Stresses plane by plane: six components, or von Mises only.
 
 One forward transform of the pressure serves all depths and components; the traction `friction x pressure` is part of
-the kernel, so it costs none of its own. Von Mises needs five of the six spectra (see `spectra`): it is a sixth cheaper
+the kernel, so it costs none of its own. A traction of its own, of both directions, is two sweeps more: that along y is
+the one along x with the axes exchanged. Von Mises needs five of the six spectra (see `spectra`): it is a sixth cheaper
 than the stress itself, and it is never stored but as one number a point.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,7 +19,18 @@ from numpy.typing import ArrayLike, NDArray
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
-from bem.stress.spectra import SPECTRA, Factors, check_request, elastic, factors_of, packs, padded_lengths
+from bem.stress.spectra import (
+    SPECTRA,
+    TRACTION,
+    Factors,
+    Loads,
+    check_request,
+    elastic,
+    factors_of,
+    loads,
+    packs,
+    padded_lengths,
+)
 from bem.threads import get_threads, share
 from bem.transforms import PaddedTransform, transform_of
 
@@ -30,6 +42,7 @@ def subsurface_stress(
     depths: ArrayLike,
     *,
     friction: float = 0.0,
+    traction: ArrayLike | None = None,
     out: FloatArray | None = None,
 ) -> FloatArray:
     """Stress in `body` under `pressure` and the traction friction x pressure along +x, at the grid's points.
@@ -41,6 +54,7 @@ def subsurface_stress(
         and the mean pressure gives the laterally constrained uniform state; otherwise it is constant on each cell.
     depths : (nz,) [m], any order, each >= 0; on a layer's interface the layer's side.
     friction : f of the traction on the body.
+    traction : (2, nx, ny) [Pa] on the body along +x and +y, instead of friction x pressure (partial slip).
     out : (6, nz, nx, ny) to write into.
 
     Returns
@@ -49,15 +63,15 @@ def subsurface_stress(
 
     Raises
     ------
-    InputError : shapes that do not match, values that are not finite, depths above the surface.
+    InputError : shapes that do not match, values that are not finite, depths above the surface, friction and traction.
     """
-    sweep = Sweep.of("subsurface_stress", pressure, grid, body, depths, friction)
+    sweep = Sweep.of("subsurface_stress", pressure, grid, body, depths, friction, traction)
     shape = (6, len(sweep.depths), *grid.shape)
     result = check_out("subsurface_stress", out, shape)
     for index in range(len(sweep.depths)):
-        factors = sweep.factors(index)
+        field = sweep.at(index)
         for component in range(6):
-            sweep.inverse(factors, component, result[component, index])
+            field(component, result[component, index])
         _share_rows(_recombine, grid.shape[0], result[:, index])
     return result
 
@@ -69,6 +83,7 @@ def von_mises_planes(
     depths: ArrayLike,
     *,
     friction: float = 0.0,
+    traction: ArrayLike | None = None,
     out: FloatArray | None = None,
 ) -> Iterator[FloatArray]:
     """Von Mises stress, one plane (nx, ny) [Pa] for each depth in turn; arguments as in `subsurface_stress`.
@@ -76,7 +91,7 @@ def von_mises_planes(
     The next plane is computed when it is asked for. Each is a new array; or `out` (nx, ny) written over; or the next of
     `out` (nz, nx, ny).
     """
-    sweep = Sweep.of("von_mises_planes", pressure, grid, body, depths, friction)
+    sweep = Sweep.of("von_mises_planes", pressure, grid, body, depths, friction, traction)
     if out is not None and np.ndim(out) == 3:
         return planes(sweep, list(check_out("von_mises_planes", out, (len(sweep.depths), *grid.shape))))
     if out is not None:
@@ -91,13 +106,14 @@ def von_mises_field(
     depths: ArrayLike,
     *,
     friction: float = 0.0,
+    traction: ArrayLike | None = None,
     out: FloatArray | None = None,
 ) -> FloatArray:
     """Von Mises stress (nz, nx, ny) [Pa] without ever storing six components; arguments as in `subsurface_stress`.
 
     `out` : (nz, nx, ny) to write into, made if not given.
     """
-    sweep = Sweep.of("von_mises_field", pressure, grid, body, depths, friction)
+    sweep = Sweep.of("von_mises_field", pressure, grid, body, depths, friction, traction)
     result = check_out("von_mises_field", out, (len(sweep.depths), *grid.shape))
     for _ in planes(sweep, list(result)):
         pass
@@ -181,12 +197,12 @@ _SHARES = (0.0, 0.75, 1.0, 3.0, 3.0, 3.0)  # of t, d, e, yz, xz, xy squared in v
 def planes(sweep: Sweep, outs: Sequence[FloatArray | None]) -> Iterator[FloatArray]:
     """Von Mises stress of one depth after the other, each into its own array, or a new one where that is None."""
     shape = sweep.grid.shape
-    scratch = sweep.transform.zeros_field()  # aligned: written by the transform itself where y is not padded
+    scratch = sweep.parts[0].transform.zeros_field()  # aligned: written by the transform itself where y is not padded
     for index, out in enumerate(outs):
         plane = np.empty(shape) if out is None else out
-        factors = sweep.factors(index)
+        field = sweep.at(index)
         for component in range(1, 6):
-            sweep.inverse(factors, component, scratch)
+            field(component, scratch)
             work = {1: _begin, 5: _finish}.get(component, _accumulate)
             _share_rows(work, shape[0], scratch, _SHARES[component], plane)
         yield plane
@@ -203,39 +219,107 @@ def check_out(name: str, out: FloatArray | None, shape: tuple[int, ...]) -> Floa
 
 
 @dataclass(frozen=True)
-class Sweep:
-    """A checked request: the transformed pressure, and the spectra of each depth as they are needed."""
+class _Part:
+    """One field on the surface: transformed, and the spectra of each depth as they are needed.
+
+    turned : the field and its grid have their axes exchanged, so that a traction along +y is one along +x.
+    """
 
     grid: Grid
     body: Body
-    depths: tuple[float, ...]
-    friction: float
+    acting: Loads
     transform: PaddedTransform
     spectrum: NDArray[Any]
     workspace: FloatArray
     number: int
+    turned: bool
 
     @classmethod
-    def of(cls, name: str, pressure: ArrayLike, grid: Grid, body: Body, depths: ArrayLike, friction: float) -> Sweep:
-        """Check a request and transform its pressure."""
-        places, coefficient = check_request(name, grid, body, depths, friction)
-        field = grid.check_field(pressure, "pressure")
+    def of(cls, field: FloatArray, grid: Grid, body: Body, acting: Loads, *, turned: bool = False) -> _Part:
+        """Transform a field."""
+        if turned:
+            field = np.ascontiguousarray(field.T)
+            grid = Grid(grid.shape[::-1], grid.spacing[::-1], periodic=grid.periodic[::-1])
         padded = padded_lengths(grid)
         transform = transform_of(grid.shape, padded)
-        spectrum = transform.forward(field) if places else transform.empty_spectrum()
         workspace = np.empty((3 if packs(grid) else 0, padded[1] // 2 + 1, padded[0] // 2 + 1))
-        return cls(grid, body, places, coefficient, transform, spectrum, workspace, SPECTRA.begin())
+        spectrum = transform.forward(field)
+        return cls(grid, body, acting, transform, spectrum, workspace, SPECTRA.begin(), turned)
 
-    def inverse(self, factors: Factors, component: int, out: FloatArray) -> None:
-        """One of t, d, e, yz, xz, xy at the grid's points."""
-        self.transform.inverse(self.spectrum, factors.multiplier(component, self.workspace), out)
-
-    def factors(self, index: int) -> Factors:
+    def factors(self, depth: float) -> Factors:
         """Spectra of t, d, e, yz, xz, xy at a depth."""
-        depth = self.depths[index]
-        key = (self.grid, elastic(self.body), depth, self.friction)
+        key = (self.grid, elastic(self.body), depth, self.acting)
         found: Factors | None = SPECTRA.get(key, self.number)
         if found is None:
-            found = factors_of(self.grid, self.body, depth, self.friction)
+            found = factors_of(self.grid, self.body, depth, self.acting)
             SPECTRA.put(key, found, found.nbytes, self.number)
         return found
+
+    def inverse(self, factors: Factors, component: int, out: FloatArray) -> None:
+        """One of t, d, e, yz, xz, xy at the points of its own grid."""
+        self.transform.inverse(self.spectrum, factors.multiplier(component, self.workspace), out)
+
+    def add(self, factors: Factors, component: int, out: FloatArray) -> None:
+        """The same added, in the axes of the request: turned, d changes its sign and yz is xz."""
+        scratch = self.transform.zeros_field()
+        self.inverse(factors, _TURNED[component] if self.turned else component, scratch)
+        if not self.turned:
+            out += scratch
+        elif component == _D:
+            out -= scratch.T
+        else:
+            out += scratch.T
+
+
+_D = 1
+_TURNED = (0, 1, 2, 4, 3, 5)  # where each of t, d, e, yz, xz, xy lies with x and y exchanged
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A checked request: the fields that act, the first of them the pressure."""
+
+    grid: Grid
+    depths: tuple[float, ...]
+    parts: tuple[_Part, ...]
+
+    @classmethod
+    def of(  # reason: a request as users make it
+        cls,
+        name: str,
+        pressure: ArrayLike,
+        grid: Grid,
+        body: Body,
+        depths: ArrayLike,
+        friction: float,
+        traction: ArrayLike | None = None,
+    ) -> Sweep:
+        """Check a request and transform its fields."""
+        places, coefficient = check_request(name, grid, body, depths, friction)
+        field = grid.check_field(pressure, "pressure")
+        sheared = None if traction is None else _checked_traction(name, traction, grid, coefficient)
+        parts = [_Part.of(field, grid, body, loads(coefficient))]
+        if sheared is not None:
+            parts += [_Part.of(t, grid, body, TRACTION, turned=k == 1) for k, t in enumerate(sheared) if t.any()]
+        return cls(grid, places, tuple(parts))
+
+    def at(self, index: int) -> Callable[[int, FloatArray], None]:
+        """What writes one of t, d, e, yz, xz, xy at a depth."""
+        first, *others = self.parts
+        factors = [part.factors(self.depths[index]) for part in self.parts]
+
+        def write(component: int, out: FloatArray) -> None:
+            first.inverse(factors[0], component, out)
+            for part, own in zip(others, factors[1:], strict=True):
+                part.add(own, component, out)
+
+        return write
+
+
+def _checked_traction(name: str, traction: ArrayLike, grid: Grid, friction: float) -> FloatArray:
+    values = np.asarray(traction, dtype=np.float64)
+    if values.shape != (2, *grid.shape) or not np.isfinite(values).all():
+        raise InputError(f"{name}: traction {values.shape} must be finite numbers of shape {(2, *grid.shape)} [Pa]")
+    if friction != 0:
+        raise InputError(f"{name}: friction = {friction!r} and a traction: give one of them")
+    return values

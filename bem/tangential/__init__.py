@@ -2,7 +2,8 @@
 
 `operator` is the in-plane displacement from tractions, `discs` puts tractions inside Coulomb's bound, `rounds` solves
 partial slip on one grid, `cascade` goes from coarse grids to fine ones, `solve` is the front door of partial slip,
-`rolling` that of steady rolling.
+`rolling` that of steady rolling,
+`stiffness` that of a contact before anything slips.
 
 Knows the normal contact (its pressure, its sparse inverse); nothing of lubrication, wear or scenes. Verified in
 tests/tangential against Cattaneo and Mindlin, Mindlin and Deresiewicz, Carter, Spence and Kalker's linear theory.
@@ -12,5 +13,13 @@ from bem.tangential.operator import TangentialOperator
 from bem.tangential.rolling import solve_rolling
 from bem.tangential.solution import TangentialSolution
 from bem.tangential.solve import solve_partial_slip, tangential_operator
+from bem.tangential.stiffness import tangential_stiffness
 
-__all__ = ["TangentialOperator", "TangentialSolution", "solve_partial_slip", "solve_rolling", "tangential_operator"]
+__all__ = [
+    "TangentialOperator",
+    "TangentialSolution",
+    "solve_partial_slip",
+    "solve_rolling",
+    "tangential_operator",
+    "tangential_stiffness",
+]

@@ -92,6 +92,40 @@ def test_without_contact_nothing_sticks_and_nothing_breaks():
     assert np.isnan(record.first_stiffness)
 
 
+def test_stiffness_is_hertz_and_mindlin_s():
+    record, _ = run(outputs={"stiffness": True})
+    radius = (3 * 20.0 * 10e-3 / (4 * STEEL.plane_strain_modulus / 2)) ** (1 / 3)
+    # dP/d approach = 2 E* a
+    assert record.normal_stiffness == pytest.approx(STEEL.plane_strain_modulus * radius, rel=5e-3)
+    # 35 cells across
+    assert record.tangential_stiffness == pytest.approx(stiffness_of_mindlin(radius), rel=0.02)
+    assert record.tangential_stiffness > record.first_stiffness
+    nothing, _ = run(outputs={"stiffness": True}, contact={"approach": "-1 um"})
+    assert nothing.normal_stiffness == nothing.tangential_stiffness == 0
+
+
+def test_stresses_are_those_of_the_tractions_at_the_end():
+    """Sticking lowers what full sliding would make near the surface: the bodies see opposite tractions."""
+    lower, _ = run(outputs={"von_mises": True})
+    upper, _ = run(outputs={"von_mises": True, "body": "upper"})
+    assert lower.von_mises.shape == (24, 48, 48)
+    assert lower.max_von_mises == pytest.approx(upper.max_von_mises, rel=1e-6)  # of the same material, mirrored
+    sliding = get_kind("contact").run(*_sliding())
+    shallow = lower.depth < 40e-6
+    assert lower.von_mises[shallow].max() < 0.97 * sliding.von_mises[shallow].max()
+    with pytest.raises(InputError, match="upper body is rigid"):
+        scene(outputs={"von_mises": True, "body": "upper"}, upper={})
+
+
+def _sliding():
+    table = scene().model_dump(exclude_unset=True) | {
+        "kind": "contact", "contact": {"load": 20.0, "friction": 0.4}, "outputs": {"von_mises": True, "errors": False},
+    }  # fmt: skip
+    del table["push"]
+    resolved = get_kind("contact").resolve(load_scene(table))
+    return resolved, PlainContext(resolved)
+
+
 def test_messages():
     with pytest.raises(InputError, match=r"push.*share.*force.*shift"):
         scene(push={"friction": 0.4})

@@ -8,21 +8,17 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import model_validator
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
-from bem.materials import Body
 from bem.scenes import build, plans
-from bem.scenes.axes import changed
-from bem.scenes.common import DepthsScene, problem
 from bem.scenes.context import Context, error_bars, release, tell
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept, kept_coarser
 from bem.scenes.planner import Plan
 from bem.scenes.records import Figure, GridRecord, Series, filled, grid_map
 from bem.scenes.resolutions import CELLS, DEPTHS
-from bem.scenes.tables.pressing import ContactOutputs, PressedScene
+from bem.scenes.tables.pressing import ContactOutputs, StressedScene
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
@@ -32,28 +28,11 @@ if TYPE_CHECKING:
 _STRESS_COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 
 
-class ContactScene(PressedScene):
+class ContactScene(StressedScene):
     """Two bodies, a grid and a load."""
 
     kind: Literal["contact"] = "contact"
     outputs: ContactOutputs = ContactOutputs()
-
-    @model_validator(mode="after")
-    def _stresses_in_an_elastic_body(self) -> ContactScene:
-        if self.outputs.body == "upper" and self.upper.material is None and self.outputs.below:
-            raise problem(
-                'outputs.body = "upper": the upper body is rigid', 'outputs.body = "lower", or upper.material'
-            )
-        return self
-
-
-def resolve(scene: ContactScene) -> ContactScene:
-    """Fill in the grid where measured surfaces decide it, and the hardness of the softer surface."""
-    scene = scene.resolved()
-    if scene.outputs.below and scene.outputs.depths is None:
-        deepest = min(build.grid_of(scene.grid).lengths) / 4
-        scene = changed(scene, "outputs.depths", DepthsScene(deepest=deepest, count=24))
-    return scene
 
 
 def plan(scene: ContactScene) -> Plan:
@@ -234,7 +213,8 @@ def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Co
     """Stresses in the body asked for, at every depth; von Mises on disk where it is very large."""
     from bem.stress import stress_below
 
-    depths, (body, friction) = np.array(scene.outputs.wanted_depths()), _stressed(scene)
+    depths, (body, sign) = np.array(scene.outputs.wanted_depths()), scene.stressed()
+    friction = sign * scene.contact.friction
     field = context.scratch((len(depths), *grid.shape))
 
     def after(done: int) -> None:
@@ -263,18 +243,8 @@ def _bars(
     bars = contact_bars(case, coarser)
     if below is None:
         return bars
-    body, friction = _stressed(scene)
-    return bars | stress_bars(case, coarser, body, below, friction)
-
-
-def _stressed(scene: ContactScene) -> tuple[Body, float]:
-    """The body whose stresses are wanted, and its friction: traction on the lower body acts along +x, on the upper one
-    along -x; z points into the body itself."""
-    if scene.outputs.body == "lower":
-        return scene.lower.build(), scene.contact.friction
-    upper = scene.upper.build()
-    assert upper is not None
-    return upper, -scene.contact.friction
+    body, sign = scene.stressed()
+    return bars | stress_bars(case, coarser, body, below, sign * scene.contact.friction)
 
 
 KIND = Kind.of(
@@ -282,6 +252,7 @@ KIND = Kind.of(
     ContactScene,
     ContactRecord,
     "two rough, possibly coated bodies pressed together: pressure, contact area, approach, stresses below",
+    resolve=ContactScene.resolved,
     resolutions=(CELLS, DEPTHS),
     volumes=lambda scene: scene.outputs.volumes,
     figures=(

@@ -62,6 +62,7 @@ def plan(scene: PartialSlipScene) -> Plan:
     scene.contact.check_load(grid.area)
     points, steps = padded_points(grid.shape, grid.periodic), len(scene.push.path())
     pressing = _pressing_steps(scene)
+    stressed = (scene.lower if scene.outputs.body == "lower" else scene.upper).build()
     return Plan(
         (
             *plans.of_bodies(scene, grid, 1.0),
@@ -84,6 +85,14 @@ def plan(scene: PartialSlipScene) -> Plan:
                 kept=8.0 * grid.cells * 10,
                 seconds=0.2,
             ),
+            Step(
+                "stiffness",
+                "normal and tangential, of the contact as a whole, before anything slips",
+                skipped=not scene.outputs.stiffness,
+                transforms=80.0 + 2 * _TRANSFORMS,
+                points=points,
+            ),
+            plans.stresses(grid, stressed, scene.outputs.body, len(scene.outputs.wanted_depths()), fields=1, loads=3),
             plans.figures(grid.cells),
         )
     )
@@ -111,6 +120,16 @@ class PartialSlipRecord(GridRecord):
     dissipated_in_cycle: Annotated[
         float | None, Figure("J", "energy of friction in the last cycle", optional=True, headline=True, no_bar=_NO_BAR)
     ] = None
+    normal_stiffness: Annotated[
+        float | None, Figure("N_m", "normal stiffness of the contact", optional=True, headline=True, no_bar=_NO_BAR)
+    ] = None
+    tangential_stiffness: Annotated[
+        float | None, Figure("N_m", "tangential stiffness before slip", optional=True, headline=True, no_bar=_NO_BAR)
+    ] = None
+    max_von_mises: Annotated[
+        float | None, Figure("Pa", "highest von Mises stress at the end", optional=True, headline=True, no_bar=_NO_BAR)
+    ] = None
+    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True, no_bar=_NO_BAR)] = None
     contact_residual: Annotated[float, Figure("", "relative residual of the contact")]
     slip_residual: Annotated[float, Figure("", "largest relative residual of the steps")]
     convolutions: Annotated[float, Figure("", "convolutions of all steps")]
@@ -125,6 +144,8 @@ class PartialSlipRecord(GridRecord):
     step_shift: Annotated[FloatArray, _step("m", "shift")]
     step_stick_fraction: Annotated[FloatArray, _step("1", "share of the contact that sticks")]
     step_dissipated: Annotated[FloatArray, _step("J", "energy of friction in the step")]
+    depth: Annotated[FloatArray | None, Series(("depth",), "m", "depth below the surface")] = None
+    von_mises: Annotated[FloatArray | None, Series(("depth", "x", "y"), "Pa", "von Mises stress")] = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,7 +187,57 @@ def run(scene: PartialSlipScene, context: Context) -> PartialSlipRecord:
             else "the whole load comes at once, while surfaces that differ slip as it grows: far too little sticks; "
             f"leave push.pressing_steps out ({PRESSING_STEPS}) or raise it"
         )
-    return _record(scene, grid, contact, path)
+    extra: dict[str, Any] = {}
+    if scene.outputs.stiffness:
+        with context.timer("stiffness"):
+            extra |= _stiffness(scene, grid, gap, contact, context)
+    if scene.outputs.wanted_depths():
+        with context.timer("stresses"):
+            extra |= _stresses(scene, grid, contact, path)
+    return _record(scene, grid, contact, path, extra)
+
+
+_PROBE = 1e-3
+"""Of the approach from first touch, or of the range of gaps: how far the bodies are moved for the normal stiffness."""
+
+
+def _stiffness(
+    scene: PartialSlipScene, grid: Grid, gap: FloatArray, contact: ContactSolution, context: Context
+) -> dict[str, float]:
+    """Of the contact as a whole [N/m]: load over approach, by its difference, and force over shift where all sticks."""
+    from bem.contact import solve_contact
+    from bem.tangential import tangential_stiffness
+
+    if not contact.load > 0:
+        return {"normal_stiffness": 0.0, "tangential_stiffness": 0.0}
+    asked = scene.contact.accuracy() | {"hardness": scene.contact.hardness, "initial_pressure": contact.pressure}
+    operator = build.operator_of(scene, grid, 0.0)
+    step = _PROBE * max(abs(contact.approach), float(np.ptp(contact.gap)))
+    near = [solve_contact(gap, operator, approach=contact.approach + sign * step, **asked) for sign in (-1.0, 1.0)]
+    for found in near:
+        if found.status is not Status.CONVERGED:
+            context.note(f"normal stiffness: {found.status.message}, residual {found.residual:.1e}")
+    stuck = tangential_stiffness(contact, grid, build.bodies_of(scene), tolerance=scene.push.tolerance)
+    return {
+        "normal_stiffness": (near[1].load - near[0].load) / (2 * step),
+        "tangential_stiffness": float(stuck[0, 0]),
+    }
+
+
+def _stresses(scene: PartialSlipScene, grid: Grid, contact: ContactSolution, path: _Path) -> dict[str, Any]:
+    """Von Mises stress under the pressure and the tractions that are there at the end."""
+    from bem.stress import stress_below
+
+    assert path.last is not None
+    body, sign = scene.stressed()
+    depths = np.array(scene.outputs.wanted_depths())
+    below = stress_below(contact.pressure, grid, body, depths, traction=sign * path.last.traction)
+    return {
+        "depth": below.depths,
+        "von_mises": below.von_mises,
+        "max_von_mises": below.max_von_mises,
+        "max_von_mises_depth": below.max_von_mises_depth,
+    }
 
 
 def _coupled(scene: PartialSlipScene) -> bool:
@@ -240,7 +311,9 @@ def _after(path: _Path, found: TangentialSolution) -> _Path:
     )
 
 
-def _record(scene: PartialSlipScene, grid: Grid, contact: ContactSolution, path: _Path) -> PartialSlipRecord:
+def _record(
+    scene: PartialSlipScene, grid: Grid, contact: ContactSolution, path: _Path, extra: dict[str, Any]
+) -> PartialSlipRecord:
     last = path.last
     assert last is not None
     force, shift, sticks, energy, residual = path.steps.T
@@ -250,6 +323,7 @@ def _record(scene: PartialSlipScene, grid: Grid, contact: ContactSolution, path:
     return filled(
         PartialSlipRecord,
         grid,
+        extra,
         load=contact.load,
         contact_area_fraction=contact.contact_area / grid.area,
         force=float(force[-1]),
@@ -283,5 +357,5 @@ KIND = Kind.of(
     PartialSlipRecord,
     "pressed bodies pushed along, once or there and back: where they stick and slip, loop, energy of friction",
     resolve=PartialSlipScene.resolved,
-    figures=("slip-map", "traction-section", "slip-loop", "pressure-map"),
+    figures=("slip-map", "traction-section", "slip-loop", "pressure-map", "von-mises-section", "von-mises-depth"),
 )

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError
 from bem.scenes import build
+from bem.scenes.axes import changed
 from bem.scenes.common import (
     BodyScene,
     DepthsScene,
@@ -25,6 +26,7 @@ from bem.scenes.common import (
 from bem.scenes.units import Length, Ratio
 
 if TYPE_CHECKING:
+    from bem.materials import Body
     from bem.scenes.checks.hertz import SmoothContact
 
 
@@ -124,13 +126,27 @@ class PressedScene(SceneModel):
         return math.sqrt(max(1.0, smooth.maximum_pressure * 2 / 3 / hardness))
 
 
-class ContactOutputs(Table):
-    """What is wanted besides pressure, gap and displacement."""
+class StressOutputs(Table):
+    """What is wanted below the surface."""
 
     von_mises: bool = Field(default=False, strict=True)
-    stresses: bool = Field(default=False, strict=True)
     depths: DepthsScene | None = None
     body: Literal["lower", "upper"] = "lower"
+
+    @property
+    def below(self) -> bool:
+        """Whether anything below the surface is wanted."""
+        return self.von_mises
+
+    def wanted_depths(self) -> tuple[float, ...]:
+        """Depths of what is wanted below the surface [m]; none where nothing is."""
+        return self.depths.build() if self.below and self.depths is not None else ()
+
+
+class ContactOutputs(StressOutputs):
+    """What is wanted besides pressure, gap and displacement."""
+
+    stresses: bool = Field(default=False, strict=True)
     vtk: bool = Field(default=True, strict=True)
     errors: bool = Field(default=True, strict=True)
 
@@ -145,6 +161,33 @@ class ContactOutputs(Table):
         wanted = ("von_mises", "stress") if self.stresses else ("von_mises",)
         return wanted if self.vtk and self.wanted_depths() else ()
 
-    def wanted_depths(self) -> tuple[float, ...]:
-        """Depths of what is wanted below the surface [m]; none where nothing is."""
-        return self.depths.build() if self.below and self.depths is not None else ()
+
+class StressedScene(PressedScene):
+    """A pressed contact, and what is wanted below its surface."""
+
+    outputs: StressOutputs = StressOutputs()
+
+    @model_validator(mode="after")
+    def _stresses_in_an_elastic_body(self) -> Self:
+        if self.outputs.body == "upper" and self.upper.material is None and self.outputs.below:
+            raise problem(
+                'outputs.body = "upper": the upper body is rigid', 'outputs.body = "lower", or upper.material'
+            )
+        return self
+
+    def resolved(self) -> Self:
+        """And with depths, where stresses are wanted and none are given."""
+        scene = super().resolved()
+        if scene.outputs.below and scene.outputs.depths is None:
+            deepest = min(build.grid_of(scene.grid).lengths) / 4
+            scene = changed(scene, "outputs.depths", DepthsScene(deepest=deepest, count=24))
+        return scene
+
+    def stressed(self) -> tuple[Body, float]:
+        """The body whose stresses are wanted, and the sign of traction: on the lower body it acts along +x, on the
+        upper one along -x; z points into the body itself."""
+        if self.outputs.body == "lower":
+            return self.lower.build(), 1.0
+        upper = self.upper.build()
+        assert upper is not None
+        return upper, -1.0

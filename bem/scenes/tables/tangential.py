@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 
 from bem.grid import FloatArray
 from bem.scenes.common import Force, Table, exactly_one
-from bem.scenes.tables.pressing import PressedScene
+from bem.scenes.tables.pressing import StressedScene, StressOutputs
 from bem.scenes.units import Length, Ratio
 
 
@@ -47,7 +47,15 @@ class PushScene(Table):
         return np.concatenate([rise, np.tile(cycle, self.cycles)])
 
 
-class PushedScene(PressedScene):
+class SlipOutputs(StressOutputs):
+    """What is wanted besides pressure, tractions and slip."""
+
+    stiffness: bool = Field(default=False, strict=True)
+    """Normal and tangential stiffness of the contact before anything slips."""
+
+
+class PushedScene(StressedScene):
     """A contact that is pushed along x."""
 
     push: PushScene
+    outputs: SlipOutputs = SlipOutputs()
