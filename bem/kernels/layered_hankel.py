@@ -17,9 +17,9 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numba as nb
 import numpy as np
@@ -96,13 +96,15 @@ class Kernels:
     decay : d, they decay like exp(-q d) [m].
     smallest : wavenumber below which they are smooth [1/m].
     path : of their integration.
+    key : what they are made of, by which a table that was made before is found; None: it is made anew.
     """
 
-    spectra: Spectra
+    spectra: Spectra = field(compare=False)
     orders: tuple[int, ...]
     decay: float
     smallest: float
     path: Path
+    key: tuple[Any, ...] | None = None
 
 
 class RadialTable(NamedTuple):
@@ -126,7 +128,7 @@ def surface_kernels(body: Body, load: Load) -> Kernels:
     def spectra(q: NDArray) -> NDArray:
         return layered.wave_functions(q, body, 0.0, remainder=True, load=load)[row : row + 1] * (scale / q)
 
-    return _kernels(spectra, (0 if load is Load.NORMAL else 1,), layered.features(body, 0.0))
+    return _kernels(spectra, (0 if load is Load.NORMAL else 1,), layered.features(body, 0.0), ("normal", body, load))
 
 
 def in_plane_kernels(body: Body) -> Kernels:
@@ -138,7 +140,7 @@ def in_plane_kernels(body: Body) -> Kernels:
         along, across = -f[layered.TANGENTIAL_U], f[layered.ACROSS_U]
         return np.stack([along + across, along - across]) * (scale / q)
 
-    return _kernels(spectra, (0, 2), layered.features(body, 0.0))
+    return _kernels(spectra, (0, 2), layered.features(body, 0.0), ("in plane", body))
 
 
 def stress_kernels(body: Body, depth: float, load: Load) -> Kernels:
@@ -165,13 +167,14 @@ def stress_kernels(body: Body, depth: float, load: Load) -> Kernels:
             ]
         )
 
+    key = ("stress", body, depth, load)
     if load is Load.NORMAL:
-        return _kernels(normal, (0, 1, 0, 2), found)
-    return _kernels(tangential, (1, 0, 2, 1, 1, 3), found)
+        return _kernels(normal, (0, 1, 0, 2), found, key)
+    return _kernels(tangential, (1, 0, 2, 1, 1, 3), found, key)
 
 
-def _kernels(spectra: Spectra, orders: tuple[int, ...], found: layered.Features) -> Kernels:
-    return Kernels(spectra, orders, found.decay, found.smallest, path_for(found.angle))
+def _kernels(spectra: Spectra, orders: tuple[int, ...], found: layered.Features, key: tuple[Any, ...]) -> Kernels:
+    return Kernels(spectra, orders, found.decay, found.smallest, path_for(found.angle), key)
 
 
 def radial_table(kernels: Kernels, r_max: float, *, line: bool = False) -> RadialTable:
@@ -179,10 +182,21 @@ def radial_table(kernels: Kernels, r_max: float, *, line: bool = False) -> Radia
 
     `line`: of 1/pi integral of f cos(q r) dq (order 0) or of sin (order 1) instead.
     """
-    edges = np.concatenate([[0.0], kernels.path.doubling(kernels.decay / 8, max(r_max, kernels.decay / 8))])
+    panels = len(kernels.path.doubling(kernels.decay / 8, max(r_max, kernels.decay / 8)))
+    return (_made if kernels.key is None else _kept)(kernels, panels, line)
+
+
+def _made(kernels: Kernels, panels: int, line: bool) -> RadialTable:
+    """That of so many panels: whole numbers of doublings, so that grids of nearly one size share it."""
+    cuts = kernels.path.cuts
+    edges = np.concatenate([[0.0], kernels.decay / 8 * 2.0 ** (np.arange(panels) / cuts)])
     nodes = [panel_nodes(a, b) for a, b in itertools.pairwise(edges)]
     values = np.stack([_near(kernels, nodes[0], line), *(_far(kernels, r, line) for r in nodes[1:])])
     return RadialTable(edges, fit(values), kernels.decay)
+
+
+_kept = lru_cache(maxsize=64)(_made)
+"""Coarser grids of a contact are as long, and ask for the same table: some 40 kB each."""
 
 
 def panel_nodes(a: float, b: float) -> FloatArray:

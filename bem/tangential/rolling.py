@@ -260,10 +260,11 @@ def _certified(
     length = np.hypot(traction[0], traction[1])
     traction *= np.where(length > bound, bound / np.where(length > bound, length, 1.0), 1.0)
     elastic = operator.apply(traction)
-    slip = problem.rigid + passing(grid, elastic)
+    rigid = problem.rigid
     if problem.force is not None:
         creep = found.creep
-        slip = slip + creep[:, None, None]
+        rigid = rigid + creep[:, None, None]
+    slip = rigid + passing(grid, elastic)
     stiffness = 2 / sum(operator.compliance)
     wanted = traction[:, cells] - stiffness * slip[:, cells]
     allowed = np.empty_like(wanted)
@@ -286,7 +287,8 @@ def _certified(
         slip=slid,
         stick_area=float(np.count_nonzero(~slips)) * grid.cell_area,
         slip_area=float(np.count_nonzero(slips)) * grid.cell_area,
-        dissipated_energy=-float((traction * slid).sum()) * grid.cell_area,
+        # what tractions store they give back, so that passing(elastic) takes nothing but where it is cut into cells
+        dissipated_energy=-float((traction * rigid).sum()) * grid.cell_area,
         residual=residual,
         convolutions=operator.count.weighted,
         iterations=found.iterations,

@@ -29,7 +29,9 @@ class TangentialSolution:
     slip : [m], by which the first surface slid over the second in this step, where there is friction; against it. Of
         `solve_rolling` over a cell's length of rolling.
     stick_area, slip_area : [m^2], of cells.
-    dissipated_energy : [J], by friction in this step, or [J] over a cell's length of rolling.
+    dissipated_energy : [J], by friction in this step. Of `solve_rolling` over a cell's length of rolling, by the
+        balance: force x creepage and moment x spin. The sum of traction x slip is less where the zone that slips, or
+        the singularity behind a contact that sticks, is narrower than a cell.
     residual : largest violation of Coulomb's conditions, recomputed from `traction` alone: of the displacement's error
         where the surfaces stick, and of the slip against the traction, over the largest displacement (or imposed
         movement); what is missed of a given force relative to friction x load, where that is more.

@@ -131,7 +131,7 @@ def test_messages():
         scene(push={"friction": 0.4})
     with pytest.raises(InputError, match=r"push\.share"):
         scene(push={"friction": 0.4, "share": 1.2})
-    with pytest.raises(InputError, match=r"push\.friction alone"):
+    with pytest.raises(InputError, match=r"push\.friction or"):
         scene(contact={"load": "20 N", "friction": 0.1})
 
 

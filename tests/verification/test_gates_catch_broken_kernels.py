@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from bem import convolution
+from bem.kernels import layered_hankel
 from bem.kernels.loads import Load
 from bem.stress import bound, spectra
 from bem.verification import registry
@@ -21,6 +22,7 @@ FACTORS = {"one per cent": 1.01, "sign": -1.0}
 def forget():
     """Spectra of healthy kernels must not serve a broken one, nor the other way round."""
     convolution._CACHE.kept.clear()
+    layered_hankel._kept.cache_clear()
     for cache in (spectra.SPECTRA, bound._TABLES):
         cache.kept.clear()
         cache.used = 0

@@ -1,4 +1,4 @@
-"""Figures of partial slip: where it sticks, tractions under their bound, force over shift."""
+"""Figures of partial slip and rolling: where it sticks, tractions under their bound, force over shift."""
 
 from __future__ import annotations
 
@@ -25,7 +25,9 @@ def _sticks(run: Any, figure: Figure) -> None:
     left.set_xlabel(label("x", unit))
     left.set_ylabel(label("y", unit))
     slid = np.where(data["stick_state"].values > 0, data["slip"].values, np.nan)
-    map_of(figure, right, x, y, slid, "distance slid", "m", cmap="viridis")
+    rolls = data["slip"].attrs.get("units", "m") == "1"
+    words, of = ("sliding over rolling velocity", "") if rolls else ("distance slid", "m")
+    map_of(figure, right, x, y, slid, words, of, cmap="viridis")
 
 
 def _section(run: Any, figure: Figure) -> None:
@@ -35,7 +37,7 @@ def _section(run: Any, figure: Figure) -> None:
     row = int(np.argmax(pressure.sum(axis=0)))
     axes = figure.add_subplot()
     factor, unit = prefix([float(np.ptp(x))], "m")
-    friction = float(run.scene["push"]["friction"])
+    friction = float((run.scene.get("push") or run.scene["roll"])["friction"])
     scale, pressure_unit = prefix([float(friction * pressure[:, row].max())], "Pa")
     for sign in (1, -1):
         axes.plot(x * factor, sign * friction * pressure[:, row] * scale, color="0.6", linewidth=0.9,
@@ -68,7 +70,8 @@ def _two_dimensional(run: Any) -> bool:
 FIGURES = (
     FigureKind(
         "slip-map",
-        "Left: where the surfaces stick and where they slip in the last step; right: how far they slid in all steps.",
+        "Left: where the surfaces stick and where they slip in the last step; right: how far they slid in all steps, "
+        "or how fast while they roll.",
         ("x", "y", "stick_state", "slip"),
         _sticks,
         (8.0, 3.6),

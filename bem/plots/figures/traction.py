@@ -2,66 +2,40 @@
 
 from __future__ import annotations
 
-from itertools import product
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from bem.plots.cases import axes_of, first_case, grouped, label_of
+from bem.plots.cases import axes_of, first_case, grouped
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, prefix
+from bem.plots.over import COLOURS, axis_of, lines_over
+from bem.plots.style import BLACK, BLUE, GREEN, VERMILION, label, prefix
 from bem.reference_solutions.starved_inlet import starved_film
 
 ALL_CASES = True
-_COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PINK, SKY, BLACK)
-_RATIO = "slide_roll_ratio"
 _CELSIUS = 273.15
 
 
 def _ratio_of(run: Any) -> str | None:
     """The axis of slide-to-roll ratios, if the cases lie along one."""
-    found = [axis for axis in axes_of(run.dataset) if axis.endswith(_RATIO) and run.dataset.sizes[axis] > 1]
-    return found[0] if found else None
+    return axis_of(run, "slide_roll_ratio")
 
 
 def _curve(run: Any, figure: Figure) -> None:
     data, ratio = run.dataset, _ratio_of(run)
     hot = "film_temperature" in data.variables
     panels = figure.subplots(2 if hot else 1, 1, sharex=True, squeeze=False)[:, 0]
-    _lines(panels[0], data, "traction_coefficient", ratio, 0.0)
+    lines_over(panels[0], data, "traction_coefficient", ratio)
     panels[0].set_ylabel("traction coefficient")
     if (data["traction_coefficient"].values >= 0).all():
         panels[0].set_ylim(0)
     if hot:
-        _lines(panels[1], data, "film_temperature", ratio, _CELSIUS)
+        lines_over(panels[1], data, "film_temperature", ratio, _CELSIUS)
         panels[1].set_ylabel("oil in the contact (°C)")
     panels[-1].set_xlabel("slide-to-roll ratio")
     if panels[0].get_legend_handles_labels()[1]:
         panels[0].legend()
-
-
-def _lines(axes: Any, data: Any, name: str, ratio: str | None, zero: float) -> None:
-    """A line over the ratio for every place along the other axes."""
-    dims = list(data[name].dims)
-    others = [axis for axis in dims if axis != ratio]
-    order = np.argsort(data[ratio].values)
-    values = np.moveaxis(data[name].values, dims.index(ratio), -1)[..., order] - zero
-    bars = data[f"{name}_error"].values if f"{name}_error" in data.variables else None
-    spread = None if bars is None else np.moveaxis(bars, dims.index(ratio), -1)[..., order]
-    places = product(*(range(data.sizes[axis]) for axis in others))
-    for colour, place in zip(_COLOURS * 9, places, strict=False):
-        words = label_of(data, others, place)
-        axes.errorbar(
-            data[ratio].values[order],
-            values[place],
-            yerr=None if spread is None else spread[place],
-            fmt="o-",
-            markersize=3,
-            capsize=2,
-            color=colour,
-            label=words or None,
-        )
 
 
 def _temperatures(run: Any, figure: Figure) -> None:
@@ -71,7 +45,7 @@ def _temperatures(run: Any, figure: Figure) -> None:
     x = run.dataset["x"].values
     x = x if x.ndim == 1 else first_case(run.dataset)["x"].values
     surfaces = {name: dict(grouped(run, f"{name}_surface_temperature")) for name in ("lower", "upper")}
-    for colour, (case, oil) in zip(_COLOURS, shown, strict=False):
+    for colour, (case, oil) in zip(COLOURS, shown, strict=False):
         axes.plot(x, oil[0] - _CELSIUS, color=colour, label=f"oil, {case}" if case else "oil")
         for name, dash in (("lower", "--"), ("upper", ":")):
             axes.plot(x, surfaces[name][case][0] - _CELSIUS, color=colour, linestyle=dash)

@@ -175,7 +175,7 @@ def _bodies(scene: Any) -> dict[str, Any]:
 def _contact(scene: Any) -> list[Case]:
     grid, bodies, control = build.grid_of(scene.grid), _bodies(scene), scene.contact
     outputs: Any = getattr(scene, "outputs", None)  # the kind `surface-temperature` has none
-    wanted = outputs is not None and (outputs.von_mises or outputs.stresses) and outputs.depths is not None
+    wanted = outputs is not None and outputs.below and outputs.depths is not None
     return [
         Case(
             grid=grid,
@@ -281,6 +281,7 @@ _CASES: dict[str, Callable[[Any], list[Case]]] = {
     "asperities": _asperities,
     "contact": _contact,
     "partial-slip": _contact,
+    "rolling": _contact,
     "surface-temperature": _contact,
     "film": _film,
     "friction": _lubricated,

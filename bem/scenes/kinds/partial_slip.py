@@ -8,17 +8,23 @@ from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from pydantic import model_validator
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans
-from bem.scenes.common import problem
-from bem.scenes.context import Context, tell
+from bem.scenes.context import Context
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, filled
+from bem.scenes.sticking import (
+    FIRST_ORDER,
+    coupled,
+    plan_of_stresses,
+    pressed_together,
+    stresses_under,
+    tell_coupled,
+)
 from bem.scenes.tables.tangential import PushedScene
 
 if TYPE_CHECKING:
@@ -32,23 +38,11 @@ four transforms and vector passes worth two more."""
 PRESSING_STEPS = 16
 """Of bodies that differ: the stick radius of a ball is then 4 % small, of first order in the steps (Spence, tests)."""
 
-_NO_BAR = "of first order in the cell at the edge of stick; compare with the grid of twice the cell"
-
 
 class PartialSlipScene(PushedScene):
     """Two bodies, what presses them together and what pushes them along."""
 
     kind: Literal["partial-slip"] = "partial-slip"
-
-    @model_validator(mode="after")
-    def _friction_in_one_place(self) -> PartialSlipScene:
-        if self.contact.friction != 0:
-            raise problem(
-                f"contact.friction = {self.contact.friction:g}: in this kind traction is not everywhere friction x "
-                "pressure",
-                "push.friction alone",
-            )
-        return self
 
 
 def plan(scene: PartialSlipScene) -> Plan:
@@ -62,7 +56,6 @@ def plan(scene: PartialSlipScene) -> Plan:
     scene.contact.check_load(grid.area)
     points, steps = padded_points(grid.shape, grid.periodic), len(scene.push.path())
     pressing = _pressing_steps(scene)
-    stressed = (scene.lower if scene.outputs.body == "lower" else scene.upper).build()
     return Plan(
         (
             *plans.of_bodies(scene, grid, 1.0),
@@ -92,7 +85,7 @@ def plan(scene: PartialSlipScene) -> Plan:
                 transforms=80.0 + 2 * _TRANSFORMS,
                 points=points,
             ),
-            plans.stresses(grid, stressed, scene.outputs.body, len(scene.outputs.wanted_depths()), fields=1, loads=3),
+            plan_of_stresses(scene, grid),
             plans.figures(grid.cells),
         )
     )
@@ -100,6 +93,7 @@ def plan(scene: PartialSlipScene) -> Plan:
 
 _map = partial(Series, ("x", "y"))
 _step = partial(Series, ("step",))
+_asked = partial(Figure, optional=True, headline=True, no_bar=FIRST_ORDER)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -108,28 +102,31 @@ class PartialSlipRecord(GridRecord):
 
     load: Annotated[float, Figure("N", "load")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid")]
-    force: Annotated[float, Figure("N", "tangential force at the end", headline=True, no_bar=_NO_BAR)]
-    shift: Annotated[float, Figure("m", "shift at the end", headline=True, no_bar=_NO_BAR)]
+    force: Annotated[float, Figure("N", "tangential force at the end", headline=True, no_bar=FIRST_ORDER)]
+    shift: Annotated[float, Figure("m", "shift at the end", headline=True, no_bar=FIRST_ORDER)]
     stick_fraction: Annotated[
-        float, Figure("", "share of the contact that sticks at the end", headline=True, no_bar=_NO_BAR)
+        float, Figure("", "share of the contact that sticks at the end", headline=True, no_bar=FIRST_ORDER)
     ]
     first_stiffness: Annotated[
-        float, Figure("N_m", "force over shift of the first step", headline=True, no_bar=_NO_BAR)
+        float, Figure("N_m", "force over shift of the first step", headline=True, no_bar=FIRST_ORDER)
     ]
-    dissipated: Annotated[float, Figure("J", "energy of friction in all steps", headline=True, no_bar=_NO_BAR)]
+    dissipated: Annotated[float, Figure("J", "energy of friction in all steps", headline=True, no_bar=FIRST_ORDER)]
     dissipated_in_cycle: Annotated[
-        float | None, Figure("J", "energy of friction in the last cycle", optional=True, headline=True, no_bar=_NO_BAR)
+        float | None,
+        Figure("J", "energy of friction in the last cycle", optional=True, headline=True, no_bar=FIRST_ORDER),
     ] = None
     normal_stiffness: Annotated[
-        float | None, Figure("N_m", "normal stiffness of the contact", optional=True, headline=True, no_bar=_NO_BAR)
+        float | None, Figure("N_m", "normal stiffness of the contact", optional=True, headline=True, no_bar=FIRST_ORDER)
     ] = None
     tangential_stiffness: Annotated[
-        float | None, Figure("N_m", "tangential stiffness before slip", optional=True, headline=True, no_bar=_NO_BAR)
+        float | None,
+        Figure("N_m", "tangential stiffness before slip", optional=True, headline=True, no_bar=FIRST_ORDER),
     ] = None
     max_von_mises: Annotated[
-        float | None, Figure("Pa", "highest von Mises stress at the end", optional=True, headline=True, no_bar=_NO_BAR)
+        float | None,
+        Figure("Pa", "highest von Mises stress at the end", optional=True, headline=True, no_bar=FIRST_ORDER),
     ] = None
-    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True, no_bar=_NO_BAR)] = None
+    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True, no_bar=FIRST_ORDER)] = None
     contact_residual: Annotated[float, Figure("", "relative residual of the contact")]
     slip_residual: Annotated[float, Figure("", "largest relative residual of the steps")]
     convolutions: Annotated[float, Figure("", "convolutions of all steps")]
@@ -163,22 +160,13 @@ class _Path:
 
 def run(scene: PartialSlipScene, context: Context) -> PartialSlipRecord:
     """Solve the contact, then step after step."""
-    from bem.contact import solve_contact
-
     grid = build.grid_of(scene.grid)
-    gap = build.undeformed_gap(scene, grid, *build.both_heights(scene, grid, context))
-    with context.timer("contact"):
-        asked = scene.contact.prescribed(grid.area) | scene.contact.accuracy()
-        contact = solve_contact(gap, build.operator_of(scene, grid, 0.0), **asked)
-    tell(context, contact.notes)
+    gap, contact = pressed_together(scene, grid, context)
     with context.timer("partial slip"):
         path = kept(context) or _pressed(scene, grid, gap, contact)
         path = _pushed(scene, grid, contact, path, context)
-    if _coupled(scene):
-        context.note(
-            "the bodies differ in elasticity, so that tractions change the pressure: the pressure is that of the "
-            "contact without friction"
-        )
+    tell_coupled(scene, context)
+    if coupled(scene):
         steps = _pressing_steps(scene)
         context.note(
             f"pressure alone makes bodies that differ slip: the load comes in {steps} steps, and what sticks is known "
@@ -191,9 +179,8 @@ def run(scene: PartialSlipScene, context: Context) -> PartialSlipRecord:
     if scene.outputs.stiffness:
         with context.timer("stiffness"):
             extra |= _stiffness(scene, grid, gap, contact, context)
-    if scene.outputs.wanted_depths():
-        with context.timer("stresses"):
-            extra |= _stresses(scene, grid, contact, path)
+    assert path.last is not None
+    extra |= stresses_under(scene, grid, contact.pressure, path.last.traction, context)
     return _record(scene, grid, contact, path, extra)
 
 
@@ -224,32 +211,9 @@ def _stiffness(
     }
 
 
-def _stresses(scene: PartialSlipScene, grid: Grid, contact: ContactSolution, path: _Path) -> dict[str, Any]:
-    """Von Mises stress under the pressure and the tractions that are there at the end."""
-    from bem.stress import stress_below
-
-    assert path.last is not None
-    body, sign = scene.stressed()
-    depths = np.array(scene.outputs.wanted_depths())
-    below = stress_below(contact.pressure, grid, body, depths, traction=sign * path.last.traction)
-    return {
-        "depth": below.depths,
-        "von_mises": below.von_mises,
-        "max_von_mises": below.max_von_mises,
-        "max_von_mises_depth": below.max_von_mises_depth,
-    }
-
-
-def _coupled(scene: PartialSlipScene) -> bool:
-    from bem.convolution import couples
-
-    bodies = build.bodies_of(scene)
-    return couples(bodies if isinstance(bodies, tuple) else (bodies,))
-
-
 def _pressing_steps(scene: PartialSlipScene) -> int:
     given = scene.push.pressing_steps
-    return given if given is not None else PRESSING_STEPS if _coupled(scene) else 1
+    return given if given is not None else PRESSING_STEPS if coupled(scene) else 1
 
 
 def _pressed(scene: PartialSlipScene, grid: Grid, gap: FloatArray, contact: ContactSolution) -> _Path:
@@ -357,5 +321,13 @@ KIND = Kind.of(
     PartialSlipRecord,
     "pressed bodies pushed along, once or there and back: where they stick and slip, loop, energy of friction",
     resolve=PartialSlipScene.resolved,
-    figures=("slip-map", "traction-section", "slip-loop", "pressure-map", "von-mises-section", "von-mises-depth"),
+    figures=(
+        "contact-stiffness",
+        "slip-map",
+        "traction-section",
+        "slip-loop",
+        "pressure-map",
+        "von-mises-section",
+        "von-mises-depth",
+    ),
 )

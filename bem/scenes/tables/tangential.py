@@ -1,16 +1,16 @@
-"""How pressed bodies are pushed along x, there and back: the table of the kind partial-slip."""
+"""How pressed bodies are pushed along x, there and back, or roll: tables of the kinds partial-slip and rolling."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Self
 
 import numpy as np
 from pydantic import Field, model_validator
 
 from bem.grid import FloatArray
-from bem.scenes.common import Force, Table, exactly_one
+from bem.scenes.common import Force, Table, exactly_one, problem
 from bem.scenes.tables.pressing import StressedScene, StressOutputs
-from bem.scenes.units import Length, Ratio
+from bem.scenes.units import InverseLength, Length, Ratio
 
 
 class PushScene(Table):
@@ -47,6 +47,20 @@ class PushScene(Table):
         return np.concatenate([rise, np.tile(cycle, self.cycles)])
 
 
+class StickingScene(StressedScene):
+    """A contact whose surfaces stick and slip."""
+
+    @model_validator(mode="after")
+    def _friction_in_one_place(self) -> Self:
+        if self.contact.friction != 0:
+            raise problem(
+                f"contact.friction = {self.contact.friction:g}: in this kind traction is not everywhere friction x "
+                "pressure",
+                "push.friction or roll.friction alone",
+            )
+        return self
+
+
 class SlipOutputs(StressOutputs):
     """What is wanted besides pressure, tractions and slip."""
 
@@ -54,8 +68,36 @@ class SlipOutputs(StressOutputs):
     """Normal and tangential stiffness of the contact before anything slips."""
 
 
-class PushedScene(StressedScene):
+class PushedScene(StickingScene):
     """A contact that is pushed along x."""
 
     push: PushScene
     outputs: SlipOutputs = SlipOutputs()
+
+
+class RollScene(Table):
+    """Steady rolling along +x: creepage and spin of the lower body against the upper one over the rolling velocity, or
+    the force along x that is carried over, of which the creepage follows."""
+
+    friction: Annotated[Ratio, Field(gt=0, le=10)]
+    creepage: Annotated[Ratio, Field(ge=-1, le=1)] = 0.0
+    """Along x, the direction of rolling."""
+    creepage_across: Annotated[Ratio, Field(ge=-1, le=1)] = 0.0
+    """Along y: a wheel that runs at an angle."""
+    spin: InverseLength = 0.0
+    """Angular velocity about the normal, from x to y, over the rolling velocity."""
+    share: Annotated[Ratio, Field(gt=-1, lt=1)] | None = None
+    """Force along x on the lower body over friction x load, instead of a creepage."""
+    tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = 1e-7
+
+    @model_validator(mode="after")
+    def _one_control(self) -> RollScene:
+        if self.share is not None and (self.creepage or self.creepage_across):
+            raise problem("share and a creepage: the creepage follows from the force", "one of them")
+        return self
+
+
+class RolledScene(StickingScene):
+    """A contact that rolls along x."""
+
+    roll: RollScene
