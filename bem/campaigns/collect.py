@@ -88,7 +88,8 @@ def _summary(
     each = repeated or 1
     told = {name: item for name, item in known.items() if isinstance(item, Figure) and _is_told(name, item, records)}
     common = {name: item for name, item in told.items() if item.dimensions == (name,)}
-    barred, scattering = _barred(records) | _never_barred(campaign).keys(), set(campaign.kind.record.scatters)
+    barred = _barred(records) | _never_barred(campaign).keys()
+    scattering = set(campaign.kind.record.scatters) | _scattering(campaign)
     groups = []
     for index, place in enumerate(np.ndindex(*(len(axis) for axis in outer))):
         own = {
@@ -124,7 +125,13 @@ def _barred(records: Sequence[Record | None]) -> set[str]:
 def _never_barred(campaign: Campaign) -> Mapping[str, str]:
     """Why figures of the kind never have a bar; none of them where no error bars are wanted."""
     wanted = getattr(getattr(campaign.scene, "outputs", None), "errors", True)
-    return without_bars(campaign.kind.record) if wanted else {}
+    free = _scattering(campaign)
+    return {name: why for name, why in without_bars(campaign.kind.record).items() if wanted and name not in free}
+
+
+def _scattering(campaign: Campaign) -> set[str]:
+    """Figures that have no bar in general, but whose scatter is one under the models of all cases."""
+    return set.intersection(*(set(campaign.kind.scattering(case.scene)) for case in campaign.cases))
 
 
 def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[str]:

@@ -115,14 +115,23 @@ def _region(
 
 def count_spots(pressure: FloatArray, grid: Grid) -> int:
     """How many separate spots of contact a pressure (nx, ny) has; cells of one hang together through their sides."""
-    return int(_count_spots(np.ascontiguousarray(pressure) > 0, grid.periodic))
+    inside = np.ascontiguousarray(pressure) > 0
+    return int(_join_spots(inside, grid.periodic, np.arange(inside.size)))
+
+
+def label_spots(pressure: FloatArray, grid: Grid) -> NDArray[np.int64]:
+    """The number of the spot of contact that each cell (nx, ny) is in, 1, 2, ... in the order of their first cells, 0
+    outside; as `count_spots` counts them."""
+    inside = np.ascontiguousarray(pressure) > 0
+    parent = np.arange(inside.size)
+    _join_spots(inside, grid.periodic, parent)
+    return np.asarray(_number_spots(inside, parent))
 
 
 @_strict
-def _count_spots(inside, wraps):  # type: ignore[no-untyped-def]
-    """Cells in contact less the sides that join two trees of them (union-find)."""
+def _join_spots(inside, wraps, parent):  # type: ignore[no-untyped-def]
+    """Cells in contact less the sides that join two trees of them: the number of trees. Fills the union-find."""
     nx, ny = inside.shape
-    parent = np.arange(nx * ny)
     count = 0
     for i in range(nx):
         for j in range(ny):
@@ -136,6 +145,23 @@ def _count_spots(inside, wraps):  # type: ignore[no-untyped-def]
                     count -= first != second
                     parent[first] = second
     return count
+
+
+@_strict
+def _number_spots(inside, parent):  # type: ignore[no-untyped-def]
+    nx, ny = inside.shape
+    names = np.zeros(nx * ny, np.int64)
+    labels = np.zeros((nx, ny), np.int64)
+    count = 0
+    for i in range(nx):
+        for j in range(ny):
+            if inside[i, j]:
+                root = _root(parent, i * ny + j)
+                if names[root] == 0:
+                    count += 1
+                    names[root] = count
+                labels[i, j] = names[root]
+    return labels
 
 
 @_strict

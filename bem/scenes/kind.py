@@ -42,6 +42,8 @@ class Kind:
     headline : keys of the summary to show first; the figures that the record marks so follow.
     resolve : fills in what files decide, first of all. axes : what a scene runs over.
     summarise : further keys of the summary, from all records. volumes : variables for ParaView.
+    scattering : figures that its record says never have an error bar, but whose scatter over repetitions is one under
+        the models that a scene has chosen.
     always_lists : whether the summary has lists for a single case too. resolutions : what is refined where an accuracy
         is asked for.
     """
@@ -58,6 +60,7 @@ class Kind:
     axes: Callable[[Any], tuple[Axis, ...]] = lambda scene: ()
     summarise: Callable[[Any, Sequence[Axis], Sequence[Any]], dict[str, Any]] = lambda scene, axes, records: {}
     volumes: Callable[[Any], tuple[str, ...]] = lambda scene: ()
+    scattering: Callable[[Any], tuple[str, ...]] = lambda scene: ()
     always_lists: bool = False
     resolutions: tuple[Resolution, ...] = ()
 
@@ -67,8 +70,8 @@ class Kind:
 
     @classmethod
     def of(cls, file: Mapping[str, Any], model: type[SceneModel], record: type[Record], title: str, **own: Any) -> Kind:
-        """That of a file, `vars()` at its end: `plan`, `run`, `resolve`, `axes`, `summarise` and `volumes` are its
-        functions of these names, the kind's name is the model's; `own` are the other parameters."""
+        """That of a file, `vars()` at its end: its functions `plan`, `run`, `resolve`, `axes`, `summarise`, `volumes`
+        and `scattering`; the kind's name is the model's; `own` are the other parameters."""
         parts = {name: file[name] for name in _PARTS if name in file}
         name = model.model_fields["kind"].default
         return cls(**({"name": name, "title": title, "model": model, "record": record} | parts | own))
@@ -133,7 +136,7 @@ def with_checksums(table: Any) -> Any:
     return table.model_copy(update=changed) if changed else table
 
 
-_PARTS = ("plan", "run", "resolve", "axes", "summarise", "volumes")
+_PARTS = ("plan", "run", "resolve", "axes", "summarise", "volumes", "scattering")
 _registered: dict[str, Kind] = {}
 
 

@@ -23,9 +23,9 @@ from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.context import Context
 from bem.scenes.laws import LawKey
 from bem.scenes.planner import Step, padded_points, stress_kernel_seconds
-from bem.scenes.records import Figure, Record, Series
+from bem.scenes.records import Figure, Record, Series, without_bars
 from bem.scenes.units import Length, WearCoefficient
-from bem.wear.criterion import VonMises, WearCriterion
+from bem.wear.criterion import Detachment, VonMises
 from bem.wear.removal import Cap, RemovalLaw
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ class WearDepthsScene(Table):
 class WearScenePart(Table):
     """The replaceable parts of the wear model; see `bem.wear.WearModel`."""
 
-    criterion: Annotated[WearCriterion, LawKey("criterion")] = VonMises()
+    criterion: Annotated[Detachment, LawKey("criterion")] = VonMises()
     stress_range: bool = Field(default=False, strict=True)
     refine: Annotated[int, Field(strict=True, ge=1, le=100)] = 10
     refinement: Literal["monotone_cubic", "linear", "exact"] = "monotone_cubic"
@@ -196,8 +196,12 @@ class WornSurface:
     figures: dict[str, Any]
 
     @classmethod
-    def of(cls, scene: Any, initial: tuple[FloatArray, FloatArray], result: RunningIn, grid: Grid) -> WornSurface:
-        """That of a scene's loop, which started from `initial` heights of both bodies."""
+    def of(
+        cls, scene: Any, initial: tuple[FloatArray, FloatArray], result: RunningIn, grid: Grid, load: float
+    ) -> WornSurface:
+        """That of a scene's loop, which started from `initial` heights of both bodies; `load` [N] on the grid."""
+        from bem.wear.outcome import criterion_wear_rate
+
         assert result.pressure is not None
         cycles, particles = result.cycles, scene.sizes.particles(result)
         settled = cycles["cycle"][-scene.cycles.settled :]
@@ -207,6 +211,11 @@ class WornSurface:
             "cycle": np.arange(1, len(cycles) + 1),
             "particles_per_cycle": float(late.size / len(settled)),
             "convolutions_per_cycle": float(cycles["convolutions"].mean()),
+            "criterion_wear_rate": criterion_wear_rate(
+                cycles[-scene.cycles.settled :],
+                load,
+                abs(scene.wear.shift) * grid.spacing[0] * scene.wear.criterion.passes_per_cycle,
+            ),
         }
         return cls(before, after, result.pressure, particles, late, figures)
 
@@ -295,9 +304,15 @@ def mean_sizes(particles: NDArray[np.void], sizes: SizesScene) -> dict[str, Any]
     }
 
 
-def sizes_without_bars(sizes: SizesScene) -> dict[str, None]:
+def sizes_without_bars(scene: Any) -> dict[str, None]:
     """The reported sizes, where the mean that is reported follows the mesh."""
-    return dict.fromkeys(f"reported_{quantity}" for quantity in _QUANTITIES) if "number" in sizes.report else {}
+    follows = "number" in scene.sizes.report and not scene.wear.criterion.has_length
+    return dict.fromkeys(f"reported_{quantity}" for quantity in _QUANTITIES) if follows else {}
+
+
+def scattering(record: type[Record], scene: Any) -> tuple[str, ...]:
+    """Figures of a record that follow the mesh under the source's criterion, where the scene's has a length."""
+    return tuple(without_bars(record)) if scene.wear.criterion.has_length else ()
 
 
 def mean_radii(particles: NDArray[np.void], sizes: SizesScene, *names: str) -> dict[str, float]:

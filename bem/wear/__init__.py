@@ -1,8 +1,9 @@
 """Wear: which pieces come off, how large, what shape, and how the surface settles (thesis, papers B, C and D).
 
-`cycle` is one sliding cycle, `running_in` the loop; `criterion` says where material yields, `segmentation` and
-`yielded_runs` find pieces there, `removal` what leaves with them; `mixed` is the contact of a lubricated cycle. Names
-are loaded when first used, so that the criteria cost no solver.
+`cycle` is one sliding cycle, `running_in` the loop. A criterion (`criterion`) is given what acts on a body
+(`loads`) and says what comes off: `yielding` where it yields, `segmentation` and `yielded_runs` pieces there, `removal`
+what leaves with them, `junctions`, `fatigue`, `lengths` what criteria with a length need; `mixed` is the contact of a
+lubricated cycle. Names are loaded when first used, so that the criteria cost no solver.
 
 Sees contacts, stresses, particles and mixed lubrication; no scene, no file. Verified in tests/wear: volumes are what
 the surface loses, pieces those of labelling every voxel, resumed runs the same bits; against papers C and D in the
@@ -21,20 +22,11 @@ if TYPE_CHECKING:
         WearSetup,
         dry_contact,
         wear_cycle,
-        yielded_pieces,
     )
-    from bem.wear.running_in import (
-        RunningIn,
-        RunningInState,
-        Settled,
-        advance,
-        equivalent_radius,
-        initial_state,
-        pack_state,
-        run_in,
-        unpack_state,
-    )
+    from bem.wear.running_in import RunningIn, Settled, advance, equivalent_radius, run_in
     from bem.wear.segmentation import Segmentation, describe_pieces, find_particles, refine_depths, segment
+    from bem.wear.state import RunningInState, initial_state, pack_state, unpack_state
+    from bem.wear.yielding import yielded_pieces
 
 __all__ = [
     "ContactOutcome",
@@ -65,12 +57,11 @@ __getattr__ = loader(
     {
         "cycle": [
             *("ContactOutcome", "ContactStep", "WearModel", "WearSetup"),
-            *("dry_contact", "wear_cycle", "yielded_pieces"),
+            *("dry_contact", "wear_cycle"),
         ],
-        "running_in": [
-            *("RunningIn", "RunningInState", "Settled", "advance", "equivalent_radius"),
-            *("initial_state", "pack_state", "run_in", "unpack_state"),
-        ],
+        "running_in": ["RunningIn", "Settled", "advance", "equivalent_radius", "run_in"],
         "segmentation": ["Segmentation", "describe_pieces", "find_particles", "refine_depths", "segment"],
+        "state": ["RunningInState", "initial_state", "pack_state", "unpack_state"],
+        "yielding": ["yielded_pieces"],
     },
 )

@@ -24,7 +24,7 @@ from bem.friction.rough_contact import RoughContact, boundary_traction, rough_co
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 from bem.wear.cycle import ContactOutcome
-from bem.wear.running_in import pack_table, unpack_table
+from bem.wear.state import pack_table, unpack_table
 
 MIXED_FIELDS = np.dtype(
     [

@@ -1,6 +1,6 @@
 """Figures of a finished wear loop: strips of the surface, sizes of particles over cycles.
 
-Knows heights, pressures and the tables of `wear.running_in`; no scene. Verified in tests/wear/test_outcome.py.
+Knows heights, pressures and the tables of `wear.state`; no scene. Verified in tests/wear/test_outcome.py.
 """
 
 from __future__ import annotations
@@ -57,6 +57,12 @@ def settled_means(cycles: NDArray[np.void], area: float) -> SettledMeans:
         float((cycles["contact_load"] / cycles["contact_area"]).mean()),
         float(cycles["volume"].mean()),
     )
+
+
+def criterion_wear_rate(cycles: NDArray[np.void], load: float, slide: float) -> float | None:
+    """What leaves by load and distance [m^3/(N m)], of rows of `CYCLE_FIELDS` with a slide [m] each, under a load [N];
+    None where nothing slides."""
+    return float(cycles["volume"].mean() / (load * slide)) if slide > 0 else None
 
 
 def sizes_over_cycles(cycles: ArrayLike, particles: NDArray[np.void]) -> tuple[FloatArray, FloatArray]:

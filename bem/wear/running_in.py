@@ -9,8 +9,8 @@ Knows cycles (`wear.cycle`) and records; no scene, no file. Verified in tests/we
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -20,116 +20,12 @@ from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.representation import tabled
-from bem.wear.cycle import (
-    LOWER,
-    UPPER,
-    ContactOutcome,
-    ContactStep,
-    Removal,
-    SurfaceLoad,
-    WearModel,
-    WearSetup,
-    dry_contact,
-    wear_cycle,
-)
+from bem.wear.criterion import Detachment
+from bem.wear.cycle import ContactOutcome, ContactStep, WearModel, WearSetup, dry_contact, wear_cycle
+from bem.wear.loads import LOWER, UPPER, Removal, SurfaceLoad
 from bem.wear.outcome import contact_strip
 from bem.wear.segmentation import describe_pieces
-
-PARTICLE_FIELDS = np.dtype(
-    [
-        ("cycle", np.int32),
-        ("body", np.int8),
-        ("volume", np.float64),
-        ("length", np.float64),
-        ("width", np.float64),
-        ("thickness", np.float64),
-        ("x", np.float64),
-        ("y", np.float64),
-        ("columns", np.int32),
-        ("truncated", np.bool_),
-    ]
-)
-"""A particle as a row of a table: SI units, the fields of `Particle` without its columns."""
-
-CYCLE_FIELDS = np.dtype(
-    [
-        ("cycle", np.int32),
-        ("particles", np.int32),
-        ("volume", np.float64),
-        ("contact_area", np.float64),
-        ("plastic_area", np.float64),
-        ("contact_load", np.float64),
-        ("friction", np.float64),
-        ("minimum_film", np.float64),
-        ("rms_height", np.float64),
-        ("residual", np.float64),
-        ("convolutions", np.float64),
-        ("depths_computed", np.int32),
-        ("converged", np.bool_),
-    ]
-)
-"""A cycle as a row of a table: SI units; `rms_height` is Sq of the wearing surface inside the contact strip."""
-
-TIME_FIELDS = np.dtype([("contact", np.float64), ("stress", np.float64), ("particles", np.float64)])
-
-
-@dataclass(frozen=True, eq=False)
-class RunningInState:
-    """All that the next cycle needs, and the record so far.
-
-    heights : of the lower and the upper body; the counterface may be longer along x than the grid, and passes through.
-    offset : cells that the counterface has slid. pressure : of the last cycle, None before the first.
-    removed : what left from each column of the (first) wearing body in the last cycle [m], None before the first.
-    """
-
-    cycle: int
-    heights: tuple[FloatArray, FloatArray]
-    offset: int
-    pressure: FloatArray | None
-    removed: FloatArray | None
-    cycles: NDArray[np.void]
-    particles: NDArray[np.void]
-    times: NDArray[np.void]
-
-
-def pack_state(state: RunningInState) -> dict[str, Any]:
-    """A state as plain arrays and numbers, for a checkpoint."""
-    return {
-        "cycle": state.cycle,
-        "lower_heights": state.heights[LOWER],
-        "upper_heights": state.heights[UPPER],
-        "offset": state.offset,
-        "pressure": state.pressure,
-        "removed": state.removed,
-        **{name: pack_table(getattr(state, name)) for name in ("cycles", "particles", "times")},
-    }
-
-
-def unpack_state(packed: dict[str, Any]) -> RunningInState:
-    """The state that was packed."""
-    return RunningInState(
-        cycle=int(packed["cycle"]),
-        heights=(packed["lower_heights"], packed["upper_heights"]),
-        offset=int(packed["offset"]),
-        pressure=packed["pressure"],
-        removed=packed["removed"],
-        cycles=unpack_table(packed["cycles"], CYCLE_FIELDS),
-        particles=unpack_table(packed["particles"], PARTICLE_FIELDS),
-        times=unpack_table(packed["times"], TIME_FIELDS),
-    )
-
-
-def pack_table(table: NDArray[np.void]) -> dict[str, NDArray[Any]]:
-    """A table as one plain array per column."""
-    return {name: np.ascontiguousarray(table[name]) for name in table.dtype.names or ()}
-
-
-def unpack_table(columns: dict[str, NDArray[Any]], fields: np.dtype[np.void]) -> NDArray[np.void]:
-    """The table of those columns."""
-    table = np.zeros(len(next(iter(columns.values()))), fields)
-    for name in fields.names or ():
-        table[name] = columns[name]
-    return table
+from bem.wear.state import CYCLE_FIELDS, PARTICLE_FIELDS, TIME_FIELDS, RunningInState, initial_state
 
 
 @dataclass(frozen=True)
@@ -195,20 +91,6 @@ def equivalent_radius(volume: FloatArray) -> FloatArray:
     return np.asarray(np.cbrt(3 * volume / (4 * np.pi)))
 
 
-def initial_state(lower_heights: FloatArray, upper_heights: FloatArray) -> RunningInState:
-    """The state before the first cycle."""
-    return RunningInState(
-        cycle=0,
-        heights=(np.array(lower_heights, dtype=np.float64), np.array(upper_heights, dtype=np.float64)),
-        offset=0,
-        pressure=None,
-        removed=None,
-        cycles=np.zeros(0, CYCLE_FIELDS),
-        particles=np.zeros(0, PARTICLE_FIELDS),
-        times=np.zeros(0, TIME_FIELDS),
-    )
-
-
 def run_in(  # reason: the arguments are a promise to users' scripts; behind it surfaces, a set-up, a model, a state
     lower_heights: FloatArray,
     upper_heights: FloatArray,
@@ -222,6 +104,7 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
     hardness: float | None = None,
     cycles: int = 200,
     model: WearModel | None = None,
+    criterion: str | Mapping[str, Any] | Detachment | None = None,
     stop: Settled | None = None,
     contact_step: ContactStep | None = None,
     state: RunningInState | None = None,
@@ -239,7 +122,9 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
     load : on the grid [N]. depths : (nz,) [m], increasing. gap : macroscopic, of the smooth bodies [m]; None is flat.
     friction : traction over pressure, along +x on the lower body where positive, along -x where negative.
     hardness : cap of the contact pressure [Pa]; None takes the softer surface's.
-    cycles : how many, counted from the start of the run. model : the replaceable parts. stop : rule to end sooner.
+    cycles : how many, counted from the start of the run. model : the replaceable parts. criterion : what comes off, in
+        place of the model's: a name, a table with `kind` and parameters, or a `Detachment`. stop : rule to end
+        sooner.
     contact_step : the contact of one cycle; None is the dry contact of these arguments, `wear.mixed.MixedContact` is
         that of a lubricated one. state : to go on from; the heights given are then ignored.
     callback : called with the state after every cycle (checkpoints, progress).
@@ -250,6 +135,8 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
     ConvergenceError : a contact that did not converge; says in which cycle.
     """
     choices = model if model is not None else WearModel()
+    if criterion is not None:
+        choices = replace(choices, criterion=criterion)
     setup = WearSetup(
         grid=grid,
         bodies=bodies,
@@ -297,20 +184,24 @@ def advance(
     start = None if state.pressure is None else _slide(state.pressure, offset - state.offset, setup.grid.periodic[0])
     last = _last_loads(state, counterface, offset) if model.stress_range else (None, None)
     began = time.perf_counter()
-    contact, removals = wear_cycle((facing[LOWER], facing[UPPER]), setup, model, contact_step, start, last)
+    kept = [_facing(state.memories[body], offset if body == counterface else 0, rows) for body in (LOWER, UPPER)]
+    memories = (kept[LOWER], kept[UPPER])
+    contact, removals = wear_cycle((facing[LOWER], facing[UPPER]), setup, model, contact_step, start, last, memories)
     if contact.status != Status.CONVERGED:
         raise ConvergenceError(
             f"cycle {cycle}: the contact ended with status {contact.status.value!r} at residual "
             f"{contact.residual:.1e}; {contact.status.message}"
         )
-    heights = list(state.heights)
+    heights, remembered = list(state.heights), list(state.memories)
     table = []
     for removal in removals:
         body = removal.body
         if body == counterface:
             heights[body] = _remove_from_window(heights[body], removal.pieces.thickness, offset)
+            remembered[body] = _put_back(state.memories[body], removal.memory, len(heights[body]), offset)
         else:
             heights[body] = heights[body] - removal.pieces.thickness
+            remembered[body] = removal.memory
         table.append(_particle_rows(removal, setup.grid, cycle))
     elapsed = time.perf_counter() - began
     stress_time = sum(removal.stress_time for removal in removals)
@@ -329,6 +220,7 @@ def advance(
             state.times,
             np.array([(elapsed - stress_time - pieces_time, stress_time, pieces_time)], dtype=TIME_FIELDS),
         ),
+        memories=(remembered[LOWER], remembered[UPPER]),
     )
 
 
@@ -366,6 +258,25 @@ def _remove_from_window(heights: FloatArray, thickness: FloatArray, offset: int)
     worn = heights.copy()
     worn[(np.arange(thickness.shape[0]) - offset) % heights.shape[0]] -= thickness
     return worn
+
+
+def _facing(memory: FloatArray | None, offset: int, rows: int) -> FloatArray | None:
+    """What is remembered (planes, rows, ny) of the rows that face the grid."""
+    return None if memory is None else np.take(memory, np.arange(rows) - offset, axis=1, mode="wrap")
+
+
+def _put_back(whole: FloatArray | None, facing: FloatArray | None, rows: int, offset: int) -> FloatArray | None:
+    """What is remembered of all rows of the counterface, with what was found on the grid."""
+    if facing is None:
+        return whole
+    planes = max(len(facing), 0 if whole is None else len(whole))
+    kept = np.zeros((planes, rows, facing.shape[2]))
+    if whole is not None:
+        kept[: len(whole)] = whole
+    places = (np.arange(facing.shape[1]) - offset) % rows
+    kept[:, places] = 0.0
+    kept[: len(facing), places] = facing
+    return kept
 
 
 def _last_loads(state: RunningInState, counterface: int, offset: int) -> tuple[SurfaceLoad | None, SurfaceLoad | None]:

@@ -341,6 +341,16 @@ OUTCOMES = {
         (wear_outcome([CELL] * 3 + [4 * CELL]), "75 % of the particles, with 4.5 % of their volume"),
         wear_outcome([CELL] + [4 * CELL] * 3),
     ),
+    "particles_as_large_as_the_grid": (
+        "wear-steel-steel",
+        (wear_outcome([CELL, 10e-6]), "10 um long on a grid of 12.1 um"),
+        wear_outcome([CELL, 6e-6]),
+    ),
+    "nothing_comes_off": (
+        "wear-steel-steel",
+        (wear_outcome([]), "nothing came off by the criterion von_mises"),
+        wear_outcome([CELL]),
+    ),
     "particles_cut_by_the_depths": (
         "wear-steel-steel",
         (wear_outcome([CELL], truncated_particles=30, particles_per_cycle=10.0), "6 % of the settled particles"),
@@ -362,6 +372,12 @@ def test_running_in_tells_of_particles_of_one_cell_by_their_mean():
     found = list(check(facts, Outcome({"number_mean_radius_nm": [300.0, 500.0, 0.0]}, {})))
     assert "450 nm in 1 of 3 runs" in " ".join(found)
     assert list(check(facts, Outcome({"number_mean_radius_nm": [400.0]}, {}))) == []
+
+
+@pytest.mark.parametrize(("criterion", "words"), [("junction", "must be 426 nm wide"), ("low_cycle_fatigue", "passes")])
+def test_nothing_comes_off_and_why(criterion, words):
+    facts = facts_of("wear-steel-steel", f"wear.criterion={criterion}")
+    assert words in " ".join(OUTCOME_CHECKS["nothing_comes_off"](facts, wear_outcome([])))
 
 
 def test_every_check_has_its_two_tests():

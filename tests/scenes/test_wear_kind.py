@@ -133,3 +133,53 @@ def test_killed_ten_times_it_ends_in_the_same_bits(scene_file, tmp_path):
     for key in first:
         if not key.endswith("seconds") and key not in ("wall_time_s", "seconds_by_stage", "scene"):
             assert first[key] == second[key], key
+
+
+@pytest.mark.parametrize(
+    ("criterion", "converges"),
+    [
+        ('"von_mises"', False),
+        ('{ kind = "low_cycle_fatigue", passes = 30000 }', False),
+        ('{ kind = "averaged_von_mises", averaging_length = "200 nm" }', True),
+        ('{ kind = "sphere", diameter = "100 nm" }', True),
+        ('{ kind = "junction", surface_energy = "0.02 J/m^2" }', True),
+    ],
+)
+def test_what_follows_the_mesh_has_a_bar_where_the_criterion_has_a_length(tmp_path, criterion, converges):
+    """The scatter over repetitions; and the wear rate is what left by load and distance."""
+    path = tmp_path / "scene.toml"
+    path.write_text(WEAR.replace("repetitions = 1", "repetitions = 2") + f"[wear]\ncriterion = {criterion}\n")
+    found = campaign(path)
+    summary = compute(found).outcome.summary
+    error = summary["number_mean_equivalent_radius_nm_error"]
+    assert (error is not None) is converges
+    if converges:
+        spread = summary["number_mean_equivalent_radius_nm_spread"]
+        assert error == pytest.approx(spread / np.sqrt(2), rel=1e-9)
+    grid, load = found.scene.domain.at(found.scene.cylinder, 0.0)
+    slid = 3 * grid.spacing[0] * found.scene.wear.criterion.passes_per_cycle
+    rate = 1e-9 * summary["worn_volume_per_cycle_um3"] / (load * slid)  # um^3 to mm^3
+    assert rate > 0
+    assert summary["criterion_wear_rate_mm3_Nm"] == pytest.approx(rate, rel=1e-9)
+
+
+def test_one_variant_without_a_length_leaves_no_bars(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        WEAR.replace("repetitions = 1", "repetitions = 2")
+        + '[wear]\ncriterion = "junction"\n'
+        + '[[variants]]\nname = "with"\n[[variants]]\nname = "without"\ncriterion = "von_mises"\n'
+    )
+    summary = compute(campaign(path)).outcome.summary
+    assert summary["number_mean_equivalent_radius_nm_error"] == [None, None]
+
+
+def test_a_criterion_that_is_not_one_is_named_before_any_work(scene_file):
+    for text, words in (
+        ('{ kind = "junction", surface_energy = "-1 J/m^2" }', "surface_energy"),
+        ('{ kind = "junction", surface_energy = "1 N" }', "surface_energy"),
+        ('{ kind = "sphere", length = "1 nm" }', "length"),
+        ('"grain"', "junction"),
+    ):
+        with pytest.raises(InputError, match=words):
+            load_scene(scene_file(WEAR + f"[wear]\ncriterion = {text}\n"))

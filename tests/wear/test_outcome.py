@@ -5,7 +5,7 @@ import pytest
 
 from bem.grid import Grid
 from bem.wear.outcome import contact_strip, hertz_strip, sizes_over_cycles, strip_wear
-from bem.wear.running_in import PARTICLE_FIELDS
+from bem.wear.state import PARTICLE_FIELDS
 
 
 @pytest.mark.parametrize(("half_width", "rows"), [(0.1, 2), (1.0, 2), (2.0, 4), (100.0, 8)])

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.materials import Body
 from bem.scenes.checks.contact import hertz_pressure_above_hardness, yield_below_the_surface
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import outcome_check
@@ -17,6 +18,7 @@ from bem.scenes.context import Outcome
 _AT_EDGE = 1e-4
 _AT_CAP = 0.1
 _CONTACT = 0.5
+_WIDE = 0.5
 
 
 def _pressures(outcome: Outcome) -> list[NDArray[np.float64]]:
@@ -217,6 +219,47 @@ def _counted(facts: Facts, outcome: Outcome) -> Iterator[str]:
             f"of their volume, are one cell wide ({si(float(cell.min()), 'm')}): their number and means by number are "
             "the mesh's; take a finer grid, or means by volume where their share is small"
         )
+
+
+@outcome_check
+def particles_as_large_as_the_grid(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """A piece that fills the slice says nothing of its size."""
+    length, grid = outcome.variables.get("particle_length"), facts.cases[0].grid
+    if length is None or grid is None or not length.values.size:
+        return
+    largest, side = float(length.values.max()), min(grid.lengths)
+    if largest > _WIDE * side:
+        yield (
+            f"the largest particle is {si(largest, 'm')} long on a grid of {si(side, 'm')}: the grid decides its size; "
+            "take a larger one, or read it as wear of the whole surface"
+        )
+
+
+def _wearing(facts: Facts) -> list[Body]:
+    """The bodies that wear in a wear loop."""
+    bodies, named = facts.cases[0].bodies, facts.scene.wear.wears
+    if named in bodies:
+        return [bodies[named]]
+    if named == "both":
+        return list(bodies.values())
+    return [min(bodies.values(), key=lambda body: body.surface_material.yield_stress or np.inf)]
+
+
+@outcome_check
+def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """No particles: what they would have to be."""
+    if not facts.of_kind("wear") or "particle_length" not in outcome.variables:
+        return
+    if outcome.variables["particle_length"].values.size:
+        return
+    law = facts.scene.wear.criterion
+    words = ""
+    if law.name == "junction":
+        size = min(law.critical_size(body.surface_material) for body in _wearing(facts))
+        words = f"; a junction must be {si(size, 'm')} wide, d* of its surface_energy and strength_ratio"
+    elif law.name == "low_cycle_fatigue":
+        words = "; voxels still have life left: take more cycles.count or passes"
+    yield f"nothing came off by the criterion {law.name}{words}"
 
 
 @outcome_check

@@ -106,7 +106,7 @@ class RunningInRecord(GridRecord):
     scatters: ClassVar[tuple[str, ...]] = (
         *("friction_initial", "friction_run_in", "friction", "boundary_friction_part", "film_friction_part"),
         *("Sq_initial", "Sq_final", "worn_depth", "contact_load_initial", "contact_load", "film_load", "lambda_ratio"),
-        *("minimum_film", "contact_area_fraction"),
+        *("minimum_film", "contact_area_fraction", "criterion_wear_rate"),
     )
     friction_initial: Annotated[float, Figure("", "friction in the first cycle", headline=True)]
     friction_run_in: Annotated[float, Figure("", "friction, mean of the last cycles", headline=True)]
@@ -125,6 +125,9 @@ class RunningInRecord(GridRecord):
     minimum_film: Annotated[float, Figure("nm", "minimum film thickness, run in")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over patch, run in")]
     worn_depth: Annotated[float, Figure("nm", "mean depth worn in Hertz' strip")]
+    criterion_wear_rate: Annotated[
+        float | None, Figure("mm3_Nm", "wear rate of the criterion itself, by load and distance")
+    ]
     particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled", no_bar=wearing.FOLLOWS_CELL)]
     particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle", no_bar=wearing.FOLLOWS_CELL)]
     particles_last_cycles: Annotated[float, Figure("", "particles of the last cycles", no_bar=wearing.FOLLOWS_CELL)]
@@ -205,7 +208,8 @@ def _record(
     from bem.wear.outcome import hertz_strip
 
     setup, cycles, rows = step.setup, result.cycles, step.rows
-    worn, averaged = wearing.WornSurface.of(scene, initial, result, setup.grid), scene.cycles.averaged
+    load = setup.load * setup.grid.lengths[1] / setup.width
+    worn, averaged = wearing.WornSurface.of(scene, initial, result, setup.grid, load), scene.cycles.averaged
     figures = run_in(step, cycles, averaged)
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
     over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume", "particles")}
@@ -242,6 +246,9 @@ def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[Run
     best = least_friction(axes[-3].values, friction)
     inside = best not in (min(scene.hardnesses), max(scene.hardnesses))
     return summary | {"hardness_of_least_friction_Pa": best, "least_friction_inside_range": inside}
+
+
+scattering = partial(wearing.scattering, RunningInRecord)
 
 
 KIND = Kind.of(

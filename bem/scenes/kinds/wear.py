@@ -97,7 +97,7 @@ class WearRecord(wearing.MeanSizes, wearing.ParticleTable):
     scatters: ClassVar[tuple[str, ...]] = (
         *wearing.MeanSizes.scatters,
         *("Sq_initial", "Sq_final", "contact_area_fraction", "mean_contact_pressure", "worn_volume_per_cycle"),
-        "first_cycles_radius",
+        *("first_cycles_radius", "criterion_wear_rate"),
     )
     particles_per_cycle: Annotated[
         float, Figure("", "particles per cycle, settled", headline=True, no_bar=wearing.FOLLOWS_CELL)
@@ -108,6 +108,9 @@ class WearRecord(wearing.MeanSizes, wearing.ParticleTable):
     mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
     worn_volume_per_cycle: Annotated[float, Figure("um3", "volume worn per cycle")]
     first_cycles_radius: Annotated[float, Figure("nm", "volume-mean radius of the particles of the first five cycles")]
+    criterion_wear_rate: Annotated[
+        float | None, Figure("mm3_Nm", "wear rate of the criterion itself, by load and distance", headline=True)
+    ]
     cycles: Annotated[int, Figure("", "cycles", headline=True)]
     truncated_particles: Annotated[int, Figure("", "particles cut off by the deepest depth")]
     cell: Annotated[float, Figure("nm", "root of the cell's area")]
@@ -170,15 +173,21 @@ def run(scene: WearScene, context: Context) -> WearRecord:
         hardness=scene.cylinder.hardness,
         stop=Settled(tolerance=scene.cycles.tolerance) if scene.cycles.stop_when_settled else None,
     )
-    return _record(scene, grid, initial, result)
+    return _record(scene, grid, load, initial, result)
 
 
-def _record(scene: WearScene, grid: Grid, initial: tuple[FloatArray, FloatArray], result: RunningIn) -> WearRecord:
+def _record(
+    scene: WearScene, grid: Grid, share: float, initial: tuple[FloatArray, FloatArray], result: RunningIn
+) -> WearRecord:
     """The figures of a wear loop, means over its settled cycles, and its tables."""
     from bem.particles import volume_mean_radius
     from bem.wear.outcome import contact_strip, settled_means, sizes_over_cycles
 
-    cycles, worn, (load,) = result.cycles, wearing.WornSurface.of(scene, initial, result, grid), scene.cylinder.loads
+    cycles, worn, (load,) = (
+        result.cycles,
+        wearing.WornSurface.of(scene, initial, result, grid, share),
+        scene.cylinder.loads,
+    )
     particles, late = worn.particles, worn.late
     radius, number = sizes_over_cycles(cycles["cycle"], particles)
     return filled(
@@ -201,7 +210,7 @@ def _record(scene: WearScene, grid: Grid, initial: tuple[FloatArray, FloatArray]
         radius=radius,
         particles=number,
         removed=result.state.removed,
-        errors=wearing.sizes_without_bars(scene.sizes),
+        errors=wearing.sizes_without_bars(scene),
     )
 
 
@@ -212,6 +221,9 @@ _PER_PARTICLE = ("cycle", "volume", "length", "width", "thickness", "x", "y")
 def summarise(scene: WearScene, axes: Any, records: Any) -> dict[str, Any]:
     """What the means are of."""
     return {"reported_mean": scene.sizes.report, "smallest_radius_nm": 1e9 * scene.sizes.smallest}
+
+
+scattering = partial(wearing.scattering, WearRecord)
 
 
 KIND = Kind.of(

@@ -25,7 +25,7 @@ from bem.scenes.common import (
 from bem.scenes.laws import LawKey
 from bem.scenes.units import Length, Ratio
 from bem.scenes.wearing import LastCycles, WearDepthsScene
-from bem.wear.criterion import WearCriterion
+from bem.wear.criterion import Detachment
 from bem.wear.removal import RemovalLaw
 
 
@@ -91,7 +91,7 @@ class WearVariantScene(Variant):
     layer_thickness: PositiveLength | None = None
     connectivity: Literal[6, 18, 26] | None = None
     refinement: Literal["monotone_cubic", "linear", "exact"] | None = None
-    criterion: Annotated[WearCriterion, LawKey("criterion")] | None = None
+    criterion: Annotated[Detachment, LawKey("criterion")] | None = None
     removal: Annotated[RemovalLaw, LawKey("removal")] | None = None
 
     def applied(self, scene: Model) -> Model:

@@ -1,36 +1,15 @@
-"""Wear criteria: one scalar from the six stresses, compared with one strength.
-
-To add one, derive from `WearCriterion` and register it, here or in a file of your own; material yields where the
-equivalent stress exceeds the yield stress.
-"""
+"""Criteria of stresses point by point: von Mises (the source's), Tresca, the largest tension. None has a length."""
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.laws import Law, register
-
-
-@dataclass(frozen=True)
-class WearCriterion(Law):
-    """An equivalent stress."""
-
-    family: ClassVar[str] = "criterion"
-
-    @property
-    def von_mises_factor(self) -> float | None:
-        """The largest ratio of this equivalent stress to the von Mises stress of the same state, so that a bound on
-        von Mises bounds it too; None where there is none and nothing may be skipped by that bound."""
-        return None
-
-    @abstractmethod
-    def equivalent_stress(self, stress: FloatArray) -> FloatArray:
-        """Shape (...) of stresses (6, ...) in the order xx, yy, zz, yz, xz, xy, both [Pa]."""
+from bem.laws import register
+from bem.wear.criterion.base import WearCriterion
 
 
 def principal_stresses(stress: FloatArray) -> FloatArray:

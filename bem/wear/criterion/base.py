@@ -1,0 +1,55 @@
+"""What a wear criterion is: given what acts on a body in a cycle, it says what comes off."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from bem.grid import FloatArray
+from bem.laws import Law
+
+if TYPE_CHECKING:
+    from bem.wear.loads import BodyCycle, Removal
+
+
+@dataclass(frozen=True)
+class Detachment(Law):
+    """What comes off a body in a cycle."""
+
+    family: ClassVar[str] = "criterion"
+
+    @property
+    def passes_per_cycle(self) -> float:
+        """Passes of the counterface over a place that one computed cycle stands for: one."""
+        return 1.0
+
+    @property
+    def has_length(self) -> bool:
+        """Whether a length of the material decides the size of pieces, so that it can converge with the mesh."""
+        return False
+
+    @abstractmethod
+    def detach(self, cycle: BodyCycle) -> Removal:
+        """The pieces that come off a body in a cycle, and what is to be remembered of its material."""
+
+
+@dataclass(frozen=True)
+class WearCriterion(Detachment):
+    """What exceeds the yield stress by an equivalent stress and reaches the surface comes off."""
+
+    @property
+    def von_mises_factor(self) -> float | None:
+        """The largest ratio of this equivalent stress to the von Mises stress of the same state, so that a bound on
+        von Mises bounds it too; None where there is none and nothing may be skipped by that bound."""
+        return None
+
+    @abstractmethod
+    def equivalent_stress(self, stress: FloatArray) -> FloatArray:
+        """Shape (...) of stresses (6, ...) in the order xx, yy, zz, yz, xz, xy, both [Pa]."""
+
+    def detach(self, cycle: BodyCycle) -> Removal:
+        """The yielded pieces."""
+        from bem.wear.yielding import yielded_pieces  # kernels and transforms are not loaded for a name
+
+        return yielded_pieces(cycle.loads, cycle.setup, cycle.model, cycle.body)

@@ -1,0 +1,68 @@
+"""Low-cycle fatigue: damage of every voxel, pass by pass, until what is broken reaches the surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from bem.grid import FloatArray
+from bem.laws import parameter, register
+from bem.wear.criterion.stresses import VonMises
+
+if TYPE_CHECKING:
+    from bem.materials import Material
+    from bem.wear.loads import BodyCycle, Removal
+
+_UNIFORM = "uniform material law for unalloyed and low-alloy steels (Baumel and Seeger 1990)"
+
+
+@register
+@dataclass(frozen=True)
+class LowCycleFatigue(VonMises):
+    """A voxel bears N passes, ep = ef (2N)^-c (Coffin, Manson); 1/N of it breaks with each, whatever the order (Miner).
+
+    ep = (von Mises - yield stress) / 3G is what the strain of the elastic surroundings leaves to flow. Broken regions
+    that reach the surface come off. Damage lies with the material and moves up as it wears; that of a cycle counts down
+    to the first depth at which nothing yields. Stresses may be averaged over a disc along the surface, as by
+    `averaged_von_mises`; without that there is no length in it but how far the counterface slides.
+    """
+
+    name: ClassVar[str] = "low_cycle_fatigue"
+    ductility: float = parameter(
+        "ef: plastic strain that breaks in one reversal", default=0.59, above=0, source=_UNIFORM
+    )
+    exponent: float = parameter("c of plastic strain over reversals", default=0.58, above=0, below=1, source=_UNIFORM)
+    passes: float = parameter(
+        "passes of the counterface that one computed cycle stands for",
+        default=1000.0,
+        above=0,
+        source="a choice: steel bears some thousand passes here, so that a hundred cycles show the steady wear",
+    )
+
+    averaging_length: float = parameter(
+        "diameter of the disc over which stresses are averaged, 0 for none", "m", default=0.0, at_least=0
+    )
+
+    @property
+    def has_length(self) -> bool:
+        """Where stresses are averaged."""
+        return self.averaging_length > 0
+
+    @property
+    def passes_per_cycle(self) -> float:
+        """As given."""
+        return self.passes
+
+    def damage(self, stress: FloatArray, material: Material) -> FloatArray:
+        """Share of its life that a voxel under a von Mises stress [Pa] loses in one computed cycle; at most one."""
+        assert material.yield_stress is not None
+        flow = np.maximum(stress - material.yield_stress, 0.0) / (3 * material.shear_modulus)
+        return np.asarray(np.minimum(2 * self.passes * (flow / self.ductility) ** (1 / self.exponent), 1.0))
+
+    def detach(self, cycle: BodyCycle) -> Removal:
+        """What is broken and reaches the surface; the damage of what stays is remembered."""
+        from bem.wear.damage import broken
+
+        return broken(cycle, self)

@@ -1,0 +1,40 @@
+"""Yield of a region that holds a sphere of a stated diameter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar
+
+from bem.laws import parameter, register
+from bem.wear.criterion.stresses import VonMises
+
+if TYPE_CHECKING:
+    from bem.wear.loads import BodyCycle, Removal
+
+
+@register
+@dataclass(frozen=True)
+class Sphere(VonMises):
+    """Von Mises stress above yield in a piece in which a sphere of a stated diameter has room; smaller ones stay."""
+
+    name: ClassVar[str] = "sphere"
+    diameter: float = parameter(
+        "of the sphere",
+        "m",
+        default=200e-9,
+        above=0,
+        source="a choice: of the order of the grains below a run-in surface, a tenth of a micrometre to one",
+    )
+
+    @property
+    def has_length(self) -> bool:
+        """The sphere's."""
+        return True
+
+    def detach(self, cycle: BodyCycle) -> Removal:
+        """Those of the yielded pieces that hold the sphere."""
+        from bem.wear.lengths import holding
+        from bem.wear.yielding import yielded_pieces
+
+        found = yielded_pieces(cycle.loads, cycle.setup, cycle.model, cycle.body)
+        return replace(found, pieces=holding(found.pieces, cycle.setup.grid, self.diameter))

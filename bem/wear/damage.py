@@ -1,0 +1,69 @@
+"""Damage of a body's voxels: added cycle by cycle, moved up with the material when the surface goes down.
+
+A stack of planes (planes, nx, ny) at the depths of the stresses below the surface of now; beyond the last there is
+none. Verified in tests/wear/test_criteria_with_length.py.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numba import njit
+
+from bem.wear.lengths import averaged_loads
+from bem.wear.loads import BodyCycle, Removal
+from bem.wear.yielding import depths_for, no_pieces, pieces_above, yielded_stress
+
+if TYPE_CHECKING:
+    from bem.wear.criterion import LowCycleFatigue
+
+
+def broken(cycle: BodyCycle, law: LowCycleFatigue) -> Removal:
+    """Pieces of voxels that have no life left, and the damage of what stays."""
+    setup, model, body = cycle.setup, cycle.model, cycle.body
+    loads = averaged_loads(cycle.loads, setup.grid, law.averaging_length) if law.has_length else cycle.loads
+    found = yielded_stress(loads, setup, model, body)
+    start = time.perf_counter()
+    depths = depths_for(setup, model, body)
+    known = 0 if cycle.memory is None else len(cycle.memory)
+    new = len(found.depths)
+    damage = np.zeros((max(known, new), *setup.grid.shape))
+    if cycle.memory is not None:
+        damage[:known] = cycle.memory
+    if new:
+        damage[:new] += law.damage(found.stress, cycle.solid.surface_material)
+    pieces = no_pieces(setup.grid.shape)
+    if len(damage) >= 2 and damage[0].max() > 1.0:
+        pieces = pieces_above(damage, depths[: len(damage)], 1.0, setup, model)
+        move_up(damage, depths[: len(damage)], pieces.thickness)
+        # a piece ends where one is reached; a line between depths may lie above the cubic that found the place
+        np.minimum(damage[0], 1.0, out=damage[0], where=pieces.thickness > 0)
+    return Removal(body, pieces, found.computed, found.seconds, time.perf_counter() - start, damage)
+
+
+@njit(cache=True)
+def move_up(stack, depths, thickness):  # type: ignore[no-untyped-def]
+    """Columns of a stack (nz, nx, ny) moved up, in place, by what left them (nx, ny) [m]; linear between depths, so no
+    value appears that was not between two, and zero below the last."""
+    nz, nx, ny = stack.shape
+    column = np.empty(nz)
+    for i in range(nx):
+        for j in range(ny):
+            if thickness[i, j] <= 0.0:
+                continue
+            for k in range(nz):
+                column[k] = stack[k, i, j]
+            below = 0
+            for k in range(nz):
+                depth = depths[k] + thickness[i, j]
+                while below < nz and depths[below] < depth:
+                    below += 1
+                if below == nz:
+                    stack[k, i, j] = 0.0
+                elif below == 0:
+                    stack[k, i, j] = column[0]
+                else:
+                    share = (depth - depths[below - 1]) / (depths[below] - depths[below - 1])
+                    stack[k, i, j] = column[below - 1] + share * (column[below] - column[below - 1])

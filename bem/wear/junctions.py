@@ -1,0 +1,204 @@
+"""Junctions: spots of contact that act together, how far they were dragged, and the half spheres that come off them.
+
+Knows contact maps; no stress. Verified in tests/wear/test_criteria_with_length.py.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from bem.contact.edge import label_spots
+from bem.grid import FloatArray, Grid
+from bem.wear.loads import BodyCycle, Removal
+from bem.wear.segmentation import Segmentation
+
+_PARTS = 4
+"""Points a side by which a cell's share of a half sphere is found, before the whole is brought to its volume."""
+
+
+class Junctions(NamedTuple):
+    """Groups of spots: the group (nx, ny) of each cell, 1, 2, ..., 0 outside; of each group (n,) the diameter of the
+    circle of its area [m], its middle (n, 2) in cells, its extent along x [m] and the farthest that any of its columns
+    was dragged [m]."""
+
+    labels: NDArray[np.int64]
+    diameter: FloatArray
+    middle: FloatArray
+    extent: FloatArray
+    dragged: FloatArray
+
+
+def detached(cycle: BodyCycle, critical: float) -> Removal:
+    """Half spheres under the junctions as large as a critical size [m] that were dragged over their own size.
+
+    memory : one plane, how far each column was dragged without a break [m]; none is left where a piece came off.
+    Own size: the diameter or, of a junction that is longer across than along the sliding, its extent along x, which is
+    as far as a column is ever dragged by an asperity that passes.
+    """
+    start = time.perf_counter()
+    grid, pressure = cycle.setup.grid, cycle.pressure
+    before = np.zeros(grid.shape) if cycle.memory is None else cycle.memory[0]
+    drag = np.where(pressure > 0, before + cycle.slide, 0.0)
+    found = junctions(pressure, drag, grid)
+    far = found.dragged >= np.minimum(found.diameter, found.extent) * (1 - 1e-9)
+    ripe = np.flatnonzero((found.diameter >= critical) & far)
+    interfaces = cycle.solid.interfaces
+    deepest = interfaces[0] if interfaces and cycle.model.within_layer else np.inf
+    pieces = half_spheres(found.middle[ripe], found.diameter[ripe], grid, deepest)
+    taken = np.isin(found.labels, ripe + 1) | (pieces.labels > 0)
+    return Removal(cycle.body, pieces, 0, 0.0, time.perf_counter() - start, np.where(taken, 0.0, drag)[None])
+
+
+def junctions(pressure: FloatArray, drag: FloatArray, grid: Grid) -> Junctions:
+    """Spots of contact of a pressure (nx, ny), those together that are nearer than the smaller of them is wide.
+
+    drag : how far each column was dragged, (nx, ny) [m].
+    """
+    labels = label_spots(pressure, grid)
+    count = int(labels.max())
+    areas, middles = _areas(labels, count, grid.periodic)
+    sizes = np.array(grid.spacing)
+    diameters = np.sqrt(4 / np.pi * areas * grid.cell_area)
+    wraps = np.where(grid.periodic, np.array(grid.shape) * sizes, np.inf)
+    parent = _merge(middles * sizes, diameters, wraps)
+    roots, group = np.unique(parent, return_inverse=True)
+    joined = np.concatenate([np.zeros(1, np.int64), group + 1])[labels]
+    area, middle = _areas(joined, len(roots), grid.periodic)
+    extent, dragged = _reach(joined, drag, len(roots))
+    return Junctions(joined, np.sqrt(4 / np.pi * area * grid.cell_area), middle, extent * sizes[0], dragged)
+
+
+@njit(cache=True)
+def _areas(labels, count, wraps):  # type: ignore[no-untyped-def]
+    """Cells of each, and the mean of their places, which on a periodic axis count from the first cell found."""
+    nx, ny = labels.shape
+    area = np.zeros(count)
+    total = np.zeros((count, 2))
+    first = np.full((count, 2), -1.0)
+    for i in range(nx):
+        for j in range(ny):
+            n = labels[i, j] - 1
+            if n < 0:
+                continue
+            if first[n, 0] < 0:
+                first[n, 0], first[n, 1] = i, j
+            dx, dy = i - first[n, 0], j - first[n, 1]
+            if wraps[0]:
+                dx -= nx * np.floor(dx / nx + 0.5)
+            if wraps[1]:
+                dy -= ny * np.floor(dy / ny + 0.5)
+            area[n] += 1
+            total[n, 0] += dx
+            total[n, 1] += dy
+    for n in range(count):
+        for axis in range(2):
+            total[n, axis] = first[n, axis] + total[n, axis] / max(area[n], 1.0)
+    return area, total
+
+
+@njit(cache=True)
+def _root(parent, n):  # type: ignore[no-untyped-def]
+    while parent[n] != n:
+        n = parent[n]
+    return n
+
+
+@njit(cache=True)
+def _merge(middle, diameter, lengths):  # type: ignore[no-untyped-def]
+    """Union-find over spots whose circles leave less between them than the smaller is wide; `lengths` of the periods,
+    infinite where there is none. The root of each."""
+    count = diameter.size
+    parent = np.arange(count)
+    order = np.argsort(middle[:, 0])
+    widest = diameter.max() if count else 0.0
+    for a in range(count):
+        one = order[a]
+        for step in range(1, count):
+            b = a + step
+            turned = 0.0
+            if b >= count:
+                if not np.isfinite(lengths[0]):
+                    break
+                b, turned = b - count, lengths[0]
+            other = order[b]
+            dx = middle[other, 0] + turned - middle[one, 0]
+            # no pair is nearer than half of both and the smaller together: three halves of the smaller, half the larger
+            if dx > 1.5 * diameter[one] + 0.5 * widest and dx > 0.5 * diameter[one] + 1.5 * widest:
+                break
+            dy = abs(middle[other, 1] - middle[one, 1])
+            if np.isfinite(lengths[1]):
+                dy -= lengths[1] * np.floor(dy / lengths[1] + 0.5)
+            between = np.hypot(dx, dy) - 0.5 * (diameter[one] + diameter[other])
+            if between < min(diameter[one], diameter[other]):
+                first, second = _root(parent, one), _root(parent, other)
+                parent[max(first, second)] = min(first, second)
+    for n in range(count):
+        parent[n] = _root(parent, n)
+    return parent
+
+
+@njit(cache=True)
+def _reach(labels, drag, count):  # type: ignore[no-untyped-def]
+    """Rows that each covers, and the farthest drag of its columns."""
+    nx, ny = labels.shape
+    rows = np.zeros(count)
+    last = np.full(count, -1, np.int64)
+    dragged = np.zeros(count)
+    for i in range(nx):
+        for j in range(ny):
+            n = labels[i, j] - 1
+            if n >= 0:
+                if last[n] != i:
+                    rows[n] += 1
+                    last[n] = i
+                dragged[n] = max(dragged[n], drag[i, j])
+    return rows, dragged
+
+
+def half_spheres(middle: FloatArray, diameter: FloatArray, grid: Grid, deepest: float) -> Segmentation:
+    """Half spheres of diameters (n,) [m] below the surface, their middles (n, 2) in cells; where two overlap the deeper
+    has the column. Each has the volume pi d^3/12 on any grid, but for what lies beyond a free edge or `deepest`."""
+    labels = np.zeros(grid.shape, np.int32)
+    thickness = np.zeros(grid.shape)
+    _carve(middle, 0.5 * diameter, np.array(grid.spacing), grid.periodic, labels, thickness)
+    np.minimum(thickness, deepest, out=thickness)
+    kept = np.unique(labels[labels > 0])
+    names = np.zeros(len(diameter) + 1, np.int32)
+    names[kept] = np.arange(1, kept.size + 1)
+    return Segmentation(names[labels], thickness, kept.size, np.zeros(kept.size + 1, np.bool_))
+
+
+@njit(cache=True)
+def _carve(middle, radius, spacing, wraps, labels, thickness):  # type: ignore[no-untyped-def]
+    nx, ny = labels.shape
+    for n in range(radius.size):
+        r = radius[n]
+        low = np.floor(middle[n] - r / spacing - 1.0).astype(np.int64)
+        size = np.ceil(2 * r / spacing + 3.0).astype(np.int64)
+        depth = np.zeros((size[0], size[1]))
+        for a in range(size[0]):
+            for b in range(size[1]):
+                for p in range(_PARTS * _PARTS):
+                    x = (low[0] + a - 0.5 + (p // _PARTS + 0.5) / _PARTS - middle[n, 0]) * spacing[0]
+                    y = (low[1] + b - 0.5 + (p % _PARTS + 0.5) / _PARTS - middle[n, 1]) * spacing[1]
+                    depth[a, b] += np.sqrt(max(r * r - x * x - y * y, 0.0))
+        total = depth.sum() * spacing[0] * spacing[1]
+        if total == 0.0:  # between all points: the cell that holds its middle
+            depth[int(np.floor(middle[n, 0] + 0.5)) - low[0], int(np.floor(middle[n, 1] + 0.5)) - low[1]] = 1.0
+            total = spacing[0] * spacing[1]
+        depth *= 2 * np.pi / 3 * r**3 / total
+        for a in range(size[0]):
+            for b in range(size[1]):
+                i, j = low[0] + a, low[1] + b
+                if wraps[0]:
+                    i %= nx
+                if wraps[1]:
+                    j %= ny
+                if 0 <= i < nx and 0 <= j < ny and depth[a, b] > thickness[i, j]:
+                    thickness[i, j] = depth[a, b]
+                    labels[i, j] = n + 1

@@ -1,0 +1,118 @@
+"""Lengths of the material: pressures averaged over a disc, pieces in which a sphere has room.
+
+Knows grids, pressures and pieces. Verified in tests/wear/test_criteria_with_length.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from bem.grid import FloatArray, Grid
+from bem.wear.loads import SurfaceLoad
+from bem.wear.segmentation import Segmentation
+
+_PARTS = 16
+"""Points a side by which a cell on the disc's edge is shared: areas to a thousandth of a cell."""
+
+
+class Offsets(NamedTuple):
+    """Cells about a middle one: their offsets (n,) along x and y, and a value of each."""
+
+    x: NDArray[np.int64]
+    y: NDArray[np.int64]
+    value: FloatArray
+
+
+def disc(grid: Grid, diameter: float) -> Offsets:
+    """The share of a disc's area that lies in each cell about its middle; together one."""
+    reach = [int(np.ceil(0.5 * diameter / h + 0.5)) for h in grid.spacing]
+    parts = (np.arange(_PARTS) + 0.5) / _PARTS - 0.5
+    x, y = ((np.arange(-n, n + 1)[:, None] + parts).ravel() * h for n, h in zip(reach, grid.spacing, strict=True))
+    inside = x[:, None] ** 2 + y[None, :] ** 2 < (0.5 * diameter) ** 2
+    shape = (2 * reach[0] + 1, _PARTS, 2 * reach[1] + 1, _PARTS)
+    counted = inside.reshape(shape).sum(axis=(1, 3)).astype(np.float64)
+    if not counted.any():  # smaller than a part of a cell
+        counted[reach[0], reach[1]] = 1.0
+    i, j = np.nonzero(counted)
+    return Offsets(i - reach[0], j - reach[1], counted[i, j] / counted.sum())
+
+
+def averaged(pressure: FloatArray, grid: Grid, diameter: float) -> FloatArray:
+    """The mean of a pressure (nx, ny) over a disc about each cell; beyond a free edge there is none."""
+    return np.asarray(_spread(np.ascontiguousarray(pressure), disc(grid, diameter), grid.periodic))
+
+
+def averaged_loads(loads: Sequence[SurfaceLoad], grid: Grid, diameter: float) -> list[SurfaceLoad]:
+    """Loads whose stresses are those of others, averaged over a disc [m] along the surface."""
+    return [SurfaceLoad(averaged(load.pressure, grid, diameter), load.friction) for load in loads]
+
+
+@njit(cache=True)
+def _spread(field, offsets, wraps):  # type: ignore[no-untyped-def]
+    nx, ny = field.shape
+    out = np.zeros((nx, ny))
+    for i in range(nx):
+        for j in range(ny):
+            value = field[i, j]
+            if value == 0.0:
+                continue
+            for n in range(offsets.x.size):
+                k, m = i + offsets.x[n], j + offsets.y[n]
+                if wraps[0]:
+                    k %= nx
+                if wraps[1]:
+                    m %= ny
+                if 0 <= k < nx and 0 <= m < ny:
+                    out[k, m] += offsets.value[n] * value
+    return out
+
+
+def holding(pieces: Segmentation, grid: Grid, diameter: float) -> Segmentation:
+    """Those pieces in which a sphere of a diameter [m] has room below the surface, numbered anew.
+
+    A piece is all that lies above a depth in each column, so a sphere that fits anywhere fits where it touches the
+    surface: with r its radius, every column at a distance d < r from its middle is r + sqrt(r^2 - d^2) thick.
+    """
+    radius = 0.5 * diameter
+    reach = [int(np.ceil(radius / h)) for h in grid.spacing]
+    x, y = (np.arange(-n, n + 1) * h for n, h in zip(reach, grid.spacing, strict=True))
+    room = radius**2 - x[:, None] ** 2 - y[None, :] ** 2
+    i, j = np.nonzero(room > 0)
+    needed = Offsets(i - reach[0], j - reach[1], radius + np.sqrt(room[i, j]))
+    holds = np.zeros(pieces.count + 1, np.bool_)
+    _find_room(pieces.labels, pieces.thickness, needed, grid.periodic, holds)
+    names = np.where(holds, np.cumsum(holds), 0).astype(np.int32)
+    labels = names[pieces.labels]
+    return Segmentation(
+        labels,
+        np.where(labels > 0, pieces.thickness, 0.0),
+        int(holds.sum()),
+        np.concatenate([np.zeros(1, np.bool_), pieces.reaches_bottom[holds]]),
+    )
+
+
+@njit(cache=True)
+def _find_room(labels, thickness, needed, wraps, holds):  # type: ignore[no-untyped-def]
+    nx, ny = labels.shape
+    deepest = needed.value.max()
+    for i in range(nx):
+        for j in range(ny):
+            own = labels[i, j]
+            if own == 0 or holds[own] or thickness[i, j] < deepest:
+                continue
+            room = True
+            for n in range(needed.x.size):
+                k, m = i + needed.x[n], j + needed.y[n]
+                if wraps[0]:
+                    k %= nx
+                if wraps[1]:
+                    m %= ny
+                if not (0 <= k < nx and 0 <= m < ny) or labels[k, m] != own or thickness[k, m] < needed.value[n]:
+                    room = False
+                    break
+            holds[own] = room

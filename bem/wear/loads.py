@@ -1,0 +1,78 @@
+"""What acts on one body in one cycle, and what comes off it: all that a wear criterion is given and all that it gives.
+
+Knows pressures and pieces; no solver. Verified in tests/wear/test_cycle.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from bem.grid import FloatArray
+
+if TYPE_CHECKING:
+    from bem.materials import Body
+    from bem.wear.cycle import WearModel, WearSetup
+    from bem.wear.segmentation import Segmentation
+
+LOWER, UPPER = 0, 1
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceLoad:
+    """Pressure (nx, ny) [Pa] on a body, and the friction it slides with: traction over pressure, on the lower body."""
+
+    pressure: FloatArray
+    friction: float
+
+
+def half_the_change(now: SurfaceLoad, before: SurfaceLoad | None) -> tuple[SurfaceLoad, ...]:
+    """Loads whose stresses add up to half the change of stress; nothing acted before the first cycle.
+
+    One load where the friction is the same, since stress is linear in pressure and traction.
+    """
+    if before is None:
+        return (SurfaceLoad(0.5 * now.pressure, now.friction),)
+    if before.friction == now.friction:
+        return (SurfaceLoad(0.5 * (now.pressure - before.pressure), now.friction),)
+    return (SurfaceLoad(0.5 * now.pressure, now.friction), SurfaceLoad(-0.5 * before.pressure, before.friction))
+
+
+@dataclass(frozen=True, eq=False)
+class BodyCycle:
+    """One body in one cycle.
+
+    pressure : of the contact, (nx, ny) [Pa]. loads : whose stresses together are judged; the contact's own, or half the
+    change since the last cycle. setup, model : of the run. body : LOWER or UPPER. slide : distance [m] that the
+    counterface slides from one cycle to the next. memory : what the criterion keeps of the body's material on the grid,
+    (planes, nx, ny), as it was given back in the last cycle and moved with the material; None before the first.
+    """
+
+    pressure: FloatArray
+    loads: tuple[SurfaceLoad, ...]
+    setup: WearSetup
+    model: WearModel
+    body: int
+    slide: float
+    memory: FloatArray | None = None
+
+    @property
+    def solid(self) -> Body:
+        """The body."""
+        return self.setup.bodies[self.body]
+
+
+@dataclass(frozen=True, eq=False)
+class Removal:
+    """Pieces of one body in one cycle, how many depths had to be computed to find them, and the time that took [s].
+
+    memory : what the criterion wants kept of the body's material, (planes, nx, ny), material that left taken out; None
+    where it keeps nothing.
+    """
+
+    body: int
+    pieces: Segmentation
+    depths_computed: int
+    stress_time: float
+    segmentation_time: float
+    memory: FloatArray | None = None

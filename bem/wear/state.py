@@ -1,0 +1,131 @@
+"""The state of a wear loop: all that the next cycle needs and the tables so far, and the same as plain arrays.
+
+Knows arrays only. Verified in tests/wear/test_cycle.py: a run goes on from its packed state to the same bits.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.grid import FloatArray
+from bem.wear.loads import LOWER, UPPER
+
+PARTICLE_FIELDS = np.dtype(
+    [
+        ("cycle", np.int32),
+        ("body", np.int8),
+        ("volume", np.float64),
+        ("length", np.float64),
+        ("width", np.float64),
+        ("thickness", np.float64),
+        ("x", np.float64),
+        ("y", np.float64),
+        ("columns", np.int32),
+        ("truncated", np.bool_),
+    ]
+)
+"""A particle as a row of a table: SI units, the fields of `Particle` without its columns."""
+
+CYCLE_FIELDS = np.dtype(
+    [
+        ("cycle", np.int32),
+        ("particles", np.int32),
+        ("volume", np.float64),
+        ("contact_area", np.float64),
+        ("plastic_area", np.float64),
+        ("contact_load", np.float64),
+        ("friction", np.float64),
+        ("minimum_film", np.float64),
+        ("rms_height", np.float64),
+        ("residual", np.float64),
+        ("convolutions", np.float64),
+        ("depths_computed", np.int32),
+        ("converged", np.bool_),
+    ]
+)
+"""A cycle as a row of a table: SI units; `rms_height` is Sq of the wearing surface inside the contact strip."""
+
+TIME_FIELDS = np.dtype([("contact", np.float64), ("stress", np.float64), ("particles", np.float64)])
+
+
+@dataclass(frozen=True, eq=False)
+class RunningInState:
+    """All that the next cycle needs, and the record so far.
+
+    heights : of the lower and the upper body; the counterface may be longer along x than the grid, and passes through.
+    offset : cells that the counterface has slid. pressure : of the last cycle, None before the first.
+    removed : what left from each column of the (first) wearing body in the last cycle [m], None before the first.
+    memories : what the criterion keeps of the material of the lower and the upper body, (planes, rows, ny) on the
+        heights' own rows; None for nothing.
+    """
+
+    cycle: int
+    heights: tuple[FloatArray, FloatArray]
+    offset: int
+    pressure: FloatArray | None
+    removed: FloatArray | None
+    cycles: NDArray[np.void]
+    particles: NDArray[np.void]
+    times: NDArray[np.void]
+    memories: tuple[FloatArray | None, FloatArray | None] = (None, None)
+
+
+def pack_state(state: RunningInState) -> dict[str, Any]:
+    """A state as plain arrays and numbers, for a checkpoint."""
+    return {
+        "cycle": state.cycle,
+        "lower_heights": state.heights[LOWER],
+        "upper_heights": state.heights[UPPER],
+        "offset": state.offset,
+        "pressure": state.pressure,
+        "removed": state.removed,
+        "lower_memory": state.memories[LOWER],
+        "upper_memory": state.memories[UPPER],
+        **{name: pack_table(getattr(state, name)) for name in ("cycles", "particles", "times")},
+    }
+
+
+def unpack_state(packed: dict[str, Any]) -> RunningInState:
+    """The state that was packed."""
+    return RunningInState(
+        cycle=int(packed["cycle"]),
+        heights=(packed["lower_heights"], packed["upper_heights"]),
+        offset=int(packed["offset"]),
+        pressure=packed["pressure"],
+        removed=packed["removed"],
+        cycles=unpack_table(packed["cycles"], CYCLE_FIELDS),
+        particles=unpack_table(packed["particles"], PARTICLE_FIELDS),
+        times=unpack_table(packed["times"], TIME_FIELDS),
+        memories=(packed["lower_memory"], packed["upper_memory"]),
+    )
+
+
+def pack_table(table: NDArray[np.void]) -> dict[str, NDArray[Any]]:
+    """A table as one plain array per column."""
+    return {name: np.ascontiguousarray(table[name]) for name in table.dtype.names or ()}
+
+
+def unpack_table(columns: dict[str, NDArray[Any]], fields: np.dtype[np.void]) -> NDArray[np.void]:
+    """The table of those columns."""
+    table = np.zeros(len(next(iter(columns.values()))), fields)
+    for name in fields.names or ():
+        table[name] = columns[name]
+    return table
+
+
+def initial_state(lower_heights: FloatArray, upper_heights: FloatArray) -> RunningInState:
+    """The state before the first cycle."""
+    return RunningInState(
+        cycle=0,
+        heights=(np.array(lower_heights, dtype=np.float64), np.array(upper_heights, dtype=np.float64)),
+        offset=0,
+        pressure=None,
+        removed=None,
+        cycles=np.zeros(0, CYCLE_FIELDS),
+        particles=np.zeros(0, PARTICLE_FIELDS),
+        times=np.zeros(0, TIME_FIELDS),
+    )

@@ -1,0 +1,156 @@
+"""Where material yields: equivalent stress from the surface down to a depth at which nothing does, and pieces there.
+
+Knows stresses and pieces; no contact, no cycle. Verified in tests/wear/test_cycle.py: nothing that matters is skipped.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bem.grid import FloatArray
+from bem.stress import subsurface_stress, von_mises_limit, von_mises_planes
+from bem.wear.criterion import VonMises, WearCriterion
+from bem.wear.loads import LOWER, Removal, SurfaceLoad
+from bem.wear.segmentation import Segmentation, refine_depths, segment
+
+if TYPE_CHECKING:
+    from bem.wear.cycle import WearModel, WearSetup
+
+
+def equivalent_stress_planes(
+    loads: Sequence[SurfaceLoad],
+    setup: WearSetup,
+    body: int,
+    depths: FloatArray,
+    criterion: WearCriterion,
+    out: FloatArray,
+) -> Iterator[FloatArray]:
+    """Equivalent stress of all loads together in one body, a plane of `out` (nz, nx, ny) [Pa] per depth, each written
+    when it is asked for.
+
+    Traction on the upper body has the other sign.
+    """
+    grid, solid, sign = setup.grid, setup.bodies[body], 1 if body == LOWER else -1
+    if isinstance(criterion, VonMises) and len(loads) == 1:
+        (load,) = loads
+        yield from von_mises_planes(load.pressure, grid, solid, depths, friction=sign * load.friction, out=out)
+        return
+    for index, depth in enumerate(depths):
+        stress = sum(
+            subsurface_stress(load.pressure, grid, solid, depth[None], friction=sign * load.friction)[:, 0]
+            for load in loads
+        )
+        out[index] = criterion.equivalent_stress(np.asarray(stress))
+        yield out[index]
+
+
+def cannot_yield(
+    loads: Sequence[SurfaceLoad], setup: WearSetup, body: int, depth: float, criterion: WearCriterion
+) -> bool:
+    """Whether a bound, found without a transform, proves that nothing yields at a depth.
+
+    Von Mises stress is a norm of the deviator: that of several loads together is at most the sum of theirs.
+    """
+    factor = criterion.von_mises_factor
+    if factor is None:
+        return False
+    grid, solid, sign = setup.grid, setup.bodies[body], 1 if body == LOWER else -1
+    limit = sum(
+        von_mises_limit(load.pressure, grid, solid, [depth], friction=sign * load.friction)[0] for load in loads
+    )
+    return bool(factor * limit <= setup.yield_stress(body))
+
+
+def depths_for(setup: WearSetup, model: WearModel, body: int) -> FloatArray:
+    """Depths at which stress is computed: the setup's, cut at the outermost interface, refined where exact."""
+    depths = setup.depths
+    interfaces = setup.bodies[body].interfaces
+    if interfaces and model.within_layer:
+        # a depth closer to the interface than a tenth of an interval gives way to it
+        sliver = 0.1 * float(np.diff(depths).min())
+        depths = np.append(depths[depths < interfaces[0] - sliver], interfaces[0])
+    if model.refinement == "exact":
+        depths = refine_depths(depths, model.refine)
+    return depths
+
+
+@dataclass(frozen=True, eq=False)
+class YieldedStress:
+    """Equivalent stress (nz, nx, ny) [Pa] at depths (nz,) [m] from the surface down, as far as pieces can reach; no
+    depth where nothing yields at the surface. computed : depths that were. seconds : it took."""
+
+    stress: FloatArray
+    depths: FloatArray
+    computed: int
+    seconds: float
+
+
+def yielded_stress(
+    load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearModel, body: int
+) -> YieldedStress:
+    """Equivalent stress of one body under a pressure with the setup's friction, or under loads with their own.
+
+    Depths are computed from the surface down, and no further than one below the first depth at which nothing yields: a
+    piece reaches the surface, so it would have to pass that depth, and refinement never exceeds the values it lies
+    between. The one below is what the slope of the monotone cubic there needs; other refinements do without.
+    """
+    start = time.perf_counter()
+    loads = (SurfaceLoad(load, setup.friction),) if isinstance(load, np.ndarray) else load
+    law = model.law
+    assert isinstance(law, WearCriterion)
+    strength = setup.yield_stress(body)
+    depths = depths_for(setup, model, body)
+    below = 1 if model.refinement == "monotone_cubic" else 0
+    computed = 0
+    blocked: int | None = None
+    if cannot_yield(loads, setup, body, float(depths[0]), law):
+        blocked = 0
+        stack = np.empty((0, *setup.grid.shape))
+    else:
+        # pages of planes that are never written are never touched
+        stack = np.empty((depths.size, *setup.grid.shape))
+        for plane in equivalent_stress_planes(loads, setup, body, depths, law, stack):
+            computed += 1
+            if blocked is None and plane.max() <= strength:
+                blocked = computed - 1
+            if blocked is not None and (blocked == 0 or computed == blocked + 1 + below):
+                break
+    used = 0 if blocked == 0 else computed
+    return YieldedStress(stack[:used], depths[:used], computed, time.perf_counter() - start)
+
+
+def yielded_pieces(load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearModel, body: int) -> Removal:
+    """The pieces that come off one body where its stress exceeds the yield stress; arguments as in `yielded_stress`."""
+    found = yielded_stress(load, setup, model, body)
+    start = time.perf_counter()
+    pieces = pieces_above(found.stress, found.depths, setup.yield_stress(body), setup, model)
+    return Removal(body, pieces, found.computed, found.seconds, time.perf_counter() - start)
+
+
+def pieces_above(
+    stack: FloatArray, depths: FloatArray, limit: float, setup: WearSetup, model: WearModel
+) -> Segmentation:
+    """The pieces in which a stack (nz, nx, ny), refined as the model says, exceeds a limit; none without depths."""
+    if len(depths) == 0:
+        return no_pieces(setup.grid.shape)
+    exact = model.refinement == "exact"
+    return segment(
+        stack,
+        depths,
+        yield_stress=limit,
+        periodic=setup.grid.periodic,
+        refine=1 if exact else model.refine,
+        refinement="linear" if exact else model.refinement,
+        connectivity=model.connectivity,
+        removal=model.removal,
+    )
+
+
+def no_pieces(shape: tuple[int, int]) -> Segmentation:
+    """Nothing leaves."""
+    return Segmentation(np.zeros(shape, np.int32), np.zeros(shape), 0, np.zeros(1, dtype=np.bool_))
