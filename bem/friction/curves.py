@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 class CurvePoint:
     """The numbers of one speed: [m/s], forces on the whole width [N], parts of the coefficient of friction, lengths
     [m], ratios, counts; what was loaded is with the oil counted where the film carries (`OilBeside`). With a supply of
-    oil: the film over the flooded one, and the meniscus [m], not-a-number where that is nowhere."""
+    oil: the film over the flooded one, and the meniscus [m], not-a-number where that is nowhere. With heat: of the oil,
+    mean of the surfaces in contact and their highest [K], not-a-number where nothing is in contact or slides."""
 
     speed: float
     friction: float
@@ -43,6 +44,9 @@ class CurvePoint:
     status: Status
     film_reduction: float = 1.0
     meniscus_position: float = math.nan
+    oil_temperature: float = math.nan
+    contact_temperature: float = math.nan
+    flash_temperature: float = math.nan
 
     @property
     def oil(self) -> OilBeside:
@@ -72,9 +76,16 @@ class CurvePoint:
             loaded_friction=solution.oil.loaded_friction,
             load=solution.load,
             status=solution.status,
+            oil_temperature=_or_nan(solution.film.mean_temperature),
+            contact_temperature=_or_nan(solution.contact_temperature),
+            flash_temperature=_or_nan(solution.flash_temperature),
             film_reduction=1.0 if starved is None else starved.reduction,
             meniscus_position=math.nan if starved is None or starved.flooded else starved.meniscus_position,
         )
+
+
+def _or_nan(value: float | None) -> float:
+    return math.nan if value is None else value
 
 
 @dataclass(frozen=True)

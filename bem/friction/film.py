@@ -18,6 +18,8 @@ from bem.lubrication.steady import check_entrainment, load_range
 
 BALANCE_POINTS = 400
 """Film nodes while the balance is looked for; the last evaluations use the number asked for."""
+HOT_SHARE = 0.9
+"""Of the largest load that an oil carries, while heat in the inlet thins it by less than a fifth."""
 COARSE_FILM = 1e-3
 """Relative error of films of `BALANCE_POINTS`: the balance is met no better with them."""
 
@@ -79,7 +81,7 @@ def solved_line_film(
     Where the load is so small that the elastic film is outside its range, the surfaces are rigid: pressures that small
     move them by less than 1e-5 of the film.
     """
-    modulus = contact.film_modulus(load)
+    modulus, heat = contact.film_modulus(load), contact.heat
     lowest, _ = load_range(contact.radius, modulus, speeds, contact.lubricant)
     return solve_line_film(
         load=load / contact.width,
@@ -92,6 +94,8 @@ def solved_line_film(
         position=position,
         flow_factors=contact.flow_factors,
         supply=contact.supply,
+        thermal="off" if heat is None else heat.model,
+        bodies=None if heat is None else heat.bodies,
     )
 
 
@@ -143,6 +147,9 @@ class SolvedFilm:
         InputError : a film that counts reaches beyond the positions.
         """
         assert film.solution is not None
+        if self.contact.heat is not None:
+            pressure, thickness = film.solution.at(position)
+            return replace(film.solution, position=position, pressure=pressure, thickness=thickness)
         try:
             return solved_line_film(
                 self.contact, self.speeds, film.load, self.points, initial=film.solution, position=position
@@ -160,6 +167,8 @@ def largest_film_load(contact: LineContact, speeds: Sequence[float]) -> float:
     The end is one of Moes' parameter M, load over a root of the modulus: where that goes with the load, with its root.
     """
     largest = contact.width * load_range(contact.radius, contact.contact_modulus, speeds, contact.lubricant)[1]
+    if contact.heat is not None:
+        largest *= HOT_SHARE
     return largest if contact.deforming_load is None else largest**2 / contact.deforming_load * (1 - 1e-9)
 
 

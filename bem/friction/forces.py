@@ -15,6 +15,7 @@ import numpy as np
 
 from bem.convolution import couples
 from bem.friction.boundary import filled_part
+from bem.friction.contact_heat import ContactHeat, contact_heat
 from bem.friction.film import PatchFilm
 from bem.friction.rough_contact import Pressed
 from bem.friction.setup import MixedSetup
@@ -28,21 +29,26 @@ LARGEST_FRICTION = 1.0
 
 @dataclass(frozen=True)
 class Forces:
-    """Friction forces on the whole contact [N], and the boundary part over the contact's load, 0 without a contact."""
+    """Friction forces on the whole contact [N], and the boundary part over the contact's load, 0 without a contact;
+    temperatures of the contact where they were asked for and there is one that slides."""
 
     boundary: float
     film: float
     coefficient: float
+    heat: ContactHeat | None = None
 
 
 def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup, speeds: tuple[float, float]) -> Forces:
     """Both parts of friction at a pair of speeds (u1, u2) [m/s]."""
-    coefficient = _boundary_coefficient(contact, setup, abs(speeds[0] - speeds[1]))
+    slide, heat = abs(speeds[0] - speeds[1]), None
+    if setup.line.heat is not None and contact is not None and slide > 0 and contact.pressure.any():
+        heat = contact_heat(film, contact, setup, speeds)
+    coefficient = _boundary_coefficient(contact, setup, slide) if heat is None else heat.coefficient
     if contact is None:
         return Forces(0.0, sliding_sign(speeds) * film.shear_force, coefficient)
     covered = float(np.sum(film.shear_stress * (contact.pressure > 0))) * setup.grid.cell_area * setup.slices
-    boundary = coefficient * contact.load if speeds[0] != speeds[1] else 0.0
-    return Forces(boundary, sliding_sign(speeds) * (film.shear_force - covered), coefficient)
+    boundary = coefficient * contact.load if slide > 0 else 0.0
+    return Forces(boundary, sliding_sign(speeds) * (film.shear_force - covered), coefficient, heat)
 
 
 def _boundary_coefficient(contact: Pressed | None, setup: MixedSetup, sliding_speed: float) -> float:

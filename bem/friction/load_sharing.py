@@ -16,12 +16,12 @@ from typing import Any
 
 import numpy as np
 
-from bem.errors import InputError
+from bem.errors import InputError, Status
 from bem.friction.balance import Balance, BalanceStart, Regime, share_load
 from bem.friction.boundary import BoundaryFrictionGiven
 from bem.friction.curves import relative_difference
 from bem.friction.film import PatchFilm, SolvedFilm
-from bem.friction.forces import coupling_notes, friction_forces, lambda_ratio, validity_notes
+from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, validity_notes
 from bem.friction.oil_beside import OilBeside, oil_notes
 from bem.friction.oil_sensitivity import oil_beside
 from bem.friction.oil_volume import OilVolume
@@ -59,6 +59,7 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     flow_factors: WallFactors | str = "off",
     oil_volume: OilVolume | str = OilVolume.PATCH,
     supply: Supply | float | None = None,
+    thermal: str = "off",
 ) -> MixedSolution:
     """Friction of a rough cylinder on a flat in mixed lubrication.
 
@@ -90,6 +91,9 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
         it, or where the film is "loaded", weighted by its pressure (`bem.friction.oil_volume`). The first follows the
         patch's length where nearly all oil lies beside Hertz' contact; `MixedSolution.oil` says how far.
     supply : oil that reaches the contact, as of `solve_line_film`: `MixedSolution.film.starvation` says what it does.
+    thermal : "off", or "lumped": the film with its heat, as of `solve_line_film`; the contact's surfaces as warm as
+        rubbing makes them (`bem.friction.contact_heat`), which boundary friction over temperature is told. Far away
+        both bodies are as warm as the oil that comes.
 
     Returns
     -------
@@ -130,6 +134,7 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
         flow_factors=flow_factors,
         oil_volume=oil_volume,
         supply=supply,
+        thermal=thermal,
     )
     return solve_setup(setup, height, speeds, initial)
 
@@ -282,12 +287,26 @@ def _solution(
         oil_imbalance=balance.oil_imbalance,
         oil=oil,
         balance_slope=balance.slope,
-        status=balance.status,
+        status=_status(balance.status, forces),
         grid=setup.grid,
-        boundary_friction=setup.boundary_friction,
+        boundary_friction=_told(setup, forces),
+        contact_temperature=None if forces.heat is None else forces.heat.mean,
+        flash_temperature=None if forces.heat is None else forces.heat.maximum,
         regime=balance.regime,
         notes=balance.notes
         + validity_notes(friction, forces, found, whole, setup)
         + coupling_notes(forces, rough.traction, setup)
+        + (() if forces.heat is None else tuple(note for note in forces.heat.notes if note not in balance.notes))
         + oil_notes([oil]),
     )
+
+
+def _status(of_balance: Status, forces: Forces) -> Status:
+    """That of the balance, or of the heat in the contact where only that did not converge."""
+    return of_balance if of_balance is not Status.CONVERGED or forces.heat is None else forces.heat.status
+
+
+def _told(setup: MixedSetup, forces: Forces) -> BoundaryFrictionGiven:
+    """Boundary friction as it is, at the contact's temperature where it depends on that."""
+    heat = forces.heat
+    return heat.law if heat is not None and heat.law.needs_temperature else setup.boundary_friction

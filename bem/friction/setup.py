@@ -12,6 +12,7 @@ from bem.errors import InputError
 from bem.friction.boundary import BoundaryFriction, BoundaryFrictionGiven, boundary_law
 from bem.friction.oil_volume import OilVolume
 from bem.grid import FloatArray, Grid
+from bem.heat.bodies import conductors_of
 from bem.lubrication import Lubricant
 from bem.lubrication.rough_walls import WallFactors
 from bem.lubrication.supply import InletDistance, Supply, checked_supply, inside_hertz
@@ -19,13 +20,23 @@ from bem.materials import Body, contact_modulus
 
 CONTACT_MODELS = ("coupled", "uncoupled")
 SEPARATIONS = ("volume", "film")
+HEAT_NEEDS = ("temperature", "density", "heat_capacity", "thermal_conductivity", "temperature_viscosity")
+"""Of an oil."""
+
+
+@dataclass(frozen=True)
+class FilmHeat:
+    """Which model of the film's heat, as of `solve_line_film`, and the flat and the cylinder that it enters."""
+
+    model: str
+    bodies: tuple[Body, Body]
 
 
 @dataclass(frozen=True)
 class LineContact:
     """A cylinder on a flat, and the oil: radius and width [m], E* of the pair [Pa]; how roughness changes the flow;
     load on the whole width [N] that deforms the bodies where a film has a part of it (`OilVolume.LOADED`), None where
-    the film's own does; how much oil there is, None where the inlet is flooded."""
+    the film's own does; how much oil there is, None where the inlet is flooded; its heat, None where it has none."""
 
     radius: float
     width: float
@@ -34,6 +45,7 @@ class LineContact:
     flow_factors: WallFactors | str = "off"
     deforming_load: float | None = None
     supply: Supply | None = None
+    heat: FilmHeat | None = None
 
     def film_modulus(self, load: float) -> float:
         """E* [Pa] of the bodies as a film feels it that carries a load on the whole width [N]."""
@@ -74,6 +86,7 @@ class MixedSetup:
     flow_factors: WallFactors | str = "off"
     oil_volume: OilVolume | str = OilVolume.PATCH
     supply: Supply | float | None = None
+    thermal: str = "off"
 
     def __post_init__(self) -> None:
         if not isinstance(self.grid, Grid):
@@ -105,7 +118,7 @@ class MixedSetup:
             value = getattr(self, name)
             if not (_real(value) and value > 0):
                 messages.append(f"{name}: {value!r} must be positive and finite")
-        messages += [*self._boundary_friction(), *self._supply()]
+        messages += [*self._boundary_friction(), *self._supply(), *self._heat()]
         if self.hardness is not None and not (_real(self.hardness) and self.hardness > 0):
             messages.append(f"hardness: {self.hardness!r} must be positive [Pa], or None for elastic contact")
         if not (_real(self.tolerance) and 1e-9 <= self.tolerance <= 0.1):
@@ -136,6 +149,24 @@ class MixedSetup:
         except InputError as error:
             return list(error.messages)
         return []
+
+    def _heat(self) -> list[str]:
+        if self.thermal == "off":
+            return []
+        allowed = ("off", "lumped")
+        if self.thermal not in allowed:
+            return [f"thermal: {self.thermal!r} is unknown; choose from {', '.join(allowed)}"]
+        if self.supply is not None:
+            return ["thermal: heat of a starved film is not solved for; choose one of thermal and supply"]
+        if isinstance(self.bodies, Body) or len(self.bodies) != 2:
+            return ["thermal: heat enters both bodies; give a pair"]
+        missing = [name for name in HEAT_NEEDS if getattr(self.lubricant, name, None) is None]
+        messages = [f"thermal: the lubricant lacks {', '.join(missing)}; give an oil by grade"] if missing else []
+        try:
+            conductors_of("thermal", self.bodies, (0.0, 0.0), (0.0, 0.0))
+        except InputError as error:
+            messages += error.messages
+        return messages
 
     def _choices(self) -> list[str]:
         messages = []
@@ -179,7 +210,8 @@ class MixedSetup:
         modulus = contact_modulus(*(body.material for body in bodies))
         deforming = self.load if self.counted is OilVolume.LOADED else None
         supply = checked_supply(self.supply)
-        return LineContact(self.radius, self.width, modulus, self.lubricant, self.flow_factors, deforming, supply)
+        heat = None if self.thermal == "off" else FilmHeat(self.thermal, (bodies[0], bodies[-1]))
+        return LineContact(self.radius, self.width, modulus, self.lubricant, self.flow_factors, deforming, supply, heat)
 
     @property
     def counted(self) -> OilVolume:

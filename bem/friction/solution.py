@@ -45,6 +45,8 @@ class MixedSolution:
         counted (`oil_volume`); of this film and contact, 0 at an end of the balance.
     oil : how far load share and friction hang on the oil beside Hertz' contact.
     regime : "full film", "mixed" or "boundary": the end of the balance, if any, that it is at.
+    contact_temperature, flash_temperature : of the surfaces in contact [K], mean by pressure and highest; None without
+        heat, contact or sliding. The film's stand in `film`.
     notes : sentences on what is outside a model's validity, or at an end of the balance.
     """
 
@@ -71,6 +73,8 @@ class MixedSolution:
     oil_imbalance: float
     oil: OilBeside
     regime: Regime = Regime.MIXED
+    contact_temperature: float | None = None
+    flash_temperature: float | None = None
     notes: tuple[str, ...] = ()
 
     @property

@@ -57,6 +57,7 @@ class FilmSolution:
     volume_imbalance : relative error of the volume balance of a time step; None for a steady film.
     mean_temperature, maximum_temperature : of the oil [K], mean across the film: weighted by pressure, and the highest.
         None where heat was not solved for.
+    sliding_stress : (n,) in the middle of the film [Pa], at the oil's temperatures; None where heat was not solved for.
     starvation : what a supply of oil made of a steady film; None where none was given: flooded.
     state : the discrete solution as its solver left it, to start the next one from; None where none is kept.
     notes : where the model is outside its validity, a sentence each (`bem.lubrication.validity`).
@@ -85,6 +86,7 @@ class FilmSolution:
     starvation: Starvation | None = None
     mean_temperature: float | None = None
     maximum_temperature: float | None = None
+    sliding_stress: FloatArray | None = None
     state: KeptFilm | None = field(default=None, repr=False, compare=False)
 
     def shear_stress(self, position: FloatArray | None = None) -> FloatArray:
@@ -94,15 +96,17 @@ class FilmSolution:
         profile where the oil's `film_rheology` is "shear_law". The second part follows from equilibrium of the oil
         across the film whatever its shear law, so it stays; of an oil with "newtonian" film it has no limit, and next
         to a wall the sum may exceed that of tau by it. It acts along -x. At the solution's own positions, or
-        interpolated linearly at others [m]. Of a film with heat it is that without the heat inside the contact.
+        interpolated linearly at others [m]. Of a film with heat it is that at the oil's temperatures.
         """
         difference = self.speeds[0] - self.speeds[1]
         full = self.pressure > 0
         gradient = np.gradient(self.pressure, self.position)
-        viscosity = self.lubricant.viscosity_at(np.maximum(self.pressure, 0.0))
-        positive = np.maximum(self.pressure, 0.0)
-        newtonian = viscosity * difference / self.thickness
-        sliding = middle_stress(self.lubricant, newtonian, positive, self.thickness, gradient)
+        if self.sliding_stress is not None:
+            sliding = self.sliding_stress
+        else:
+            positive = np.maximum(self.pressure, 0.0)
+            newtonian = self.lubricant.viscosity_at(positive) * difference / self.thickness
+            sliding = middle_stress(self.lubricant, newtonian, positive, self.thickness, gradient)
         stress = np.where(full, sliding + 0.5 * self.thickness * gradient, 0.0)
         return stress if position is None else np.interp(position, self.position, stress, left=0.0, right=0.0)
 

@@ -7,6 +7,7 @@ gets, until interpolation is within a stated tolerance; every further evaluation
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -17,6 +18,7 @@ from bem.contact import solve_contact
 from bem.convolution import displacement_operator
 from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
+from bem.heat.steady import flash_temperature
 from bem.materials import Body, Layer, Material
 from bem.tribofilm.growth import GrowthLaw
 from bem.tribofilm.properties import FilmProperty
@@ -33,7 +35,9 @@ class FilmContact:
 
     gap : undeformed gap (nx, ny) [m]. substrate : what the film grows on. counterface : the other body, None is rigid.
     hardness, modulus : of the film, functions of (thickness [m], temperature [K]) [Pa].
-    friction : shear stress over pressure. temperature : [K].
+    friction : shear stress over pressure. temperature : [K], of film and bodies.
+    speeds : of substrate and counterface over the contact [m/s]: the film then grows as warm as rubbing makes each
+        spot, both bodies being half-spaces without the film (its own resistance is left out); None: nowhere warmer.
     average : what "mean" is taken over: "contact", the cells that touch; "nominal", the cells of `nominal_area`
         (all where None), touching or not: what a point of the track sees on average as contacts sweep over it.
     """
@@ -52,6 +56,7 @@ class FilmContact:
     average: str = "contact"
     nominal_area: FloatArray | None = None
     contact_tolerance: float = 1e-6
+    speeds: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         self.grid.check_field(self.gap, "gap")
@@ -65,7 +70,8 @@ class FilmContact:
 class ContactSample:
     """A contact solved at one mean thickness.
 
-    growth : mean growth rate [m/s]; growth_map : local (nx, ny) [m/s]; pressure : (nx, ny) [Pa].
+    growth : mean growth rate [m/s]; growth_map : local (nx, ny) [m/s]; pressure : (nx, ny) [Pa]. temperature : the
+    highest of spots in contact [K].
     """
 
     thickness: float
@@ -77,6 +83,7 @@ class ContactSample:
     contact_area: float
     plastic_area: float
     convolutions: float
+    temperature: float = math.nan
 
     def without_maps(self) -> ContactSample:
         """Its numbers alone."""
@@ -91,7 +98,7 @@ def solve_film_contact(
     Raises
     ------
     InfeasibleError : the load exceeds the film's hardness times the grid's area.
-    ConvergenceError : the contact did not converge.
+    ConvergenceError : the contact did not converge, or its heat did not.
     """
     hardness = contact.hardness(thickness, contact.temperature)
     if contact.counterface is not None and contact.counterface.hardness is not None:
@@ -120,7 +127,8 @@ def solve_film_contact(
             f"{solution.status.value!r} at residual {solution.residual:.1e}; {solution.status.message}"
         )
     touching = solution.pressure > 0
-    growth_map = np.where(touching, contact.growth.rate(contact.friction * solution.pressure, contact.temperature), 0.0)
+    temperature = contact.temperature if contact.speeds is None else _spots(contact, solution.pressure)
+    growth_map = np.where(touching, contact.growth.rate(contact.friction * solution.pressure, temperature), 0.0)
     if contact.average == "contact":
         mean = float(growth_map[touching].mean()) if touching.any() else 0.0
     elif contact.nominal_area is None:
@@ -137,7 +145,26 @@ def solve_film_contact(
         contact_area=solution.contact_area,
         plastic_area=solution.plastic_area,
         convolutions=solution.convolutions,
+        temperature=float(np.broadcast_to(temperature, touching.shape)[touching].max()) if touching.any() else math.nan,
     )
+
+
+def _spots(contact: FilmContact, pressure: FloatArray) -> FloatArray:
+    """Surface temperature (nx, ny) [K] of a contact that rubs."""
+    assert contact.speeds is not None
+    substrate = Body(contact.substrate)
+    bodies = substrate if contact.counterface is None else (substrate, Body(contact.counterface))
+    found = flash_temperature(
+        pressure,
+        contact.grid,
+        bodies,
+        friction=contact.friction,
+        speeds=contact.speeds,
+        bulk=contact.temperature if contact.counterface is None else (contact.temperature,) * 2,
+    )
+    if found.status is not Status.CONVERGED:
+        raise ConvergenceError(f"tribofilm: the temperature of the contact ended with residual {found.residual:.1e}")
+    return found.temperature
 
 
 @dataclass

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from abc import abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar
@@ -24,8 +23,9 @@ class GrowthLaw(Law):
     family: ClassVar[str] = "growth"
 
     @abstractmethod
-    def rate(self, shear_stress: FloatArray, temperature: float) -> FloatArray:
-        """Growth rate [m/s] under a shear stress [Pa] at an absolute temperature [K], never falling with the stress."""
+    def rate(self, shear_stress: FloatArray, temperature: float | FloatArray) -> FloatArray:
+        """Growth rate [m/s] under a shear stress [Pa] at an absolute temperature [K], one number or an array as that of
+        the stress; never falling with the stress."""
 
 
 @register
@@ -53,8 +53,8 @@ class StressActivatedGrowth(GrowthLaw):
         """From the units of the literature: m/s, eV and cubic angstrom."""
         return cls(prefactor, activation_energy_ev * electron_volt, activation_volume_cubic_angstrom * 1e-30)
 
-    def rate(self, shear_stress: FloatArray, temperature: float) -> FloatArray:
-        """Growth rate [m/s] under a shear stress [Pa] at an absolute temperature [K].
+    def rate(self, shear_stress: FloatArray, temperature: float | FloatArray) -> FloatArray:
+        """Growth rate [m/s] under a shear stress [Pa] at an absolute temperature [K], one or as many as stresses.
 
         The barrier cannot be lower than zero: beyond `activation_energy / activation_volume` the rate is the prefactor.
 
@@ -62,9 +62,9 @@ class StressActivatedGrowth(GrowthLaw):
         ------
         InputError : a temperature that is not positive (it is in kelvin: add 273.15 to degrees Celsius).
         """
-        if not (math.isfinite(temperature) and temperature > 0):
+        if not (np.isfinite(temperature).all() and np.min(temperature) > 0):
             raise InputError(f"temperature {temperature!r} must be positive [K]; add 273.15 to degrees Celsius")
         with np.errstate(over="ignore"):  # a barrier beyond all numbers: nothing grows; a work beyond them: no barrier
             barrier = self.activation_energy - np.asarray(shear_stress, dtype=np.float64) * self.activation_volume
-            height = np.maximum(barrier, 0.0) / np.float64(Boltzmann * temperature)
+            height = np.maximum(barrier, 0.0) / (Boltzmann * np.asarray(temperature, dtype=np.float64))
         return np.asarray(self.prefactor * np.exp(-height))

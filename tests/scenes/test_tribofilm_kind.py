@@ -108,3 +108,21 @@ def test_plan_refuses_what_the_film_cannot_carry_and_says_what_is_reused(tmp_pat
     table = 'hardness = { kind = "table", thickness = ["1 nm", "0 nm"], value = ["1 GPa", "2 GPa"] }'
     with pytest.raises(InputError, match="curve"):
         prepared(tmp_path, SMALL.replace('hardness = { kind = "constant", value = "2 GPa" }', table))
+
+
+def test_with_speeds_spots_are_warmer_and_grow_faster(tmp_path):
+    """A ceramic with thermal constants in place of iron and DLC, which have none here."""
+    text = SMALL.replace('material = { name = "iron", youngs_modulus = "210 GPa", poissons_ratio = 0.3 }', WARM)
+    text = text.replace('material = "dlc"', WARM).replace('["90 degC", "100 degC"]', '["90 degC"]')
+    still = compute(prepared(tmp_path, text)).outcome.summary
+    rubbed = text.replace("points = 21", 'points = 21\nspeeds = ["60 m/s", "0 m/s"]')
+    fast = compute(prepared(tmp_path, rubbed)).outcome.summary
+    assert "flash_temperature_C" not in still
+    assert fast["flash_temperature_C"] > 91
+    assert fast["film_thickness_nm"] > 1.02 * still["film_thickness_nm"]
+    with pytest.raises(InputError, match=r"rubbing\.speeds: heat of .*, a material without thermal constants"):
+        prepared(tmp_path, SMALL.replace("points = 21", 'points = 21\nspeeds = ["60 m/s", "0 m/s"]'))
+
+
+WARM = """material = { name = "ceramic", youngs_modulus = "210 GPa", poissons_ratio = 0.3, \
+thermal_conductivity = "30 W/(m*K)", density = "3200 kg/m^3", heat_capacity = "700 J/(kg*K)" }"""

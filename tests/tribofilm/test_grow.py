@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from tip import tip_contact
+from tip import LAW, tip_contact
 
-from bem import Grid, InfeasibleError, InputError, Material, grow_tribofilm
+from bem import Body, Grid, InfeasibleError, InputError, Material, flash_temperature, grow_tribofilm
 from bem.tribofilm import Constant, FadingSubstrate, StressActivatedGrowth, solve_film_contact
 
 DLC = Material("dlc", youngs_modulus=200e9, poissons_ratio=0.25)
@@ -93,3 +93,28 @@ def test_a_load_beyond_the_hardness_is_refused():
         contact(average="guess")
     with pytest.raises(InputError, match="reuse_tolerance"):
         grow_tribofilm(TIMES, contact(), wear_coefficient=3e-3, reuse_tolerance=-1)
+
+
+STEEL = Material(
+    "steel", youngs_modulus=210e9, poissons_ratio=0.3, thermal_conductivity=46.0, density=7800.0, heat_capacity=470.0
+)
+
+
+def test_spots_grow_as_warm_as_rubbing_makes_them():
+    """Growth of each cell is the law's at the temperature that its heat conducts to, and no rubbing is no heat."""
+    ball = {"gap": (GRID.x[:, None] ** 2 + GRID.y[None, :] ** 2) / 2 / 53e-9, "substrate": STEEL, "counterface": STEEL}
+    still, fast = (solve_film_contact(contact(**ball, speeds=speeds), 2e-9) for speeds in ((1.0, 1.0), (50.0, 0.0)))
+    cold = solve_film_contact(contact(**ball), 2e-9)
+    assert np.array_equal(still.growth_map, cold.growth_map)
+    assert still.temperature == cold.temperature == 373.15
+    spots = flash_temperature(
+        fast.pressure, GRID, (Body(STEEL), Body(STEEL)), friction=0.1, speeds=(50.0, 0.0), bulk=(373.15, 373.15)
+    ).temperature
+    touching = fast.pressure > 0
+    assert fast.temperature == pytest.approx(spots[touching].max(), rel=1e-12)
+    assert fast.temperature > 373.15 + 1
+    one = LAW.rate(0.1 * fast.pressure[16, 16], float(spots[16, 16]))
+    assert fast.growth_map[16, 16] == pytest.approx(float(one), rel=1e-12)
+    assert fast.growth > 1.05 * cold.growth
+    with pytest.raises(InputError, match="needs thermal_conductivity"):
+        solve_film_contact(contact(speeds=(1.0, 0.0)), 2e-9)

@@ -60,6 +60,7 @@ class ThermalFilm:
     isothermal : the film without heat, on a coarse mesh.
     position : (m,) middles of cells [m]. width : (m,) of them [m].
     film_temperature : (m,) mean across the film [K]. surface_temperatures : (2, m) of flat and cylinder [K].
+    sliding_stress : (m,) of the oil in the middle of the film [Pa], signed like the force.
     heat_made : (m,) [W/m^2]. heat_into : (2, m) into flat and cylinder [W/m^2].
     shear_force : as of `FilmSolution`, at these temperatures [N/m]. sliding_force : its part from sliding [N/m].
     friction_power, power_into, power_carried : per unit length [W/m]: of the friction; (2,) into flat and cylinder;
@@ -75,6 +76,7 @@ class ThermalFilm:
     width: FloatArray
     film_temperature: FloatArray
     surface_temperatures: FloatArray
+    sliding_stress: FloatArray
     heat_made: FloatArray
     heat_into: FloatArray
     shear_force: float
@@ -118,6 +120,7 @@ class ThermalFilm:
             self.film,
             shear_force=self.shear_force,
             striated_shear_force=math.nan,
+            sliding_stress=np.interp(self.film.position, self.position, self.sliding_stress),
             mean_temperature=self.mean_film_temperature,
             maximum_temperature=self.highest_film_temperature,
             iterations=self.iterations,
@@ -341,12 +344,18 @@ def _heated(thinned: _Thinned, lubricant: Lubricant, bodies: tuple[Conductor, Co
     )
     found = film_temperatures(channel, heat)
     stress = stresses(found.oil)[0]
-    couette = float(np.sum(0.5 * pieces * (stress[1:] + stress[:-1]))) + ambient
-    return _result(thinned, lubricant, strip, channel, found, couette)
+    along = summed(strip.cell, 0.5 * pieces * (stress[1:] + stress[:-1]), len(width))
+    return _result(thinned, lubricant, strip, channel, found, along / width, float(along.sum()) + ambient)
 
 
 def _result(
-    thinned: _Thinned, lubricant: Lubricant, strip: Strip, channel: Channel, found: Temperatures, couette: float
+    thinned: _Thinned,
+    lubricant: Lubricant,
+    strip: Strip,
+    channel: Channel,
+    found: Temperatures,
+    stress: FloatArray,
+    couette: float,
 ) -> ThermalFilm:
     film, inlet = thinned.films[-1], thinned.inlet
     width = np.diff(strip.edges)
@@ -367,6 +376,7 @@ def _result(
         width=width[order],
         film_temperature=found.oil[order],
         surface_temperatures=found.surfaces[:, order],
+        sliding_stress=sign * stress[order],
         heat_made=found.made[order],
         heat_into=found.into[:, order],
         shear_force=sign * couette + film.rolling_force,

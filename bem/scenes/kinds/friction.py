@@ -5,7 +5,7 @@ A case is one curve: one load, one surface, one contact model; each speed starts
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import asdict, dataclass, fields
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -77,6 +77,15 @@ def plan(scene: FrictionScene) -> Plan:
             seconds=speeds * (0.3 + 5e-8 * scene.film.points**2),
             memory=16.0 * scene.film.points**2,
         ),
+        Step(
+            "heat",
+            'thermal is "off"'
+            if scene.thermal == "off"
+            else "inlet heating of each film and its oil's temperature; that of the surfaces in contact at each speed",
+            skipped=scene.thermal == "off",
+            seconds=speeds * (1.0 + 3e-6 * grid.cells),
+            memory=2e7 + 300.0 * grid.cells,
+        ),
         plans.contacts(
             grid,
             _CONVOLUTIONS * speeds,
@@ -109,7 +118,9 @@ _LOADS = ("contact_load", "film_load")
 _OTHER = "they are to compare with, to a thousandth of the oil"
 _other_oil = partial(_curve, no_bar=_OTHER)
 _supplied = partial(_curve, optional=True, no_bar="the minimum film, which goes with it, has one")
+_heated = partial(_curve, "C", optional=True, no_bar="friction, whose heat it is, has one")
 _OF_SUPPLY = ("film_reduction", "meniscus_position")
+_OF_HEAT = ("oil_temperature", "contact_temperature", "flash_temperature")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -136,6 +147,9 @@ class CurveRecord(Record):
     loaded_friction: Annotated[FloatArray, _other_oil("", "friction with the oil counted where the film carries")]
     film_reduction: Annotated[FloatArray | None, _supplied("", "central film over that of a flooded inlet")] = None
     meniscus_position: Annotated[FloatArray | None, _supplied("um", "where the gap begins to be full")] = None
+    oil_temperature: Annotated[FloatArray | None, _heated("oil in the contact, mean by pressure")] = None
+    contact_temperature: Annotated[FloatArray | None, _heated("surfaces in contact, mean by pressure")] = None
+    flash_temperature: Annotated[FloatArray | None, _heated("surfaces in contact, highest")] = None
     rms_height: Annotated[float, Figure("nm", "rms height of both surfaces together", name="Sq", unjudged=True)]
     shown_speed: Annotated[FloatArray, _shown((), "m/s", "speed at which the fields are shown")]
     x: Annotated[FloatArray, _shown(("x",), "m", "x, along sliding")]
@@ -178,7 +192,8 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
             keep(context, (curve, errors), made_again)
         context.progress(len(curve.points), len(pairs), "speeds", friction=own.friction)
     tell(context, oil_notes([point.oil for point in curve.points]))
-    return _record(grid, curve, height, errors, supplied=scene.supply is not None)
+    left_out = (_OF_SUPPLY if scene.supply is None else ()) + (_OF_HEAT if scene.thermal == "off" else ())
+    return _record(grid, curve, height, errors, left_out)
 
 
 def _at(solution: MixedSolution) -> str:
@@ -213,8 +228,11 @@ def _flow_factors(
     return table
 
 
-def _record(grid: Grid, curve: Curve, height: FloatArray, errors: list[FloatArray], *, supplied: bool) -> CurveRecord:
-    """A row for each speed; fields of the speed where film and contact share most evenly."""
+def _record(
+    grid: Grid, curve: Curve, height: FloatArray, errors: list[FloatArray], left_out: Collection[str]
+) -> CurveRecord:
+    """A row for each speed, but for the figures left out; fields of the speed where film and contact share most
+    evenly."""
     from bem.accuracy.bars import from_tables
     from bem.accuracy.mixed import ORIGINS, RULES
 
@@ -222,7 +240,7 @@ def _record(grid: Grid, curve: Curve, height: FloatArray, errors: list[FloatArra
     shown = curve.shown
     assert shown is not None
     film_pressure, film_thickness = shown.film.at(grid.x)
-    names = [item.name for item in fields(curve.points[0]) if supplied or item.name not in _OF_SUPPLY]
+    names = [item.name for item in fields(curve.points[0]) if item.name not in left_out]
     bad = [one for one in curve.points if one.status is not Status.CONVERGED]
     return filled(
         CurveRecord,

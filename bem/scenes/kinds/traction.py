@@ -24,13 +24,13 @@ from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.resolutions import counted
 from bem.scenes.tables.along import AlongScene, with_first_row
+from bem.scenes.tables.heat import check_film_heat
 from bem.scenes.tables.rolling import FilmPointsScene, RollerScene, RollingScene
 from bem.scenes.tables.supply import SupplyScene, build_supply
 
 if TYPE_CHECKING:
     from bem.accuracy import TractionCase
 
-_NEEDED = ("temperature", "density", "heat_capacity", "thermal_conductivity", "temperature_viscosity")
 _SHOWN = np.linspace(-2.5, 1.5, 401)
 """Where curves are given, in half-widths of the Hertz contact along the entrainment."""
 
@@ -70,20 +70,7 @@ class TractionScene(SceneModel):
             return self
         if self.supply is not None:
             raise problem("a supply of oil with heat", 'thermal = "off" with it, or no supply: a flooded inlet')
-        oil = self.oil.build()
-        missing = [key for key in _NEEDED if getattr(oil, key) is None]
-        if missing:
-            raise problem(
-                f"heat of an oil without {', '.join(missing)}",
-                'an oil by grade and temperature, those keys of the oil, or thermal = "off"',
-            )
-        for name in ("lower", "upper"):
-            body = getattr(self, name).build()
-            if body.layers or None in (body.material.thermal_conductivity, body.material.thermal_diffusivity):
-                raise problem(
-                    f"heat of {name}, which has layers or a material without thermal constants",
-                    'materials with thermal_conductivity, density and heat_capacity, or thermal = "off"',
-                )
+        check_film_heat(self.oil, self.lower, self.upper)
         return self
 
 

@@ -88,6 +88,15 @@ def plan(scene: TribofilmScene) -> Plan:
             f"growth follows thickness alone: it is interpolated to {scene.reuse_tolerance:g}",
             skipped=scene.reuse_tolerance > 0,
         ),
+        Step(
+            "surface temperature",
+            "rubbing.speeds are not given"
+            if scene.rubbing.speeds is None
+            else f"of each of about {_CONTACTS} contacts, by which each spot grows",
+            skipped=scene.rubbing.speeds is None,
+            transforms=60.0 * _CONTACTS,
+            points=padded_points(grid.shape, grid.periodic),
+        ),
         Step("tangential kernels", "shear stress is friction times pressure", skipped=True),
         Step(
             "balance of growth and wear",
@@ -103,6 +112,7 @@ def plan(scene: TribofilmScene) -> Plan:
     )
 
 
+_spots = partial(Figure, "C", optional=True, no_bar="it is that of the hottest of a few cells")
 _over_time, _sample = partial(Series, ("time",)), partial(Series, ("sample",), rows=True)
 
 
@@ -123,6 +133,7 @@ class FilmRecord(GridRecord):
     steady_thickness: Annotated[
         float | None, Figure("nm", "thickness at which growth and wear are equal", headline=True)
     ]
+    flash_temperature: Annotated[float | None, _spots("highest temperature of spots in contact")]
     contacts_solved: Annotated[int, Figure("", "contacts that were solved", headline=True, unjudged=True)]
     time: Annotated[FloatArray, _over_time("s", "time of rubbing")]
     thickness: Annotated[FloatArray, _over_time("m", "mean film thickness")]
@@ -168,6 +179,7 @@ def run(scene: TribofilmScene, context: Context) -> FilmRecord:
         film,
         columns(film.samples, _SAMPLED, "sample_"),
         grid,
+        flash_temperature=None if contact.speeds is None else max(one.temperature for one in film.samples),
         **error_bars(context, scene.outputs.errors, lambda: tribofilm_bars(case, figures)),
     )
 

@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
+from bem.friction.setup import HEAT_NEEDS
 from bem.grid import Grid
 from bem.scenes import build
-from bem.scenes.common import Table
+from bem.scenes.common import BodyScene, Table, problem
+from bem.scenes.oil import OilScene
 from bem.scenes.tables.pressing import PressedScene
 from bem.scenes.units import Speed, Temperature
 
@@ -26,6 +28,24 @@ class RubbingHeatScene(Table):
     upper_speed: Speed = 0.0
     lower_bulk: BulkTemperature = ROOM
     upper_bulk: BulkTemperature = ROOM
+
+
+def check_film_heat(oil: OilScene, lower: BodyScene, upper: BodyScene) -> None:
+    """Refuse heat of an oil or of bodies without the constants that it needs."""
+    lubricant = oil.build()
+    missing = [key for key in HEAT_NEEDS if getattr(lubricant, key) is None]
+    if missing:
+        raise problem(
+            f"heat of an oil without {', '.join(missing)}",
+            'an oil by grade and temperature, those keys of the oil, or thermal = "off"',
+        )
+    for name, table in (("lower", lower), ("upper", upper)):
+        body = table.build()
+        if body.layers or None in (body.material.thermal_conductivity, body.material.thermal_diffusivity):
+            raise problem(
+                f"heat of {name}, which has layers or a material without thermal constants",
+                'materials with thermal_conductivity, density and heat_capacity, or thermal = "off"',
+            )
 
 
 class RubbingScene(PressedScene):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, Literal, Self, TypeVar
 
 from pydantic import Field, model_validator
 
@@ -10,6 +10,7 @@ from bem.errors import InputError
 from bem.scenes.axes import with_keys
 from bem.scenes.common import PositiveLength, Table, Variant, problem
 from bem.scenes.lubrication import FilmMeshScene, LineContactScene
+from bem.scenes.tables.heat import check_film_heat
 from bem.scenes.units import Ratio
 from bem.scenes.wearing import Count, LastCycles
 
@@ -53,6 +54,16 @@ class CurveScene(LineContactScene):
 
     film: FilmMeshScene = FilmMeshScene()
     sharing: SharingScene = SharingScene()
+    thermal: Literal["off", "lumped"] = "off"
+
+    @model_validator(mode="after")
+    def _heat(self) -> Self:
+        if self.thermal == "off":
+            return self
+        if self.supply is not None:
+            raise problem("a supply of oil with heat", 'thermal = "off" with it, or no supply: a flooded inlet')
+        check_film_heat(self.oil, self.lower, self.upper)
+        return self
 
     @property
     def capped(self) -> bool:
@@ -79,6 +90,7 @@ class CurveScene(LineContactScene):
             film_position=self.film.positions(),
             contact_model="coupled" if self.coupled else "uncoupled",
             flow_factors=factors,
+            thermal=self.thermal,
         )
 
 

@@ -84,7 +84,8 @@ class VariantScene(Variant):
 
 
 class RubbingScene(Table):
-    """Loads, temperatures and how long; `cycle` converts cycles to time for figures against cycles."""
+    """Loads, temperatures and how long; `cycle` converts cycles to time for figures against cycles. With `speeds` of
+    both surfaces over the contact the film grows as warm as rubbing makes each spot."""
 
     loads: Loads
     temperatures: Annotated[list[Annotated[Temperature, Field(gt=0)]], Field(min_length=1, max_length=64)]
@@ -93,6 +94,7 @@ class RubbingScene(Table):
     points: Annotated[int, Field(strict=True, ge=2, le=100_000)] = 241
     report: tuple[Annotated[Time, Field(ge=0)], Annotated[Time, Field(ge=0)]] | None = None
     cycle: Annotated[Time, Field(gt=0)] | None = None
+    speeds: tuple[Speed, Speed] | None = None
 
     @model_validator(mode="after")
     def _within(self) -> RubbingScene:
@@ -115,6 +117,13 @@ class RubbedScene(SceneModel):
     def _film_is_the_layer(self) -> Self:
         if self.lower.stack or self.upper.stack:
             raise problem("a body has a layer of its own", "bodies without a layer: the film is the layer")
+        bodies = build.bodies_of(self)
+        for body in bodies if isinstance(bodies, tuple) else (bodies,):
+            if self.rubbing.speeds is not None and body.material.thermal_diffusivity is None:
+                raise problem(
+                    f"rubbing.speeds: heat of {body.material.name}, a material without thermal constants",
+                    "materials with thermal_conductivity, density and heat_capacity, or no speeds",
+                )
         return self
 
     def check_load(self, grid: Grid) -> None:
@@ -188,4 +197,5 @@ class RubbedScene(SceneModel):
             friction=self.rubbing.friction,
             average=film.average,
             nominal_area=nominal,
+            speeds=self.rubbing.speeds,
         )
