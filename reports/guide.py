@@ -12,8 +12,8 @@ from bem.errors import InputError
 from bem.laws import FAMILIES, Law, laws_of
 from bem.scenes import get_kind, kind_names, library
 from bem.scenes.laws import LawKey
-from bem.scenes.template import _about, _default, scene_template
-from bem.scenes.validate import _fields, _literals, _unwrap, _without_none
+from bem.scenes.template import about_field, default_text, scene_template
+from bem.scenes.validate import fields_of_table, literals, unwrap, without_none
 from reports.builder import Page, Section, table, text
 from reports.error_bars import chapter
 from reports.prose import prose
@@ -156,13 +156,13 @@ def _options() -> Iterator[Section]:
 def _keys(model: Any, prefix: str) -> Iterator[tuple[str, str, str, str]]:
     """Rows of a table of keys, those of inner tables below their own."""
     shown: set[str] = set()
-    for key, field in _fields(model).items():
+    for key, field in fields_of_table(model).items():
         tables = _tables(field.annotation) or _laws_at(field)
         name = f"{prefix}{key}"
         if key == "kind" and not prefix:
             continue
-        default = "" if tables else _default(field).replace("(not set)", "-").replace("...", "required")
-        yield name, default, _about(field), effect_of(name)
+        default = "" if tables else default_text(field).replace("(not set)", "-").replace("...", "required")
+        yield name, default, about_field(field), effect_of(name)
         if key == "layers" or (key in ("material", "layer", "surface") and prefix not in ("lower.", "layer.")):
             continue  # said once, for the lower body's layer
         if len(tables) > 1:
@@ -183,7 +183,7 @@ def _laws_at(field: Any) -> list[Any]:
 
 
 def _tags(table: Any) -> list[str]:
-    return [table.name] if issubclass(table, Law) else list(_literals(_fields(table)["kind"].annotation))
+    return [table.name] if issubclass(table, Law) else list(literals(fields_of_table(table)["kind"].annotation))
 
 
 def effect_of(name: str) -> str:
@@ -194,10 +194,10 @@ def effect_of(name: str) -> str:
 
 def _tables(annotation: Any) -> list[Any]:
     """The models that may stand at a key."""
-    annotation = _without_none(annotation)
-    if _fields(annotation):
+    annotation = without_none(annotation)
+    if fields_of_table(annotation):
         return [annotation]
-    return [model for item in typing.get_args(annotation) for model in _tables(_unwrap(item)[0])]
+    return [model for item in typing.get_args(annotation) for model in _tables(unwrap(item)[0])]
 
 
 def _theory() -> list[Section]:

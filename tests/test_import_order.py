@@ -31,6 +31,7 @@ ORDER = [
     {"runs"},
     {"warm_up"},
     {"verification", "benchmarks"},
+    {"app"},
     {"cli"},
 ]
 RANK = {room: level for level, rooms in enumerate(ORDER) for room in rooms}

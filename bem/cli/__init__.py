@@ -29,6 +29,7 @@ _MOST_LINES = 50
 
 ORDER = (
     "run",
+    "app",
     "plan",
     "scenes",
     "sweep",

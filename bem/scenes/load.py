@@ -96,7 +96,7 @@ def scenes_at(data: Mapping[str, Any], over: Mapping[str, Sequence[Any]]) -> lis
                 parsed = parse_key(key)
                 if parsed is None:
                     raise InputError(f'over: "{key}" is no key; allowed: dotted keys such as contact.load')
-                put(own, parsed, _plain(value) if isinstance(value, str) else value, pair=_is_pair(own, parsed))
+                put(own, parsed, plain_value(value) if isinstance(value, str) else value, pair=_is_pair(own, parsed))
             found.append(scene_from_table(own))
         except InputError as error:
             messages += [f"over: at {words_at(over, values)}: {message}" for message in error.messages]
@@ -107,7 +107,7 @@ def scenes_at(data: Mapping[str, Any], over: Mapping[str, Sequence[Any]]) -> lis
 
 def words_at(over: Iterable[str], values: Sequence[Any]) -> str:
     """Keys with one value each, for messages."""
-    shown = (show(_plain(value) if isinstance(value, str) else value) for value in values)
+    shown = (show(plain_value(value) if isinstance(value, str) else value) for value in values)
     return ", ".join(f"{key} = {value}" for key, value in zip(over, shown, strict=True))
 
 
@@ -215,9 +215,9 @@ def _set(data: dict[str, Any], setting: str) -> None:
         drop(data, key)
         return
     if value.strip().startswith("@"):
-        found: Any = [_plain(line) for line in values_in_file(value.strip()[1:], f"--set {show(setting)}")]
+        found: Any = [plain_value(line) for line in values_in_file(value.strip()[1:], f"--set {show(setting)}")]
     else:
-        found = _plain(value)
+        found = plain_value(value)
     if key[-1] == "path" and isinstance(found, str):
         found = absolute(found, Path.cwd())  # what is typed in a shell is relative to the shell's folder
     put(data, key, found, pair=_is_pair(data, key))
@@ -230,7 +230,7 @@ def _from_toml(text: str) -> dict[str, Any]:
     return tomllib.loads(text)
 
 
-def _plain(text: str) -> Any:
+def plain_value(text: str) -> Any:
     """A value as in TOML; what is none is a plain word or a quantity without quotes."""
     value = text.strip()
     with suppress(ValueError, RecursionError):
@@ -280,13 +280,27 @@ def _is_text(text: Any) -> bool:
     return not isinstance(text, str) or text.isascii() or not any("\ud800" <= c <= "\udfff" for c in text)
 
 
+def table_text(table: Mapping[str, Any]) -> str:
+    """A table of plain values as the TOML text of a scene: its tables under headings, what is in those on one line."""
+    lines = [f"{_spelt(key)} = {dumped(value)}" for key, value in table.items() if not isinstance(value, Mapping)]
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            lines += ["", f"[{_spelt(key)}]", *(f"{_spelt(inner)} = {dumped(item)}" for inner, item in value.items())]
+    return "\n".join(lines) + "\n"
+
+
+def _spelt(key: str) -> str:
+    """A key, in quotes where it needs them."""
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key)
+
+
 def dump_scene(scene: SceneModel) -> str:
     """The scene as TOML text in SI units, each number with its unit behind it; loading it gives an equal scene.
 
     A scene with `over` is written as it was: its cases differ before anything is filled in.
     """
     if scene.source is not None:
-        return "".join(f"{json.dumps(key)} = {_dump_value(value)}\n" for key, value in scene.source.items())
+        return "".join(f"{json.dumps(key)} = {dumped(value)}\n" for key, value in scene.source.items())
     return "\n".join(_dump_table(scene, ())) + "\n"
 
 
@@ -308,12 +322,18 @@ def _dump_table(table: BaseModel, path: tuple[str, ...]) -> Iterable[str]:
             tables.append((name, value))
             continue
         unit = _unit_of(field)
-        yield f"{name} = {_dump_value(value)}" + (f"  # {unit}" if unit else "")
+        yield f"{name} = {dumped(value)}" + (f"  # {unit}" if unit else "")
     for name, inner in tables:
         yield from _dump_table(inner, (*path, name))
 
 
-def _dump_value(value: Any) -> str:
+def dumped(value: Any) -> str:
+    """A plain value, a law or a table as TOML, in a line.
+
+    Raises
+    ------
+    TypeError : anything else.
+    """
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, int):
@@ -323,13 +343,13 @@ def _dump_value(value: Any) -> str:
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(_dump_value(item) for item in value) + "]"
+        return "[" + ", ".join(dumped(item) for item in value) + "]"
     if isinstance(value, Law):
-        return _dump_value(plain(value))
+        return dumped(plain(value))
     if isinstance(value, BaseModel):
         value = value.model_dump(mode="python", exclude_none=True)
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{json.dumps(str(key))} = {_dump_value(item)}" for key, item in value.items()) + "}"
+        return "{" + ", ".join(f"{json.dumps(str(key))} = {dumped(item)}" for key, item in value.items()) + "}"
     raise TypeError(f"no TOML for {type(value).__name__}")
 
 

@@ -15,9 +15,9 @@ from bem.errors import InputError
 from bem.laws import Law
 from bem.scenes.kind import get_kind, kind_names
 from bem.scenes.laws import LawOrNumber
-from bem.scenes.load import _dump_value, library, library_text
+from bem.scenes.load import dumped, library, library_text
 from bem.scenes.units import Dimension
-from bem.scenes.validate import _fields, _law, _literals, _member, _unwrap, _without_none, nearest, show
+from bem.scenes.validate import fields_of_table, law_at, literals, member_of, nearest, show, unwrap, without_none
 
 _NOT_SHOWN = ("kind", "redoes", "name")
 
@@ -89,7 +89,7 @@ def scene_template(kind: str) -> str:
             f"KIND {show(kind)}: not a kind of scene{close}; allowed: {listed}, or a built-in scene of `bem scenes`"
         )
     found = get_kind(kind)
-    name, data = _start(kind)
+    name, data = shortest_scene(kind)
     lines = [
         f"# {found.title}",
         f"# Values are those of the built-in scene `{name}`; lines behind a # are other keys with their defaults.",
@@ -100,7 +100,7 @@ def scene_template(kind: str) -> str:
     return "\n".join(lines).rstrip() + "\n"
 
 
-def _start(kind: str) -> tuple[str, dict[str, Any]]:
+def shortest_scene(kind: str) -> tuple[str, dict[str, Any]]:
     """The shortest built-in scene of the kind that needs no file of the user."""
     scenes = {
         name: data
@@ -118,10 +118,10 @@ def _table(model: Any, data: Mapping[str, Any], path: tuple[str, ...], *, commen
     """The keys of a table, then its tables, each under its heading."""
     inner: list[tuple[str, Any, Any]] = []
     mark = "# " if commented else ""
-    fields = _fields(model)
+    fields = fields_of_table(model)
     for key in data:  # short forms that are no fields, such as the name of a catalogue material
         if key not in fields:
-            yield f"{mark}{key} = {_dump_value(data[key])}"
+            yield f"{mark}{key} = {dumped(data[key])}"
     for key, field in fields.items():
         if key in _NOT_SHOWN and not (path and key == "kind" and key in data):
             continue
@@ -130,100 +130,101 @@ def _table(model: Any, data: Mapping[str, Any], path: tuple[str, ...], *, commen
             if isinstance(value, list) and value and isinstance(value[0], Mapping):
                 inner.append((key, field, value))
             else:
-                yield _line(f"{mark}{key} = {_dump_value(value)}", field)
+                yield _line(f"{mark}{key} = {dumped(value)}", field)
         elif key in data or _is_table(field.annotation):
             inner.append((key, field, value))
         else:
-            yield _line(f"# {key} = {_default(field)}", field)
+            yield _line(f"# {key} = {default_text(field)}", field)
     for key, field, value in inner:
         yield from _inner(key, field, value, (*path, key), commented)
 
 
 def _inner(key: str, field: Any, value: Any, path: tuple[str, ...], commented: bool) -> Iterator[str]:
-    annotation = _without_none(field.annotation)
+    annotation = without_none(field.annotation)
     yield ""
     if isinstance(value, list):
-        item = _unwrap(typing.get_args(annotation)[0])[0]
+        item = unwrap(typing.get_args(annotation)[0])[0]
         for entry in value:
             yield f"[[{'.'.join(path)}]]"
             for own, number in entry.items():
-                yield f"{own} = {_dump_value(number)}"
-            yield from (f"# {line}" for line in _about_table(item))
+                yield f"{own} = {dumped(number)}"
+            yield from (f"# {line}" for line in about_table(item))
         return
     if isinstance(value, Mapping):
-        model = _law(annotation, value) or _member(annotation, value.get("kind")) or annotation
-        yield from (f"# {line}" for line in _about_table(model))
+        model = law_at(annotation, value) or member_of(annotation, value.get("kind")) or annotation
+        yield from (f"# {line}" for line in about_table(model))
         yield f"[{'.'.join(path)}]" if not commented else f"# [{'.'.join(path)}]"
         yield from _table(model, value, path, commented=commented)
         return
     if typing.get_origin(annotation) is list:
-        item = _unwrap(typing.get_args(annotation)[0])[0]
-        yield from (f"# {line}" for line in _about_table(item))
+        item = unwrap(typing.get_args(annotation)[0])[0]
+        yield from (f"# {line}" for line in about_table(item))
         yield f"# [[{'.'.join(path)}]]"
-        for name, inner in _fields(item).items():
-            yield _line(f"# {name} = {_default(inner)}", inner)
+        for name, inner in fields_of_table(item).items():
+            yield _line(f"# {name} = {default_text(inner)}", inner)
         return
-    members = [annotation] if _fields(annotation) else [_unwrap(m)[0] for m in typing.get_args(annotation)]
+    members = [annotation] if fields_of_table(annotation) else [unwrap(m)[0] for m in typing.get_args(annotation)]
     for model in members:
-        if not _fields(model):
+        if not fields_of_table(model):
             continue
-        yield from (f"# {line}" for line in _about_table(model))
+        yield from (f"# {line}" for line in about_table(model))
         yield f"# [{'.'.join(path)}]"
-        for name, inner in _fields(model).items():
-            yield _line(f"# {name} = {_default(inner)}", inner)
+        for name, inner in fields_of_table(model).items():
+            yield _line(f"# {name} = {default_text(inner)}", inner)
 
 
 def _is_table(annotation: Any) -> bool:
-    annotation = _without_none(annotation)
-    if _fields(annotation):
+    annotation = without_none(annotation)
+    if fields_of_table(annotation):
         return True
     arguments = typing.get_args(annotation)
     if typing.get_origin(annotation) is list:
-        return bool(_fields(arguments[0]))
+        return bool(fields_of_table(arguments[0]))
     return bool(arguments) and all(
-        bool(_fields(_unwrap(item)[0])) for item in arguments if item not in (type(None), Ellipsis)
+        bool(fields_of_table(unwrap(item)[0])) for item in arguments if item not in (type(None), Ellipsis)
     )
 
 
 def _line(text: str, field: Any) -> str:
-    about = _about(field)
+    about = about_field(field)
     return f"{text:<36}  # {about}" if about else text
 
 
-def _about(field: Any) -> str:
+def about_field(field: Any) -> str:
     """Unit and choices of a key."""
-    annotation, metadata = _unwrap(_without_none(field.annotation))
+    annotation, metadata = unwrap(without_none(field.annotation))
     pending = [*metadata, *field.metadata, *typing.get_args(annotation)]
-    literals: list[str] = list(_literals(annotation))
+    words: list[str] = list(literals(annotation))
     for item in sorted(pending, key=lambda item: not isinstance(item, LawOrNumber)):
-        item, more = _unwrap(item)
+        item, more = unwrap(item)
         pending_more = [*more, item]
         for part in pending_more:
             if isinstance(part, LawOrNumber):
-                return f"{_about(FieldInfo.from_annotation(part.number))}, or a law: {', '.join(part.names())}"
+                return f"{about_field(FieldInfo.from_annotation(part.number))}, or a law: {', '.join(part.names())}"
             if isinstance(part, Dimension):
                 return part.allowed
-        literals = literals or list(_literals(item))
-    if literals:
-        return "one of " + ", ".join(literals)
+        words = words or list(literals(item))
+    if words:
+        return "one of " + ", ".join(words)
     if annotation is bool:
         return "true or false"
     return ""
 
 
-def _about_table(model: Any) -> list[str]:
+def about_table(model: Any) -> list[str]:
     """The first paragraph of a table's docstring."""
     if not (isinstance(model, type) and issubclass(model, BaseModel | Law)) or not model.__doc__:
         return []
     return [line.strip() for line in model.__doc__.strip().split("\n\n")[0].splitlines()]
 
 
-def _default(field: Any) -> str:
+def default_text(field: Any) -> str:
+    """The default of a key as it would be typed; "..." where one is needed, "(not set)" for none."""
     if field.default is PydanticUndefined or field.default is None:
         return "..." if field.default is PydanticUndefined else "(not set)"
     try:
         if isinstance(field.default, Law):
-            return _dump_value(field.default.name)
-        return _dump_value(field.default)
+            return dumped(field.default.name)
+        return dumped(field.default)
     except TypeError:
         return "..."

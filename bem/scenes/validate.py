@@ -85,7 +85,7 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
         return f"{key}: missing{allowed or _choices(annotation)}"
     if kind == "literal_error":
         either = f", or {dimension.allowed}" if dimension else ""
-        return f"{where}: not allowed{nearest(value, _literals(annotation))}{_choices(annotation)}{either}"
+        return f"{where}: not allowed{nearest(value, literals(annotation))}{_choices(annotation)}{either}"
     if kind in ("union_tag_invalid", "union_tag_not_found"):
         names = [name.strip().strip("'") for name in str(context.get("expected_tags", "")).split(",") if name.strip()]
         names = names or sorted(_tags(annotation))
@@ -98,7 +98,7 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
         found, names = context["found"], context["names"]
         return f'{key} = "{found}": {mistake["msg"]}{nearest(found, names)}; allowed: {", ".join(names)}'
     if kind in ("model_type", "model_attributes_type", "dict_type"):
-        return f"{where}: not a table; allowed: a table with {', '.join(sorted(_fields(annotation)))}"
+        return f"{where}: not a table; allowed: a table with {', '.join(sorted(fields_of_table(annotation)))}"
     if kind == "quantity":
         return f"{where}: {mistake['msg']}"
     if kind == "scene":
@@ -112,7 +112,7 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
 def _spread(metadata: Sequence[Any]) -> Iterable[Any]:
     """The metadata with those of numbers in whose place a law may stand."""
     for item in metadata:
-        yield from _unwrap(item.number)[1] if isinstance(item, LawOrNumber) else (item,)
+        yield from unwrap(item.number)[1] if isinstance(item, LawOrNumber) else (item,)
 
 
 def _names_at(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> Iterable[str]:
@@ -121,8 +121,8 @@ def _names_at(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> Iterable
     raw = data
     for part in loc:
         raw = raw[part] if isinstance(raw, dict | list) and (isinstance(part, int) or part in raw) else None
-    law = _law(_without_none(annotation), raw)
-    return _fields(annotation) if law is None else ["kind", *_fields(law)]
+    law = law_at(without_none(annotation), raw)
+    return fields_of_table(annotation) if law is None else ["kind", *fields_of_table(law)]
 
 
 def _scalar(value: Any) -> str:
@@ -136,27 +136,27 @@ def _locate(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> tuple[str,
     metadata: Sequence[Any] = ()
     raw = data
     for part in loc:
-        annotation = _without_none(annotation)
+        annotation = without_none(annotation)
         if isinstance(part, int):
             arguments = typing.get_args(annotation)
             if arguments:
-                annotation, inner = _unwrap(arguments[min(part, len(arguments) - 1)])
+                annotation, inner = unwrap(arguments[min(part, len(arguments) - 1)])
                 metadata = inner or metadata
             if isinstance(raw, list | tuple):
                 key += f"[{part}]"
                 raw = raw[part] if part < len(raw) else None
             continue
-        member = _member(annotation, part)
+        member = member_of(annotation, part)
         if member is not None:
             annotation = member
             continue
         shown = part if _BARE.fullmatch(str(part)) else show(part)
         key = f"{key}.{shown}" if key else str(shown)
-        law = _law(annotation, raw)
-        field = _fields(law or annotation).get(part)
+        law = law_at(annotation, raw)
+        field = fields_of_table(law or annotation).get(part)
         if field is not None:
             annotation, metadata = field.annotation, tuple(field.metadata)
-            bare, inner = _unwrap(_without_none(annotation))
+            bare, inner = unwrap(without_none(annotation))
             annotation, metadata = bare, (*metadata, *inner)
         else:
             annotation, metadata = None, ()
@@ -164,7 +164,7 @@ def _locate(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> tuple[str,
     return key, annotation, metadata
 
 
-def _law(annotation: Any, raw: Any) -> type[Law] | None:
+def law_at(annotation: Any, raw: Any) -> type[Law] | None:
     """The law that a table of a scene means, where laws of that family may stand."""
     if not (isinstance(annotation, type) and issubclass(annotation, Law) and isinstance(raw, dict)):
         return None
@@ -173,11 +173,11 @@ def _law(annotation: Any, raw: Any) -> type[Law] | None:
 
 def is_pair(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> bool:
     """Whether the field at these keys holds two values, one for each axis."""
-    arguments = typing.get_args(_without_none(_locate(loc, data, model)[1]))
+    arguments = typing.get_args(without_none(_locate(loc, data, model)[1]))
     return len(arguments) == 2 and Ellipsis not in arguments
 
 
-def _unwrap(annotation: Any) -> tuple[Any, tuple[Any, ...]]:
+def unwrap(annotation: Any) -> tuple[Any, tuple[Any, ...]]:
     """An annotation without `Annotated`, and what was in it."""
     metadata: tuple[Any, ...] = ()
     while typing.get_origin(annotation) is typing.Annotated:
@@ -186,31 +186,34 @@ def _unwrap(annotation: Any) -> tuple[Any, tuple[Any, ...]]:
     return annotation, metadata
 
 
-def _without_none(annotation: Any) -> Any:
-    annotation, _ = _unwrap(annotation)
+def without_none(annotation: Any) -> Any:
+    """An annotation without `Annotated` and `None`; of a number or a law the law."""
+    annotation, _ = unwrap(annotation)
     if typing.get_origin(annotation) in (typing.Union, types.UnionType):
         members = [item for item in typing.get_args(annotation) if item is not type(None)]
         # of a number or a law the number's dimension is with the field
-        members = [item for item in members if _is_law(item)] or members
+        members = [item for item in members if is_law(item)] or members
         if len(members) == 1:
             return members[0]
     return annotation
 
 
-def _is_law(annotation: Any) -> bool:
+def is_law(annotation: Any) -> bool:
+    """Whether it is a law or a family of them."""
     return isinstance(annotation, type) and issubclass(annotation, Law)
 
 
-def _members(annotation: Any) -> list[Any]:
+def members_of(annotation: Any) -> list[Any]:
+    """The members of a union, none of anything else."""
     if typing.get_origin(annotation) in (typing.Union, types.UnionType):
-        return [_unwrap(item)[0] for item in typing.get_args(annotation)]
+        return [unwrap(item)[0] for item in typing.get_args(annotation)]
     return []
 
 
-def _member(annotation: Any, tag: Any) -> Any:
+def member_of(annotation: Any, tag: Any) -> Any:
     """The member of a union of tables whose `kind` is `tag`."""
-    for item in _members(annotation):
-        kind = _fields(item).get("kind")
+    for item in members_of(annotation):
+        kind = fields_of_table(item).get("kind")
         if kind is not None and tag in typing.get_args(kind.annotation):
             return item
     return None
@@ -219,15 +222,15 @@ def _member(annotation: Any, tag: Any) -> Any:
 def _tags(annotation: Any) -> list[str]:
     return [
         tag
-        for item in _members(annotation)
-        if "kind" in _fields(item)
-        for tag in typing.get_args(_fields(item)["kind"].annotation)
+        for item in members_of(annotation)
+        if "kind" in fields_of_table(item)
+        for tag in typing.get_args(fields_of_table(item)["kind"].annotation)
     ]
 
 
-def _fields(annotation: Any) -> dict[str, Any]:
+def fields_of_table(annotation: Any) -> dict[str, Any]:
     """Fields of a table, or of a law that has a name; a family of laws has none of its own."""
-    annotation = _without_none(annotation)
+    annotation = without_none(annotation)
     if not isinstance(annotation, type):
         return {}
     if issubclass(annotation, LawTable):
@@ -237,8 +240,9 @@ def _fields(annotation: Any) -> dict[str, Any]:
     return fields_of(annotation) if issubclass(annotation, Law) and annotation.name else {}
 
 
-def _literals(annotation: Any) -> list[str]:
-    annotation = _without_none(annotation)
+def literals(annotation: Any) -> list[str]:
+    """The words that are allowed: of a literal, or names of a family of laws."""
+    annotation = without_none(annotation)
     if isinstance(annotation, type) and issubclass(annotation, Law) and not annotation.name:
         return list(laws_of(annotation.family))
     return (
@@ -247,8 +251,8 @@ def _literals(annotation: Any) -> list[str]:
 
 
 def _choices(annotation: Any) -> str:
-    names = _literals(annotation)
+    names = literals(annotation)
     if names:
         return "; allowed: " + ", ".join(f'"{name}"' for name in names)
-    names = sorted(_fields(annotation))
+    names = sorted(fields_of_table(annotation))
     return f"; allowed: a table with {', '.join(names)}" if names else ""

@@ -15,6 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 HEAVY = {
     *("numpy", "scipy", "numba", "pyfftw", "matplotlib", "xarray", "pydantic", "pint", "h5py", "h5netcdf", "pandas"),
     *("rich", "jinja2", "meshio", "SurfaceTopography", "dask", "distributed", "multiprocessing"),
+    *("nicegui", "fastapi", "starlette", "uvicorn", "httpx"),
 }
 
 
@@ -54,7 +55,8 @@ def imports():
 def test_what_is_imported_is_declared():
     """h5py came with another package, and would have gone with it: h5netcdf gave it up."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    needed = [*project["dependencies"], *project["optional-dependencies"]["dask"]]
+    optional = project["optional-dependencies"]
+    needed = [*project["dependencies"], *optional["dask"], *optional["app"]]
     declared = {re.split(r"[<>=\[]", text)[0].lower() for text in needed}
     # parts of what is declared, under names of their own
     parts = {"pydantic_core": "pydantic", "llvmlite": "numba", "cycler": "matplotlib", "distributed": "dask"}
@@ -66,7 +68,9 @@ def test_importing_bem_loads_nothing_heavy():
     assert not loaded("import bem") & HEAVY
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["run", "--help"], ["sweep", "--help"]])
+@pytest.mark.parametrize(
+    "arguments", [["--help"], ["--version"], ["run", "--help"], ["sweep", "--help"], ["app", "--help"]]
+)
 def test_help_loads_nothing_heavy(arguments):
     # a recent typer loads pydantic itself as soon as there is an option to convert
     own = set() if arguments == ["--help"] else {"pydantic"}
@@ -95,6 +99,7 @@ def test_a_run_loads_no_scheduler_and_no_units_registry(tmp_path, monkeypatch):
     assert "pyfftw" in modules
     assert "matplotlib" in modules
     assert not modules & {"dask", "distributed", "pint", "SurfaceTopography", "xarray", "pandas", "meshio", "rich"}
+    assert not modules & {"nicegui", "fastapi", "uvicorn"}
 
 
 def test_a_run_of_smooth_bodies_loads_hardly_anything_of_scipy(tmp_path, monkeypatch):

@@ -1,0 +1,218 @@
+"""A form (`bem.scenes.form`) in the browser: what is typed goes into the scene's table at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from nicegui import ui
+
+from bem.app.layout import say
+from bem.errors import BemError
+from bem.scenes.form import Entry, FormTable, text_of, with_kind, with_value
+from bem.scenes.paths import parse_key, value_at
+
+_UNSET = "(not set)"
+_VALUE = "(a value)"
+
+
+class FormView:
+    """The form of a scene's table.
+
+    Parameters
+    ----------
+    form : see `bem.scenes.form.form_of`.
+    table : plain values.
+    paths : surface files to choose from.
+    changed : told of the table whenever it changes.
+    """
+
+    def __init__(
+        self,
+        form: FormTable,
+        table: dict[str, Any],
+        paths: Sequence[str],
+        changed: Callable[[dict[str, Any]], None],
+    ) -> None:
+        self.table = table
+        self._form = form
+        self._paths = list(paths)
+        self._changed = changed
+        self._inputs: dict[str, Any] = {}
+        self._whole = ui.column().classes("w-full gap-1")
+        self.draw()
+
+    def draw(self) -> None:
+        """All of it anew, after the table was changed from elsewhere."""
+        self._inputs = {}
+        self._whole.clear()
+        with self._whole:
+            self._entries(self._form.entries, top=True)
+
+    def show_mistakes(self, messages: Sequence[str]) -> None:
+        """Each message at the key that it begins with."""
+        for key, item in self._inputs.items():
+            own = [text for text in messages if text.startswith((f"{key} ", f"{key}:"))]
+            item.props(remove="error error-message")
+            if own:
+                item.props["error"] = True
+                item.props["error-message"] = own[0].partition(": ")[2]
+            item.update()
+
+    def _value(self, key: str) -> Any:
+        parsed = parse_key(key)
+        return None if parsed is None else value_at(self.table, parsed)
+
+    def _put(self, key: str, text: str) -> None:
+        try:
+            self.table = with_value(self.table, key, text)
+        except BemError as error:
+            say(error)
+            return
+        self._changed(self.table)
+
+    def _entries(self, entries: Sequence[Entry], top: bool = False) -> None:
+        plain = [entry for entry in entries if not entry.tables]
+        with ui.element("div").classes("w-full").style(_GRID):
+            for entry in plain:
+                self._leaf(entry)
+        for entry in entries:
+            if entry.tables:
+                self._inner(entry, top)
+
+    def _leaf(self, entry: Entry) -> None:
+        value = self._value(entry.key)
+        words = entry.name + (" *" if entry.required else "")
+        if entry.switch:
+            default = entry.default == "true"
+            item: Any = ui.switch(
+                words,
+                value=default if value is None else bool(value),
+                on_change=lambda e, key=entry.key: self._put(key, str(e.value).lower()),
+            )
+        elif entry.closed or entry.key.endswith(".path"):
+            unset = f"{entry.default.strip(chr(34))} (default)" if entry.default else _UNSET
+            options = [unset, *(entry.choices or self._paths)]
+            shown = text_of(value) or unset
+            item = ui.select(
+                options if shown in options else [*options, shown],
+                label=words,
+                value=shown,
+                on_change=lambda e, key=entry.key: self._put(key, "" if e.value == unset else str(e.value)),
+            ).props("dense outlined options-dense")
+        else:
+            item = ui.input(
+                words,
+                value=text_of(value),
+                placeholder=entry.default,
+                on_change=lambda e, key=entry.key: self._put(key, e.value or ""),
+                autocomplete=list(entry.choices) or None,
+            ).props("dense outlined debounce=400 stack-label")
+        item.classes("w-full").props["data-key"] = entry.key
+        if entry.allowed and not entry.switch:
+            item.props["hint"] = entry.allowed
+        self._inputs[entry.key] = item
+
+    def _inner(self, entry: Entry, top: bool) -> None:
+        """Tables that may stand at a key: which one, and its keys."""
+        value = self._value(entry.key)
+        is_open = top and (value is not None or entry.required)
+        heading = entry.name + (" *" if entry.required else "")
+        outer = ui.expansion(heading, value=is_open).classes("w-full").props("dense header-class=text-bold")
+        outer.style("border-left: 3px solid #bcd4de; background: white")
+        outer.props["data-table"] = entry.key
+        filled = [False]
+
+        def fill() -> None:
+            if not filled[0]:
+                filled[0] = True
+                with outer:
+                    self._inside(entry)
+
+        outer.on_value_change(lambda e: fill() if e.value else None)
+        if is_open:
+            fill()
+
+    def _inside(self, entry: Entry) -> None:
+        body = ui.column().classes("w-full gap-1 q-pl-sm")
+
+        def draw() -> None:
+            body.clear()
+            with body:
+                self._choice(entry, draw)
+
+        draw()
+
+    def _choice(self, entry: Entry, again: Callable[[], None]) -> None:
+        value = self._value(entry.key)
+        if len(entry.tables) == 1 and not entry.tables[0].kind:
+            if entry.choices:
+                self._named(entry, value, again)
+                with ui.expansion("constants of its own").classes("w-full").props("dense"):
+                    self._entries(entry.tables[0].entries)
+                return
+            if value is None and not entry.required:
+                ui.label("not set; what is filled in here sets it").classes("text-caption text-grey")
+            self._about(entry.tables[0])
+            self._entries(entry.tables[0].entries)
+            return
+        chosen = _member_of(entry, value)
+        options = [*([] if entry.required else [_UNSET]), *([_VALUE] if entry.typed else [])]
+        options += [one.kind for one in entry.tables]
+
+        def choose(kind: str) -> None:
+            if kind == _UNSET:
+                self._put(entry.key, "")
+            elif kind != _VALUE:
+                member = next(one for one in entry.tables if one.kind == kind)
+                if entry.typed and not member.entries:
+                    self._put(entry.key, kind)
+                else:
+                    self.table = with_kind(self.table, entry, kind)
+                    self._changed(self.table)
+            again()
+
+        shown = chosen.kind if chosen else _VALUE if entry.typed and value is not None else None
+        picker = ui.select(options, label="which", value=shown if shown in options else None)
+        picker.on_value_change(lambda e: choose(str(e.value))).props("dense outlined options-dense").classes("w-64")
+        picker.props["data-key"] = f"{entry.key}.kind"
+        if chosen is not None:
+            self._about(chosen)
+            self._entries(chosen.entries)
+        elif entry.typed:
+            self._leaf(entry)
+
+    def _named(self, entry: Entry, value: Any, again: Callable[[], None]) -> None:
+        """A name of the catalogue, beside which constants may be given."""
+        table = value if isinstance(value, Mapping) else None
+        name = table.get("catalogue") if table is not None else value
+        key = entry.key if table is None else f"{entry.key}.catalogue"
+
+        def choose(name: str) -> None:
+            self._put(key, "" if name == _UNSET else name)
+            again()
+
+        item = ui.select(
+            [_UNSET, *entry.choices],
+            label=entry.name,
+            value=name if name in entry.choices else _UNSET,
+            with_input=True,
+            on_change=lambda e: choose(str(e.value)),
+        ).props("dense outlined options-dense")
+        item.props["data-key"] = entry.key
+        self._inputs[entry.key] = item
+
+    def _about(self, table: FormTable) -> None:
+        if table.about:
+            ui.label(table.about).classes("text-caption text-grey-8")
+
+
+_GRID = "display: grid; grid-template-columns: repeat(auto-fill, minmax(230px, 1fr)); gap: 18px 10px; padding: 0 0 14px"
+
+
+def _member_of(entry: Entry, value: Any) -> FormTable | None:
+    """The table that stands at an entry, by its kind; the default's where nothing does."""
+    kind = value.get("kind") if isinstance(value, Mapping) else value
+    if value is None and '"kind" = "' in entry.default:
+        kind = entry.default.split('"kind" = "')[1].split('"')[0]
+    return next((one for one in entry.tables if one.kind == kind), None)

@@ -1,0 +1,55 @@
+"""What all pages have: a head with links, messages, tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+from nicegui import ui
+
+from bem.errors import BemError
+
+_LINKS = (("Scenes", "/"), ("Surfaces", "/surfaces"), ("Runs", "/runs"))
+STATES = {"running": "blue", "paused": "orange", "failed": "red", "converged": "green"}
+
+
+@contextmanager
+def page(title: str) -> Iterator[None]:
+    """The frame of a page."""
+    ui.page_title(f"{title} - bem")
+    ui.query("body").style("background: #fafaf8")
+    with ui.header().classes("items-center q-py-xs").style("background: #0b3954"):
+        ui.label("bem").classes("text-h6 text-bold")
+        for words, where in _LINKS:
+            ui.link(words, where).classes("text-white q-mx-sm").style("text-decoration: none")
+        ui.space()
+        ui.label(title).classes("text-subtitle1")
+    with ui.column().classes("w-full q-pa-md").style("max-width: 1500px; margin: 0 auto"):
+        yield
+
+
+def say(error: BaseException) -> None:
+    """Show what went wrong, in the words of the error."""
+    lines = (
+        getattr(error, "messages", None) or str(error).splitlines() if isinstance(error, BemError) else [repr(error)]
+    )
+    ui.notify("\n".join(lines), type="negative", multi_line=True, timeout=12000, close_button=True)
+
+
+def rows(title: str, lines: Sequence[Sequence[str]], head: Sequence[str] = ()) -> None:
+    """A small table of texts."""
+    if title:
+        ui.label(title).classes("text-subtitle2 q-mt-sm")
+    with ui.element("table").classes("text-body2").style("border-collapse: collapse; width: 100%"):
+        for number, line in enumerate([head, *lines] if head else lines):
+            with ui.element("tr"):
+                for cell in line:
+                    tag = "th" if head and number == 0 else "td"
+                    with ui.element(tag).style("padding: 2px 10px 2px 0; vertical-align: top; text-align: left"):
+                        ui.label(str(cell)).style("overflow-wrap: anywhere")
+
+
+def badge(state: str) -> Any:
+    """The state of a run, coloured."""
+    return ui.badge(state, color=STATES.get(state, "grey"))

@@ -1,0 +1,223 @@
+"""Pictures for the browser, as plotly takes them: tables of plain lists. They solve nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.plots.labels import label, prefix
+from bem.plots.tables import is_error, is_list, name_and_unit
+from bem.results.arrays import Array, Arrays
+
+Picture = dict[str, Any]
+MOST_CELLS = 384
+"""Along each axis of a map that is sent: every n-th cell of larger ones, which the title then says."""
+MOST_CURVES = 24
+_PREFIXED = ("m", "Pa", "N", "s")
+_MARGIN = {"l": 60, "r": 10, "t": 36, "b": 46}
+_COLOURS = "Viridis"
+
+
+def map_names(arrays: Arrays) -> list[str]:
+    """Variables that are maps over x and y, maybe one for each of something else."""
+    return [name for name, item in arrays.items() if item.dims[-2:] == ("x", "y") and min(item.shape[-2:]) > 1]
+
+
+def layers_of(arrays: Arrays, name: str) -> list[str]:
+    """What the maps of a variable are, one for each, in words: "depth 1.2 um"; empty for a single one."""
+    item = arrays[name]
+    words = [""]
+    for dim, size in zip(item.dims[:-2], item.shape[:-2], strict=True):
+        at = arrays.get(dim)
+        values = np.arange(size) if at is None else at.values
+        unit = "" if at is None else _unit(at)
+        words = [f"{before}{dim} {_one(value, unit)}, " for before in words for value in values]
+    return [text.removesuffix(", ") for text in words] if item.ndim > 2 else []
+
+
+def layer(arrays: Arrays, name: str, index: int) -> NDArray[np.float64]:
+    """One map of a variable, (nx, ny)."""
+    item = arrays[name]
+    return np.asarray(item.values, dtype=np.float64).reshape(-1, *item.shape[-2:])[index]
+
+
+def map_picture(
+    values: NDArray[np.float64],
+    sides: tuple[NDArray[np.float64], NDArray[np.float64]],
+    words: str,
+    unit: str,
+    *,
+    solid: bool = False,
+) -> Picture:
+    """A map (nx, ny) over x and y [m] that zooms, or as a surface in space; colours end at the 0.2nd and 99.8th
+    percentile where lone points would take them all."""
+    steps = [max(1, -(-n // MOST_CELLS)) for n in values.shape]
+    seen = values[steps[0] // 2 :: steps[0], steps[1] // 2 :: steps[1]]
+    factor, shown = prefix(values[np.isfinite(values)], unit) if unit in _PREFIXED else (1.0, unit)
+    length, length_unit = prefix([float(np.ptp(side)) for side in sides], "m")
+    x, y = (side[step // 2 :: step] * length for side, step in zip(sides, steps, strict=True))
+    finite = seen[np.isfinite(seen)] * factor
+    low, high = (float(v) for v in np.percentile(finite, [0.2, 99.8])) if finite.size else (0.0, 1.0)
+    if not high > low:
+        low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    thinned = f" (every {max(steps)}th cell)" if max(steps) > 1 else ""
+    common = {"x": _numbers(x), "y": _numbers(y), "z": _numbers((seen * factor).T), "colorscale": _COLOURS}
+    bar = {"colorbar": {"title": {"text": shown}}}
+    title = {"title": {"text": words + thinned, "font": {"size": 14}}}
+    axes = {"xaxis": _axis(label("x, sliding", length_unit)), "yaxis": _axis(label("y", length_unit))}
+    if solid:
+        trace = {"type": "surface", **common, **bar, "cmin": low, "cmax": high}
+        scene = {**axes, "zaxis": _axis(shown), "aspectratio": {"x": 1, "y": 1, "z": 0.35}}
+        return {"data": [trace], "layout": {**title, "scene": scene, "margin": _MARGIN, "height": 460}}
+    trace = {"type": "heatmap", **common, **bar, "zmin": low, "zmax": high, "zsmooth": False}
+    axes["yaxis"] |= {"scaleanchor": "x", "constrain": "domain"}
+    axes["xaxis"] |= {"constrain": "domain"}
+    return {"data": [trace], "layout": {**title, **axes, "margin": _MARGIN, "height": 460}, "config": _CONFIG}
+
+
+def sections_picture(
+    values: NDArray[np.float64],
+    sides: tuple[NDArray[np.float64], NDArray[np.float64]],
+    at: tuple[int, int],
+    words: str,
+    unit: str,
+) -> Picture:
+    """The map along x and along y through one cell."""
+    factor, shown = prefix(values[np.isfinite(values)], unit) if unit in _PREFIXED else (1.0, unit)
+    length, length_unit = prefix([float(np.ptp(side)) for side in sides], "m")
+    lines = (
+        ("along x", sides[0], values[:, at[1]], f"y = {sides[1][at[1]] * length:.4g}"),
+        ("along y", sides[1], values[at[0], :], f"x = {sides[0][at[0]] * length:.4g}"),
+    )
+    data = [_line(f"{name}, {where} {length_unit}", side * length, cut * factor) for name, side, cut, where in lines]
+    return _curves(data, f"{words}: sections", label("place", length_unit), shown)
+
+
+def curve_names(arrays: Arrays) -> list[str]:
+    """Variables along one axis that has a coordinate, errors of others not among them."""
+    return [
+        name
+        for name, item in arrays.items()
+        if item.ndim >= 1
+        and item.dims[-1] in arrays.coords
+        and name not in arrays.coords
+        and item.dims[-1] not in ("x", "y")
+        and item.shape[-1] > 1
+        and item.size // item.shape[-1] <= MOST_CURVES
+        and _is_numeric(item)
+        and "_error" not in name
+    ]
+
+
+def curve_picture(arrays: Arrays, name: str) -> Picture:
+    """A variable along its last axis, a line for each case, with error bars where it has them."""
+    item, axis = arrays[name], arrays[arrays[name].dims[-1]]
+    errors = arrays.get(f"{name}_error")
+    unit, along = _unit(item), np.asarray(axis.values)
+    rows = np.asarray(item.values, dtype=np.float64).reshape(-1, item.shape[-1])
+    bars = None
+    if errors is not None and errors.shape == item.shape:
+        bars = np.asarray(errors.values, dtype=np.float64).reshape(rows.shape)
+    factor, shown = prefix(rows[np.isfinite(rows)], unit) if unit in _PREFIXED else (1.0, unit)
+    names = layers_of(Arrays({**arrays.variables, "_": _stood_up(item)}, {}), "_") or [""] * len(rows)
+    data = [
+        _line(words, along, row * factor, None if bars is None else bars[i] * factor)
+        for i, (words, row) in enumerate(zip(names, rows, strict=True))
+    ]
+    head = label(str(axis.attrs.get("long_name", item.dims[-1])), _unit(axis))
+    return _curves(data, str(item.attrs.get("long_name", name)), head, shown, along)
+
+
+def figure_picture(summary: Mapping[str, Any], name: str, along: str) -> Picture:
+    """A figure of the summary that is a list, over another (speed, load), with its error bars."""
+    words, unit = name_and_unit(name)
+    under, under_unit = name_and_unit(along)
+    values, at = (np.array(summary[key], dtype=np.float64) for key in (name, along))
+    error = summary.get(f"{name}_error")
+    bars = np.array(error, dtype=np.float64) if isinstance(error, list) and len(error) == len(values) else None
+    return _curves([_line(words, at, values, bars)], words, label(under, under_unit), unit or words, at)
+
+
+def figures_over(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Figures of the summary that are lists of numbers, each with what it runs over."""
+    known = [key for key in ("speed_m_s", "load_N", "temperature_C") if is_list(summary.get(key))]
+    found = []
+    for name, value in summary.items():
+        if not is_list(value) or name in known or is_error(name, summary) or name.endswith("_spread"):
+            continue
+        along = next((key for key in known if len(summary[key]) == len(value) and len(set(summary[key])) > 1), None)
+        if along is not None and all(isinstance(v, int | float | None) for v in value):
+            found.append((name, along))
+    return found
+
+
+_CONFIG = {"displaylogo": False, "responsive": True, "modeBarButtonsToRemove": ["sendDataToCloud"]}
+
+
+def _axis(words: str) -> Picture:
+    return {"title": {"text": words}}
+
+
+def _line(name: str, x: Any, y: Any, bars: Any = None) -> Picture:
+    trace: Picture = {"type": "scatter", "mode": "lines+markers" if len(x) <= 60 else "lines", "name": name}
+    trace |= {"x": _numbers(np.asarray(x)), "y": _numbers(np.asarray(y))}
+    if bars is not None:
+        trace["error_y"] = {"type": "data", "array": _numbers(np.asarray(bars)), "visible": True}
+    return trace
+
+
+def _curves(data: list[Picture], title: str, x: str, y: str, along: Any = None) -> Picture:
+    layout: Picture = {
+        "title": {"text": title, "font": {"size": 14}},
+        "xaxis": _axis(x),
+        "yaxis": _axis(y),
+        "legend": {"orientation": "h", "y": -0.25},
+        "margin": _MARGIN,
+        "height": 340,
+        "showlegend": len(data) > 1,
+    }
+    if along is not None and _is_wide(along):
+        layout["xaxis"]["type"] = "log"
+    return {"data": data, "layout": layout, "config": _CONFIG}
+
+
+def _is_wide(along: Any) -> bool:
+    values = np.asarray(along)
+    return values.dtype.kind in "fiu" and bool((values > 0).all()) and bool(values.max() > 30 * values.min())
+
+
+def _unit(item: Array) -> str:
+    """As it is shown: nothing for none."""
+    return "" if item.attrs.get("units", "1") == "1" else str(item.attrs["units"])
+
+
+def _is_numeric(item: Array) -> bool:
+    return item.values.dtype.kind in "fiu"
+
+
+def _stood_up(item: Array) -> Array:
+    """The same axes but the last, as if a map stood at each of them."""
+    return Array((*item.dims[:-1], "x", "y"), (*item.shape[:-1], 2, 2), {}, lambda: np.zeros(0))
+
+
+def _one(value: Any, unit: str) -> str:
+    if isinstance(value, str | np.str_):
+        return str(value)
+    factor, shown = prefix([float(value)], unit) if unit in _PREFIXED else (1.0, unit)
+    return f"{float(value) * factor:.4g} {shown}".strip()
+
+
+def _numbers(values: NDArray[Any]) -> list[Any]:
+    """Plain lists; what is not finite becomes nothing, six digits are enough for a screen."""
+    if values.dtype.kind not in "fiu":
+        return list(values.tolist())
+    array = values.astype(np.float64)
+    with np.errstate(all="ignore"):
+        scale = 10.0 ** (6 - np.floor(np.log10(np.abs(array))))
+        rounded = np.where((array == 0) | ~np.isfinite(scale), array, np.round(array * scale) / scale)
+    plain = rounded.astype(object)
+    plain[~np.isfinite(rounded)] = None
+    return list(plain.tolist())

@@ -1,0 +1,51 @@
+"""The plan of a scene as the page shows it: what `bem plan` prints, as tables and sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from bem.errors import BemError
+
+Rows = Sequence[Sequence[str]]
+
+
+@dataclass(frozen=True)
+class ShownPlan:
+    """`messages` say what is wrong; where nothing is: tables by title, warnings, and what it takes in a line."""
+
+    messages: tuple[str, ...] = ()
+    tables: tuple[tuple[str, Rows], ...] = ()
+    warnings: tuple[str, ...] = ()
+    takes: str = ""
+
+
+def shown_plan(table: Mapping[str, Any]) -> ShownPlan:
+    """The plan of a scene's table; no work is done but the reading of its surface files."""
+    from bem.runs import plan_scene
+    from bem.scenes.checks import examine, scene_warnings
+    from bem.scenes.checks.overview import bodies, common, oil
+    from bem.scenes.planner import available_memory, machine_rate, show_bytes, show_seconds, step_seconds
+    from bem.threads import get_threads
+
+    try:
+        scene, plan = plan_scene(table)
+        facts = examine(scene)
+        warnings = scene_warnings(facts)
+        tables: list[tuple[str, Rows]] = [("bodies", bodies(facts))]
+        if (given := getattr(facts.scene, "oil", None)) is not None:
+            tables.append(("oil", [row[:2] for row in oil(given.build())]))
+        tables.append(("grid and smooth contact", common(facts)))
+    except BemError as error:
+        return ShownPlan(tuple(getattr(error, "messages", None) or str(error).splitlines()))
+    rate = machine_rate(get_threads())
+    steps = [
+        (step.name, "skipped" if step.skipped else show_seconds(step_seconds(step, rate)), step.why)
+        for step in plan.steps
+    ]
+    tables.append(("steps", steps))
+    takes = f"about {show_seconds(plan.seconds(rate))} and {show_bytes(plan.memory)}"
+    if plan.memory > available_memory():
+        warnings = [f"it needs {show_bytes(plan.memory)}, more than is free now: it will be refused", *warnings]
+    return ShownPlan((), tuple((title, rows) for title, rows in tables if rows), tuple(warnings), takes)

@@ -1,0 +1,96 @@
+"""The server of the page: loopback only, a token in its address, NiceGUI behind a guard."""
+
+from __future__ import annotations
+
+import secrets
+import socket
+import webbrowser
+from collections.abc import Callable
+from pathlib import Path
+
+import uvicorn
+from fastapi import FastAPI, HTTPException, Request
+from fastapi.responses import Response
+from nicegui import ui
+
+from bem.app.access import Guard
+from bem.app.downloads import WHAT, download
+from bem.app.run_page import RunPage, RunsPage, compare_page
+from bem.app.scene_page import ScenePage, scenes_page
+from bem.app.surface_page import SurfacePage
+from bem.app.workspace import Workspace
+from bem.errors import BemError, ResultsError
+
+HOST = "127.0.0.1"
+
+
+def serve(folder: Path, port: int = 0, *, show: bool = True, say: Callable[[str], None] = print) -> None:
+    """Serve the page of a folder until interrupted; runs that it started go on.
+
+    Parameters
+    ----------
+    folder : of scenes, surfaces and runs; made where it is not there.
+    port : of the machine itself; a free one where 0.
+    show : open a browser.
+    say : told of the address.
+
+    Raises
+    ------
+    ResultsError : a folder or port that cannot be used.
+    """
+    workspace, token = Workspace(folder), secrets.token_urlsafe(24)
+    listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listening.bind((HOST, port))
+    except OSError as error:
+        raise ResultsError(f"port {port}: cannot be used ({error.strerror}); give another, or none") from error
+    port = listening.getsockname()[1]
+    address = f"http://{HOST}:{port}/?token={token}"
+    say(f"bem app: {address}\nscenes and runs: {workspace.folder}\nctrl-c ends the page; runs go on")
+    if show:
+        webbrowser.open(address)
+    guarded = Guard(application(workspace), token, port)
+    config = uvicorn.Config(guarded, log_level="warning", lifespan="on", ws="websockets-sansio")
+    uvicorn.Server(config).run(sockets=[listening])
+
+
+def application(workspace: Workspace) -> FastAPI:
+    """The pages of a folder, unguarded."""
+    app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
+
+    @app.get("/download/{name}/{what}")
+    def take_away(name: str, what: str) -> Response:
+        try:
+            content = download(workspace.run_path(name), what)
+        except BemError as error:
+            raise HTTPException(404, str(error)) from None
+        head = {"Content-Disposition": f'attachment; filename="{name}-{what}"'} if what in WHAT else {}
+        return Response(content, media_type="application/octet-stream", headers=head)
+
+    @ui.page("/")
+    def scenes() -> None:
+        scenes_page(workspace)
+
+    @ui.page("/scene/{name}")
+    def scene(name: str) -> None:
+        ScenePage(workspace, name)
+
+    @ui.page("/surfaces")
+    def surfaces() -> None:
+        SurfacePage(workspace)
+
+    @ui.page("/runs")
+    def runs() -> None:
+        RunsPage(workspace)
+
+    @ui.page("/run/{name}")
+    def one_run(name: str) -> None:
+        RunPage(workspace, name)
+
+    @ui.page("/compare")
+    def compare(request: Request) -> None:
+        compare_page(workspace, [name for name in request.query_params.get("runs", "").split(",") if name])
+
+    ui.run_with(app, title="bem", show_welcome_message=False, reconnect_timeout=30)
+    return app

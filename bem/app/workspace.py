@@ -1,0 +1,284 @@
+"""The folder that the page shows: scenes being written, surface files, runs. All state is in its files."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tomllib
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from bem.errors import InputError, ResultsError
+from bem.results.atomic import write_bytes, write_text
+from bem.results.directory import LOCK, SCENE, SUMMARY
+from bem.scenes.load import read_table, table_text
+from bem.surfaces.examples import example_names
+
+OWN = ".app"
+"""Folder inside a run's folder: the scene as it was asked for, progress, what the process printed."""
+ASKED, PROGRESS, LOG, PID = "scene.toml", "progress.json", "log.txt", "pid"
+CANCELLED = ".cancelled"
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
+MOST_BYTES = 1 << 30
+"""Largest surface file that is taken."""
+
+
+@dataclass(frozen=True)
+class RunState:
+    """A run as its folder shows it.
+
+    `state` : "running", "paused" (it can go on), "failed", or the status of its summary. `done` of `total` steps of
+    `what`; `message` says why it failed. `finished` : whether its results are there.
+    """
+
+    name: str
+    path: Path
+    scene: str
+    kind: str
+    state: str
+    done: int = 0
+    total: int = 0
+    what: str = ""
+    message: str = ""
+    notes: tuple[str, ...] = ()
+    finished: bool = False
+
+
+class Workspace:
+    """A folder with scenes (`*.toml`), `surfaces/` and `runs/`.
+
+    Raises
+    ------
+    ResultsError : it cannot be made or written.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder.resolve()
+        self.runs_folder, self.surfaces_folder = self.folder / "runs", self.folder / "surfaces"
+        self._children: list[subprocess.Popen[bytes]] = []
+        try:
+            for item in (self.folder, self.runs_folder, self.surfaces_folder):
+                item.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise ResultsError(f"{self.folder}: cannot be used as the folder of scenes and runs ({error})") from error
+
+    # --- scenes
+
+    def scenes(self) -> dict[str, str]:
+        """Kinds of the scene files, by name; "" of a file that says none."""
+        found = {}
+        for path in sorted(self.folder.glob("*.toml")):
+            with suppress(OSError, ValueError, RecursionError):
+                kind = tomllib.loads(path.read_text("utf-8")).get("kind")
+                found[path.stem] = kind if isinstance(kind, str) else ""
+        return found
+
+    def scene_path(self, name: str) -> Path:
+        """The file of a scene; InputError for a name that is none of a file in the folder."""
+        if not _NAME.fullmatch(name):
+            raise InputError(
+                f"scene {name!r}: allowed: letters, digits and _ . - (64 at most, a letter or digit first)"
+            )
+        return self.folder / f"{name}.toml"
+
+    def scene_text(self, name: str) -> str:
+        """What the file of a scene says, "" where there is none."""
+        try:
+            return self.scene_path(name).read_text("utf-8")
+        except FileNotFoundError:
+            return ""
+        except (OSError, ValueError) as error:
+            raise ResultsError(f"{self.scene_path(name)}: cannot be read ({error})") from error
+
+    def scene_table(self, name: str) -> dict[str, Any]:
+        """The table of a scene, with absolute paths; InputError where the file is no TOML."""
+        table = read_table(self.scene_path(name))
+        return {**table, "name": name}
+
+    def save_scene(self, name: str, scene: Mapping[str, Any] | str) -> None:
+        """Write the file of a scene, whole or not at all: a table, or the text itself."""
+        write_text(self.scene_path(name), scene if isinstance(scene, str) else table_text(scene))
+
+    def free_scene_name(self, wanted: str) -> str:
+        """The name, with a number behind it where there is such a scene."""
+        base = re.sub(r"[^A-Za-z0-9_.-]+", "-", wanted).strip("-._") or "scene"
+        name, number = base[:56], 1
+        while (self.folder / f"{name}.toml").exists():
+            number += 1
+            name = f"{base[:56]}-{number}"
+        return name
+
+    # --- surfaces
+
+    def surfaces(self) -> tuple[str, ...]:
+        """Paths of surface files: those put into `surfaces/`, then the package's own."""
+        own = (str(item) for item in sorted(self.surfaces_folder.iterdir()) if item.is_file() and item.name[0] != ".")
+        return (*own, *example_names())
+
+    def add_surface(self, name: str, content: bytes) -> Path:
+        """Keep a file; one of the same name and other content gets a number, nothing is overwritten."""
+        clean = re.sub(r"[^A-Za-z0-9_.-]+", "-", Path(name).name).lstrip("-.") or "surface"
+        if not content or len(content) > MOST_BYTES:
+            raise InputError(f"{clean}: {len(content)} bytes; allowed: a surface file of at most {MOST_BYTES} bytes")
+        path, number = self.surfaces_folder / clean, 1
+        while path.exists() and path.read_bytes() != content:
+            number += 1
+            path = self.surfaces_folder / f"{Path(clean).stem}-{number}{Path(clean).suffix}"
+        write_bytes(path, content)
+        return path
+
+    # --- runs
+
+    def runs(self) -> list[RunState]:
+        """All runs, the latest first."""
+        self._children = [child for child in self._children if child.poll() is None]
+        folders = [item for item in self.runs_folder.iterdir() if item.is_dir() and item.name[0] != "."]
+        folders.sort(key=lambda item: item.stat().st_mtime, reverse=True)
+        return [state for state in map(self.state_of, folders) if state is not None]
+
+    def run_path(self, name: str) -> Path:
+        """The folder of a run; InputError where there is none of that name."""
+        path = self.runs_folder / name
+        if not _NAME.fullmatch(name) or not path.is_dir():
+            raise InputError(f"run {name!r}: there is none in {self.runs_folder}")
+        return path
+
+    def state_of(self, path: Path) -> RunState | None:
+        """A run as its folder shows it; None where none was begun there."""
+        asked = path / SCENE if (path / SCENE).is_file() else path / OWN / ASKED
+        if not asked.is_file():
+            return None
+        table: dict[str, Any] = {}
+        with suppress(OSError, ValueError, RecursionError):
+            table = tomllib.loads(asked.read_text("utf-8"))
+        told = _json(path / OWN / PROGRESS)
+        name, kind = str(table.get("name", path.name)), str(table.get("kind", ""))
+        state = self._state(path, told)
+        message = str(told.get("message", "")) if state == "failed" else ""
+        return RunState(
+            name=path.name,
+            path=path,
+            scene=name,
+            kind=kind,
+            state=state,
+            done=int(told.get("done", 0)),
+            total=int(told.get("total", 0)),
+            what=str(told.get("what", "")),
+            message=message,
+            notes=tuple(map(str, told.get("notes", ()))),
+            finished=(path / SUMMARY).is_file() and state != "running",
+        )
+
+    def _state(self, path: Path, told: Mapping[str, Any]) -> str:
+        if self.process_of(path) is not None:
+            return "running"
+        if (path / SUMMARY).is_file():
+            return str(_json(path / SUMMARY).get("status", "unknown"))
+        return "failed" if told.get("state") == "failed" else "paused"
+
+    def process_of(self, path: Path) -> int | None:
+        """The process that works in a run's folder: it holds its lock, or was started for it a moment ago."""
+        for file in (path / LOCK, path / OWN / PID):
+            with suppress(OSError, ValueError):
+                number = int(file.read_text("utf-8"))
+                if _holds(number, file) if file.name == LOCK else _works_in(number, path):
+                    return number
+        return None
+
+    def start(self, name: str) -> RunState:
+        """Run the scene of that name in a process of its own, in the next free folder.
+
+        Raises
+        ------
+        InputError : a bad scene; nothing is left behind.
+        """
+        from bem.runs import plan_scene
+        from bem.scenes.planner import check_memory
+
+        table = self.scene_table(name)
+        check_memory(plan_scene(table)[1])
+        number = 1
+        while True:
+            path = self.runs_folder / f"{name}-{number:03d}"
+            with suppress(FileExistsError):
+                path.mkdir()
+                break
+            number += 1
+        (path / OWN).mkdir()
+        write_text(path / OWN / ASKED, table_text(table))
+        return self.go_on(path.name)
+
+    def go_on(self, name: str) -> RunState:
+        """Start the process of a run that is not running: from its checkpoint where it has one."""
+        path = self.run_path(name)
+        if self.process_of(path) is None and not (path / SUMMARY).is_file():
+            (path / OWN).mkdir(exist_ok=True)
+            (path / OWN / PROGRESS).unlink(missing_ok=True)
+            with open(path / OWN / LOG, "ab") as log:
+                child = subprocess.Popen(
+                    [sys.executable, "-m", "bem.app.worker", str(path)],
+                    stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd=self.folder,
+                    env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},  # as on the command line: the same bits
+                    start_new_session=True,  # it outlives this server
+                )  # fmt: skip
+            self._children.append(child)
+            write_text(path / OWN / PID, f"{child.pid}\n")
+        found = self.state_of(path)
+        assert found is not None
+        return found
+
+    def pause(self, name: str) -> None:
+        """Ask the run's process to stop; what it has computed stays, and it can go on."""
+        path = self.run_path(name)
+        process = self.process_of(path)
+        if process is not None:
+            with suppress(ProcessLookupError):
+                os.kill(process, signal.SIGTERM)
+
+    def cancel(self, name: str) -> None:
+        """Put a run that is not running out of the list, into `runs/.cancelled`; nothing is deleted.
+
+        Raises
+        ------
+        ResultsError : it still runs.
+        """
+        path = self.run_path(name)
+        if self.process_of(path) is not None:
+            raise ResultsError(f"{path}: is still running; pause it first")
+        (self.runs_folder / CANCELLED).mkdir(exist_ok=True)
+        target, number = self.runs_folder / CANCELLED / name, 1
+        while target.exists():
+            number += 1
+            target = self.runs_folder / CANCELLED / f"{name}-{number}"
+        shutil.move(path, target)
+
+
+def _json(path: Path) -> dict[str, Any]:
+    try:
+        found = json.loads(path.read_text("utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+def _works_in(process: int, folder: Path) -> bool:
+    """Whether a process is the worker of a folder: numbers are used again."""
+    words = Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")  # empty of one that has ended
+    return b"bem.app.worker" in words and os.fsencode(folder) in words
+
+
+def _holds(process: int, lock: Path) -> bool:
+    """Whether a process has the file of a lock open."""
+    for item in Path(f"/proc/{process}/fd").iterdir():
+        with suppress(OSError):
+            if os.path.samestat(item.stat(), lock.stat()):
+                return True
+    return False

@@ -1,0 +1,136 @@
+"""A real browser for tests, driven over its own protocol: chromium without a window."""
+
+import base64
+import contextlib
+import json
+import shutil
+import subprocess
+import tempfile
+import time
+import urllib.request
+from pathlib import Path
+
+from websockets.sync.client import connect
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+PATIENCE = 60.0  # seconds: the machine may be busy; nothing waits longer than it has to
+
+
+class Browser:
+    """Chromium; a `with` block ends it."""
+
+    def __init__(self):
+        self._home = tempfile.mkdtemp(prefix="bem-browser-")
+        self._process = subprocess.Popen(
+            [
+                CHROMIUM, "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                "--remote-debugging-port=0", f"--user-data-dir={self._home}", "--no-first-run", "--mute-audio",
+                "--disable-background-networking", "--window-size=1500,1100", "about:blank",
+            ],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        )  # fmt: skip
+        port = Path(self._home) / "DevToolsActivePort"
+        end = time.monotonic() + PATIENCE
+        while not (port.is_file() and port.read_text().count("\n")):
+            assert time.monotonic() < end, "chromium does not start"
+            time.sleep(0.05)
+        self._port = int(port.read_text().splitlines()[0])
+
+    def tab(self):
+        """A new tab."""
+        asked = urllib.request.Request(f"http://127.0.0.1:{self._port}/json/new?about:blank", method="PUT")
+        with urllib.request.urlopen(asked) as answer:
+            return Tab(json.load(answer)["webSocketDebuggerUrl"])
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._process.terminate()
+        self._process.wait(20)
+        shutil.rmtree(self._home, ignore_errors=True)
+
+
+class Tab:
+    """A page: go somewhere, look, type, click. `addresses` are all it has asked for."""
+
+    def __init__(self, address):
+        self._open = contextlib.ExitStack()
+        self._socket = self._open.enter_context(connect(address, max_size=None))
+        self._number = 0
+        self.addresses, self.errors = [], []
+        for domain in ("Page", "Runtime", "Network", "DOM", "Log"):
+            self._do(f"{domain}.enable")
+
+    def _do(self, method, **parameters):
+        self._number += 1
+        self._socket.send(json.dumps({"id": self._number, "method": method, "params": parameters}))
+        while True:
+            message = json.loads(self._socket.recv(PATIENCE))
+            self._hear(message)
+            if message.get("id") == self._number:
+                assert "error" not in message, message["error"]
+                return message["result"]
+
+    def _hear(self, message):
+        if message.get("method") == "Network.requestWillBeSent":
+            self.addresses.append(message["params"]["request"]["url"])
+        elif message.get("method") == "Runtime.exceptionThrown":
+            self.errors.append(message["params"]["exceptionDetails"].get("exception", {}).get("description", "?"))
+
+    def go(self, address):
+        self._do("Page.navigate", url=address)
+        self.wait("document.readyState === 'complete'")
+
+    def look(self, script):
+        """What a piece of script gives."""
+        found = self._do("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
+        assert "exceptionDetails" not in found, found["exceptionDetails"]
+        return found["result"].get("value")
+
+    def wait(self, script):
+        """Until a piece of script gives something true."""
+        end = time.monotonic() + PATIENCE
+        while True:
+            if self.look(f"(() => {{ try {{ return Boolean({script}) }} catch (e) {{ return false }} }})()"):
+                return
+            assert time.monotonic() < end, f"not within {PATIENCE:g} s: {script}\n{self.text()[:3000]}\n{self.errors}"
+            time.sleep(0.1)
+
+    def text(self):
+        return self.look("document.body.innerText")
+
+    def wait_text(self, words):
+        self.wait(f"document.body.innerText.includes({json.dumps(words)})")
+
+    def click(self, selector):
+        self.wait(f"document.querySelector({json.dumps(selector)}) !== null")
+        self.look(f"document.querySelector({json.dumps(selector)}).click()")
+
+    def type(self, key, words):
+        """Into the field of a key, as a person would: select what is there, and type."""
+        where = f"input[data-key={json.dumps(key)}]"
+        self.wait(f"document.querySelector({json.dumps(where)}) !== null")
+        self.look(f"(() => {{ const i = document.querySelector({json.dumps(where)}); i.focus(); i.select() }})()")
+        if words:
+            self._do("Input.insertText", text=words)
+        else:
+            for kind in ("keyDown", "keyUp"):
+                self._do("Input.dispatchKeyEvent", type=kind, key="Delete", code="Delete", windowsVirtualKeyCode=46)
+
+    def drop(self, path):
+        """A file into the page's field for files."""
+        self.wait("document.querySelector('input[type=file]') !== null")
+        root = self._do("DOM.getDocument")["root"]["nodeId"]
+        node = self._do("DOM.querySelector", nodeId=root, selector="input[type=file]")["nodeId"]
+        self._do("DOM.setFileInputFiles", files=[str(path)], nodeId=node)
+
+    def mouse(self, x, y):
+        for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
+            self._do("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+
+    def picture(self, path):
+        Path(path).write_bytes(base64.b64decode(self._do("Page.captureScreenshot", captureBeyondViewport=True)["data"]))
+
+    def close(self):
+        self._open.close()

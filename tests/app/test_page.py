@@ -1,0 +1,239 @@
+"""The page in a real browser, from a surface file to results and back; nothing is lost on the way."""
+
+import contextlib
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import tomllib
+import urllib.error
+import urllib.request
+from pathlib import Path
+
+import pytest
+
+from bem.surfaces.examples import FOLDER
+
+pytest.importorskip("nicegui")
+sys.path.insert(0, str(Path(__file__).parent))
+import browser as chromium
+
+pytestmark = [
+    pytest.mark.browser,
+    pytest.mark.slow,
+    pytest.mark.skipif(chromium.CHROMIUM is None, reason="needs chromium"),
+]
+ROOT = Path(__file__).resolve().parents[2]
+PATIENCE = 120.0
+
+
+class Server:
+    """`bem app` as a user starts it; `kill` gives it no time to say goodbye."""
+
+    def __init__(self, folder):
+        code = "import sys; sys.argv[0] = 'bem'; from bem.cli import main; main()"
+        self.process = subprocess.Popen(
+            [sys.executable, "-W", "error::DeprecationWarning:bem", "-c", code, "app", str(folder), "--no-browser"],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=ROOT,
+        )  # fmt: skip
+        line = self.process.stdout.readline()
+        found = re.search(r"http://127\.0\.0\.1:\d+/\?token=\S+", line)
+        assert found, line + self.process.stdout.read()
+        self.address, self.base = found.group(), found.group().partition("/?")[0]
+        self._until_up()
+
+    def _until_up(self):
+        end = time.monotonic() + PATIENCE
+        while True:
+            with contextlib.suppress(OSError):
+                urllib.request.urlopen(self.address, timeout=PATIENCE).read()
+                return
+            assert time.monotonic() < end
+            time.sleep(0.2)
+
+    def kill(self):
+        self.process.send_signal(signal.SIGKILL)
+        self.process.wait(20)
+        self.process.stdout.close()
+
+
+@pytest.fixture
+def serve(tmp_path):
+    servers = []
+
+    def start():
+        servers.append(Server(tmp_path / "work"))
+        return servers[-1]
+
+    yield start
+    for server in servers:
+        if server.process.poll() is None:
+            server.kill()
+    for file in (tmp_path / "work" / "runs").glob("*/.app/pid"):  # runs outlive their server
+        with contextlib.suppress(OSError, ValueError):
+            os.kill(int(file.read_text()), signal.SIGKILL)
+
+
+@pytest.fixture(scope="module")
+def chrome():
+    with chromium.Browser() as found:
+        yield found
+
+
+def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
+    """Drop a surface, treat it, press it, see it, take it away; in another tab the same; two runs overlaid."""
+    server, own = serve(), tmp_path / "mine.al3d"
+    shutil.copy(FOLDER / "ground-disk.al3d", own)
+    tab = chrome.tab()
+    tab.go(server.address)
+    tab.click("[data-new=contact]")
+    tab.wait_text("grid and smooth contact")
+
+    tab.go(f"{server.base}/surfaces")
+    tab.wait_text("statistics")
+    tab.drop(own)
+    tab.wait_text("mine.al3d: 40 points were missing")
+    tab.type("despike", "6")
+    tab.wait_text("spikes were taken out")
+    tab.type("cells", "32")
+    tab.wait_text("32 x 32")
+    tab.look("[...document.querySelectorAll('button')].find(b => b.innerText.includes('as lower')).click()")
+    tab.wait_text("lower.surface is this one")
+    text = (tmp_path / "work" / "contact.toml").read_text()
+    assert tomllib.loads(text)["lower"]["surface"]["despike"] == 6
+
+    tab.go(f"{server.base}/scene/contact")
+    tab.wait_text("the map only")  # the plan says so at once: the grid is larger
+    for key, words in (("grid.shape", "32"), ("grid.lengths", "90 um"), ("contact.load", "0.3 N")):
+        tab.type(key, words)
+        tab.wait(f"document.querySelector('input[data-key=\"{key}\"]').value === '{words}'")
+    tab.wait_text("32 x 32")
+    tab.type("contact.load", "2 M")
+    tab.wait("document.querySelector('[data-mistake]').innerText.startsWith('contact.load')")
+    tab.type("contact.load", "0.3 N")
+    tab.wait("!document.querySelector('[data-mistake]') && document.querySelector('[data-plan]')")
+
+    other = chrome.tab()  # a second tab sees what the first one typed
+    other.go(f"{server.base}/scene/contact")
+    other.wait("document.querySelector('input[data-key=\"contact.load\"]').value === '0.3 N'")
+    other.type("contact.load", "0.4 N")
+    tab.wait("document.querySelector('input[data-key=\"contact.load\"]').value === '0.4 N'")
+    tab.wait("document.querySelector('[data-plan]')")
+
+    for number in ("001", "002"):
+        tab.go(f"{server.base}/scene/contact")
+        tab.wait("document.querySelector('[data-plan]')")
+        if number == "002":
+            tab.type("contact.load", "0.2 N")
+            tab.wait_text("0.2 N")
+        tab.click("[data-action=run]")
+        tab.wait(f"location.pathname === '/run/contact-{number}'")
+        tab.wait("document.querySelector('[data-state]').innerText === 'converged'")
+        tab.wait_text("±")
+        tab.wait("document.querySelectorAll('.main-svg').length > 2")
+    summary = (tmp_path / "work" / "runs" / "contact-001" / "summary.json").read_text()
+    assert '"converged"' in summary
+
+    tab.go(f"{server.base}/run/contact-001")  # a reload: the same
+    tab.wait_text("contact area fraction")
+    kinds = tab.look(
+        "Promise.all([...document.querySelectorAll('[data-download]')].map(async a => "
+        "[a.dataset.download, (await (await fetch(a.href)).arrayBuffer()).byteLength]))"
+    )
+    assert {name for name, size in kinds if size > 100} == {
+        "scene.toml", "results.nc", "figures.zip", "points.csv", "run.py", "report.html"
+    }  # fmt: skip
+    tab.go(f"{server.base}/compare?runs=contact-001,contact-002")
+    tab.wait_text("contact.load")
+    tab.wait("document.querySelector('[data-overlay] svg')")
+
+    assert tab.errors == []
+    assert other.errors == []
+    elsewhere = [a for a in tab.addresses if not a.startswith((server.base, "data:", "blob:"))]
+    assert elsewhere == []  # nothing from a network
+
+
+WEAR = """kind = "wear"
+name = "long"
+repetitions = 1
+[lower]
+material = "steel-disk"
+surface = { kind = "generated", rms_height = "120 nm", correlation_length = "0.4 um" }
+[upper]
+material = "steel-cylinder"
+surface = { kind = "generated", rms_height = "30 nm", correlation_length = "0.3 um" }
+[cylinder]
+radius = "2 mm"
+width = "6 mm"
+loads = ["2.5 N"]
+friction = 0.16
+[domain]
+cells = 40
+lengths = "4 um"
+[depths]
+count = 20
+spacing = "95 nm"
+[cycles]
+count = 300
+settled = 4
+"""
+
+
+def test_a_killed_server_and_a_pause_lose_nothing(serve, chrome, tmp_path):
+    """The run goes on without its server; paused by the next one it keeps its checkpoint, and goes on to its end."""
+    server = serve()
+    work = tmp_path / "work"
+    (work / "long.toml").write_text(WEAR)
+    tab = chrome.tab()
+    tab.go(server.address)
+    tab.go(f"{server.base}/scene/long")
+    tab.wait("document.querySelector('[data-plan]')")
+    tab.click("[data-action=run]")
+    tab.wait("location.pathname === '/run/long-001'")
+    folder = work / "runs" / "long-001"
+    wait(lambda: (folder / "scene.toml").is_file() and (folder / ".app" / "pid").is_file())
+    process = int((folder / ".app" / "pid").read_text())
+    server.kill()
+    os.kill(process, 0)  # it lives
+    wait(lambda: list(folder.glob("cases/*.bin")) or (folder / "checkpoint.bin").is_file())
+
+    server = serve()
+    tab = chrome.tab()
+    tab.go(server.address)
+    tab.go(f"{server.base}/runs")
+    tab.wait("document.querySelector('[data-state=long-001]').innerText === 'running'")
+    tab.click("[data-action=pause]")
+    tab.wait("document.querySelector('[data-state=long-001]').innerText === 'paused'")
+    kept = [path.name for path in folder.glob("cases/*.bin")] + [path.name for path in folder.glob("checkpoint.bin")]
+    assert kept
+    assert not (folder / "summary.json").exists()
+    tab.click("[data-action=resume]")
+    tab.wait("document.querySelector('[data-state=long-001]').innerText === 'running'")
+    tab.click("[data-action=pause]")
+    tab.wait("document.querySelector('[data-action=cancel]')")
+    tab.click("[data-action=cancel]")
+    tab.wait_text("No runs yet")
+    assert (work / "runs" / ".cancelled" / "long-001" / "scene.toml").is_file()  # nothing is deleted
+    assert tab.errors == []
+
+
+def wait(what):
+    end = time.monotonic() + PATIENCE
+    while not what():
+        assert time.monotonic() < end
+        time.sleep(0.1)
+
+
+def test_without_the_token_there_is_nothing(serve):
+    server = serve()
+    for address in (server.base, f"{server.base}/?token=wrong", f"{server.base}/runs"):
+        with pytest.raises(urllib.error.HTTPError, match="403"):
+            urllib.request.urlopen(address)
+    elsewhere = urllib.request.Request(server.address, headers={"Host": "example.org"})
+    with pytest.raises(urllib.error.HTTPError, match="403"):
+        urllib.request.urlopen(elsewhere)
+    with urllib.request.urlopen(server.address) as answer:
+        assert "default-src 'self'" in answer.headers["content-security-policy"]

@@ -1,0 +1,88 @@
+"""Pictures for the browser: plain values in the unit that is written beside them, errors as bars."""
+
+import json
+
+import numpy as np
+import pytest
+
+from bem.app.pictures import (
+    curve_names,
+    curve_picture,
+    figure_picture,
+    figures_over,
+    layers_of,
+    map_names,
+    map_picture,
+    sections_picture,
+)
+from bem.results.arrays import to_arrays
+from bem.scenes.context import Variable
+
+X, Y = np.linspace(-5e-6, 5e-6, 40), np.linspace(-4e-6, 4e-6, 30)
+HEIGHTS = 1e-7 * np.sin(2e6 * X)[:, None] * np.cos(1e6 * Y)[None, :]
+
+
+def test_a_map_is_in_the_units_it_shows_and_turned_as_the_browser_wants():
+    picture = map_picture(HEIGHTS, (X, Y), "height", "m")
+    json.dumps(picture, allow_nan=False)
+    trace = picture["data"][0]
+    assert np.shape(trace["z"]) == (30, 40)
+    assert trace["colorbar"]["title"]["text"] == "nm"
+    np.testing.assert_allclose(np.array(trace["z"]).T, 1e9 * HEIGHTS, rtol=2e-6, atol=1e-12)
+    assert picture["layout"]["xaxis"]["title"]["text"].endswith("(µm)")
+
+
+def test_lone_spikes_do_not_take_the_colours():
+    spiked = HEIGHTS.copy()
+    spiked[3, 4] = 1e-3
+    trace = map_picture(spiked, (X, Y), "height", "m")["data"][0]
+    assert trace["zmax"] < 1e-2 * np.nanmax(np.array(trace["z"], dtype=float))
+
+
+def test_missing_points_are_gaps_and_large_maps_are_thinned():
+    large = np.zeros((1000, 500))
+    large[0, 0] = np.nan
+    x, y = np.arange(1000) * 1e-6, np.arange(500) * 1e-6
+    picture = map_picture(large, (x, y), "height", "m")
+    json.dumps(picture, allow_nan=False)
+    assert max(np.shape(picture["data"][0]["z"])) <= 384
+    assert "every 3th" in picture["layout"]["title"]["text"].replace("3rd", "3th")
+
+
+def test_sections_go_through_the_place():
+    picture = sections_picture(HEIGHTS, (X, Y), (10, 20), "height", "m")
+    along_x, along_y = picture["data"]
+    assert len(along_x["y"]) == 40
+    assert along_x["y"][10] == pytest.approx(along_y["y"][20])
+
+
+def test_curves_have_their_error_bars():
+    variables = {
+        "speed": Variable(("speed",), np.array([0.001, 0.1]), "m/s", "speed"),
+        "load": Variable(("load",), np.array([1.0, 2.0]), "N", "load"),
+        "friction": Variable(("load", "speed"), np.array([[0.1, 0.05], [0.12, 0.06]]), "1", "friction"),
+        "friction_error": Variable(("load", "speed"), np.full((2, 2), 0.01), "1", "error of friction"),
+        "map": Variable(("load", "x", "y"), np.zeros((2, 4, 4)), "Pa", "pressure"),
+    }
+    arrays = to_arrays(variables, {})
+    assert curve_names(arrays) == ["friction"]
+    picture = curve_picture(arrays, "friction")
+    assert [trace["name"] for trace in picture["data"]] == ["load 1 N", "load 2 N"]
+    assert picture["data"][0]["error_y"]["array"] == [0.01, 0.01]
+    assert picture["layout"]["xaxis"]["type"] == "log"
+    assert map_names(arrays) == ["map"]
+    assert layers_of(arrays, "map") == ["load 1 N", "load 2 N"]
+
+
+def test_figures_of_the_summary_are_drawn_over_what_they_run_over():
+    summary = {
+        "speed_m_s": [0.1, 1.0],
+        "friction": [0.1, None],
+        "friction_error": [0.01, None],
+        "model": ["a", "b"],
+        "friction_spread": [0.0, 0.0],
+    }
+    assert figures_over(summary) == [("friction", "speed_m_s")]
+    trace = figure_picture(summary, "friction", "speed_m_s")["data"][0]
+    assert trace["y"] == [0.1, None]
+    assert trace["error_y"]["array"] == [0.01, None]

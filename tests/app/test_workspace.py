@@ -1,0 +1,123 @@
+"""The folder behind the page, without a browser: names, files, runs in processes of their own."""
+
+import json
+import os
+import time
+
+import pytest
+
+from bem import InputError, ResultsError, load_scene
+from bem.app.downloads import WHAT, download, overlay
+from bem.app.planning import shown_plan
+from bem.app.workspace import OWN, PID, Workspace
+from bem.results.directory import LOCK
+
+SMALL = {
+    "kind": "contact",
+    "grid": {"shape": 16, "spacing": "0.5 um", "periodic": True},
+    "lower": {
+        "material": "steel-disk",
+        "surface": {"kind": "generated", "rms_height": "100 nm", "correlation_length": "2 um"},
+    },
+    "contact": {"mean_pressure": "80 MPa", "behaviour": "capped"},
+    "outputs": {"errors": False},
+}
+
+
+@pytest.fixture
+def workspace(tmp_path):
+    return Workspace(tmp_path / "work")
+
+
+def until(what, seconds=120.0):
+    end = time.monotonic() + seconds
+    while not what():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def test_scenes_are_files(workspace):
+    workspace.save_scene("one", SMALL)
+    assert workspace.scenes() == {"one": "contact"}
+    assert load_scene(workspace.scene_table("one")).contact.mean_pressure == 80e6
+    assert workspace.free_scene_name("one") == "one-2"
+    assert workspace.free_scene_name("../a b") == "a-b"
+    workspace.save_scene("broken", "kind = ")
+    assert "broken" not in workspace.scenes()
+    with pytest.raises(InputError, match="not valid TOML"):
+        workspace.scene_table("broken")
+
+
+@pytest.mark.parametrize("name", ["../x", "", ".hidden", "a/b", "x" * 65])
+def test_names_stay_in_the_folder(workspace, name):
+    with pytest.raises(InputError):
+        workspace.scene_path(name)
+    with pytest.raises(InputError):
+        workspace.run_path(name)
+
+
+def test_surface_files_never_replace_others(workspace):
+    first = workspace.add_surface("../map.npz", b"one")
+    assert workspace.add_surface("map.npz", b"one") == first
+    second = workspace.add_surface("map.npz", b"two")
+    assert (first.read_bytes(), second.read_bytes()) == (b"one", b"two")
+    assert first.parent == second.parent == workspace.surfaces_folder
+    assert workspace.surfaces()[-1].startswith("example/")
+    with pytest.raises(InputError, match="bytes"):
+        workspace.add_surface("empty.npz", b"")
+
+
+def test_a_run_is_a_process_and_a_folder(workspace):
+    workspace.save_scene("small", SMALL)
+    name = workspace.start("small").name
+    until(lambda: workspace.runs()[0].finished)
+    (state,) = workspace.runs()
+    assert (state.name, state.state, state.kind) == (name, "converged", "contact")
+    assert workspace.start("small").name == "small-002"
+    until(lambda: all(one.finished for one in workspace.runs()))
+    for what in WHAT:
+        if what != "figures.zip":
+            assert download(state.path, what)
+    assert b"bem.run_scene(scene)" in download(state.path, "run.py")
+    compile(download(state.path, "run.py"), "run.py", "exec")
+    assert overlay([one.path for one in workspace.runs()], ["a", "b"]).startswith("<svg")
+    with pytest.raises(InputError, match="allowed"):
+        download(state.path, "../summary.json")
+    assert Workspace(workspace.folder).runs() == workspace.runs()  # another server sees the same
+
+
+def test_a_bad_scene_starts_nothing(workspace):
+    workspace.save_scene("bad", {**SMALL, "contact": {"load": "many"}})
+    with pytest.raises(InputError, match=r"contact\.load"):
+        workspace.start("bad")
+    assert workspace.runs() == []
+    assert shown_plan(workspace.scene_table("bad")).messages[0].startswith("contact.load")
+
+
+def test_the_plan_is_that_of_the_command(workspace):
+    plan = shown_plan(SMALL)
+    assert plan.messages == ()
+    assert [title for title, _ in plan.tables] == ["bodies", "grid and smooth contact", "steps"]
+    assert "and" in plan.takes
+
+
+def test_states_are_read_from_files(workspace):
+    folder = workspace.runs_folder / "x-001"
+    (folder / OWN).mkdir(parents=True)
+    assert workspace.runs() == []  # nothing was asked for in it
+    (folder / "scene.toml").write_text('kind = "contact"\nname = "x"\n')
+    assert workspace.runs()[0].state == "paused"
+    (folder / OWN / "progress.json").write_text(json.dumps({"state": "failed", "message": "why"}))
+    assert (workspace.runs()[0].state, workspace.runs()[0].message) == ("failed", "why")
+    # numbers of processes are used again: ours is alive, but neither its worker nor the holder of its lock
+    (folder / OWN / PID).write_text(f"{os.getpid()}\n")
+    (folder / LOCK).write_text(f"{os.getpid()}\n")
+    assert workspace.runs()[0].state == "failed"
+    with open(folder / LOCK) as lock:
+        assert lock.readable()
+        assert workspace.runs()[0].state == "running"
+        with pytest.raises(ResultsError, match="still running"):
+            workspace.cancel("x-001")
+    workspace.cancel("x-001")
+    assert workspace.runs() == []
+    assert (workspace.runs_folder / ".cancelled" / "x-001" / "scene.toml").is_file()

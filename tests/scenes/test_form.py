@@ -1,0 +1,88 @@
+"""Forms made from the models: every kind, every key with what may stand there; what is typed goes into the table."""
+
+import pytest
+
+from bem import InputError, load_scene
+from bem.scenes import kind_names, library
+from bem.scenes.form import form_of, library_scene, mistakes_of, start_of, text_of, with_kind, with_value
+from bem.scenes.kind import get_kind
+from bem.scenes.load import read_table, table_text
+
+
+def entries(table):
+    for entry in table.entries:
+        yield entry
+        for inner in entry.tables:
+            yield from entries(inner)
+
+
+def entry(form, key):
+    return next(one for one in entries(form) if one.key == key)
+
+
+@pytest.mark.parametrize("kind", kind_names())
+def test_every_kind_has_a_form_that_starts_good(kind):
+    form = form_of(kind)
+    asked = {one.key for one in form.entries}
+    assert asked >= set(get_kind(kind).model.model_fields) - {"kind", "name", "redoes", "over"}
+    assert mistakes_of(start_of(kind)) == ()
+    for one in entries(form):
+        assert one.tables or one.typed
+        assert not (one.closed and not one.choices)
+
+
+def test_entries_say_unit_default_and_choices():
+    form = form_of("contact")
+    load = entry(form, "contact.load")
+    assert "a number in N" in load.allowed
+    assert not load.required
+    assert entry(form, "contact.behaviour").choices == ("elastic", "capped")
+    assert entry(form, "contact.behaviour").closed
+    assert entry(form, "contact.friction").default == "0.0"
+    assert entry(form, "outputs.errors").switch
+    assert "steel-52100" in entry(form, "lower.material").choices
+    assert [one.kind for one in entry(form, "lower.surface").tables] == ["smooth", "generated", "measured"]
+    assert entry(form, "shape.kind").choices[0] == "flat"
+    laws = entry(form_of("friction"), "contact.boundary_friction")
+    assert laws.typed
+    assert "pressure_dependent" in [one.kind for one in laws.tables]
+
+
+def test_what_is_typed_goes_into_the_table_and_nothing_takes_it_out():
+    table = start_of("contact")
+    typed = with_value(table, "contact.load", "7 N")
+    assert load_scene(typed).contact.load == 7.0
+    assert table["contact"]["load"] != "7 N"  # a copy
+    assert "load" not in with_value(typed, "contact.load", "")["contact"]
+    assert with_value(table, "contact.mean_gap", "") == table  # nothing was there
+    with pytest.raises(InputError, match="index"):
+        with_value(table, "contact.load[3]", "1")
+    (mistake,) = mistakes_of(with_value(table, "contact.laod", "7 N"))
+    assert mistake.startswith("contact.laod: unknown key - did you mean")
+
+
+def test_another_table_keeps_what_both_have():
+    table = start_of("contact")
+    form = form_of("contact")
+    one = entry(form, "lower.surface")
+    generated = with_kind(table, one, "generated")
+    generated = with_value(generated, "lower.surface.rms_height", "50 nm")
+    measured = with_kind(generated, one, "measured")
+    assert measured["lower"]["surface"] == {"kind": "measured", "rms_height": "50 nm"}
+    assert with_kind(measured, one, "smooth")["lower"]["surface"] == {"kind": "smooth"}
+
+
+def test_text_is_what_would_be_typed():
+    assert text_of("5 N") == "5 N"
+    assert text_of(None) == ""
+    assert text_of([1, 2.5]) == "[1, 2.5]"
+    assert text_of(True) == "true"
+
+
+@pytest.mark.parametrize("name", [name for name in library() if "measured" not in name])
+def test_a_table_written_is_the_table_read(name, tmp_path):
+    """Of the whole library: tables, lists of tables, dotted keys, texts with quotes."""
+    table = library_scene(name)
+    path = tmp_path / "scene.toml"
+    path.write_text(table_text(table))
+    assert read_table(path) == table
