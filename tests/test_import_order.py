@@ -31,6 +31,7 @@ ORDER = [
     {"runs"},
     {"warm_up"},
     {"verification", "benchmarks"},
+    {"elements"},
     {"app"},
     {"cli"},
 ]

@@ -154,7 +154,7 @@ def figures_over(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
     return found
 
 
-_CONFIG = {"displaylogo": False, "responsive": True, "modeBarButtonsToRemove": ["sendDataToCloud"]}
+_CONFIG = {"displaylogo": False, "modeBarButtonsToRemove": ["sendDataToCloud"]}
 
 
 def _axis(words: str) -> Picture:

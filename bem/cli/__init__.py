@@ -38,6 +38,7 @@ ORDER = (
     "plot",
     "compare",
     "new",
+    "element",
     "schema",
     "oils",
     "materials",

@@ -24,8 +24,8 @@ def register(app: typer.Typer) -> None:
             str,
             typer.Argument(
                 metavar="KIND",
-                help="Kind of scene, such as contact (or what it is called elsewhere, such as stribeck), or a built-in "
-                "scene.",
+                help="Kind of scene, such as contact (or what it is called elsewhere, such as stribeck), a built-in "
+                "scene, or a machine element: rolling-bearing, gear-pair, cam-follower.",
                 autocompletion=complete_kind,
             ),
         ],
@@ -40,16 +40,41 @@ def register(app: typer.Typer) -> None:
           bem new contact
           bem new wear my-wear.toml
           bem new stribeck
+          bem new gear-pair gears.toml
         """
         from bem.errors import ResultsError
         from bem.results.atomic import write_text
         from bem.scenes.template import scene_template
 
-        text = scene_template(kind)
+        element = element_text(kind)
+        text = element or scene_template(kind)
         path = file or Path(f"{kind}.toml")
         if path.exists():
             raise ResultsError(f"{path}: exists; give another FILE")
         if not path.parent.is_dir():
             raise ResultsError(f"{path.parent}: no such folder")
         write_text(path, text)
-        print(f"written: {path}\nnext:    bem plan {path}; bem run {path}")
+        after = f"bem element {path}" if element else f"bem plan {path}; bem run {path}"
+        print(f"written: {path}\nnext:    {after}")
+
+
+def element_text(name: str) -> str:
+    """The file of a machine element to start from; empty for what is none.
+
+    Raises
+    ------
+    InputError : an element that is not here, and why.
+    """
+    word = name.lower().replace("_", "-")
+    if word not in _ELEMENTS:
+        return ""
+    from bem.elements.element import element_template
+
+    return element_template(name)
+
+
+_ELEMENTS = (
+    *("rolling-bearing", "bearing", "gear-pair", "gear", "gears", "cam-follower", "cam"),
+    *("journal-bearing", "plain-bearing", "piston-ring", "helical-gear"),
+)
+"""Known without loading them."""

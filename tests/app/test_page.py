@@ -132,7 +132,7 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
         tab.click("[data-action=run]")
         tab.wait(f"location.pathname === '/run/contact-{number}'")
         tab.wait("document.querySelector('[data-state]').innerText === 'converged'")
-        tab.wait_text("±")
+        tab.wait_text("contact area fraction")
         tab.wait("document.querySelectorAll('.main-svg').length > 2")
     summary = (tmp_path / "work" / "runs" / "contact-001" / "summary.json").read_text()
     assert '"converged"' in summary

@@ -1,0 +1,94 @@
+"""`bem element`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from bem.elements.contact import ElementContact
+    from bem.elements.element import Element
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+
+    @app.command(short_help="Bearing, gear pair, cam: all contacts, and scenes of them.")
+    def element(
+        file: Annotated[Path, typer.Argument(help="An element's file; `bem new gear-pair` writes one to start from.")],
+        scene: Annotated[Path | None, typer.Option(metavar="FILE", help="Write a scene of one contact.")] = None,
+        kind: Annotated[str, typer.Option(help="Kind of that scene: traction (film) or contact (dry).")] = "traction",
+        at: Annotated[str, typer.Option(help="Which contact: worst, thinnest, or its number in the table.")] = "worst",
+        table: Annotated[Path | None, typer.Option(metavar="FILE", help="Write all contacts as .csv.")] = None,
+    ) -> None:
+        """Show the contacts of a machine element: load, radii, speeds, Hertz contact, film; the worst one, and where
+        half-space and line film do not carry.
+
+        \b
+        Examples:
+          bem new gear-pair gears.toml
+          bem element gears.toml --table path.csv
+          bem element gears.toml --scene worst.toml --at thinnest
+        """
+        from bem.cli._quantity import new_file
+        from bem.cli._terminal import show_warnings
+        from bem.elements.element import load_element
+        from bem.results.atomic import write_text
+        from bem.scenes.load import scene_from_table, table_text
+
+        if table is not None:
+            new_file(table, "--table", (".csv",))
+        if scene is not None:
+            new_file(scene, "--scene", (".toml",))
+        found = load_element(file)
+        chosen = _chosen(found, at)
+        made = None if scene is None else found.scene(chosen, kind)
+        if made is not None:
+            scene_from_table(made)
+        _show(found, chosen)
+        show_warnings(found.notes())
+        if table is not None:
+            write_text(table, found.csv())
+            print(f"written: {table}")
+        if scene is not None and made is not None:
+            write_text(scene, table_text(made))
+            print(f"written: {scene}\nnext:    bem plan {scene}; bem run {scene}")
+
+
+def _chosen(found: Element, at: str) -> ElementContact:
+    from bem.errors import InputError
+
+    if at == "worst":
+        return found.worst()
+    if at == "thinnest":
+        return found.thinnest()
+    contacts = found.found.contacts
+    if at.isdigit() and 1 <= int(at) <= len(contacts):
+        return contacts[int(at) - 1]
+    raise InputError(f'--at "{at}": allowed: worst, thinnest, or a number from 1 to {len(contacts)}')
+
+
+def _show(found: Element, chosen: ElementContact) -> None:
+    from bem.cli._terminal import table
+    from bem.elements.element import degrees
+    from bem.plots.report import spelled
+
+    columns = found.columns()
+    shown = (("load", "load [N]", "N"), ("radius", "radius [m]", "m"), ("Hertz pressure", "hertz_pressure [Pa]", "Pa"))
+    rows = []
+    for i, one in enumerate(found.found.contacts):
+        cells = [spelled(f"x_{unit}", columns[key][i])[1] for _, key, unit in shown]
+        ratio = one.slide_roll_ratio
+        cells += [f"{one.mean_speed:.3g} m/s", f"{ratio:.3g}"]
+        if "minimum_film [m]" in columns:
+            cells.append(spelled("x_m", columns["minimum_film [m]"][i])[1])
+        if "film_over_roughness" in columns:
+            cells.append(f"{columns['film_over_roughness'][i]:.3g}")
+        mark = "<" if one is chosen else ""
+        where = one.name if found.found.along_unit == "rad" else degrees(one, found.found.along_unit)
+        rows.append((str(i + 1), where, *cells, mark))
+    head = ["", "where", *(name for name, _, _ in shown), "mean speed", "slide-roll"]
+    head += ["film (fit)"] * ("minimum_film [m]" in columns) + ["over Sq"] * ("film_over_roughness" in columns)
+    table((*head, ""), rows, title=f"{found.model.name}: {found.model.element}", right=range(2, len(head)))

@@ -1,0 +1,98 @@
+"""A contact of a machine element: what presses how hard, how both surfaces bend, and how fast they come."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from bem.reference_solutions.hertz import LineContact, PointContact, cylinder_contact, ellipse_contact
+
+if TYPE_CHECKING:
+    from bem.lubrication import Lubricant
+
+CONFORMING = 0.3
+"""Contact half-length over the smallest radius of a body from which on a half-space is no picture of it: strains of a
+parabola and of the true shape then differ by a tenth (Johnson, *Contact Mechanics*, 5.3)."""
+
+
+@dataclass(frozen=True)
+class ElementContact:
+    """One place of a machine element where two bodies touch, body 1 the lower one of a scene.
+
+    Parameters
+    ----------
+    name : which, such as "inner ring, 40 deg".
+    place : where, as the element counts it: an angle [rad] or a distance along the path [m].
+    load : [N].
+    radii : of both bodies along the motion [m], negative where hollow.
+    across : radius of relative curvature across the motion [m]; infinite for a line.
+    length : of a line [m]; None for a point.
+    speeds : of both surfaces over the contact, along the motion [m/s].
+    """
+
+    name: str
+    place: float
+    load: float
+    radii: tuple[float, float]
+    speeds: tuple[float, float]
+    across: float = math.inf
+    length: float | None = None
+
+    @property
+    def radius(self) -> float:
+        """Of relative curvature along the motion [m]."""
+        return 1 / (1 / self.radii[0] + 1 / self.radii[1])
+
+    @property
+    def mean_speed(self) -> float:
+        """That entrains the oil [m/s]."""
+        return 0.5 * (self.speeds[0] + self.speeds[1])
+
+    @property
+    def slide_roll_ratio(self) -> float:
+        """Difference of the speeds over their mean; infinite where that is zero."""
+        difference = self.speeds[0] - self.speeds[1]
+        return difference / self.mean_speed if self.mean_speed else math.copysign(math.inf, difference)
+
+    def hertz(self, modulus: float) -> LineContact | PointContact:
+        """The smooth contact, with the contact modulus [Pa]."""
+        if self.length is not None:
+            return cylinder_contact(radius=self.radius, contact_modulus=modulus, load=self.load / self.length)
+        return ellipse_contact(radii=(self.radius, self.across), contact_modulus=modulus, load=self.load)
+
+    def half_width(self, modulus: float) -> float:
+        """Of the contact along the motion [m]."""
+        found = self.hertz(modulus)
+        return found.half_width if isinstance(found, LineContact) else found.semi_axes[0]
+
+    def line_load(self, modulus: float) -> float:
+        """Load per length [N/m]: of a line itself; of a point that of a line of its radius with its highest pressure,
+        W = pi R p0^2 / E*."""
+        if self.length is not None:
+            return self.load / self.length
+        return math.pi * self.radius * self.hertz(modulus).maximum_pressure ** 2 / modulus
+
+    def minimum_film(self, modulus: float, oil: Lubricant) -> float:
+        """Dowson's fit of the minimum film of a line [m], isothermal and flooded, to tell places apart; scenes compute
+        it. Zero where nothing is entrained."""
+        from bem.reference_solutions.line_film import dowson_higginson_minimum
+
+        if self.mean_speed == 0:
+            return 0.0
+        return dowson_higginson_minimum(
+            load=self.line_load(modulus),
+            radius=self.radius,
+            contact_modulus=modulus,
+            mean_speed=abs(self.mean_speed),
+            viscosity=oil.viscosity,
+            pressure_viscosity=oil.pressure_viscosity,
+        )
+
+    def conforming(self, modulus: float) -> bool:
+        """Whether the contact is as long as the bodies are round, across or along."""
+        found = self.hertz(modulus)
+        sides = [(self.half_width(modulus), min(map(abs, self.radii)))]
+        if isinstance(found, PointContact):
+            sides.append((found.semi_axes[1], min(map(abs, self.radii))))
+        return any(half > CONFORMING * radius for half, radius in sides)

@@ -1,0 +1,218 @@
+"""Machine elements by name: their files, what they give in a table, scenes of their contacts."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from bem.elements.cam_follower import CamModel
+from bem.elements.contact import ElementContact
+from bem.elements.gear_pair import GearModel
+from bem.elements.model import Contacts, ElementModel
+from bem.elements.rolling_bearing import BearingModel
+from bem.errors import InputError
+from bem.materials import contact_modulus
+from bem.scenes.validate import nearest, show, validate
+from bem.small_files import read_small
+
+MODELS: dict[str, type[ElementModel]] = {
+    "cam-follower": CamModel,
+    "gear-pair": GearModel,
+    "rolling-bearing": BearingModel,
+}
+NOT_HERE = {
+    "journal-bearing": "bush and shaft conform: neither half-space nor a film between parabolas carries there",
+    "plain-bearing": "bush and shaft conform: neither half-space nor a film between parabolas carries there",
+    "piston-ring": "its film is that of a rigid profile whose flooding changes over the stroke; kind film takes a "
+    "cylinder of the ring's radius over a motion in time, flooded",
+    "helical-gear": "contact lines of helical teeth wander along the face; gear-pair has spur gears",
+}
+_SHORT = {"bearing": "rolling-bearing", "gear": "gear-pair", "gears": "gear-pair", "cam": "cam-follower"}
+KINDS = ("traction", "contact")
+"""Kinds of scene that are made of a contact."""
+
+
+@dataclass(frozen=True)
+class Element:
+    """An element as its file says it; `table` is that, `model` what it means."""
+
+    model: ElementModel
+    table: Mapping[str, Any]
+
+    @cached_property
+    def found(self) -> Contacts:
+        """All contacts, with notes."""
+        return self.model.contacts()
+
+    @cached_property
+    def modulus(self) -> float:
+        """Contact modulus of both materials [Pa]."""
+        return contact_modulus(self.model.first.build(), self.model.second.build())
+
+    def worst(self) -> ElementContact:
+        """That with the highest pressure."""
+        return max(self.found.contacts, key=lambda one: one.hertz(self.modulus).maximum_pressure)
+
+    def thinnest(self) -> ElementContact:
+        """That with the thinnest film; InputError without an oil."""
+        if self.model.oil is None:
+            raise InputError(f"{self.model.name}: no oil is given, so no film is the thinnest; allowed: a table [oil]")
+        oil = self.model.oil.build()
+        return min(self.found.contacts, key=lambda one: one.minimum_film(self.modulus, oil))
+
+    def columns(self) -> dict[str, list[float]]:
+        """All contacts as columns, units in the names: what a scene over a path reads, then Hertz' contact and film."""
+        contacts, modulus = self.found.contacts, self.modulus
+        found = {
+            f"{self.found.along} [{self.found.along_unit}]": [one.place for one in contacts],
+            "load [N]": [one.load for one in contacts],
+            "load_per_length [N/m]": [one.line_load(modulus) for one in contacts],
+            "radius_1 [m]": [one.radii[0] for one in contacts],
+            "radius_2 [m]": [one.radii[1] for one in contacts],
+            "radius [m]": [one.radius for one in contacts],
+            "speed_1 [m/s]": [one.speeds[0] for one in contacts],
+            "speed_2 [m/s]": [one.speeds[1] for one in contacts],
+            "hertz_pressure [Pa]": [one.hertz(modulus).maximum_pressure for one in contacts],
+            "half_width [m]": [one.half_width(modulus) for one in contacts],
+        }
+        if self.model.oil is not None:
+            oil = self.model.oil.build()
+            films = [one.minimum_film(modulus, oil) for one in contacts]
+            found["minimum_film [m]"] = films
+            if self.model.rms_roughness is not None:
+                found["film_over_roughness"] = [film / self.model.rms_roughness for film in films]
+        return found
+
+    def csv(self) -> str:
+        """`columns` as comma-separated text."""
+        sink = io.StringIO()
+        writer = csv.writer(sink, lineterminator="\n")
+        columns = self.columns()
+        writer.writerow(columns)
+        writer.writerows([repr(float(value)) for value in row] for row in zip(*columns.values(), strict=True))
+        return sink.getvalue()
+
+    def notes(self) -> tuple[str, ...]:
+        """What the reader must know: of the element, and where half-space and line film do not carry."""
+        said = list(self.found.notes)
+        conforming = [one.name for one in self.found.contacts if one.conforming(self.modulus)]
+        if conforming:
+            said.append(
+                f"the contact is as long as the bodies are round at {len(conforming)} places ({conforming[0]}, ...): a "
+                "half-space under a parabola is no picture of them"
+            )
+        return tuple(said)
+
+    def scene(self, contact: ElementContact, kind: str) -> dict[str, Any]:
+        """The table of a scene of one contact: body 1 the lower one.
+
+        Raises
+        ------
+        InputError : a kind that is none of `KINDS`, a film without oil or entrainment.
+        """
+        if kind not in KINDS:
+            raise InputError(f"kind {show(kind)}: not made of an element{nearest(kind, KINDS)}; allowed: {KINDS}")
+        base = {
+            "kind": kind,
+            "name": self.model.name,
+            "description": f"{self.model.element}: {contact.name}",
+        }
+        bodies = {"lower": {"material": self.table["first"]}, "upper": {"material": self.table["second"]}}
+        return base | (self._traction(contact, bodies) if kind == "traction" else self._dry(contact, bodies))
+
+    def _traction(self, contact: ElementContact, bodies: dict[str, Any]) -> dict[str, Any]:
+        if self.model.oil is None:
+            raise InputError(f"{self.model.name}: a film needs an oil; allowed: a table [oil], or kind contact")
+        ratio = contact.slide_roll_ratio
+        if not abs(ratio) <= 2:
+            raise InputError(
+                f"{contact.name}: the surfaces run against each other (speeds {contact.speeds[0]:.3g} and "
+                f"{contact.speeds[1]:.3g} m/s), where no steady film of kind traction is; allowed: another place"
+            )
+        line_load = contact.line_load(self.modulus)
+        width = contact.load / line_load
+        return {
+            **bodies,
+            "roller": {"radius": contact.radius, "width": width, "load": contact.load},
+            "oil": dict(self.table["oil"]),
+            "rolling": {
+                "mean_speed": abs(contact.mean_speed),
+                "slide_roll_ratio": ratio,
+            },
+        }
+
+    def _dry(self, contact: ElementContact, bodies: dict[str, Any]) -> dict[str, Any]:
+        hertz = contact.hertz(self.modulus)
+        half = contact.half_width(self.modulus)
+        if contact.length is not None:
+            side = 4 * half
+            return {
+                "grid": {"shape": [128, 32], "lengths": [side, side / 4], "periodic": [False, True]},
+                **bodies,
+                "shape": {"kind": "cylinder", "radius": contact.radius},
+                "contact": {"load": contact.load / contact.length * side / 4},
+            }
+        return {
+            "grid": {"shape": 128, "lengths": [3 * semi for semi in hertz.semi_axes]},  # type: ignore[union-attr]
+            **bodies,
+            "shape": {"kind": "ellipsoid", "radius": contact.radius, "radius_y": contact.across},
+            "contact": {"load": contact.load},
+        }
+
+
+def load_element(source: str | Path | Mapping[str, Any]) -> Element:
+    """An element from its TOML file, or from a table.
+
+    Raises
+    ------
+    InputError : one message per mistake.
+    """
+    if isinstance(source, Mapping):
+        table = dict(source)
+    else:
+        try:
+            table = tomllib.loads(read_small(source).decode("utf-8"))
+        except (OSError, ValueError) as error:
+            raise InputError(f"element {show(str(source))}: cannot be read ({error})") from None
+        table.setdefault("name", Path(source).stem)
+    kind = str(table.get("element"))
+    if kind in NOT_HERE:
+        raise InputError(f'element = "{kind}": not here: {NOT_HERE[kind]}')
+    if kind not in MODELS:
+        listed = ", ".join(f'"{name}"' for name in MODELS)
+        found = show(table.get("element"))
+        raise InputError(f"element = {found}: not allowed{nearest(kind, MODELS)}; allowed: {listed}")
+    try:
+        return Element(validate(table, MODELS[kind]), table)
+    except InputError as error:  # what is wrong with the whole is said of the element
+        raise InputError([re.sub("^scene:", f"{kind}:", text) for text in error.messages]) from None
+
+
+def element_template(name: str) -> str:
+    """A commented file of an element, to start from.
+
+    Raises
+    ------
+    InputError : none of that name, and why.
+    """
+    word = name.lower().replace("_", "-")
+    word = _SHORT.get(word, word)
+    if word in NOT_HERE:
+        raise InputError(f'"{word}": not here: {NOT_HERE[word]}')
+    if word not in MODELS:
+        raise InputError(f'"{name}": no machine element{nearest(word, MODELS)}; allowed: {", ".join(MODELS)}')
+    return (resources.files("bem.elements") / "templates" / f"{word}.toml").read_text("utf-8")
+
+
+def degrees(contact: ElementContact, unit: str) -> str:
+    """Where a contact is, for people."""
+    return f"{math.degrees(contact.place):.1f} deg" if unit == "rad" else f"{1e3 * contact.place:.4g} mm"

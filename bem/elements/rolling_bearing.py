@@ -1,0 +1,179 @@
+"""Radial rolling bearings: how the load is shared by balls or rollers, and every contact on both rings.
+
+Load share: each element is pressed in by delta cos(psi) - c/2 on radial shift delta and clearance c, and carries K
+times that to the power n (Stribeck 1901, Sjovall 1933; Harris, *Rolling Bearing Analysis*, ch. 7). Of balls K and
+n = 1.5 are Hertz' for both rings, exact; of rollers they are Palmgren's, 3.84e-5 Q^0.9 / l^0.8 in mm and N for each
+steel ring (n = 10/9). Both surfaces roll at omega d_m (1 - gamma^2) / 4 over either ring, gamma = D / d_m.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from bem.elements.contact import ElementContact
+from bem.elements.model import Contacts, ElementModel
+from bem.materials import contact_modulus
+from bem.reference_solutions.hertz import ellipse_contact
+from bem.scenes.common import PositiveLength, problem
+from bem.scenes.units import Force, Length, Rate, Ratio
+
+_STEEL_DENSITY = 7800.0  # kg/m^3, of elements whose material says none
+
+
+class BearingModel(ElementModel):
+    """A radial bearing with a turning inner ring: dimensions of a catalogue or measured, load, clearance, speed.
+
+    Body 1 is the ring, body 2 the ball or roller. Without `pitch_diameter` it is the mean of bore and outside.
+    """
+
+    element: Literal["rolling-bearing"] = "rolling-bearing"
+    rolling: Literal["ball", "roller"] = "ball"
+    bore: PositiveLength
+    outside: PositiveLength
+    pitch_diameter: PositiveLength | None = None
+    diameter: PositiveLength
+    count: Annotated[int, Field(strict=True, ge=3, le=200)]
+    length: PositiveLength | None = None
+    groove: Annotated[Ratio, Field(gt=0.5, lt=1)] = 0.52
+    radial_load: Annotated[Force, Field(gt=0)]
+    clearance: Annotated[Length, Field(ge=0)] = 0.0
+    speed: Annotated[Rate, Field(gt=0)]
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        if not self.outside > self.bore:
+            raise problem("outside is not larger than bore", "outside > bore")
+        if (self.rolling == "roller") != (self.length is not None):
+            raise problem(f"a {self.rolling} with length {self.length}", "length for rollers, none for balls")
+        pitch = self.pitch
+        if not (self.bore < pitch - self.diameter and pitch + self.diameter < self.outside):
+            raise problem("the rolling elements do not fit between bore and outside", "a smaller diameter")
+        if self.count * math.asin(self.diameter / pitch) > math.pi:
+            raise problem(f"{self.count} elements do not fit on the pitch circle", "fewer, or smaller ones")
+        return self
+
+    @property
+    def pitch(self) -> float:
+        """Diameter of the circle of their middles [m]."""
+        return 0.5 * (self.bore + self.outside) if self.pitch_diameter is None else self.pitch_diameter
+
+    def contacts(self) -> Contacts:
+        """All that carry, inner and outer, by their angle from the load."""
+        races = _races(self)
+        modulus = contact_modulus(self.first.build(), self.second.build())
+        stiffness, power = _stiffness(self, races, modulus)
+        angles = [2 * math.pi * i / self.count for i in range(self.count)]
+        shared = share(self.radial_load, stiffness, power, self.clearance, angles)
+        gamma = self.diameter / self.pitch
+        rolling = 0.25 * self.speed * self.pitch * (1 - gamma**2)
+        pressed_out = _centrifugal(self)
+        found = []
+        for angle, load in zip(angles, shared, strict=True):
+            turned = math.degrees(angle if angle <= math.pi else angle - 2 * math.pi)
+            for race in races:
+                total = load + (pressed_out if race.name == "outer ring" else 0.0)
+                if load > 0:
+                    found.append(
+                        ElementContact(
+                            f"{race.name}, {turned:.0f} deg", math.radians(turned), total,
+                            (race.radius, 0.5 * self.diameter), (rolling, rolling), race.across, self.length,
+                        )
+                    )  # fmt: skip
+        return Contacts(tuple(found), "angle from the load", "rad", _notes(self, shared, pressed_out))
+
+
+@dataclass(frozen=True)
+class _Race:
+    """A ring's path: its radius along the rolling [m], negative outside; relative radius across."""
+
+    name: str
+    radius: float
+    across: float
+
+
+def _races(model: BearingModel) -> tuple[_Race, _Race]:
+    inner, outer = 0.5 * (model.pitch - model.diameter), 0.5 * (model.pitch + model.diameter)
+    across = math.inf
+    if model.rolling == "ball":
+        across = 1 / (2 / model.diameter - 1 / (model.groove * model.diameter))
+    return _Race("inner ring", inner, across), _Race("outer ring", -outer, across)
+
+
+def _stiffness(model: BearingModel, races: Sequence[_Race], modulus: float) -> tuple[float, float]:
+    """K [N/m^n] and n of one element between both rings."""
+    if model.length is not None:
+        per_ring = (1e3 * model.length) ** (8 / 9) / 3.84e-5 ** (10 / 9)  # Q = (l^0.8 d / 3.84e-5)^(1/0.9), in mm
+        return per_ring * (0.5 * 1e3) ** (10 / 9), 10 / 9
+    ball = 0.5 * model.diameter
+    single = []
+    for race in races:
+        radii = (1 / (1 / race.radius + 1 / ball), race.across)
+        one = ellipse_contact(radii=radii, contact_modulus=modulus, load=1.0)
+        single.append(one.approach)  # of 1 N: Hertz' approach grows with the load to the power 2/3
+    return sum(single) ** -1.5, 1.5
+
+
+def share(load: float, stiffness: float, power: float, clearance: float, angles: Sequence[float]) -> list[float]:
+    """Loads [N] of elements at these angles from a radial load [N] that they carry together.
+
+    stiffness K [N/m^power], diametral clearance [m]. The radial shift is found by bracketing.
+    """
+    from scipy.optimize import brentq
+
+    def loads(shift: float) -> list[float]:
+        return [stiffness * max(shift * math.cos(a) - 0.5 * clearance, 0.0) ** power for a in angles]
+
+    def missing(shift: float) -> float:
+        return sum(q * math.cos(a) for q, a in zip(loads(shift), angles, strict=True)) / load - 1
+
+    high = 0.5 * clearance + (load / stiffness) ** (1 / power)
+    while missing(high) < 0:
+        high *= 2
+    return loads(float(brentq(missing, 0.5 * clearance, high, xtol=1e-18, rtol=1e-14)))
+
+
+def load_integral(factor: float, power: float, integrate: Callable[..., tuple[float, float]]) -> float:
+    """Sjovall's radial integral J_r of the load factor epsilon: mean over the circle of the share of the most loaded
+    element times cos(psi), [1 - (1 - cos psi) / 2 epsilon]^power; F_r = Z Q_max J_r. `integrate` as scipy's `quad`."""
+    edge = math.acos(max(1 - 2 * factor, -1.0))
+
+    def inside(angle: float) -> float:
+        return max(1 - (1 - math.cos(angle)) / (2 * factor), 0.0) ** power * math.cos(angle)
+
+    return integrate(inside, -edge, edge)[0] / (2 * math.pi)
+
+
+def _centrifugal(model: BearingModel) -> float:
+    """What presses each element on the outer ring [N]."""
+    density = model.second.density or _STEEL_DENSITY
+    volume = math.pi * model.diameter**3 / 6
+    if model.length is not None:
+        volume = math.pi * model.diameter**2 / 4 * model.length
+    cage = 0.5 * model.speed * (1 - model.diameter / model.pitch)
+    return density * volume * 0.5 * model.pitch * cage**2
+
+
+def _notes(model: BearingModel, shared: Sequence[float], pressed_out: float) -> tuple[str, ...]:
+    highest = max(shared)
+    said = [
+        f"{sum(q > 0 for q in shared)} of {model.count} elements carry; the most loaded one {highest:.4g} N, "
+        f"{highest * model.count / model.radial_load:.3g} times the mean"
+    ]
+    if pressed_out > 0.05 * highest:
+        said.append(
+            f"centrifugal force presses each element outwards with {pressed_out:.3g} N: it is in the loads of the "
+            "outer ring, not in how the radial load is shared"
+        )
+    if model.rolling == "ball":
+        said.append(
+            "spin and differential slip of balls in their grooves are left out: both surfaces roll at one speed; the "
+            "line film of a scene takes the middle of the ellipse and no oil that leaves sideways"
+        )
+    else:
+        said.append("edges of rollers, crowning and skew are left out: the load is even along the length")
+    return tuple(said)

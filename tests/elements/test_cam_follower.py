@@ -1,0 +1,93 @@
+"""A cam made point by point as the envelope of its follower's face, and turned: contact, curvature and speeds."""
+
+import math
+
+import numpy as np
+import pytest
+
+from bem import InputError
+from bem.elements.cam_follower import CamModel
+from bem.elements.element import element_template, load_element
+
+CAM = {
+    "element": "cam-follower", "base_radius": "20 mm", "lift": "7.5 mm", "half_angle": "80 deg", "width": "14 mm",
+    "stiffness": "35 N/mm", "preload": "250 N", "mass": "120 g", "speed": "1500 rpm",
+    "first": "nodular-cast-iron", "second": "case-hardened-steel",
+}  # fmt: skip
+
+
+def profile(model, count=200001):
+    """Points of the cam in its own frame: where neighbouring positions of the follower's face cross."""
+    angle = np.linspace(-math.pi, math.pi, count)
+    height = np.array([model.base_radius + model.lift_at(value)[0] for value in angle.tolist()])
+    slope = np.gradient(height, angle)
+    # the face at cam angle theta is the line n . r = height, n turned back by theta; with its neighbour it cuts there
+    n = np.stack([np.sin(angle), np.cos(angle)])
+    t = np.stack([np.cos(angle), -np.sin(angle)])
+    return (height * n + slope * t).T, angle
+
+
+def test_lift_has_its_second_derivative():
+    model = load_element(CAM).model
+    assert isinstance(model, CamModel)
+    step = 1e-4
+    for angle in np.linspace(-1.3, 1.3, 27).tolist():
+        three = [model.lift_at(angle + shift)[0] for shift in (-step, 0, step)]
+        # round-off of second differences of millimetres over 1e-4 rad
+        assert (three[0] - 2 * three[1] + three[2]) / step**2 == pytest.approx(model.lift_at(angle)[1], abs=1e-8)
+    assert model.lift_at(1.4) == (0.0, 0.0)
+    assert model.lift_at(0.0)[0] == model.lift
+
+
+def test_the_envelope_touches_where_and_as_the_model_says():
+    element = load_element(CAM | {"points": 13})
+    model = element.model
+    assert isinstance(model, CamModel)
+    points, _ = profile(model)
+    omega, step = model.speed, 1e-3
+    for contact in element.found.contacts[1:-1]:
+        theta = contact.place
+
+        def touching(angle):
+            """Highest point of the cam turned by an angle, and the height of the follower."""
+            c, s = math.cos(angle), math.sin(angle)
+            lab = points @ np.array([[c, s], [-s, c]])
+            at = int(lab[:, 1].argmax())
+            around = lab[at - 40 : at + 41]
+            a, b, top = np.polyfit(around[:, 0] - lab[at, 0], around[:, 1], 2)
+            return lab[at, 0] - b / (2 * a), top - b * b / (4 * a), -1 / (2 * a)
+
+        _, y, radius = touching(theta)
+        assert y == pytest.approx(model.base_radius + model.lift_at(theta)[0], rel=1e-6)
+        assert radius == pytest.approx(contact.radii[0], rel=1e-2)  # a parabola through points 30 um apart
+        wanders = (touching(theta + step)[0] - touching(theta - step)[0]) / (2 * step) * omega
+        # turned counter-clockwise the top of the cam moves towards -x
+        of_cam, of_follower = -omega * y - wanders, -wanders
+        scale = omega * model.base_radius
+        signed = sorted((of_cam, of_follower), key=abs)
+        expected = sorted(contact.speeds, key=abs)
+        sign = math.copysign(1, signed[1]) * math.copysign(1, expected[1])
+        np.testing.assert_allclose(np.array(signed) * sign, expected, atol=0.01 * scale)
+
+
+def test_entrainment_turns_round_and_is_said_to():
+    notes = load_element(CAM).notes()
+    assert any("entrainment turns round" in note for note in notes)
+
+
+def test_a_follower_that_floats_is_said_to():
+    fast = load_element(CAM | {"speed": "9000 rpm"})
+    assert any("leaves the cam" in note for note in fast.notes())
+    assert len(fast.found.contacts) < 73
+    assert min(one.load for one in fast.found.contacts) > 0
+
+
+def test_a_hollow_flank_is_refused():
+    with pytest.raises(InputError, match="cam-follower: a flat follower cannot touch a hollow flank"):
+        load_element(CAM | {"half_angle": "50 deg"})
+
+
+def test_the_template_is_a_good_one(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(element_template("cam"))
+    assert load_element(path).worst().load > 0

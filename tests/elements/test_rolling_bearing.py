@@ -1,0 +1,129 @@
+"""Load share against tabulated integrals, speeds against the kinematics solved anew, Hertz' stiffness."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from bem import CATALOGUE, InputError, contact_modulus
+from bem.elements.element import element_template, load_element
+from bem.elements.rolling_bearing import BearingModel, load_integral, share
+from bem.reference_solutions.hertz import ellipse_contact
+
+STEEL = "steel-52100"
+BALLS = {
+    "element": "rolling-bearing", "bore": "40 mm", "outside": "80 mm", "diameter": "11.9 mm", "count": 9,
+    "radial_load": "4 kN", "speed": "3000 rpm", "first": STEEL, "second": STEEL,
+}  # fmt: skip
+ROLLERS = BALLS | {"rolling": "roller", "length": "12 mm", "diameter": "10 mm", "count": 14}
+
+
+@pytest.mark.parametrize(("power", "factor", "tabulated"), [(1.5, 0.5, 0.2288), (1.1, 0.5, 0.2453)])
+def test_load_integrals_are_those_of_the_tables(power, factor, tabulated):
+    """Harris, Rolling Bearing Analysis, table of J_r at half a load zone, whose line contacts have n = 1.1: four digits."""
+    assert load_integral(factor, power, quad) == pytest.approx(tabulated, abs=2e-4)
+
+
+@pytest.mark.parametrize("power", [1.5, 10 / 9])
+@pytest.mark.parametrize("clearance", [0.0, 5e-6, 50e-6])
+def test_many_elements_share_as_the_integral_says(power, clearance):
+    """F_r = Z Q_max J_r(epsilon), epsilon = (1 - c / 2 delta) / 2; 400 elements are nearly a continuum."""
+    count, load, stiffness = 400, 1e4, 1e9 if power == 1.5 else 1e8
+    angles = [2 * math.pi * i / count for i in range(count)]
+    loads = share(load, stiffness, power, clearance, angles)
+    assert sum(q * math.cos(a) for q, a in zip(loads, angles, strict=True)) == pytest.approx(load, rel=1e-10)
+    pressed = (loads[0] / stiffness) ** (1 / power)
+    factor = 0.5 * (1 - 0.5 * clearance / (pressed + 0.5 * clearance))
+    # the rule of rectangles with 400 points over a function with a kink: 1e-4
+    assert load / (count * loads[0]) == pytest.approx(load_integral(factor, power, quad), rel=2e-4)
+
+
+def test_stribecks_numbers():
+    """Q_max = 4.37 F_r / Z for balls, 4.08 F_r / Z for rollers without clearance."""
+    for power, number in ((1.5, 4.37), (10 / 9, 4.08)):
+        loads = share(1.0, 1.0, power, 0.0, [2 * math.pi * i / 400 for i in range(400)])
+        assert loads[0] * 400 == pytest.approx(number, abs=0.005)
+
+
+def test_a_ball_is_as_stiff_as_both_its_hertz_contacts():
+    element = load_element(BALLS)
+    inner, outer = element.found.contacts[:2]
+    modulus = contact_modulus(CATALOGUE[STEEL]) / 2
+    assert element.modulus == pytest.approx(modulus)
+    both = sum(
+        ellipse_contact(radii=(one.radius, one.across), contact_modulus=modulus, load=inner.load).approach
+        for one in (inner, outer)
+    )
+    loads = share(4e3, inner.load / both**1.5, 1.5, 0.0, [2 * math.pi * i / 9 for i in range(9)])
+    assert loads[0] == pytest.approx(inner.load, rel=1e-9)
+
+
+def test_surfaces_roll_as_the_parts_turn():
+    """Turning speeds of cage and ball from no slip at both rings, as two equations; then both surfaces' speeds less
+    that of the contact."""
+    model = load_element(BALLS).model
+    assert isinstance(model, BearingModel)
+    ball, pitch, omega = model.diameter / 2, model.pitch / 2, model.speed
+    # at the inner ring: cage * pitch - spin * ball = omega (pitch - ball); at the outer: cage * pitch + spin * ball = 0
+    cage, spin = np.linalg.solve([[pitch, -ball], [pitch, ball]], [omega * (pitch - ball), 0.0])
+    inner, outer = load_element(BALLS).found.contacts[:2]
+    for contact, ring, at in ((inner, omega, pitch - ball), (outer, 0.0, pitch + ball)):
+        moves = cage * at
+        side = -1 if at < pitch else 1
+        of_ring, of_ball = ring * at - moves, cage * pitch + side * spin * ball - moves
+        assert of_ring == pytest.approx(of_ball)
+        assert abs(of_ring) == pytest.approx(contact.speeds[0], rel=1e-12)
+        assert contact.slide_roll_ratio == 0
+
+
+def test_curvatures_of_rings():
+    inner, outer = load_element(BALLS).found.contacts[:2]
+    ball = 11.9e-3 / 2
+    assert 1 / inner.radius == pytest.approx(1 / ball + 1 / (30e-3 - ball))
+    assert 1 / outer.radius == pytest.approx(1 / ball - 1 / (30e-3 + ball))
+    assert 1 / inner.across == pytest.approx(1 / ball - 1 / (0.52 * 11.9e-3))
+
+
+def test_centrifugal_force_is_in_the_outer_contact_alone():
+    slow, fast = (load_element(BALLS | {"speed": speed}) for speed in ("1 rpm", "12000 rpm"))
+    assert slow.found.contacts[0].load == pytest.approx(fast.found.contacts[0].load)
+    mass = 7810 * math.pi * 11.9e-3**3 / 6
+    cage = 0.5 * 12000 * 2 * math.pi / 60 * (1 - 11.9 / 60)
+    expected = mass * 30e-3 * cage**2
+    assert fast.found.contacts[1].load - fast.found.contacts[0].load == pytest.approx(expected)
+    assert any("centrifugal" in note for note in load_element(BALLS | {"speed": "30000 rpm"}).notes())
+
+
+def test_rollers_touch_in_lines():
+    found = load_element(ROLLERS)
+    worst = found.worst()
+    assert worst.name == "inner ring, 0 deg"
+    assert worst.length == pytest.approx(12e-3)
+    # 14 elements do not quite have the continuum's 4.08
+    assert worst.load * 14 / 4e3 == pytest.approx(4.08, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"outside": "30 mm"}, "outside is not larger than bore"),
+        ({"count": 30}, "do not fit on the pitch circle"),
+        ({"diameter": "25 mm"}, "do not fit between"),
+        ({"rolling": "roller"}, "length for rollers"),
+        ({"spead": "3 rpm"}, 'did you mean "speed"'),
+        ({"first": "stel-52100"}, 'did you mean "steel-52100"'),
+        ({"element": "journal-bearing"}, "conform"),
+        ({"element": "bering"}, "not allowed"),
+        ({"speed": "3 m"}, "is not a rate"),
+    ],
+)
+def test_mistakes_are_said_with_what_is_allowed(change, words):
+    with pytest.raises(InputError, match=words):
+        load_element(BALLS | change)
+
+
+def test_the_template_is_a_good_one(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(element_template("bearing"))
+    assert load_element(path).model.name == "mine"

@@ -1,0 +1,101 @@
+"""What is made of a contact is a good scene of that contact; tables have units; the command says where it ends."""
+
+import csv
+import subprocess
+import sys
+
+import pytest
+
+from bem import InputError, load_scene, plan_scene
+from bem.elements.element import MODELS, element_template, load_element
+from bem.reference_solutions.hertz import PointContact
+
+
+@pytest.fixture(params=MODELS)
+def element(request, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(element_template(request.param))
+    return load_element(path)
+
+
+def test_a_film_of_a_contact(element):
+    """The worst one of those whose surfaces go the same way: under a cam's nose they run against each other."""
+    steady = [one for one in element.found.contacts if abs(one.slide_roll_ratio) <= 2]
+    worst = max(steady, key=lambda one: one.hertz(element.modulus).maximum_pressure)
+    for other in element.found.contacts:
+        if other not in steady:
+            with pytest.raises(InputError, match="run against each other"):
+                element.scene(other, "traction")
+    scene = load_scene(element.scene(worst, "traction"))
+    assert scene.roller.load == pytest.approx(worst.load)
+    lower, upper = scene.rolling.speeds
+    assert (lower, upper) == pytest.approx(tuple(speed * (1 if worst.mean_speed > 0 else -1) for speed in worst.speeds))
+    # the roller has the contact's highest pressure, of a point too
+    line = element.modulus * scene.roller.load / scene.roller.width / (3.141592653589793 * scene.roller.radius)
+    assert line**0.5 == pytest.approx(worst.hertz(element.modulus).maximum_pressure, rel=1e-12)
+
+
+def test_a_dry_contact_has_the_same_hertz_contact(element):
+    worst = element.worst()
+    scene, _ = plan_scene(element.scene(worst, "contact"))
+    hertz = worst.hertz(element.modulus)
+    if isinstance(hertz, PointContact):
+        assert scene.contact.load == pytest.approx(worst.load)
+        assert (scene.shape.radius, scene.shape.radius_y) == pytest.approx((worst.radius, worst.across))
+    else:
+        length = scene.grid.spacing[1] * scene.grid.shape[1]
+        assert scene.contact.load / length == pytest.approx(worst.load / worst.length)
+
+
+def test_the_thinnest_film_is_the_thinnest(element):
+    oil = element.model.oil.build()
+    films = [one.minimum_film(element.modulus, oil) for one in element.found.contacts]
+    assert element.thinnest().minimum_film(element.modulus, oil) == min(films)
+
+
+def test_columns_have_units_and_a_line_for_each_contact(element):
+    rows = list(csv.reader(element.csv().splitlines()))
+    assert all("[" in name or name == "film_over_roughness" for name in rows[0])
+    assert len(rows) == len(element.found.contacts) + 1
+    first = dict(zip(rows[0], map(float, rows[1]), strict=True))
+    contact = element.found.contacts[0]
+    assert first["load [N]"] == contact.load
+    assert 1 / first["radius [m]"] == pytest.approx(1 / first["radius_1 [m]"] + 1 / first["radius_2 [m]"])
+
+
+def test_what_conforms_is_said_to():
+    table = {
+        "element": "rolling-bearing", "bore": "40 mm", "outside": "80 mm", "diameter": "11.9 mm", "count": 9,
+        "groove": 0.505, "radial_load": "30 kN", "speed": "3000 rpm", "first": "steel-52100", "second": "steel-52100",
+    }  # fmt: skip
+    found = load_element(table)
+    assert any("half-space under a parabola is no picture" in note for note in found.notes())
+    with pytest.raises(InputError, match="needs an oil"):
+        found.scene(found.worst(), "traction")
+    with pytest.raises(InputError, match="no oil"):
+        found.thinnest()
+    with pytest.raises(InputError, match='did you mean "contact"'):
+        found.scene(found.worst(), "contct")
+
+
+def test_the_command_writes_scene_and_table(tmp_path):
+    code = "import sys; sys.argv[0] = 'bem'; from bem.cli import main; main()"
+
+    def bem(*words):
+        return subprocess.run(
+            [sys.executable, "-c", code, *words], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
+
+    assert bem("new", "gear", "gears.toml").returncode == 0
+    done = bem("element", "gears.toml", "--table", "path.csv", "--scene", "worst.toml")
+    assert done.returncode == 0, done.stderr
+    assert "contact ratio 1.43" in done.stdout
+    assert load_scene(tmp_path / "worst.toml").kind == "traction"
+    assert (tmp_path / "path.csv").read_text().count("\n") == 42
+    again = bem("element", "gears.toml", "--scene", "other.toml", "--at", "99")
+    assert again.returncode == 2
+    assert "a number from 1 to 41" in again.stderr
+    assert not (tmp_path / "other.toml").exists()
+    refused = bem("new", "piston-ring")
+    assert refused.returncode == 2
+    assert "not here" in refused.stderr
