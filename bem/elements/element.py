@@ -140,7 +140,9 @@ class Element:
             )
         line_load = contact.line_load(self.modulus)
         width = contact.load / line_load
+        known = all(table.build().thermal_diffusivity for table in (self.model.first, self.model.second))
         return {
+            **({} if known else {"thermal": "off"}),  # heat needs the constants of both materials
             **bodies,
             "roller": {"radius": contact.radius, "width": width, "load": contact.load},
             "oil": dict(self.table["oil"]),

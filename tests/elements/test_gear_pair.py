@@ -107,8 +107,8 @@ def test_load_along_the_path():
     model = element.model
     assert isinstance(model, GearModel)
     path, pitch = path_of_contact(model), math.pi * 2e-3 * math.cos(math.radians(20))
-    for s in np.linspace(path.start, path.end - pitch, 7):  # two pairs carry: all of the load between them
-        assert path.share(s) + path.share(s + pitch * (1 + 1e-12)) == pytest.approx(1.0, abs=1e-9)
+    for s in np.linspace(path.start, path.end - pitch, 9)[1:-1]:  # two pairs carry: all of the load between them
+        assert path.share(s) + path.share(s + pitch) == pytest.approx(1.0, abs=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ ROLLERS = BALLS | {"rolling": "roller", "length": "12 mm", "diameter": "10 mm", 
 
 @pytest.mark.parametrize(("power", "factor", "tabulated"), [(1.5, 0.5, 0.2288), (1.1, 0.5, 0.2453)])
 def test_load_integrals_are_those_of_the_tables(power, factor, tabulated):
-    """Harris, Rolling Bearing Analysis, table of J_r at half a load zone, whose line contacts have n = 1.1: four digits."""
+    """Harris, Rolling Bearing Analysis, table of J_r at half a load zone (its lines have n = 1.1): four digits."""
     assert load_integral(factor, power, quad) == pytest.approx(tabulated, abs=2e-4)
 
 
