@@ -12,15 +12,18 @@ if TYPE_CHECKING:
     from bem.elements.element import Element
 
 
-def register(app: typer.Typer) -> None:
+def register(app: typer.Typer) -> None:  # reason: the command in it; its arguments are the options
     """Add the command."""
 
     @app.command(short_help="Bearing, gear pair, cam: all contacts, and scenes of them.")
-    def element(
+    def element(  # reason: the arguments are the options
         file: Annotated[Path, typer.Argument(help="An element's file; `bem new gear-pair` writes one to start from.")],
         scene: Annotated[Path | None, typer.Option(metavar="FILE", help="Write a scene of one contact.")] = None,
         kind: Annotated[str, typer.Option(help="Kind of that scene: traction (film) or contact (dry).")] = "traction",
-        at: Annotated[str, typer.Option(help="Which contact: worst, thinnest, or its number in the table.")] = "worst",
+        at: Annotated[str, typer.Option(help="Which: worst, thinnest, a number of the table; path: all.")] = "worst",
+        path: Annotated[
+            Path | None, typer.Option(metavar="FILE", help="Write the path as .csv, for `along` of kind traction.")
+        ] = None,
         table: Annotated[Path | None, typer.Option(metavar="FILE", help="Write all contacts as .csv.")] = None,
     ) -> None:
         """Show the contacts of a machine element: load, radii, speeds, Hertz contact, film; the worst one, and where
@@ -29,7 +32,7 @@ def register(app: typer.Typer) -> None:
         \b
         Examples:
           bem new gear-pair gears.toml
-          bem element gears.toml --table path.csv
+          bem element gears.toml --scene flank.toml --at path
           bem element gears.toml --scene worst.toml --at thinnest
         """
         from bem.cli._quantity import new_file
@@ -40,15 +43,22 @@ def register(app: typer.Typer) -> None:
 
         if table is not None:
             new_file(table, "--table", (".csv",))
+        if path is not None:
+            new_file(path, "--path", (".csv",))
         if scene is not None:
             new_file(scene, "--scene", (".toml",))
         found = load_element(file)
-        chosen = _chosen(found, at)
-        made = None if scene is None else found.scene(chosen, kind)
+        whole = at == "path"
+        chosen = found.worst() if whole else _chosen(found, at)
+        made = None if scene is None else found.path_scene() if whole else found.scene(chosen, kind)
+        rows = None if path is None else found.path_csv()
         if made is not None:
             scene_from_table(made)
         _show(found, chosen)
         show_warnings(found.notes())
+        if path is not None and rows is not None:
+            write_text(path, rows)
+            print(f"written: {path}")
         if table is not None:
             write_text(table, found.csv())
             print(f"written: {table}")
@@ -67,7 +77,7 @@ def _chosen(found: Element, at: str) -> ElementContact:
     contacts = found.found.contacts
     if at.isdigit() and 1 <= int(at) <= len(contacts):
         return contacts[int(at) - 1]
-    raise InputError(f'--at "{at}": allowed: worst, thinnest, or a number from 1 to {len(contacts)}')
+    raise InputError(f'--at "{at}": allowed: worst, thinnest, path, or a number from 1 to {len(contacts)}')
 
 
 def _show(found: Element, chosen: ElementContact) -> None:

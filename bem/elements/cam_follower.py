@@ -84,7 +84,7 @@ class CamModel(ElementModel):
                     length=self.width,
                 )
             )  # fmt: skip
-        return Contacts(tuple(found), "angle from the nose", "rad", self._notes(found, lost))
+        return Contacts(tuple(found), "angle", "rad", self._notes(found, lost))
 
     def _notes(self, found: list[ElementContact], lost: int) -> tuple[str, ...]:
         said = []

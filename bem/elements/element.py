@@ -101,6 +101,47 @@ class Element:
         writer.writerows([repr(float(value)) for value in row] for row in zip(*columns.values(), strict=True))
         return sink.getvalue()
 
+    def path(self) -> dict[str, list[float]]:
+        """What a scene of kind traction reads as `along`: a row for each place, in SI units.
+
+        Raises
+        ------
+        InputError : an element without a path, or surfaces that run against each other on it.
+        """
+        contacts = self.found.contacts
+        if self.found.along_unit != "m":
+            raise InputError(f"{self.model.name}: a {self.model.element} has no path of contact; allowed: gear-pair")
+        return {
+            "position": [one.place for one in contacts],
+            "radius": [one.radius for one in contacts],
+            "load": [one.load for one in contacts],
+            "lower_speed": [one.speeds[0] for one in contacts],
+            "upper_speed": [one.speeds[1] for one in contacts],
+        }
+
+    def path_csv(self) -> str:
+        """`path` as the file that a scene's `along = { path = ... }` names."""
+        columns = self.path()
+        units = {"position": "m", "radius": "m", "load": "N", "lower_speed": "m/s", "upper_speed": "m/s"}
+        lines = [",".join(f"{name} [{units[name]}]" for name in columns)]
+        lines += [",".join(f"{value:.9g}" for value in row) for row in zip(*columns.values(), strict=True)]
+        return "\n".join(lines) + "\n"
+
+    def path_scene(self) -> dict[str, Any]:
+        """The table of a scene of kind traction over the whole path, as the built-in scene gear-flank is.
+
+        Raises
+        ------
+        InputError : as `path`; no oil.
+        """
+        columns, whole = self.path(), self.scene(self.worst(), "traction")
+        width = {"width": self.found.contacts[0].length}
+        rough = self.model.rms_roughness
+        rest = {key: value for key, value in whole.items() if key not in ("rolling", "roller", "description")}
+        about = {"description": f"{self.model.element}: {self.model.description or 'along its path'}"}
+        more = {} if rough is None else {"roughness": rough}
+        return rest | about | more | {"roller": width, "along": columns}
+
     def notes(self) -> tuple[str, ...]:
         """What the reader must know: of the element, and where half-space and line film do not carry."""
         said = list(self.found.notes)

@@ -53,7 +53,7 @@ class GearModel(ElementModel):
         return self
 
     def contacts(self) -> Contacts:
-        """Along the path from A, where the wheel's tip comes in, to E, where the pinion's leaves."""
+        """By distance from the pitch point C: from A, where the wheel's tip comes in, to E, where the pinion's leaves."""
         path = path_of_contact(self)
         normal = self.torque / path.base_radii[0]
         omega = (self.speed, self.speed * self.teeth[0] / self.teeth[1])
@@ -63,11 +63,11 @@ class GearModel(ElementModel):
             radii = (s, path.line - s)
             found.append(
                 ElementContact(
-                    f"{1e3 * (s - path.start):.3g} mm from A", s - path.start, normal * path.share(s), radii,
+                    f"{1e3 * (s - path.pitch):.3g} mm from C", s - path.pitch, normal * path.share(s), radii,
                     (omega[0] * radii[0], omega[1] * radii[1]), length=self.face_width,
                 )
             )  # fmt: skip
-        return Contacts(tuple(found), "distance from A along the line of action", "m", _notes(self, path))
+        return Contacts(tuple(found), "position", "m", _notes(self, path))
 
 
 @dataclass(frozen=True)

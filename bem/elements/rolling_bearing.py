@@ -84,7 +84,7 @@ class BearingModel(ElementModel):
                             (race.radius, 0.5 * self.diameter), (rolling, rolling), race.across, self.length,
                         )
                     )  # fmt: skip
-        return Contacts(tuple(found), "angle from the load", "rad", _notes(self, shared, pressed_out))
+        return Contacts(tuple(found), "angle", "rad", _notes(self, shared, pressed_out))
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,7 @@ def share(load: float, stiffness: float, power: float, clearance: float, angles:
 
 def load_integral(factor: float, power: float, integrate: Callable[..., tuple[float, float]]) -> float:
     """Sjovall's radial integral J_r of the load factor epsilon: mean over the circle of the share of the most loaded
-    element times cos(psi), [1 - (1 - cos psi) / 2 epsilon]^power; F_r = Z Q_max J_r. `integrate` as quad of scipy.integrate."""
+    element times cos(psi), [1 - (1 - cos psi) / 2 epsilon]^power; F_r = Z Q_max J_r. `integrate` is quad of scipy."""
     edge = math.acos(max(1 - 2 * factor, -1.0))
 
     def inside(angle: float) -> float:

@@ -65,7 +65,7 @@ def test_flanks_made_point_by_point(shifts):
     middle = np.array([a, 0.0])
     omega1, omega2 = model.speed, model.speed * model.teeth[0] / model.teeth[1]
     for contact in element.found.contacts:
-        s = path.start + contact.place
+        s = path.pitch + contact.place
         near = angle + np.linspace(-0.02, 0.02, 401)
         one = flank(rb1, angle - s / rb1, near)
         # the wheel's flank in its own frame, seen from the other side
@@ -123,3 +123,34 @@ def test_load_along_the_path():
 def test_gears_that_do_not_mesh_are_refused(change, words):
     with pytest.raises(InputError, match=words):
         made(**change)
+
+
+def test_it_is_the_built_in_scene_of_such_gears(tmp_path):
+    """The scene gear-flank, written down by others for 94 N m: every row, to the digits it has."""
+    from bem.scenes import library
+
+    rows = library()["gear-flank"]["along"]
+    element = load_element(PAIR | {
+        "module": "4.5 mm", "teeth": [16, 24], "profile_shifts": [0.1817, 0.1715], "face_width": "14 mm",
+        "tip_diameters": ["82.46 mm", "118.36 mm"], "torque": "94 N*m", "speed": "2250 rpm", "points": 2001,
+    })  # fmt: skip
+    ours = element.path()
+    assert [1e3 * ours["position"][end] for end in (0, -1)] == pytest.approx([-9.498, 9.599], abs=0.01)
+    at = [float(text.split()[0]) * 1e-3 for text in rows["position"]]
+    for name, unit in (("radius", 1e-3), ("lower_speed", 1.0), ("upper_speed", 1.0), ("load", 1.0)):
+        theirs = np.array([float(text.split()[0]) for text in rows[name]]) * unit
+        found = np.interp(at, ours["position"], ours[name])
+        jumps = [4, 5, 11, 12] if name == "load" else []  # where the second pair comes and goes
+        np.testing.assert_allclose(np.delete(found, jumps), np.delete(theirs, jumps), rtol=2e-3)
+
+
+def test_a_path_is_read_as_the_scene_reads_it(tmp_path):
+    from bem import load_scene
+
+    element = made(oil={"grade": "ISO VG 100", "temperature": "90 degC"}, rms_roughness="0.3 um", points=9)
+    scene = load_scene(element.path_scene())
+    assert scene.along.load == pytest.approx(element.path()["load"])
+    (tmp_path / "path.csv").write_text(element.path_csv())
+    again = load_scene(element.path_scene() | {"along": {"path": str(tmp_path / "path.csv")}})
+    np.testing.assert_allclose(again.along.radius, scene.along.radius, rtol=1e-8)
+    assert scene.roughness == pytest.approx(3e-7)

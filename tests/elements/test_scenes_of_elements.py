@@ -87,11 +87,13 @@ def test_the_command_writes_scene_and_table(tmp_path):
         )
 
     assert bem("new", "gear", "gears.toml").returncode == 0
-    done = bem("element", "gears.toml", "--table", "path.csv", "--scene", "worst.toml")
+    done = bem("element", "gears.toml", "--table", "all.csv", "--path", "path.csv", "--scene", "worst.toml")
     assert done.returncode == 0, done.stderr
     assert "contact ratio 1.43" in done.stdout
     assert load_scene(tmp_path / "worst.toml").kind == "traction"
     assert (tmp_path / "path.csv").read_text().count("\n") == 42
+    assert bem("element", "gears.toml", "--scene", "flank.toml", "--at", "path").returncode == 0
+    assert len(load_scene(tmp_path / "flank.toml").along.position) == 41
     again = bem("element", "gears.toml", "--scene", "other.toml", "--at", "99")
     assert again.returncode == 2
     assert "a number from 1 to 41" in again.stderr
