@@ -53,7 +53,7 @@ class GearModel(ElementModel):
         return self
 
     def contacts(self) -> Contacts:
-        """By distance from the pitch point C: from A, where the wheel's tip comes in, to E, where the pinion's leaves."""
+        """By distance from the pitch point C: from A, where the wheel's tip comes in, to E, the end of the pinion's."""
         path = path_of_contact(self)
         normal = self.torque / path.base_radii[0]
         omega = (self.speed, self.speed * self.teeth[0] / self.teeth[1])
