@@ -14,6 +14,7 @@ from bem.scenes import get_kind, kind_names, library
 from bem.scenes.laws import LawKey
 from bem.scenes.template import about_field, default_text, scene_template
 from bem.scenes.validate import fields_of_table, literals, unwrap, without_none
+from reports import wear_lengths
 from reports.builder import Page, Section, table, text
 from reports.error_bars import chapter
 from reports.prose import prose
@@ -41,7 +42,16 @@ def build() -> Page:
         "guide",
         "Guide",
         _WORDS["lead"],
-        [*_using(), *_scenes(), *_options(), *chapter(), *_theory(), *_contributing(), *_kinds()],
+        [
+            *_using(),
+            *_scenes(),
+            *_options(),
+            *chapter(),
+            *wear_lengths.chapter(),
+            *_theory(),
+            *_contributing(),
+            *_kinds(),
+        ],
     )
 
 

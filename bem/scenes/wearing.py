@@ -306,13 +306,13 @@ def mean_sizes(particles: NDArray[np.void], sizes: SizesScene) -> dict[str, Any]
 
 def sizes_without_bars(scene: Any) -> dict[str, None]:
     """The reported sizes, where the mean that is reported follows the mesh."""
-    follows = "number" in scene.sizes.report and not scene.wear.criterion.has_length
+    follows = "number" in scene.sizes.report and not scene.wear.criterion.sizes_converge
     return dict.fromkeys(f"reported_{quantity}" for quantity in _QUANTITIES) if follows else {}
 
 
 def scattering(record: type[Record], scene: Any) -> tuple[str, ...]:
-    """Figures of a record that follow the mesh under the source's criterion, where the scene's has a length."""
-    return tuple(without_bars(record)) if scene.wear.criterion.has_length else ()
+    """Figures of a record that follow the mesh under the source's criterion, where under the scene's they converge."""
+    return tuple(without_bars(record)) if scene.wear.criterion.sizes_converge else ()
 
 
 def mean_radii(particles: NDArray[np.void], sizes: SizesScene, *names: str) -> dict[str, float]:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 def broken(cycle: BodyCycle, law: LowCycleFatigue) -> Removal:
     """Pieces of voxels that have no life left, and the damage of what stays."""
     setup, model, body = cycle.setup, cycle.model, cycle.body
-    loads = averaged_loads(cycle.loads, setup.grid, law.averaging_length) if law.has_length else cycle.loads
+    loads = averaged_loads(cycle.loads, setup.grid, law.averaging_length) if law.averaging_length > 0 else cycle.loads
     found = yielded_stress(loads, setup, model, body)
     start = time.perf_counter()
     depths = depths_for(setup, model, body)

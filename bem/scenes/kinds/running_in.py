@@ -248,9 +248,6 @@ def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[Run
     return summary | {"hardness_of_least_friction_Pa": best, "least_friction_inside_range": inside}
 
 
-scattering = partial(wearing.scattering, RunningInRecord)
-
-
 KIND = Kind.of(
     vars(),
     RunningInScene,

@@ -32,8 +32,8 @@ class AveragedVonMises(VonMises):
     )
 
     @property
-    def has_length(self) -> bool:
-        """The disc's."""
+    def sizes_converge(self) -> bool:
+        """By the disc."""
         return True
 
     def detach(self, cycle: BodyCycle) -> Removal:

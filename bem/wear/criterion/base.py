@@ -25,8 +25,9 @@ class Detachment(Law):
         return 1.0
 
     @property
-    def has_length(self) -> bool:
-        """Whether a length of the material decides the size of pieces, so that it can converge with the mesh."""
+    def sizes_converge(self) -> bool:
+        """Whether sizes by number and the number of pieces were found to converge with the mesh: the guide's chapter on
+        criteria, `reports/experiments/wear_lengths.py`."""
         return False
 
     @abstractmethod

@@ -46,11 +46,6 @@ class LowCycleFatigue(VonMises):
     )
 
     @property
-    def has_length(self) -> bool:
-        """Where stresses are averaged."""
-        return self.averaging_length > 0
-
-    @property
     def passes_per_cycle(self) -> float:
         """As given."""
         return self.passes

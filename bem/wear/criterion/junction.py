@@ -50,8 +50,8 @@ class Junction(Detachment):
     )
 
     @property
-    def has_length(self) -> bool:
-        """d*."""
+    def sizes_converge(self) -> bool:
+        """By d*."""
         return True
 
     def critical_size(self, material: Material) -> float:

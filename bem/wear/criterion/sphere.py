@@ -26,11 +26,6 @@ class Sphere(VonMises):
         source="a choice: of the order of the grains below a run-in surface, a tenth of a micrometre to one",
     )
 
-    @property
-    def has_length(self) -> bool:
-        """The sphere's."""
-        return True
-
     def detach(self, cycle: BodyCycle) -> Removal:
         """Those of the yielded pieces that hold the sphere."""
         from bem.wear.lengths import holding
