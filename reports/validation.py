@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from reports import independent
+from reports import independent, neglects
 from reports.builder import COLOURS, Page, Section, figure, table, text
 from reports.experiments import kept
 from reports.validation_lines import CHECKS, CHOICES
@@ -117,6 +117,7 @@ def build() -> Page:
     for title, lines in tables.items():
         sections.append(Section(title, table(headers, lines) + figures_for(title)))
     sections.append(Section("Independent figures", independent.body()))
+    sections.append(Section("What the Stribeck curves leave out", neglects.body()))
     sections.append(Section("What was chosen, and why", table(("what", "choice", "reason"), CHOICES)))
     sections.append(Section("Stored results", results_table()))
     return Page(

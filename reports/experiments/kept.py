@@ -13,7 +13,7 @@ from typing import Any
 from reports.validation_origin import bare_digest, commit, modules
 
 RESULTS = Path(__file__).resolve().parents[1] / "results"
-SCRIPTS = ("independent_figures", "film_regimes", "load_share_curves", "separation_datum")
+SCRIPTS = ("independent_figures", "film_regimes", "load_share_curves", "separation_datum", "stribeck_effects")
 """Experiments whose results the validation page reads; of each, module and result have that name."""
 
 

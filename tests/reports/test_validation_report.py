@@ -182,3 +182,27 @@ def test_verdicts_on_figures_of_others_can_fail():
     hard = kept.found("independent_figures")
     stalled = [{**hard["plastic"][0], "status": "stalled"}]
     assert "stalled" in independent._hard_cases(stalled, hard["near_full"])
+
+
+def test_neglects_are_the_largest_changes_along_a_curve():
+    """What did not converge is not compared, and is said."""
+    from reports import neglects
+
+    curves = [
+        {"name": name, "speeds": [0.1, 1.0, 10.0], "friction": friction, "contact_share": share,
+         "minimum_film": film, "status": status}
+        for name, friction, share, film, status in (
+            ("base", [0.1, 0.05, 0.02], [0.9, 0.5, 0.0], [1e-8, 1e-7, 1e-6], ["converged"] * 3),
+            ("less", [0.09, 0.05, 1.0], [0.8, 0.6, 0.9], [1e-8, 0.5e-7, 9.0], ["converged"] * 2 + ["stalled"]),
+            ("more", [50.0, 0.05, 0.02], [0.9, 0.5, 0.0], [1e-8, 1e-7, 1e-6], ["converged"] * 3),
+        )
+    ]  # fmt: skip
+    less, more = neglects._lines("bearing", "base", curves)
+    assert less[1] == "less (1 speed did not converge)"
+    assert less[2:4] == ("-10 %", "0.1 m/s")
+    assert less[4:6] == ("-50 %", "1 m/s")
+    assert less[6] in ("-0.100", "+0.100")
+    assert more[2] == "500 times as much"
+    page = neglects.body()
+    assert "Not run" not in page
+    assert page.count("<tr>") >= 12

@@ -25,6 +25,7 @@ _MODEL_NAMES = {
     "uncoupled_elastic": "uncoupled asperities, elastic",
 }
 Array = NDArray[Any]
+_CELSIUS = 273.15
 
 
 def _curves(run: Any, name: str) -> list[tuple[str, Array]]:
@@ -74,6 +75,23 @@ def _sharing(run: Any, figure: Figure) -> None:
     _band(lower, speed, film * factor, BLUE, "")
     lower.set_ylabel(label("minimum film", unit))
     speed_axis(lower, speed)
+
+
+def _temperatures(run: Any, figure: Figure) -> None:
+    """Of oil and surfaces in contact, of each curve: the highest of the first."""
+    axes, speed = figure.add_subplot(), np.sort(run.dataset["speed"].values)
+    for number, (name, values) in enumerate(_curves(run, "contact_temperature")):
+        _band(
+            axes, speed, values - _CELSIUS, _COLOURS[number], f"surfaces in contact, {name}".replace(", friction", "")
+        )
+    for key, text, dots in (("flash_temperature", "highest of them", ":"), ("oil_temperature", "oil, mean", "-.")):
+        first = _curves(run, key)[0][1].mean(axis=0)
+        axes.plot(speed, first - _CELSIUS, color="0.45", linestyle=dots, label=text)
+    axes.set_ylabel("temperature (°C)")
+    speed_axis(axes, speed)
+    axes.set_ylim(auto=True)
+    axes.autoscale(axis="y")
+    axes.legend(fontsize=7)
 
 
 def _section(run: Any, figure: Figure) -> None:
@@ -214,6 +232,13 @@ FIGURES = (
         ("speed", "contact_load", "film_load", "minimum_film", "model"),
         _sharing,
         (5.0, 4.6),
+    ),
+    FigureKind(
+        "contact-temperatures",
+        "Surfaces in contact, mean by pressure, over speed; the highest of them and the oil's mean in the first curve.",
+        ("speed", "contact_temperature", "flash_temperature", "oil_temperature"),
+        _temperatures,
+        (5.2, 3.6),
     ),
     FigureKind(
         "film-section",

@@ -306,6 +306,7 @@ KIND = Kind.of(
     figures=(
         "stribeck-curve",
         "load-sharing",
+        "contact-temperatures",
         "film-section",
         "film-pressure",
         "largest-difference",
