@@ -55,6 +55,7 @@ _HOMES = {
     "lubrication": [
         "Cavitation",
         "FilmSolution",
+        "FullThermalFilm",
         "InletDistance",
         "Lubricant",
         "Oil",
@@ -64,6 +65,7 @@ _HOMES = {
         "march_line_film",
         "solve_line_film",
         "solve_point_film",
+        "solve_full_thermal_line_film",
         "solve_thermal_line_film",
     ],
     "friction": ["MixedSolution", "solve_mixed", "stribeck_curve"],

@@ -24,12 +24,18 @@ if TYPE_CHECKING:
     from bem.lubrication.point.solve import solve_point_film
     from bem.lubrication.steady import solve_line_film
     from bem.lubrication.supply import InletDistance, OilLayer
-    from bem.lubrication.thermal import ThermalFilm, solve_thermal_line_film
+    from bem.lubrication.thermal import (
+        FullThermalFilm,
+        ThermalFilm,
+        solve_full_thermal_line_film,
+        solve_thermal_line_film,
+    )
     from bem.lubrication.transient import march_line_film
 
 __all__ = [
     "Cavitation",
     "FilmSolution",
+    "FullThermalFilm",
     "InletDistance",
     "Lubricant",
     "Oil",
@@ -38,6 +44,7 @@ __all__ = [
     "ThermalFilm",
     "find_oil",
     "march_line_film",
+    "solve_full_thermal_line_film",
     "solve_line_film",
     "solve_point_film",
     "solve_thermal_line_film",
@@ -54,7 +61,7 @@ __getattr__ = loader(
         "point.solve": ["solve_point_film"],
         "steady": ["solve_line_film"],
         "supply": ["InletDistance", "OilLayer"],
-        "thermal": ["ThermalFilm", "solve_thermal_line_film"],
+        "thermal": ["FullThermalFilm", "ThermalFilm", "solve_full_thermal_line_film", "solve_thermal_line_film"],
         "transient": ["march_line_film"],
     },
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -14,6 +14,9 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.supply import Starvation
 from bem.representation import readable
+
+if TYPE_CHECKING:
+    from bem.lubrication.thermal import FullThermalFilm, ThermalFilm
 
 
 class KeptFilm(Protocol):
@@ -55,10 +58,11 @@ class FilmSolution:
     film_fraction : (n,) share of the gap that is filled with oil; 1 in the full film. None with Swift and Stieber's
         cavitation, which keeps no account of it.
     volume_imbalance : relative error of the volume balance of a time step; None for a steady film.
-    mean_temperature, maximum_temperature : of the oil [K], mean across the film: weighted by pressure, and the highest.
-        None where heat was not solved for.
+    mean_temperature : of the oil [K], mean across the film, weighted by pressure. maximum_temperature : its highest, of
+        the mean across the film where only that is known ("lumped"). None where heat was not solved for.
     sliding_stress : (n,) in the middle of the film [Pa], at the oil's temperatures; None where heat was not solved for.
     starvation : what a supply of oil made of a steady film; None where none was given: flooded.
+    heat : the same film with all that is known of its heat, a `ThermalFilm` or a `FullThermalFilm`; None without heat.
     state : the discrete solution as its solver left it, to start the next one from; None where none is kept.
     notes : where the model is outside its validity, a sentence each (`bem.lubrication.validity`).
     """
@@ -87,6 +91,7 @@ class FilmSolution:
     mean_temperature: float | None = None
     maximum_temperature: float | None = None
     sliding_stress: FloatArray | None = None
+    heat: ThermalFilm | FullThermalFilm | None = field(default=None, repr=False, compare=False)
     state: KeptFilm | None = field(default=None, repr=False, compare=False)
 
     def shear_stress(self, position: FloatArray | None = None) -> FloatArray:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -20,16 +21,41 @@ LOCAL_STEPS = 12
 SHORTEST = 0.2
 
 
+class Layered(Protocol):
+    """An oil that is not the same all the way across the film, at the nodes of one mesh: Dowson's generalised form.
+
+    leaving : Couette flow over that of the oil as it comes, at the exit.
+    """
+
+    @property
+    def leaving(self) -> float:
+        """At the exit."""
+
+    def drag(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Couette flow over that of the oil as it comes, and its slope, at the nodes."""
+
+    def log_viscosity(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Of the uniform oil through which pressure drives as much, and its slope, at the nodes."""
+
+    def cut(self, nodes: slice) -> Layered:
+        """At some of the nodes."""
+
+
 @dataclass(frozen=True)
 class Problem:
     """The similarity problem: load M, laws of the scaled pressure, flow factors of the walls (None: smooth), shear law
-    across the film (None: Newtonian)."""
+    across the film (None: Newtonian), what differs across the film (None: nothing)."""
 
     load: float
     log_viscosity: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
     density: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
     walls: RoughWalls | None = None
     shear: ShearFlow | None = None
+    layered: Layered | None = None
+
+    def flowing(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """ln of the viscosity against which pressure drives the oil, and its slope, at the nodes."""
+        return self.log_viscosity(pressure) if self.layered is None else self.layered.log_viscosity(pressure)
 
     def cube(self, thickness: FloatArray) -> tuple[FloatArray, FloatArray]:
         """What pressure flow goes with, h^3 between smooth walls, and half its derivative."""
@@ -45,8 +71,8 @@ class Problem:
 @dataclass(frozen=True)
 class Parts:
     """What residual and derivatives share. On the cells: pressure flow and its derivatives with the films at both ends,
-    the gradient and, through viscosity and shear law, the pressures there; on the nodes: density, dragged flow and
-    their slopes."""
+    the gradient and, through viscosity and shear law, the pressures there; on the nodes: slope of the dragged
+    mass with pressure, and of the dragged flow with the film; density and its slope."""
 
     flow: FloatArray
     by_film: FloatArray
@@ -54,7 +80,7 @@ class Parts:
     left: FloatArray
     right: FloatArray
     mean_density: FloatArray
-    dragged: FloatArray
+    mass_slope: FloatArray
     dragged_slope: FloatArray
     density: FloatArray
     density_slope: FloatArray
@@ -72,13 +98,15 @@ class Flow:
 
     def cut(self, first: int, last: int) -> Flow:
         """The cells first .. last - 1. The flow through the first of them lacks its second node upstream."""
-        part = slice(first, last)
-        return replace(self, width=self.width[part], extrapolation=self.extrapolation[part], scale=self.scale[part])
+        part, problem = slice(first, last), self.problem
+        if problem.layered is not None:
+            problem = replace(problem, layered=problem.layered.cut(slice(first, last + 1)))
+        return Flow(problem, self.width[part], self.extrapolation[part], self.scale[part])
 
     def residual(self, pressure: FloatArray, film: FloatArray, exit_film: float) -> tuple[FloatArray, Parts]:
         """Pressure flow less Couette flow, plus what leaves at the exit."""
         positive = np.maximum(pressure, 0.0)
-        log_viscosity, slope = self.problem.log_viscosity(positive)
+        log_viscosity, slope = self.problem.flowing(positive)
         density, density_slope = self.problem.density(positive)
         slope = np.where(pressure > 0, slope, 0.0)
         density_slope = np.where(pressure > 0, density_slope, 0.0)
@@ -102,7 +130,13 @@ class Flow:
             left, right = steep * left + limited, steep * right + limited
             mobility = mobility * driven.by_gradient
         dragged, dragged_slope = self.problem.dragged(film)
+        mass_slope = dragged * density_slope
         leaving = float(self.problem.dragged(np.array([exit_film]))[0][0])
+        if self.problem.layered is not None:
+            drag, steep_drag = self.problem.layered.drag(positive)
+            mass_slope = mass_slope * drag + density * dragged * np.where(pressure > 0, steep_drag, 0.0)
+            dragged, dragged_slope = dragged * drag, dragged_slope * drag
+            leaving *= self.problem.layered.leaving
         mass = density * dragged
         carried = mass[:-1].copy()
         carried[1:] += self.extrapolation[1:] * (mass[1:-1] - mass[:-2])
@@ -115,7 +149,7 @@ class Flow:
             left=left,
             right=right,
             mean_density=mean_density,
-            dragged=dragged,
+            mass_slope=mass_slope,
             dragged_slope=dragged_slope,
             density=density,
             density_slope=density_slope,
@@ -137,7 +171,7 @@ class Flow:
         mobility, flow = parts.mobility, parts.flow
         from_left = -mobility / self.width + flow * 0.5 * density_slope[:-1] / parts.mean_density + parts.left
         from_right = mobility / self.width + flow * 0.5 * density_slope[1:] / parts.mean_density + parts.right
-        carried = parts.dragged * density_slope
+        carried = parts.mass_slope
         from_left -= (1 + extrapolation) * carried[:-1]
         from_left[0] += 0.5 * carried[0]
         from_right[0] -= 0.5 * carried[1]

@@ -30,6 +30,8 @@ from bem.threads import one_blas_thread
 MOES_LOADS = (1e-5, 1e4)
 """Loads M for which a film is looked for; beyond them the equations are not a model of anything."""
 MAX_INLET_SHARE = 0.01
+HEAT = {"lumped": "solve_thermal_line_film", "full": "solve_full_thermal_line_film"}
+"""Models of heat, in `bem.lubrication.thermal`."""
 
 
 @one_blas_thread
@@ -80,8 +82,9 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         thickness of a layer [m]; None is flooded. `FilmSolution.starvation` has the meniscus, the oil that goes
         through, and how much thinner the film is than flooded. Upstream of the meniscus there is no pressure and no
         friction.
-    thermal : "off", or "lumped": inlet shear heating and the oil's mean temperature, see `solve_thermal_line_film`,
-        which also gives the temperatures along the film. Friction and temperatures of the result are then those.
+    thermal : "off"; "lumped": inlet shear heating and the oil's mean temperature, see `solve_thermal_line_film`; or
+        "full": the temperature along and across the film, see `solve_full_thermal_line_film`. Friction and temperatures
+        of the result are then those, and `heat` of it has the rest.
     bodies, bulk : with heat: flat and cylinder with their heat constants, and their temperatures far away [K].
 
     Returns
@@ -108,9 +111,9 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         own = {"position": position is not None, "supply": supply is not None}
         own["mass-conserving cavitation"] = cavitation is not Cavitation.SWIFT_STIEBER
         _check_heat(thermal, bodies, [name for name, given in own.items() if given])
-        from bem.lubrication.thermal.lumped import solve_thermal_line_film
+        from bem.lubrication import thermal as models
 
-        return solve_thermal_line_film(
+        return getattr(models, HEAT[thermal])(  # type: ignore[no-any-return]
             load=load, radius=radius, contact_modulus=contact_modulus, speeds=speeds, lubricant=lubricant,
             bodies=bodies or (), bulk=bulk, points=points, initial=initial, tolerance=tolerance,
             max_iterations=max_iterations, flow_factors=flow_factors,
@@ -136,7 +139,7 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         reduction=1.0 if starvation is None else starvation.reduction,
     )
     film = replace(
-        _result(outcome, flooded, problem, scales, speeds, reversed_, lubricant, position), starvation=starvation
+        solution_of(outcome, flooded, problem, scales, speeds, reversed_, lubricant, position), starvation=starvation
     )
     film = replace(film, notes=notes_on(case) + notes_on_factors(flow_factors, film.minimum_thickness))
     if cavitation is Cavitation.SWIFT_STIEBER:
@@ -152,8 +155,9 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
 def _check_heat(thermal: str, bodies: Sequence[Body] | None, given: Sequence[str]) -> None:
     """Refuse another model of heat, no bodies, and what is given that is not solved for with heat."""
     messages = []
-    if thermal != "lumped":
-        messages.append(f'solve_line_film: thermal {thermal!r} is not there; allowed: "off", "lumped"')
+    if thermal not in HEAT:
+        allowed = ", ".join(f'"{name}"' for name in ("off", *HEAT))
+        messages.append(f"solve_line_film: thermal {thermal!r} is not there; allowed: {allowed}")
     if bodies is None:
         messages.append("solve_line_film: with heat, bodies (flat, cylinder) with heat constants must be given")
     messages += [f"solve_line_film: {name} cannot be given with heat" for name in given]
@@ -332,7 +336,7 @@ def _real(value: object) -> bool:
     return isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool) and value == value
 
 
-def _result(
+def solution_of(
     outcome: Outcome,
     flooded: Outcome,
     problem: Problem,
@@ -342,6 +346,7 @@ def _result(
     lubricant: Lubricant,
     position: FloatArray | None,
 ) -> FilmSolution:
+    """What is said of an outcome, with the friction of its oil at one temperature."""
     state = outcome.state
     x, film = state.position, state.film
     pressure = np.maximum(state.pressure, 0.0)

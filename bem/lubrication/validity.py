@@ -54,6 +54,7 @@ class Case:
 
     position, pressure, thickness : (n,) [m], [Pa], [m]. speeds : of flat and cylinder [m/s]. lubricant : the oil.
     radius : [m]. contact_modulus : [Pa], infinite for rigid bodies. reduction : by a supply, of the film.
+    hot_stress : of a film with heat, mu (u1 - u2)/h at its temperatures (n,) [Pa].
     """
 
     position: FloatArray
@@ -64,10 +65,13 @@ class Case:
     radius: float
     contact_modulus: float
     reduction: float = 1.0
+    hot_stress: FloatArray | None = None
 
     @cached_property
     def newtonian_stress(self) -> FloatArray:
         """|mu (u1 - u2) / h| in the full film [Pa]."""
+        if self.hot_stress is not None:
+            return np.where(self.pressure > 0, np.abs(self.hot_stress), 0.0)
         viscosity = self.lubricant.viscosity_at(self.pressure)
         stress = viscosity * abs(self.speeds[0] - self.speeds[1]) / self.thickness
         return np.where(self.pressure > 0, stress, 0.0)

@@ -71,8 +71,8 @@ def test_the_film_s_own_solver_asks_for_heat():
     assert cold.mean_temperature is None
     assert film_alone.minimum_thickness < cold.minimum_thickness
     assert abs(film_alone.shear_force) < abs(cold.shear_force)
-    with pytest.raises(InputError, match='"off", "lumped"'):
-        solve_line_film(thermal="full", **(ROLLER | case))
+    with pytest.raises(InputError, match='"off", "lumped", "full"'):
+        solve_line_film(thermal="hot", **(ROLLER | case))
     with pytest.raises(InputError, match="bodies"):
         solve_line_film(thermal="lumped", **(isothermal | case))
     with pytest.raises(InputError, match="supply cannot be given with heat"):

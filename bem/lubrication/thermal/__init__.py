@@ -1,8 +1,12 @@
-"""Heat in line films, lumped across the film: `solve_thermal_line_film` (in `lumped`).
+"""Heat in line films: lumped across the film, `solve_thermal_line_film` (in `lumped`), or along and across it,
+`solve_full_thermal_line_film` (in `full`).
 
-`inlet` has the factor of inlet heating, `strip` the film in cells, `energy` their balance with two moving half-spaces,
-`hot_viscosity` the oil over pressure and temperature. Sees films, oils and `bem.heat`. Names are loaded when they are
-first used. Verified in tests/lubrication/test_thermal_film.py.
+Lumped: `inlet` has the factor of inlet heating, `strip` the film in cells, `energy` their balance with two moving
+half-spaces. Full: `layers` what temperatures across the film do to its flow, `across` speeds, stress and heat across
+it, `made` that in columns and layers, `field` their temperatures, `coupled` film and temperatures at once. Both:
+`hot_viscosity` the oil over pressure and temperature, `conductors` the bodies, `notes` where the models end. Sees
+films, oils and `bem.heat`. Names are loaded when they are first used. Verified in
+tests/lubrication/test_thermal_film.py and test_full_thermal.py.
 """
 
 from typing import TYPE_CHECKING
@@ -10,8 +14,15 @@ from typing import TYPE_CHECKING
 from bem.lazy import loader
 
 if TYPE_CHECKING:
+    from bem.lubrication.thermal.full import FullThermalFilm, solve_full_thermal_line_film
     from bem.lubrication.thermal.lumped import ThermalFilm, solve_thermal_line_film
 
-__all__ = ["ThermalFilm", "solve_thermal_line_film"]
+__all__ = ["FullThermalFilm", "ThermalFilm", "solve_full_thermal_line_film", "solve_thermal_line_film"]
 
-__getattr__ = loader(__name__, {"lumped": ["ThermalFilm", "solve_thermal_line_film"]})
+__getattr__ = loader(
+    __name__,
+    {
+        "full": ["FullThermalFilm", "solve_full_thermal_line_film"],
+        "lumped": ["ThermalFilm", "solve_thermal_line_film"],
+    },
+)

@@ -73,16 +73,21 @@ class HotViscosity:
         exponent = max(slope, 0.0) * (hottest - POLE)
         return cls(lubricant, span, reference, softening, exponent, hottest, known)
 
+    def line(self, temperature: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """At temperatures [K], of any shape: ln(mu/mu0) = a L + b, L that at the lubricant's own temperature and the
+        same pressure, and the derivatives of a and b with temperature [1/K]."""
+        if self.span <= LEAST_SPAN:
+            one, none = np.ones_like(temperature), np.zeros_like(temperature)
+            return one, -self.softening * (temperature - self.reference), none, -self.softening * one
+        factor, steepness = self._factor(temperature)
+        slope = factor * steepness
+        return factor, self.span * (factor - 1), slope, self.span * slope
+
     def __call__(self, pressure: FloatArray, temperature: FloatArray) -> tuple[FloatArray, FloatArray]:
         """As the class says."""
         at_reference = self.lubricant.log_viscosity_ratio(pressure)[0]
-        if self.span <= LEAST_SPAN:
-            value = at_reference - self.softening * (temperature - self.reference)
-            slope = np.full_like(value, -self.softening)
-        else:
-            factor, steepness = self._factor(temperature)
-            value = factor * (self.span + at_reference) - self.span
-            slope = steepness * (value + self.span)
+        times, plus, times_slope, plus_slope = self.line(temperature)
+        value, slope = times * at_reference + plus, times_slope * at_reference + plus_slope
         viscosity = self.lubricant.viscosity * np.exp(np.minimum(value, LARGEST_LOGARITHM))
         return viscosity, viscosity * slope
 

@@ -16,24 +16,25 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
-from bem.heat.bodies import Conductor, conductors_of
+from bem.heat.bodies import Conductor
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.oils.oil import EXTRAPOLATED, HOTTEST, Oil
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors
 from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.steady import KeptSteady, checked_case, load_range, solve_line_film
+from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.energy import Channel, Temperatures, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.lubrication.thermal.inlet import InletHeating, hertz_over_modulus, inlet_heating_factor
-from bem.lubrication.thermal.strip import Strip, derivative_of, strip_of, summed
-from bem.lubrication.validity import HEATING_NOTES, Case, notes_on
+from bem.lubrication.thermal.notes import notes_of_film, notes_of_heat
+from bem.lubrication.thermal.strip import Strip, cell_edges, derivative_of, strip_of, summed
 from bem.lubrication.viscosity import ViscosityLaw
 from bem.materials import Body
 from bem.threads import one_blas_thread
@@ -47,7 +48,10 @@ FACTOR_TOLERANCE = 5e-3
 MOST_FILMS = 4
 LARGEST_STRESS = 1e12
 """On the way to the temperatures [Pa]: cold oil that has no limit would carry more than can be computed with."""
-_CELSIUS = 273.15
+EXTRAPOLATED_INLET = (
+    "the formula of inlet heating (Gupta et al. 1992) is extrapolated: so much load and speed was not in it, and the "
+    "film's thickness is an estimate"
+)
 
 
 @dataclass(frozen=True)
@@ -126,6 +130,7 @@ class ThermalFilm:
             iterations=self.iterations,
             status=self.status,
             notes=self.notes,
+            heat=self,
         )
 
 
@@ -187,7 +192,7 @@ def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and 
     if not (isinstance(cells, int) and 20 <= cells <= 2000):
         raise InputError(f"solve_thermal_line_film: cells {cells!r} must be an integer from 20 to 2000")
     checked_case(load, radius, contact_modulus, speeds, lubricant, points, tolerance, None, initial)
-    conductors = _checked(lubricant, bodies, speeds, bulk, radius)
+    conductors = moving_bodies("solve_thermal_line_film", lubricant, bodies, speeds, bulk, radius)
     case = {
         "load": load, "radius": radius, "contact_modulus": contact_modulus, "speeds": speeds, "tolerance": tolerance,
         "max_iterations": max_iterations, "flow_factors": flow_factors,
@@ -203,39 +208,9 @@ def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and 
     )
     thinned = _thinned(case, lubricant, points, initial, inlet)
     thermal = _heated(thinned, lubricant, conductors, cells)
-    notes = _notes_of_film(thermal.film, lubricant, radius, contact_modulus)
+    notes = notes_of_film(thermal.film, lubricant, radius, contact_modulus)
     notes += notes_on_factors(flow_factors, thermal.minimum_thickness)
     return replace(thermal, notes=notes + thermal.notes)
-
-
-def _checked(
-    lubricant: Lubricant, bodies: Sequence[Body], speeds: Sequence[float], bulk: Sequence[float] | None, radius: float
-) -> tuple[Conductor, Conductor]:
-    """The bodies as moving half-spaces, a body at rest as one that moves so slowly that it is cool at the radius."""
-    needed = ("temperature", "density", "heat_capacity", "thermal_conductivity", "temperature_viscosity")
-    missing = [key for key in needed if getattr(lubricant, key, None) is None]
-    if missing:
-        raise InputError(
-            f"solve_thermal_line_film: the lubricant lacks {', '.join(missing)}; give them, or an oil of the catalogue "
-            "(Lubricant.of), which has them"
-        )
-    temperature = float(lubricant.temperature or 0.0)
-    bulks = (temperature, temperature) if bulk is None else bulk
-    if not isinstance(bodies, Sequence) or len(bodies) != 2:
-        raise InputError("solve_thermal_line_film: bodies must be the flat and the cylinder")
-    found = conductors_of("solve_thermal_line_film", bodies, speeds, bulks)
-    hot = [value for value in (*(body.bulk for body in found), temperature) if value > HOTTEST]
-    if hot:
-        raise InputError(
-            f"solve_thermal_line_film: {hot[0] - _CELSIUS:g} degC is above {HOTTEST - _CELSIUS:g} degC; oils crack"
-        )
-    least = 1 / radius
-    sign = math.copysign(1.0, float(speeds[0]) + float(speeds[1]))
-    moving = []
-    for body in found:
-        number = body.wavenumber if abs(body.wavenumber) > least else math.copysign(least, body.speed or 1.0)
-        moving.append(replace(body, speed=2 * body.diffusivity * number * sign))
-    return moving[0], moving[1]
 
 
 @dataclass
@@ -311,7 +286,7 @@ def _check_load(case: dict[str, Any], thinner: Lubricant, inlet: InletHeating) -
 def _heated(thinned: _Thinned, lubricant: Lubricant, bodies: tuple[Conductor, Conductor], cells: int) -> ThermalFilm:
     """Temperatures and friction of the last film."""
     film = thinned.films[-1]
-    strip, viscosity = strip_of(film, cells), HotViscosity.of(lubricant)
+    strip, viscosity = strip_of(film, partial(cell_edges, cells=cells)), HotViscosity.of(lubricant)
     middle, width = 0.5 * (strip.edges[1:] + strip.edges[:-1]), np.diff(strip.edges)
     pieces = np.diff(strip.x)
 
@@ -327,13 +302,14 @@ def _heated(thinned: _Thinned, lubricant: Lubricant, bodies: tuple[Conductor, Co
         return np.clip(stress, -LARGEST_STRESS, LARGEST_STRESS), slopes
 
     ambient = lubricant.viscosity * strip.sliding * strip.upstream
+    rolling = strip.pushed - strip.flow * strip.work
 
     def heat(temperature: FloatArray) -> tuple[FloatArray, FloatArray]:
         stress, slope = stresses(temperature)
         made = summed(strip.cell, 0.5 * pieces * (stress[1:] + stress[:-1]), len(width))
         made[0] += ambient
         derivative = derivative_of(strip, middle, 0.5 * pieces * slope[:-1], 0.5 * pieces * slope[1:])
-        return (strip.sliding * made + strip.rolling) / width, strip.sliding * derivative / width[:, None]
+        return (strip.sliding * made + rolling) / width, strip.sliding * derivative / width[:, None]
 
     density, capacity = lubricant.density or 0.0, lubricant.heat_capacity or 0.0
     flow = 0.5 * abs(sum(film.speeds)) * float(strip.thickness[-1])
@@ -369,6 +345,7 @@ def _result(
     right = found.residual <= 1e-6 and thinned.missed <= FACTOR_TOLERANCE
     status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
     order = slice(None, None, -1) if kept.reversed else slice(None)
+    hottest = max(float(found.oil.max()), float(found.surfaces.max()))
     return ThermalFilm(
         film=film,
         isothermal=thinned.films[0],
@@ -391,56 +368,5 @@ def _result(
         films=len(thinned.films),
         iterations=thinned.steps,
         status=status,
-        notes=_notes(lubricant, inlet, found, film.speeds),
+        notes=(*([EXTRAPOLATED_INLET] if inlet.extrapolated else []), *notes_of_heat(lubricant, hottest, film.speeds)),
     )
-
-
-def _notes_of_film(film: FilmSolution, lubricant: Lubricant, radius: float, contact_modulus: float) -> tuple[str, ...]:
-    """Those of the film, of the oil as it is, but for what they say of heat."""
-    kept = film.state
-    assert isinstance(kept, KeptSteady)
-    case = Case(
-        position=kept.state.position * kept.scales.length,
-        pressure=np.maximum(kept.state.pressure, 0.0) * kept.scales.pressure,
-        thickness=kept.state.film * kept.scales.film,
-        speeds=film.speeds,
-        lubricant=lubricant,
-        radius=radius,
-        contact_modulus=contact_modulus,
-    )
-    return tuple(note for note in notes_on(case) if note not in HEATING_NOTES)
-
-
-def _notes(
-    lubricant: Lubricant, inlet: InletHeating, found: Temperatures, speeds: tuple[float, float]
-) -> tuple[str, ...]:
-    """Where the lumped model ends."""
-    hottest = max(float(found.oil.max()), float(found.surfaces.max()))
-    said = []
-    if inlet.extrapolated:
-        said.append(
-            "the formula of inlet heating (Gupta et al. 1992) is extrapolated: so much load and speed was not in it, "
-            "and the film's thickness is an estimate"
-        )
-    if hottest > HOTTEST:
-        said.append(
-            f"oil or surfaces exceed {HOTTEST - _CELSIUS:g} degC in the contact, where oils crack: viscosities there "
-            "are extrapolated"
-        )
-    elif lubricant.oil is not None:
-        said += _hot_oil(lubricant.oil, hottest)
-    if min(abs(speed) for speed in speeds) == 0:
-        said.append("a body at rest is taken as cool at a distance of the cylinder's radius")
-    return tuple(said)
-
-
-def _hot_oil(oil: Oil, hottest: float) -> list[str]:
-    """What the oil's figures do not hold for at its hottest; without the temperature, which a curve has many of."""
-    if oil.boiling_point is not None and hottest > oil.boiling_point:
-        return [f"{oil.name} is above its boiling point in the contact: it is taken as a liquid there"]
-    if hottest > oil.viscosity.highest + EXTRAPOLATED:
-        return [
-            f"{oil.name} is more than {EXTRAPOLATED:g} K hotter in the contact than where its viscosity is known, "
-            f"{oil.viscosity.highest - _CELSIUS:.6g} degC: it is extrapolated"
-        ]
-    return []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +17,9 @@ from bem.lubrication.steady import KeptSteady
 @dataclass(frozen=True)
 class Strip:
     """A film along its entrainment: nodes (n,) [m], pressure [Pa], thickness [m], gradient [Pa/m]; `into` : the cell of
-    each piece between nodes (n-1,); heat of rolling in the cells [W/m]; sliding, along the entrainment [m/s]."""
+    each piece between nodes (n-1,); power of the pressure on the walls [W/m] and its work on what flows [Pa] in the
+    cells; speeds of both walls along the entrainment and their difference [m/s]; density over that without pressure
+    (n,)."""
 
     x: FloatArray
     pressure: FloatArray
@@ -24,30 +27,45 @@ class Strip:
     gradient: FloatArray
     cell: NDArray[np.intp]
     edges: FloatArray
-    rolling: FloatArray
+    pushed: FloatArray
+    work: FloatArray
     upstream: float
+    speeds: tuple[float, float]
     sliding: float
+    density: FloatArray
+
+    @property
+    def flow(self) -> float:
+        """Of oil of one temperature over its density without pressure [m^2/s]."""
+        return 0.5 * sum(self.speeds) * float(self.thickness[-1])
 
 
-def strip_of(film: FilmSolution, cells: int) -> Strip:
-    """Of a steady film, in so many cells at most."""
+Edges = Callable[[FloatArray, FloatArray], FloatArray]
+"""Of nodes and pressures (n,): the nodes where cells begin and end."""
+
+
+def strip_of(
+    film: FilmSolution, edges_of: Edges, reversible: Callable[[FloatArray], FloatArray] | None = None
+) -> Strip:
+    """Of a steady film; reversible : share of the pressure's work that does not become heat."""
     kept = film.state
     assert isinstance(kept, KeptSteady)
     state, scales = kept.state, kept.scales
     x, thickness = state.position * scales.length, state.film * scales.film
     pressure = np.maximum(state.pressure, 0.0) * scales.pressure
     first, second = (speed * (-1.0 if kept.reversed else 1.0) for speed in film.speeds)
-    edges = cell_edges(x, pressure, cells)
+    edges = edges_of(x, pressure)
     cell = np.searchsorted(edges, 0.5 * (x[1:] + x[:-1])) - 1
     pieces = 0.25 * (thickness[1:] + thickness[:-1]) * np.diff(pressure)
     upstream_force = rolling_upstream(state) * scales.film * scales.pressure
-    flow = 0.5 * (first + second) * thickness[-1]
     # work of the pressure on what flows: integral of dp/rho, a function of the pressure alone
     nodes, weights = np.polynomial.legendre.leggauss(8)
     at = 0.5 * pressure[:, None] * (nodes + 1)
-    work = 0.5 * pressure * ((1 / film.lubricant.density_ratio(at)[0]) @ weights)
-    rolling = summed(cell, (first + second) * pieces - flow * np.diff(work), len(edges) - 1)
-    rolling[0] += (first + second) * upstream_force - flow * work[0]
+    share = 1.0 if reversible is None else reversible(at)
+    work = 0.5 * pressure * ((share / film.lubricant.density_ratio(at)[0]) @ weights)
+    pushed, worked = (summed(cell, values, len(edges) - 1) for values in ((first + second) * pieces, np.diff(work)))
+    pushed[0] += (first + second) * upstream_force
+    worked[0] += work[0]
     return Strip(
         x=x,
         pressure=pressure,
@@ -55,9 +73,12 @@ def strip_of(film: FilmSolution, cells: int) -> Strip:
         gradient=np.gradient(pressure, x),
         cell=cell,
         edges=edges,
-        rolling=rolling,
+        pushed=pushed,
+        work=worked,
         upstream=upstream_of_mesh(state)[0] * scales.length / scales.film,
+        speeds=(first, second),
         sliding=first - second,
+        density=film.lubricant.density_ratio(pressure)[0],
     )
 
 

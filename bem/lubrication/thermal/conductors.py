@@ -1,0 +1,54 @@
+"""What a film with heat is between: two moving half-spaces, and what must be known of them and of the oil."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+from bem.errors import InputError
+from bem.heat.bodies import Conductor, conductors_of
+from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.oils.oil import HOTTEST
+from bem.lubrication.oils.over_temperature import CELSIUS
+from bem.materials import Body
+
+
+def moving_bodies(
+    owner: str,
+    lubricant: Lubricant,
+    bodies: Sequence[Body],
+    speeds: Sequence[float],
+    bulk: Sequence[float] | None,
+    radius: float,
+) -> tuple[Conductor, Conductor]:
+    """Both bodies as half-spaces that move along the entrainment, a body at rest as one that moves so slowly that it is
+    cool at the radius.
+
+    Raises
+    ------
+    InputError : a lubricant without temperature and heat constants, bodies without theirs, a temperature above 300
+        degrees Celsius; `owner` is who says so.
+    """
+    needed = ("temperature", "density", "heat_capacity", "thermal_conductivity", "temperature_viscosity")
+    missing = [key for key in needed if getattr(lubricant, key, None) is None]
+    if missing:
+        raise InputError(
+            f"{owner}: the lubricant lacks {', '.join(missing)}; give them, or an oil of the catalogue "
+            "(Lubricant.of), which has them"
+        )
+    temperature = float(lubricant.temperature or 0.0)
+    bulks = (temperature, temperature) if bulk is None else bulk
+    if not isinstance(bodies, Sequence) or len(bodies) != 2:
+        raise InputError(f"{owner}: bodies must be the flat and the cylinder")
+    found = conductors_of(owner, bodies, speeds, bulks)
+    hot = [value for value in (*(body.bulk for body in found), temperature) if value > HOTTEST]
+    if hot:
+        raise InputError(f"{owner}: {hot[0] - CELSIUS:g} degC is above {HOTTEST - CELSIUS:g} degC; oils crack")
+    least = 1 / radius
+    sign = math.copysign(1.0, float(speeds[0]) + float(speeds[1]))
+    moving = []
+    for body in found:
+        number = body.wavenumber if abs(body.wavenumber) > least else math.copysign(least, body.speed or 1.0)
+        moving.append(replace(body, speed=2 * body.diffusivity * number * sign))
+    return moving[0], moving[1]

@@ -1,0 +1,222 @@
+"""A film and its temperature field, each solved for with the other as it is, until both hold at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from dataclasses import field as field_of
+from itertools import pairwise
+
+import numpy as np
+
+from bem.grid import FloatArray
+from bem.heat.bodies import Conductor
+from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_continuation import MAX_IMBALANCE, SPIKE_CELLS
+from bem.lubrication.line_flow import Problem
+from bem.lubrication.line_newton import Outcome, State, mesh_imbalance, newton, remesh, spike_cell
+from bem.lubrication.thermal.field import TOLERANCE, Duct, Field, temperature_field, warming_of
+from bem.lubrication.thermal.layers import HotFilm, Oil
+from bem.lubrication.thermal.made import Made
+from bem.lubrication.thermal.strip import Strip, cell_edges, strip_of
+
+MOST_ROUNDS = 80
+SMOOTHED = 2
+"""Times that temperatures are smoothed for the flow."""
+SETTLED = 0.3
+"""Residual from which a spike is where it will be."""
+MISPLACED = 3.0
+"""Cells at a spike over what they should be, from which a mesh is made anew."""
+MOST_MESHES = 3
+MEMORY = 6
+"""Rounds that the next one learns from."""
+EXACTNESS = 0.03
+"""Of a round, over the error that the last one left."""
+COARSE = 1e-3
+LOST = 1e-2
+"""Of a field, from which it is none: the round before is kept."""
+FINE = 1e-7
+"""Of the field at the end."""
+SHORTEST_SHARE = 1 / 64
+"""Of the way from one temperature field to the next that Reynolds' equation follows."""
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """What stays the same. unit : of pressure [Pa]. film_of : what is said of an outcome; columns, layers : of the
+    heat, at most."""
+
+    problem: Problem
+    oil: Oil
+    bodies: tuple[Conductor, Conductor]
+    slide: float
+    unit: float
+    film_of: Callable[[Outcome], FilmSolution]
+    columns: int
+    layers: int
+    tolerance: float
+    limit: int
+
+    def duct(self, strip: Strip, before: Duct | None) -> Duct:
+        """The film as a place for heat; bodies warm as in the duct before where the mesh is the same."""
+        lubricant = self.oil.lubricant
+        slender = np.add.reduceat(
+            0.5 * np.diff(strip.x) * (1 / strip.thickness[1:] + 1 / strip.thickness[:-1]),
+            np.searchsorted(strip.x, strip.edges[:-1]),
+        )
+        width = np.diff(strip.edges)
+        same = before is not None and len(before.width) == len(width) and np.allclose(before.width, width, rtol=1e-9)
+        warming = before.warming if before is not None and same else warming_of(strip.edges, self.bodies)
+        capacity = (lubricant.density or 0.0) * (lubricant.heat_capacity or 0.0)
+        return Duct(
+            strip.edges,
+            slender,
+            lubricant.thermal_conductivity or 0.0,
+            capacity,
+            float(lubricant.temperature or 0.0),
+            self.bodies,
+            self.layers,
+            warming,
+        )
+
+    def hot(self, state: State, temperature: FloatArray) -> Problem:
+        """Reynolds' problem with temperatures at the nodes of a state (n, K) [K]."""
+        layered = HotFilm.of(self.oil, temperature, state.pressure, self.problem.log_viscosity, self.slide, self.unit)
+        return replace(self.problem, layered=layered)
+
+
+@dataclass(frozen=True)
+class Heated:
+    """A film with its heat: what is said of the film, its strip, duct, heat and field, the temperatures at the
+    nodes that it was given and those found (n, K) [K], Reynolds' residual at these,
+    Newton steps and rounds in all."""
+
+    film: FilmSolution
+    outcome: Outcome
+    strip: Strip
+    duct: Duct
+    made: Made
+    field: Field
+    given: FloatArray
+    found: FloatArray
+    residual: float
+    steps: int = 0
+    rounds: int = 0
+
+    def met(self, tolerance: float) -> bool:
+        """Whether Reynolds' equation holds at the temperatures, and they at the film."""
+        return self.residual <= tolerance and self.field.residual <= FINE
+
+
+def coupled(coupling: Coupling, start: Outcome) -> Heated:
+    """From a film without heat, or of another case."""
+    kept = np.full((len(start.state.offset), coupling.layers), coupling.oil.viscosity.reference)
+    at = _heated(coupling, start, kept, None, 1.0)
+    steps, rounds, history, remeshed = start.iterations, 1, History(), 0
+    while True:
+        if at.met(coupling.tolerance) or rounds >= MOST_ROUNDS or not np.isfinite(at.residual):
+            return replace(at, steps=steps, rounds=rounds)
+        goal = max(coupling.tolerance, min(EXACTNESS * at.residual, COARSE))
+        outcome, kept, spent = _followed(coupling, at.outcome, at.given, history.following(at.given, at.found), goal)
+        steps += spent
+        if outcome is None:
+            return replace(at, steps=steps, rounds=rounds)
+        if remeshed < MOST_MESHES and _is_misplaced(coupling.problem, outcome.state, at.residual):
+            remeshed += 1
+            state = remesh(coupling.problem, outcome.state, len(outcome.state.offset) - 1, SPIKE_CELLS[-1])
+            moved = _moved(outcome.state.offset, kept, state.offset)
+            again = newton(coupling.hot(state, moved), state, goal, coupling.limit)
+            steps += again.iterations
+            if again.converged:
+                outcome, kept, history = again, moved, History()
+        following = _heated(coupling, outcome, kept, at, at.residual)
+        rounds += 1
+        if not following.field.residual <= LOST:
+            return replace(at, steps=steps, rounds=rounds)
+        at = following
+
+
+def _heated(coupling: Coupling, outcome: Outcome, given: FloatArray, before: Heated | None, residual: float) -> Heated:
+    """The heat of a film that was solved for at given temperatures (n, K) [K], to a share of the residual before."""
+    film = coupling.film_of(outcome)
+    kept = before is not None and before.outcome.state.offset is outcome.state.offset
+    places = before.made.edge if before is not None and kept else None
+
+    def edges(x: FloatArray, pressure: FloatArray) -> FloatArray:
+        return cell_edges(x, pressure, coupling.columns) if places is None else x[places]
+
+    strip = strip_of(film, edges, coupling.oil.kept_work)
+    resistance = coupling.hot(outcome.state, given).flowing(np.maximum(outcome.state.pressure, 0.0))[0]
+    duct = coupling.duct(strip, None if before is None else before.duct)
+    made = Made.of(coupling.oil, strip, resistance)
+    guess = np.full((duct.columns, coupling.layers + 2), duct.supply)
+    warm = before is not None and before.field.temperature.shape == guess.shape
+    if before is not None and warm:
+        guess = before.field.temperature
+    wanted = max(TOLERANCE, min(EXACTNESS * residual, COARSE))
+    field = temperature_field(duct, made, guess, wanted, held=0.0 if warm else 1.0)
+    found = made.at_nodes(_smoothed(field.oil))
+    left = newton(coupling.hot(outcome.state, found), outcome.state, coupling.tolerance, 0).residual
+    return Heated(film, outcome, strip, duct, made, field, given, found, left)
+
+
+@dataclass
+class History:
+    """Temperatures that films were solved with and those that were found of them: where both will be the same, by the
+    secants between the last of them (Anderson, J. ACM 12 (1965) 547; Walker and Ni, SIAM J. Numer. Anal. 49 (2011)
+    1715)."""
+
+    given: list[FloatArray] = field_of(default_factory=list)
+    found: list[FloatArray] = field_of(default_factory=list)
+
+    def following(self, given: FloatArray, found: FloatArray) -> FloatArray:
+        """The temperatures to go on with."""
+        self.given, self.found = [*self.given, given][-MEMORY:], [*self.found, found][-MEMORY:]
+        if len(self.given) == 1:
+            return found
+        missed = [(b - a).ravel() for a, b in zip(self.given, self.found, strict=True)]
+        changes = np.stack([b - a for a, b in pairwise(missed)], axis=1)
+        weights = np.linalg.lstsq(changes, missed[-1], rcond=1e-10)[0]
+        steps = [b - a for a, b in pairwise(self.found)]
+        return found - sum(weight * step for weight, step in zip(weights, steps, strict=True))
+
+
+def _is_misplaced(problem: Problem, state: State, residual: float) -> bool:
+    """Whether a mesh is too coarse somewhere for the film, or a spike of pressure not where its cells are fine."""
+    if mesh_imbalance(problem, state) > MAX_IMBALANCE:
+        return True
+    if residual > SETTLED:
+        return False
+    width = np.diff(state.offset)
+    top = int(np.argmin(np.diff(state.pressure) / width))
+    wanted = max(spike_cell(problem, state, len(width)), SPIKE_CELLS[-1]) * state.exit
+    return bool(width[top] > MISPLACED * wanted)
+
+
+def _followed(
+    coupling: Coupling, outcome: Outcome, kept: FloatArray, wanted: FloatArray, tolerance: float
+) -> tuple[Outcome | None, FloatArray, int]:
+    """The film at the wanted temperatures, or as far towards them as it can be followed from those it had."""
+    share, spent = 1.0, 0
+    while share >= SHORTEST_SHARE:
+        temperature = kept + share * (wanted - kept)
+        trial = newton(coupling.hot(outcome.state, temperature), outcome.state, tolerance, coupling.limit)
+        spent += trial.iterations
+        if trial.converged:
+            return trial, temperature, spent
+        share *= 0.5
+    return None, kept, spent
+
+
+def _moved(old: FloatArray, values: FloatArray, new: FloatArray) -> FloatArray:
+    """Values at nodes (n, K), at other nodes: linear in between."""
+    return np.stack([np.interp(new, old, column) for column in values.T], axis=1)
+
+
+def _smoothed(oil: FloatArray) -> FloatArray:
+    """Temperatures of columns (m, K) as the flow sees them: less rough from one column to the next, by what is of
+    second order in width: else where a spike narrower than a column stands would follow from which column it is in."""
+    for _ in range(SMOOTHED):
+        padded = np.vstack([oil[:1], oil, oil[-1:]])
+        oil = 0.25 * (padded[:-2] + 2 * padded[1:-1] + padded[2:])
+    return oil

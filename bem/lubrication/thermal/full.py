@@ -1,0 +1,257 @@
+"""Thermal film of a line contact, with the temperature across it: energy and Reynolds' equation, each in the other.
+
+The oil's temperature along and across the film follows from conduction, convection, compression and dissipation
+(`field`, `made`), that of the surfaces from the heat that enters them; viscosity and density across the film at those
+temperatures change what flows (`layers`), and with it pressure and thickness. `coupled` goes from one to the other
+until both hold. Nothing is fitted. Conductivity and heat capacity of the oil are those without pressure and at its own
+temperature; beyond the exit nothing is followed. Verified in tests/lubrication/test_full_thermal.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bem.errors import InputError, Status
+from bem.grid import FloatArray
+from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_newton import Outcome
+from bem.lubrication.line_scales import scaled_problem
+from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
+from bem.lubrication.steady import KeptSteady, checked_case, solution_of, solve_line_film
+from bem.lubrication.thermal.conductors import moving_bodies
+from bem.lubrication.thermal.coupled import Coupling, Heated, coupled
+from bem.lubrication.thermal.field import carried
+from bem.lubrication.thermal.layers import Oil, expansion_of, middles
+from bem.lubrication.thermal.notes import notes_of_film, notes_of_heat
+from bem.materials import Body
+from bem.threads import one_blas_thread
+
+COLUMNS = 160
+LAYERS = 16
+ENERGY_TOLERANCE = 1e-6
+"""Of the power of the friction that is not found again in the bodies and the oil, and of surfaces that are not as warm
+as their heat makes them, over the largest rise."""
+UNKNOWN_EXPANSION = (
+    "the oil's expansion with temperature is not known (an oil of the catalogue has it): compression does not heat it, "
+    "and its density does not fall with temperature"
+)
+NOT_FOLLOWED = (
+    "no film was found that carries the load with the heat it makes: the last one that was is shown, with temperatures "
+    "that it does not yet follow"
+)
+
+
+@dataclass(frozen=True)
+class FullThermalFilm:
+    """A film with its temperatures along and across, and the heat that is made in it; along the entrainment where
+    positions are.
+
+    Attributes
+    ----------
+    film : solution of the film at these temperatures; its own shear force is that of the oil at its own temperature.
+    isothermal : the film without heat, or the one that it was started from.
+    position : (m,) middles of columns [m]. width : (m,) of them [m].
+    height : (K,) of the layers' middles over the film's thickness, from the flat (0) to the cylinder (1).
+    temperature : (m, K) of the oil [K]. surface_temperatures : (2, m) of flat and cylinder [K].
+    sliding_stress : in the middle of the film at its positions [Pa], signed like the force.
+    heat_made : (m,) [W/m^2], that of compression included. heat_into : (2, m) into flat and cylinder [W/m^2].
+    shear_force : as of `FilmSolution`, at these temperatures [N/m]. sliding_force : its part from sliding [N/m].
+    friction_power, power_into, power_carried : per unit length [W/m]: of the friction; (2,) into flat and cylinder;
+        carried on by the oil. energy_imbalance : of the three, relative to the friction, each from the result itself.
+    residual : of Reynolds' equation at these temperatures, relative to the film; surface_residual : by how much the
+        surfaces are not as warm as the heat into them makes them, over the largest rise.
+    rounds : temperature fields solved for. iterations : Newton steps of all films. status : of film and temperatures.
+    notes : sentences.
+    """
+
+    film: FilmSolution
+    isothermal: FilmSolution
+    position: FloatArray
+    width: FloatArray
+    height: FloatArray
+    temperature: FloatArray
+    surface_temperatures: FloatArray
+    sliding_stress: FloatArray
+    heat_made: FloatArray
+    heat_into: FloatArray
+    shear_force: float
+    sliding_force: float
+    friction_power: float
+    power_into: tuple[float, float]
+    power_carried: float
+    energy_imbalance: float
+    residual: float
+    surface_residual: float
+    rounds: int
+    iterations: int
+    status: Status
+    notes: tuple[str, ...]
+
+    @property
+    def minimum_thickness(self) -> float:
+        """Of the film [m]."""
+        return self.film.minimum_thickness
+
+    @property
+    def central_thickness(self) -> float:
+        """Of the film [m]."""
+        return self.film.central_thickness
+
+    @property
+    def film_temperature(self) -> FloatArray:
+        """Mean across the film (m,) [K]."""
+        return np.asarray(self.temperature.mean(axis=1))
+
+    @property
+    def mean_film_temperature(self) -> float:
+        """Mean along the film by pressure [K], that of the contact."""
+        weights = np.interp(self.position, self.film.position, self.film.pressure) * self.width
+        return float((weights * self.film_temperature).sum() / weights.sum())
+
+    @property
+    def highest_film_temperature(self) -> float:
+        """Mean across the film, where it is highest [K]."""
+        return float(self.film_temperature.max())
+
+    def as_film(self) -> FilmSolution:
+        """The film with its friction and temperatures, as `solve_line_film` gives it."""
+        return replace(
+            self.film,
+            shear_force=self.shear_force,
+            striated_shear_force=math.nan,
+            sliding_stress=self.sliding_stress,
+            mean_temperature=self.mean_film_temperature,
+            maximum_temperature=float(self.temperature.max()),
+            iterations=self.iterations,
+            residual=self.residual,
+            status=self.status,
+            notes=self.notes,
+            heat=self,
+        )
+
+
+@one_blas_thread
+def solve_full_thermal_line_film(  # reason: the arguments of `solve_line_film`, and what heat needs
+    *,
+    load: float,
+    radius: float,
+    contact_modulus: float,
+    speeds: Sequence[float],
+    lubricant: Lubricant,
+    bodies: Sequence[Body],
+    bulk: Sequence[float] | None = None,
+    points: int = 2000,
+    initial: FilmSolution | None = None,
+    tolerance: float = 1e-8,
+    max_iterations: int = 40,
+    flow_factors: WallFactors | str = "off",
+    columns: int = COLUMNS,
+    layers: int = LAYERS,
+) -> FullThermalFilm:
+    """Steady thermal film between a cylinder and a flat, with its temperature along and across.
+
+    Parameters
+    ----------
+    load, radius, contact_modulus, speeds, lubricant, bodies, bulk : as of `solve_thermal_line_film`.
+    points, initial, tolerance, max_iterations, flow_factors : as of `solve_line_film`.
+    columns, layers : along and across the film, at most, where temperatures are found.
+
+    Returns
+    -------
+    FullThermalFilm, converged where Reynolds' equation holds at its temperatures to the tolerance, energy closes and
+    surfaces are as warm as their heat makes them to `ENERGY_TOLERANCE`.
+
+    Raises
+    ------
+    InputError : as `solve_line_film`; a lubricant without temperature and heat constants, bodies without theirs, a bulk
+        temperature above 300 degrees Celsius.
+
+    Dowson (1962) for the film, Carslaw and Jaeger (1959) for the bodies; Cheng and Sternlicht, J. Basic Eng. 87 (1965)
+    695, for both together in a line contact.
+    """
+    for name, value, most in (("columns", columns, 2000), ("layers", layers, 200)):
+        if not (isinstance(value, int) and 6 <= value <= most):
+            raise InputError(f"solve_full_thermal_line_film: {name} {value!r} must be an integer from 6 to {most}")
+    checked_case(load, radius, contact_modulus, speeds, lubricant, points, tolerance, None, initial)
+    conductors = moving_bodies("solve_full_thermal_line_film", lubricant, bodies, speeds, bulk, radius)
+    cold = solve_line_film(
+        load=load, radius=radius, contact_modulus=contact_modulus, speeds=speeds, lubricant=lubricant, points=points,
+        initial=initial, tolerance=tolerance, max_iterations=max_iterations, flow_factors=flow_factors,
+    )  # fmt: skip
+    kept = cold.state
+    assert isinstance(kept, KeptSteady)
+    walls = walls_of(flow_factors, kept.scales.film, speeds)
+    first, second = float(speeds[0]), float(speeds[1])
+    problem = scaled_problem(kept.scales, kept.load, lubricant, walls, first - second)
+    coupling = Coupling(
+        problem=problem,
+        oil=Oil.of(lubricant),
+        bodies=conductors,
+        slide=(second - first) / (first + second),
+        unit=kept.scales.pressure,
+        film_of=lambda outcome: solution_of(
+            outcome, outcome, problem, kept.scales, speeds, kept.reversed, lubricant, None
+        ),
+        columns=columns,
+        layers=layers,
+        tolerance=tolerance,
+        limit=max_iterations,
+    )
+    start = Outcome(kept.state, cold.iterations, cold.residual, cold.status is Status.CONVERGED)
+    found = coupled(coupling, start)
+    thermal = _result(found, cold, tolerance, kept.reversed)
+    stress = found.made.across(found.field.oil).newtonian
+    notes = notes_of_film(found.film, lubricant, radius, contact_modulus, stress)
+    notes += notes_on_factors(flow_factors, found.film.minimum_thickness)
+    return replace(thermal, notes=notes + thermal.notes)
+
+
+def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool) -> FullThermalFilm:
+    """All figures anew from the film and the temperatures."""
+    film, strip, duct, field = found.film, found.strip, found.duct, found.field
+    lubricant, oil, width = film.lubricant, found.field.oil, found.duct.width
+    sources = found.made(oil)
+    stress = found.made.across(oil).stress
+    couette = found.made.couette(stress)
+    into = duct.into_walls(field.temperature)
+    surfaces = field.temperature[:, [0, -1]].T
+    rise = max(float(np.ptp(field.temperature)), 1e-3)
+    missed = float(np.abs(duct.surfaces(into) - surfaces).max()) / rise
+    taken = carried(duct, sources.flux, oil)
+    power = strip.sliding * couette + sum(film.speeds) * film.rolling_force
+    imbalance = abs(power - float(into.sum()) - taken) / max(abs(power), 1e-300)
+    right = max(imbalance, missed) <= ENERGY_TOLERANCE and found.residual <= tolerance
+    order = slice(None, None, -1) if reversed_ else slice(None)
+    sign = -1.0 if reversed_ else 1.0
+    notes = notes_of_heat(lubricant, float(field.temperature.max()), film.speeds)
+    if expansion_of(lubricant) is None:
+        notes += (UNKNOWN_EXPANSION,)
+    return FullThermalFilm(
+        film=film,
+        isothermal=cold,
+        position=sign * (0.5 * (strip.edges[1:] + strip.edges[:-1]))[order],
+        width=width[order],
+        height=0.5 * (1 + middles(duct.layers)),
+        temperature=oil[order],
+        surface_temperatures=surfaces[:, order],
+        sliding_stress=-sign * stress[order],
+        heat_made=(sources.made.sum(axis=1) / width)[order],
+        heat_into=(into / width)[:, order],
+        shear_force=sign * couette + film.rolling_force,
+        sliding_force=sign * couette,
+        friction_power=power,
+        power_into=(float(into[0].sum()), float(into[1].sum())),
+        power_carried=taken,
+        energy_imbalance=imbalance,
+        residual=found.residual,
+        surface_residual=missed,
+        rounds=found.rounds,
+        iterations=found.steps,
+        status=Status.CONVERGED if right else Status.STALLED,
+        notes=notes if right else (*notes, NOT_FOLLOWED),
+    )

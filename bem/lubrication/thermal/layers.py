@@ -1,0 +1,160 @@
+"""An oil whose temperature differs across the film: Reynolds' equation in Dowson's generalised form.
+
+The film is cut into K even layers between the walls, each of one temperature. With z from the middle, s = 2 z/h, the
+fluidity phi of a layer over a reference 1/mu and rho its density over that at the same pressure and the oil's own
+temperature, pressure and sliding shear the oil by du/dz = phi (tau_m + z p')/mu, and what flows is
+
+    integral rho u dz = h [mean(rho) (u1 + u2)/2 - (u2 - u1)/2 S_r/S] - Phi h^3/(12 mu) p',
+    Phi = 3 (S_rs - S_r S_s/S),    S = mean(phi), S_s = mean(phi s), S_r = mean(phi r), S_rs = mean(phi r s),
+
+where h r/2 is the mass below z less half of all: Dowson, Int. J. Mech. Sci. 4 (1962) 159, with his integrals over even
+layers, exact for the stress, which is linear across the film whatever the oil. Of one temperature everywhere Phi and
+the drag are 1, to rounding. Verified in tests/lubrication/test_full_thermal.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bem.grid import FloatArray
+from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.thermal.hot_viscosity import LARGEST_LOGARITHM, HotViscosity
+
+EXPANSION_PRESSURE = 5e8
+"""At which oils expand half as much as without pressure [Pa]: at 1 GPa a third, as measured ones do (Bair,
+High-pressure rheology, 2007; from memory)."""
+
+
+def middles(layers: int) -> FloatArray:
+    """s of the layers' middles (K,), -1 to 1 from the lower wall to the upper one."""
+    return np.asarray((2 * np.arange(layers) + 1) / layers - 1)
+
+
+def expansion_of(lubricant: Lubricant) -> float | None:
+    """Of the oil's volume at ambient pressure with temperature [1/K]; None where it is not known."""
+    if lubricant.oil is None or lubricant.temperature is None:
+        return None
+    density = lubricant.oil.density
+    return -density.slope / density(lubricant.temperature)
+
+
+@dataclass(frozen=True)
+class Oil:
+    """An oil over temperature and pressure as the layers see it.
+
+    expansion : of its volume with temperature without pressure [1/K]; linear in temperature, so that the heat it takes
+    is a function of the pressure alone, and the less the more it is compressed.
+    """
+
+    lubricant: Lubricant
+    viscosity: HotViscosity
+    expansion: float
+
+    @classmethod
+    def of(cls, lubricant: Lubricant) -> Oil:
+        """Of a lubricant that is known over temperature; without an expansion it has none."""
+        return cls(lubricant, HotViscosity.of(lubricant), expansion_of(lubricant) or 0.0)
+
+    def expands(self, pressure: FloatArray) -> FloatArray:
+        """Expansion at pressures [Pa] [1/K]."""
+        return np.asarray(self.expansion / (1 + pressure / EXPANSION_PRESSURE))
+
+    def kept_work(self, pressure: FloatArray) -> FloatArray:
+        """Share of the pressure's work that does not become heat: 1 - alpha T at the lubricant's own temperature."""
+        return 1 - self.viscosity.reference * self.expands(pressure)
+
+    def density(self, pressure: FloatArray, temperature: FloatArray) -> FloatArray:
+        """Over that at the lubricant's own temperature and the same pressure; (n,), (n, K)."""
+        return np.asarray(1 / (1 + self.expands(pressure)[:, None] * (temperature - self.viscosity.reference)))
+
+
+@dataclass(frozen=True)
+class Sums:
+    """Across the film at n places, of layers (n, K): fluidity over the largest, density, r; S, S_s, S_r, Phi (n,)."""
+
+    fluidity: FloatArray
+    density: FloatArray
+    mass: FloatArray
+    mean: FloatArray
+    by_place: FloatArray
+    by_mass: FloatArray
+    driven: FloatArray
+
+    def drag(self, slide: float) -> FloatArray:
+        """Couette flow (n,) over that of the oil as it comes; slide : (u2 - u1)/(u1 + u2)."""
+        return np.asarray(self.density.mean(axis=1) - slide * self.by_mass / self.mean)
+
+
+def sums_of(fluidity: FloatArray, density: FloatArray) -> Sums:
+    """Of fluidities and densities (n, K)."""
+    layers = fluidity.shape[1]
+    s, weight = middles(layers), 1 / layers
+    total = density.sum(axis=1, keepdims=True)
+    mass = (2 * np.cumsum(density, axis=1) - density - total) * weight
+    mean, by_place, by_mass = fluidity.mean(axis=1), fluidity @ s * weight, (fluidity * mass).mean(axis=1)
+    # within a layer the stress goes on being linear: s^2 is larger on average than in the middle
+    both = (fluidity * (mass * s + density * weight**2 / 3)).mean(axis=1)
+    return Sums(fluidity, density, mass, mean, by_place, by_mass, 3 * (both - by_mass * by_place / mean))
+
+
+@dataclass(frozen=True)
+class HotFilm:
+    """Temperatures of a film at the nodes of its mesh as Reynolds' equation sees them (`line_flow.Layered`).
+
+    cold : ln of the viscosity at the oil's own temperature, over scaled pressure. times, plus : (n, K), see
+    `HotViscosity.line`. density : (n, K), at the pressures that the film was made with. slide : (u2 - u1)/(u1 + u2).
+    leaving : drag at the exit.
+    """
+
+    cold: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+    times: FloatArray
+    plus: FloatArray
+    density: FloatArray
+    slide: float
+    leaving: float
+
+    @classmethod
+    def of(
+        cls,
+        oil: Oil,
+        temperature: FloatArray,
+        pressure: FloatArray,
+        cold: Callable[[FloatArray], tuple[FloatArray, FloatArray]],
+        slide: float,
+        unit: float,
+    ) -> HotFilm:
+        """Of temperatures (n, K) [K] at pressures (n,) in a unit [Pa]; slide : as of `Sums.drag`."""
+        pressure = np.maximum(pressure, 0.0)
+        film = cls(
+            cold, *oil.viscosity.line(temperature)[:2], oil.density(pressure * unit, temperature), slide, leaving=1.0
+        )
+        return replace(film, leaving=float(film._sums(pressure)[1].drag(slide)[-1]))
+
+    def drag(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Couette flow over that of the oil as it comes, and its slope."""
+        _, found, steep = self._sums(pressure)
+        off = found.mass - (found.by_mass / found.mean)[:, None]
+        return found.drag(self.slide), self.slide * (found.fluidity * steep * off).mean(axis=1) / found.mean
+
+    def _sums(self, pressure: FloatArray) -> tuple[FloatArray, Sums, FloatArray]:
+        """At pressures: ln of the viscosity of the least viscous layer, sums, and d ln(viscosity)/dp of the layers."""
+        cold, slope = (value[:, None] for value in self.cold(pressure))
+        logarithm = np.minimum(self.times * cold + self.plus, LARGEST_LOGARITHM)
+        least = logarithm.min(axis=1)
+        return least, sums_of(np.exp(least[:, None] - logarithm), self.density), self.times * slope
+
+    def log_viscosity(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Of the uniform oil that pressure drives as much of; and its slope."""
+        least, found, steep = self._sums(pressure)
+        layers = found.fluidity.shape[1]
+        # what Phi changes by with the fluidity of a layer
+        one, other = (found.by_place / found.mean)[:, None], (found.by_mass / found.mean)[:, None]
+        share = (found.mass - other) * (middles(layers) - one) + found.density / (3 * layers**2)
+        return least - np.log(found.driven), 3 * (share * found.fluidity * steep).mean(axis=1) / found.driven
+
+    def cut(self, nodes: slice) -> HotFilm:
+        """At some of the nodes."""
+        return replace(self, times=self.times[nodes], plus=self.plus[nodes], density=self.density[nodes])

@@ -1,0 +1,407 @@
+"""Thermal line films with the temperature across them: closed forms of layers and of heat, an independent march of the
+energy equation, conservation, order of convergence, limits, what it costs, and what it refuses to call converged."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import cumulative_trapezoid, solve_ivp
+
+from bem.errors import InputError, Status
+from bem.grid import Grid
+from bem.heat import surface_temperature
+from bem.heat.bodies import Conductor
+from bem.lubrication import Lubricant, solve_full_thermal_line_film, solve_line_film, solve_thermal_line_film
+from bem.lubrication.thermal import coupled, full
+from bem.lubrication.thermal.field import Duct, Sources, carried, temperature_field, warming_of
+from bem.lubrication.thermal.layers import HotFilm, Oil, middles
+from bem.lubrication.thermal.made import Made
+from bem.lubrication.thermal.strip import Strip
+from bem.materials import CATALOGUE, Body, Material
+
+MODULUS = 115.5e9
+STEEL = Body(CATALOGUE["steel-52100"].material)
+COLD = Conductor(conductivity=1e12, diffusivity=1e-5, speed=1.0, bulk=333.15)
+LAWS = {"density_law": "dowson_higginson", "shear_law": "eyring", "shear_stress_limit": 5e6}
+
+
+def oil(temperature=333.15, name="ISO VG 68", **laws):
+    return Lubricant.of(name, temperature=temperature, **(LAWS | laws))
+
+
+def film(mean, slide, hertz=0.8e9, lubricant=None, solve=solve_full_thermal_line_film, **asked):
+    case = {
+        "load": math.pi * 10e-3 * hertz**2 / MODULUS,
+        "speeds": (mean * (1 + slide / 2), mean * (1 - slide / 2)),
+        "lubricant": lubricant or oil(),
+        "radius": 10e-3,
+        "contact_modulus": MODULUS,
+        "bodies": (STEEL, STEEL),
+        "points": 300,
+    }
+    return solve(**(case | asked))
+
+
+# --- layers: Dowson's generalised form
+
+
+def unit_oil(lubricant):
+    """An oil without expansion, its cold viscosity over pressure [Pa]."""
+    hot = Oil.of(lubricant)
+    return replace(hot, expansion=0.0), lubricant.log_viscosity_ratio
+
+
+def test_of_one_temperature_nothing_changes():
+    """At the oil's own temperature, to rounding, whatever the layers; warmer, as a thinner oil."""
+    hot, cold = unit_oil(oil())
+    pressure = np.array([0.0, 2e8, 1e9])
+    for layers in (6, 17):
+        own = HotFilm.of(hot, np.full((3, layers), 333.15), pressure, cold, 0.7, 1.0)
+        np.testing.assert_allclose(own.log_viscosity(pressure), cold(pressure), rtol=1e-12, atol=1e-13)
+        np.testing.assert_allclose(own.drag(pressure)[0], 1.0, rtol=1e-12)
+        warm = HotFilm.of(hot, np.full((3, layers), 363.15), pressure, cold, 0.7, 1.0)
+        expected = np.log(hot.viscosity(pressure, np.full(3, 363.15))[0] / hot.lubricant.viscosity)
+        np.testing.assert_allclose(warm.log_viscosity(pressure)[0], expected, rtol=1e-12)
+
+
+def test_layers_are_dowsons_integrals():
+    """Flow driven and dragged through an uneven film against quadrature of du/dz, of second order in the layers."""
+    hot, cold = unit_oil(oil())
+    pressure, slide = np.array([3e8]), 0.6
+    profile = lambda s: 333.15 + 30 * (1 - s**2) + 12 * s  # noqa: E731
+    s = np.linspace(-1, 1, 20001)
+    fluid = hot.lubricant.viscosity / hot.viscosity(np.full(len(s), 3e8), profile(s))[0]
+    mean = cumulative_trapezoid(fluid, s)[-1]
+    centre = cumulative_trapezoid(fluid * s, s)[-1] / mean
+    driven = 1.5 * cumulative_trapezoid(fluid * (s - centre) ** 2, s)[-1]
+    dragged = 1 - slide * centre
+    missed = []
+    for layers in (16, 32):
+        found = HotFilm.of(hot, profile(middles(layers))[None], pressure, cold, slide, 1.0)
+        missed.append(
+            [np.exp(-found.log_viscosity(pressure)[0][0]) / driven - 1, found.drag(pressure)[0][0] / dragged - 1]
+        )
+    assert np.abs(missed[1]).max() < 3e-3
+    # second order: a quarter, within what the next order leaves
+    np.testing.assert_allclose(np.array(missed[0]) / missed[1], 4.0, rtol=0.1)
+
+
+def test_slopes_of_layers_are_differences():
+    """With pressure, at frozen temperatures."""
+    hot, cold = unit_oil(oil())
+    pressure = np.array([1e8, 8e8])
+    uneven = 333.15 + 25 * np.linspace(0, 1, 12)[None] ** 2 * np.ones((2, 1))
+    found = HotFilm.of(hot, uneven, pressure, cold, 0.9, 1.0)
+    step = 1e3
+    for values in (found.log_viscosity, found.drag):
+        slope = (values(pressure + step)[0] - values(pressure - step)[0]) / (2 * step)
+        np.testing.assert_allclose(values(pressure)[1], slope, rtol=1e-6)
+
+
+# --- heat along and across
+
+
+def duct(columns, layers, length=1e-4, thickness=1e-6, capacity=0.0, supply=333.15):
+    edges = np.linspace(0.0, length, columns + 1)
+    bodies = (COLD, COLD)
+    slender = np.diff(edges) / thickness
+    return Duct(edges, slender, 0.13, capacity, supply, bodies, layers, warming_of(edges, bodies))
+
+
+def constant(columns, layers, made=0.0, flux=0.0):
+    """Heat and flow that no temperature changes."""
+    none = np.zeros((3, columns, layers, layers))
+    return lambda t: Sources(
+        np.full((columns + 1, layers), flux / layers),
+        np.zeros((columns + 1, layers, layers)),
+        np.full((columns, layers), made / layers),
+        none,
+        none,
+        np.zeros((columns, layers)),
+        np.zeros(columns + 1),
+    )
+
+
+def test_even_heat_makes_a_parabola():
+    """q h/(8 k) in the middle between cold walls, exactly: both differences and wall flux are exact for parabolas."""
+    place, heat = duct(8, 11), 1e8
+    found = temperature_field(place, constant(8, 11, heat * place.width[0]), np.full((8, 13), 333.15))
+    s = middles(11)
+    expected = heat * 1e-6 / (8 * 0.13) * (1 - s**2)
+    np.testing.assert_allclose(found.oil - 333.15, np.tile(expected, (8, 1)), rtol=1e-6)
+    np.testing.assert_allclose(place.into_walls(found.temperature), heat * place.width[0] / 2, rtol=1e-9)
+
+
+def test_entry_of_hot_oil_between_cold_walls():
+    """Graetz' problem of a plug of oil: the heat that the walls take of it."""
+    speed, capacity, length = 3.0, 2e6, 6e-6
+    n = 2 * np.arange(1000000) + 1
+    decay = (n * np.pi) ** 2 * 0.13 / (capacity * speed * 1e-12)
+    lost = (8 / (n * np.pi) ** 2 * (1 - np.exp(-decay * length))).sum()
+    missed = []
+    for columns, layers in ((20, 10), (40, 20), (80, 40)):
+        place = duct(columns, layers, length=length, capacity=capacity, supply=433.15)
+        found = temperature_field(
+            place, constant(columns, layers, flux=speed * 1e-6), np.full((columns, layers + 2), 433.15)
+        )
+        into = place.into_walls(found.temperature).sum()
+        assert into + carried(place, found.flux, found.oil) == pytest.approx(0.0, abs=1e-9 * into)
+        missed.append(into / (capacity * speed * 1e-6 * 100 * lost) - 1)
+    assert abs(missed[2]) < 3e-4
+    # the flux at the entry has no limit: not quite second order
+    assert missed[0] / missed[1] > 2.5
+    assert missed[1] / missed[2] > 2.5
+
+
+def flat(lubricant, sliding, columns, layers, nodes=61):
+    """A strip without pressure, of even thickness, and its heat."""
+    x = np.linspace(0.0, 1e-4, nodes)
+    none = np.zeros(nodes)
+    edges = x[:: (nodes - 1) // columns]
+    cell = np.searchsorted(edges, 0.5 * (x[1:] + x[:-1])) - 1
+    strip = Strip(
+        x=x, pressure=none, thickness=np.full(nodes, 1e-6), gradient=none, cell=cell, edges=edges,
+        pushed=np.zeros(columns), work=np.zeros(columns), upstream=0.0,
+        speeds=(sliding, 0.0), sliding=sliding, density=np.ones(nodes),
+    )  # fmt: skip
+    return Made.of(Oil.of(lubricant), strip, none)
+
+
+@pytest.mark.parametrize("nahme", [0.5, 20.0, 400.0])
+def test_couette_flow_of_an_oil_that_its_own_heat_thins(nahme):
+    """Viscosity mu0 exp(-beta (T - T0)) between walls at T0: Nahme (1940); Gruntfest, Trans. Soc. Rheol. 7 (1963) 195.
+
+    exp(beta rise) = 1 + Na/8 in the middle, stress over the isothermal one asinh(r)/(r sqrt(1 + r^2)), r^2 = Na/8.
+    """
+    softening, conductivity, viscosity = 0.04, 0.13, 7e-5
+    sliding = math.sqrt(nahme * conductivity / (softening * viscosity))
+    thin = Lubricant(
+        viscosity, viscosity_law="isoviscous", shear_law="newtonian", temperature=333.15, density=850.0,
+        heat_capacity=2000.0, thermal_conductivity=conductivity, temperature_viscosity=softening,
+    )  # fmt: skip
+    root, missed = math.sqrt(nahme / 8), []
+    for layers in (21, 63):
+        place = duct(6, layers)
+        made = flat(thin, sliding, 6, layers)
+        found = temperature_field(place, made, np.full((6, layers + 2), 333.15))
+        stress = -made.across(found.oil).stress[30] / (viscosity * sliding / 1e-6)
+        expected = math.asinh(root) / (root * math.sqrt(1 + root**2))
+        missed.append(
+            [stress / expected - 1, softening * (found.oil[3, layers // 2] - 333.15) / math.log1p(root**2) - 1]
+        )
+    assert np.abs(missed[1]).max() < 2e-3
+    # nine times finer in the square
+    assert (np.abs(missed[0]) > 6 * np.abs(missed[1])).all()
+
+
+def test_the_field_is_that_of_a_march_along_the_film():
+    """Energy equation of a forward flow, marched in x by lines with collocation across: another discretisation."""
+    found = film(4.0, 0.4, points=800, columns=300, layers=24)
+    state, scales = found.film.state.state, found.film.state.scales
+    x, thickness = state.position * scales.length, state.film * scales.film
+    pressure = np.maximum(state.pressure, 0) * scales.pressure
+    gradient = np.gradient(pressure, x)
+    lubricant, hot = found.film.lubricant, Oil.of(found.film.lubricant)
+    start = int(np.searchsorted(found.position, -1.0e-4))
+    cells, s = 48, middles(48)
+    first = np.interp(s, 2 * found.height - 1, found.temperature[start])
+    u1, u2 = found.film.speeds
+
+    def rate(at, temperature):
+        h, p, slope = (np.interp(at, x, values) for values in (thickness, pressure, gradient))
+        walls = [np.interp(at, found.position, one) for one in found.surface_temperatures]
+        mu = hot.viscosity(np.full(cells, p), temperature)[0]
+        fluid = 1 / mu
+        newtonian = (u2 - u1) / (h * fluid.mean())
+        shear = fluid * (newtonian + 0.5 * h * slope * (s - (fluid * s).mean() / fluid.mean()))
+        speed = u1 + h * (np.cumsum(shear) - 0.5 * shear) / cells
+        stress = lubricant.shear_stress(np.array([newtonian]), p)[0]
+        couette = fluid * newtonian
+        driven = (shear - couette) ** 2 / fluid
+        step = h / cells
+        padded = np.concatenate([[2 * walls[0] - temperature[0]], temperature, [2 * walls[1] - temperature[-1]]])
+        conducted = lubricant.thermal_conductivity * np.diff(padded, 2) / step**2
+        density = (
+            lubricant.density
+            * lubricant.density_ratio(np.array([p]))[0][0]
+            * hot.density(np.array([p]), temperature[None])[0]
+        )
+        compressed = (
+            hot.expands(np.array([p]))[0]
+            * temperature
+            * hot.density(np.array([p]), temperature[None])[0]
+            * speed
+            * slope
+        )
+        return (conducted + stress * couette + driven + compressed) / (density * lubricant.heat_capacity * speed)
+
+    last = int(np.searchsorted(found.position, 0.7e-4))  # before the spike
+    places = found.position[start + 5 : last]
+    marched = solve_ivp(rate, (found.position[start], places[-1]), first, t_eval=places, method="BDF", rtol=1e-6).y
+    own = found.temperature[start + 5 : last]
+    rise = own.max() - 333.15
+    compared = np.stack([np.interp(2 * found.height - 1, s, one) for one in marched.T])
+    # the march knows no flow from layer to layer but what its own speeds make of it: none in the loaded zone
+    assert np.abs(compared - own).max() < 0.06 * rise
+    assert abs(compared.mean() - own.mean()) < 0.01 * rise
+
+
+# --- the whole film
+
+
+@pytest.mark.parametrize(
+    ("mean", "slide", "rheology"),
+    [(1.0, 0.0, "newtonian"), (-8.0, 0.5, "newtonian"), (3.0, 2.0, "newtonian"), (3.0, 0.5, "shear_law")],
+)
+def test_energy_closes(mean, slide, rheology):
+    """Power of the forces on both bodies is what enters them and what the oil carries, from the result's arrays."""
+    found = film(mean, slide, lubricant=oil(film_rheology=rheology))
+    first, second = mean * (1 + slide / 2), mean * (1 - slide / 2)
+    power = (first - second) * found.sliding_force + (first + second) * (found.shear_force - found.sliding_force)
+    assert found.status is Status.CONVERGED
+    assert power == pytest.approx(found.friction_power, rel=1e-12)
+    into = (found.heat_into @ found.width).sum()
+    assert into + found.power_carried == pytest.approx(power, rel=1e-6)  # the issue's own
+    assert found.heat_made @ found.width == pytest.approx(power, rel=1e-6)
+    assert max(found.energy_imbalance, found.surface_residual) < 1e-6
+    assert found.residual <= 1e-8
+
+
+def test_the_same_oil_flows_through_every_section():
+    """Mass flow by plain quadrature of the speeds across the film, over that at the exit."""
+    found = film(5.0, 1.0, points=600, columns=200, layers=24)
+    state, scales = found.film.state.state, found.film.state.scales
+    x, h = state.position * scales.length, state.film * scales.film
+    pressure = np.maximum(state.pressure, 0) * scales.pressure
+    hot, (u1, u2) = Oil.of(found.film.lubricant), found.film.speeds
+    flows = []
+    for at in (-3.0e-4, -2.0e-4, -1.2e-4, -0.5e-4, 0.3e-4):
+        i = int(np.argmin(np.abs(x - at)))
+        slope = (pressure[i + 1] - pressure[i - 1]) / (x[i + 1] - x[i - 1])
+        across = np.array([np.interp(x[i], found.position, row) for row in found.temperature.T])
+        walls = [np.interp(x[i], found.position, one) for one in found.surface_temperatures]
+        z = np.linspace(0, h[i], 4001)
+        t = np.interp(
+            z / h[i], np.concatenate([[0], found.height, [1]]), np.concatenate([walls[:1], across, walls[1:]])
+        )
+        fluid = 1 / hot.viscosity(np.full(len(z), pressure[i]), t)[0]
+        zero, one = (cumulative_trapezoid(fluid * weight, z, initial=0) for weight in (1.0, z))
+        speed = u1 + (u2 - u1) * zero / zero[-1] + slope * (one - one[-1] / zero[-1] * zero)
+        density = (
+            found.film.lubricant.density_ratio(pressure[i : i + 1])[0] * hot.density(pressure[i : i + 1], t[None])[0]
+        )
+        flows.append(np.trapezoid(density * speed, z))
+    # 600 points, 24 layers; the gradient at the node furthest upstream is the coarsest
+    np.testing.assert_allclose(flows, np.mean(flows), rtol=6e-3)
+
+
+def test_surfaces_are_as_warm_as_the_solver_on_a_grid_says():
+    """The heat into the flat, on even cells, by `surface_temperature`."""
+    found = film(5.0, 0.5)
+    grid = Grid((600, 2), spacing=(1e-6, 1e-6), periodic=(False, True))
+    heat = np.interp(grid.x, found.position, found.heat_into[0])
+    expected = surface_temperature(heat[:, None] * np.ones((1, 2)), grid, STEEL, speeds=6.25, bulk=333.15)
+    own = np.interp(found.position, grid.x, expected.temperature[:, 0])
+    inside = np.abs(found.position) < 1.2e-4
+    rise = float(np.ptp(found.surface_temperatures[0]))
+    # heat is even on some 80 unlike columns in the contact
+    np.testing.assert_allclose(found.surface_temperatures[0][inside], own[inside], atol=0.03 * rise)
+
+
+def test_an_oil_that_heat_does_not_thin_has_the_isothermal_film():
+    """Without softening and expansion: film, pressure and friction of the isothermal solver."""
+    stiff = Lubricant(
+        0.02, pressure_viscosity=15e-9, density_law="dowson_higginson", shear_law="eyring", shear_stress_limit=5e6,
+        temperature=333.15, density=850.0, heat_capacity=2000.0, thermal_conductivity=0.13, temperature_viscosity=1e-12,
+    )  # fmt: skip
+    found = film(3.0, 0.5, lubricant=stiff)
+    cold = found.isothermal
+    assert found.status is Status.CONVERGED
+    assert found.temperature.max() > 340
+    assert found.central_thickness == pytest.approx(cold.central_thickness, rel=1e-9)
+    assert found.shear_force == pytest.approx(cold.shear_force, rel=1e-9)
+    assert any("expansion" in note for note in found.notes)
+
+
+@pytest.mark.slow
+def test_second_order_in_columns_and_layers(monkeypatch):
+    """Film, heat carried and mean temperature between bodies that stay cool, on one film mesh: what a halving
+    changes is a quarter of what the one before did. Columns of evenly many nodes."""
+    steel = STEEL.material
+    cool = Body(
+        Material("cool", youngs_modulus=steel.youngs_modulus, poissons_ratio=steel.poissons_ratio,
+                 thermal_conductivity=1e9, density=7850.0, heat_capacity=470.0)
+    )  # fmt: skip
+
+    def figures(stride, layers):
+        monkeypatch.setattr(coupled, "cell_edges", lambda x, pressure, cells: x[::stride])
+        found = film(4.0, 0.5, points=961, tolerance=1e-7, layers=layers, bodies=(cool, cool))
+        assert found.status is Status.CONVERGED
+        return np.array([found.central_thickness, found.power_carried, found.film_temperature.max()])
+
+    for levels, shown in ((((16, 12), (8, 12), (4, 12)), [0, 1]), (((8, 8), (8, 16), (8, 32)), [0, 2])):
+        one, two, three = (figures(*level) for level in levels)
+        ratio = ((one - two) / (two - three))[shown]
+        # 4, less what the next order does; the highest temperature stands at the spike and follows its columns, and the
+        # heat carried has thin layers at the walls of the far inlet
+        assert (ratio > 3.0).all()
+        assert (ratio < 5.5).all()
+
+
+def test_lumped_holds_where_heat_is_mild():
+    """At 1 m/s and 5 % of sliding: film to 2 %, friction to 3 %, the mean rise to a fifth."""
+    whole, lumped = (film(1.0, 0.05, solve=s) for s in (solve_full_thermal_line_film, solve_thermal_line_film))
+    assert lumped.central_thickness == pytest.approx(whole.central_thickness, rel=0.02)
+    assert lumped.shear_force == pytest.approx(whole.shear_force, rel=0.03)
+    rise = whole.mean_film_temperature - 333.15
+    assert lumped.mean_film_temperature - 333.15 == pytest.approx(rise, rel=0.2)
+
+
+def test_friction_falls_at_high_sliding():
+    """Past its highest the traction is the heat's."""
+    forces = [film(5.0, slide).shear_force for slide in (0.02, 0.1, 0.5, 2.0)]
+    assert forces[1] > forces[0]
+    assert forces[1] > forces[2] > forces[3]
+
+
+def test_heat_costs_some_isothermal_films():
+    """Newton steps of Reynolds' equation, and temperature fields, counted: the issue allows fifteen films."""
+    for mean, slide, hertz in ((1.0, 0.1, 0.8e9), (5.0, 1.0, 0.8e9), (1.0, 2.0, 1.2e9)):
+        found = film(mean, slide, hertz)
+        assert found.status is Status.CONVERGED
+        assert found.iterations <= 15 * found.isothermal.iterations
+        assert found.rounds <= 30
+
+
+def test_what_is_not_met_is_not_converged(monkeypatch):
+    """One round leaves the film without what its heat makes of it; the words say so."""
+    monkeypatch.setattr(coupled, "MOST_ROUNDS", 1)
+    found = film(5.0, 0.5)
+    assert found.residual > 1e-3
+    assert found.status is Status.STALLED
+    assert full.NOT_FOLLOWED in found.notes
+    assert found.as_film().status is Status.STALLED
+
+
+def test_the_film_s_own_solver_asks_for_heat():
+    """`thermal="full"` is the same film, with all of its heat beside it."""
+    whole, asked = film(3.0, 0.3), film(3.0, 0.3, solve=solve_line_film, thermal="full")
+    assert asked.shear_force == whole.shear_force
+    assert asked.maximum_temperature == whole.temperature.max()
+    assert asked.mean_temperature == whole.mean_film_temperature
+    np.testing.assert_array_equal(asked.heat.temperature, whole.temperature)
+    # upstream of the mesh some of it is left; the gradient at nodes is not the trapezoid's
+    assert np.trapezoid(asked.shear_stress(), asked.position) == pytest.approx(whole.shear_force, rel=5e-3)
+    with pytest.raises(InputError, match="layers 2 must be an integer"):
+        film(3.0, 0.3, layers=2)
+    with pytest.raises(InputError, match="lacks temperature"):
+        film(3.0, 0.3, lubricant=Lubricant(0.02))
+
+
+def test_a_film_that_runs_backwards_is_the_mirror_image():
+    """Speeds of the other sign: the same figures, positions turned round."""
+    one, other = film(4.0, 0.6), film(-4.0, 0.6)
+    assert other.shear_force == pytest.approx(-one.shear_force, rel=1e-9)
+    np.testing.assert_allclose(other.position, -one.position[::-1], rtol=1e-9)
+    np.testing.assert_allclose(other.temperature, one.temperature[::-1], rtol=1e-9)
