@@ -5,9 +5,11 @@ from the real axis; `layered.features` says which, and on what scale it varies n
 
 - g is smooth on the scale of hypot(r, d): panels of doubling width from d/8 on, a polynomial on each;
 - for r > d/8, J_n is integrated on the real axis up to q r = 4, on panels halved towards 0, and the rest as the real
-  part of the Hankel function along a ray that leaves the axis at 30 degrees, where it decays like exp(-|q| r / 2), or
-  at 15 where poles are near, with twice as many panels everywhere (`Path`). The cost is the same at any r, the nodes in
-  q r are the same for all r, and no oscillation is left to resolve;
+  part of the Hankel function: along an arc about 0, then a ray from 0 at 30 degrees, where it decays like
+  exp(-|q| r/2), or at 15 where poles are near, with twice as many panels everywhere (`Path`). No oscillation is left to
+  resolve;
+- panels of r and of q r grow by the same factor, so that all r ask for the spectrum at the same q, but for the arc: it
+  is computed once on each panel of q, eight times less often than on each of q r (a spectrum of 50 layers is dear);
 - for r < d/8, exp(-q d) ends the real axis first.
 
 Nothing is cut off or aliased; the tables are good to some 1e-14 of the largest value on a panel.
@@ -191,7 +193,9 @@ def _made(kernels: Kernels, panels: int, line: bool) -> RadialTable:
     cuts = kernels.path.cuts
     edges = np.concatenate([[0.0], kernels.decay / 8 * 2.0 ** (np.arange(panels) / cuts)])
     nodes = [panel_nodes(a, b) for a, b in itertools.pairwise(edges)]
-    values = np.stack([_near(kernels, nodes[0], line), *(_far(kernels, r, line) for r in nodes[1:])])
+    values = _near(kernels, nodes[0], line)[None]
+    if panels > 1:
+        values = np.concatenate([values, _far(kernels, np.array(nodes[1:]), line)])
     return RadialTable(edges, fit(values), kernels.decay)
 
 
@@ -257,28 +261,71 @@ def _near(kernels: Kernels, r: FloatArray, line: bool) -> FloatArray:
     return np.stack([apply(waves[order], f[table]) for table, order in enumerate(kernels.orders)], axis=1)
 
 
-@lru_cache(maxsize=4)
-def _ray(path: Path, line: bool) -> tuple[ComplexArray, tuple[ComplexArray, ...]]:
-    """q r on the ray, and what is integrated there against the spectrum for every order."""
-    t, weights = gauss_rule(np.array(path.ray_edges))
-    s: ComplexArray = np.asarray(TURN + path.slope * t, dtype=np.complex128)
+class _Piece(NamedTuple):
+    """Part of a path in s = q r: nodes (panels, 14), and for every order what is integrated there with the spectrum."""
+
+    nodes: NDArray[Any]
+    waves: tuple[NDArray[Any], ...]
+
+
+@lru_cache(maxsize=8)
+def _pieces(path: Path, line: bool, panels: int) -> tuple[_Piece, _Piece, _Piece]:
+    """So many panels of the real axis from TURN towards 0, the arc, and the ray, whose panels are half as wide."""
+    falling = TURN * 2.0 ** (-np.arange(panels + 1) / path.cuts)
+    s, weights = gauss_rule(falling[::-1])
+    axis = _Piece(s, tuple(_wave(order, s, line) * weights for order in range(2 if line else 4)))
+    turn, angles = gauss_rule(np.array([0.0, path.angle]))
+    doublings = np.log2(END / np.sin(path.angle) / TURN)
+    rising = TURN * 2.0 ** (np.arange(int(np.ceil(2 * path.cuts * doublings)) + 1) / (2 * path.cuts))
+    along, steps = gauss_rule(rising)
+    bent = np.asarray(TURN * np.exp(1j * turn), dtype=np.complex128)
+    arc = _turned(bent, 1j * bent * angles, line)
+    ray = _turned(along * path.slope, path.slope * steps, line)
+
+    def rows(piece: _Piece, order: int) -> _Piece:
+        def split(values: NDArray[Any]) -> NDArray[Any]:
+            return values.reshape(-1, _GAUSS.size)[::order]
+
+        return _Piece(split(piece.nodes), tuple(split(wave) for wave in piece.waves))
+
+    return rows(axis, -1), rows(arc, 1), rows(ray, 1)
+
+
+def _turned(s: NDArray[Any], weights: NDArray[Any], line: bool) -> _Piece:
+    """Off the real axis, where the Hankel function or exp(i s) stands for the wave."""
     if line:
-        wave: ComplexArray = np.exp(1j * s) * (path.slope * weights) / np.pi
-        return s, (wave, -1j * wave)
-    return s, tuple(special.hankel1(n, s) * s * (path.slope * weights) / (2 * np.pi) for n in range(4))
+        wave = np.exp(1j * s) * weights / np.pi
+        return _Piece(s, (wave, -1j * wave))
+    return _Piece(s, tuple(special.hankel1(n, s) * s * weights / (2 * np.pi) for n in range(4)))
 
 
 def _far(kernels: Kernels, r: FloatArray, line: bool) -> FloatArray:
-    """Transforms at r >= d/8: the real axis to q r = TURN, then the ray."""
-    s, weights = gauss_rule(kernels.path.graded(min(kernels.smallest * r.min(), 1.0), TURN))
-    ray, waves = _ray(kernels.path, line)
-    f = kernels.spectra((s / r[:, None]).ravel()).reshape(-1, r.size, s.size)
-    f_ray = kernels.spectra((ray / r[:, None]).ravel()).reshape(-1, r.size, ray.size)
-    out = np.empty((r.size, len(kernels.orders)))
-    for table, order in enumerate(kernels.orders):
-        real = apply(f[table], _wave(order, s, line) * weights)
-        out[:, table] = (real + apply(f_ray[table], waves[order]).real) / (r if line else r**2)
+    """Transforms at r (panels, nodes) from d/8 on, panels growing by 2^(1/cuts): (panels, nodes, tables)."""
+    (panels, _), cuts, first = r.shape, kernels.path.cuts, r[0][:, None]
+    # to the same smallest q for every r, and for the largest r to q r = 1
+    down = int(np.ceil(cuts * np.log2(TURN / (kernels.smallest * r[0].min()))))
+    axis, arc, ray = _pieces(kernels.path, line, max(down, panels + 2 * cuts))
+    rest, weights = gauss_rule(np.array([0.0, TURN * 2.0 ** (-len(axis.nodes) / cuts)]))
+    f_axis = _spectrum(kernels, axis.nodes[:, None] / first)  # (tables, panels of q, r, 14)
+    f_rest = _spectrum(kernels, rest / first)
+    q_ray, before = ray.nodes[:, None] / first, 2.0 ** (np.arange(2 - 2 * panels, 0) / (2 * cuts))
+    f_ray = _spectrum(kernels, np.concatenate([before[:, None, None] * q_ray[0], q_ray]))
+    out = np.empty((*r.shape, len(kernels.orders)))
+    for k in range(panels):  # r grown by 2^(k/cuts): panels of q from the k-th on; of the ray, 2 k before
+        f_arc = _spectrum(kernels, arc.nodes[:, None] / r[k][:, None])
+        here, start, grown = len(axis.nodes) - k, 2 * (panels - 1 - k), 2.0 ** (k / cuts)
+        for table, order in enumerate(kernels.orders):
+            total = np.einsum("prs,ps->r", f_axis[table, k:], axis.waves[order][:here])
+            total += np.einsum("rs,s->r", f_rest[table], _wave(order, grown * rest, line) * (grown * weights))
+            total += np.einsum("prs,ps->r", f_arc[table], arc.waves[order]).real
+            total += np.einsum("prs,ps->r", f_ray[table, start : start + len(ray.nodes)], ray.waves[order]).real
+            out[k, :, table] = total / (r[k] if line else r[k] ** 2)
     return out
+
+
+def _spectrum(kernels: Kernels, q: NDArray[Any]) -> NDArray[Any]:
+    """(tables, *q.shape)."""
+    return kernels.spectra(np.ascontiguousarray(q).ravel()).reshape(-1, *q.shape)
 
 
 @nb.njit(**COMPILE)

@@ -262,3 +262,42 @@ def test_mistakes_are_named_one_by_one(arguments, count, named):
     with pytest.raises(InputError, match=named) as caught:
         Body(STEEL, **arguments)
     assert len(caught.value.messages) == count
+
+
+def graded(count):
+    """Modulus falling by half, Poisson's ratio rising over a depth of one, as so many layers of their mean values."""
+    middles = (np.arange(count) + 0.5) / count
+    layers = [
+        Layer(Material("part", youngs_modulus=2.0 - m, poissons_ratio=0.2 + 0.1 * m), 1.0 / count) for m in middles
+    ]
+    return Body(Material("base", youngs_modulus=1.0, poissons_ratio=0.3), layers=layers)
+
+
+def test_a_graded_coating_is_met_with_order_two():
+    """At a depth of its own stiffness a cell sees the layers' mean: away from it, and for waves longer than a layer."""
+    grid = Grid((24, 1), (0.5, 0.5))
+    whole = [surface_coefficients(grid, graded(count), Load.NORMAL)[:, 0] for count in (8, 16, 32, 128)]
+    scale = np.abs(whole[3]).max()
+    errors = [np.abs(one - whole[3]).max() / scale for one in whole[:3]]
+    # 128 layers are themselves off by a sixteenth of what 32 are
+    assert 3.2 < errors[0] / errors[1] < 5.5
+    assert 3.2 < errors[1] / errors[2] < 5.5
+    assert errors[2] < 1e-3
+
+
+def test_fifty_layers_ask_for_few_wavenumbers(monkeypatch):
+    """What a contact of many layers costs: one table for all of its grids, its wavenumbers shared by all distances."""
+    asked = []
+    true = layered.wave_functions
+
+    def counted(q, *args, **kwargs):
+        asked.append(np.size(q))
+        return true(q, *args, **kwargs)
+
+    monkeypatch.setattr(layered, "wave_functions", counted)
+    layered_hankel._kept.cache_clear()
+    body = graded(50)
+    for cells in (64, 32, 16):
+        surface_coefficients(Grid((cells, cells), (6.4 / cells,) * 2), body, Load.NORMAL)
+    # 35,000 were counted; 240,000 for each grid before
+    assert 0 < sum(asked) < 45_000
