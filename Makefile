@@ -4,7 +4,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 STAMP := .venv/.installed
 
-.PHONY: setup setup-fem setup-browser run test test-fast lint bench report validation gallery wheel clean
+.PHONY: setup setup-fem setup-browser run test test-fast lint bench report docs validation gallery wheel clean
 
 setup: $(STAMP)
 
@@ -39,6 +39,10 @@ bench: setup
 
 report: setup
 	$(BIN)/python -m reports --pdf
+
+# The guide as a site, a page for each kind of scene with pictures of small runs: reports/site/index.html.
+docs: setup
+	$(BIN)/python -m reports.site
 
 # Runs every scene behind the validation report whose stored result is stale: hours; goes on where it was interrupted.
 validation: setup

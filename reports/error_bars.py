@@ -69,6 +69,16 @@ def _covered() -> Iterator[tuple[str, ...]]:
             yield _row(drawn, figure.replace("_", " ").replace("von mises", "von Mises"), row)
 
 
+def covered_of(kind: str) -> Iterator[tuple[str, ...]]:
+    """The rows on experiments that ran the code of a kind."""
+    for name, each in measured().items():
+        if _KINDS.get(name) == kind:
+            drawn = f"{each['cases']} {_WORDS['drawn'][name]}"
+            yield _row(drawn, "all figures", together(each["rows"]))
+            for figure, row in each["figures"].items():
+                yield _row(drawn, figure.replace("_", " ").replace("von mises", "von Mises"), row)
+
+
 def together(rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
     """The verdict on bars of several figures as if they were one."""
     return judged([{**row, "figure": "all"} for row in rows])["all"]

@@ -43,19 +43,20 @@ def build() -> Page:
         "Guide",
         _WORDS["lead"],
         [
-            *_using(),
-            *_scenes(),
+            *using(),
+            *scenes(),
             *_options(),
             *chapter(),
             *wear_lengths.chapter(),
-            *_theory(),
-            *_contributing(),
-            *_kinds(),
+            *theory(),
+            *contributing(),
+            *kinds(),
         ],
     )
 
 
-def _using() -> list[Section]:
+def using() -> list[Section]:
+    """First steps, own surfaces, sweeps, Python."""
     return [_first_steps(), _own_surfaces(), _sweeps(), _from_python()]
 
 
@@ -80,7 +81,7 @@ def _first_steps() -> Section:
     )
     return Section(
         "First steps",
-        _code(EXAMPLES["first-steps"])
+        code(EXAMPLES["first-steps"])
         + table(("file of a run", "what it is"), files)
         + table(("exit code", "meaning"), codes),
     )
@@ -95,7 +96,7 @@ def _own_surfaces() -> Section:
             "missing, cut, "
             "filtered and resampled to the grid, in that order."
         )
-        + _code(EXAMPLES["own-surfaces"])
+        + code(EXAMPLES["own-surfaces"])
         + text(
             "The map must be at least as large as the grid, or be mirrored; a wave needs several "
             "cells. Two maps of "
@@ -115,7 +116,7 @@ def _sweeps() -> Section:
             "Every point is a run in a folder of its own under points/, without pictures and volumes for ParaView: "
             "bem plot draws those of a point, bem run with its scene.toml makes all."
         )
-        + _code(EXAMPLES["sweep"])
+        + code(EXAMPLES["sweep"])
         + text(
             "In Python it is bem.run_sweep; values are ranges first:last:count, log:first:last:count, "
             "whole numbers first:last, lists, or @FILE with a value on each line. An index reaches into lists, "
@@ -128,12 +129,13 @@ def _from_python() -> Section:
     return Section(
         "From Python",
         text("The same without files; everything public is importable from bem.")
-        + _code(EXAMPLES["python"])
-        + _code(EXAMPLES["python-run"]),
+        + code(EXAMPLES["python"])
+        + code(EXAMPLES["python-run"]),
     )
 
 
-def _scenes() -> list[Section]:
+def scenes() -> list[Section]:
+    """What is built in."""
     rows = [(name, item["kind"], item["description"], item.get("redoes", "")) for name, item in library().items()]
     return [
         Section(
@@ -153,17 +155,17 @@ def _options() -> Iterator[Section]:
     for kind in kind_names():
         found = get_kind(kind)
         body = text(found.title[0].upper() + found.title[1:] + ".")
-        body += table(("key", "default", "allowed", "effect"), list(_keys(found.model, "")))
+        body += table(("key", "default", "allowed", "effect"), list(keys_of(found.model, "")))
         try:
             start = scene_template(kind)
         except InputError:
             start = ""
         if start:
-            body += f"<details><summary>bem new {html.escape(kind)}</summary>{_code(start)}</details>"
+            body += f"<details><summary>bem new {html.escape(kind)}</summary>{code(start)}</details>"
         yield Section(f"Kind {kind}", body, level=3)
 
 
-def _keys(model: Any, prefix: str) -> Iterator[tuple[str, str, str, str]]:
+def keys_of(model: Any, prefix: str) -> Iterator[tuple[str, str, str, str]]:
     """Rows of a table of keys, those of inner tables below their own."""
     shown: set[str] = set()
     for key, field in fields_of_table(model).items():
@@ -180,7 +182,7 @@ def _keys(model: Any, prefix: str) -> Iterator[tuple[str, str, str, str]]:
             shown.add(f"{name}.kind")
             yield f"{name}.kind", "", "one of " + ", ".join(tags), effect_of(f"{name}.kind")
         for inner in tables:
-            for row in _keys(inner, f"{name}."):
+            for row in keys_of(inner, f"{name}."):
                 if row[0] not in shown:
                     shown.add(row[0])
                     yield row
@@ -210,14 +212,19 @@ def _tables(annotation: Any) -> list[Any]:
     return [model for item in typing.get_args(annotation) for model in _tables(unwrap(item)[0])]
 
 
-def _theory() -> list[Section]:
-    body = "".join(
-        f"<h4>{html.escape(title)}</h4><pre class='formula'>{_formula(formula)}</pre>"
+def formula(title: str, words: str, source: str, errata: str, place: str) -> str:
+    """An entry of `THEORY` as HTML."""
+    return (
+        f"<h4>{html.escape(title)}</h4><pre class='formula'>{_spelt(words)}</pre>"
         f"<p><b>Source:</b> {html.escape(source)}. "
         + (f"<b>Errata:</b> {html.escape(errata)} " if errata else "")
         + f"<b>In:</b> <code>{html.escape(place)}</code></p>"
-        for title, formula, source, errata, place in THEORY
     )
+
+
+def theory() -> list[Section]:
+    """Formulas, laws by name, limits of validity."""
+    body = "".join(formula(*item) for item in THEORY)
     conventions = text(
         "x is the sliding direction, z points into the body. Pressure is positive in compression, stress in tension, "
         "displacement into the body, height out of it; friction on the lower body acts along +x. "
@@ -270,7 +277,8 @@ EXTENSIONS = (
 """What may be added from outside the package, one way for all."""
 
 
-def _contributing() -> list[Section]:
+def contributing() -> list[Section]:
+    """How to add each kind of part."""
     parts = (
         (
             "A viscosity law",
@@ -300,11 +308,11 @@ def _contributing() -> list[Section]:
     )
     return [
         Section("Contributing", intro + table(("to add", "one file with", "entered by"), EXTENSIONS)),
-        *(Section(title, text(words) + _code(snippet), level=3) for title, words, snippet in parts),
+        *(Section(title, text(words) + code(snippet), level=3) for title, words, snippet in parts),
     ]
 
 
-def _kinds() -> list[Section]:
+def kinds() -> list[Section]:
     """How to write a kind of scene."""
     words = prose("kinds")
     return [
@@ -319,18 +327,19 @@ def _kinds() -> list[Section]:
         Section(
             "A whole one, in closed form",
             text("The tests run this file, and the scene behind it, from outside the package.")
-            + _code(words["example"]["kind"])
-            + _code(words["example"]["scene"]),
+            + code(words["example"]["kind"])
+            + code(words["example"]["scene"]),
             level=3,
         ),
     ]
 
 
-def _code(words: str) -> str:
+def code(words: str) -> str:
+    """Text as it would be typed, as HTML."""
     return f"<pre>{html.escape(words.strip())}</pre>"
 
 
-def _formula(words: str) -> str:
+def _spelt(words: str) -> str:
     """Plain text with Greek letters and raised exponents."""
     greek = {"nu": "ν", "pi": "π", "mu": "μ", "rho": "ρ", "tau": "τ", "alpha": "α", "sigma": "σ", "beta": "β"}
     shown = html.escape(words)

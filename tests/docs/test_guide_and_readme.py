@@ -176,13 +176,13 @@ def test_the_example_of_a_law_in_a_scene_is_one():
 
 @pytest.mark.parametrize("kind", kind_names())
 def test_the_guide_says_what_every_key_does(kind, page):
-    for name, _, _, effect in guide._keys(get_kind(kind).model, ""):
+    for name, _, _, effect in guide.keys_of(get_kind(kind).model, ""):
         assert effect, f"{kind}: {name} has no line in reports/prose/options.toml"
         assert f"<td>{name}</td>" in page, name
 
 
 def test_no_effect_is_left_of_keys_that_are_gone():
-    names = [name.split(".") for kind in kind_names() for name, *_ in guide._keys(get_kind(kind).model, "")]
+    names = [name.split(".") for kind in kind_names() for name, *_ in guide.keys_of(get_kind(kind).model, "")]
     used = {parts[-1] for parts in names} | {".".join(parts[-2:]) for parts in names}
     assert guide.EFFECTS.keys() <= used | {"kind"}
 

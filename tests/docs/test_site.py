@@ -1,0 +1,55 @@
+"""The guide as a site: a page for every kind, whose theory, limits and scenes exist; nothing from a network."""
+
+import re
+
+import pytest
+
+from bem.scenes import library
+from bem.scenes.kind import _of_the_package
+from reports import guide, site
+from reports.builder import render, write_site
+
+
+@pytest.fixture(scope="module")
+def pages():
+    return site.pages({"rough-contact": "no run in this test"})
+
+
+@pytest.mark.slow
+def test_every_kind_of_the_package_has_a_page(pages):
+    assert set(site.WORDS["kinds"]) == set(_of_the_package())
+    names = {page.name for page in pages}
+    assert names >= {"theory", "thesis", "errors", *(f"kind-{kind}" for kind in _of_the_package())}
+
+
+@pytest.mark.parametrize("kind", site.WORDS["kinds"])
+def test_what_a_page_names_exists(kind):
+    words = site.WORDS["kinds"][kind]
+    assert library()[words["scene"]]["kind"] == kind
+    titles, assumptions = {item[0] for item in guide.THEORY}, {item[0] for item in guide.LIMITS}
+    assert set(words["theory"]) <= titles
+    assert set(words["limits"]) <= assumptions
+
+
+def test_theory_and_limits_all_stand_behind_some_kind():
+    """A formula that no kind's page shows would be read by nobody; three are of functions alone."""
+    shown = {title for words in site.WORDS["kinds"].values() for title in words["theory"]}
+    assert {item[0] for item in guide.THEORY} - shown == set()
+    shown = {title for words in site.WORDS["kinds"].values() for title in words["limits"]}
+    assert {item[0] for item in guide.LIMITS} - shown == set()
+
+
+@pytest.mark.slow
+def test_pages_have_errors_limits_and_no_network(pages, tmp_path):
+    for page in pages:
+        text = render(page, pages)
+        assert not re.search(r'(src|href)="(https?:)?//', text), page.name
+        if page.name.startswith("kind-"):
+            titles = [section.title for section in page.sections]
+            assert titles[0] == "Picture"
+            assert {"Keys", "Figures and their errors", "Theory", "Limits"} <= set(titles)
+    assert "no run in this test" in render(next(page for page in pages if page.name == "kind-contact"))
+    written = write_site(pages, tmp_path)
+    assert written[-1].name == "index.html"
+    index = written[-1].read_text("utf-8")
+    assert all(f'{page.name}.html"' in index for page in pages)
