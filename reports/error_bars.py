@@ -18,7 +18,8 @@ _WORDS = prose("guide")["error_bars"]
 RESULTS = Path(__file__).parent / "results"
 _KINDS = {
     "contact": "contact", "film": "friction", "mixed": "friction", "march": "film", "asperities": "asperities",
-    "flow": "flow-factors", "rubbing": "surface-temperature", "tribofilm": "tribofilm", "particle": "particles",
+    "flow": "flow-factors", "rubbing": "surface-temperature", "tribofilm": "tribofilm",
+    "wear": "wear", "particle": "particles",
 }  # fmt: skip
 """The kind of scene whose code an experiment runs."""
 

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from bem.accuracy.stress import stress_bars
     from bem.accuracy.traction import TractionCase, traction_bars, traction_figures
     from bem.accuracy.tribofilm import TribofilmCase, history_figures, tribofilm_bars
+    from bem.accuracy.wear import wear_bars
 
 __all__ = [
     "Coarser",
@@ -70,6 +71,7 @@ __all__ = [
     "traction_bars",
     "traction_figures",
     "tribofilm_bars",
+    "wear_bars",
 ]
 
 __getattr__ = loader(
@@ -95,5 +97,6 @@ __getattr__ = loader(
         "stress": ["stress_bars"],
         "traction": ["TractionCase", "traction_bars", "traction_figures"],
         "tribofilm": ["TribofilmCase", "history_figures", "tribofilm_bars"],
+        "wear": ["wear_bars"],
     },
 )

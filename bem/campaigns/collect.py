@@ -149,8 +149,10 @@ def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[
     found = [f"no error bar for {', '.join(names)}: {why}" for why, names in reasons.items()]
     repeated = next((len(axis) for axis in campaign.axes if axis.name == REPETITION), 1)
     if record.scatters and repeated > 1:
+        judged = [told[name] for name in record.scatters if name in told and name in _barred(records)]
+        but = f" (but for {', '.join(judged)})" if judged else ""
         found.append(
-            f"errors are the scatter over {repeated} repetitions alone (standard error of the mean): what cells, "
+            f"errors{but} are the scatter over {repeated} repetitions alone (standard error of the mean): what cells, "
             "depths and tolerances leave open is not in them"
         )
     return found

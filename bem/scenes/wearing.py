@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _CHECKPOINT_EVERY = 10  # cycles
 Count = Annotated[int, Field(strict=True, ge=1)]
 IntArray = NDArray[np.int_]
-_QUANTITIES = ("equivalent_radius", "length", "width", "thickness")
+QUANTITIES = ("equivalent_radius", "length", "width", "thickness")
 
 
 class WearDepthsScene(Table):
@@ -269,7 +269,7 @@ class MeanSizes(Record):
     """Mean sizes of the settled particles: the reported one, and by number, area, volume, and number above a size."""
 
     scatters: ClassVar[tuple[str, ...]] = (
-        *(f"{weight}_{quantity}" for weight in ("reported", "area_mean", "volume_mean") for quantity in _QUANTITIES),
+        *(f"{weight}_{quantity}" for weight in ("reported", "area_mean", "volume_mean") for quantity in QUANTITIES),
     )
     reported_equivalent_radius: Annotated[float, _reported("equivalent radius")]
     reported_length: Annotated[float, _reported("length")]
@@ -296,7 +296,7 @@ class MeanSizes(Record):
 def mean_sizes(particles: NDArray[np.void], sizes: SizesScene) -> dict[str, Any]:
     """The fields of `MeanSizes` [m] of a table of particles."""
     statistics = size_statistics(particles, sizes.smallest)
-    reported = {f"reported_{quantity}": statistics[sizes.report][quantity] for quantity in _QUANTITIES}
+    reported = {f"reported_{quantity}": statistics[sizes.report][quantity] for quantity in QUANTITIES}
     return reported | {
         f"{weight}_mean_{quantity}": value
         for weight, values in statistics.items()
@@ -307,7 +307,7 @@ def mean_sizes(particles: NDArray[np.void], sizes: SizesScene) -> dict[str, Any]
 def sizes_without_bars(scene: Any) -> dict[str, None]:
     """The reported sizes, where the mean that is reported follows the mesh."""
     follows = "number" in scene.sizes.report and not scene.wear.criterion.sizes_converge
-    return dict.fromkeys(f"reported_{quantity}" for quantity in _QUANTITIES) if follows else {}
+    return dict.fromkeys(f"reported_{quantity}" for quantity in QUANTITIES) if follows else {}
 
 
 def scattering(record: type[Record], scene: Any) -> tuple[str, ...]:
@@ -331,6 +331,6 @@ def size_statistics(particles: NDArray[np.void], smallest: float) -> dict[str, d
     statistics = {weight: particle_statistics(particles, weight=weight) for weight in ("number", "area", "volume")}
     statistics["number_above"] = particle_statistics(particles, smallest_radius=smallest)
     return {
-        name: {quantity: getattr(each, f"mean_{quantity}") for quantity in _QUANTITIES}
+        name: {quantity: getattr(each, f"mean_{quantity}") for quantity in QUANTITIES}
         for name, each in statistics.items()
     }

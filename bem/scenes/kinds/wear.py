@@ -5,7 +5,8 @@ A case is one load, one variant and one pair of surfaces; sizes are means over t
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
@@ -15,15 +16,16 @@ from pydantic import model_validator
 from bem.errors import InfeasibleError
 from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans, wearing
-from bem.scenes.axes import Axis, listed, variants
+from bem.scenes.axes import Axis, listed, variants, with_keys
 from bem.scenes.common import BodyScene, Repetitions, SceneModel, ShapeScene, problem
-from bem.scenes.context import Context
+from bem.scenes.context import Context, PlainContext, error_bars
 from bem.scenes.kind import Kind
-from bem.scenes.planner import Plan, Step
+from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, Series, filled, grid_map
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 
 if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars
     from bem.wear import RunningIn
 
 _CONVOLUTIONS = 10  # of one warm-started contact solve, coarse levels included
@@ -81,10 +83,19 @@ def plan(scene: WearScene) -> Plan:
         *wearing.cycle_steps(scene, grid, contacts="each from the last pressure", **cycles),
         Step("kernels of an earlier run", _KERNELS, skipped=True),
         Step(f"deeper stresses, down to {scene.depths.count} depths", _DEEPER, skipped=True),
+        Step(
+            "error bars",
+            "the same cycles on the grid of twice the cell" if scene.cycles.coarser_grid else _SCATTER_ALONE,
+            skipped=not scene.cycles.coarser_grid,
+            kept=0.0,
+            transforms=4.0 * _CONVOLUTIONS * scene.cycles.count,
+            points=padded_points(grid.shape, grid.periodic) // 4,
+        ),
         plans.figures(grid.cells),
     )
 
 
+_SCATTER_ALONE = "cycles.coarser_grid is false: what repetitions scatter is all that is told of errors"
 _KERNELS = "not kept on disk: made once for all cycles, in a few per cent of the run's time"
 _DEEPER = "no piece that reaches the surface gets past a depth at which nothing yields"
 _over, _map = partial(Series, ("cycle",)), partial(grid_map, of="last")
@@ -146,12 +157,55 @@ class WearRecord(wearing.MeanSizes, wearing.ParticleTable):
 
 
 def run(scene: WearScene, context: Context) -> WearRecord:
-    """One wear loop."""
+    """One wear loop, and where its errors are asked for the same on a coarser grid."""
+    initial = build.both_heights(scene, _slice(scene)[0], context)
+    found = wear_down(scene, initial, context)
+    made = error_bars(context, scene.cycles.coarser_grid, lambda: bars(scene, initial, found))
+    return replace(found, errors={**found.errors, **made.get("errors", {})}, error_parts=made.get("error_parts", {}))
+
+
+def bars(scene: WearScene, initial: tuple[FloatArray, FloatArray], found: WearRecord) -> ErrorBars:
+    """Of the loop on every second cell, with the reported sizes."""
+    from bem.accuracy import wear_bars
+    from bem.accuracy.wear import FEWEST, RULES
+    from bem.contact.cascade import sample
+
+    cells = scene.domain.cells
+    there = None
+    if all(n % 2 == 0 and n >= FEWEST for n in cells):
+        coarser = at_resolution(scene, 0.5)
+        grid, _ = _slice(coarser)
+        lower, upper = (np.array(sample(heights, grid.shape, grid.periodic)) for heights in initial)
+        there = wear_down(coarser, (lower, upper), PlainContext(scene.seed))
+    figures = (None if one is None else {name: getattr(one, name) for name in RULES} for one in (found, there))
+    told = wear_bars(*figures)  # type: ignore[arg-type]
+    reported = {f"{scene.sizes.report}_mean_{size}": f"reported_{size}" for size in wearing.QUANTITIES}
+    return told | told.renamed(reported)
+
+
+def _slice(scene: WearScene) -> tuple[Grid, float]:
+    """The grid of a case and its load [N]."""
+    return scene.domain.at(scene.cylinder, build.modulus_of(scene))
+
+
+def at_resolution(scene: WearScene, factor: float) -> WearScene:
+    """The scene with so many times the cells and depths, that slides as far in a cycle."""
+    (nx, ny), depths, shift = scene.domain.cells, scene.depths, factor * scene.wear.shift
+    keys = {
+        "domain.cells": (round(factor * nx), round(factor * ny)),
+        "depths.count": max(2, round(factor * (depths.count - 1)) + 1),
+        "depths.spacing": depths.spacing / factor,
+        "wear.shift": math.floor(abs(shift) + 0.5) * (1 if shift > 0 else -1),
+    }
+    return with_keys(scene, keys)
+
+
+def wear_down(scene: WearScene, initial: tuple[FloatArray, FloatArray], context: Context) -> WearRecord:
+    """The wear loop of a scene from these heights [m] on its grid."""
     from bem.particles import volume_mean_radius
     from bem.wear import RunningInState, Settled
 
-    grid, load = scene.domain.at(scene.cylinder, build.modulus_of(scene))
-    radius, initial = scene.cylinder.radius, build.both_heights(scene, grid, context)
+    (grid, load), radius = _slice(scene), scene.cylinder.radius
 
     def watch(now: RunningInState) -> dict[str, float]:
         last = now.particles[now.particles["cycle"] == now.cycle]

@@ -74,9 +74,13 @@ class DomainScene(Table):
 
 
 class CyclesScene(LastCycles):
-    """How long: `count` cycles, or until settled; means are over the last `settled` cycles."""
+    """How long: `count` cycles, or until settled; means are over the last `settled` cycles.
+
+    `coarser_grid` : the same cycles once more on the grid of twice the cell, for error bars of what cells leave open.
+    """
 
     stop_when_settled: bool = Field(default=False, strict=True)
+    coarser_grid: bool = Field(default=False, strict=True)
     tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = 0.02
 
 

@@ -1,0 +1,88 @@
+"""Error bars of random wear loops against loops on a quarter of the cell.
+
+    python -m reports.experiments.wear_error_bars [CASES]
+
+Slices of 4 um with 32 to 64 cells a side, three to eight of them to the correlation length of either surface, capped at
+the hardness of steel, 1 to 6 N on 6 mm, sliding 2 to 6 cells a cycle, 24 cycles of which the last 12 count. The finer
+grid sees the same waves. The result is stored in `reports/results/wear_error_bars.json`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem.accuracy.wear import RULES
+from bem.scenes import build
+from bem.scenes.context import PlainContext
+from bem.scenes.kind import get_kind
+from bem.scenes.kinds import wear
+from bem.scenes.load import load_scene
+from reports.experiments.contact_error_bars import waves_through
+from reports.experiments.judging import judge
+
+RESULT = Path(__file__).resolve().parents[1] / "results" / "wear_error_bars.json"
+FINER, SIDE = 4, 4e-6
+
+
+def draw(rng: np.random.Generator) -> dict[str, Any]:
+    """A random wear scene."""
+    cells = int(rng.choice([32, 40, 48, 64]))
+    cell = SIDE / cells
+    correlated = float(rng.uniform(3, 8)) * cell
+
+    def rough(low: float, high: float) -> dict[str, Any]:
+        height = float(rng.uniform(low, high))
+        return {"kind": "generated", "rms_height": height, "correlation_length": correlated}
+
+    return {
+        "kind": "wear",
+        "seed": int(rng.integers(1 << 30)),
+        "lower": {"material": "steel-disk", "surface": rough(40e-9, 150e-9)},
+        "upper": {"material": "steel-cylinder", "surface": rough(10e-9, 50e-9)},
+        "cylinder": {
+            "radius": 2e-3,
+            "width": 6e-3,
+            "loads": [float(rng.uniform(1, 6))],
+            "friction": float(rng.uniform(0, 0.3)),
+        },
+        "domain": {"cells": cells, "lengths": SIDE},
+        "depths": {"count": int(rng.integers(14, 24)), "spacing": float(rng.uniform(0.8, 1.2)) * cell},
+        "wear": {"shift": int(rng.integers(2, 7))},
+        "cycles": {"count": 24, "settled": 12, "coarser_grid": True},
+    }
+
+
+def rows_of(table: dict[str, Any]) -> list[dict[str, Any]]:
+    """Bar and true error of every figure of a loop that wears something."""
+    scene = get_kind("wear").resolved(load_scene(table))
+    grid = scene.domain.at(scene.cylinder, build.modulus_of(scene))[0]
+    lower, upper = (waves_through(h, 1) for h in build.both_heights(scene, grid, PlainContext(scene.seed)))
+    found = wear.wear_down(scene, (lower, upper), PlainContext(scene.seed))
+    bars = wear.bars(scene, (lower, upper), found)
+    fine = (waves_through(lower, FINER), waves_through(upper, FINER))
+    truth = wear.wear_down(wear.at_resolution(scene, FINER), fine, PlainContext(scene.seed))
+    correlated = table["lower"]["surface"]["correlation_length"]
+    words = f"{table['domain']['cells']} cells, correlated over {correlated:.2g} m"
+    return [
+        {
+            "figure": name,
+            "loop": words,
+            "value": getattr(found, name),
+            "error": abs(getattr(found, name) - getattr(truth, name)),
+            "bar": bars.values[name],
+        }
+        for name in RULES
+        if truth.worn_volume_per_cycle > 0
+    ]
+
+
+def main() -> None:
+    """Judge the bars of so many."""
+    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=60)
+
+
+if __name__ == "__main__":
+    main()

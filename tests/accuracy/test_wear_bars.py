@@ -1,0 +1,80 @@
+"""Error bars of a wear loop: from the same cycles on the grid of twice the cell, where that is asked for."""
+
+import json
+import tomllib
+
+import numpy as np
+import pytest
+from small_scenes import WEAR
+
+from bem.accuracy import wear_bars
+from bem.accuracy.wear import RULES
+from bem.runs import plan_scene, run_scene
+from bem.scenes import load_scene
+from bem.scenes.kinds.wear import at_resolution
+from reports.experiments.wear_error_bars import RESULT, draw, rows_of
+
+SCENE = tomllib.loads(WEAR)
+ASKED = ["cycles.coarser_grid=true", 'sizes.report="volume"']
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory):
+    return run_scene(SCENE, tmp_path_factory.mktemp("wear") / "run", settings=ASKED, figures=False).summary
+
+
+def test_what_converges_has_a_bar_and_what_follows_the_cell_has_none(found):
+    for key in ("Sq_final_nm", "worn_volume_per_cycle_um3", "particle_equivalent_radius_nm", "particle_thickness_nm"):
+        assert 0 < found[f"{key}_error"] == found[f"{key}_error_grid"], key
+    assert found["number_mean_equivalent_radius_nm_error"] is None
+    assert "volume_mean_length_nm_error" not in found
+
+
+def test_the_figures_are_those_without_it(found, tmp_path):
+    alone = run_scene(SCENE, tmp_path / "run", settings=ASKED[1:], figures=False).summary
+    figures = {key for key in alone if key.endswith(("_nm", "_um3", "_fraction", "_Pa"))}
+    assert len(figures) > 20
+    assert {key: found[key] for key in figures} == {key: alone[key] for key in figures}
+    assert "Sq_final_nm_error" not in alone
+
+
+def test_the_coarser_loop_has_half_of_all_and_slides_as_far():
+    scene = load_scene(SCENE)
+    half = at_resolution(scene, 0.5)
+    assert half.domain.cells == (20, 20)
+    assert half.wear.shift == 2  # of 3: half a cell cannot be slid
+    both = [s.depths.build()[-1] for s in (scene, half)]
+    assert both == pytest.approx([both[0]] * 2, rel=0.06)  # 20 depths have 19 intervals, an odd number
+    assert at_resolution(half, 2).domain == scene.domain
+
+
+def test_odd_grids_and_loops_that_wear_nothing_have_none_and_say_so(tmp_path):
+    done = run_scene(SCENE, tmp_path / "run", settings=[*ASKED, "domain.cells=[40, 39]"], figures=False).summary
+    assert done["Sq_final_nm_error"] is None
+    assert any("it needs even numbers of cells" in note for note in done["notes"])
+    nothing = dict.fromkeys(RULES, 0.0)
+    assert set(wear_bars(nothing, nothing).values.values()) == {None}
+
+
+def test_the_plan_and_the_notes_know_of_it(tmp_path):
+    steps = {step.name: step for step in plan_scene(SCENE, ASKED)[1].steps}
+    assert not steps["error bars"].skipped
+    assert {step.name: step for step in plan_scene(SCENE)[1].steps}["error bars"].skipped
+    few = ["cycles.count=4", "cycles.settled=2", "repetitions=2"]
+    notes = " ".join(run_scene(SCENE, tmp_path / "run", settings=[*ASKED, *few], figures=False).summary["notes"])
+    assert "(but for" in notes
+    assert "Sq final" in notes
+
+
+def test_random_loops_are_covered():
+    rows = [row for number in range(3) for row in rows_of(draw(np.random.default_rng([14, number])))]
+    assert rows
+    # nine in ten are meant; of three loops two bars in three at least
+    assert sum(row["error"] <= row["bar"] for row in rows) >= 2 / 3 * len(rows)
+
+
+def test_the_stored_experiment_meets_nine_in_ten():
+    figures = json.loads(RESULT.read_text())["figures"]
+    assert set(figures) <= set(RULES)
+    bars = sum(row["bars"] for row in figures.values())
+    assert sum(row["bars"] * row["covered"] for row in figures.values()) >= 0.9 * bars
