@@ -19,6 +19,7 @@ SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("flash-temperature", ("grid.shape=96",)),
     ("fretting-ball", ("grid.shape=48", "push.steps=2")),
     ("coated-sphere", ("grid.shape=96",)),
+    ("film-barrel", ("film.cells=64",)),
     ("traction-curve", ("film.points=300", 'over={"rolling.slide_roll_ratio" = [0.1]}')),
     ("film-reciprocating", ("march.duration=5 ms", "march.steps=20")),
     ("stribeck-mineral-oil", ("repetitions=1", "speeds.count=3", "grid.shape=100", "film.points=500")),

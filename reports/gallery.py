@@ -232,6 +232,7 @@ def _reduced(scene: dict[str, Any]) -> dict[str, Any]:
     _smaller(scene, ("cycles", "averaged"), 2)
     _smaller(scene, ("march", "steps"), 20)
     _smaller(scene, ("film", "points"), 400)
+    _smaller(scene, ("film", "cells"), 64)
     _smaller(scene, ("outputs", "depths", "count"), 6)
     _smaller(scene, ("synthetic", "count"), 30)
     if scene["kind"] in ("wear", "running-in") and "cycles" not in scene:

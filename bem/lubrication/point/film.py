@@ -79,6 +79,11 @@ class PointFilmSolution:
         return float(self.pressure.max())
 
     @property
+    def central_pressure(self) -> float:
+        """At the origin [Pa], from the four cells around it."""
+        return float(np.interp(0.0, self.x, [np.interp(0.0, self.y, row) for row in self.pressure]))
+
+    @property
     def friction(self) -> float:
         """Size of the sliding part of the shear force over the load."""
         sliding = 0.5 * (self.shear_force[0] - self.shear_force[1])

@@ -116,6 +116,14 @@ class Level:
     def near(self) -> FloatArray:
         """Films under a unit pressure on a cell, and under one with its counterpart around it (`loops.relax`), at
         distances 0 .. along x and 0 .. 2 along y: (2, n, 3)."""
+        return self._near(False)
+
+    @cached_property
+    def near_across(self) -> FloatArray:
+        """The same with the axes exchanged."""
+        return self._near(True)
+
+    def _near(self, exchanged: bool) -> FloatArray:
         reach = loops.BAND + 2
         if self.kernel is None:
             return np.zeros((2, reach + 1, 3))
@@ -125,8 +133,9 @@ class Level:
         along, across = 0.5 * dy**2 / (dx**2 + dy**2), 0.5 * dx**2 / (dx**2 + dy**2)
         spread = table[1:-1, 1:-1].copy()
         spread -= along * (table[2:, 1:-1] + table[:-2, 1:-1]) + across * (table[1:-1, 2:] + table[1:-1, :-2])
-        alone = table[1:-1, 1:-1]
-        return np.ascontiguousarray([one[reach:, reach : reach + 3] for one in (alone, spread)])
+        both = (table[1:-1, 1:-1], spread)
+        ways = [one.T if exchanged else one for one in both]
+        return np.ascontiguousarray([one[reach:, reach : reach + 3] for one in ways])
 
     @cached_property
     def dense_deflection(self) -> FloatArray | None:

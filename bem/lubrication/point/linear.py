@@ -75,15 +75,28 @@ class Linear:
         out[self.held] = 0.0
         return out, float(change.pressure.sum()) * level.cell + self.tail_slope * change.datum
 
-    def relaxed(self, residual: FloatArray, downwards: bool) -> FloatArray:
-        """Pressures that a sweep adds."""
+    def relaxed(self, residual: FloatArray, back: bool) -> FloatArray:
+        """Pressures that a sweep over lines adds, there or back; of oil that comes at an angle the way back is along
+        the other axis."""
         level = self.level
-        out = np.zeros(level.shape)
         drag = level.problem.drag
-        loops.relax(self.stencil, level.spacing, drag, level.near, self.kinds, residual, DAMPING, downwards, out)
+        out = np.zeros(level.shape)
+        if back and drag[1] > 0:
+            crossed = np.zeros(level.shape[::-1])
+            right = np.ascontiguousarray(residual.T)
+            steps, near = level.spacing[::-1], level.near_across
+            loops.relax(self._crossed, steps, drag[::-1], near, self.kinds.T.copy(), right, DAMPING, True, crossed)
+            out[:] = crossed.T
+        else:
+            loops.relax(self.stencil, level.spacing, drag, level.near, self.kinds, residual, DAMPING, back, out)
         np.copyto(out, residual, where=level.border)
         out[self.held] = 0.0
         return out
+
+    @cached_property
+    def _crossed(self) -> FloatArray:
+        """The stencil with the axes exchanged."""
+        return np.ascontiguousarray(self.stencil[[3, 4, 5, 0, 1, 2, 6, 7]].transpose(0, 2, 1))
 
     @cached_property
     def coarser(self) -> Linear | None:
@@ -135,7 +148,7 @@ class Linear:
         if coarse is None:
             return self.solved(residual, load)
         level = self.level
-        pressure = self.relaxed(residual, downwards=False)
+        pressure = self.relaxed(residual, back=False)
         done, carried = self.applied(Change(pressure, 0.0))
         rest = residual - done
         rest[level.border | self.held] = 0.0
@@ -146,7 +159,7 @@ class Linear:
         fine[self.held | level.border] = 0.0
         pressure += fine
         done, _ = self.applied(Change(pressure, correction.datum))
-        pressure += self.relaxed(residual - done, downwards=True)
+        pressure += self.relaxed(residual - done, back=True)
         return Change(pressure, correction.datum)
 
 

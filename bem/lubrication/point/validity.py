@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bem.errors import Status
 from bem.grid import FloatArray
 from bem.lubrication import validity
 from bem.lubrication.point.levels import Level
@@ -96,6 +97,12 @@ def notes_on_point(film: PointFilmSolution, setting: Setting, level: Level, cont
 def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, level: Level) -> tuple[str, ...]:
     """What the grid does to it."""
     notes = []
+    if film.status is not Status.CONVERGED:
+        nx, ny = film.pressure.shape
+        notes.append(
+            f"no film was found on {nx} x {ny} cells: heavy loads of thin oils and narrow ellipses along the flow have "
+            "constrictions of a few cells there; take twice as many"
+        )
     begins = float(thickness[0].min())
     if setting.problem.drag[1] > 0.1:
         begins = min(begins, float(thickness[:, 0].min()))

@@ -262,6 +262,12 @@ def _film(scene: Any) -> list[Case]:
     return [Case(smooth=smooth, width=cylinder.width, shape="cylinder", **bodies)]
 
 
+def _point_film(scene: Any) -> list[Case]:
+    bodies = _bodies(scene)
+    force = scene.ball.force(build.modulus_of(scene))
+    return [Case(smooth=smooth_contact(bodies["lower"], bodies["upper"], scene.ball.radii, load=force), **bodies)]
+
+
 def _asperities(scene: Any) -> list[Case]:
     (spacing,), array, bodies = scene.array.spacings, scene.array, _bodies(scene)
     radii = (array.radius, array.radius)
@@ -282,6 +288,7 @@ _CASES: dict[str, Callable[[Any], list[Case]]] = {
     "contact": _contact,
     "partial-slip": _contact,
     "rolling": _contact,
+    "point-film": _point_film,
     "surface-temperature": _contact,
     "film": _film,
     "friction": _lubricated,

@@ -1,0 +1,128 @@
+"""Figures of a point film: as light shows it, maps, sections, the pressure as a surface."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from bem.plots.figures import FigureKind
+from bem.plots.style import BLUE, VERMILION, field_axes, label, map_of, prefix
+
+_INDEX = 1.5
+"""Refractive index of oils."""
+_FRINGES = 5
+"""After which they fade: light is never of one colour."""
+_LIGHT = (630e-9, 532e-9, 465e-9)
+"""Wavelengths of red, green and blue [m]."""
+_DOTS = 700
+"""Of an interferogram along each axis, at least."""
+_THICK = 3.0
+"""Central films at which a map's colours end."""
+
+
+def _array(run: Any, name: str) -> Any:
+    return run.dataset[name].values
+
+
+def colours_of(thickness: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Red, green and blue (..., 3) of two beams reflected at both sides of a film [m], dark where it vanishes."""
+    phase = 4 * np.pi * _INDEX * thickness[..., None] / np.array(_LIGHT)
+    return np.asarray(0.5 * (1 - np.exp(-((phase / (2 * np.pi * _FRINGES)) ** 2)) * np.cos(phase)))
+
+
+def _finely(thickness: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Interpolated to so many dots that fringes are not made of cells."""
+    for axis in (0, 1):
+        n = thickness.shape[axis]
+        at = np.linspace(0, n - 1, max(n, _DOTS))
+        low = np.minimum(at.astype(int), n - 2)
+        first, second = np.take(thickness, low, axis), np.take(thickness, low + 1, axis)
+        share = np.moveaxis((at - low).reshape(-1, 1), 0, axis)
+        thickness = first + share * (second - first)
+    return thickness
+
+
+def _interferogram(run: Any, figure: Figure) -> None:
+    axes = figure.add_subplot()
+    extent = field_axes(axes, _array(run, "x"), _array(run, "y"))
+    colours = colours_of(_finely(_array(run, "thickness")))
+    axes.imshow(colours.transpose(1, 0, 2), extent=extent, origin="lower", aspect=axes.get_aspect())
+
+
+def _maps(run: Any, figure: Figure) -> None:
+    x, y, thickness, pressure = (_array(run, name) for name in ("x", "y", "thickness", "pressure"))
+    left, right = figure.subplots(1, 2)
+    most = _THICK * float(thickness[np.abs(x).argmin(), np.abs(y).argmin()])
+    factor, _ = prefix(thickness[thickness < most], "m")
+    shown = np.where(thickness < most, thickness, np.nan)
+    map_of(figure, left, x, y, shown, "film thickness", "m", vmin=0, vmax=most * factor)
+    map_of(figure, right, x, y, np.where(pressure > 0, pressure, np.nan), "film pressure", "Pa", vmin=0)
+
+
+def _sections(run: Any, figure: Figure) -> None:
+    """Along x and along y through the middle: the film above, the pressure below."""
+    x, y, thickness, pressure = (_array(run, name) for name in ("x", "y", "thickness", "pressure"))
+    i, j = np.abs(x).argmin(), np.abs(y).argmin()
+    most = 4 * float(thickness[i, j])
+    film, film_unit = prefix([most], "m")
+    force, force_unit = prefix(pressure, "Pa")
+    panels = figure.subplots(2, 2, sharex="col", sharey="row", height_ratios=(3, 2))
+    for column, (at, along, film_row, pressure_row) in enumerate(
+        (("x", x, thickness[:, j], pressure[:, j]), ("y", y, thickness[i], pressure[i]))
+    ):
+        factor, unit = prefix(along, "m")
+        panels[0, column].plot(along * factor, film_row * film, color=BLUE)
+        panels[0, column].set_ylim(0, most * film)
+        panels[1, column].plot(along * factor, pressure_row * force, color=VERMILION)
+        panels[1, column].set_ylim(0)
+        panels[1, column].set_xlim(along[0] * factor, along[-1] * factor)
+        panels[1, column].set_xlabel(label(f"{at}, through the middle", unit))
+    panels[0, 0].set_ylabel(label("film thickness", film_unit))
+    panels[1, 0].set_ylabel(label("pressure", force_unit))
+
+
+def _surface(run: Any, figure: Figure) -> None:
+    x, y, pressure = (_array(run, name) for name in ("x", "y", "pressure"))
+    every = max(1, max(pressure.shape) // 96)
+    (across, unit), (force, force_unit) = prefix([x[-1] - x[0]], "m"), prefix(pressure, "Pa")
+    axes: Any = figure.add_subplot(projection="3d")
+    first, second = np.meshgrid(x[::every] * across, y[::every] * across, indexing="ij")
+    axes.plot_surface(
+        first, second, pressure[::every, ::every] * force, cmap="viridis", linewidth=0, rcount=200, ccount=200
+    )
+    axes.set_box_aspect((x[-1] - x[0], y[-1] - y[0], 0.6 * (x[-1] - x[0])))
+    axes.set_xlabel(label("x", unit))
+    axes.set_ylabel(label("y", unit))
+    axes.set_zlabel(label("pressure", force_unit))
+    axes.view_init(elev=32, azim=-120)
+
+
+_NEEDS = ("x", "y", "thickness", "pressure", "thickness_along")
+
+FIGURES = (
+    FigureKind(
+        "interferogram",
+        "The film as two beams of light show it: computed colours of red, green and blue light of 630, 532 and 465 nm "
+        "in oil of refractive index 1.5, without the phase that a coating adds.",
+        _NEEDS,
+        _interferogram,
+    ),
+    FigureKind(
+        "point-film-maps",
+        "Film thickness up to three times that of the middle, and film pressure; blank where there is none.",
+        _NEEDS,
+        _maps,
+        (9.0, 3.8),
+    ),
+    FigureKind(
+        "point-film-sections",
+        "Film and pressure through the middle, along x and along y.",
+        _NEEDS,
+        _sections,
+        (7.0, 4.2),
+    ),
+    FigureKind("point-pressure", "Film pressure over the plane.", _NEEDS, _surface, (6.0, 4.6)),
+)

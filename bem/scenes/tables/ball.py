@@ -1,0 +1,70 @@
+"""A ball or barrel on a flat, and how both move, for the kind point-film."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+from pydantic import Field, field_validator, model_validator
+
+from bem.reference_solutions.hertz import ellipse_contact
+from bem.scenes.common import Force, PositiveLength, PositivePressure, Table, exactly_one, one_for_both
+from bem.scenes.units import Angle, Ratio, Speed
+
+
+class BallScene(Table):
+    """A ball of `radius`, or with `radius_y` a barrel: reduced radii along x and y. `load`, or the maximum Hertz
+    pressure that it makes."""
+
+    radius: PositiveLength
+    radius_y: PositiveLength | None = None
+    load: Annotated[Force, Field(gt=0)] | None = None
+    hertz_pressure: PositivePressure | None = None
+
+    @model_validator(mode="after")
+    def _one_load(self) -> BallScene:
+        exactly_one(self, "load", "hertz_pressure")
+        return self
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Along x and y [m]."""
+        return self.radius, self.radius if self.radius_y is None else self.radius_y
+
+    def force(self, contact_modulus: float) -> float:
+        """Load [N]; of a pressure it goes with its third power (Johnson 1985, eq. 4.24, 4.28)."""
+        if self.load is not None:
+            return self.load
+        assert self.hertz_pressure is not None
+        one = ellipse_contact(radii=self.radii, contact_modulus=contact_modulus, load=1.0)
+        return float((self.hertz_pressure / one.maximum_pressure) ** 3)
+
+
+class BallRollingScene(Table):
+    """Speeds of both surfaces over the contact: their mean, the slide-to-roll ratio, the difference of flat and ball
+    over the mean, and the direction of both from x. At a ratio of 2 the ball stands still, at -2 the flat."""
+
+    mean_speed: Annotated[Speed, Field(gt=0)]
+    slide_roll_ratio: Annotated[Ratio, Field(ge=-2, le=2)] = 0.0
+    direction: Angle = 0.0
+
+    @property
+    def speeds(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Of flat and ball along x and y [m/s]."""
+        cos, sin = math.cos(self.direction), math.sin(self.direction)
+        if abs(sin) < 1e-12:  # along x to rounding
+            sin = 0.0
+        both = (self.mean_speed * (1 + side * 0.5 * self.slide_roll_ratio) for side in (1, -1))
+        first, second = ((speed * cos, speed * sin) for speed in both)
+        return first, second
+
+
+Cells = Annotated[int, Field(strict=True, ge=32, le=2048)]
+
+
+class FilmCellsScene(Table):
+    """The film's grid."""
+
+    cells: tuple[Cells, Cells] = (128, 128)
+
+    _pair = field_validator("cells", mode="before")(one_for_both)

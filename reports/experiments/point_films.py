@@ -1,0 +1,82 @@
+"""Point films from nothing: random contacts over loads, oils, ellipses and directions; which have a film, at what cost.
+
+    python -m reports.experiments.point_films
+
+Half an hour. Each contact is tried on 64 cells a side, and where that has no film on 128 and then on 256. The result is
+stored in `reports/results/point_films.json`: a row for each contact, and shares.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem import Lubricant, PointFilmSolution, solve_point_film
+from reports.experiments.kept import keep
+
+RESULT = Path(__file__).resolve().parents[1] / "results" / "point_films.json"
+MODULUS, RADIUS, ALPHA, VISCOSITY = 1.15e11, 0.01, 22e-9, 0.04
+LOADS, OILS, RATIOS = (1.0, 2e4), (0.0, 25.0), (0.05, 20.0)
+"""Moes' M (evenly over its logarithm) and L, and Rx/Ry (over its logarithm); half of the contacts at an angle."""
+CONTACTS, SEED = 100, 19
+CELLS = (64, 128, 256)
+
+
+def film(load: float, oil: float, ratio: float, angle: float, cells: int) -> PointFilmSolution:
+    """Of Moes' M and L (with the radius along x), Rx/Ry and a direction [rad]: steel, Roelands' oil."""
+    reduced = 2 * MODULUS
+    number = (max(oil, 1e-3) / (ALPHA * reduced)) ** 4
+    half = 0.5 * number * reduced * RADIUS / VISCOSITY
+    return solve_point_film(
+        load=load * reduced * RADIUS**2 * number**0.75,
+        radii=(RADIUS, RADIUS / ratio),
+        contact_modulus=MODULUS,
+        speeds=((half * math.cos(angle), half * math.sin(angle)),) * 2,
+        lubricant=Lubricant(VISCOSITY, pressure_viscosity=ALPHA, density_law="dowson_higginson"),
+        shape=(cells, cells),
+    )
+
+
+def tried(load: float, oil: float, ratio: float, angle: float) -> dict[str, Any]:
+    """A contact on finer and finer grids, until there is a film."""
+    row: dict[str, Any] = {"load": load, "oil": oil, "ratio": ratio, "angle_deg": math.degrees(angle)}
+    for cells in CELLS:
+        found = film(load, oil, ratio, angle, cells)
+        row |= {
+            "cells": cells,
+            "status": found.status.value,
+            "newton_steps": found.iterations,
+            "cycles": found.cycles,
+            "convolutions": round(found.convolutions),
+            "residual": float(f"{found.residual:.2g}") if math.isfinite(found.residual) else None,
+            "mass_imbalance": float(f"{found.mass_imbalance:.2g}") if math.isfinite(found.mass_imbalance) else None,
+            "maximum_pressure_GPa": round(found.maximum_pressure / 1e9, 3),
+            "notes": list(found.notes),
+        }
+        if row["status"] == "converged":
+            break
+    return row
+
+
+def main(count: int = CONTACTS) -> None:
+    """Try them all and store what came out."""
+    rng = np.random.default_rng(SEED)
+    rows = []
+    for _ in range(count):
+        load, ratio = (math.exp(rng.uniform(*np.log(ends))) for ends in (LOADS, RATIOS))
+        oil, angle = rng.uniform(*OILS), rng.uniform(0, 2 * math.pi)
+        rows.append(tried(load, oil, ratio, angle if rng.random() < 0.5 else 0.0))
+        print({key: value for key, value in rows[-1].items() if key != "notes"}, flush=True)
+    shares = {
+        str(cells): sum(row["status"] == "converged" and row["cells"] <= cells for row in rows) / len(rows)
+        for cells in CELLS
+    }
+    keep(RESULT, {"contacts": rows, "share_with_a_film_on_so_many_cells": shares})
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else CONTACTS)
