@@ -211,18 +211,21 @@ def _padded(grid: Grid) -> tuple[int, int]:
     return padded_length(nx, grid.periodic[0]), padded_length(ny, grid.periodic[1])
 
 
-def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float) -> _Spectra:
+def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float, compliance: float) -> _Spectra:
     coupled = friction != 0 and couples(bodies)
 
     def make() -> _Spectra:
         even = _kernel(grid, bodies, Load.NORMAL)
+        if compliance > 0:
+            # every wave gives way alike; the mean of a doubly periodic grid is no displacement
+            even = np.where(even == 0, 0.0, even + compliance) if all(grid.periodic) else even + compliance
         largest = float(np.abs(even).max())
         unit = 2.0 ** round(math.log2(largest)) if largest > 0 else 1.0
         even /= unit
         odd = _kernel(grid, bodies, Load.TANGENTIAL) * (friction / unit) if coupled else None
         return _Spectra(even, odd, unit)
 
-    return shared((grid, tuple(elastic(body) for body in bodies), friction if coupled else 0.0), make)
+    return shared((grid, tuple(elastic(body) for body in bodies), friction if coupled else 0.0, compliance), make)
 
 
 @dataclass(frozen=True)
@@ -257,18 +260,20 @@ class DisplacementOperator:
     """Callable: pressure (nx, ny) [Pa] -> normal surface displacement (nx, ny) [m], the sum over both bodies.
 
     On a doubly periodic grid the mean displacement is zero by definition: the mean pressure moves the datum only.
-    `unit` is the power of two [m/Pa] that scales the kernel inside; `count` the applications so far.
+    `unit` is the power of two [m/Pa] that scales the kernel inside; `count` the applications so far. `compliance` is
+    what each place gives way besides, in proportion to its own pressure [m/Pa].
     """
 
     grid: Grid
     bodies: tuple[Body, ...]
     friction: float = 0.0
+    compliance: float = field(default=0.0, kw_only=True)
     count: ConvolutionCount = field(default_factory=ConvolutionCount, compare=False, repr=False)
     weight: float = field(default=1.0, compare=False, repr=False)
 
     @cached_property
     def _spectra(self) -> _Spectra:
-        return _spectra(self.grid, self.bodies, self.friction)
+        return _spectra(self.grid, self.bodies, self.friction, self.compliance)
 
     @property
     def unit(self) -> float:
@@ -293,7 +298,7 @@ class DisplacementOperator:
     @cached_property
     def frictionless(self) -> DisplacementOperator:
         """The same bodies without the coupling of friction; counts on this operator's account."""
-        return DisplacementOperator(self.grid, self.bodies, 0.0, self.count, self.weight)
+        return DisplacementOperator(self.grid, self.bodies, 0.0, self.count, self.weight, compliance=self.compliance)
 
     @property
     def mean_free(self) -> bool:
@@ -375,7 +380,12 @@ class DisplacementOperator:
             None
             if max(grid.shape) < SMALLEST
             else DisplacementOperator(
-                grid, self.bodies, self.friction, self.count, self.weight * grid.cells / self.grid.cells
+                grid,
+                self.bodies,
+                self.friction,
+                self.count,
+                self.weight * grid.cells / self.grid.cells,
+                compliance=self.compliance,
             )
         )
         self._coarser.append(coarser)
@@ -405,7 +415,7 @@ SMALLEST = 16
 
 @one_blas_thread
 def displacement_operator(
-    grid: Grid, bodies: Body | tuple[Body, Body], *, friction: float = 0.0
+    grid: Grid, bodies: Body | tuple[Body, Body], *, friction: float = 0.0, compliance: float = 0.0
 ) -> DisplacementOperator:
     """The operator from pressure to normal displacement of one body (the other rigid) or a pair.
 
@@ -415,10 +425,11 @@ def displacement_operator(
     bodies : one Body, or (lower, upper).
     friction : f, the traction on the lower body is f x pressure along +x, on the upper one along -x. It is
         computed only where it changes the normal gap (Dundurs' beta not zero).
+    compliance : what each place gives way besides, by its own pressure [m/Pa]: a soft thin film, wear in a step.
 
     Raises
     ------
-    InputError : not a Grid, not one or two bodies, a friction that is not finite.
+    InputError : not a Grid, not one or two bodies, a friction or compliance that is not finite.
     """
     messages = []
     if not isinstance(grid, Grid):
@@ -428,6 +439,8 @@ def displacement_operator(
         messages.append(f"displacement_operator: bodies {bodies!r} must be one Body or a pair of them")
     if not (isinstance(friction, int | float | np.floating | np.integer) and math.isfinite(friction)):
         messages.append(f"displacement_operator: friction {friction!r} must be a finite number")
+    if not (isinstance(compliance, int | float | np.floating) and math.isfinite(compliance) and compliance >= 0):
+        messages.append(f"displacement_operator: compliance {compliance!r} must be zero or positive and finite [m/Pa]")
     if messages:
         raise InputError(messages)
-    return DisplacementOperator(grid, tuple(pair), float(friction))
+    return DisplacementOperator(grid, tuple(pair), float(friction), compliance=float(compliance))

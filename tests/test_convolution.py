@@ -213,3 +213,18 @@ def test_linear_symmetric_and_free_of_units(nx, ny, modulus, size, periodic):
     assert np.abs(op(a + b) - ua - ub).max() <= 1e-13 * scale
     if not any(periodic):  # the datum of a half-periodic kernel is a length of its own
         assert np.abs(ua * modulus / size - unit(a)).max() <= 1e-11 * np.abs(unit(a)).max() + 1e-300
+
+
+@pytest.mark.parametrize("periodic", [(False, False), (False, True), (True, True)])
+def test_a_compliance_of_each_place_adds_its_own_pressure(periodic):
+    grid = Grid((20, 24), (1e-6, 2e-6), periodic=periodic)
+    body = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
+    pressure = np.random.default_rng(5).random(grid.shape) * 1e9
+    give = 3e-18 if all(periodic) else 3e-17
+    plain, soft = displacement_operator(grid, body), displacement_operator(grid, body, compliance=give)
+    own = pressure - pressure.mean() if all(periodic) else pressure
+    expected = plain(pressure) + give * own
+    assert np.allclose(soft(pressure), expected, rtol=0, atol=1e-13 * np.abs(expected).max())
+    assert soft.coarsened() is None or soft.coarsened().compliance == give
+    with pytest.raises(InputError, match="compliance"):
+        displacement_operator(grid, body, compliance=-1.0)

@@ -25,7 +25,7 @@ from bem.scenes.laws import LawKey
 from bem.scenes.planner import Step, padded_points, stress_kernel_seconds
 from bem.scenes.records import Figure, Record, Series, without_bars
 from bem.scenes.units import Length, WearCoefficient
-from bem.wear.criterion import Detachment, VonMises
+from bem.wear.criterion import Detachment, VonMises, WearCriterion
 from bem.wear.removal import Cap, RemovalLaw
 
 if TYPE_CHECKING:
@@ -108,7 +108,7 @@ def cycle_steps(
     InputError : neither body has a yield stress.
     """
     strengths = [body.build().surface_material.yield_stress for body in (scene.lower, scene.upper)]
-    if all(value is None for value in strengths):
+    if scene.wear.criterion.needs_strength and all(value is None for value in strengths):
         raise InputError(
             "lower.material: neither body has a yield_stress or a hardness, so nothing can wear; allowed: one of them"
         )
@@ -116,7 +116,9 @@ def cycle_steps(
     depths, deepest = min(scene.depths.count, usual), min(scene.depths.count, first)
     return (
         plans.contacts(grid, convolutions * cycles, f"{cycles} cycles a case, {contacts}"),
-        Step(
+        Step("stresses", "the criterion asks for none", skipped=True)
+        if not isinstance(scene.wear.criterion, WearCriterion)
+        else Step(
             "stresses",
             "from the surface down to the first depth at which nothing yields",
             transforms=7.0 * depths * cycles,
@@ -200,7 +202,8 @@ class WornSurface:
         cls, scene: Any, initial: tuple[FloatArray, FloatArray], result: RunningIn, grid: Grid, load: float
     ) -> WornSurface:
         """That of a scene's loop, which started from `initial` heights of both bodies; `load` [N] on the grid."""
-        from bem.wear.outcome import criterion_wear_rate
+        from bem.wear.criterion import LocalWear
+        from bem.wear.outcome import criterion_wear_rate, step_error
 
         assert result.pressure is not None
         cycles, particles = result.cycles, scene.sizes.particles(result)
@@ -211,10 +214,13 @@ class WornSurface:
             "cycle": np.arange(1, len(cycles) + 1),
             "particles_per_cycle": float(late.size / len(settled)),
             "convolutions_per_cycle": float(cycles["convolutions"].mean()),
+            "step_error": step_error(result.state.memories[result.wearing[0]])
+            if isinstance(scene.wear.criterion, LocalWear)
+            else None,
             "criterion_wear_rate": criterion_wear_rate(
                 cycles[-scene.cycles.settled :],
                 load,
-                abs(scene.wear.shift) * grid.spacing[0] * scene.wear.criterion.passes_per_cycle,
+                scene.wear.criterion.distance_per_cycle(abs(scene.wear.shift) * grid.spacing[0]),
             ),
         }
         return cls(before, after, result.pressure, particles, late, figures)

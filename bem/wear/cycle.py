@@ -30,7 +30,8 @@ class WearModel:
     criterion : the name of one of `bem.wear.criterion` or of your own, or a `Detachment`. "von_mises" is the
         source's; "tresca" and "maximum_tension", too, let material leave where an equivalent stress exceeds the yield
         stress. These have no length but the cell; "averaged_von_mises", "sphere", "junction" have one of the material,
-        "low_cycle_fatigue" counts passes.
+        "low_cycle_fatigue" counts passes. "archard", "archard_over_hardness" and "energy" wear by pressure and
+        distance, without pieces.
     stress_range : judge half the change of stress that each body's material has seen since the last cycle instead of
         the stress (low-cycle fatigue: a range of twice the yield stress is what shakedown can bear).
     refine, refinement : fine voxels per depth interval and how stress is interpolated between depths; "exact" computes
@@ -119,7 +120,7 @@ class WearSetup:
             bodies: tuple[int, ...] = (LOWER,) if self.yield_stress(LOWER) <= self.yield_stress(UPPER) else (UPPER,)
         else:
             bodies = {"lower": (LOWER,), "upper": (UPPER,), "both": (LOWER, UPPER)}[model.wears]
-        if any(not np.isfinite(self.yield_stress(body)) for body in bodies):
+        if model.law.needs_strength and any(not np.isfinite(self.yield_stress(body)) for body in bodies):
             raise InputError("the body that wears has no yield_stress and no hardness: give its material one of them")
         return bodies
 
@@ -143,12 +144,13 @@ ContactStep = Callable[[FloatArray, FloatArray | None], ContactOutcome]
 """(sum of the heights of both bodies (nx, ny) [m], last pressure or None) -> ContactOutcome"""
 
 
-def dry_contact(setup: WearSetup, *, tolerance: float = 1e-6) -> ContactStep:
+def dry_contact(setup: WearSetup, *, tolerance: float = 1e-6, compliance: float = 0.0) -> ContactStep:
     """Load-controlled dry contact of the setup, as a step of the cycle.
 
     The tolerance is relative to the rms roughness: 1e-6 of some hundred nanometres is far below an atom.
+    compliance : what each place gives way by wear in the cycle [m/Pa].
     """
-    operator = displacement_operator(setup.grid, setup.bodies, friction=setup.friction)
+    operator = displacement_operator(setup.grid, setup.bodies, friction=setup.friction, compliance=compliance)
 
     def step(heights: FloatArray, last_pressure: FloatArray | None) -> ContactOutcome:
         solution = solve_contact(

@@ -67,7 +67,7 @@ class Removal:
     """Pieces of one body in one cycle, how many depths had to be computed to find them, and the time that took [s].
 
     memory : what the criterion wants kept of the body's material, (planes, nx, ny), material that left taken out; None
-    where it keeps nothing.
+    where it keeps nothing. worn : what leaves besides the pieces, (nx, ny) [m]; None for nothing.
     """
 
     body: int
@@ -76,3 +76,9 @@ class Removal:
     stress_time: float
     segmentation_time: float
     memory: FloatArray | None = None
+    worn: FloatArray | None = None
+
+    @property
+    def thickness(self) -> FloatArray:
+        """What leaves each column (nx, ny) [m], in pieces and besides."""
+        return self.pieces.thickness if self.worn is None else self.pieces.thickness + self.worn

@@ -151,7 +151,8 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
     if state is None:
         state = initial_state(lower_heights, upper_heights)
     _check_heights(state, grid, counterface)
-    step = contact_step if contact_step is not None else dry_contact(setup)
+    give = sum(choices.law.compliance(setup, body) for body in wearing)
+    step = contact_step if contact_step is not None else dry_contact(setup, compliance=give)
     settled = False
     while state.cycle < cycles and not settled:
         state = advance(state, setup, choices, step, counterface)
@@ -197,10 +198,10 @@ def advance(
     for removal in removals:
         body = removal.body
         if body == counterface:
-            heights[body] = _remove_from_window(heights[body], removal.pieces.thickness, offset)
+            heights[body] = _remove_from_window(heights[body], removal.thickness, offset)
             remembered[body] = _put_back(state.memories[body], removal.memory, len(heights[body]), offset)
         else:
-            heights[body] = heights[body] - removal.pieces.thickness
+            heights[body] = heights[body] - removal.thickness
             remembered[body] = removal.memory
         table.append(_particle_rows(removal, setup.grid, cycle))
     elapsed = time.perf_counter() - began
@@ -213,8 +214,8 @@ def advance(
         heights=(heights[LOWER], heights[UPPER]),
         offset=offset,
         pressure=contact.pressure,
-        removed=removals[0].pieces.thickness,
-        cycles=np.append(state.cycles, _cycle_row(cycle, contact, removals, particles, worn)),
+        removed=removals[0].thickness,
+        cycles=np.append(state.cycles, _cycle_row(cycle, contact, removals, particles, worn, setup.grid)),
         particles=np.concatenate([state.particles, particles]),
         times=np.append(
             state.times,
@@ -332,14 +333,16 @@ def _cycle_row(
     removals: list[Removal],
     particles: NDArray[np.void],
     worn: FloatArray,
+    grid: Grid,
 ) -> NDArray[np.void]:
+    besides = sum(float(removal.worn.sum()) for removal in removals if removal.worn is not None) * grid.cell_area
     strip = worn[contact_strip(contact.pressure)]
     return np.array(
         [
             (
                 cycle,
                 particles.size,
-                particles["volume"].sum(),
+                particles["volume"].sum() + besides,
                 contact.contact_area,
                 contact.plastic_area,
                 contact.load,

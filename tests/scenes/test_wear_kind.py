@@ -183,3 +183,22 @@ def test_a_criterion_that_is_not_one_is_named_before_any_work(scene_file):
     ):
         with pytest.raises(InputError, match=words):
             load_scene(scene_file(WEAR + f"[wear]\ncriterion = {text}\n"))
+
+
+def test_a_cylinder_wears_to_the_flat_of_archards_law():
+    """The built-in scene in a tenth of its steps: k w s = 2 a^3 / (3 R) by length, and depth a^2 / 2R in the middle."""
+    scene = load_scene(
+        "wear-cylinder-scar", ("cycles.count=20", 'wear.criterion.distance="1070 mm"', "cycles.settled=5")
+    )
+    summary = (found := compute(campaign_of(get_kind("wear").resolve(scene))).outcome).summary
+    worn = found.variables["height_before"].values - found.variables["height_after"].values
+    area = 1e-15 * 5e4 * 20 * 1.07
+    half_width = (1.5 * 5e-3 * area) ** (1 / 3)
+    assert half_width == pytest.approx(200e-6, rel=0.01)
+    # k w s: the load is met to round-off
+    assert worn.sum() * 2e-6 / 2 == pytest.approx(area, rel=1e-9)
+    # Hertz' half-width is a sixth of the flat's
+    assert worn.reshape(300, 2)[150, 0] == pytest.approx(half_width**2 / 1e-2, rel=0.02)
+    assert 0 < summary["step_error_nm"] < 0.02 * 1e9 * worn.max()
+    assert summary["criterion_wear_rate_mm3_Nm"] == pytest.approx(1e-6, rel=1e-9)
+    assert summary["particles_per_cycle"] == 0

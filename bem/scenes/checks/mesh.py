@@ -180,7 +180,9 @@ def layer_of_one_depth(facts: Facts) -> Iterator[str]:
 @scene_check
 def nothing_slides(facts: Facts) -> Iterator[str]:
     """Wear cycles between which the surfaces stay where they are meet the same asperities each time."""
-    if facts.of_kind("wear", "running-in") and facts.cases and all(case.slide == 0 for case in facts.cases):
+    if not (facts.of_kind("wear", "running-in") and facts.cases and all(case.slide == 0 for case in facts.cases)):
+        return
+    if facts.scene.wear.criterion.needs_strength:  # local wear has a distance of its own
         yield "wear.shift = 0: the surfaces do not slide on, every cycle meets the same asperities; take 1 or more"
 
 

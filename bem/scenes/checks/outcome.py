@@ -253,6 +253,8 @@ def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[str]:
     if outcome.variables["particle_length"].values.size:
         return
     law = facts.scene.wear.criterion
+    if not law.needs_strength:
+        return
     words = ""
     if law.name == "junction":
         size = min(law.critical_size(body.surface_material) for body in _wearing(facts))

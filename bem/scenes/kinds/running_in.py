@@ -125,6 +125,9 @@ class RunningInRecord(GridRecord):
     minimum_film: Annotated[float, Figure("nm", "minimum film thickness, run in")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over patch, run in")]
     worn_depth: Annotated[float, Figure("nm", "mean depth worn in Hertz' strip")]
+    step_error: Annotated[
+        float | None, Figure("nm", "what the steps leave open of a depth worn by pressure", optional=True)
+    ]
     criterion_wear_rate: Annotated[
         float | None, Figure("mm3_Nm", "wear rate of the criterion itself, by load and distance")
     ]

@@ -115,10 +115,15 @@ class WearRecord(wearing.MeanSizes, wearing.ParticleTable):
     ]
     Sq_initial: Annotated[float, Figure("nm", "Sq in the contact strip, unworn", headline=True)]
     Sq_final: Annotated[float, Figure("nm", "Sq in the contact strip, run in", headline=True)]
+    worn_depth: Annotated[float, Figure("nm", "mean depth worn in the contact strip")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the slice", headline=True)]
     mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
     worn_volume_per_cycle: Annotated[float, Figure("um3", "volume worn per cycle")]
     first_cycles_radius: Annotated[float, Figure("nm", "volume-mean radius of the particles of the first five cycles")]
+    step_error: Annotated[
+        float | None,
+        Figure("nm", "what the steps leave open of a depth worn by pressure", optional=True, headline=True),
+    ]
     criterion_wear_rate: Annotated[
         float | None, Figure("mm3_Nm", "wear rate of the criterion itself, by load and distance", headline=True)
     ]

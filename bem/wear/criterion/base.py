@@ -10,6 +10,7 @@ from bem.grid import FloatArray
 from bem.laws import Law
 
 if TYPE_CHECKING:
+    from bem.wear.cycle import WearSetup
     from bem.wear.loads import BodyCycle, Removal
 
 
@@ -23,6 +24,19 @@ class Detachment(Law):
     def passes_per_cycle(self) -> float:
         """Passes of the counterface over a place that one computed cycle stands for: one."""
         return 1.0
+
+    def distance_per_cycle(self, slide: float) -> float:
+        """Distance slid that one computed cycle stands for [m]; `slide` : of the counterface from one to the next."""
+        return slide * self.passes_per_cycle
+
+    def compliance(self, setup: WearSetup, body: int) -> float:
+        """Depth that a cycle wears by pressure [m/Pa], for a contact that is to be met at the end of the step."""
+        return 0.0
+
+    @property
+    def needs_strength(self) -> bool:
+        """Whether what wears must have a yield stress."""
+        return True
 
     @property
     def sizes_converge(self) -> bool:

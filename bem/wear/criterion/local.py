@@ -1,0 +1,111 @@
+"""Local wear of machine parts: a depth in proportion to the pressure at each place, by distance slid; no pieces."""
+
+from __future__ import annotations
+
+import time
+from abc import abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from bem.errors import InputError
+from bem.laws import parameter, register
+from bem.wear.criterion.base import Detachment
+from bem.wear.loads import UPPER
+
+if TYPE_CHECKING:
+    from bem.materials import Body
+    from bem.wear.cycle import WearSetup
+    from bem.wear.loads import BodyCycle, Removal
+
+
+@dataclass(frozen=True, kw_only=True)
+class LocalWear(Detachment):
+    """What local laws share: a cycle stands for a distance slid, and so much leaves as k p times it.
+
+    Steps of a dry contact are implicit: the pressure is that at their end, found with what wears as a compliance of
+    each place, so no step is too long to be stable, and the volume is k F s to round-off. Under a film the pressure is
+    that at their start. `bem.wear.outcome.step_error` is what the steps leave open.
+    """
+
+    distance: float = parameter("distance slid that one computed cycle stands for", "m", above=0)
+    upper_over_lower: float = parameter("wear rate of the upper body over that of the lower", default=1.0, at_least=0)
+
+    @property
+    def needs_strength(self) -> bool:
+        """No yield stress is asked for."""
+        return False
+
+    @property
+    def sizes_converge(self) -> bool:
+        """There are no pieces that could follow the mesh."""
+        return True
+
+    def distance_per_cycle(self, slide: float) -> float:
+        """As given."""
+        return self.distance
+
+    def compliance(self, setup: WearSetup, body: int) -> float:
+        """k s, of the setup's friction."""
+        return self._rate_of(setup, body, setup.friction) * self.distance
+
+    def _rate_of(self, setup: WearSetup, body: int, friction: float) -> float:
+        return self.rate(setup.bodies[body], friction) * (self.upper_over_lower if body == UPPER else 1.0)
+
+    @abstractmethod
+    def rate(self, body: Body, friction: float) -> float:
+        """Volume by load and distance [m^3/(N m)], of the lower body."""
+
+    def detach(self, cycle: BodyCycle) -> Removal:
+        """A depth (nx, ny), of no piece; those of the last two cycles are remembered."""
+        from bem.wear.loads import Removal
+        from bem.wear.yielding import no_pieces
+
+        began = time.perf_counter()
+        worn = self._rate_of(cycle.setup, cycle.body, cycle.loads[0].friction) * self.distance * cycle.pressure
+        before = np.zeros_like(worn) if cycle.memory is None else cycle.memory[1]
+        pieces, memory = no_pieces(cycle.setup.grid.shape), np.stack([before, worn])
+        return Removal(cycle.body, pieces, 0, 0.0, time.perf_counter() - began, memory, worn)
+
+
+@register
+@dataclass(frozen=True, kw_only=True)
+class Archard(LocalWear):
+    """h = k p s, k the specific wear rate (Archard 1953)."""
+
+    name: ClassVar[str] = "archard"
+    specific_wear_rate: float = parameter("k: volume by load and distance", "m^2/N", at_least=0)
+
+    def rate(self, body: Body, friction: float) -> float:
+        """k."""
+        return self.specific_wear_rate
+
+
+@register
+@dataclass(frozen=True, kw_only=True)
+class ArchardOverHardness(LocalWear):
+    """h = K p s / H, K without dimension, H the hardness of the body that wears (Archard 1953)."""
+
+    name: ClassVar[str] = "archard_over_hardness"
+    archard_coefficient: float = parameter("K", at_least=0)
+
+    def rate(self, body: Body, friction: float) -> float:
+        """K / H."""
+        hardness = body.surface_material.hardness
+        if hardness is None:
+            raise InputError("archard_over_hardness: the body that wears has no hardness: give its material one")
+        return self.archard_coefficient / hardness
+
+
+@register
+@dataclass(frozen=True, kw_only=True)
+class EnergyWear(LocalWear):
+    """h = alpha |f| p s: in proportion to the work of friction (Fouvry, Liskiewicz, Kapsa, Hannel and Sauger 2003)."""
+
+    name: ClassVar[str] = "energy"
+    energy_wear_rate: float = parameter("alpha: volume by energy, m^3/J", "m^2/N", at_least=0)
+
+    def rate(self, body: Body, friction: float) -> float:
+        """alpha times the friction of the cycle."""
+        return self.energy_wear_rate * abs(friction)
