@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.optimize import brentq
-from scipy.special import ellipk
 
 from bem import (
     Body,
@@ -20,6 +18,7 @@ from bem import (
     solve_partial_slip,
 )
 from bem.convolution import COUNT
+from bem.reference_solutions.partial_slip import PushedBall, spence_stick_share
 from bem.tangential import tangential_operator
 
 # CONTACT's example of Cattaneo's shift (Kalker, Vollebregt): R 50 mm, G 200 MPa, nu 0.42, 9.1954 N, friction 0.4
@@ -42,9 +41,11 @@ def pressed():
     return ball(48)
 
 
+CLOSED = PushedBall(HALF_WIDTH, LOAD, FRICTION, 2 * (2 - NU) / MODULUS)
+
+
 def mindlin_shift(share):
-    """Johnson (1985) eq. 7.43 with both bodies' (2 - nu) / 4G."""
-    return 3 * FRICTION * LOAD / (16 * HALF_WIDTH) * 2 * (2 - NU) / MODULUS * (1 - (1 - share) ** (2 / 3))
+    return CLOSED.shift(share * FRICTION * LOAD)
 
 
 def test_cattaneo_s_shift_of_the_published_example(pressed):
@@ -73,25 +74,23 @@ def test_shift_converges_below_mindlin_s_by_what_slips_sideways():
     assert abs(shifts[2] - shifts[1]) < abs(shifts[1] - shifts[0]) / 4
 
 
-def test_without_poisson_the_traction_is_cattaneo_s_superposition():
-    """nu = 0: q = f (p(P) - p(P1)), P1 the load that the stick circle carries; exact, as is the shift."""
-    material = Material("cork", youngs_modulus=1e9, poissons_ratio=0.0)
+def test_without_poisson_the_traction_is_cattaneo_s():
+    """nu = 0: exact; what is left is of the edge of stick, a line of cells."""
+    cork = Material("cork", youngs_modulus=1e9, poissons_ratio=0.0)
     errors = []
     for cells in (32, 64):
         grid = Grid((cells, cells), (2.4 / cells,) * 2)
         x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
-        r2 = x[:, None] ** 2 + y**2
-        pressure = 1e6 * np.sqrt(np.maximum(1 - r2, 0))
+        r = np.hypot(x[:, None], y)
+        pressure = 1e6 * np.sqrt(np.maximum(1 - r * r, 0))
         total = float(pressure.sum()) * grid.cell_area
-        stick = 0.6
-        share = 1 - stick**3
-        bodies = (Body(material), Body(material))
-        solved = solve_partial_slip(pressure, grid, bodies, friction=0.3, force=(share * 0.3 * total, 0.0))
-        want = 0.3 * (pressure - 1e6 * stick * np.sqrt(np.maximum(1 - r2 / stick**2, 0)))
+        force = (1 - 0.6**3) * 0.3 * total
+        solved = solve_partial_slip(pressure, grid, (Body(cork), Body(cork)), friction=0.3, force=(force, 0.0))
+        want = PushedBall(1.0, 2 / 3 * np.pi * 1e6, 0.3, 4e-9).traction(r, force * 2 / 3 * np.pi * 1e6 / total)
         errors.append(np.abs(solved.traction[0] - want).mean() / want.mean())
         assert np.abs(solved.traction[1]).max() < 1e-6 * want.max()  # what the tolerance leaves
     assert errors[1] < 6e-3
-    assert errors[1] < errors[0] / 1.7  # of the edge of stick, a line of cells
+    assert errors[1] < errors[0] / 1.7
 
 
 def test_force_and_shift_are_two_ways_to_one_answer(pressed):
@@ -129,11 +128,7 @@ def test_mindlin_and_deresiewicz_s_loop_closes_and_dissipates_its_area(pressed):
     unloaded = shifts[4]  # no force, but a shift is left
     theory = mindlin_shift(0.6) - 2 * mindlin_shift(0.3)
     assert unloaded == pytest.approx(theory, rel=0.02)  # the sideways slip that the closed form leaves out
-    x = 0.6
-    cycle = (
-        9 * 2 * (2 - NU) * (FRICTION * LOAD) ** 2 / (10 * HALF_WIDTH * MODULUS)
-        * (1 - (1 - x) ** (5 / 3) - 5 * x / 6 * (1 + (1 - x) ** (2 / 3)))
-    )  # fmt: skip
+    cycle = CLOSED.cycle_energy(peak)
     # 0.8 %: cells, and the sideways slip again; what slips in a step does so at the bound, so steps add no error
     assert sum(energy[1:]) == pytest.approx(cycle, rel=0.02)
     assert min(energy) >= 0
@@ -153,11 +148,6 @@ def test_growing_load_with_growing_force_sticks():
         assert solution.status == "converged"
     at_once = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=force)
     assert solution.slip_area < 0.5 * at_once.slip_area
-
-
-def spence(ratio):
-    """Stick radius over contact radius: (f/beta) K'(c) = ln((1+c)/(1-c)) / 2c, of any profile (Spence 1968)."""
-    return brentq(lambda c: ratio * ellipk(1 - c * c) - np.log((1 + c) / (1 - c)) / (2 * c), 1e-9, 1 - 1e-12)
 
 
 def stick_radius(nu, steps, tolerance=1e-6):
@@ -180,7 +170,7 @@ def stick_radius(nu, steps, tolerance=1e-6):
 @pytest.mark.parametrize("nu", [0.0, 0.3])
 def test_pressure_alone_makes_unlike_bodies_slip_as_spence_has_it(nu):
     """Coupling and history together, against a closed form; of first order in the steps, and told where it is one."""
-    exact = spence(0.2 / ((1 - 2 * nu) / (2 * (1 - nu))))
+    exact = spence_stick_share(0.2 / ((1 - 2 * nu) / (2 * (1 - nu))))
     found = {steps: stick_radius(nu, steps)[0] for steps in (1, 8, 16)}
     assert found[16] == pytest.approx(exact, rel=0.05)
     # extrapolated: what is left is half a cell of the edge of stick, which has 9 to 20 of them
