@@ -43,6 +43,16 @@ class ArrayLoads:
     status: Status
 
 
+@dataclass(frozen=True, eq=False)
+class ArrayState:
+    """Contacts of an array that are solved: approaches of the first loads [m], the pressure (nx, ny) of the last one
+    [Pa], and the worst status."""
+
+    approach: tuple[float, ...] = ()
+    pressure: FloatArray | None = None
+    status: Status = Status.CONVERGED
+
+
 def press_array(
     operator: DisplacementOperator,
     *,
@@ -51,7 +61,8 @@ def press_array(
     contact_modulus: float,
     depths: FloatArray,
     window: float,
-    callback: Callable[[int], None] | None = None,
+    state: ArrayState | None = None,
+    callback: Callable[[ArrayState], None] | None = None,
 ) -> ArrayLoads:
     """Press an asperity among its neighbours.
 
@@ -60,7 +71,7 @@ def press_array(
     operator : of both bodies on the doubly periodic cell of one asperity, as wide as their spacing.
     radius, height : of the spheres, and how far they stand out of the flat [m]. contact_modulus : E* [Pa].
     depths : at which loads are wanted, rising [m]. window : side of the square array that ends [m].
-    callback : called with the number of contacts solved, after each.
+    state : of the same array, from which it goes on to the same bits. callback : called after each contact.
 
     Raises
     ------
@@ -71,23 +82,20 @@ def press_array(
     hertz = 4 / 3 * contact_modulus * math.sqrt(radius)  # Johnson (1985), eq. 4.23
     loads = hertz * np.geomspace(0.02 * depth[0], 1.6 * depth[-1], LOADS) ** 1.5
     gap = asperity_gap(grid, radius, height)
-    approach, status = [], Status.CONVERGED
-    pressure: FloatArray | None = None
-    for number, load in enumerate(loads):
-        solution = solve_contact(gap, operator, load=load, initial_pressure=pressure)
-        pressure = solution.pressure
-        approach.append(solution.approach - float(gap.min()))
-        if solution.status is not Status.CONVERGED:
-            status = solution.status
+    now = state or ArrayState()
+    for load in loads[len(now.approach) :]:
+        solution = solve_contact(gap, operator, load=load, initial_pressure=now.pressure)
+        worst = now.status if solution.status is Status.CONVERGED else solution.status
+        now = ArrayState((*now.approach, solution.approach - float(gap.min())), solution.pressure, worst)
         if callback is not None:
-            callback(number + 1)
-    assert pressure is not None
-    inward = np.array(approach)
+            callback(now)
+    assert now.pressure is not None
+    inward = np.array(now.approach)
     # a finite square array sinks in as a whole by the mean pressure's own deflection at its middle
     spacing = grid.lengths[0]
     sunk = SQUARE_PATCH * window * loads / spacing**2 / (math.pi * contact_modulus)
     mean_plane, from_flat = (_at_depths(depth, values, loads, spacing) for values in (inward, inward + sunk))
-    return ArrayLoads(depth, hertz * depth**1.5, mean_plane, from_flat, pressure, status)
+    return ArrayLoads(depth, hertz * depth**1.5, mean_plane, from_flat, now.pressure, now.status)
 
 
 def asperity_gap(grid: Grid, radius: float, height: float) -> FloatArray:

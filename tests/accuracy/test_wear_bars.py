@@ -26,6 +26,8 @@ def found(tmp_path_factory):
 def test_what_converges_has_a_bar_and_what_follows_the_cell_has_none(found):
     for key in ("Sq_final_nm", "worn_volume_per_cycle_um3", "particle_equivalent_radius_nm", "particle_thickness_nm"):
         assert 0 < found[f"{key}_error"] == found[f"{key}_error_grid"], key
+    share = found["worn_volume_per_cycle_um3_error"] / found["worn_volume_per_cycle_um3"]
+    assert found["criterion_wear_rate_mm3_Nm_error"] == pytest.approx(share * found["criterion_wear_rate_mm3_Nm"])
     assert found["number_mean_equivalent_radius_nm_error"] is None
     assert "volume_mean_length_nm_error" not in found
 

@@ -26,7 +26,7 @@ from bem.scenes.resolutions import Resolution
 from bem.surfaces import Surface, write_surface
 from reports.experiments.accuracy_asked import RESULT, draw, rows_of
 from tests.campaigns.test_engine import Telling, content
-from tests.campaigns.test_inside_a_case import GROWTH, TRIBOFILM
+from tests.campaigns.test_inside_a_case import ARRAY, GROWTH, TRIBOFILM
 from tests.small_scenes import FILM
 from tests.small_scenes import PATCH as PATCH_OF_A_LINE
 
@@ -269,19 +269,6 @@ WALLS = {
     "grid": {"lengths": "32 um"},
     "lower": {"material": "steel-52100", "surface": ROUGH | {"rms_height": "200 nm"}},
     "flow": {"ratios": [2.0, 4.0]},
-}
-ARRAY = {
-    "kind": "asperities",
-    "name": "array",
-    "lower": {"material": "steel-52100"},
-    "array": {
-        "radius": "30 um",
-        "height": "500 nm",
-        "spacings": ["14 um"],
-        "interferences": ["50 nm", "100 nm"],
-        "cell": "230 nm",
-        "window": "230 um",
-    },
 }
 
 

@@ -18,6 +18,19 @@ AT_REST = {
     "motion": {"kind": "table", "times": ["0 s", "1 ms"], "speeds": ["0 m/s", "0.05 m/s"]},
     "march": FILM["march"] | {"initial_thickness": "100 nm", "cavitation": "mass_conserving"},
 }
+ARRAY = {
+    "kind": "asperities",
+    "name": "array",
+    "lower": {"material": "steel-52100"},
+    "array": {
+        "radius": "30 um",
+        "height": "500 nm",
+        "spacings": ["14 um"],
+        "interferences": ["50 nm", "100 nm"],
+        "cell": "230 nm",
+        "window": "230 um",
+    },
+}
 TRIBOFILM = {
     "kind": "tribofilm",
     "grid": {"shape": 16, "lengths": "40 nm"},
@@ -79,6 +92,11 @@ def test_a_tribofilm(changes, tmp_path):
     _, every, rest = stopped_and_resumed(scene, tmp_path, "films", after=8)
     # the local film begins with a contact before its first step
     assert rest == every[5 - ("local" in changes.values()) :]
+
+
+def test_an_array_of_asperities(tmp_path):
+    _, every, rest = stopped_and_resumed(ARRAY, tmp_path, "contacts", after=8)
+    assert rest == every[5:]
 
 
 def test_contacts_of_another_film_are_refused():

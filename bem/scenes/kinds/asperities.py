@@ -18,6 +18,7 @@ from bem.scenes.axes import Axis, listed
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene
 from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
+from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.resolutions import cell_at
@@ -25,9 +26,10 @@ from bem.scenes.tables.asperities import ArrayScene
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
-    from bem.friction.asperity_array import ArrayLoads
+    from bem.friction.asperity_array import ArrayLoads, ArrayState
 
 _CONVOLUTIONS = 20  # of each contact
+_CHECKPOINT_EVERY = 5  # contacts
 
 
 class AsperitiesScene(SceneModel):
@@ -85,8 +87,15 @@ def run(scene: AsperitiesScene, context: Context) -> AsperityRecord:
 
     (spacing,) = scene.array.spacings
     grid = scene.array.grid(spacing)
+
+    def after(now: ArrayState) -> None:
+        done = len(now.approach)
+        if done % _CHECKPOINT_EVERY == 0 or done == LOADS:
+            keep(context, now)
+        context.progress(done, LOADS, "contacts")
+
     with context.timer("contacts"):
-        found = _pressed(scene, grid, lambda done: context.progress(done, LOADS, "contacts"))
+        found = _pressed(scene, grid, kept(context), after)
     wanted = scene.outputs.errors and found.status is Status.CONVERGED
     return filled(
         AsperityRecord,
@@ -104,7 +113,12 @@ def run(scene: AsperitiesScene, context: Context) -> AsperityRecord:
     )
 
 
-def _pressed(scene: AsperitiesScene, grid: Grid, callback: Callable[[int], None] | None = None) -> ArrayLoads:
+def _pressed(
+    scene: AsperitiesScene,
+    grid: Grid,
+    state: ArrayState | None = None,
+    callback: Callable[[ArrayState], None] | None = None,
+) -> ArrayLoads:
     from bem.friction.asperity_array import press_array
 
     array = scene.array
@@ -115,6 +129,7 @@ def _pressed(scene: AsperitiesScene, grid: Grid, callback: Callable[[int], None]
         contact_modulus=build.modulus_of(scene),
         depths=np.array(sorted(array.interferences)),
         window=array.window,
+        state=state,
         callback=callback,
     )
 

@@ -185,7 +185,11 @@ def bars(scene: WearScene, initial: tuple[FloatArray, FloatArray], found: WearRe
     figures = (None if one is None else {name: getattr(one, name) for name in RULES} for one in (found, there))
     told = wear_bars(*figures)  # type: ignore[arg-type]
     reported = {f"{scene.sizes.report}_mean_{size}": f"reported_{size}" for size in wearing.QUANTITIES}
-    return told | told.renamed(reported)
+    told = told | told.renamed(reported)
+    volume, rate = found.worn_volume_per_cycle, found.criterion_wear_rate
+    if rate is None or not volume > 0:
+        return told
+    return told | told.renamed({"worn_volume_per_cycle": "criterion_wear_rate"}, lambda error: rate / volume * error)
 
 
 def _slice(scene: WearScene) -> tuple[Grid, float]:
