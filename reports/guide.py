@@ -14,7 +14,7 @@ from bem.scenes import get_kind, kind_names, library
 from bem.scenes.laws import LawKey
 from bem.scenes.template import about_field, default_text, scene_template
 from bem.scenes.validate import fields_of_table, literals, unwrap, without_none
-from reports import wear_lengths
+from reports import lumped_heat, wear_lengths
 from reports.builder import Page, Section, table, text
 from reports.error_bars import chapter
 from reports.prose import prose
@@ -49,6 +49,7 @@ def build() -> Page:
             *chapter(),
             *wear_lengths.chapter(),
             *theory(),
+            lumped_heat.chapter(),
             *contributing(),
             *kinds(),
         ],

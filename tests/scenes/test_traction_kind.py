@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bem import InputError, load_scene, solve_line_film, solve_thermal_line_film
+from bem import InputError, load_scene, solve_full_thermal_line_film, solve_line_film, solve_thermal_line_film
 from bem.accuracy import TractionCase, traction_figures
 from bem.runs import run_scene
 
@@ -87,6 +87,29 @@ def test_an_accuracy_asked_for_refines_film_and_heat(tmp_path):
     assert done["film_temperature_C_error"] <= 0.01 * done["film_rise_K"]  # not of degrees over freezing water
     cells = [TractionCase(speeds=(5.0, 5.0), **line(load_scene(scene())) | {"points": n}).cells for n in (400, 2000)]
     assert cells == [200, 400]
+
+
+def test_full_heat_has_its_field(tmp_path):
+    """The same solver's figures, the field with the surfaces at its ends, bars that cover a finer one."""
+    rolling = {"mean_speed": "5 m/s", "slide_roll_ratio": 0.5}
+    run = run_scene(scene(thermal="full", rolling=rolling), tmp_path / "run")
+    summary, loaded = run.summary, load_scene(scene())
+    case = line(loaded) | {"bodies": (loaded.lower.build(), loaded.upper.build()), "speeds": (6.25, 3.75)}
+    found = solve_full_thermal_line_film(**case)
+    assert summary["status"] == "converged"
+    assert summary["traction_coefficient"] == pytest.approx(found.shear_force / found.film.load, rel=1e-9)
+    assert summary["hottest_oil_C"] == pytest.approx(found.temperature.max() - 273.15, rel=1e-9)
+    assert summary["energy_imbalance"] < 1e-6
+    data = run.dataset
+    assert data["field"].shape == (len(data["x"].values), len(found.height) + 2)
+    np.testing.assert_array_equal(data["field"].values[:, 0], data["lower_surface_temperature"].values)
+    fine = solve_full_thermal_line_film(**case | {"points": 800}, columns=320, layers=32)
+    assert (
+        abs(summary["traction_coefficient"] - fine.shear_force / fine.film.load) < summary["traction_coefficient_error"]
+    )
+    rise = abs(summary["film_temperature_C"] + 273.15 - fine.mean_film_temperature)
+    assert rise < summary["film_temperature_C_error"]
+    assert (run.path / "figures" / "temperature-field.png").exists()
 
 
 def test_pure_rolling_has_no_traction_of_sliding():

@@ -21,7 +21,7 @@ from bem.lubrication.thermal.hot_viscosity import LARGEST_LOGARITHM
 from bem.lubrication.thermal.layers import Oil, Sums, middles, sums_of
 from bem.lubrication.thermal.strip import Strip
 
-_EASED = 50.0
+_EASED, _LEAST = 50.0, 1e-300
 _STEP = 1e-4
 """Relative, of the Newtonian stress, for the slope of the law."""
 
@@ -87,7 +87,7 @@ def across(oil: Oil, strip: Strip, temperature: FloatArray, resistance: FloatArr
     least = logarithm.min(axis=1)
     found = sums_of(np.exp(least[:, None] - logarithm), oil.density(strip.pressure, temperature))
     viscosity = lubricant.viscosity * np.exp(least)
-    eased = np.exp(np.clip(least - np.log(found.driven) - resistance, -_EASED, _EASED))
+    eased = np.exp(np.clip(least - np.log(np.maximum(found.driven, _LEAST)) - resistance, -_EASED, _EASED))
     half = 0.5 * strip.thickness * strip.gradient * eased
     sheared = _sheared(oil, strip, found, viscosity, half)
     # within a layer the stress is linear

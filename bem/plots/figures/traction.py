@@ -56,6 +56,30 @@ def _temperatures(run: Any, figure: Figure) -> None:
     axes.legend()
 
 
+def _field(run: Any, figure: Figure) -> None:
+    case, field = grouped(run, "field")[-1]
+    data, data_of = first_case(run.dataset), dict(grouped(run, "thickness"))
+    x, height = data["x"].values, data["height"].values
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    shown = np.isfinite(field[0][:, 0])
+    thickness = data_of[case][0][shown] * 1e9
+    place = np.broadcast_to(x[shown, None], (int(shown.sum()), len(height)))
+    filled = upper.contourf(place, height * thickness[:, None], field[0][shown] - _CELSIUS, levels=24, cmap="inferno")
+    figure.colorbar(filled, ax=upper, label="oil (°C)")
+    middle = thickness[np.argmin(np.abs(x[shown]))]
+    upper.set_ylim(0, 3 * middle)
+    upper.set_ylabel("height in the film (nm)")
+    if case:
+        upper.set_title(case)
+    for name, colour in (("lower", BLUE), ("upper", VERMILION)):
+        row = dict(grouped(run, f"{name}_surface_temperature"))[case][0]
+        lower.plot(x, row - _CELSIUS, color=colour, label=f"{name} surface")
+    lower.plot(x, np.max(field[0], axis=1) - _CELSIUS, color=BLACK, label="hottest oil")
+    lower.set_xlabel("x over the Hertz half-width")
+    lower.set_ylabel("temperature (°C)")
+    lower.legend()
+
+
 def _film(run: Any, figure: Figure) -> None:
     data = first_case(run.dataset)
     x, upper = data["x"].values, figure.add_subplot()
@@ -176,6 +200,14 @@ FIGURES = (
         "Mean temperature of the oil along the film, and of both surfaces.",
         ("oil_temperature", "lower_surface_temperature", "upper_surface_temperature"),
         _temperatures,
+    ),
+    FigureKind(
+        "temperature-field",
+        "Temperature of the oil along and across the film of the last case, below it that of both surfaces and of the "
+        "hottest layer.",
+        ("field", "height"),
+        _field,
+        size=(6.0, 6.0),
     ),
     FigureKind(
         "starvation-curve",

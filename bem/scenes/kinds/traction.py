@@ -38,9 +38,9 @@ _SHOWN = np.linspace(-2.5, 1.5, 401)
 class TractionScene(SceneModel):
     """A smooth roller on a smooth flat with oil between them, in steady motion.
 
-    `thermal`: "lumped" for `bem.solve_thermal_line_film`, or "off". `along`: rows of radius, load and speeds, each a
-    case; the scene then says nothing else of them. `roughness`: rms height of both surfaces together, for the lambda
-    ratio.
+    `thermal`: "lumped" for `bem.solve_thermal_line_film`, "full" for `bem.solve_full_thermal_line_film`, or "off".
+    `along`: rows of radius, load and speeds, each a case; the scene then says nothing else of them. `roughness`: rms
+    height of both surfaces together, for the lambda ratio.
     """
 
     kind: Literal["traction"] = "traction"
@@ -49,7 +49,7 @@ class TractionScene(SceneModel):
     roller: RollerScene
     oil: OilScene
     rolling: RollingScene
-    thermal: Literal["off", "lumped"] = "lumped"
+    thermal: Literal["off", "lumped", "full"] = "lumped"
     supply: SupplyScene | None = None
     along: AlongScene | None = None
     roughness: PositiveLength | None = None
@@ -95,6 +95,7 @@ def plan(scene: TractionScene) -> Plan:
     """What will be computed."""
     points, hot, errors = scene.film.points, scene.thermal != "off", scene.outputs.errors
     starved = scene.supply is not None
+    heat = {"off": 0.0, "lumped": 0.3, "full": 2.0 + 15 * 1e-4 * points}[scene.thermal]
     seconds = 0.15 + 1e-4 * points + (0.3 if starved else 0.0)
     return Plan(
         (
@@ -107,22 +108,27 @@ def plan(scene: TractionScene) -> Plan:
             ),
             Step(
                 "heat",
-                "inlet heating, mean temperature of the oil along the film" if hot else 'thermal is "off"',
+                _HEAT[scene.thermal],
                 skipped=not hot,
-                seconds=0.3,
-                memory=2e7,
+                seconds=heat,
+                memory=2e7 if scene.thermal != "full" else 2e8,
             ),
             Step(
                 "error bars",
                 "the same on half the points" if errors else "outputs.errors is false",
                 skipped=not errors,
-                seconds=0.5 * seconds + (0.3 if hot else 0.0),
+                seconds=0.5 * seconds + 0.5 * heat,
             ),
             plans.figures(),
         )
     )
 
 
+_HEAT = {
+    "off": 'thermal is "off"',
+    "lumped": "inlet heating, mean temperature of the oil along the film",
+    "full": "temperature along and across the film, in turns with the film",
+}
 _along = partial(Series, ("x",))
 _HOTTEST = "in pure rolling it stands at the spike of pressure and follows the mesh"
 _FORMULA = "it is a formula's"
@@ -151,6 +157,8 @@ class TractionRecord(Record):
     lower_temperature: Annotated[float | None, _hot("highest temperature of the lower surface")] = None
     upper_temperature: Annotated[float | None, _hot("highest temperature of the upper surface")] = None
     inlet_factor: Annotated[float | None, Figure("", "film over that without inlet heating", no_bar=_FORMULA)] = None
+    heat_factor: Annotated[float | None, Figure("", "central film over that without heat", optional=True)] = None
+    hottest_oil: Annotated[float | None, Figure("C", "oil at its hottest", no_bar=_HOTTEST, optional=True)] = None
     friction_power: Annotated[float, Figure("W", "power of friction", headline=True)]
     hertz_pressure: Annotated[float, Figure("Pa", "highest pressure of the dry contact", unjudged=True)]
     lambda_ratio: Annotated[float | None, Figure("", "minimum film over roughness", optional=True, headline=True)] = (
@@ -173,16 +181,19 @@ class TractionRecord(Record):
     lower_surface_temperature: Annotated[FloatArray | None, _along("K", "temperature of the lower surface")] = None
     upper_surface_temperature: Annotated[FloatArray | None, _along("K", "temperature of the upper surface")] = None
     heat_made: Annotated[FloatArray | None, _along("W/m^2", "heat made by friction")] = None
+    height: Annotated[FloatArray | None, Series(("height",), "1", "height in the film, from the lower surface")] = None
+    field: Annotated[FloatArray | None, Series(("x", "height"), "K", "temperature of the oil across the film")] = None
 
 
 def run(scene: TractionScene, context: Context) -> TractionRecord:
     """Solve the film, with its heat where asked."""
     from bem.accuracy import traction_bars, traction_figures
+    from bem.accuracy.traction import film_of
 
     case = _case(scene)
     with context.timer("film"):
         found = case.on(case.points)
-    film = found.film if case.hot else found
+    film = film_of(found)
     tell(context, found.notes)
     if scene.roughness is not None and film.minimum_thickness < scene.roughness:
         context.note(_ROUGH)
@@ -214,7 +225,8 @@ def _case(scene: TractionScene) -> TractionCase:
         width=scene.roller.width,
         roughness=scene.roughness,
         supply=build_supply(scene.supply),
-        bodies=(scene.lower.build(), scene.upper.build()) if scene.thermal == "lumped" else None,
+        bodies=None if scene.thermal == "off" else (scene.lower.build(), scene.upper.build()),
+        thermal=scene.thermal,
         bulk=tuple(oil.temperature or 0.0 if t is None else t for t in (rolling.lower_bulk, rolling.upper_bulk)),
     )
 
@@ -235,7 +247,12 @@ def _curves(scene: TractionScene, case: TractionCase, found: Any, film: Any) -> 
     }
     # behind the film's exit nothing is known of the oil
     inside = at <= found.position[-1]
-    return curves | {name: np.where(inside, np.interp(at, found.position, row), np.nan) for name, row in rows.items()}
+    curves |= {name: np.where(inside, np.interp(at, found.position, row), np.nan) for name, row in rows.items()}
+    if scene.thermal == "full":
+        layers = [curves["lower_surface_temperature"], *found.temperature.T, curves["upper_surface_temperature"]]
+        layers[1:-1] = [np.where(inside, np.interp(at, found.position, row), np.nan) for row in layers[1:-1]]
+        curves |= {"height": np.concatenate([[0.0], found.height, [1.0]]), "field": np.stack(layers, axis=1)}
+    return curves
 
 
 KIND = Kind.of(
@@ -244,5 +261,12 @@ KIND = Kind.of(
     TractionRecord,
     "traction of a smooth rolling and sliding line contact, with the heat in its film",
     resolutions=(counted("film.points", POINTS, 400, 20000),),
-    figures=("traction-curve", "film-temperatures", "starvation-curve", "along-the-way", "rolling-film"),
+    figures=(
+        "traction-curve",
+        "film-temperatures",
+        "temperature-field",
+        "starvation-curve",
+        "along-the-way",
+        "rolling-film",
+    ),
 )
