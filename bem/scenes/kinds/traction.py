@@ -95,7 +95,7 @@ def plan(scene: TractionScene) -> Plan:
     """What will be computed."""
     points, hot, errors = scene.film.points, scene.thermal != "off", scene.outputs.errors
     starved = scene.supply is not None
-    heat = {"off": 0.0, "lumped": 0.3, "full": 2.0 + 15 * 1e-4 * points}[scene.thermal]
+    heat = {"off": 0.0, "lumped": 0.3, "full": 0.8 + 1e-3 * points}[scene.thermal]
     seconds = 0.15 + 1e-4 * points + (0.3 if starved else 0.0)
     return Plan(
         (
