@@ -1,4 +1,4 @@
-"""Error bars of the highest von Mises stress below a contact, and of its depth."""
+"""Error bars of the highest von Mises stress below a contact, of its depth, and of the volume that yields."""
 
 from __future__ import annotations
 
@@ -9,15 +9,21 @@ from bem.accuracy.contact import Coarser, ContactCase, is_resolved, share_at_edg
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.stress import StressBelow, stress_below, von_mises_planes
+from bem.stress.below import yield_stresses
 
 NAMES = ("max_von_mises", "max_von_mises_depth")
 _VON_MISES = Rule(0.5, 0.67, edge=0.01, rough_edge=0.02)
+_VOLUME = Rule(1.0, 1.1)
+"""On the difference to the volume of the coarser pressure, on twice the cell and at every second depth."""
 _JUMP = 1.3
 """Factor on the depth's bar where the surface is not resolved: the highest stress may lie under another spot."""
 _LOOKED, _LOOKED_DEPTH = 0.3, 0.05
 """Where the highest stress was looked for between depths: factors on its rise above the points and on the interval."""
 _STEEPER = 2.0
 """Factor on what a straight line through two depths reaches at an interface: stresses rise the steeper the nearer."""
+
+_FAR = 0.8
+"""Of the yield stress: where none is higher nothing yields on any grid."""
 
 _CAPPED = (
     "the highest von Mises stress has no error bar: it lies at the surface of a capped contact, where it has no limit"
@@ -39,6 +45,26 @@ def stress_bars(
     case, coarser : the contact and its coarser solution, as `bem.accuracy.contact` makes them.
     body, friction : as `bem.stress.stress_below` takes them. below : what it gave for the contact.
     """
+    return _of_stress(case, coarser, body, below, friction) | _of_volume(case, coarser, body, below, friction)
+
+
+def _of_volume(case: ContactCase, coarser: Coarser, body: Body, below: StressBelow, friction: float) -> ErrorBars:
+    found, depths = below.yielded_volume, below.depths
+    if found is None:
+        return ErrorBars()
+    if coarser.solution is None or coarser.grid is None or len(depths) < 5:
+        return ErrorBars({"yielded_volume": None})
+    near = np.flatnonzero(below.highest > _FAR * yield_stresses(body, depths))
+    if not near.size:
+        return ErrorBars.together({GRID: {"yielded_volume": 0.0}})
+    first, last = max(near[0] - 2, 0), min(near[-1] + 2, len(depths) - 1)  # what lies farther does not yield
+    few = depths[sorted({*range(first, last, 2), last})]
+    there = stress_below(coarser.solution.pressure, coarser.grid, body, few, friction=friction).yielded_volume
+    assert there is not None
+    return ErrorBars.together({GRID: {"yielded_volume": _VOLUME.bar(found - there, 0.0, resolved=is_resolved(case))}})
+
+
+def _of_stress(case: ContactCase, coarser: Coarser, body: Body, below: StressBelow, friction: float) -> ErrorBars:
     if coarser.solution is None or coarser.grid is None:
         return ErrorBars(dict.fromkeys(NAMES))
     depths, highest = below.depths, below.highest

@@ -159,12 +159,15 @@ def error_bars(wanted: bool, why: str, **cost: Any) -> Step:
 
 
 def coarser_contact(grid: Grid, depths: int) -> dict[str, float]:
-    """Cost of a contact and every second depth again on the grid of twice the cell, from a start nearby."""
+    """Cost of a contact and every second depth again, twice at most, on the grid of twice the cell, from a start nearby.
+
+    Stresses are kept where something may yield, an eighth of those of the finer grid at most.
+    """
     points = padded_points(grid.shape, grid.periodic) / 4
     return {
-        "transforms": CONVOLUTION * convolutions(grid) + 0.5 * depths * 25.0,
+        "transforms": CONVOLUTION * convolutions(grid) + depths * 25.0,
         "points": int(points),
-        "memory": 8.0 * grid.cells * 9.5 / 4 + 20.0 * points,
+        "memory": 8.0 * grid.cells * (9.5 / 4 + depths / 8) + 20.0 * points,
     }
 
 

@@ -11,7 +11,7 @@ stored in `reports/results/contact_error_bars.json`.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +28,8 @@ from reports.experiments.judging import judge
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "contact_error_bars.json"
 FINER = 4
+_YIELDING, _STRESSES = 0.7, ("max_von_mises", "max_von_mises_depth", "yielded_volume")
+"""What yields is beyond this share of the highest von Mises stress; and figures of stresses."""
 FloatArray = NDArray[np.float64]
 
 
@@ -63,6 +65,16 @@ class Problem:
         solution = solve_contact(gap, operator, hardness=self.hardness, tolerance=tolerance, **self.given)
         rough = bool(self.heights.any())
         return ContactCase(operator, gap, solution, hardness=self.hardness, from_touch=rough, **self.given)
+
+    def yielding_at(self, strength: float) -> Problem:
+        """The same of materials with a yield stress [Pa]."""
+
+        def limited(material: Material) -> Material:
+            elastic = {"youngs_modulus": material.youngs_modulus, "poissons_ratio": material.poissons_ratio}
+            return Material(material.name, **elastic, yield_stress=strength)
+
+        layers = tuple(Layer(limited(layer.material), layer.thickness) for layer in self.body.layers)
+        return replace(self, body=Body(limited(self.body.material), layers=layers))
 
     def stresses(self, case: ContactCase, factor: int) -> StressBelow:
         """Below the contact, at `factor` times as many depths."""
@@ -151,10 +163,11 @@ def rows_of(problem: Problem) -> list[dict[str, Any]]:
     found, truth = figures_of(case.solution, case.grid.area), figures_of(fine.solution, case.grid.area)
     coarse = figures_of(coarser.solution, case.grid.area)
     if problem.depths:
+        problem = problem.yielding_at(_YIELDING * problem.stresses(case, 1).max_von_mises)
         below = problem.stresses(case, 1)
         bars = bars | stress_bars(case, coarser, problem.body, below)
         for figures, stresses in ((found, below), (truth, problem.stresses(fine, FINER))):
-            figures |= {name: getattr(stresses, name) for name in ("max_von_mises", "max_von_mises_depth")}
+            figures |= {name: getattr(stresses, name) for name in _STRESSES}
     across = 4 * case.solution.contact_area / max(case.solution.contact_perimeter, 1e-30) / 1e-7
     return [
         {

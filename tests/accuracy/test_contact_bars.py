@@ -147,6 +147,24 @@ def test_highest_stress_of_a_ball_is_covered():
     assert 0 < single.values["max_von_mises"] < 0.05 * p0
 
 
+def test_the_volume_that_yields_below_a_ball_is_covered():
+    case = ball(64)
+    a = (0.75 * 1.0 * 1e-3 / STEEL.plane_strain_modulus) ** (1 / 3)
+    p0, depths = 1.5 / (np.pi * a**2), 2 * a * np.linspace(0, 1, 24) ** 2
+
+    def below(strength):
+        elastic = {"youngs_modulus": STEEL.youngs_modulus, "poissons_ratio": STEEL.poissons_ratio}
+        body = Body(Material("steel", **elastic, yield_stress=strength))
+        found = stress_below(case.solution.pressure, case.grid, body, depths)
+        return found.yielded_volume, stress_bars(case, solve_coarser(case), body, found).values
+
+    volume, bars = below(0.55 * p0)
+    # Hamilton's closed form, see tests/stress/test_stress_below.py
+    assert abs(volume - 0.36835 * a**3) <= bars["yielded_volume"] < 0.3 * volume
+    assert below(2 * p0)[1]["yielded_volume"] == 0
+    assert "yielded_volume" not in bars_below(case, depths).values  # steel without a yield stress
+
+
 def test_what_a_grid_of_twice_the_cell_resolves():
     grid = Grid((120, 120), (1.0, 1.0), periodic=(True, True))
     for cells, resolved in ((4, False), (6, False), (12, True), (30, True)):

@@ -90,9 +90,7 @@ class ContactRecord(GridRecord):
     max_von_mises_of_points: Annotated[
         float | None, Figure("Pa", "highest von Mises stress of a point", optional=True, unjudged=True)
     ] = None
-    yielded_volume: Annotated[
-        float | None, Figure("m3", "volume beyond the yield stress", optional=True, unjudged=True)
-    ] = None
+    yielded_volume: Annotated[float | None, Figure("m3", "volume beyond the yield stress", optional=True)] = None
     counted_yielded_volume: Annotated[
         float | None, Figure("m3", "that of whole cells", optional=True, unjudged=True)
     ] = None
