@@ -159,7 +159,7 @@ def error_bars(wanted: bool, why: str, **cost: Any) -> Step:
 
 
 def coarser_contact(grid: Grid, depths: int) -> dict[str, float]:
-    """Cost of a contact and every second depth again, twice at most, on the grid of twice the cell, from a start nearby.
+    """Cost of a contact and every second depth again, twice at most, on the grid of twice the cell.
 
     Stresses are kept where something may yield, an eighth of those of the finer grid at most.
     """
