@@ -26,6 +26,8 @@ SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("running-in-stribeck", (*_FEW, 'speeds.values=["0.01 m/s"]', "cycles.averaged=1", "grid.shape=96")),
     ("wear-soft-roughness", (*_FEW, "domain.cells=120", "domain.half_widths=2.4")),
     ("wear-steel-brass", (*_FEW, "domain.cells=160")),
+    # what a voxel bears is used up at once, so that damage moves with what leaves
+    ("wear-criteria", (*_FEW, "domain.cells=96", "variants[4].criterion.passes=100000")),
     ("tribofilm-afm-tip", ('rubbing.loads=["600 nN"]', "grid.shape=48")),
     ("tribofilm-macro", ('rubbing.temperatures=["80 degC"]', "grid.shape=128", "grid.lengths=200 um")),
     ("uniform-asperities", ('array.spacings=["20 um"]', 'array.interferences=["50 nm"]', "array.cell=1 um")),

@@ -259,7 +259,8 @@ def _reported(quantity: str) -> Figure:
 
 
 FOLLOWS_CELL = (
-    "it follows the mesh, for the criterion has no length but the cell and most pieces are of one cell or a few"
+    "it follows the mesh, or was not shown to converge with it: the source's criterion has no length but the cell, and "
+    "most of its pieces are of one cell or a few"
 )
 """Why a mean by number, and a count, has no error bar."""
 

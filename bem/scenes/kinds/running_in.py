@@ -251,6 +251,11 @@ def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[Run
     return summary | {"hardness_of_least_friction_Pa": best, "least_friction_inside_range": inside}
 
 
+def scattering(scene: RunningInScene) -> tuple[str, ...]:
+    """Figures of pieces where there are none; that any converge here was shown of no criterion."""
+    return () if scene.wear.criterion.needs_strength else wearing.scattering(RunningInRecord, scene)
+
+
 KIND = Kind.of(
     vars(),
     RunningInScene,
