@@ -56,3 +56,15 @@ spacing = "95 nm"
 count = 12
 settled = 4
 """
+
+
+def pressed_ball(kind, cells):
+    """A steel ball on a steel flat under 20 N, as kinds with stick and slip take it."""
+    return {
+        "kind": kind,
+        "grid": {"shape": cells, "lengths": "300 um"},
+        "lower": {"material": "steel-52100"},
+        "upper": {"material": "steel-52100"},
+        "shape": {"kind": "sphere", "radius": "10 mm"},
+        "contact": {"load": "20 N"},
+    }

@@ -5,6 +5,7 @@ Knows `build` and the solvers. Verified in tests/scenes/test_partial_slip_kind.p
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +13,7 @@ import numpy as np
 from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans
 from bem.scenes.context import Context, tell
-from bem.scenes.planner import Step
+from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.tables.pressing import StressedScene
 
 if TYPE_CHECKING:
@@ -51,11 +52,23 @@ def tell_coupled(scene: StressedScene, context: Context) -> None:
         )
 
 
-def plan_of_stresses(scene: StressedScene, grid: Grid) -> Step:
-    """Below the body asked for, under pressure and tractions along x and y."""
-    outputs = scene.outputs
+def plan_around(scene: StressedScene, steps: Callable[[Grid, float], Iterable[Step]]) -> Plan:
+    """The plan of a kind, whose own steps follow from the grid and the points of its transforms.
+
+    Raises
+    ------
+    InfeasibleError : a load beyond hardness x area. InputError : surfaces that cannot be generated on the grid.
+    """
+    grid, outputs = build.grid_of(scene.grid), scene.outputs
+    scene.contact.check_load(grid.area)
     stressed = (scene.lower if outputs.body == "lower" else scene.upper).build()
-    return plans.stresses(grid, stressed, outputs.body, len(outputs.wanted_depths()), fields=1, loads=3)
+    return Plan.of(
+        *plans.of_bodies(scene, grid, 1.0),
+        plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}"),
+        *steps(grid, padded_points(grid.shape, grid.periodic)),
+        plans.stresses(grid, stressed, outputs.body, len(outputs.wanted_depths()), fields=1, loads=3),
+        plans.figures(grid.cells),
+    )
 
 
 def stresses_under(

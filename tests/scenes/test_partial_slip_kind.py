@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from small_scenes import pressed_ball
 
 from bem import CATALOGUE, InputError
 from bem.reference_solutions.partial_slip import PushedBall
@@ -14,16 +15,7 @@ PUSH = {"friction": 0.4, "share": 0.6, "steps": 3}
 
 
 def scene(**changes):
-    table = {
-        "kind": "partial-slip",
-        "grid": {"shape": 48, "lengths": "300 um"},
-        "lower": {"material": "steel-52100"},
-        "upper": {"material": "steel-52100"},
-        "shape": {"kind": "sphere", "radius": "10 mm"},
-        "contact": {"load": "20 N"},
-        "push": PUSH,
-    }
-    return load_scene(table | changes)
+    return load_scene(pressed_ball("partial-slip", 48) | {"push": PUSH} | changes)
 
 
 def run(context=None, **changes):

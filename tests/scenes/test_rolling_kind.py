@@ -2,22 +2,14 @@
 
 import numpy as np
 import pytest
+from small_scenes import pressed_ball
 
 from bem import InputError
 from bem.scenes import PlainContext, get_kind, load_scene
 
 
 def scene(roll, **changes):
-    table = {
-        "kind": "rolling",
-        "grid": {"shape": 40, "lengths": "300 um"},
-        "lower": {"material": "steel-52100"},
-        "upper": {"material": "steel-52100"},
-        "shape": {"kind": "sphere", "radius": "10 mm"},
-        "contact": {"load": "20 N"},
-        "roll": {"friction": 0.4} | roll,
-    }
-    return load_scene(table | changes)
+    return load_scene(pressed_ball("rolling", 40) | {"roll": {"friction": 0.4} | roll} | changes)
 
 
 def run(roll, **changes):

@@ -11,16 +11,16 @@ import numpy as np
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
-from bem.scenes import build, plans
+from bem.scenes import build
 from bem.scenes.context import Context
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
-from bem.scenes.planner import Plan, Step, padded_points
+from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled
 from bem.scenes.sticking import (
     FIRST_ORDER,
     coupled,
-    plan_of_stresses,
+    plan_around,
     pressed_together,
     stresses_under,
     tell_coupled,
@@ -46,20 +46,11 @@ class PartialSlipScene(PushedScene):
 
 
 def plan(scene: PartialSlipScene) -> Plan:
-    """What will be computed.
+    """What will be computed."""
+    count, pressing = len(scene.push.path()), _pressing_steps(scene)
 
-    Raises
-    ------
-    InfeasibleError : a load beyond hardness x area. InputError : surfaces that cannot be generated on the grid.
-    """
-    grid = build.grid_of(scene.grid)
-    scene.contact.check_load(grid.area)
-    points, steps = padded_points(grid.shape, grid.periodic), len(scene.push.path())
-    pressing = _pressing_steps(scene)
-    return Plan(
-        (
-            *plans.of_bodies(scene, grid, 1.0),
-            plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}"),
+    def steps(grid: Grid, points: float) -> tuple[Step, ...]:
+        return (
             Step(
                 "pressing in steps",
                 f"{pressing} contacts: pressure alone makes bodies that differ slip"
@@ -71,8 +62,8 @@ def plan(scene: PartialSlipScene) -> Plan:
             ),
             Step(
                 "partial slip",
-                f"{steps} steps along x, friction {scene.push.friction:g}",
-                transforms=_TRANSFORMS * steps,
+                f"{count} steps along x, friction {scene.push.friction:g}",
+                transforms=_TRANSFORMS * count,
                 points=points,
                 memory=8.0 * points * 6 + 8.0 * grid.cells * 40,
                 kept=8.0 * grid.cells * 10,
@@ -85,10 +76,9 @@ def plan(scene: PartialSlipScene) -> Plan:
                 transforms=80.0 + 2 * _TRANSFORMS,
                 points=points,
             ),
-            plan_of_stresses(scene, grid),
-            plans.figures(grid.cells),
         )
-    )
+
+    return plan_around(scene, steps)
 
 
 _map = partial(Series, ("x", "y"))

@@ -10,12 +10,12 @@ import numpy as np
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
-from bem.scenes import build, plans
+from bem.scenes import build
 from bem.scenes.context import Context, tell
 from bem.scenes.kind import Kind
-from bem.scenes.planner import Plan, Step, padded_points
+from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled
-from bem.scenes.sticking import FIRST_ORDER, plan_of_stresses, pressed_together, stresses_under, tell_coupled
+from bem.scenes.sticking import FIRST_ORDER, plan_around, pressed_together, stresses_under, tell_coupled
 from bem.scenes.tables.tangential import RolledScene
 
 if TYPE_CHECKING:
@@ -33,19 +33,10 @@ class RollingContactScene(RolledScene):
 
 
 def plan(scene: RollingContactScene) -> Plan:
-    """What will be computed.
+    """What will be computed."""
 
-    Raises
-    ------
-    InfeasibleError : a load beyond hardness x area. InputError : surfaces that cannot be generated on the grid.
-    """
-    grid = build.grid_of(scene.grid)
-    scene.contact.check_load(grid.area)
-    points = padded_points(grid.shape, grid.periodic)
-    return Plan(
-        (
-            *plans.of_bodies(scene, grid, 1.0),
-            plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}"),
+    def steps(grid: Grid, points: float) -> tuple[Step, ...]:
+        return (
             Step(
                 "rolling",
                 f"steady along x, friction {scene.roll.friction:g}",
@@ -56,10 +47,9 @@ def plan(scene: RollingContactScene) -> Plan:
                 kept=8.0 * grid.cells * 10,
                 seconds=0.2,
             ),
-            plan_of_stresses(scene, grid),
-            plans.figures(grid.cells),
         )
-    )
+
+    return plan_around(scene, steps)
 
 
 _map = partial(Series, ("x", "y"))
