@@ -116,7 +116,7 @@ class FormView:
     def _inner(self, entry: Entry, top: bool) -> None:
         """Tables that may stand at a key: which one, and its keys."""
         value = self._value(entry.key)
-        is_open = top and (value is not None or entry.required)
+        is_open = (top or entry.typed) and (value is not None or entry.required)
         heading = entry.name + (" *" if entry.required else "")
         outer = ui.expansion(heading, value=is_open).classes("w-full").props("dense header-class=text-bold")
         outer.style("border-left: 3px solid #bcd4de; background: white")

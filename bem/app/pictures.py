@@ -116,7 +116,10 @@ def curve_picture(arrays: Arrays, name: str) -> Picture:
     """A variable along its last axis, a line for each case, with error bars where it has them."""
     item, axis = arrays[name], arrays[arrays[name].dims[-1]]
     errors = arrays.get(f"{name}_error")
-    unit, along = _unit(item), np.asarray(axis.values)
+    unit, along, under = _unit(item), np.asarray(axis.values), _unit(axis)
+    if under in _PREFIXED and along.dtype.kind in "fiu":
+        length, under = prefix(along, under)
+        along = along * length
     rows = np.asarray(item.values, dtype=np.float64).reshape(-1, item.shape[-1])
     bars = None
     if errors is not None and errors.shape == item.shape:
@@ -127,7 +130,7 @@ def curve_picture(arrays: Arrays, name: str) -> Picture:
         _line(words, along, row * factor, None if bars is None else bars[i] * factor)
         for i, (words, row) in enumerate(zip(names, rows, strict=True))
     ]
-    head = label(str(axis.attrs.get("long_name", item.dims[-1])), _unit(axis))
+    head = label(str(axis.attrs.get("long_name", item.dims[-1])), under)
     return _curves(data, str(item.attrs.get("long_name", name)), head, shown, along)
 
 

@@ -163,6 +163,7 @@ class RunPage:
         _figures(found)
         for text in found.summary["notes"]:
             ui.label(f"note: {text}").classes("text-body2").style("color: #9a5b00")
+        _over(found)
         Maps(found)
         _curves(found)
 
@@ -178,16 +179,22 @@ def _figures(found: FinishedRun) -> None:
         rows(item.title, item.rows, item.head)
 
 
-def _curves(found: FinishedRun) -> None:
-    """Figures over what the run goes over, with error bars, then what is known along an axis."""
-    with ui.element("div").classes("w-full").style("display: grid; grid-template-columns: repeat(2, 1fr); gap: 8px"):
-        headline = get_kind(found.summary["kind"]).headline
-        over = [(name, along) for name, along in pictures.figures_over(found.summary) if name in headline]
-        for name, along in over[:6]:
+_GRID = "display: grid; grid-template-columns: repeat(2, 1fr); gap: 8px"
+
+
+def _over(found: FinishedRun) -> None:
+    """Headline figures over what the run goes over, with error bars."""
+    headline = get_kind(found.summary["kind"]).headline
+    with ui.element("div").classes("w-full").style(_GRID):
+        for name, along in [item for item in pictures.figures_over(found.summary) if item[0] in headline][:6]:
             ui.plotly(pictures.figure_picture(found.summary, name, along)).classes("w-full")
-        names = pictures.curve_names(found.arrays)
-        shown = [name for name in names if found.arrays[name].dims[-1] not in ("speed", "load")]
-        for name in shown[: 4 if over else 6]:
+
+
+def _curves(found: FinishedRun) -> None:
+    """What is known along an axis of its own."""
+    names = pictures.curve_names(found.arrays)
+    with ui.element("div").classes("w-full").style(_GRID):
+        for name in [item for item in names if found.arrays[item].dims[-1] not in ("speed", "load")][:6]:
             ui.plotly(pictures.curve_picture(found.arrays, name)).classes("w-full")
 
 
@@ -202,7 +209,8 @@ class Maps:
         words = {name: str(found.arrays[name].attrs.get("long_name", name)) for name in names}
         self._at: tuple[int, int] | None = None
         with ui.row().classes("items-center"):
-            self._which = ui.select(words, value=names[0], label="map", on_change=self._other)
+            first = next((name for name in names if "pressure" in name), names[0])
+            self._which = ui.select(words, value=first, label="map", on_change=self._other)
             self._which.classes("w-80").props("dense outlined")
             self._which.props["data-key"] = "map"
             self._layer = ui.select({0: ""}, value=0, label="of", on_change=self._draw)
