@@ -21,7 +21,7 @@ def scene(**changes):
 def run(context=None, **changes):
     kind = get_kind("partial-slip")
     resolved = kind.resolve(scene(**changes))
-    kind.plan(resolved)
+    assert kind.plan(resolved).memory > 0
     context = context or PlainContext(resolved)
     return kind.run(resolved, context), context
 

@@ -15,7 +15,7 @@ def scene(roll, **changes):
 def run(roll, **changes):
     kind = get_kind("rolling")
     resolved = kind.resolve(scene(roll, **changes))
-    kind.plan(resolved)
+    assert kind.plan(resolved).memory > 0
     context = PlainContext(resolved)
     return kind.run(resolved, context), context
 
