@@ -51,7 +51,7 @@ _TEMPERATURES = ("film_temperature", "lower_temperature", "upper_temperature")
 @dataclass(frozen=True)
 class TractionCase:
     """Arguments of `bem.solve_line_film`, or with `bodies` of the solver of its heat, `thermal`; `bulk` [K] then, and
-    no supply; the power is that on a width [m]; roughness [m] for the lambda ratio."""
+    no supply with "full"; the power is that on a width [m]; roughness [m] for the lambda ratio."""
 
     load: float
     radius: float
@@ -93,7 +93,7 @@ class TractionCase:
         if self.thermal == "full":
             columns = min(max(COLUMNS, self.points // 6), MOST_CELLS) // coarseness
             return solve_full_thermal_line_film(**asked, columns=columns, layers=LAYERS // coarseness)
-        return solve_thermal_line_film(**asked, cells=self.cells // coarseness)
+        return solve_thermal_line_film(**asked, supply=self.supply, cells=self.cells // coarseness)
 
 
 Found = FilmSolution | ThermalFilm | FullThermalFilm

@@ -156,8 +156,6 @@ class MixedSetup:
         allowed = ("off", "lumped")
         if self.thermal not in allowed:
             return [f"thermal: {self.thermal!r} is unknown; choose from {', '.join(allowed)}"]
-        if self.supply is not None:
-            return ["thermal: heat of a starved film is not solved for; choose one of thermal and supply"]
         if isinstance(self.bodies, Body) or len(self.bodies) != 2:
             return ["thermal: heat enters both bodies; give a pair"]
         missing = [name for name in HEAT_NEEDS if getattr(self.lubricant, name, None) is None]

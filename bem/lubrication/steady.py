@@ -108,7 +108,7 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         load, radius, contact_modulus, speeds, lubricant, points, tolerance, position, initial
     )
     if thermal != "off":
-        own = {"position": position is not None, "supply": supply is not None}
+        own = {"position": position is not None, "supply": supply is not None and thermal == "full"}
         own["mass-conserving cavitation"] = cavitation is not Cavitation.SWIFT_STIEBER
         _check_heat(thermal, bodies, [name for name, given in own.items() if given])
         from bem.lubrication import thermal as models
@@ -116,7 +116,7 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         return getattr(models, HEAT[thermal])(  # type: ignore[no-any-return]
             load=load, radius=radius, contact_modulus=contact_modulus, speeds=speeds, lubricant=lubricant,
             bodies=bodies or (), bulk=bulk, points=points, initial=initial, tolerance=tolerance,
-            max_iterations=max_iterations, flow_factors=flow_factors,
+            max_iterations=max_iterations, flow_factors=flow_factors, **({} if supply is None else {"supply": supply}),
         ).as_film()  # fmt: skip
     walls = walls_of(flow_factors, scales.film, speeds)
     problem = scaled_problem(scales, scales.load, lubricant, walls, float(speeds[0]) - float(speeds[1]))
@@ -209,7 +209,7 @@ def _wanted(supply: Supply, problem: Problem, flooded: State, scales: Scales) ->
 
 
 def _starvation(problem: Problem, state: State, flooded: State, scales: Scales, reversed_: bool) -> Starvation:
-    first = state.position[0] * scales.length if state.far_field == 0 else -math.inf
+    first = float(state.position[0]) * scales.length if state.far_field == 0 else -math.inf
     layers = [through(problem, one) * scales.film for one in (state, flooded)]
     central = [float(PchipInterpolator(one.position, one.film)(0.0)) for one in (state, flooded)]
     return Starvation(-first if reversed_ else first, layers[0], central[0] / central[1], layers[1])

@@ -102,13 +102,22 @@ def test_a_curve_with_heat_costs_little_more():
     assert temperatures == sorted(temperatures)
 
 
+def test_heat_of_a_starved_contact():
+    """More surfaces touch and more heat is made; plenty of oil is the flooded one."""
+    flooded, plenty, starved = (hot(supply=supply) for supply in (None, 1e-3, 1e-7))
+    assert {flooded.status, plenty.status, starved.status} == {Status.CONVERGED}
+    assert plenty.friction == pytest.approx(flooded.friction, rel=1e-6)
+    assert starved.film.starvation.reduction < 0.5
+    assert starved.contact_load > flooded.contact_load
+    assert starved.contact_temperature > flooded.contact_temperature
+
+
 def test_what_heat_needs_is_said():
     bare = Body(Material("bare", **ELASTIC))
     for changes, words in (
         ({"lubricant": Lubricant(0.03)}, "the lubricant lacks temperature, density"),
         ({"bodies": (bare, STEEL)}, "needs thermal_conductivity"),
         ({"bodies": STEEL}, "heat enters both bodies; give a pair"),
-        ({"supply": 1e-7}, "choose one of thermal and supply"),
         ({"thermal": "warm"}, "'warm' is unknown; choose from off, lumped"),
     ):
         with pytest.raises(InputError, match=words):
@@ -136,5 +145,3 @@ def test_a_scene_with_heat_reports_its_temperatures(tmp_path):
     assert not [key for key in off if "temperature" in key]
     with pytest.raises(InputError, match="heat of an oil without temperature"):
         load_scene(scene | {"oil": PATCH["oil"]})
-    with pytest.raises(InputError, match="a supply of oil with heat"):
-        load_scene(scene | {"supply": {"layer": "1 um"}})

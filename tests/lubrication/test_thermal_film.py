@@ -76,7 +76,7 @@ def test_the_film_s_own_solver_asks_for_heat():
     with pytest.raises(InputError, match="bodies"):
         solve_line_film(thermal="lumped", **(isothermal | case))
     with pytest.raises(InputError, match="supply cannot be given with heat"):
-        solve_line_film(thermal="lumped", supply=1e-6, **(ROLLER | case))
+        solve_line_film(thermal="full", supply=1e-6, **(ROLLER | case))
     assert math.isnan(film_alone.striated_shear_force)
     assert film_alone.rolling_force == pytest.approx(whole.shear_force - whole.sliding_force, rel=1e-9)
 
@@ -253,6 +253,26 @@ def test_what_is_beyond_an_oil_is_said():
     assert any("at rest" in note for note in notes)
     assert not any("isothermal" in note for note in notes)
     assert film(0.01, 0.0, 0.4e9).notes == ()
+
+
+@pytest.mark.parametrize("layer", [2e-7, 3e-8])
+def test_a_starved_film_with_heat_lets_its_oil_through_and_closes(layer):
+    """Thinner than the hot flooded film, whose oil it has: more friction in less film, and all heat goes somewhere."""
+    flooded, plenty, starved = (film(10.0, 0.3, supply=supply) for supply in (None, 1e-3, layer))
+    assert {flooded.status, plenty.status, starved.status} == {Status.CONVERGED}
+    assert plenty.minimum_thickness == pytest.approx(flooded.minimum_thickness, rel=1e-6)
+    found = starved.film.starvation
+    assert found.layer == pytest.approx(layer, rel=2e-8)
+    assert found.flooded_layer == pytest.approx(plenty.film.starvation.flooded_layer, rel=1e-6)
+    # a starved film has less of a constriction: its minimum is a seventh nearer to its centre
+    assert starved.minimum_thickness == pytest.approx(found.reduction * flooded.minimum_thickness, rel=0.2)
+    assert starved.energy_imbalance < 1e-6
+    assert sum(starved.power_into) + starved.power_carried == pytest.approx(starved.friction_power, rel=1e-6)
+    assert starved.sliding_force > flooded.sliding_force
+    given = solve_line_film(
+        load=load(0.8e9), speeds=pair(10.0, 0.3), lubricant=oil(), thermal="lumped", supply=layer, **ROLLER
+    )
+    assert given.shear_force == starved.shear_force
 
 
 def test_costs_little_more_than_an_isothermal_film(monkeypatch):

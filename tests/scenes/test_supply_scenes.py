@@ -105,7 +105,7 @@ def test_a_film_in_time_has_less_oil_after_it_turned():
         (TRACTION, {"supply": {}}, "none is given; allowed: exactly one of layer, distance"),
         (TRACTION, {"supply": {"layer": "1 um", "distance": "1 mm"}}, "exactly one of layer, distance"),
         (TRACTION, {"supply": {"layer": "0 nm"}}, "supply.layer"),
-        (TRACTION, {"supply": {"layer": "1 um"}, "thermal": "lumped"}, "a supply of oil with heat"),
+        (TRACTION, {"supply": {"layer": "1 um"}, "thermal": "full"}, "a supply of oil with thermal"),
         (IN_TIME, {"supply": {"distance": "1 mm"}}, "in time the meniscus moves"),
         (
             IN_TIME,

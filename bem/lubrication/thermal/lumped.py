@@ -29,6 +29,7 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors
 from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.steady import KeptSteady, checked_case, load_range, solve_line_film
+from bem.lubrication.supply import Supply
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.energy import Channel, Temperatures, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
@@ -165,6 +166,7 @@ def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and 
     max_iterations: int = 40,
     flow_factors: WallFactors | str = "off",
     cells: int = 200,
+    supply: Supply | float | None = None,
 ) -> ThermalFilm:
     """Steady thermal film between a cylinder and a flat, lumped over the film's thickness.
 
@@ -177,6 +179,8 @@ def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and 
     bulk : temperatures of both far from the contact [K]; the oil's by default.
     points, initial, tolerance, max_iterations, flow_factors : as of `solve_line_film`.
     cells : along the film, where temperatures are found.
+    supply : as of `solve_line_film`: inlet heating thins what a flooded contact would take, of which the supply lets as
+        much through as there is; the oil is as warm as the bodies' oil where the gap begins to be full.
 
     Returns
     -------
@@ -207,6 +211,8 @@ def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and 
         hertz_over_modulus(load, radius, contact_modulus),
     )
     thinned = _thinned(case, lubricant, points, initial, inlet)
+    if supply is not None:
+        thinned.starve(case, points, initial, supply)
     thermal = _heated(thinned, lubricant, conductors, cells)
     notes = notes_of_film(thermal.film, lubricant, radius, contact_modulus)
     notes += notes_on_factors(flow_factors, thermal.minimum_thickness)
@@ -227,6 +233,12 @@ class _Thinned:
         """One more."""
         self.films.append(film)
         self.steps += film.iterations
+
+    def starve(self, case: dict[str, Any], points: int, initial: FilmSolution | None, supply: Supply | float) -> None:
+        """The last one once more, with its supply."""
+        hot = self.films[-1]
+        start = hot if initial is None or initial.starvation is None else initial
+        self.add(solve_line_film(**case, points=points, lubricant=hot.lubricant, initial=start, supply=supply))
 
 
 def _thinned(

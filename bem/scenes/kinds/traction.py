@@ -68,8 +68,8 @@ class TractionScene(SceneModel):
             raise problem("a rough surface", 'smooth surfaces, or kind = "friction"')
         if self.thermal == "off":
             return self
-        if self.supply is not None:
-            raise problem("a supply of oil with heat", 'thermal = "off" with it, or no supply: a flooded inlet')
+        if self.supply is not None and self.thermal == "full":
+            raise problem('a supply of oil with thermal = "full"', 'thermal = "lumped" or "off" with it, or no supply')
         check_film_heat(self.oil, self.lower, self.upper)
         return self
 

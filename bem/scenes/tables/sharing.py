@@ -60,8 +60,6 @@ class CurveScene(LineContactScene):
     def _heat(self) -> Self:
         if self.thermal == "off":
             return self
-        if self.supply is not None:
-            raise problem("a supply of oil with heat", 'thermal = "off" with it, or no supply: a flooded inlet')
         check_film_heat(self.oil, self.lower, self.upper)
         return self
 
