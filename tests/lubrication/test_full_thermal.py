@@ -268,6 +268,14 @@ def test_energy_closes(mean, slide, rheology):
     assert found.residual <= 1e-8
 
 
+def test_heat_of_slow_motion_is_not_lost_in_rounding():
+    """A rise of less than a millikelvin: its energy closes beside 390 K, and in few steps."""
+    found = film(-0.02, 0.0, hertz=0.3e9, lubricant=oil(391.15, "ISO VG 32", density_law="incompressible"))
+    assert np.ptp(found.temperature) < 1e-3
+    assert found.status is Status.CONVERGED
+    assert found.energy_imbalance < 1e-6
+
+
 def test_the_same_oil_flows_through_every_section():
     """Mass flow by plain quadrature of the speeds across the film, over that at the exit."""
     found = film(5.0, 1.0, points=600, columns=200, layers=24)

@@ -149,13 +149,13 @@ def temperature_field(
     """
     temperature = start.copy()
     rest = np.stack([one - np.diag(np.diag(one)) for one in duct.warming])
-    distant = _distant(rest, duct.into_walls(temperature))
+    distant = _distant(rest, duct.into_walls(temperature - duct.supply))
     residual, last, steps, rise, length = np.inf, np.inf, 0, 1.0, 1.0
     while True:
         sources = heat(temperature[:, 1:-1])
         blocks = _blocks(duct, sources, temperature, held)
         goal = SURFACE_TOLERANCE * min(residual, 1.0) * rise
-        known = _known(duct, sources, blocks, temperature)
+        known = _known(sources, blocks, temperature - duct.supply)
         found, distant = _with_surfaces(duct, _Banded.of(duct, sources, blocks), rest, known, distant, goal)
         change = found - temperature
         rise = max(float(np.ptp(found)), 1e-3)
@@ -193,7 +193,7 @@ def _with_surfaces(
 
     def solved(warmer: FloatArray) -> FloatArray:
         right = known.copy()
-        right[:, 0], right[:, -1] = duct.bulk[0] + warmer[0], duct.bulk[1] + warmer[1]
+        right[:, 0], right[:, -1] = duct.bulk[:, 0, None] - duct.supply + warmer
         return solver(right)
 
     shape = distant.shape
@@ -205,14 +205,14 @@ def _with_surfaces(
         return (warmer - _distant(rest, duct.into_walls(solved(warmer))) + base).ravel()
 
     found = gmres(missed, base.ravel(), lambda r: r, distant.ravel(), goal, APPLICATIONS).values.reshape(shape)
-    return solved(found), found
+    return duct.supply + solved(found), found
 
 
-def _known(duct: Duct, sources: Sources, blocks: FloatArray, temperature: FloatArray) -> FloatArray:
-    """Right side (m, K + 2): heat made, linear about the temperatures, and what the oil brings."""
+def _known(sources: Sources, blocks: FloatArray, temperature: FloatArray) -> FloatArray:
+    """Right side (m, K + 2): heat made, linear about the temperatures; these over the supply's, so that oil that comes
+    brings none, and what slow motion warms by is not lost beside some 300 K."""
     right, oil = np.zeros_like(temperature), temperature[:, 1:-1]
     right[:, 1:-1] = sources.made + _times(blocks, oil)
-    right[0, 1:-1] += duct.capacity * np.maximum(sources.flux[0], 0.0) * duct.supply
     return right
 
 

@@ -218,7 +218,7 @@ def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool
     sources = found.made(oil)
     stress = found.made.across(oil).stress
     couette = found.made.couette(stress)
-    into = duct.into_walls(field.temperature)
+    into = duct.into_walls(field.temperature - duct.supply)
     surfaces = field.temperature[:, [0, -1]].T
     rise = max(float(np.ptp(field.temperature)), 1e-3)
     missed = float(np.abs(duct.surfaces(into) - surfaces).max()) / rise
