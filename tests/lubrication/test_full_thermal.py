@@ -268,6 +268,14 @@ def test_energy_closes(mean, slide, rheology):
     assert found.residual <= 1e-8
 
 
+def test_a_film_that_its_shear_law_thins_is_found():
+    """Layers had been sheared at one stress by the law, whose rates were not the sliding: no field was found."""
+    found = film(5.0, 0.3, hertz=1.0e9, lubricant=oil(film_rheology="shear_law"))
+    assert found.status is Status.CONVERGED
+    assert found.rounds < 20
+    assert found.isothermal.central_thickness * 0.8 < found.central_thickness < found.isothermal.central_thickness
+
+
 def test_heat_of_slow_motion_is_not_lost_in_rounding():
     """A rise of less than a millikelvin: its energy closes beside 390 K, and in few steps."""
     found = film(-0.02, 0.0, hertz=0.3e9, lubricant=oil(391.15, "ISO VG 32", density_law="incompressible"))

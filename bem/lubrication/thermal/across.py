@@ -2,8 +2,9 @@
 
 The stress in the middle is the shear law's, as in the isothermal friction: of the sliding alone where the oil's film is
 Newtonian, else of the profile, at the mean fluidity of the layers. Layers share the sliding as they are fluid; what
-slips at the limiting stress does so, too, in proportion to the fluidity: the hottest layer gives way. Heat is what the
-stress makes of that, and what the pressure makes of the oil's expansion,
+slips at the limiting stress does so, too, in proportion to the fluidity: the hottest layer gives way. Where the law
+acts on the film it thins all layers alike for the flow that pressure drives. Heat is what the stress makes of that, and
+what the pressure makes of the oil's expansion,
 
     made = tau du/dz + alpha T u dp/dx.
 """
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray
-from bem.lubrication.shear_profile import middle_stress
+from bem.lubrication.shear_profile import middle_stress, shear_profile
 from bem.lubrication.thermal.hot_viscosity import LARGEST_LOGARITHM
 from bem.lubrication.thermal.layers import Oil, Sums, middles, sums_of
 from bem.lubrication.thermal.strip import Strip
@@ -89,9 +90,10 @@ def across(oil: Oil, strip: Strip, temperature: FloatArray, resistance: FloatArr
     viscosity = lubricant.viscosity * np.exp(least)
     eased = np.exp(np.clip(least - np.log(np.maximum(found.driven, _LEAST)) - resistance, -_EASED, _EASED))
     half = 0.5 * strip.thickness * strip.gradient * eased
-    sheared = _sheared(oil, strip, found, viscosity, half)
+    resisting = viscosity / _thinning(oil, strip, found, viscosity)
+    sheared = _sheared(oil, strip, found, viscosity, resisting, half)
     # within a layer the stress is linear
-    inner = (strip.thickness * half / viscosity)[:, None] * found.fluidity * weight**3 / 3
+    inner = (strip.thickness * half / resisting)[:, None] * found.fluidity * weight**3 / 3
     through = strip.flow * float(found.drag(-strip.sliding / sum(strip.speeds))[-1])
     flux = _flux(strip, found, sheared.rates, inner, through)
     density = lubricant.density_ratio(strip.pressure)[0]
@@ -112,9 +114,9 @@ def across(oil: Oil, strip: Strip, temperature: FloatArray, resistance: FloatArr
         steep=sheared.steep,
         dense=found.density * density[:, None],
         slow=np.where(flux != 0, 1 / np.where(flux != 0, flux, 1.0), 0.0),
-        pushed=(strip.thickness * half / viscosity)[:, None] * found.fluidity * weight,
+        pushed=(strip.thickness * half / resisting)[:, None] * found.fluidity * weight,
         lever=lever,
-        turning=(half * strip.thickness * half / viscosity)[:, None] * found.fluidity * weight * lever,
+        turning=(half * strip.thickness * half / resisting)[:, None] * found.fluidity * weight * lever,
         yielding=3 * weight * yields * found.fluidity * softer / found.driven[:, None],
     )
 
@@ -133,10 +135,11 @@ class _Sheared:
     driven: FloatArray
 
 
-def _sheared(oil: Oil, strip: Strip, found: Sums, viscosity: FloatArray, half: FloatArray) -> _Sheared:
+def _sheared(
+    oil: Oil, strip: Strip, found: Sums, viscosity: FloatArray, resisting: FloatArray, half: FloatArray
+) -> _Sheared:
     lubricant, sliding = oil.lubricant, -strip.sliding
     s, weight = middles(found.fluidity.shape[1]), 1 / found.fluidity.shape[1]
-    half = half[:, None]
     newtonian = viscosity * sliding / (strip.thickness * found.mean)
 
     def stress_of(value: FloatArray) -> FloatArray:
@@ -146,19 +149,23 @@ def _sheared(oil: Oil, strip: Strip, found: Sums, viscosity: FloatArray, half: F
     with np.errstate(invalid="ignore", divide="ignore"):
         steep = np.where(stress != 0, (stress_of(newtonian * (1 + _STEP)) / stress - 1) / _STEP, 1.0)
     share = found.fluidity * weight / found.mean[:, None]
-    flow = (strip.thickness / viscosity)[:, None] * found.fluidity * weight
+    # of the flow that pressure drives; what it and the sliding do to each other is zero over the film
+    flow = (strip.thickness / resisting)[:, None] * found.fluidity * weight
+    off = half[:, None] * (s - (found.by_place / found.mean)[:, None])
     dragged = stress[:, None] * share * sliding
+    return _Sheared(newtonian, stress, steep, share * sliding + flow * off, dragged, flow * off**2)
+
+
+def _thinning(oil: Oil, strip: Strip, found: Sums, viscosity: FloatArray) -> FloatArray:
+    """Flow that pressure drives over that of a Newtonian oil (n,), at the mean fluidity as in Reynolds' equation."""
+    lubricant = oil.lubricant
     if not lubricant.shears_film:
-        # of the flow that pressure drives against a Newtonian oil; what both do to each other is zero over the film
-        off = half * (s - (found.by_place / found.mean)[:, None])
-        return _Sheared(newtonian, stress, steep, share * sliding + flow * off, dragged, flow * off**2)
-    law = lubricant.shear_law
-    limit = law.limit(strip.pressure[:, None])
-    local = np.clip(stress[:, None] + half * s, -limit, limit)
-    rates = flow * law.newtonian_stress(local)[0]
-    slip = (sliding - rates.sum(axis=1))[:, None] * share
-    driven = local * rates + stress[:, None] * slip - dragged
-    return _Sheared(newtonian, stress, steep, rates + slip, dragged, driven)
+        return np.ones_like(viscosity)
+    half, law = 0.5 * strip.thickness * strip.gradient, lubricant.shear_law
+    newtonian = np.abs(viscosity * strip.sliding / (strip.thickness * found.mean))
+    profile = shear_profile(law, newtonian, half, law.limit(strip.pressure))
+    some = np.abs(half) > 1e-9 * (1 + np.abs(half).max())
+    return np.maximum(np.where(some, profile.moment / np.where(some, half, 1.0), profile.by_half), 1.0)
 
 
 def _flux(strip: Strip, found: Sums, rates: FloatArray, inner: FloatArray, through: float) -> FloatArray:
