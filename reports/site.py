@@ -34,7 +34,7 @@ def pages(runs: Mapping[str, FinishedRun | str]) -> list[Page]:
     for name, title in (("app", "The page"), ("elements", "Machine elements")):
         lead, *rest = WORDS[name]["about"]
         made.append(Page(name, title, lead.replace("`", ""), [Section(title, "".join(text(item) for item in rest))]))
-    made += [kind_page(kind, runs.get(WORDS["kinds"][kind]["scene"])) for kind in documented()]
+    made += [kind_page(kind, runs.get(words_of(kind)["scene"])) for kind in documented()]
     theory, *others = guide.theory()
     made += [
         Page("theory", "Theory", "All formulas with sources and errata, and the laws by name.", [theory, *others]),
@@ -51,13 +51,21 @@ def pages(runs: Mapping[str, FinishedRun | str]) -> list[Page]:
 
 
 def documented() -> list[str]:
-    """The package's kinds in the order of the prose."""
-    return [kind for kind in WORDS["kinds"] if kind in kind_names()]
+    """The package's kinds: in the order of the prose, then those that it has no words for yet."""
+    known = [kind for kind in WORDS["kinds"] if kind in kind_names()]
+    return [*known, *(kind for kind in kind_names() if kind not in known)]
+
+
+def words_of(kind: str) -> dict[str, Any]:
+    """What the prose says of a kind; of one without words its first built-in scene."""
+    scenes = [name for name, scene in library().items() if scene["kind"] == kind]
+    plain = {"scene": scenes[0] if scenes else "", "about": "", "theory": [], "limits": []}
+    return plain | WORDS["kinds"].get(kind, {})
 
 
 def kind_page(kind: str, run: FinishedRun | str | None) -> Page:
     """What the kind answers, its picture, a scene, its theory, errors and limits."""
-    words, found = WORDS["kinds"][kind], get_kind(kind)
+    words, found = words_of(kind), get_kind(kind)
     formulas = [item for item in guide.THEORY if item[0] in words["theory"]]
     limits = [item for item in guide.LIMITS if item[0] in words["limits"]]
     sections = [
@@ -115,7 +123,7 @@ def _errors(kind: str) -> str:
 
 def build(folder: Path = SITE) -> list[Path]:
     """Run what pictures are missing of, and write the site; what was written, the index last."""
-    names = [words["scene"] for words in WORDS["kinds"].values()]
+    names = [scene for kind in documented() if (scene := words_of(kind)["scene"])]
     runs = run_gallery(folder / "runs", names=names, reduced=True, say=_say)
     for name, found in runs.items():
         if isinstance(found, str):
