@@ -47,16 +47,7 @@ def certificate(level: Level, pressure: FloatArray, datum: float) -> Certificate
     share = at.load / level.problem.load
     residual = max(float(np.abs(at.wrong).max()), abs(share))
     # a cell without pressure whose balance is negative is free: it is among the wrong ones
-    drag, cells = level.problem.drag, level.cell
-    lost = np.where(at.linear.held | level.border, 0.0, at.right) * cells
-    flow, _ = flows(level, pressure, film)
-    along = np.cumsum(lost.sum(axis=1))
-    through = float(np.abs(flow[0][:, 1:-1].sum(axis=1)).max()) * level.spacing[1]
-    mass = float(np.abs(along).max()) / through
-    if drag[1] > 0:
-        through = float(np.abs(flow[1][1:-1].sum(axis=0)).max()) * level.spacing[0]
-        mass = max(mass, float(np.abs(np.cumsum(lost.sum(axis=0))).max()) / through)
-    return Certificate(film, residual, mass, 1 + share)
+    return Certificate(film, residual, at.mass, 1 + share)
 
 
 def film_fraction(level: Level, pressure: FloatArray, film: FloatArray) -> FloatArray:

@@ -7,12 +7,13 @@ on the coarsest one, as a whole.
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lu_factor, lu_solve
+from scipy.linalg import LinAlgWarning, lu_factor, lu_solve
 from scipy.sparse import csr_matrix
 
 from bem.grid import FloatArray
@@ -132,7 +133,9 @@ class Linear:
         matrix[held, held] = 1.0
         # rows of one size: they are of different kinds
         scale = np.abs(matrix).max(axis=1)
-        factors = lu_factor(matrix / scale[:, None], check_finite=False)
+        with warnings.catch_warnings():  # of a singular matrix: nothing finite comes of it, and `solve` sees that
+            warnings.simplefilter("ignore", LinAlgWarning)
+            factors = lu_factor(matrix / scale[:, None], check_finite=False)
         return *factors, scale
 
     def solved(self, residual: FloatArray, load: float) -> Change:
@@ -208,8 +211,10 @@ def solve(linear: Linear, right: FloatArray, load: float, weight: FloatArray, to
     while count < most and left > tolerance:
         v = basis[-1]
         step = linear.cycle(v[:-1].reshape(level.shape) / weight, float(v[-1]) * total)
-        steps.append(step)
         w: FloatArray = vector(*linear.applied(step))
+        if not np.isfinite(w).all():  # lines or a coarse grid without a solution: what there is must do
+            break
+        steps.append(step)
         for k, b in enumerate(basis):
             hessenberg[k, count] = w @ b
             w -= hessenberg[k, count] * b

@@ -51,7 +51,8 @@ class Balance:
     """What the equations leave of a state.
 
     mismatch : of its film with that of its pressure. right : balances (nx, ny), of outermost cells pressure less far
-    pressure. load : what is missing of it, negative. linear : the equations around the state.
+    pressure. load : what is missing of it, negative. linear : the equations around the state. through : most oil
+    through a line across x, and across y.
     """
 
     state: State
@@ -59,6 +60,17 @@ class Balance:
     right: FloatArray
     load: float
     linear: Linear
+    through: tuple[float, float]
+
+    @property
+    def mass(self) -> float:
+        """Largest difference in oil through lines across the flow, with what leaves at the sides, over all of it."""
+        level = self.linear.level
+        lost = np.where(self.linear.held | level.border, 0.0, self.right) * level.cell
+        found = float(np.abs(np.cumsum(lost.sum(axis=1))).max()) / self.through[0]
+        if level.problem.drag[1] == 0:
+            return found
+        return max(found, float(np.abs(np.cumsum(lost.sum(axis=0))).max()) / self.through[1])
 
     @cached_property
     def weight(self) -> FloatArray:
@@ -76,9 +88,10 @@ class Balance:
 
     @property
     def largest(self) -> float:
-        """Largest relative error of balances, load and films."""
+        """Largest relative error of balances, mass, load and films."""
         load = abs(self.load) / self.linear.level.problem.load
-        return float(max(np.abs(self.wrong).max(), load, np.abs(self.mismatch / self.state.film).max()))
+        films = np.abs(self.mismatch / self.state.film).max()
+        return float(max(np.abs(self.wrong).max(), self.mass, load, films))
 
     @property
     def size(self) -> float:
@@ -97,7 +110,10 @@ def balance(level: Level, state: State, mismatch: FloatArray) -> Balance:
     outside, tail_slope = problem.outside(state.datum)
     held = np.where(level.border, level.far_source == 0, (pressure <= 0) & (out > 0))
     load = float(pressure.sum()) * level.cell + outside - problem.load
-    return Balance(state, mismatch, out, load, Linear(level, pressure, film, held, stencil, tail_slope))
+    totals = (np.abs(flow[axis, 1:-1, 1:-1].sum(axis=1 - axis)).max() for axis in (0, 1))
+    first, second = (float(total) * step for total, step in zip(totals, level.spacing[::-1], strict=True))
+    linear = Linear(level, pressure, film, held, stencil, tail_slope)
+    return Balance(state, mismatch, out, load, linear, (max(first, 1e-300), max(second, 1e-300)))
 
 
 def own_film(level: Level, pressure: FloatArray, datum: float) -> FloatArray:

@@ -238,6 +238,13 @@ def test_what_is_not_met_is_not_called_converged():
     assert certificate(kept.level, kept.state.pressure * 1.001, kept.state.datum).residual > 1e-4
 
 
+def test_a_film_is_solved_for_until_its_oil_is_conserved_too():
+    """Errors of cells that met the tolerance added up to more across the flow."""
+    film = solve_point_film(**moes(11.176, 15.45, 0.0626, 0.128), shape=(64, 64))
+    assert film.status == "converged"
+    assert film.mass_imbalance <= 1e-8
+
+
 def test_oil_behind_the_rupture_is_what_came_out():
     film = solve_point_film(**moes(150, 6), shape=(64, 64), cavitation="mass_conserving")
     share = film.film_fraction
