@@ -2,7 +2,7 @@
 
     python -m reports.experiments.point_films
 
-Half an hour. Each contact is tried on 64 cells a side, and where that has no film on 128 and then on 256. The result is
+Half an hour. Each contact is tried on 64 cells a side, and where that has no film on 128. The result is
 stored in `reports/results/point_films.json`: a row for each contact, and shares.
 """
 
@@ -23,7 +23,7 @@ MODULUS, RADIUS, ALPHA, VISCOSITY = 1.15e11, 0.01, 22e-9, 0.04
 LOADS, OILS, RATIOS = (1.0, 2e4), (0.0, 25.0), (0.05, 20.0)
 """Moes' M (evenly over its logarithm) and L, and Rx/Ry (over its logarithm); half of the contacts at an angle."""
 CONTACTS, SEED = 100, 19
-CELLS = (64, 128, 256)
+CELLS = (64, 128)
 
 
 def film(load: float, oil: float, ratio: float, angle: float, cells: int) -> PointFilmSolution:

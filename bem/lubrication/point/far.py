@@ -83,7 +83,7 @@ def far_load(
     angle = 2 * np.pi / ANGLES * np.arange(ANGLES, dtype=np.float64)
     cos, sin = np.cos(angle), np.sin(angle)
     with np.errstate(divide="ignore"):
-        edge = np.minimum(np.where(cos > 0, x1, x0) / cos, np.where(sin > 0, y1, y0) / sin)
+        edge = np.minimum(np.where(cos > 0, x1, -x0) / np.abs(cos), np.where(sin > 0, y1, -y0) / np.abs(sin))
     source = far_profile(drag, ratio)
     behind = source > 0
     edge, source, opening = edge[behind], source[behind], _opening(angle[behind], ratio)

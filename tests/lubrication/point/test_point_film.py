@@ -238,6 +238,12 @@ def test_what_is_not_met_is_not_called_converged():
     assert certificate(kept.level, kept.state.pressure * 1.001, kept.state.datum).residual > 1e-4
 
 
+def test_oil_may_come_from_any_direction_in_which_there_is_an_axis():
+    """Far pressure along an axis itself: its edge was taken at minus infinity, and nothing was finite."""
+    film = solve_point_film(**moes(36.97, 0.34, 9.06, 0.7628), shape=(64, 64))
+    assert film.status == "converged"
+
+
 def test_a_film_is_solved_for_until_its_oil_is_conserved_too():
     """Errors of cells that met the tolerance added up to more across the flow."""
     film = solve_point_film(**moes(11.176, 15.45, 0.0626, 0.128), shape=(64, 64))
