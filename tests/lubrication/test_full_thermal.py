@@ -146,7 +146,7 @@ def test_entry_of_hot_oil_between_cold_walls():
             place, constant(columns, layers, flux=speed * 1e-6), np.full((columns, layers + 2), 433.15)
         )
         into = place.into_walls(found.temperature).sum()
-        assert into + carried(place, found.flux, found.oil) == pytest.approx(0.0, abs=1e-9 * into)
+        assert into + carried(place, found.flux, found.rise[:, 1:-1]) == pytest.approx(0.0, abs=1e-9 * into)
         missed.append(into / (capacity * speed * 1e-6 * 100 * lost) - 1)
     assert abs(missed[2]) < 3e-4
     # the flux at the entry has no limit: not quite second order
@@ -277,9 +277,9 @@ def test_a_film_that_its_shear_law_thins_is_found():
 
 
 def test_heat_of_slow_motion_is_not_lost_in_rounding():
-    """A rise of less than a millikelvin: its energy closes beside 390 K, and in few steps."""
-    found = film(-0.02, 0.0, hertz=0.3e9, lubricant=oil(391.15, "ISO VG 32", density_law="incompressible"))
-    assert np.ptp(found.temperature) < 1e-3
+    """A rise of some 10 microkelvins, beside 390 K: with temperatures as they are a millionth of it was rounding."""
+    found = film(-0.005, 0.0, hertz=0.3e9, lubricant=oil(391.15, "ISO VG 32", density_law="incompressible"))
+    assert np.ptp(found.temperature) < 1e-4
     assert found.status is Status.CONVERGED
     assert found.energy_imbalance < 1e-6
 

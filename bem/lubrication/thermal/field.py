@@ -38,6 +38,8 @@ TOLERANCE = 1e-10
 HELD_LESS = 0.3
 LEAST_HELD = 0.01
 SHORTEST = 0.125
+LEAST_RISE = 1e-7
+"""From which on rounding is what is left [K]."""
 SURFACE_TOLERANCE = 1e-3
 """Of the surfaces in a step, over how far that step goes."""
 APPLICATIONS = 120
@@ -123,14 +125,21 @@ Heat = Callable[[FloatArray], Sources]
 
 @dataclass(frozen=True)
 class Field:
-    """Temperatures (m, K + 2) [K], those of the surfaces first and last; of their heat: flow through the edges (m+1, K)
+    """Temperatures over that of the supply [K] (m, K + 2), those of the surfaces first and last; of their heat: flow
+    through the edges (m+1, K)
     [m^2/s]. steps : of Newton's method. residual : the largest last change, or by how much surfaces are not as warm as
     their heat makes them, over the largest rise."""
 
-    temperature: FloatArray
+    rise: FloatArray
+    supply: float
     flux: FloatArray
     steps: int
     residual: float
+
+    @property
+    def temperature(self) -> FloatArray:
+        """Temperatures (m, K + 2) [K]."""
+        return self.supply + self.rise
 
     @property
     def oil(self) -> FloatArray:
@@ -147,18 +156,18 @@ def temperature_field(
     are indefinite there. That growth is held back with a share of itself on the temperatures before, and so is what
     temperatures do to the flow: `held` at first, all of it where steps grow or are wild, none in the end.
     """
-    temperature = start.copy()
+    temperature = start - duct.supply
     rest = np.stack([one - np.diag(np.diag(one)) for one in duct.warming])
-    distant = _distant(rest, duct.into_walls(temperature - duct.supply))
+    distant = _distant(rest, duct.into_walls(temperature))
     residual, last, steps, rise, length = np.inf, np.inf, 0, 1.0, 1.0
     while True:
-        sources = heat(temperature[:, 1:-1])
+        sources = heat(duct.supply + temperature[:, 1:-1])
         blocks = _blocks(duct, sources, temperature, held)
         goal = SURFACE_TOLERANCE * min(residual, 1.0) * rise
-        known = _known(sources, blocks, temperature - duct.supply)
+        known = _known(sources, blocks, temperature)
         found, distant = _with_surfaces(duct, _Banded.of(duct, sources, blocks), rest, known, distant, goal)
         change = found - temperature
-        rise = max(float(np.ptp(found)), 1e-3)
+        rise = max(float(np.ptp(found)), LEAST_RISE)
         residual = float(np.abs(change).max()) / rise
         steps += 1
         if (held == 0 and residual <= tolerance) or steps == MAX_STEPS or not np.isfinite(residual):
@@ -172,13 +181,13 @@ def temperature_field(
             held, length = min(max(held, LEAST_HELD) / HELD_LESS**2, 1.0), max(0.5 * length, SHORTEST)
         last = residual
         temperature = temperature + length * np.clip(change, -LONGEST_STEP, LONGEST_STEP)
-    return Field(found, heat(found[:, 1:-1]).flux, steps, residual)
+    return Field(found, duct.supply, heat(duct.supply + found[:, 1:-1]).flux, steps, residual)
 
 
 def carried(duct: Duct, flux: FloatArray, oil: FloatArray) -> float:
     """Heat that the oil takes on, less what it brings [W/m]: through the last edge and, where it turns round in the
-    inlet, the first one; of flow (m+1, K) and temperatures (m, K)."""
-    along = _at_faces(duct, flux, np.pad(oil, ((0, 0), (1, 1)), mode="edge"))[0] - duct.supply
+    inlet, the first one; of flow (m+1, K) and temperatures over the supply's (m, K)."""
+    along = _at_faces(duct, flux, np.pad(oil, ((0, 0), (1, 1)), mode="edge"))[0]
     return duct.capacity * float(flux[-1] @ along[-1] - flux[0] @ along[0])
 
 
@@ -205,7 +214,7 @@ def _with_surfaces(
         return (warmer - _distant(rest, duct.into_walls(solved(warmer))) + base).ravel()
 
     found = gmres(missed, base.ravel(), lambda r: r, distant.ravel(), goal, APPLICATIONS).values.reshape(shape)
-    return duct.supply + solved(found), found
+    return solved(found), found
 
 
 def _known(sources: Sources, blocks: FloatArray, temperature: FloatArray) -> FloatArray:
@@ -233,7 +242,6 @@ def _blocks(duct: Duct, sources: Sources, temperature: FloatArray, held: float) 
     if held == 1:
         return blocks
     along, crossing = _at_faces(duct, sources.flux, temperature)
-    along, crossing = along - duct.supply, crossing - duct.supply
     share = sources.share[:, None, None]
     for edge, sign in ((slice(1, None), 1.0), (slice(None, -1), -1.0)):
         bent = (1 - held) * sign * duct.capacity * sources.bending[edge]
@@ -256,12 +264,12 @@ def _blocks(duct: Duct, sources: Sources, temperature: FloatArray, held: float) 
 
 
 def _at_faces(duct: Duct, flux: FloatArray, temperature: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Temperatures of what flows through the edges (m+1, K) and from layer to layer (m, K-1)."""
+    """Temperatures over the supply's of what flows through the edges (m+1, K) and from layer to layer (m, K-1)."""
     oil, (ahead, back) = temperature[:, 1:-1], _extrapolations(duct.width)
     along = np.empty_like(flux)
     before, behind = np.vstack([oil[:1], oil]), np.vstack([oil, oil[-1:]])
     before[2:] += ahead[2:, None] * (oil[1:] - oil[:-1])
-    before[0] = duct.supply
+    before[0] = 0.0
     behind[1:-2] += back[1:-2, None] * (oil[1:-1] - oil[2:])
     along = np.where(flux > 0, before, behind)
     up, down = 1.5 * oil[:, :-1], 1.5 * oil[:, 1:]

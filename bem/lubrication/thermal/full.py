@@ -25,7 +25,7 @@ from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
 from bem.lubrication.steady import KeptSteady, checked_case, solution_of, solve_line_film
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.coupled import Coupling, Heated, coupled
-from bem.lubrication.thermal.field import carried
+from bem.lubrication.thermal.field import LEAST_RISE, carried
 from bem.lubrication.thermal.layers import Oil, expansion_of, middles
 from bem.lubrication.thermal.notes import notes_of_film, notes_of_heat
 from bem.materials import Body
@@ -218,11 +218,11 @@ def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool
     sources = found.made(oil)
     stress = found.made.across(oil).stress
     couette = found.made.couette(stress)
-    into = duct.into_walls(field.temperature - duct.supply)
+    into = duct.into_walls(field.rise)
     surfaces = field.temperature[:, [0, -1]].T
-    rise = max(float(np.ptp(field.temperature)), 1e-3)
+    rise = max(float(np.ptp(field.rise)), LEAST_RISE)
     missed = float(np.abs(duct.surfaces(into) - surfaces).max()) / rise
-    taken = carried(duct, sources.flux, oil)
+    taken = carried(duct, sources.flux, field.rise[:, 1:-1])
     power = strip.sliding * couette + sum(film.speeds) * film.rolling_force
     imbalance = abs(power - float(into.sum()) - taken) / max(abs(power), 1e-300)
     right = max(imbalance, missed) <= ENERGY_TOLERANCE and found.residual <= tolerance
