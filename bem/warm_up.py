@@ -18,6 +18,7 @@ SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("sinusoid", ()),
     ("flash-temperature", ("grid.shape=96",)),
     ("fretting-ball", ("grid.shape=48", "push.steps=2")),
+    ("rolling-creepage", ("grid.shape=24", 'over={"roll.creepage" = [0.001]}')),
     ("coated-sphere", ("grid.shape=96",)),
     ("film-barrel", ("film.cells=64",)),
     ("traction-curve", ("film.points=300", 'over={"rolling.slide_roll_ratio" = [0.1]}')),
