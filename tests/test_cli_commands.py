@@ -264,7 +264,7 @@ def test_every_example_in_a_help_text_is_of_that_command():
         for line in re.findall(r"^ +(bem .*)$", command.help or "", re.MULTILINE):
             words = shlex.split(line.split(" > ")[0])
             assert words[1] == name
-            known = {option for parameter in command.params for option in parameter.opts}
+            known = {option for parameter in command.params for option in (*parameter.opts, *parameter.secondary_opts)}
             assert {word for word in words if word.startswith("--")} <= known, line
             found += 1
     assert found >= 15

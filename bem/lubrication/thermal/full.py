@@ -29,6 +29,7 @@ from bem.lubrication.thermal.field import LEAST_RISE, carried
 from bem.lubrication.thermal.layers import Oil, expansion_of, middles
 from bem.lubrication.thermal.notes import notes_of_film, notes_of_heat
 from bem.materials import Body
+from bem.representation import readable
 from bem.threads import one_blas_thread
 
 COLUMNS = 160
@@ -46,6 +47,7 @@ NOT_FOLLOWED = (
 )
 
 
+@readable
 @dataclass(frozen=True)
 class FullThermalFilm:
     """A film with its temperatures along and across, and the heat that is made in it; along the entrainment where
