@@ -30,8 +30,7 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
         half-space and line film do not carry.
 
         \b
-        Examples:
-          bem new gear-pair gears.toml
+        Examples, of the file that `bem new gear-pair gears.toml` writes:
           bem element gears.toml --scene flank.toml --at path
           bem element gears.toml --scene worst.toml --at thinnest
         """

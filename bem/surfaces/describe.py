@@ -10,6 +10,7 @@ import scipy.fft as fft
 
 from bem.errors import InputError
 from bem.grid import FloatArray
+from bem.representation import readable
 from bem.surfaces.surface import Surface, check_map, spacing_of
 
 
@@ -109,6 +110,7 @@ def autocorrelation(heights: FloatArray, axis: int, *, periodic: bool = False) -
     return raw / raw[0] if raw[0] > 0 else np.full_like(raw, math.nan)
 
 
+@readable
 @dataclass(frozen=True, eq=False)
 class RadialSpectrum:
     """Power spectral density averaged over directions.
