@@ -154,7 +154,7 @@ def watched() -> Iterator[dict[str, float]]:
     import bem.stress.sweeps
     from bem.contact import gradients, long_waves, passes, preconditioner
     from bem.transforms import PaddedTransform
-    from bem.wear import cycle
+    from bem.wear import yielding
 
     split: dict[str, float] = {}
     depth = 0
@@ -189,7 +189,7 @@ def watched() -> Iterator[dict[str, float]]:
         (preconditioner.SparseInverseOnCells, "collect", "preconditioner"),
         (long_waves.LongWavesOnCells, "apply", "preconditioner"),
         (bem.stress.sweeps, "_share_rows", "elementwise"),
-        (cycle, "segment", "pieces"),
+        (yielding, "segment", "pieces"),
     ]
     kept = [(owner, name, getattr(owner, name)) for owner, name, _ in targets]
     try:

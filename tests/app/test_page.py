@@ -178,7 +178,7 @@ lengths = "4 um"
 count = 20
 spacing = "95 nm"
 [cycles]
-count = 300
+count = 3000
 settled = 4
 """
 
