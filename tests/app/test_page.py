@@ -178,7 +178,7 @@ lengths = "4 um"
 count = 20
 spacing = "95 nm"
 [cycles]
-count = 3000
+count = 30000
 settled = 4
 """
 
@@ -206,17 +206,13 @@ def test_a_killed_server_and_a_pause_lose_nothing(serve, chrome, tmp_path):
     tab.go(server.address)
     tab.go(f"{server.base}/runs")
     tab.wait("document.querySelector('[data-state=long-001]').innerText === 'running'")
-    tab.click("[data-action=pause]")
-    tab.wait("document.querySelector('[data-state=long-001]').innerText === 'paused'")
+    tab.click_until("[data-action=pause]", "document.querySelector('[data-state=long-001]').innerText === 'paused'")
     kept = [path.name for path in folder.glob("cases/*.bin")] + [path.name for path in folder.glob("checkpoint.bin")]
     assert kept
     assert not (folder / "summary.json").exists()
-    tab.click("[data-action=resume]")
-    tab.wait("document.querySelector('[data-state=long-001]').innerText === 'running'")
-    tab.click("[data-action=pause]")
-    tab.wait("document.querySelector('[data-action=cancel]')")
-    tab.click("[data-action=cancel]")
-    tab.wait_text("No runs yet")
+    tab.click_until("[data-action=resume]", "document.querySelector('[data-state=long-001]').innerText === 'running'")
+    tab.click_until("[data-action=pause]", "document.querySelector('[data-action=cancel]')")
+    tab.click_until("[data-action=cancel]", "document.body.innerText.includes('No runs yet')")
     assert (work / "runs" / ".cancelled" / "long-001" / "scene.toml").is_file()  # nothing is deleted
     assert tab.errors == []
 
