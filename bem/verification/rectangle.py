@@ -25,7 +25,10 @@ def curves(case: StoredCase) -> list[Curve]:
     sides = (2.0, 2.0 * case.parameters["width"])
     cells, bare = _Cells(case), case.body.homogeneous
     found = []
-    for curve in case.curves:
+    for whole in case.curves:
+        # cells have their middles at most points
+        halves = whole.coordinates[:, :2] / STEP
+        curve = whole.only((np.abs(halves - np.rint(halves)) < 1e-6).all(axis=1))
         x, y, z = curve.coordinates.T
         name = curve.name + (f" ({curve.side})" if curve.side else "")
         pairs: list[tuple[str, FloatArray, float, str]] = []
