@@ -17,8 +17,11 @@ from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve, on_si
 
 STEP = 1 / 40
 """Side of a cell over the radius."""
-GLASS, WINDOW, NEAR = 9, 6, 6.5
-"""Smaller cells by that factor (odd), for so many cells on each side of points nearer than so many cells."""
+GLASS = 9
+"""Smaller cells by that factor (odd) around points at the surface or below the load's edge."""
+WINDOW, NEAR = 6 * STEP, 6.5 * STEP
+"""How far on each side of a point they go, and of points how near: lengths, whatever the cells, as what a staircase of
+cells does at the edge is told by their distance."""
 REASON = (
     "cells of 1/40 of the radius, 1/80 over thin layers, smaller ones near points at the surface or at the load's edge"
 )
@@ -119,7 +122,7 @@ class Disc:
             if z not in self.planes:
                 self.planes[z] = self.plane(self.below, self.pressure, z)
             values = self.planes[z][:, *self.below.at(np.array(x), np.array(y))].copy()
-            if self.glass and z < NEAR * self.step:
+            if self.glass and z < NEAR:
                 for part, sign in zip(self.windows((x, y)), (1, -1), strict=True):
                     values += sign * self.plane(part, disc_means(part, self.profile), z)[:, *part.origin]
             self.points[key] = values
@@ -136,9 +139,9 @@ class Disc:
         """Indices of points near the circle."""
         if not self.glass:
             return []
-        return np.flatnonzero(np.abs(np.hypot(x, y) - 1) < NEAR * self.step + 1e-9).tolist()
+        return np.flatnonzero(np.abs(np.hypot(x, y) - 1) < NEAR + 1e-9).tolist()
 
     def windows(self, point: tuple[float, float]) -> tuple[PointGrid, PointGrid]:
         """Small cells around a point, and the cells they stand for."""
-        half = WINDOW * GLASS + GLASS // 2
-        return window(self.step / GLASS, half, point), window(self.step, WINDOW, point)
+        half = round(WINDOW / self.step)
+        return window(self.step / GLASS, half * GLASS + GLASS // 2, point), window(self.step, half, point)
