@@ -27,8 +27,8 @@ def curves(case: StoredCase) -> list[Curve]:
     found = []
     for whole in case.curves:
         # cells have their middles at most points
-        halves = whole.coordinates[:, :2] / STEP
-        curve = whole.only((np.abs(halves - np.rint(halves)) < 1e-6).all(axis=1))
+        along_x, along_y = whole.coordinates[:, 0] / STEP, whole.coordinates[:, 1] / STEP
+        curve = whole.only(np.maximum(np.abs(along_x - np.rint(along_x)), np.abs(along_y - np.rint(along_y))) < 1e-6)
         x, y, z = curve.coordinates.T
         name = curve.name + (f" ({curve.side})" if curve.side else "")
         pairs: list[tuple[str, FloatArray, float, str]] = []
