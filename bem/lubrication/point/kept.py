@@ -16,6 +16,8 @@ from bem.lubrication.point.setting import Setting
 
 AROUND = 4
 """Cells on either side that the central film is interpolated from."""
+DEEPEST = 0.5
+"""Of the lowest cell, what a paraboloid through it leaves at least where cells resolve the constriction."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,8 @@ def central_film(level: Level, film: FloatArray) -> float:
 
 
 def least_film(film: FloatArray) -> float:
-    """Smallest value of the paraboloid through the lowest cell and those around it."""
+    """Smallest value of the paraboloid through the lowest cell and those around it; the lowest cell's where that falls
+    so fast that cells do not resolve it (and would go below zero)."""
     nx, ny = film.shape
     i, j = np.unravel_index(int(film.argmin()), film.shape)
     if not (0 < i < nx - 1 and 0 < j < ny - 1):
@@ -81,4 +84,5 @@ def least_film(film: FloatArray) -> float:
     if np.linalg.eigvalsh(curve)[0] <= 0:
         return float(f[1, 1])
     step = np.clip(-np.linalg.solve(curve, slope), -1, 1)
-    return float(f[1, 1] + slope @ step + 0.5 * step @ curve @ step)
+    least = float(f[1, 1] + slope @ step + 0.5 * step @ curve @ step)
+    return least if least >= DEEPEST * f[1, 1] else float(f[1, 1])

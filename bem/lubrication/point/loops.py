@@ -26,9 +26,9 @@ from bem.grid import FloatArray
 
 COMPILE: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True}
 BAND = 3
+"""Cells on either side whose coupling along a line is solved for."""
 AHEAD, HERE, BEHIND = 0.375, 0.75, 0.125
 """Shares of the cells around a face in what is dragged through it."""
-"""Cells on either side whose coupling along a line is solved for."""
 
 
 @nb.njit(**COMPILE)

@@ -12,6 +12,7 @@ import numpy as np
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.lubrication import validity
+from bem.lubrication.point.cascade import shapes_up_to
 from bem.lubrication.point.levels import Level
 from bem.lubrication.point.setting import Setting
 from bem.lubrication.thermal.inlet import inlet_heating_factor
@@ -118,5 +119,9 @@ def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, l
     if any(error is not None and error > LARGEST_ERROR * value for error, value in errors):
         notes.append(
             f"the grid is coarse: films are uncertain by more than {100 * LARGEST_ERROR:g} % (see their errors)"
+        )
+    if film.status is Status.CONVERGED and errors[0][0] is None and len(shapes_up_to(level.shape)) > 1:
+        notes.append(
+            "the error of the film is unknown: on half as many cells there is none; take twice as many to see it"
         )
     return tuple(notes)

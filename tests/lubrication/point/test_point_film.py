@@ -8,7 +8,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
 
 from bem import Body, InputError, Layer, Lubricant, Material, solve_line_film, solve_point_film
-from bem.lubrication.point.kept import certificate
+from bem.lubrication.point.kept import certificate, least_film
 from bem.reference_solutions.hertz import ellipse_contact
 
 MODULUS, RADIUS, ALPHA, VISCOSITY = 1.15e11, 0.01, 22e-9, 0.04
@@ -236,6 +236,27 @@ def test_what_is_not_met_is_not_called_converged():
     wrong[24, 24] *= 1 + 1e-6
     assert certificate(kept.level, wrong, kept.state.datum).residual > 1e-8
     assert certificate(kept.level, kept.state.pressure * 1.001, kept.state.datum).residual > 1e-4
+
+
+def test_no_constriction_is_so_narrow_that_a_film_is_negative():
+    """The paraboloid through its lowest cell went below zero, and that was shown."""
+    x, y = np.arange(-5.0, 6.0)[:, None], np.arange(-5.0, 6.0)[None, :]
+    wide = 1 + 0.05 * ((x - 0.3) ** 2 + (y + 0.2) ** 2 + 0.5 * (x - 0.3) * (y + 0.2))
+    assert least_film(wide) == pytest.approx(1.0, rel=1e-12)
+    # a constriction of one cell
+    narrow = 1 + np.where(x > 0, 100 * x, -10 * x) + 0.1 * y**2
+    assert least_film(narrow) == 1.0
+
+
+def test_an_error_that_no_coarser_grid_gives_is_said_to_be_unknown():
+    """A ball at 4 mm/s in thin oil: on half as many cells there is no film."""
+    film = solve_point_film(
+        load=20.0, radii=(12.7e-3, 12.7e-3), contact_modulus=115e9, speeds=(0.004, 0.004),
+        lubricant=Lubricant(0.02, pressure_viscosity=20e-9), shape=(112, 112),
+    )  # fmt: skip
+    assert film.status == "converged"
+    assert film.minimum_thickness_error is None
+    assert any("error of the film is unknown" in note for note in film.notes)
 
 
 def test_oil_may_come_from_any_direction_in_which_there_is_an_axis():
