@@ -62,7 +62,7 @@ def certify(
         largest = max(largest, abs(approach - request.approach))
     elif request.load is not None:
         missed = _relative(abs(load - request.load), request.load)
-    contact, plastic = _regions(request, pressure, deformed, load)
+    contact, plastic, doubt = _regions(request, pressure, deformed, load)
     residual = max(_relative(largest, roughness if roughness > _FLAT * reach else reach), missed)
     return ContactSolution(
         pressure=pressure,
@@ -81,21 +81,35 @@ def certify(
         convolutions=operator.count.weighted - convolutions_before,
         residual=residual,
         status=Status.CONVERGED if residual <= request.tolerance else unmet,
-        notes=_notes(grid, pressure) + _why(request, units, result),
+        notes=_notes(grid, pressure) + doubt + _why(request, units, result),
     )
 
 
-def _regions(request: Request, pressure: FloatArray, deformed: FloatArray, load: float) -> tuple[Region, Region]:
-    """What touches, and what of that is at the cap."""
+_SHORT, _MANY = 0.98, 1.1
+"""Of load / cap: an area of edges that is less, where cells are more, is not known to a tenth."""
+
+
+def _regions(
+    request: Request, pressure: FloatArray, deformed: FloatArray, load: float
+) -> tuple[Region, Region, tuple[str, ...]]:
+    """What touches, what of that is at the cap, and a sentence where the cells do not tell the area."""
     operator, grid, cap = request.operator, request.operator.grid, request.cap
     modulus = operator.modulus_at(0.5 * math.pi / math.sqrt(grid.cell_area))
     contact = contact_region(pressure, deformed, request.gap, grid, modulus)
-    area = max(contact.area, load / cap)  # no more than the cap on average, also where no cell is at it
-    contact = replace(contact, area=area)
+    least = load / cap  # no more than the cap on average, also where no cell is at it
+    doubt: tuple[str, ...] = ()
+    if contact.area < _SHORT * least and contact.counted_area > _MANY * least:
+        doubt = (
+            "spots of contact are too small for these cells: the contact area shown is the least that carries the load "
+            f"at the hardness, the cells in contact are {contact.counted_area / least:.2f} times as many; take a finer "
+            "grid",
+        )
+    contact = replace(contact, area=max(contact.area, least))
     if not (pressure >= cap).any():
-        return contact, Region(0.0, 0.0, 0.0)
+        return contact, Region(0.0, 0.0, 0.0), doubt
     plastic = plastic_region(pressure, deformed, request.gap, cap, grid, modulus)
-    return contact, replace(plastic, area=min(plastic.area, load / cap))  # the rest carries what the load has beyond it
+    # the rest carries what the load has beyond it
+    return contact, replace(plastic, area=min(plastic.area, least)), doubt
 
 
 def _relative(error: float, reference: float) -> float:

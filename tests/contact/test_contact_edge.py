@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from test_contact_closed_forms import order
 
-from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
+from bem import Body, Grid, Layer, Material, displacement_operator, generate_surface, solve_contact
 from bem.contact.edge import count_spots
 from bem.reference_solutions.hertz import sphere_contact
 
@@ -195,3 +195,14 @@ def test_perimeter_of_balls_is_of_second_order():
     assert abs(errors[4.0]) < 0.007
     assert abs(errors[16.0]) < 0.001
     assert abs(errors[32.0]) < 0.001
+
+
+def test_spots_too_small_for_the_cells_are_told():
+    """Rough on the scale of its cells, at its hardness: edges' shares add up to less than what carries the load."""
+    grid = Grid((64, 64), (1e-6, 1e-6), periodic=(True, True))
+    steel = displacement_operator(grid, Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)))
+    for rms, told in ((100e-9, True), (5e-9, False)):
+        height = generate_surface(grid, rms_height=rms, seed=2, correlation_length=1.6e-6)
+        found = solve_contact(height.max() - height, steel, load=0.1e9 * grid.area, hardness=6e9)
+        assert any("too small for these cells" in note for note in found.notes) == told
+        assert (found.contact_area <= found.load / 6e9 * (1 + 1e-12)) == told

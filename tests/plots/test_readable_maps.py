@@ -31,9 +31,9 @@ def test_a_spike_does_not_take_the_colours_of_a_surface():
 def test_a_pressure_map_of_one_colour_says_so():
     pressure = np.zeros((8, 8))
     pressure[2:6, 2:6] = 2e9
-    assert _one_colour(pressure) == "all of the contact is at one pressure, 2 GPa"
+    assert _one_colour(pressure) == "all of the cells in contact are at one pressure, 2 GPa"
     pressure[2:4] *= np.linspace(0.1, 0.9, 8)
-    assert _one_colour(pressure) == "50 % of the contact is at one pressure, 2 GPa"
+    assert _one_colour(pressure) == "50 % of the cells in contact are at one pressure, 2 GPa"
     x = np.linspace(-1, 1, 41)
     assert _one_colour(1e9 * np.sqrt(np.maximum(0.8 - x[:, None] ** 2 - x**2, 0))) == ""
     assert _one_colour(np.zeros((4, 4))) == ""

@@ -318,7 +318,7 @@ OUTCOMES = {
     ),
     "contact_at_the_cap": (
         with_(BALL, contact__behaviour="capped"),
-        (contact_outcome(spot(7e9)), "100 % of the contact area, with 100 % of the load"),
+        (contact_outcome(spot(7e9)), "100 % of the cells in contact, with 100 % of the load"),
         contact_outcome(spot(6.9e9)),
     ),
     "capped_contact_nearly_full": (

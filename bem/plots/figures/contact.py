@@ -47,7 +47,7 @@ def _pressure_map(run: Any, figure: Figure) -> None:
 
 
 def _one_colour(pressure: NDArray[np.float64]) -> str:
-    """What a map says in its darkest colour alone; nothing where less than a tenth of the contact is at one pressure.
+    """What a map says in its darkest colour alone; nothing where less than a tenth of what touches is at one pressure.
 
     Only a cap, or full contact of smooth bodies, makes so many cells alike.
     """
@@ -57,7 +57,7 @@ def _one_colour(pressure: NDArray[np.float64]) -> str:
     if touching < 2 or share < _AT_ONE_PRESSURE:
         return ""
     part = "all" if share > 0.999 else f"{100 * share:.0f} %"
-    return f"{part} of the contact is at one pressure, {highest * factor:.3g} {unit}"
+    return f"{part} of the cells in contact are at one pressure, {highest * factor:.3g} {unit}"
 
 
 def _contact_map(run: Any, figure: Figure) -> None:

@@ -137,8 +137,8 @@ def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[str]:
         touching, capped = np.count_nonzero(plane > 0), plane >= case.cap * (1 - 1e-9)
         if touching and np.count_nonzero(capped) > _AT_CAP * touching:
             yield (
-                f"{percent(np.count_nonzero(capped) / touching)} of the contact area, with "
-                f"{percent(float(plane[capped].sum() / plane.sum()))} of the load, is at the hardness, "
+                f"{percent(np.count_nonzero(capped) / touching)} of the cells in contact, with "
+                f"{percent(float(plane[capped].sum() / plane.sum()))} of the load, are at the hardness, "
                 f"{si(case.cap, 'Pa')}: there the pressure is what was put in, and nothing hardens"
             )
         return
