@@ -400,6 +400,19 @@ def test_what_is_not_met_is_not_converged(monkeypatch):
     assert found.as_film().status is Status.STALLED
 
 
+def test_a_spike_without_limit_does_not_keep_heat_from_its_film(monkeypatch):
+    """What is tried first: rolling at 1 GPa with the law of density that oils have where none is asked for. The heat of
+    its flank was more than there is, and no field was found; where one is still not, the note says what helps."""
+    plain = Lubricant.of("ISO VG 68", temperature=333.15)
+    found, blunt = (film(5.0, 0.0, hertz=1e9, lubricant=one) for one in (plain, oil()))
+    assert found.status is Status.CONVERGED
+    thinner = [one.central_thickness / one.isothermal.central_thickness for one in (found, blunt)]
+    # the inlet, where heat thins the film, knows nothing of the spike; its oil's density differs by some hundredths
+    assert thinner[0] == pytest.approx(thinner[1], rel=0.01)
+    monkeypatch.setattr(coupled, "MOST_ROUNDS", 1)
+    assert any('density_law "dowson_higginson" blunts it' in note for note in film(5.0, 0.0, lubricant=plain).notes)
+
+
 def test_the_film_s_own_solver_asks_for_heat():
     """`thermal="full"` is the same film, with all of its heat beside it."""
     whole, asked = film(3.0, 0.3), film(3.0, 0.3, solve=solve_line_film, thermal="full")

@@ -45,6 +45,10 @@ NOT_FOLLOWED = (
     "no film was found that carries the load with the heat it makes: the last one that was is shown, with temperatures "
     "that it does not yet follow"
 )
+BLUNTED_BY = (
+    " (the pressure spike of an incompressible oil has no limit, and its heat changes with it: density_law "
+    '"dowson_higginson" blunts it)'
+)
 
 
 @readable
@@ -255,5 +259,10 @@ def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool
         rounds=found.rounds,
         iterations=found.steps,
         status=Status.CONVERGED if right else Status.STALLED,
-        notes=notes if right else (*notes, NOT_FOLLOWED),
+        notes=notes if right else (*notes, _not_followed(lubricant)),
     )
+
+
+def _not_followed(lubricant: Lubricant) -> str:
+    """With what will help where it is known: a spike without limit makes heat that no round settles."""
+    return NOT_FOLLOWED + (BLUNTED_BY if lubricant.density_law.name == "incompressible" else "")

@@ -61,27 +61,31 @@ class Made:
         strip, nodes = self.strip, self.at_nodes(temperature)
         found = across(self.oil, strip, nodes, self.resistance)
         layers = temperature.shape[1]
-        made = self._in_columns(found.heat) + self._by_pressure(found.expanding * nodes)
+        driven = self._in_columns(found.heat - found.sheared)
+        made = self._in_columns(found.sheared) + self._by_pressure(found.expanding * nodes)
         total = strip.pushed - found.through * strip.work
         total -= strip.sliding * self._in_columns(found.stress)
         total[0] += strip.sliding * self.ambient
+        blunted = _blunted(driven.sum(axis=1), total - made.sum(axis=1))
+        made += blunted[:, None] * driven
         made += ((total - made.sum(axis=1)) / layers)[:, None]
         slope, growth = self._gathered(
             found.sheared, found.softer, (1 + found.steep)[:, None] * found.share * found.softer
         )
         edge = self.edge
         bending = found.bent(strip, edge)
-        shifted = self._shifted(found, nodes, bending)
+        shifted = self._shifted(found, nodes, bending, blunted)
         # what is put right is the sum of the heat that shear by pressure and compression make
         shifted -= shifted.mean(axis=2, keepdims=True)
         return Sources(found.flux[edge], bending, made, slope, shifted, growth, self.share[edge])
 
-    def _shifted(self, found: Across, nodes: FloatArray, bending: FloatArray) -> FloatArray:
-        """Derivatives (3, m, K, K) of the heat of what pressure drives, and of compression."""
+    def _shifted(self, found: Across, nodes: FloatArray, bending: FloatArray, blunted: FloatArray) -> FloatArray:
+        """Derivatives (3, m, K, K) of the heat that pressure drives, of which a share is taken, and of compression."""
         driven = found.heat - found.sheared
         slope = self._gathered(driven, found.softer, 2 * found.yielding)[0]
         turned = 2 * found.share * found.softer * found.lever
         slope += self._gathered(found.turning, 0 * found.softer, turned)[0]
+        slope *= blunted[:, None, None]
         expanded = self._by_pressure(found.expanding * nodes * found.slow)
         slope[1] += expanded[:, :, None] * 0.5 * (bending[1:] + bending[:-1])
         _gather_expansion(self.strip.pressure, self.edge, self.right, self.share, found.expanding, slope)
@@ -108,6 +112,16 @@ class Made:
     def couette(self, stress: FloatArray) -> float:
         """Sliding force on the flat along -x of stresses at the nodes (n,) [N/m]."""
         return self.ambient - float(np.trapezoid(stress, self.strip.x))
+
+
+def _blunted(driven: FloatArray, left: FloatArray) -> FloatArray:
+    """Share of the heat that pressure drives at the nodes (m,) [W/m] that is taken, no more than power leaves for it.
+
+    At a spike narrower than its mesh the gradient at a node beside it is that of its flank, in oil that flows: its heat
+    there is many times the power of the cell, and taken evenly from all layers again it would heat some and cool others
+    without end.
+    """
+    return np.where(driven > left, np.maximum(left, 0.0) / np.maximum(driven, 1e-300), 1.0)
 
 
 @njit(cache=True)
