@@ -16,7 +16,7 @@ STATES = {"running": "blue", "paused": "orange", "failed": "red", "converged": "
 
 @contextmanager
 def page(title: str) -> Iterator[None]:
-    """The frame of a page."""
+    """The frame of a page; nothing in it takes a click before it hears its server, who would not get it."""
     ui.page_title(f"{title} - bem")
     ui.query("body").style("background: #fafaf8")
     with ui.header().classes("items-center q-py-xs").style("background: #0b3954"):
@@ -25,7 +25,9 @@ def page(title: str) -> Iterator[None]:
             ui.link(words, where).classes("text-white q-mx-sm").style("text-decoration: none")
         ui.space()
         ui.label(title).classes("text-subtitle1")
-    with ui.column().classes("w-full q-pa-md").style("max-width: 1500px; margin: 0 auto"):
+    body = ui.column().classes("w-full q-pa-md").style("max-width: 1500px; margin: 0 auto").props("inert")
+    ui.context.client.on_connect(lambda: body.props(remove="inert"))
+    with body:
         yield
 
 

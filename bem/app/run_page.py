@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
@@ -44,14 +45,30 @@ def actions(workspace: Workspace, state: RunState, after: Callable[[], Any]) -> 
         button("cancel", "close", workspace.cancel)
 
 
-def progress(state: RunState) -> None:
-    """How far it is."""
-    if state.state == "running":
-        share = state.done / state.total if state.total else 0.0
-        ui.linear_progress(share, show_value=False).classes("w-48")
-        ui.label(f"{state.what} {state.done} of {state.total}" if state.total else "starting").classes("text-caption")
-    elif state.message:
-        ui.label(state.message).classes("text-negative text-caption").style("white-space: pre-wrap")
+class Progress:
+    """How far a run is. `show` changes it in place: a button that is drawn anew under the mouse loses its click."""
+
+    def __init__(self, state: RunState) -> None:
+        self._bar = ui.linear_progress(0.0, show_value=False).classes("w-48")
+        self._words = ui.label().classes("text-caption").style("white-space: pre-wrap")
+        self._words.props["data-progress"] = state.name
+        self.show(state)
+
+    def show(self, state: RunState) -> None:
+        """Now."""
+        running = state.state == "running"
+        self._bar.set_visibility(running)
+        self._bar.set_value(state.done / state.total if state.total else 0.0)
+        words = state.message
+        if running:
+            words = f"{state.what} {state.done} of {state.total}" if state.total else "starting"
+        self._words.set_text(words)
+        self._words.classes(add="" if running else "text-negative", remove="text-negative" if running else "")
+
+
+def frame_of(state: RunState) -> RunState:
+    """What decides which buttons there are: all but how far it is."""
+    return replace(state, done=0, total=0, what="", notes=())
 
 
 class RunsPage:
@@ -61,6 +78,7 @@ class RunsPage:
         self._workspace = workspace
         self._ticked: set[str] = set()
         self._seen: list[RunState] | None = None
+        self._shown: list[Progress] = []
         with page("runs"):
             with ui.row().classes("items-center"):
                 ui.button("overlay the ticked ones", icon="stacked_line_chart", on_click=self._compare).props("no-caps")
@@ -72,8 +90,13 @@ class RunsPage:
         found = self._workspace.runs()
         if found == self._seen:
             return
-        self._seen = found
+        before, self._seen = self._seen, found
+        if before is not None and list(map(frame_of, before)) == list(map(frame_of, found)):
+            for state, shown in zip(found, self._shown, strict=True):
+                shown.show(state)
+            return
         self._list.clear()
+        self._shown = []
         with self._list:
             if not found:
                 ui.label("No runs yet: open a scene and run it.").classes("text-grey")
@@ -90,7 +113,7 @@ class RunsPage:
             ui.link(state.name, f"/run/{state.name}").classes("text-body1").style("min-width: 16em")
             ui.label(state.kind).classes("text-caption text-grey").style("min-width: 8em")
             badge(state.state).props["data-state"] = state.name
-            progress(state)
+            self._shown.append(Progress(state))
             ui.space()
             actions(self._workspace, state, self._look)
 
@@ -111,12 +134,13 @@ class RunPage:
     def __init__(self, workspace: Workspace, name: str) -> None:
         self._workspace, self._name = workspace, name
         self._seen: RunState | None = None
+        self._progress: Progress | None = None
         with page(name):
             self._head = ui.row().classes("items-center w-full")
             self._notes = ui.column().classes("gap-0")
             self._body = ui.column().classes("w-full")
             self._look()
-            self._timer = ui.timer(_EVERY, self._look)
+            ui.timer(_EVERY, self._look)
 
     def _look(self) -> None:
         try:
@@ -129,12 +153,15 @@ class RunPage:
         if state is None or state == self._seen:
             return
         before, self._seen = self._seen, state
-        self._head.clear()
-        with self._head:
-            badge(state.state).props["data-state"] = state.name
-            ui.label(f"{state.scene}, {state.kind}").classes("text-subtitle1")
-            progress(state)
-            actions(self._workspace, state, self._look)
+        if before is not None and self._progress is not None and frame_of(before) == frame_of(state):
+            self._progress.show(state)
+        else:
+            self._head.clear()
+            with self._head:
+                badge(state.state).props["data-state"] = state.name
+                ui.label(f"{state.scene}, {state.kind}").classes("text-subtitle1")
+                self._progress = Progress(state)
+                actions(self._workspace, state, self._look)
         if not state.finished:
             self._notes.clear()
             with self._notes:

@@ -138,10 +138,10 @@ class Workspace:
     # --- runs
 
     def runs(self) -> list[RunState]:
-        """All runs, the latest first."""
+        """All runs whose names can be asked for, those begun last first."""
         self._children = [child for child in self._children if child.poll() is None]
-        folders = [item for item in self.runs_folder.iterdir() if item.is_dir() and item.name[0] != "."]
-        folders.sort(key=lambda item: item.stat().st_mtime, reverse=True)
+        folders = [item for item in self.runs_folder.iterdir() if _NAME.fullmatch(item.name) and item.is_dir()]
+        folders.sort(key=lambda item: (_begun(item), item.name), reverse=True)
         return [state for state in map(self.state_of, folders) if state is not None]
 
     def run_path(self, name: str) -> Path:
@@ -259,6 +259,14 @@ class Workspace:
             number += 1
             target = self.runs_folder / CANCELLED / f"{name}-{number}"
         shutil.move(path, target)
+
+
+def _begun(folder: Path) -> float:
+    """When a run was asked for; the time of its folder changes with each file that it writes."""
+    for file in (folder / OWN / ASKED, folder / SCENE):
+        with suppress(OSError):
+            return file.stat().st_mtime
+    return 0.0
 
 
 def _json(path: Path) -> dict[str, Any]:

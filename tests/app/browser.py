@@ -3,7 +3,6 @@
 import base64
 import contextlib
 import json
-import math
 import shutil
 import subprocess
 import tempfile
@@ -105,20 +104,9 @@ class Tab:
         self.wait(f"document.body.innerText.includes({json.dumps(words)})")
 
     def click(self, selector):
-        self.wait(f"document.querySelector({json.dumps(selector)}) !== null")
+        """Once what is there takes clicks."""
+        self.wait(f"document.querySelector({json.dumps(selector)}).closest('[inert]') === null")
         self.look(f"document.querySelector({json.dumps(selector)}).click()")
-
-    def click_until(self, selector, script):
-        """Click, again each second, until a piece of script gives something true: a click before the page has found
-        its server is lost, as a person's is."""
-        chosen = f"document.querySelector({json.dumps(selector)})"
-        end, last = time.monotonic() + PATIENCE, -math.inf
-        while not self.look(f"(() => {{ try {{ return Boolean({script}) }} catch (e) {{ return false }} }})()"):
-            assert time.monotonic() < end, f"not within {PATIENCE:g} s: {script}\n{self.text()[:3000]}\n{self.errors}"
-            if time.monotonic() > last + 1:
-                last = time.monotonic()
-                self.look(f"{chosen} && {chosen}.click()")
-            time.sleep(0.1)
 
     def type(self, key, words):
         """Into the field of a key, as a person would: select what is there, and type."""

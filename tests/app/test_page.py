@@ -206,13 +206,19 @@ def test_a_killed_server_and_a_pause_lose_nothing(serve, chrome, tmp_path):
     tab.go(server.address)
     tab.go(f"{server.base}/runs")
     tab.wait("document.querySelector('[data-state=long-001]').innerText === 'running'")
-    tab.click_until("[data-action=pause]", "document.querySelector('[data-state=long-001]').innerText === 'paused'")
+    tab.click("[data-action=pause]")
+    tab.wait("document.querySelector('[data-state=long-001]').innerText === 'paused'")
     kept = [path.name for path in folder.glob("cases/*.bin")] + [path.name for path in folder.glob("checkpoint.bin")]
     assert kept
     assert not (folder / "summary.json").exists()
-    tab.click_until("[data-action=resume]", "document.querySelector('[data-state=long-001]').innerText === 'running'")
-    tab.click_until("[data-action=pause]", "document.querySelector('[data-action=cancel]')")
-    tab.click_until("[data-action=cancel]", "document.body.innerText.includes('No runs yet')")
+    tab.click("[data-action=resume]")
+    tab.wait("document.querySelector('[data-state=long-001]').innerText === 'running'")
+    tab.look("void (window.kept = document.querySelector('[data-action=pause]'))")
+    tab.wait("document.querySelector('[data-progress=long-001]').innerText.includes(' of ')")  # it goes on
+    assert tab.look("window.kept.isConnected")  # a button that is drawn anew under the mouse loses its click
+    tab.click("[data-action=pause]")
+    tab.click("[data-action=cancel]")
+    tab.wait_text("No runs yet")
     assert (work / "runs" / ".cancelled" / "long-001" / "scene.toml").is_file()  # nothing is deleted
     assert tab.errors == []
 
@@ -234,3 +240,4 @@ def test_without_the_token_there_is_nothing(serve):
         urllib.request.urlopen(elsewhere)
     with urllib.request.urlopen(server.address) as answer:
         assert "default-src 'self'" in answer.headers["content-security-policy"]
+        assert '"inert":' in answer.read().decode()  # nothing takes a click that the server would not hear

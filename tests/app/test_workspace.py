@@ -121,3 +121,14 @@ def test_states_are_read_from_files(workspace):
     workspace.cancel("x-001")
     assert workspace.runs() == []
     assert (workspace.runs_folder / ".cancelled" / "x-001" / "scene.toml").is_file()
+
+
+def test_the_order_of_runs_is_that_in_which_they_were_begun(workspace):
+    """Not of the last file that each wrote: rows would change places under the mouse."""
+    for number, name in enumerate(("x-001", "x-002", "no name of ours")):
+        folder = workspace.runs_folder / name
+        folder.mkdir()
+        (folder / "scene.toml").write_text('kind = "contact"\n')
+        os.utime(folder / "scene.toml", (number, number))
+        os.utime(folder, (10 - number, 10 - number))
+    assert [one.name for one in workspace.runs()] == ["x-002", "x-001"]
