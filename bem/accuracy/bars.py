@@ -11,7 +11,7 @@ import numpy as np
 from bem.grid import FloatArray
 
 GRID, DEPTHS, POINTS, STEPS, RESIDUAL = "grid", "depths", "film points", "time steps", "residual"
-REUSE = "reused contacts"
+REUSE, INLET = "reused contacts", "inlet"
 """Where errors come from, in the words of summary, dataset and report: what discretisation leaves, and the residual of
 solvers. Over repetitions there is `bem.scenes.records.SCATTER` besides."""
 

@@ -52,6 +52,21 @@ def test_bars_cover_the_grid_but_the_spike_has_none(tmp_path):
     assert coarse["maximum_pressure_Pa_error"] is None
 
 
+def test_bars_of_friction_count_what_the_inlet_adds(tmp_path):
+    light = scene(
+        ball={"radius": "10 mm", "load": "0.5 N"},
+        oil={"viscosity": "0.2 Pa s", "pressure_viscosity": "10 1/GPa"},
+        lower={"material": {"youngs_modulus": "3 GPa", "poissons_ratio": 0.4}},
+    )
+    run = run_scene(light, tmp_path / "run", figures=False)
+    friction, power = (
+        run.summary[f"{key}_error"] / run.summary[key] for key in ("traction_coefficient", "friction_power_W")
+    )
+    assert friction > 0.1
+    assert power == pytest.approx(friction, rel=1e-6)
+    assert any("friction depends on how far" in note for note in run.summary["notes"])
+
+
 def test_over_speeds_films_grow(tmp_path):
     over = {"rolling.mean_speed": ["0.2 m/s", "0.5 m/s"]}
     run = run_scene(scene(over=over, outputs={"errors": False}), tmp_path / "run")

@@ -70,6 +70,13 @@ def far_source(x: FloatArray, y: FloatArray, drag: tuple[float, float], ratio: f
     return np.hypot(x[:, None], y[None, :]) * share
 
 
+def far_shear(drag: tuple[float, float], ratio: float) -> float:
+    """Integral of dx dy/h over directions t with oil, by ln r: 2/g(t) dt. It has no limit with the distance."""
+    angle = 2 * np.pi / ANGLES * np.arange(ANGLES, dtype=np.float64)
+    full = far_profile(drag, ratio) > 0
+    return float((2 / _opening(angle[full], ratio)).sum()) * 2 * np.pi / ANGLES
+
+
 def far_load(
     rectangle: tuple[float, float, float, float],
     drag: tuple[float, float],

@@ -16,6 +16,8 @@ from bem.lubrication.point.setting import Setting
 
 AROUND = 4
 """Cells on either side that the central film is interpolated from."""
+ASYMPTOTIC = 0.2
+"""Relative difference up to which it is of second order."""
 DEEPEST = 0.5
 """Of the lowest cell, what a paraboloid through it leaves at least where cells resolve the constriction."""
 
@@ -62,6 +64,12 @@ def film_fraction(level: Level, pressure: FloatArray, film: FloatArray) -> Float
     return share
 
 
+def order_missed(difference: float, value: float) -> float:
+    """1 where a difference to half as many cells is small enough to be of second order, so that a third of it is left;
+    up to 3 where it is not and all of it may be."""
+    return min(max(abs(difference / (ASYMPTOTIC * value)), 1.0), 3.0) if value else 3.0
+
+
 def central_film(level: Level, film: FloatArray) -> float:
     """At the origin, by a cubic spline around it."""
     i, j = (int(np.clip(np.searchsorted(a, 0.0), AROUND, len(a) - AROUND)) for a in (level.x, level.y))
@@ -86,3 +94,10 @@ def least_film(film: FloatArray) -> float:
     step = np.clip(-np.linalg.solve(curve, slope), -1, 1)
     least = float(f[1, 1] + slope @ step + 0.5 * step @ curve @ step)
     return least if least >= DEEPEST * f[1, 1] else float(f[1, 1])
+
+
+def rise_beside_lowest(film: FloatArray) -> float:
+    """Largest film of the four cells around the lowest one, over that."""
+    i, j = (int(k) for k in np.unravel_index(int(film.argmin()), film.shape))
+    beside = film[max(i - 1, 0) : i + 2, j].max(), film[i, max(j - 1, 0) : j + 2].max()
+    return float(max(beside) / film[i, j])

@@ -14,7 +14,7 @@ from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.cascade import Reached, solved
 from bem.lubrication.point.film import PointFilmSolution
-from bem.lubrication.point.kept import KeptPoint, central_film, certificate, film_fraction, least_film
+from bem.lubrication.point.kept import KeptPoint, central_film, certificate, film_fraction, least_film, order_missed
 from bem.lubrication.point.setting import Rectangle, Setting, setting_of
 from bem.lubrication.point.validity import notes_on_point
 from bem.materials import Body
@@ -123,8 +123,10 @@ def _result(setting: Setting, reached: Reached, asked: Request) -> PointFilmSolu
     if reached.coarse is not None and status is Status.CONVERGED:
         coarse = reached.coarse
         rough = central_film(coarse[0], coarse[1].film), least_film(coarse[1].film)
-        # of second order: a third of the difference is left
-        errors = [abs(a - b) / 3 * scales.film for a, b in zip((central, least), rough, strict=True)]
+        # of second order a third of the difference is left
+        errors = [
+            abs(a - b) / 3 * order_missed(a - b, a) * scales.film for a, b in zip((central, least), rough, strict=True)
+        ]
     share = setting.problem.outside(state.datum)[0] / setting.problem.load
     full = None
     if asked.cavitation is Cavitation.MASS_CONSERVING:

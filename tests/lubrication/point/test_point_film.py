@@ -9,6 +9,7 @@ from scipy.sparse.linalg import spsolve
 
 from bem import Body, InputError, Layer, Lubricant, Material, solve_line_film, solve_point_film
 from bem.lubrication.point.kept import certificate, least_film
+from bem.lubrication.point.validity import inlet_shear
 from bem.reference_solutions.hertz import ellipse_contact
 
 MODULUS, RADIUS, ALPHA, VISCOSITY = 1.15e11, 0.01, 22e-9, 0.04
@@ -257,6 +258,32 @@ def test_an_error_that_no_coarser_grid_gives_is_said_to_be_unknown():
     assert film.status == "converged"
     assert film.minimum_thickness_error is None
     assert any("error of the film is unknown" in note for note in film.notes)
+    assert any("constriction is narrower than the cells" in note for note in film.notes)
+
+
+def test_errors_cover_films_that_are_far_from_second_order():
+    """A third of the difference to half as many cells, 0.22 nm, was said to be left of 0.62 nm."""
+    case = {"load": 20.0, "radii": (12.7e-3,) * 2, "contact_modulus": 115e9, "speeds": (0.006, 0.006)}
+    film = solve_point_film(**case, lubricant=Lubricant(0.02, pressure_viscosity=20e-9), shape=(128, 128))
+    assert film.status == "converged"
+    # of 256 x 256 cells
+    assert abs(film.minimum_thickness - 1.301e-9) < film.minimum_thickness_error
+
+
+def test_friction_of_a_light_contact_says_what_the_inlet_adds():
+    """It goes with the logarithm of the grid's size; bars of 0.6 % were given where another 40 % came with it."""
+    case = moes(1.0, 0.0, slide=0.1, density="incompressible") | {"contact_modulus": math.inf}
+    film = solve_point_film(**case, shape=(64, 64))
+    half = (film.x[1] - film.x[0]) / 2, (film.y[1] - film.y[0]) / 2
+    twice = [2 * v for at, d in zip((film.x, film.y), half, strict=True) for v in (at[0] - d, at[-1] + d)]
+    wide = solve_point_film(**case, shape=(128, 128), extent=twice)
+    added = inlet_shear(film, film.state.setting) / film.load
+    # far away h = r^2/2R; at the grid's edges film and rupture are 5 % off
+    assert wide.friction - film.friction == pytest.approx(added, rel=0.1)
+    assert added > 0.2 * film.friction
+    assert any("friction depends on how far" in note for note in film.notes)
+    heavy = solve_point_film(**moes(300, 12, slide=0.1), shape=(64, 64))
+    assert not any("friction depends on how far" in note for note in heavy.notes)
 
 
 def test_oil_may_come_from_any_direction_in_which_there_is_an_axis():
@@ -317,6 +344,7 @@ def test_notes_say_where_the_model_ends():
     film = solve_point_film(**heavy, shape=(64, 64))
     assert any("exceeds 1 GPa" in note for note in film.notes)
     plain = solve_point_film(**moes(60, 4), shape=(64, 64))
+    assert not any("constriction" in note for note in plain.notes)
     assert not any("inlet" in note and "grid" in note for note in plain.notes)
     x = 1.1 * ellipse_contact(radii=(RADIUS, RADIUS), contact_modulus=MODULUS, load=plain.load).semi_axes[0]
     short = solve_point_film(**moes(60, 4), shape=(64, 64), extent=(-x, x, -2 * x, 2 * x))
