@@ -22,8 +22,9 @@ if TYPE_CHECKING:
     from bem.contact import ContactSolution
     from bem.tangential import TangentialSolution
 
-_TRANSFORMS = 6.0 * 250
-"""150 to 350 convolutions were counted on 64 to 256 cells a side, each of four transforms and vector passes."""
+_TRANSFORMS = 6.0 * 2.8
+"""For each cell along the rolling: 2 to 3 convolutions were counted from 32 to 256 of them, each of four transforms and
+vector passes."""
 
 
 class RollingContactScene(RolledScene):
@@ -40,7 +41,7 @@ def plan(scene: RollingContactScene) -> Plan:
             Step(
                 "rolling",
                 f"steady along x, friction {scene.roll.friction:g}",
-                transforms=_TRANSFORMS,
+                transforms=_TRANSFORMS * max(grid.shape[0], 40),
                 points=points,
                 # directions that GMRES keeps, on the cells in contact
                 memory=8.0 * points * 6 + 8.0 * grid.cells * 2 * 62,
