@@ -26,6 +26,7 @@ from bem.scenes.planner import Step, padded_points, stress_kernel_seconds
 from bem.scenes.records import Figure, Record, Series, without_bars
 from bem.scenes.units import Length, WearCoefficient
 from bem.wear.criterion import Detachment, VonMises, WearCriterion
+from bem.wear.loads import wearing_bodies
 from bem.wear.removal import Cap, RemovalLaw
 
 if TYPE_CHECKING:
@@ -105,13 +106,14 @@ def cycle_steps(
 
     Raises
     ------
-    InputError : neither body has a yield stress.
+    InputError : neither body has a yield stress, a length of the criterion that the grid has no room for.
     """
     strengths = [body.build().surface_material.yield_stress for body in (scene.lower, scene.upper)]
     if scene.wear.criterion.needs_strength and all(value is None for value in strengths):
         raise InputError(
             "lower.material: neither body has a yield_stress or a hardness, so nothing can wear; allowed: one of them"
         )
+    scene.wear.criterion.check_length(grid)
     points, cycles = padded_points(grid.shape, grid.periodic), scene.cycles.count
     depths, deepest = min(scene.depths.count, usual), min(scene.depths.count, first)
     return (
@@ -311,15 +313,22 @@ def mean_sizes(particles: NDArray[np.void], sizes: SizesScene) -> dict[str, Any]
     }
 
 
-def sizes_without_bars(scene: Any) -> dict[str, None]:
+def sizes_converge(scene: Any, grid: Grid) -> bool:
+    """Whether sizes by number were found to converge under the scene's criterion, on cells as small as a case's."""
+    bodies, law = (scene.lower.build(), scene.upper.build()), scene.wear.criterion
+    wearing = (bodies[body].surface_material for body in wearing_bodies(bodies, scene.wear.wears))
+    return law.sizes_converge and all(law.resolved(material, grid) for material in wearing)
+
+
+def sizes_without_bars(scene: Any, grid: Grid) -> dict[str, None]:
     """The reported sizes, where the mean that is reported follows the mesh."""
-    follows = "number" in scene.sizes.report and not scene.wear.criterion.sizes_converge
+    follows = "number" in scene.sizes.report and not sizes_converge(scene, grid)
     return dict.fromkeys(f"reported_{quantity}" for quantity in QUANTITIES) if follows else {}
 
 
-def scattering(record: type[Record], scene: Any) -> tuple[str, ...]:
+def scattering(record: type[Record], scene: Any, grid: Grid) -> tuple[str, ...]:
     """Figures of a record that follow the mesh under the source's criterion, where under the scene's they converge."""
-    return tuple(without_bars(record)) if scene.wear.criterion.sizes_converge else ()
+    return tuple(without_bars(record)) if sizes_converge(scene, grid) else ()
 
 
 def mean_radii(particles: NDArray[np.void], sizes: SizesScene, *names: str) -> dict[str, float]:

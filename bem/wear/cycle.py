@@ -18,7 +18,7 @@ from bem.grid import FloatArray, Grid
 from bem.laws import make_laws
 from bem.materials import Body
 from bem.wear.criterion import Detachment
-from bem.wear.loads import LOWER, UPPER, BodyCycle, Removal, SurfaceLoad, half_the_change
+from bem.wear.loads import LOWER, UPPER, BodyCycle, Removal, SurfaceLoad, half_the_change, wearing_bodies
 from bem.wear.removal import RemovalLaw
 from bem.wear.segmentation import CONNECTIVITIES, REFINEMENTS
 
@@ -116,10 +116,8 @@ class WearSetup:
 
     def wearing(self, model: WearModel) -> tuple[int, ...]:
         """Indices of the bodies that wear."""
-        if model.wears == "softer":
-            bodies: tuple[int, ...] = (LOWER,) if self.yield_stress(LOWER) <= self.yield_stress(UPPER) else (UPPER,)
-        else:
-            bodies = {"lower": (LOWER,), "upper": (UPPER,), "both": (LOWER, UPPER)}[model.wears]
+        model.law.check_length(self.grid)
+        bodies = wearing_bodies(self.bodies, model.wears)
         if model.law.needs_strength and any(not np.isfinite(self.yield_stress(body)) for body in bodies):
             raise InputError("the body that wears has no yield_stress and no hardness: give its material one of them")
         return bodies

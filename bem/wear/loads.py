@@ -18,6 +18,16 @@ if TYPE_CHECKING:
 LOWER, UPPER = 0, 1
 
 
+def wearing_bodies(bodies: tuple[Body, Body], wears: str) -> tuple[int, ...]:
+    """Indices of those of (lower, upper) that wear: "lower", "upper", "both", or the "softer", which has the lower
+    yield stress; the lower body where equal."""
+    if wears != "softer":
+        return {"lower": (LOWER,), "upper": (UPPER,), "both": (LOWER, UPPER)}[wears]
+    known = [body.surface_material.yield_stress for body in bodies]
+    lower, upper = (float("inf") if value is None else value for value in known)
+    return (LOWER,) if lower <= upper else (UPPER,)
+
+
 @dataclass(frozen=True, eq=False)
 class SurfaceLoad:
     """Pressure (nx, ny) [Pa] on a body, and the friction it slides with: traction over pressure, on the lower body."""

@@ -157,6 +157,14 @@ CASES = {
         (wear('depths.spacing="500 nm"'), "9.9 cells (2.5 N)"),
         "wear-steel-steel",
     ),
+    "fatigue_constants_of_another_material": (
+        (("wear-brass-transfer-film", "wear.criterion=low_cycle_fatigue"), "is none"),
+        wear("wear.criterion=low_cycle_fatigue"),
+    ),
+    "few_cells_per_length_of_the_criterion": (
+        (wear('wear.criterion={kind="sphere", diameter="100 nm"}'), "2 cells (2.5 N)"),
+        wear('wear.criterion={kind="sphere", diameter="400 nm"}'),
+    ),
     "layer_of_one_depth": (
         (("wear-brass-transfer-film", 'depths.spacing="150 nm"'), "100 nm"),
         "wear-brass-transfer-film",
@@ -348,8 +356,8 @@ OUTCOMES = {
     ),
     "nothing_comes_off": (
         "wear-steel-steel",
-        (wear_outcome([]), "nothing came off by the criterion von_mises"),
-        wear_outcome([CELL]),
+        (wear_outcome([], particles_per_cycle=[2.0, 0.0, 1.0]), "came off by the criterion von_mises (5 N)"),
+        wear_outcome([CELL], particles_per_cycle=[2.0, 0.1, 1.0]),
     ),
     "particles_cut_by_the_depths": (
         "wear-steel-steel",
@@ -377,7 +385,19 @@ def test_running_in_tells_of_particles_of_one_cell_by_their_mean():
 @pytest.mark.parametrize(("criterion", "words"), [("junction", "must be 426 nm wide"), ("low_cycle_fatigue", "passes")])
 def test_nothing_comes_off_and_why(criterion, words):
     facts = facts_of("wear-steel-steel", f"wear.criterion={criterion}")
-    assert words in " ".join(OUTCOME_CHECKS["nothing_comes_off"](facts, wear_outcome([])))
+    none = wear_outcome([], particles_per_cycle=[0.0] * 3)
+    assert words in " ".join(OUTCOME_CHECKS["nothing_comes_off"](facts, none))
+
+
+def test_the_variant_of_which_nothing_comes_off_is_named():
+    facts, check = facts_of("wear-criteria"), OUTCOME_CHECKS["nothing_comes_off"]
+    (told,) = check(facts, wear_outcome([CELL], particles_per_cycle=[3.0, 2.0, 1.0, 0.0, 1.0, 1.0]))
+    assert "criterion junction (junctions); a junction must be 426 nm wide" in told
+
+
+def test_running_in_tells_too_where_nothing_comes_off():
+    facts, check = facts_of("running-in-stribeck"), OUTCOME_CHECKS["nothing_comes_off"]
+    assert "nothing came off" in " ".join(check(facts, Outcome({"particles_per_cycle": [0.0] * len(facts.cases)}, {})))
 
 
 def test_every_check_has_its_two_tests():
@@ -395,6 +415,7 @@ def test_a_map_smaller_than_the_grid_is_refused_by_the_plan(maps):
 GOOD_REASONS = {
     "hardness-optimum": {"few_cells_per_wave"},  # the thesis' cell, two to the shortest wave
     "running-in-stribeck": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise
+    "wear-criteria": {"few_cells_per_length_of_the_criterion"},  # a sphere of two cells: its sizes never settle
     "tribofilm-macro": {"few_cells_per_wave"},  # 430 um on 256 cells hold waves of 4 um with 2.4 cells
     "wear-hard-roughness": {"steep_roughness"},  # Sq 1500 nm is the variant's point; its slope is 5
     "wear-soft-roughness": {"steep_roughness"},  # likewise, slope 1

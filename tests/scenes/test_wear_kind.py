@@ -141,14 +141,19 @@ def test_killed_ten_times_it_ends_in_the_same_bits(scene_file, tmp_path):
         ('"von_mises"', False),
         ('{ kind = "low_cycle_fatigue", passes = 30000 }', False),
         ('{ kind = "averaged_von_mises", averaging_length = "200 nm" }', True),
+        ('{ kind = "averaged_von_mises", averaging_length = "100 nm" }', False),  # one and a half cells
         ('{ kind = "sphere", diameter = "100 nm" }', False),
-        ('{ kind = "junction", surface_energy = "0.02 J/m^2" }', True),
+        ('{ kind = "junction", surface_energy = "0.045 J/m^2" }', True),
+        ('{ kind = "junction", surface_energy = "0.02 J/m^2" }', False),  # d* is two cells
     ],
 )
 def test_what_follows_the_mesh_has_a_bar_where_it_converges(tmp_path, criterion, converges):
     """The scatter over repetitions; and the wear rate is what left by load and distance."""
     path = tmp_path / "scene.toml"
-    path.write_text(WEAR.replace("repetitions = 1", "repetitions = 2") + f"[wear]\ncriterion = {criterion}\n")
+    path.write_text(
+        WEAR.replace("repetitions = 1", "repetitions = 2").replace("cells = 40", "cells = 60")
+        + f"[wear]\ncriterion = {criterion}\n"
+    )
     found = campaign(path)
     summary = compute(found).outcome.summary
     error = summary["number_mean_equivalent_radius_nm_error"]
@@ -172,6 +177,20 @@ def test_one_variant_without_a_length_leaves_no_bars(tmp_path):
     )
     summary = compute(campaign(path)).outcome.summary
     assert summary["number_mean_equivalent_radius_nm_error"] == [None, None]
+
+
+@pytest.mark.parametrize(
+    ("criterion", "key"),
+    [
+        ('{ kind = "averaged_von_mises", averaging_length = "1 mm" }', "averaging_length"),
+        ('{ kind = "sphere", diameter = "1 m" }', "diameter"),
+        ('{ kind = "low_cycle_fatigue", averaging_length = "1 mm" }', "averaging_length"),
+    ],
+)
+def test_a_length_larger_than_the_grid_is_refused_by_the_plan(scene_file, criterion, key):
+    for text in (f"[wear]\ncriterion = {criterion}\n", f'[[variants]]\nname = "long"\ncriterion = {criterion}\n'):
+        with pytest.raises(InputError, match=rf"{key} .* more than half of the grid's longer side; allowed: up to"):
+            plan(campaign(scene_file(WEAR + text)))
 
 
 def test_a_criterion_that_is_not_one_is_named_before_any_work(scene_file):

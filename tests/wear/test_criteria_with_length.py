@@ -120,6 +120,13 @@ def test_bad_parameters_are_named(chosen, words):
         run_in(lower, upper, cycles=1, criterion=chosen, **ARGUMENTS)
 
 
+def test_a_length_larger_than_the_grid_is_refused():
+    lower, upper = surfaces()
+    for law in (AveragedVonMises(averaging_length=1e-3), Sphere(diameter=1e-3)):
+        with pytest.raises(InputError, match="more than half of the grid"):
+            run_in(lower, upper, cycles=1, criterion=law, **ARGUMENTS)
+
+
 # averaged over a disc
 
 

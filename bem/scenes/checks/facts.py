@@ -18,6 +18,8 @@ from bem.scenes.checks.surfaces_of import RoughSurface, rough_surface
 from bem.scenes.checks.words import si
 from bem.scenes.common import SceneModel, SmoothSurface
 from bem.scenes.kind import get_kind
+from bem.scenes.wearing import WearScenePart
+from bem.wear.loads import wearing_bodies
 
 _MOST_SURFACES = 24
 """Surfaces that are looked at; a sweep of variants beyond that shows no more."""
@@ -42,6 +44,7 @@ class Case:
     shape : "flat", "sphere", "cylinder", "ellipsoid" or "sinusoid".
     wavelength : of a sinusoid [m].
     surfaces : the scene's tables of the surfaces, by body.
+    wear : of a wear loop, the parts of its model.
     """
 
     lower: Body
@@ -58,6 +61,7 @@ class Case:
     shape: str = "flat"
     wavelength: float | None = None
     surfaces: dict[str, build.AnySurface] = field(default_factory=dict)
+    wear: WearScenePart | None = None
 
     @property
     def at(self) -> str:
@@ -73,6 +77,14 @@ class Case:
     def bodies(self) -> dict[str, Body]:
         """Those that are elastic, by name."""
         return {name: body for name, body in (("lower", self.lower), ("upper", self.upper)) if body is not None}
+
+    @property
+    def wearing(self) -> list[Material]:
+        """Surface materials of the bodies that wear in a wear loop."""
+        if self.wear is None or self.upper is None:
+            return []
+        pair = (self.lower, self.upper)
+        return [pair[body].surface_material for body in wearing_bodies(pair, self.wear.wears)]
 
     @property
     def softest(self) -> float | None:
@@ -208,6 +220,7 @@ def _lubricated(scene: Any) -> list[Case]:
             depths=() if depths is None else tuple(float(d) for d in depths.build()),
             width=contact.width,
             slide=scene.wear.shift * grid.spacing[0] if hasattr(scene, "wear") else None,
+            wear=getattr(scene, "wear", None),
             shape="cylinder",
             **bodies,
         )
@@ -228,6 +241,7 @@ def _wear(scene: Any) -> list[Case]:
             depths=tuple(float(d) for d in scene.depths.build()),
             width=cylinder.width,
             slide=scene.wear.shift * grid.spacing[0],
+            wear=scene.wear,
             shape="cylinder" if cylinder.radius else "flat",
             **bodies,
         )

@@ -7,9 +7,11 @@ from collections.abc import Iterator
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.words import si
+from bem.wear.criterion import LowCycleFatigue
 
 _MODULI = (1e5, 2e12)
 _POLYMER = 5e9
+_STEELS = (180e9, 230e9)
 
 
 @scene_check
@@ -50,6 +52,27 @@ def viscoelastic_material(facts: Facts) -> Iterator[str]:
                 "relaxes; the solids here have no time dependence: take the modulus at the rate and temperature of "
                 "the contact, and run a second one to see how much it matters"
             )
+
+
+@scene_check
+def fatigue_constants_of_another_material(facts: Facts) -> Iterator[str]:
+    """Ductility and exponent of low-cycle fatigue are by default those of unalloyed and low-alloy steels (Baumel and
+    Seeger 1990)."""
+    default = LowCycleFatigue()
+    for case in facts.cases:
+        law = None if case.wear is None else case.wear.criterion
+        if not isinstance(law, LowCycleFatigue) or (law.ductility, law.exponent) != (
+            default.ductility,
+            default.exponent,
+        ):
+            continue
+        other = [m for m in case.wearing if not _STEELS[0] < m.youngs_modulus < _STEELS[1]]
+        if other:
+            yield (
+                f"wear.criterion low_cycle_fatigue: ductility and exponent are those of unalloyed and low-alloy "
+                f"steels, and {other[0].name}, E = {si(other[0].youngs_modulus, 'Pa')}, is none{case.at}; give its own"
+            )
+            return
 
 
 @scene_check

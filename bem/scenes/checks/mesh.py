@@ -9,6 +9,7 @@ from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.words import si
 from bem.scenes.common import GeneratedSurface
+from bem.wear.criterion.base import FEWEST_CELLS
 
 _CELLS_ACROSS = 8
 _CELLS_PER_WAVE = 3
@@ -161,6 +162,22 @@ def depths_coarser_than_cells(facts: Facts) -> Iterator[str]:
             f"depths.spacing is {ratio:.2g} cells{case.at}: the thickness of particles follows it; take the cell, "
             f"{si(min(case.grid.spacing if case.grid else (0.0,)), 'm')}, or less"
         )
+
+
+@scene_check
+def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[str]:
+    """Below three cells sizes follow the mesh under any criterion (the guide's chapter on wear criteria)."""
+    for case in facts.cases:
+        law = None if case.wear is None else case.wear.criterion
+        if law is None or case.grid is None:
+            continue
+        coarse = [law.length(material) for material in case.wearing if not law.resolved(material, case.grid)]
+        if coarse:
+            cells = min(coarse) / max(case.grid.spacing)
+            yield (
+                f"wear.criterion {law.name}: its length, {si(min(coarse), 'm')}, is {cells:.2g} cells{case.at}: sizes "
+                f"follow the mesh; take cells of {si(min(coarse) / FEWEST_CELLS, 'm')} or less"
+            )
 
 
 @scene_check

@@ -22,7 +22,7 @@ from bem.scenes.context import Context
 from bem.scenes.kind import Kind
 from bem.scenes.lubrication import LineContactScene, tell_of_film
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, GridRecord, Series, filled
+from bem.scenes.records import Figure, GridRecord, Series, filled, without_bars
 from bem.scenes.tables.sharing import RunningInCycles, RunningInSharing
 
 if TYPE_CHECKING:
@@ -253,7 +253,7 @@ def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[Run
 
 def scattering(scene: RunningInScene) -> tuple[str, ...]:
     """Figures of pieces where there are none; that any converge here was shown of no criterion."""
-    return () if scene.wear.criterion.needs_strength else wearing.scattering(RunningInRecord, scene)
+    return () if scene.wear.criterion.needs_strength else tuple(without_bars(RunningInRecord))
 
 
 KIND = Kind.of(

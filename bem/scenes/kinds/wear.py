@@ -273,7 +273,7 @@ def _record(
         radius=radius,
         particles=number,
         removed=result.state.removed,
-        errors=wearing.sizes_without_bars(scene),
+        errors=wearing.sizes_without_bars(scene, grid),
     )
 
 
@@ -286,7 +286,9 @@ def summarise(scene: WearScene, axes: Any, records: Any) -> dict[str, Any]:
     return {"reported_mean": scene.sizes.report, "smallest_radius_nm": 1e9 * scene.sizes.smallest}
 
 
-scattering = partial(wearing.scattering, WearRecord)
+def scattering(scene: WearScene) -> tuple[str, ...]:
+    """Figures that follow the mesh under the source's criterion, where they converge."""
+    return wearing.scattering(WearRecord, scene, _slice(scene)[0])
 
 
 KIND = Kind.of(

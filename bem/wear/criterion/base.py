@@ -6,12 +6,19 @@ from abc import abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from bem.grid import FloatArray
+from bem.errors import InputError
+from bem.grid import FloatArray, Grid
 from bem.laws import Law
 
 if TYPE_CHECKING:
+    from bem.materials import Material
     from bem.wear.cycle import WearSetup
     from bem.wear.loads import BodyCycle, Removal
+
+
+FEWEST_CELLS = 2.9
+"""Cells to a length of the material from which sizes were found to converge (`reports/experiments/wear_lengths.py`:
+averaged over 1.5 cells, radii are a quarter too large; over 2.96, within five per cent)."""
 
 
 @dataclass(frozen=True)
@@ -19,6 +26,8 @@ class Detachment(Law):
     """What comes off a body in a cycle."""
 
     family: ClassVar[str] = "criterion"
+    length_key: ClassVar[str] = ""
+    """The parameter that is a length of the material, if one is."""
 
     @property
     def passes_per_cycle(self) -> float:
@@ -43,6 +52,24 @@ class Detachment(Law):
         """Whether sizes by number and the number of pieces were found to converge with the mesh: the guide's chapter on
         criteria, `reports/experiments/wear_lengths.py`."""
         return False
+
+    def length(self, material: Material) -> float:
+        """The length of a material that decides what comes off [m]; 0 where there is none but the cell."""
+        return float(getattr(self, self.length_key)) if self.length_key else 0.0
+
+    def resolved(self, material: Material, grid: Grid) -> bool:
+        """Whether a grid has cells enough for the length, where there is one."""
+        length = self.length(material)
+        return length == 0.0 or length >= FEWEST_CELLS * max(grid.spacing) * (1 - 1e-9)
+
+    def check_length(self, grid: Grid) -> None:
+        """Raises InputError where the given length is more than half of the grid's longer side."""
+        most = 0.5 * max(grid.lengths)
+        if self.length_key and getattr(self, self.length_key) > most:
+            raise InputError(
+                f"criterion {self.name}: {self.length_key} {getattr(self, self.length_key):g} m is more than half of "
+                f"the grid's longer side; allowed: up to {most:g} m, or a larger grid"
+            )
 
     @abstractmethod
     def detach(self, cycle: BodyCycle) -> Removal:

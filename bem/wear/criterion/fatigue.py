@@ -30,6 +30,7 @@ class LowCycleFatigue(VonMises):
     """
 
     name: ClassVar[str] = "low_cycle_fatigue"
+    length_key: ClassVar[str] = "averaging_length"
     ductility: float = parameter(
         "ef: plastic strain that breaks in one reversal", default=0.59, above=0, source=_UNIFORM
     )

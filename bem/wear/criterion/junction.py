@@ -54,6 +54,10 @@ class Junction(Detachment):
         """By d*."""
         return True
 
+    def length(self, material: Material) -> float:
+        """d*."""
+        return self.critical_size(material)
+
     def critical_size(self, material: Material) -> float:
         """d* of a material [m]; infinite without a yield stress."""
         if material.yield_stress is None:

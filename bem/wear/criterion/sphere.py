@@ -18,6 +18,7 @@ class Sphere(VonMises):
     """Von Mises stress above yield in a piece in which a sphere of a stated diameter has room; smaller ones stay."""
 
     name: ClassVar[str] = "sphere"
+    length_key: ClassVar[str] = "diameter"
     diameter: float = parameter(
         "of the sphere",
         "m",
