@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from bem.elements.cam_follower import CamModel
-from bem.elements.contact import ElementContact
+from bem.elements.contact import CONFORMING, ElementContact
 from bem.elements.gear_pair import GearModel
 from bem.elements.model import Contacts, ElementModel
 from bem.elements.rolling_bearing import BearingModel
@@ -148,8 +148,9 @@ class Element:
         conforming = [one.name for one in self.found.contacts if one.conforming(self.modulus)]
         if conforming:
             said.append(
-                f"the contact is as long as the bodies are round at {len(conforming)} places ({conforming[0]}, ...): a "
-                "half-space under a parabola is no picture of them"
+                f"the contact reaches over {CONFORMING:g} of a body's radius at {len(conforming)} places "
+                f"({conforming[0]}, ...): there the gap of conforming bodies is up to 7 % and more over the parabola "
+                "of Hertz and of scenes, on a half-space that such bodies are not"
             )
         return tuple(said)
 
@@ -177,7 +178,8 @@ class Element:
         if not abs(ratio) <= 2:
             raise InputError(
                 f"{contact.name}: the surfaces run against each other (speeds {contact.speeds[0]:.3g} and "
-                f"{contact.speeds[1]:.3g} m/s), where no steady film of kind traction is; allowed: another place"
+                f"{contact.speeds[1]:.3g} m/s), where no steady film of kind traction is; allowed: kind contact, or "
+                f"a place of the table where they do not: {self._with_film()}"
             )
         line_load = contact.line_load(self.modulus)
         width = contact.load / line_load
@@ -192,6 +194,17 @@ class Element:
                 "slide_roll_ratio": ratio,
             },
         }
+
+    def _with_film(self) -> str:
+        """Numbers of the places whose surfaces do not run against each other: "1 to 20, 54 to 73"."""
+        runs: list[list[int]] = []
+        for number, one in enumerate(self.found.contacts, start=1):
+            if abs(one.slide_roll_ratio) <= 2:
+                if runs and runs[-1][-1] == number - 1:
+                    runs[-1].append(number)
+                else:
+                    runs.append([number])
+        return ", ".join(f"{run[0]} to {run[-1]}" if len(run) > 1 else str(run[0]) for run in runs) or "none"
 
     def _dry(self, contact: ElementContact, bodies: dict[str, Any]) -> dict[str, Any]:
         hertz = contact.hertz(self.modulus)
