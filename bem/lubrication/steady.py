@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -30,8 +31,8 @@ from bem.threads import one_blas_thread
 MOES_LOADS = (1e-5, 1e4)
 """Loads M for which a film is looked for; beyond them the equations are not a model of anything."""
 MAX_INLET_SHARE = 0.01
-HEAT = {"lumped": "solve_thermal_line_film", "full": "solve_full_thermal_line_film"}
-"""Models of heat, in `bem.lubrication.thermal`."""
+HEAT = ("lumped", "full")
+"""Models of heat, of `bem.lubrication.thermal`."""
 
 
 @one_blas_thread
@@ -111,13 +112,12 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         own = {"position": position is not None, "supply": supply is not None and thermal == "full"}
         own["mass-conserving cavitation"] = cavitation is not Cavitation.SWIFT_STIEBER
         _check_heat(thermal, bodies, [name for name, given in own.items() if given])
-        from bem.lubrication import thermal as models
-
-        return getattr(models, HEAT[thermal])(  # type: ignore[no-any-return]
-            load=load, radius=radius, contact_modulus=contact_modulus, speeds=speeds, lubricant=lubricant,
-            bodies=bodies or (), bulk=bulk, points=points, initial=initial, tolerance=tolerance,
-            max_iterations=max_iterations, flow_factors=flow_factors, **({} if supply is None else {"supply": supply}),
-        ).as_film()  # fmt: skip
+        asked = {
+            "load": load, "radius": radius, "contact_modulus": contact_modulus, "speeds": speeds,
+            "lubricant": lubricant, "bodies": bodies, "bulk": bulk, "points": points, "initial": initial,
+            "tolerance": tolerance, "max_iterations": max_iterations, "flow_factors": flow_factors,
+        }  # fmt: skip
+        return _with_heat(thermal, asked, supply)
     walls = walls_of(flow_factors, scales.film, speeds)
     problem = scaled_problem(scales, scales.load, lubricant, walls, float(speeds[0]) - float(speeds[1]))
     flooded = outcome = _flooded(problem, scales, initial, points - 1, tolerance, max_iterations)
@@ -150,6 +150,15 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     if outcome.state.far_field == 0:
         ruptured |= along < outcome.state.position[0] * scales.length
     return replace(film, film_fraction=np.where(ruptured, exit_film / film.thickness, 1.0))
+
+
+def _with_heat(thermal: str, asked: dict[str, Any], supply: Supply | None) -> FilmSolution:
+    """The film of a model of heat, which stands on this module."""
+    from bem.lubrication.thermal import solve_full_thermal_line_film, solve_thermal_line_film
+
+    if thermal == "full":
+        return solve_full_thermal_line_film(**asked).as_film()
+    return solve_thermal_line_film(**asked, supply=supply).as_film()
 
 
 def _check_heat(thermal: str, bodies: Sequence[Body] | None, given: Sequence[str]) -> None:

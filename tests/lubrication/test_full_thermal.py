@@ -9,8 +9,6 @@ import pytest
 from scipy.integrate import cumulative_trapezoid, solve_ivp
 
 from bem.errors import InputError, Status
-from bem.grid import Grid
-from bem.heat import surface_temperature
 from bem.heat.bodies import Conductor
 from bem.lubrication import Lubricant, solve_full_thermal_line_film, solve_line_film, solve_thermal_line_film
 from bem.lubrication.thermal import coupled, full
@@ -310,19 +308,6 @@ def test_the_same_oil_flows_through_every_section():
         flows.append(np.trapezoid(density * speed, z))
     # 600 points, 24 layers; the gradient at the node furthest upstream is the coarsest
     np.testing.assert_allclose(flows, np.mean(flows), rtol=6e-3)
-
-
-def test_surfaces_are_as_warm_as_the_solver_on_a_grid_says():
-    """The heat into the flat, on even cells, by `surface_temperature`."""
-    found = film(5.0, 0.5)
-    grid = Grid((600, 2), spacing=(1e-6, 1e-6), periodic=(False, True))
-    heat = np.interp(grid.x, found.position, found.heat_into[0])
-    expected = surface_temperature(heat[:, None] * np.ones((1, 2)), grid, STEEL, speeds=6.25, bulk=333.15)
-    own = np.interp(found.position, grid.x, expected.temperature[:, 0])
-    inside = np.abs(found.position) < 1.2e-4
-    rise = float(np.ptp(found.surface_temperatures[0]))
-    # heat is even on some 80 unlike columns in the contact
-    np.testing.assert_allclose(found.surface_temperatures[0][inside], own[inside], atol=0.03 * rise)
 
 
 def test_an_oil_that_heat_does_not_thin_has_the_isothermal_film():

@@ -26,6 +26,7 @@ from bem.lubrication.steady import KeptSteady, checked_case, solution_of, solve_
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.coupled import Coupling, Heated, coupled
 from bem.lubrication.thermal.field import LEAST_RISE, carried
+from bem.lubrication.thermal.heated_film import HeatedFilm
 from bem.lubrication.thermal.layers import Oil, expansion_of, middles
 from bem.lubrication.thermal.notes import notes_of_film, notes_of_heat
 from bem.materials import Body
@@ -53,7 +54,7 @@ BLUNTED_BY = (
 
 @readable
 @dataclass(frozen=True)
-class FullThermalFilm:
+class FullThermalFilm(HeatedFilm):
     """A film with its temperatures along and across, and the heat that is made in it; along the entrainment where
     positions are.
 
@@ -75,10 +76,6 @@ class FullThermalFilm:
     notes : sentences.
     """
 
-    film: FilmSolution
-    isothermal: FilmSolution
-    position: FloatArray
-    width: FloatArray
     height: FloatArray
     temperature: FloatArray
     surface_temperatures: FloatArray
@@ -99,30 +96,9 @@ class FullThermalFilm:
     notes: tuple[str, ...]
 
     @property
-    def minimum_thickness(self) -> float:
-        """Of the film [m]."""
-        return self.film.minimum_thickness
-
-    @property
-    def central_thickness(self) -> float:
-        """Of the film [m]."""
-        return self.film.central_thickness
-
-    @property
     def film_temperature(self) -> FloatArray:
         """Mean across the film (m,) [K]."""
         return np.asarray(self.temperature.mean(axis=1))
-
-    @property
-    def mean_film_temperature(self) -> float:
-        """Mean along the film by pressure [K], that of the contact."""
-        weights = np.interp(self.position, self.film.position, self.film.pressure) * self.width
-        return float((weights * self.film_temperature).sum() / weights.sum())
-
-    @property
-    def highest_film_temperature(self) -> float:
-        """Mean across the film, where it is highest [K]."""
-        return float(self.film_temperature.max())
 
     def as_film(self) -> FilmSolution:
         """The film with its friction and temperatures, as `solve_line_film` gives it."""
