@@ -5,10 +5,10 @@ Everything public is importable from here and loaded only when first used.
 
 from __future__ import annotations
 
-import importlib
 from typing import Any
 
 from bem.compiled import provide_folder
+from bem.lazy import loader
 
 provide_folder()
 
@@ -76,24 +76,20 @@ _HOMES = {
     "runs": ["FinishedSweep", "plan_scene", "run_scene", "run_sweep"],
     "tribofilm": ["grow_tribofilm"],
 }
-_HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
+_load = loader(__name__, _HOMES)
 
-__all__ = sorted([*_HOME_OF, "__version__"])
+__all__ = sorted([name for names in _HOMES.values() for name in names] + ["__version__"])
 
 
 def __getattr__(name: str) -> Any:
-    if name == "__version__":
-        from importlib.metadata import PackageNotFoundError, version
+    if name != "__version__":
+        return _load(name)
+    from importlib.metadata import PackageNotFoundError, version
 
-        try:
-            return version("bem")
-        except PackageNotFoundError:  # run from a source tree that was never installed
-            return "0.0.0"
-    if name not in _HOME_OF:
-        raise AttributeError(f"module 'bem' has no attribute {name!r}")
-    value = getattr(importlib.import_module(f"bem.{_HOME_OF[name]}"), name)
-    globals()[name] = value
-    return value
+    try:
+        return version("bem")
+    except PackageNotFoundError:  # run from a source tree that was never installed
+        return "0.0.0"
 
 
 def __dir__() -> list[str]:

@@ -11,18 +11,17 @@ that single precision cannot overflow and no digit changes with the system of un
 from __future__ import annotations
 
 import math
-import threading
-from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Protocol, TypeVar, cast
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from bem.errors import InputError
 from bem.grid import Grid
+from bem.kept import KeptValues, Sized, bytes_of
 from bem.kernels import layered
 from bem.kernels.coefficients import Load, surface_coefficients
 from bem.kernels.spectral import surface_response
@@ -84,41 +83,7 @@ class _Spectra:
         return self.even.nbytes + (0 if self.odd is None else self.odd.nbytes)
 
 
-class Sized(Protocol):
-    """What the cache keeps."""
-
-    @property
-    def nbytes(self) -> int:
-        """Memory [bytes]."""
-
-
-class _SpectraCache:
-    """Least recently used spectra are dropped when a limit in bytes is exceeded."""
-
-    def __init__(self, limit: int) -> None:
-        self.limit = limit
-        self.kept: OrderedDict[Any, Sized] = OrderedDict()
-        self.lock = threading.Lock()
-
-    def get(self, key: Any) -> Sized | None:
-        with self.lock:
-            found = self.kept.get(key)
-            if found is not None:
-                self.kept.move_to_end(key)
-            return found
-
-    def put(self, key: Any, spectra: Sized) -> None:
-        with self.lock:
-            self.kept[key] = spectra
-            self.kept.move_to_end(key)
-            self.trim()
-
-    def trim(self) -> None:
-        while self.kept and sum(s.nbytes for s in self.kept.values()) > self.limit:
-            self.kept.popitem(last=False)
-
-
-_CACHE = _SpectraCache(1 << 29)
+_SPECTRA = KeptValues()
 
 
 def set_spectra_memory(limit: int) -> None:
@@ -128,16 +93,12 @@ def set_spectra_memory(limit: int) -> None:
     ------
     InputError : not a number of bytes.
     """
-    if not (isinstance(limit, int | float) and math.isfinite(limit) and limit >= 0):
-        raise InputError(f"set_spectra_memory: limit {limit!r} must be a number of bytes >= 0")
-    with _CACHE.lock:
-        _CACHE.limit = int(limit)
-        _CACHE.trim()
+    _SPECTRA.resize(bytes_of("set_spectra_memory", limit))
 
 
 def spectra_memory() -> int:
     """Memory held by cached kernel spectra [bytes]."""
-    return sum(s.nbytes for s in _CACHE.kept.values())
+    return _SPECTRA.nbytes
 
 
 _Kept = TypeVar("_Kept", bound=Sized)
@@ -145,11 +106,7 @@ _Kept = TypeVar("_Kept", bound=Sized)
 
 def shared(key: tuple[Any, ...], make: Callable[[], _Kept]) -> _Kept:
     """Spectra by what decides them, made where the cache has them no more."""
-    found = cast("_Kept | None", _CACHE.get(key))
-    if found is None:
-        found = make()
-        _CACHE.put(key, found)
-    return found
+    return _SPECTRA.of(key, make)
 
 
 def elastic(body: Body) -> tuple[float, ...]:

@@ -240,8 +240,7 @@ def contact_modulus(a: Material, b: Material | None = None) -> float:
     ------
     InputError : anything but materials, such as bodies.
     """
-    a, b = _of_the_catalogue(a), _of_the_catalogue(b)
-    _check_materials("contact_modulus", a, b)
+    a, b = _pair("contact_modulus", a, b)
     compliance = 1 / a.plane_strain_modulus
     if b is not None:
         compliance += 1 / b.plane_strain_modulus
@@ -258,8 +257,7 @@ def dundurs_beta(a: Material, b: Material | None = None) -> float:
     ------
     InputError : anything but materials, such as bodies.
     """
-    a, b = _of_the_catalogue(a), _of_the_catalogue(b)
-    _check_materials("dundurs_beta", a, b)
+    a, b = _pair("dundurs_beta", a, b)
     numerator = (1 - 2 * a.poissons_ratio) / a.shear_modulus
     denominator = 2 * (1 - a.poissons_ratio) / a.shear_modulus
     if b is not None:
@@ -268,12 +266,16 @@ def dundurs_beta(a: Material, b: Material | None = None) -> float:
     return numerator / denominator
 
 
-def _check_materials(name: str, a: object, b: object) -> None:
-    messages = [f"{name}: {value!r} must be a Material" for value in (a, b) if not isinstance(value, Material | None)]
-    if a is None:
+def _pair(name: str, a: object, b: object) -> tuple[Material, Material | None]:
+    first, second = _of_the_catalogue(a), _of_the_catalogue(b)
+    messages = [
+        f"{name}: {value!r} must be a Material" for value in (first, second) if not isinstance(value, Material | None)
+    ]
+    if first is None:
         messages.append(f"{name}: the first material is None; only the second may be rigid")
     if messages:
         raise InputError(messages)
+    return first, second
 
 
 @dataclass(frozen=True, init=False)

@@ -65,72 +65,67 @@ def asked(accuracy: list[str] | None) -> str | dict[str, str | float] | None:
     return str(table["all"]) if list(table) == ["all"] else table or None
 
 
-def register(app: typer.Typer) -> None:  # reason: the command in it; its arguments are the options
+def register(app: typer.Typer) -> None:
     """Add the command."""
+    app.command()(run)
 
-    @app.command()
-    def run(  # reason: the arguments are the options
-        scene: SceneArgument,
-        out: Annotated[
-            Path | None, typer.Option(help="The run's folder; without it the next free runs/NAME-001.")
-        ] = None,
-        set_: SetOption = None,
-        accuracy: AccuracyOption = None,
-        resume: Annotated[
-            bool, typer.Option("--resume", help="Go on from the checkpoint of an interrupted run.")
-        ] = False,
-        overwrite: Annotated[
-            bool, typer.Option("--overwrite", help="Replace an older run in the folder, once this one is finished.")
-        ] = False,
-        figures: Annotated[
-            bool, typer.Option("--figures/--no-figures", help="Draw figures and write the report.")
-        ] = True,
-        pdf: Annotated[bool, typer.Option("--pdf", help="Draw every figure as PDF too, for print.")] = False,
-        threads: Annotated[
-            int | None, typer.Option(min=1, max=1024, help="Threads of each case; without it BEM_THREADS, or 1.")
-        ] = None,
-        workers: WorkersOption = None,
-        scheduler: SchedulerOption = None,
-    ) -> None:
-        """Run a scene: results, figures and a report in one folder.
 
-        Exit codes: 0 done, 2 bad scene (nothing is written), 3 not converged (what exists is kept),
-        4 results cannot be written, 130 interrupted (resumable).
+def run(  # reason: the arguments are the options
+    scene: SceneArgument,
+    out: Annotated[Path | None, typer.Option(help="The run's folder; without it the next free runs/NAME-001.")] = None,
+    set_: SetOption = None,
+    accuracy: AccuracyOption = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on from the checkpoint of an interrupted run.")] = False,
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace an older run in the folder, once this one is finished.")
+    ] = False,
+    figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw figures and write the report.")] = True,
+    pdf: Annotated[bool, typer.Option("--pdf", help="Draw every figure as PDF too, for print.")] = False,
+    threads: Annotated[
+        int | None, typer.Option(min=1, max=1024, help="Threads of each case; without it BEM_THREADS, or 1.")
+    ] = None,
+    workers: WorkersOption = None,
+    scheduler: SchedulerOption = None,
+) -> None:
+    """Run a scene: results, figures and a report in one folder.
 
-        \b
-        Examples:
-          bem run rough-contact
-          bem run my-scene.toml --out first --set contact.load="5 N"
-          bem run my-scene.toml --accuracy 1%
-          bem run my-scene.toml --out first --resume
-        """
-        from bem.cli._terminal import print_files, print_numbers, resumable
-        from bem.runs import run_scene
-        from bem.scenes import get_kind
-        from bem.threads import set_threads
+    Exit codes: 0 done, 2 bad scene (nothing is written), 3 not converged (what exists is kept),
+    4 results cannot be written, 130 interrupted (resumable).
 
-        if threads is not None:
-            set_threads(threads)
-        if resume and out is None and (Path(scene) / "scene.toml").is_file():
-            out = Path(scene)
-        with resumable() as terminal:
-            done = run_scene(
-                scene,
-                out,
-                settings=set_ or (),
-                accuracy=asked(accuracy),
-                resume=resume,
-                overwrite=overwrite,
-                figures=figures,
-                workers=workers,
-                scheduler=scheduler,
-                watcher=terminal,
-                pdf=pdf,
-            )
-        if not terminal.printed:  # a run that was finished before
-            print_numbers(done.summary, get_kind(done.summary["kind"]).headline)
-        print_files(done.path)
-        if done.summary["status"] != "converged":
-            what = "" if done.summary["status"] == "inaccurate" else "not converged: "
-            typer.echo(f"bem: {what}{done.summary['where']}", err=True)
-            raise typer.Exit(3)
+    \b
+    Examples:
+      bem run rough-contact
+      bem run my-scene.toml --out first --set contact.load="5 N"
+      bem run my-scene.toml --accuracy 1%
+      bem run my-scene.toml --out first --resume
+    """
+    from bem.cli._terminal import print_files, print_numbers, resumable
+    from bem.runs import run_scene
+    from bem.scenes import get_kind
+    from bem.threads import set_threads
+
+    if threads is not None:
+        set_threads(threads)
+    if resume and out is None and (Path(scene) / "scene.toml").is_file():
+        out = Path(scene)
+    with resumable() as terminal:
+        done = run_scene(
+            scene,
+            out,
+            settings=set_ or (),
+            accuracy=asked(accuracy),
+            resume=resume,
+            overwrite=overwrite,
+            figures=figures,
+            workers=workers,
+            scheduler=scheduler,
+            watcher=terminal,
+            pdf=pdf,
+        )
+    if not terminal.printed:  # a run that was finished before
+        print_numbers(done.summary, get_kind(done.summary["kind"]).headline)
+    print_files(done.path)
+    if done.summary["status"] != "converged":
+        what = "" if done.summary["status"] == "inaccurate" else "not converged: "
+        typer.echo(f"bem: {what}{done.summary['where']}", err=True)
+        raise typer.Exit(3)

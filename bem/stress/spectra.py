@@ -25,6 +25,7 @@ from numpy.typing import ArrayLike
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
+from bem.kept import DEFAULT_LIMIT, bytes_of
 from bem.kernels.coefficients import STRESS_PARITY, Load, stress_coefficients
 from bem.kernels.spectral import stress_response
 from bem.materials import Body
@@ -110,7 +111,7 @@ class SweepCache:
                 return
 
 
-SPECTRA = SweepCache(1 << 29)
+SPECTRA = SweepCache(DEFAULT_LIMIT)
 
 
 def set_stress_memory(limit: int) -> None:
@@ -120,9 +121,7 @@ def set_stress_memory(limit: int) -> None:
     ------
     InputError : not a number of bytes.
     """
-    if not (isinstance(limit, int | float) and math.isfinite(limit) and limit >= 0):
-        raise InputError(f"set_stress_memory: limit {limit!r} must be a number of bytes >= 0")
-    SPECTRA.resize(int(limit))
+    SPECTRA.resize(bytes_of("set_stress_memory", limit))
 
 
 def stress_memory() -> int:

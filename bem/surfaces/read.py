@@ -218,31 +218,21 @@ def _read_registered(
 ) -> tuple[FloatArray, tuple[float, float] | None, dict[str, Any]]:
     if channel is not None:
         raise SurfaceFileError(f"{file}: has no channel {channel!r}: a {own.name} file holds one map")
-    try:
+    with _reading(file):
         heights, cell, notes = own.read(file)
         return _as_floats(file, np.asarray(heights)), cell, {"format": own.name, **notes}
-    except SurfaceFileError:
-        raise
-    except Exception as problem:
-        raise _unreadable(file, problem) from problem
 
 
 def _read_npz(file: Path) -> tuple[FloatArray, tuple[float, float] | None, dict[str, Any]]:
-    try:
-        with file.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
-            if "heights" not in archive:
-                raise SurfaceFileError(f"{file}: has no array 'heights' but {', '.join(archive.files) or 'nothing'}")
-            for name in archive.files:  # what a few megabytes claim to be may fill the memory: ask before unpacking
-                with archive.zip.open(f"{name}.npy") as packed:
-                    _check_header(file, name, packed)
-            heights = _as_floats(file, archive["heights"])
-            cell = np.asarray(archive["spacing"], dtype=np.float64).ravel() if "spacing" in archive else None
-            notes = json.loads(str(archive["metadata"])) if "metadata" in archive else {}
-    except SurfaceFileError:
-        raise
-    # a damaged archive may fail anywhere in zipfile, zlib or numpy's header parser, with any exception
-    except Exception as problem:
-        raise _unreadable(file, problem) from problem
+    with _reading(file), file.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
+        if "heights" not in archive:
+            raise SurfaceFileError(f"{file}: has no array 'heights' but {', '.join(archive.files) or 'nothing'}")
+        for name in archive.files:  # what a few megabytes claim to be may fill the memory: ask before unpacking
+            with archive.zip.open(f"{name}.npy") as packed:
+                _check_header(file, name, packed)
+        heights = _as_floats(file, archive["heights"])
+        cell = np.asarray(archive["spacing"], dtype=np.float64).ravel() if "spacing" in archive else None
+        notes = json.loads(str(archive["metadata"])) if "metadata" in archive else {}
     if cell is not None and cell.shape != (2,):
         raise SurfaceFileError(f"{file}: 'spacing' has shape {cell.shape}, not two lengths [m]")
     if not isinstance(notes, dict):
@@ -251,15 +241,10 @@ def _read_npz(file: Path) -> tuple[FloatArray, tuple[float, float] | None, dict[
 
 
 def _read_npy(file: Path) -> FloatArray:
-    try:
-        with file.open("rb") as stream:
-            _check_header(file, "heights", stream, os.fstat(stream.fileno()).st_size)
-            stream.seek(0)
-            return _as_floats(file, np.load(stream, allow_pickle=False))
-    except SurfaceFileError:
-        raise
-    except Exception as problem:
-        raise _unreadable(file, problem) from problem
+    with _reading(file), file.open("rb") as stream:
+        _check_header(file, "heights", stream, os.fstat(stream.fileno()).st_size)
+        stream.seek(0)
+        return _as_floats(file, np.load(stream, allow_pickle=False))
 
 
 def _check_header(file: Path, name: str, stream: IO[bytes], size: int | None = None) -> None:
@@ -305,6 +290,18 @@ def _is_text(file: Path) -> bool:
         return b"\0" not in stream.read(4096)
 
 
+@contextlib.contextmanager
+def _reading(file: Path) -> Iterator[None]:
+    """Whatever goes wrong in the block, the file cannot be used: readers of damaged ones, zipfile, zlib and numpy's
+    header parser raise anything at all (struct.error, KeyError, AssertionError, MemoryError, ...)."""
+    try:
+        yield
+    except SurfaceFileError:
+        raise
+    except Exception as problem:
+        raise _unreadable(file, problem) from problem
+
+
 def _unreadable(file: Path, problem: BaseException) -> SurfaceFileError:
     if "physical_sizes" in str(problem) and _is_text(file):
         return SurfaceFileError(
@@ -325,40 +322,32 @@ def _read_instrument(
         warnings.simplefilter("ignore")
         from SurfaceTopography import open_topography
 
-    # Readers of damaged files raise anything at all (struct.error, KeyError, AssertionError, MemoryError, ...) and warn
-    # about what they skip, or print what they found; whatever it is, the file cannot be used.
-    try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"), _quiet(), file.open("rb") as stream:
-            warnings.simplefilter("ignore")
-            with open_topography(stream) as reader:
-                chosen = _choose(file, reader, channel)
-                shape = tuple(int(n) for n in chosen.nb_grid_pts)
-                if len(shape) != 2 or not chosen.is_uniform:
-                    raise SurfaceFileError(
-                        f"{file}: channel {chosen.name!r} is a profile or scattered points, not a map"
-                    )
-                if math.prod(shape) > MOST_POINTS or min(shape) < 1:
-                    raise SurfaceFileError(f"{file}: claims {shape[0]} x {shape[1]} points; the file is damaged")
-                sizes = chosen.physical_sizes
-                arguments = {}
-                if sizes is None and spacing_given:
-                    arguments["physical_sizes"] = tuple(float(n) for n in shape)
-                topography = reader.topography(channel_index=chosen.index, **arguments)
-                heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(np.float64), np.nan)
-                unit = topography.unit
-                sizes = None if sizes is None else tuple(float(s) for s in topography.physical_sizes)
-                notes = {
-                    "format": str(reader.format()),
-                    "channel": chosen.name,
-                    "unit": unit if isinstance(unit, str) else None,
-                    "instrument": dict(topography.info.get("instrument", {})),
-                }
-                if "acquisition_time" in topography.info:
-                    notes["acquisition_time"] = str(topography.info["acquisition_time"])
-    except SurfaceFileError:
-        raise
-    except Exception as problem:
-        raise _unreadable(file, problem) from problem
+    # readers of damaged files warn about what they skip, or print what they found
+    with _reading(file), warnings.catch_warnings(), np.errstate(all="ignore"), _quiet(), file.open("rb") as stream:
+        warnings.simplefilter("ignore")
+        with open_topography(stream) as reader:
+            chosen = _choose(file, reader, channel)
+            shape = tuple(int(n) for n in chosen.nb_grid_pts)
+            if len(shape) != 2 or not chosen.is_uniform:
+                raise SurfaceFileError(f"{file}: channel {chosen.name!r} is a profile or scattered points, not a map")
+            if math.prod(shape) > MOST_POINTS or min(shape) < 1:
+                raise SurfaceFileError(f"{file}: claims {shape[0]} x {shape[1]} points; the file is damaged")
+            sizes = chosen.physical_sizes
+            arguments = {}
+            if sizes is None and spacing_given:
+                arguments["physical_sizes"] = tuple(float(n) for n in shape)
+            topography = reader.topography(channel_index=chosen.index, **arguments)
+            heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(np.float64), np.nan)
+            unit = topography.unit
+            sizes = None if sizes is None else tuple(float(s) for s in topography.physical_sizes)
+            notes = {
+                "format": str(reader.format()),
+                "channel": chosen.name,
+                "unit": unit if isinstance(unit, str) else None,
+                "instrument": dict(topography.info.get("instrument", {})),
+            }
+            if "acquisition_time" in topography.info:
+                notes["acquisition_time"] = str(topography.info["acquisition_time"])
     if unit is None and height_unit is not None and (spacing_given or sizes is None):
         metres = METRES[height_unit]
     elif isinstance(unit, str) and unit in METRES:

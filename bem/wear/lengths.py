@@ -52,6 +52,17 @@ def averaged_loads(loads: Sequence[SurfaceLoad], grid: Grid, diameter: float) ->
     return [SurfaceLoad(averaged(load.pressure, grid, diameter), load.friction) for load in loads]
 
 
+@njit(cache=True, inline="always")
+def _neighbour(i, j, offsets, n, shape, wraps):  # type: ignore[no-untyped-def]
+    """The cell at an offset from [i, j], round periodic edges, and whether the grid has it."""
+    k, m = i + offsets.x[n], j + offsets.y[n]
+    if wraps[0]:
+        k %= shape[0]
+    if wraps[1]:
+        m %= shape[1]
+    return k, m, 0 <= k < shape[0] and 0 <= m < shape[1]
+
+
 @njit(cache=True)
 def _spread(field, offsets, wraps):  # type: ignore[no-untyped-def]
     nx, ny = field.shape
@@ -62,12 +73,8 @@ def _spread(field, offsets, wraps):  # type: ignore[no-untyped-def]
             if value == 0.0:
                 continue
             for n in range(offsets.x.size):
-                k, m = i + offsets.x[n], j + offsets.y[n]
-                if wraps[0]:
-                    k %= nx
-                if wraps[1]:
-                    m %= ny
-                if 0 <= k < nx and 0 <= m < ny:
+                k, m, inside = _neighbour(i, j, offsets, n, field.shape, wraps)
+                if inside:
                     out[k, m] += offsets.value[n] * value
     return out
 
@@ -107,12 +114,8 @@ def _find_room(labels, thickness, needed, wraps, holds):  # type: ignore[no-unty
                 continue
             room = True
             for n in range(needed.x.size):
-                k, m = i + needed.x[n], j + needed.y[n]
-                if wraps[0]:
-                    k %= nx
-                if wraps[1]:
-                    m %= ny
-                if not (0 <= k < nx and 0 <= m < ny) or labels[k, m] != own or thickness[k, m] < needed.value[n]:
+                k, m, inside = _neighbour(i, j, needed, n, labels.shape, wraps)
+                if not inside or labels[k, m] != own or thickness[k, m] < needed.value[n]:
                     room = False
                     break
             holds[own] = room

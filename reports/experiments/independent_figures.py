@@ -16,7 +16,17 @@ from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from bem import Body, Grid, Lubricant, Material, displacement_operator, generate_surface, solve_contact, solve_line_film
+from bem import (
+    Body,
+    ContactSolution,
+    Grid,
+    Lubricant,
+    Material,
+    displacement_operator,
+    generate_surface,
+    solve_contact,
+    solve_line_film,
+)
 from reports.experiments.kept import keep
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "independent_figures.json"
@@ -124,6 +134,16 @@ def self_affine_rows(cells: int = 512, seeds: int = 3) -> list[dict[str, float]]
     ]
 
 
+def _figures(pressure: float, solution: ContactSolution) -> dict[str, Any]:
+    return {
+        "pressure": pressure,
+        "status": str(solution.status.value),
+        "convolutions": float(solution.convolutions),
+        "residual": float(solution.residual),
+        "area": float(solution.contact_area),
+    }
+
+
 def plastic_rows(cells: int = 512) -> list[dict[str, Any]]:
     """Capped contacts at H = 0.1 E* and rms slope 0.08, to pressures at which other codes are known to stall."""
     grid, heights = waves(cells, 0, slope=0.08)
@@ -131,16 +151,7 @@ def plastic_rows(cells: int = 512) -> list[dict[str, Any]]:
     rows = []
     for pressure in (0.01, 0.03, 0.05, 0.07, 0.08, 0.09, 0.099):
         solution = solve_contact(-heights, operator, load=pressure, hardness=0.1)
-        rows.append(
-            {
-                "pressure": pressure,
-                "status": str(solution.status.value),
-                "convolutions": float(solution.convolutions),
-                "residual": float(solution.residual),
-                "area": float(solution.contact_area),
-                "plastic_area": float(solution.plastic_area),
-            }
-        )
+        rows.append({**_figures(pressure, solution), "plastic_area": float(solution.plastic_area)})
     return rows
 
 
@@ -155,15 +166,7 @@ def near_full_rows(cells: int = 2048) -> list[dict[str, Any]]:
     rows = []
     for pressure in (0.5, 1.0, 1.5, 2.0, 3.0):
         solution = solve_contact(-heights, operator, load=pressure)
-        rows.append(
-            {
-                "pressure": pressure,
-                "status": str(solution.status.value),
-                "convolutions": float(solution.convolutions),
-                "residual": float(solution.residual),
-                "area": float(solution.contact_area),
-            }
-        )
+        rows.append(_figures(pressure, solution))
     return rows
 
 

@@ -14,6 +14,7 @@ import urllib.request
 from pathlib import Path
 
 import pytest
+from small_scenes import WEAR
 
 from bem.surfaces.examples import FOLDER
 
@@ -157,37 +158,14 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
     assert elsewhere == []  # nothing from a network
 
 
-WEAR = """kind = "wear"
-name = "long"
-repetitions = 1
-[lower]
-material = "steel-disk"
-surface = { kind = "generated", rms_height = "120 nm", correlation_length = "0.4 um" }
-[upper]
-material = "steel-cylinder"
-surface = { kind = "generated", rms_height = "30 nm", correlation_length = "0.3 um" }
-[cylinder]
-radius = "2 mm"
-width = "6 mm"
-loads = ["2.5 N"]
-friction = 0.16
-[domain]
-cells = 40
-lengths = "4 um"
-[depths]
-count = 20
-spacing = "95 nm"
-[cycles]
-count = 30000
-settled = 4
-"""
+LONG = WEAR.replace("count = 12", "count = 30000")
 
 
 def test_a_killed_server_and_a_pause_lose_nothing(serve, chrome, tmp_path):
     """The run goes on without its server; paused by the next one it keeps its checkpoint, and goes on to its end."""
     server = serve()
     work = tmp_path / "work"
-    (work / "long.toml").write_text(WEAR)
+    (work / "long.toml").write_text(LONG)
     tab = chrome.tab()
     tab.go(server.address)
     tab.go(f"{server.base}/scene/long")

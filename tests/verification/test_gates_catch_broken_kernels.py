@@ -21,7 +21,7 @@ FACTORS = {"one per cent": 1.01, "sign": -1.0}
 
 def forget():
     """Spectra of healthy kernels must not serve a broken one, nor the other way round."""
-    convolution._CACHE.kept.clear()
+    convolution._SPECTRA.clear()
     layered_hankel._kept.cache_clear()
     for cache in (spectra.SPECTRA, bound._TABLES):
         cache.kept.clear()

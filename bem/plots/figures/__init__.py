@@ -28,6 +28,11 @@ def _always(run: Any) -> bool:
     return True
 
 
+def two_dimensional(run: Any) -> bool:
+    """Whether a run has more than one cell along both axes, for `applies` of maps."""
+    return min(run.dataset.sizes["x"], run.dataset.sizes["y"]) > 1
+
+
 @dataclass(frozen=True)
 class FigureKind:
     """A figure that can be drawn from a run.

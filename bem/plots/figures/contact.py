@@ -11,7 +11,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from bem.plots.figures import FigureKind
+from bem.plots.figures import FigureKind, two_dimensional
 from bem.plots.style import (
     BLACK,
     BLUE,
@@ -162,16 +162,12 @@ def _in_contact(run: Any) -> bool:
     return bool((_array(run, "pressure") > 0).any())
 
 
-def _two_dimensional(run: Any) -> bool:
-    return min(run.dataset.sizes["x"], run.dataset.sizes["y"]) > 1
-
-
 def _rough(run: Any) -> bool:
-    return _two_dimensional(run) and any(name in run.dataset for name in ("lower_height", "upper_height"))
+    return two_dimensional(run) and any(name in run.dataset for name in ("lower_height", "upper_height"))
 
 
 def _map_in_contact(run: Any) -> bool:
-    return _two_dimensional(run) and _in_contact(run)
+    return two_dimensional(run) and _in_contact(run)
 
 
 FIGURES = (
@@ -187,7 +183,7 @@ FIGURES = (
         "Where the surfaces touch, and where the pressure has reached the hardness; shares are counts of cells.",
         ("x", "y", "contact_state"),
         _contact_map,
-        applies=_two_dimensional,
+        applies=two_dimensional,
     ),
     FigureKind(
         "contact-section",

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
-from bem.plots.figures import FigureKind
+from bem.plots.figures import FigureKind, two_dimensional
 from bem.plots.style import BLACK, BLUE, ORANGE, VERMILION, label, map_of, prefix
 
 
@@ -63,10 +63,6 @@ def _loop(run: Any, figure: Figure) -> None:
     axes.set_ylabel(label("tangential force", force_unit))
 
 
-def _two_dimensional(run: Any) -> bool:
-    return min(run.dataset.sizes["x"], run.dataset.sizes["y"]) > 1
-
-
 FIGURES = (
     FigureKind(
         "slip-map",
@@ -75,7 +71,7 @@ FIGURES = (
         ("x", "y", "stick_state", "slip"),
         _sticks,
         (8.0, 3.6),
-        applies=_two_dimensional,
+        applies=two_dimensional,
     ),
     FigureKind(
         "traction-section",

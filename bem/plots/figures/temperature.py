@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from bem.plots.figures import FigureKind
+from bem.plots.figures import FigureKind, two_dimensional
 from bem.plots.style import BLACK, ORANGE, VERMILION, label, map_of, prefix
 
 _CELSIUS = 273.15
@@ -43,10 +43,6 @@ def _section(run: Any, figure: Figure) -> None:
     lower.legend()
 
 
-def _two_dimensional(run: Any) -> bool:
-    return min(run.dataset.sizes["x"], run.dataset.sizes["y"]) > 1
-
-
 FIGURES = (
     FigureKind(
         "temperature-map",
@@ -54,7 +50,7 @@ FIGURES = (
         "lies where the body leaves the contact. The cross marks the highest.",
         ("x", "y", "surface_temperature"),
         _map,
-        applies=_two_dimensional,
+        applies=two_dimensional,
     ),
     FigureKind(
         "temperature-section",

@@ -1,0 +1,81 @@
+"""Values that are kept between uses, within a bound on memory; the least recently used give way first.
+
+Knows nothing of what is kept but its size. Verified in tests/test_convolution.py and tests/test_transforms.py.
+"""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections import OrderedDict
+from collections.abc import Callable, Hashable
+from typing import Any, Protocol, TypeVar, cast
+
+from bem.errors import InputError
+
+DEFAULT_LIMIT = 1 << 29
+"""Bytes that a store may hold where nobody says otherwise."""
+
+
+class Sized(Protocol):
+    """What can be kept."""
+
+    @property
+    def nbytes(self) -> int:
+        """Memory [bytes]."""
+
+
+_Value = TypeVar("_Value", bound=Sized)
+
+
+class KeptValues:
+    """Values by what decides them; `least` of them stay however large they are."""
+
+    def __init__(self, limit: int = DEFAULT_LIMIT, *, least: int = 0) -> None:
+        self.limit = limit
+        self.least = least
+        self.kept: OrderedDict[Hashable, Any] = OrderedDict()
+        self.lock = threading.Lock()
+
+    def of(self, key: Hashable, make: Callable[[], _Value]) -> _Value:
+        """The value of a key, made where there is none; of two threads that make one, both get the first."""
+        with self.lock:
+            found = self.kept.get(key)
+        made = make() if found is None else found
+        with self.lock:
+            value = self.kept.setdefault(key, made)
+            self.kept.move_to_end(key)
+            self._trim()
+        return cast("_Value", value)
+
+    @property
+    def nbytes(self) -> int:
+        """Memory held [bytes]."""
+        return sum([value.nbytes for value in self.kept.values()])
+
+    def resize(self, limit: int) -> None:
+        """Another limit [bytes]."""
+        with self.lock:
+            self.limit = limit
+            self._trim()
+
+    def clear(self) -> None:
+        """Keep nothing of what there is."""
+        with self.lock:
+            self.kept.clear()
+
+    def _trim(self) -> None:
+        while len(self.kept) > self.least and self.nbytes > self.limit:
+            self.kept.popitem(last=False)
+
+
+def bytes_of(name: str, limit: object) -> int:
+    """A limit in bytes that a user gives to the function `name`.
+
+    Raises
+    ------
+    InputError : not a number of bytes.
+    """
+    if not (isinstance(limit, int | float) and math.isfinite(limit) and limit >= 0):
+        raise InputError(f"{name}: limit {limit!r} must be a number of bytes >= 0")
+    return int(limit)
