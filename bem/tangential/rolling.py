@@ -288,6 +288,7 @@ def _certified(
         slip=slid,
         stick_area=float(np.count_nonzero(~slips)) * grid.cell_area,
         slip_area=float(np.count_nonzero(slips)) * grid.cell_area,
+        counted_stick_area=float(np.count_nonzero(~slips)) * grid.cell_area,
         # what tractions store they give back, so that passing(elastic) takes nothing but where it is cut into cells
         dissipated_energy=-float((traction * rigid).sum()) * grid.cell_area,
         residual=residual,

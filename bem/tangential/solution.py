@@ -28,7 +28,9 @@ class TangentialSolution:
     displacement : [m], of the first surface less the second's relative to their depths, of tractions and pressure.
     slip : [m], by which the first surface slid over the second in this step, where there is friction; against it. Of
         `solve_rolling` over a cell's length of rolling.
-    stick_area, slip_area : [m^2], of cells.
+    stick_area, slip_area : [m^2], with edges inside cells (`bem.tangential.edge`); of a pressure that is given without
+        its gap the contact ends half-way between cells. Of `solve_rolling`: of cells.
+    counted_stick_area : [m^2], of the cells that stick: of first order.
     dissipated_energy : [J], by friction in this step. Of `solve_rolling` over a cell's length of rolling, by the
         balance: force x creepage and moment x spin. The sum of traction x slip is less where the zone that slips, or
         the singularity behind a contact that sticks, is narrower than a cell.
@@ -55,5 +57,6 @@ class TangentialSolution:
     convolutions: float
     iterations: int
     status: Status
+    counted_stick_area: float = 0.0
     creepage: FloatArray = field(default_factory=lambda: np.zeros(2))
     notes: tuple[str, ...] = ()

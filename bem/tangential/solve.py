@@ -15,6 +15,7 @@ from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.tangential.cascade import slip
 from bem.tangential.discs import nearest
+from bem.tangential.edge import stuck_area
 from bem.tangential.operator import TangentialOperator
 from bem.tangential.rounds import Effort, Slipped, Slipping, reach
 from bem.tangential.solution import TangentialSolution
@@ -104,6 +105,7 @@ class _Request:
     bound: FloatArray
     force: FloatArray | None
     shift: FloatArray | None
+    contact: ContactSolution | None
 
 
 def _checked(
@@ -134,7 +136,8 @@ def _checked(
     asked = vectors["force"]
     if asked is not None:
         check_force(asked, bound, grid)
-    return _Request(operator, pressure, bound, asked, vectors["shift"])
+    solved = contact if isinstance(contact, ContactSolution) else None
+    return _Request(operator, pressure, bound, asked, vectors["shift"], solved)
 
 
 def check_numbers(rotation: float, tolerance: float, max_iterations: int) -> None:
@@ -240,6 +243,13 @@ def _certified(  # reason: what a step was asked and what came of it, nothing of
         residual = max(residual, float(np.abs(force - request.force).max()) / most if most > 0 else 0.0)
     slid = np.zeros_like(traction)
     slid[:, cells] = np.where(slips, -unmet[:, cells], 0.0)
+    sticks = np.zeros_like(cells)
+    sticks[cells] = ~slips
+    rubs = stuck = float(np.count_nonzero(cells)) * area
+    if request.contact is not None and request.contact.counted_area > 0:  # its edge, less what has no friction
+        rubs = stuck = rubs * request.contact.contact_area / request.contact.counted_area
+    if slips.any():
+        stuck = min(rubs, stuck_area(operator, bound, traction, slid, sticks, request.contact))
     failed = Status.MAX_ITERATIONS if effort.left <= 0 else Status.STALLED
     return TangentialSolution(
         traction=traction,
@@ -248,8 +258,9 @@ def _certified(  # reason: what a step was asked and what came of it, nothing of
         rotation=rotation,
         displacement=elastic + pushed,
         slip=slid,
-        stick_area=float(np.count_nonzero(~slips)) * area,
-        slip_area=float(np.count_nonzero(slips)) * area,
+        stick_area=stuck,
+        slip_area=rubs - stuck,
+        counted_stick_area=float(np.count_nonzero(sticks)) * area,
         dissipated_energy=-float((traction * slid).sum()) * area,
         residual=residual,
         convolutions=operator.count.weighted,
