@@ -95,6 +95,16 @@ def spence_stick_share(friction_over_beta: float) -> float:
     return float(brentq(miss, 1e-9, 1 - 1e-12))
 
 
+def bonded_stiffening(poissons_ratio: float) -> float:
+    """Stiffness of a rigid punch, or of a ball at a given contact radius, that sticks to an elastic body over that of
+    one without friction: (1 - nu) ln(3 - 4 nu) / (1 - 2 nu), 1 for nu = 1/2.
+
+    Of a ball that is pressed on, each increment is a bonded punch (Spence 1968), and 3/2 x load over approach is it.
+    """
+    rest = 1 - 2 * poissons_ratio
+    return 1.0 if rest == 0 else (1 - poissons_ratio) * math.log1p(2 * rest) / rest
+
+
 @dataclass(frozen=True)
 class RollingCylinder:
     """Like cylinders that roll: contact `half_width` [m], `radius` [m] of relative curvature, `peak_pressure` [Pa],

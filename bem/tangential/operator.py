@@ -80,6 +80,18 @@ def _push(odd_x: FloatArray, odd_y: FloatArray, pressure: ComplexArray, out: Com
             pressure[i, j] = odd_y[i, k] * turned
 
 
+@_fast
+def _lift(odd_x: FloatArray, odd_y: FloatArray, along_x: ComplexArray, along_y: ComplexArray) -> None:
+    """Spectrum of the normal displacement in place of that of the traction along x: the adjoint of `_push`."""
+    rows, length = along_x.shape
+    half = length // 2 + 1
+    for i in range(rows):
+        for j in range(length):
+            k = j if j < half else length - j
+            mixed = odd_y[i, k] * along_y[i, j] + (odd_x[i, k] if j < half else -odd_x[i, k]) * along_x[i, j]
+            along_x[i, j] = complex(mixed.imag, -mixed.real)
+
+
 @dataclass(frozen=True)
 class TangentialOperator:
     """Callable: traction (2, nx, ny) [Pa] on the first body -> displacement (2, nx, ny) [m], first less second.
@@ -186,6 +198,20 @@ class TangentialOperator:
         along_x = transform.empty_spectrum()
         _push(*self._pushed, along_y, along_x)
         return self._back(along_x, along_y)
+
+    def lift(self, traction: FloatArray) -> FloatArray:
+        """Normal displacement (nx, ny) [m] of both surfaces together under `traction` (2, nx, ny) [Pa].
+
+        Into the bodies. By reciprocity the adjoint of `under_pressure`: zero where that is.
+        """
+        if self._pushed is None:
+            return np.zeros(self.grid.shape)
+        transform = transform_of(self.grid.shape, self.padded)
+        along_x, along_y = transform.forward(traction[0]), transform.forward(traction[1])
+        _lift(*self._pushed, along_x, along_y)
+        out = np.empty(self.grid.shape)
+        transform.inverse(along_x, out=out)
+        return out
 
     def _back(self, along_x: ComplexArray, along_y: ComplexArray) -> FloatArray:
         """Displacements (2, nx, ny) of their spectra, counted."""

@@ -17,7 +17,7 @@ from bem.tangential.cascade import slip
 from bem.tangential.discs import nearest
 from bem.tangential.edge import stuck_area
 from bem.tangential.operator import TangentialOperator
-from bem.tangential.rounds import Effort, Slipped, Slipping, reach
+from bem.tangential.rounds import Effort, Slipped, Slipping, reach, slip_on_grid
 from bem.tangential.solution import TangentialSolution
 from bem.threads import one_blas_thread
 
@@ -74,12 +74,25 @@ def solve_partial_slip(  # reason: a promise to users' scripts, each of them a c
     Notes
     -----
     Cattaneo (1938), Mindlin (1949); Johnson, *Contact Mechanics* (1985), chapter 7; the discrete conditions are those
-    of Kalker's CONTACT for shifts. The pressure is not changed by the tractions; of bodies that differ it would be.
+    of Kalker's CONTACT for shifts. The pressure is not changed by the tractions; of bodies that differ it would be, see
+    `solve_coupled_slip`.
     Cells without friction slide freely and count neither as sticking nor as slipping.
     """
-    request = _checked(contact, grid, bodies, friction=friction, force=force, shift=shift, previous=previous)
     check_numbers(rotation, tolerance, max_iterations)
-    operator, bound = request.operator, request.bound
+    request = checked(contact, grid, bodies, friction=friction, force=force, shift=shift, previous=previous)
+    return solve_step(request, rotation, previous, tolerance, max_iterations)
+
+
+def solve_step(
+    request: Request,
+    rotation: float,
+    previous: TangentialSolution | None,
+    tolerance: float,
+    max_iterations: int,
+    near: TangentialSolution | None = None,
+) -> TangentialSolution:
+    """`solve_partial_slip` of arguments in order; `near` : the same step under nearly the same pressure, a start."""
+    operator, bound, grid = request.operator, request.bound, request.operator.grid
     pushed = operator.under_pressure(request.pressure) if operator.coupled else np.zeros((2, *grid.shape))
     movement = _turned(grid, rotation) + (0.0 if request.shift is None else request.shift[:, None, None])
     imposed = movement - pushed
@@ -89,16 +102,20 @@ def solve_partial_slip(  # reason: a promise to users' scripts, each of them a c
     effort = Effort(max_iterations)
     found: Slipped | None = None
     if (bound > 0).any():
-        start = None if previous is None else previous.traction
-        found = slip(Slipping(operator, bound, imposed, total), start, _TIGHTER * tolerance, effort)
+        problem = Slipping(operator, bound, imposed, total)
+        if near is not None:
+            found = slip_on_grid(problem, near.traction - problem.stiffness * near.slip, _TIGHTER * tolerance, effort)
+        else:
+            start = None if previous is None else previous.traction
+            found = slip(problem, start, _TIGHTER * tolerance, effort)
     given = request.shift if request.shift is not None else np.zeros(2) if found is None else found.shift
     notes = (AT_ONCE,) if previous is None and pushed.any() else ()
     return _certified(request, found, imposed, pushed, given, rotation, tolerance, effort, notes)
 
 
 @dataclass(frozen=True)
-class _Request:
-    """Arguments that are in order."""
+class Request:
+    """Arguments of `solve_partial_slip` that are in order."""
 
     operator: TangentialOperator
     pressure: FloatArray
@@ -108,7 +125,7 @@ class _Request:
     contact: ContactSolution | None
 
 
-def _checked(
+def checked(
     contact: ContactSolution | FloatArray,
     grid: Grid,
     bodies: Body | tuple[Body, Body],
@@ -117,7 +134,8 @@ def _checked(
     force: Sequence[float] | None,
     shift: Sequence[float] | None,
     previous: TangentialSolution | None,
-) -> _Request:
+) -> Request:
+    """Arguments of `solve_partial_slip`, or its messages."""
     operator = tangential_operator(grid, bodies)
     pressure, bound = checked_bound(contact, grid, friction)
     messages = []
@@ -137,7 +155,7 @@ def _checked(
     if asked is not None:
         check_force(asked, bound, grid)
     solved = contact if isinstance(contact, ContactSolution) else None
-    return _Request(operator, pressure, bound, asked, vectors["shift"], solved)
+    return Request(operator, pressure, bound, asked, vectors["shift"], solved)
 
 
 def check_numbers(rotation: float, tolerance: float, max_iterations: int) -> None:
@@ -213,7 +231,7 @@ def _turned(grid: Grid, rotation: float) -> FloatArray:
 
 
 def _certified(  # reason: what a step was asked and what came of it, nothing of which belongs together elsewhere
-    request: _Request,
+    request: Request,
     found: Slipped | None,
     imposed: FloatArray,
     pushed: FloatArray,
