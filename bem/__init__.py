@@ -38,6 +38,7 @@ _HOMES = {
     "stress": ["subsurface_stress", "von_mises"],
     "heat": ["TemperatureSolution", "flash_temperature", "surface_temperature", "surface_temperature_history"],
     "surfaces": [
+        "PROCESSES",
         "RadialSpectrum",
         "Surface",
         "SurfaceDescription",

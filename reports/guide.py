@@ -14,6 +14,7 @@ from bem.scenes import get_kind, kind_names, library
 from bem.scenes.laws import LawKey
 from bem.scenes.template import about_field, default_text, scene_template
 from bem.scenes.validate import fields_of_table, literals, unwrap, without_none
+from bem.surfaces.processes import PROCESSES
 from reports import lumped_heat, wear_lengths
 from reports.builder import Page, Section, table, text
 from reports.error_bars import chapter
@@ -58,7 +59,7 @@ def build() -> Page:
 
 def using() -> list[Section]:
     """First steps, own surfaces, sweeps, Python."""
-    return [_first_steps(), _own_surfaces(), _sweeps(), _from_python()]
+    return [_first_steps(), _own_surfaces(), _processes(), _sweeps(), _from_python()]
 
 
 def _first_steps() -> Section:
@@ -104,6 +105,15 @@ def _own_surfaces() -> Section:
             "different spacing are brought to the finer one."
         ),
     )
+
+
+def _processes() -> Section:
+    rows = [
+        (name, one.title, *one.shown()[:2], " / ".join(one.shown()[2:4]), " / ".join(one.shown()[4:]), one.source)
+        for name, one in PROCESSES.items()
+    ]
+    head = ("process", "what", "Sq", "usual", "length across / along", "Ssk / Sku", "source")
+    return Section("Surfaces by process", text(_WORDS["processes"]) + table(head, rows))
 
 
 def _sweeps() -> Section:

@@ -42,6 +42,7 @@ ORDER = (
     "schema",
     "oils",
     "materials",
+    "surfaces",
     "surface",
     "particles",
     "calibrate",

@@ -15,7 +15,8 @@ from bem.errors import InputError
 from bem.grid import Grid
 from bem.laws import Law
 from bem.materials import Body, contact_modulus
-from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, SceneModel, ShapeScene, SmoothSurface
+from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, SceneModel, SmoothSurface
+from bem.scenes.tables.shape import ShapeScene
 
 if TYPE_CHECKING:
     from bem.convolution import DisplacementOperator
@@ -202,7 +203,8 @@ def check_surfaces(grid: Grid, **surfaces: AnySurface) -> None:
             try:
                 check_statistics(_drawn_on(surface, grid), **_statistics(surface))
             except InputError as error:
-                messages += [f"{name}.surface: {m.removeprefix('generate_surface: ')}" for m in error.messages]
+                hint = f" (of process {surface.process}, beside which keys of your own win)" if surface.process else ""
+                messages += [f"{name}.surface: {m.removeprefix('generate_surface: ')}{hint}" for m in error.messages]
     if messages:
         raise InputError(messages)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -14,6 +13,7 @@ from bem.scenes.asked import AskedAccuracy
 from bem.scenes.paths import checksum_of, what_is_wrong_with
 from bem.scenes.ranges import values_of_keys
 from bem.scenes.units import Density, Force, HeatCapacity, Length, Pressure, Ratio, ThermalConductivity
+from bem.surfaces.processes import PROCESSES, Lay, ProcessName
 
 PositiveLength = Annotated[Length, Field(gt=0)]
 PositivePressure = Annotated[Pressure, Field(gt=0)]
@@ -142,15 +142,26 @@ class SmoothSurface(Table):
     kind: Literal["smooth"] = "smooth"
 
 
+_NO_STATISTIC = ("kind", "process", "lay", "seed", "drawn_on", "source")
+_EXCLUDED = {
+    "correlation_length": ("hurst", "rolloff_wavelength"),
+    "hurst": ("correlation_length", "elongation"),
+}
+"""What of a process does not go with a key that is given beside it."""
+
+
 class GeneratedSurface(Table):
     """A random surface of prescribed statistics; see `bem.generate_surface`.
 
     `elongation` is the ratio of the correlation lengths along x and y, of which `correlation_length` is then the
     geometric mean. `drawn_on` draws the surface on so many cells whatever the grid has, and carries its waves to the
-    grid: the same surface on all grids that are as fine.
+    grid: the same surface on all grids that are as fine. `process` gives every statistic that is not given beside it;
+    `lay` is the direction of its ridges.
     """
 
     kind: Literal["generated"] = "generated"
+    process: ProcessName | None = None
+    lay: Lay | None = None
     rms_height: PositiveLength
     correlation_length: PositiveLength | None = None
     elongation: Annotated[Ratio, Field(ge=0.01, le=100)] | None = None
@@ -161,8 +172,42 @@ class GeneratedSurface(Table):
     kurtosis: Annotated[Ratio, Field(gt=1)] = 3.0
     seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] | None = None
     drawn_on: tuple[Cells, Cells] | None = None
+    source: str = ""
 
     _pairs = field_validator("drawn_on", mode="before")(one_for_both)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_process(cls, data: Any) -> Any:
+        if not isinstance(data, dict) or data.get("process") is None:
+            return data
+        process = PROCESSES.get(data["process"]) if isinstance(data["process"], str) else None
+        if process is None:
+            raise PydanticCustomError(
+                "unknown_name",
+                "is not a manufacturing process of the catalogue",
+                {"found": str(data["process"])[:60], "names": sorted(PROCESSES), "what": "process"},
+            )
+        known = process.keys("x" if data.get("lay") == "x" else "y")
+        own = [key for key in data if key in cls.model_fields and key not in _NO_STATISTIC]
+        for key, others in _EXCLUDED.items():
+            if key in own:
+                known = {name: value for name, value in known.items() if name not in others}
+        changed = f"; changed in the scene: {', '.join(sorted(own))}" if own else ""
+        return {**known, "source": f"{process.title}. {process.source}{changed}", **data}
+
+    @model_validator(mode="after")
+    def _one_lay(self) -> GeneratedSurface:
+        if self.lay is None:
+            return self
+        if self.process is None:
+            raise problem("lay without process", "process with lay; elongation where there is none")
+        if self.elongation is None:
+            directional = [name for name, one in PROCESSES.items() if one.directional]
+            raise problem(f"{self.process} has no lay", f"none, or one of {', '.join(directional)}")
+        if self.elongation > 1 if self.lay == "y" else self.elongation < 1:
+            raise problem(f"lay {self.lay} with elongation {self.elongation:g}, ridges the other way", "one of the two")
+        return self
 
     @model_validator(mode="after")
     def _one_spectrum(self) -> GeneratedSurface:
@@ -233,6 +278,8 @@ class _LayeredScene(Table):
     @field_validator("surface", mode="before")
     @classmethod
     def _kind_by_default(cls, data: Any) -> Any:
+        if isinstance(data, dict) and "process" in data:
+            return {"kind": "generated", **data}
         return {"kind": "smooth"} if data == "smooth" else data
 
     @model_validator(mode="after")
@@ -315,74 +362,10 @@ class LineGridScene(GridScene):
     periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = (False, True)
 
 
-class ShapeScene(Table):
-    """The smooth shape of the upper body; it touches at the middle of the grid."""
-
-    kind: Literal["flat", "sphere", "cylinder", "ellipsoid", "sinusoid"] = "flat"
-    radius: PositiveLength | None = None
-    radius_y: PositiveLength | None = None
-    amplitude: PositiveLength | None = None
-    wavelength: PositiveLength | None = None
-
-    @model_validator(mode="after")
-    def _parameters(self) -> ShapeScene:
-        wanted = {
-            "flat": (),
-            "sphere": ("radius",),
-            "cylinder": ("radius",),
-            "ellipsoid": ("radius", "radius_y"),
-            "sinusoid": ("amplitude", "wavelength"),
-        }[self.kind]
-        every = ("radius", "radius_y", "amplitude", "wavelength")
-        given = tuple(name for name in every if getattr(self, name) is not None)
-        if set(given) != set(wanted):
-            raise problem(
-                f"a {self.kind} has {', '.join(given) or 'no parameters'}",
-                f"{' and '.join(wanted) or 'none'} for this kind",
-            )
-        return self
-
-    @property
-    def radii(self) -> tuple[float, float]:
-        """Of the shape along x and y [m], infinite where it does not bend (a sinusoid's are none)."""
-        if self.kind in ("flat", "sinusoid"):
-            return math.inf, math.inf
-        assert self.radius is not None
-        return self.radius, {"sphere": self.radius, "ellipsoid": self.radius_y}.get(self.kind) or math.inf
-
-
 class OutputsScene(Table):
     """What is wanted besides the figures: their error bars."""
 
     errors: bool = Field(default=True, strict=True)
-
-
-class DepthsScene(Table):
-    """Depths where stresses are wanted: a list, or `deepest` with `count` depths that are finer near the surface."""
-
-    values: Annotated[list[Annotated[Length, Field(ge=0)]], Field(min_length=1, max_length=1024)] | None = None
-    deepest: PositiveLength | None = None
-    count: Annotated[int, Field(strict=True, ge=2, le=1024)] = 32
-    grading: Annotated[Ratio, Field(ge=1, le=5)] = 2.0
-
-    @model_validator(mode="before")
-    @classmethod
-    def _from_list(cls, data: Any) -> Any:
-        return {"values": data} if isinstance(data, list | tuple) else data
-
-    @model_validator(mode="after")
-    def _one_way(self) -> DepthsScene:
-        exactly_one(self, "values", "deepest")
-        if self.values is not None and any(b <= a for a, b in zip(self.values, self.values[1:], strict=False)):
-            raise problem("the depths do not rise", "depths in rising order, none twice")
-        return self
-
-    def build(self) -> tuple[float, ...]:
-        """Depths [m]; from `deepest` they are deepest * (i / (count - 1))^grading."""
-        if self.values is not None:
-            return tuple(self.values)
-        assert self.deepest is not None
-        return tuple(self.deepest * (i / (self.count - 1)) ** self.grading for i in range(self.count))
 
 
 class SceneModel(Table):
@@ -426,7 +409,6 @@ __all__ = [
     "BodyScene",
     "Cells",
     "CylinderTable",
-    "DepthsScene",
     "Force",
     "GeneratedSurface",
     "GridScene",
@@ -438,7 +420,6 @@ __all__ = [
     "PositivePressure",
     "Repetitions",
     "SceneModel",
-    "ShapeScene",
     "SmoothSurface",
     "SurfaceScene",
     "Table",

@@ -18,7 +18,8 @@ from bem.accuracy.bars import GRID
 from bem.errors import InputError
 from bem.scenes import build
 from bem.scenes.axes import changed
-from bem.scenes.common import DepthsScene, GeneratedSurface, MeasuredSurface
+from bem.scenes.common import GeneratedSurface, MeasuredSurface
+from bem.scenes.tables.depths import DepthsScene
 
 _PER_WAVE, _PER_RADIUS, _PER_LAYER, _FEWEST = 4, 6, 1, 32
 """Cells of the first level to the shortest wave or correlation length, to the radius of the smooth contact, to the

@@ -53,6 +53,9 @@ def _with_short_forms(schema: dict[str, Any]) -> dict[str, Any]:
             required = table.pop("required", [])
             table["anyOf"] = [{"required": ["catalogue"]}, {"required": required}]
             definitions[name] = {"anyOf": [{"enum": sorted(CATALOGUE)}, table], "description": table.get("description")}
+        elif name == "GeneratedSurface":
+            required = table.pop("required", [])
+            table["anyOf"] = [{"required": ["process"]}, {"required": required}]
         elif name in ("RollerScene", "RollingScene") and "along" in schema.get("properties", {}):
             table.pop("required", None)  # its first row says them
         elif name == "DepthsScene":

@@ -1,8 +1,9 @@
 """Rough surfaces: generate, read measured ones, filter, describe.
 
 `generate` makes heights of a `spectrum` (`request` checks what is asked, `moments` imposes skewness and kurtosis),
-`read` opens an instrument's file by its `formats`, `filter` levels, despikes, fills, cuts and resamples, `seams` makes
-a map periodic, `describe` measures; `examples` are two maps of our own.
+`processes` are statistics by how a surface is made, `read` opens an instrument's file by its `formats`, `filter`
+levels, despikes, fills, cuts and resamples, `seams` makes a map periodic, `describe` measures; `examples` are two maps
+of our own.
 Names are loaded when first used: planning a contact of smooth bodies costs no transforms and no splines.
 
 Sees grids and no contact. Verified in tests/surfaces: what is asked for is what `describe` finds, the same seed gives
@@ -35,12 +36,15 @@ if TYPE_CHECKING:
     )
     from bem.surfaces.formats import SurfaceFormat
     from bem.surfaces.generate import generate_surface
+    from bem.surfaces.processes import PROCESSES, Process
     from bem.surfaces.read import read_surface, write_surface
     from bem.surfaces.seams import close_seams
     from bem.surfaces.surface import Surface
 
 __all__ = [
+    "PROCESSES",
     "MirrorWarning",
+    "Process",
     "RadialSpectrum",
     "Surface",
     "SurfaceDescription",
@@ -81,6 +85,7 @@ __getattr__ = loader(
         ],
         "formats": ["SurfaceFormat"],
         "generate": ["generate_surface"],
+        "processes": ["PROCESSES", "Process"],
         "read": ["read_surface", "write_surface"],
         "seams": ["close_seams"],
         "surface": ["Surface"],

@@ -17,11 +17,12 @@ from bem.errors import InfeasibleError
 from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans, wearing
 from bem.scenes.axes import Axis, listed, variants, with_keys
-from bem.scenes.common import BodyScene, Repetitions, SceneModel, ShapeScene, problem
+from bem.scenes.common import BodyScene, Repetitions, SceneModel, problem
 from bem.scenes.context import Context, PlainContext, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, Series, filled, grid_map
+from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 
 if TYPE_CHECKING:

@@ -12,17 +12,17 @@ from bem.scenes import build
 from bem.scenes.axes import changed
 from bem.scenes.common import (
     BodyScene,
-    DepthsScene,
     Force,
     GridScene,
     PositivePressure,
     SceneModel,
-    ShapeScene,
     Table,
     UpperBodyScene,
     exactly_one,
     problem,
 )
+from bem.scenes.tables.depths import DepthsScene
+from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.units import Length, Ratio
 
 if TYPE_CHECKING:

@@ -13,8 +13,9 @@ from bem.grid import FloatArray, Grid
 from bem.reference_solutions.hertz import sphere_contact
 from bem.scenes import build
 from bem.scenes.axes import Model, with_keys
-from bem.scenes.common import BodyScene, GridScene, Loads, SceneModel, ShapeScene, Table, Variant, problem
+from bem.scenes.common import BodyScene, GridScene, Loads, SceneModel, Table, Variant, problem
 from bem.scenes.laws import LawKey
+from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.units import Energy, InverseLength, Length, Rate, Ratio, Speed, Temperature, Time, Volume
 from bem.tribofilm.balance import FilmBalance
 from bem.tribofilm.growth import ZERO_CELSIUS, GrowthLaw, StressActivatedGrowth

@@ -1,0 +1,46 @@
+"""The table `[shape]`."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+from pydantic import model_validator
+
+from bem.scenes.common import PositiveLength, Table, problem
+
+
+class ShapeScene(Table):
+    """The smooth shape of the upper body; it touches at the middle of the grid."""
+
+    kind: Literal["flat", "sphere", "cylinder", "ellipsoid", "sinusoid"] = "flat"
+    radius: PositiveLength | None = None
+    radius_y: PositiveLength | None = None
+    amplitude: PositiveLength | None = None
+    wavelength: PositiveLength | None = None
+
+    @model_validator(mode="after")
+    def _parameters(self) -> ShapeScene:
+        wanted = {
+            "flat": (),
+            "sphere": ("radius",),
+            "cylinder": ("radius",),
+            "ellipsoid": ("radius", "radius_y"),
+            "sinusoid": ("amplitude", "wavelength"),
+        }[self.kind]
+        every = ("radius", "radius_y", "amplitude", "wavelength")
+        given = tuple(name for name in every if getattr(self, name) is not None)
+        if set(given) != set(wanted):
+            raise problem(
+                f"a {self.kind} has {', '.join(given) or 'no parameters'}",
+                f"{' and '.join(wanted) or 'none'} for this kind",
+            )
+        return self
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Of the shape along x and y [m], infinite where it does not bend (a sinusoid's are none)."""
+        if self.kind in ("flat", "sinusoid"):
+            return math.inf, math.inf
+        assert self.radius is not None
+        return self.radius, {"sphere": self.radius, "ellipsoid": self.radius_y}.get(self.kind) or math.inf
