@@ -10,7 +10,7 @@ ROOT = Path(__file__).resolve().parents[1] / "bem"
 
 ORDER = [
     {"errors", "lazy", "representation", "small_files", "compiled", "pocketfft"},
-    {"extensions", "arguments", "kept"},
+    {"extensions", "arguments", "kept", "monotone"},
     {"grid", "materials", "threads", "fftw", "laws"},
     {"kernels", "reference_solutions", "subcell"},
     {"transforms"},

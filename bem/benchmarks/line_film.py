@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
@@ -21,6 +20,7 @@ from bem.lubrication.line_kernel import LineOperator
 from bem.lubrication.line_newton import State, newton
 from bem.lubrication.line_scales import scaled_problem
 from bem.lubrication.steady import KeptSteady, lowest_film
+from bem.monotone import MonotoneCubic
 from bem.reference_solutions.line_film import dowson_higginson_minimum, moes_central
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ def nested_films(film: FilmSolution, levels: int) -> list[tuple[float, float]]:
     found = [_measures(state)]
     for _ in range(levels):
         half = np.arange(2 * len(state.offset) - 1) / 2
-        nodes: FloatArray = PchipInterpolator(np.arange(len(state.offset)), state.offset)(half)
+        nodes: FloatArray = MonotoneCubic(np.arange(len(state.offset), dtype=float), state.offset)(half)
         start = State(
             nodes,
             LineOperator.of(nodes),
@@ -95,7 +95,7 @@ def nested_films(film: FilmSolution, levels: int) -> list[tuple[float, float]]:
 
 
 def _measures(state: State) -> tuple[float, float]:
-    return lowest_film(state.position, state.film), float(PchipInterpolator(state.position, state.film)(0.0))
+    return lowest_film(state.position, state.film), float(MonotoneCubic(state.position, state.film)(0.0))
 
 
 def film_row(load: float, piezo: float) -> Row:

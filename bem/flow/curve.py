@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from bem.grid import FloatArray
+from bem.monotone import MonotoneCubic
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,11 +38,9 @@ class Curve:
         return 0 if zeros.size == 0 else int(zeros[-1]) + 1
 
     @cached_property
-    def _cubic(self) -> Any:
-        from scipy.interpolate import PchipInterpolator
-
+    def _cubic(self) -> MonotoneCubic | None:
         x, y = np.log(self.separation[self._first :]), np.log(self.value[self._first :])
-        return PchipInterpolator(x, y) if len(x) > 1 else None
+        return MonotoneCubic(x, y) if len(x) > 1 else None
 
     def __call__(self, separation: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The factor and its derivative with the separation [1/m], both of the shape of `separation` (> 0) [m]."""
@@ -67,7 +65,7 @@ class Curve:
             return np.full(h.shape, self.value[-1]), np.zeros(h.shape)
         x = np.log(h)
         value = np.exp(self._cubic(x))
-        return value, value * self._cubic(x, 1) / h
+        return value, value * self._cubic.slope(x) / h
 
     def _below(self, h: FloatArray) -> tuple[FloatArray, FloatArray]:
         low, start = self.separation[self._first], self.value[self._first]
@@ -77,6 +75,6 @@ class Curve:
             return np.where(open_, start * (h - zero) / (low - zero), 0.0), np.where(open_, start / (low - zero), 0.0)
         power = self.growth
         if power is None:
-            power = max(0.0, float(self._cubic(np.log(low), 1))) if self._cubic is not None else 0.0
+            power = max(0.0, float(self._cubic.slope(np.log(low)))) if self._cubic is not None else 0.0
         value = start * (h / low) ** power
         return value, power * value / h

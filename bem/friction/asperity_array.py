@@ -16,6 +16,7 @@ from bem.contact import solve_contact
 from bem.convolution import DisplacementOperator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
+from bem.monotone import MonotoneCubic
 
 LOADS = 14
 """Contacts solved for a curve; loads at depths in between are interpolated."""
@@ -106,11 +107,9 @@ def asperity_gap(grid: Grid, radius: float, height: float) -> FloatArray:
 
 def _at_depths(depth: FloatArray, inward: FloatArray, loads: FloatArray, spacing: float) -> FloatArray:
     """Loads at the depths asked for [N]; InputError for depths that the loads do not reach."""
-    from scipy.interpolate import PchipInterpolator
-
     if not (np.diff(inward) > 0).all() or inward[0] > depth[0] or inward[-1] < depth[-1]:
         raise InputError(
             f"array.interferences: {depth[0]:.3g} to {depth[-1]:.3g} m cannot be reached at a spacing of "
             f"{spacing:.3g} m; allowed: {max(inward[0], 0):.3g} to {inward[-1]:.3g} m"
         )
-    return np.asarray(PchipInterpolator(inward, loads ** (2 / 3))(depth) ** 1.5)
+    return MonotoneCubic(inward, loads ** (2 / 3))(depth) ** 1.5

@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.supply import Starvation
+from bem.monotone import MonotoneCubic
 from bem.representation import readable
 
 if TYPE_CHECKING:
@@ -133,5 +133,5 @@ class FilmSolution:
             )
         return (
             np.interp(position, self.position, self.pressure),
-            np.asarray(PchipInterpolator(self.position, self.thickness)(position)),
+            MonotoneCubic(self.position, self.thickness)(position),
         )

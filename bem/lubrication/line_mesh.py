@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
-from scipy.interpolate import PchipInterpolator
 
 from bem.grid import FloatArray
+from bem.monotone import MonotoneCubic
 
 FAR_INLET = 50.0
 """Where the mesh starts: this many times the larger of the exit's abscissa and sqrt(2 R h_min) upstream."""
@@ -79,6 +79,6 @@ def redistribute(offset: FloatArray, size: FloatArray, cells: int, kept: int | N
         wanted = np.concatenate(
             [np.linspace(0.0, count[kept], before + 1), np.linspace(count[kept], count[-1], cells - before + 1)[1:]]
         )
-    nodes = PchipInterpolator(count, offset)(wanted)
+    nodes = MonotoneCubic(count, offset)(wanted)
     nodes[0], nodes[-1] = offset[0], offset[-1]
-    return np.asarray(nodes, dtype=np.float64)
+    return nodes

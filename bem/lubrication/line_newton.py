@@ -20,7 +20,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from bem.grid import FloatArray
 from bem.lubrication.line_equations import Equations
@@ -35,6 +34,7 @@ from bem.lubrication.line_mesh import (
     trapezoidal_weights,
     upwind_extrapolation,
 )
+from bem.monotone import MonotoneCubic
 
 SHARP_FROM = 1500
 """Cells from which a spike is solved for by itself first: a step of them all costs more than ten of those."""
@@ -280,8 +280,8 @@ def remesh(problem: Problem, state: State, cells: int, smallest: float | None) -
         size = cell_sizes(state.offset, smooth, spike, cells, smallest * state.exit)
     # the node where the steepest fall begins stays: interpolating across a spike would move it
     nodes = redistribute(state.offset, size, cells, top)
-    pressure = np.maximum(PchipInterpolator(state.offset, state.pressure)(nodes), 0.0)
-    film = np.exp(PchipInterpolator(state.offset, np.log(state.film))(nodes))
+    pressure = np.maximum(MonotoneCubic(state.offset, state.pressure)(nodes), 0.0)
+    film = np.exp(MonotoneCubic(state.offset, np.log(state.film))(nodes))
     return State(nodes, LineOperator.of(nodes), pressure, film, state.datum, state.exit, state.far_field)
 
 

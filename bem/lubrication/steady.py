@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
@@ -26,6 +25,7 @@ from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
 from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply, inside_hertz
 from bem.lubrication.validity import Case, notes_on
 from bem.materials import Body
+from bem.monotone import MonotoneCubic
 from bem.threads import one_blas_thread
 
 MOES_LOADS = (1e-5, 1e4)
@@ -220,7 +220,7 @@ def _wanted(supply: Supply, problem: Problem, flooded: State, scales: Scales) ->
 def _starvation(problem: Problem, state: State, flooded: State, scales: Scales, reversed_: bool) -> Starvation:
     first = float(state.position[0]) * scales.length if state.far_field == 0 else -math.inf
     layers = [through(problem, one) * scales.film for one in (state, flooded)]
-    central = [float(PchipInterpolator(one.position, one.film)(0.0)) for one in (state, flooded)]
+    central = [float(MonotoneCubic(one.position, one.film)(0.0)) for one in (state, flooded)]
     return Starvation(-first if reversed_ else first, layers[0], central[0] / central[1], layers[1])
 
 
@@ -359,7 +359,7 @@ def solution_of(
     state = outcome.state
     x, film = state.position, state.film
     pressure = np.maximum(state.pressure, 0.0)
-    central = float(PchipInterpolator(x, film)(0.0))
+    central = float(MonotoneCubic(x, film)(0.0))
     status = Status.CONVERGED if outcome.converged else Status.STALLED
     friction = friction_forces(state, scales, speeds, reversed_, lubricant)
     sign = -1.0 if reversed_ else 1.0
@@ -408,9 +408,9 @@ def _sampled(at: FloatArray, state: State, scales: Scales) -> tuple[FloatArray, 
     upstream = target < x[0]
     pressure[upstream] = state.far_field * 8 / np.abs(target[upstream]) ** 3
     film = np.empty_like(target)
-    film[inside] = PchipInterpolator(x, state.film)(target[inside])
+    film[inside] = MonotoneCubic(x, state.film)(target[inside])
     far = inside & (np.abs(target) > 1.5 * state.exit)
-    film[far] = 0.5 * target[far] ** 2 + PchipInterpolator(x, state.film - 0.5 * x**2)(target[far])
+    film[far] = 0.5 * target[far] ** 2 + MonotoneCubic(x, state.film - 0.5 * x**2)(target[far])
     if not inside.all():
         out = target[~inside]
         weights = logarithmic_weights(out - state.exit, state.offset)

@@ -6,13 +6,10 @@ import subprocess
 import sys
 import time
 
-import numpy as np
 import pytest
-from scipy.interpolate import PchipInterpolator
 
 from bem.plots import side_by_side as module
 from bem.plots.side_by_side import side_by_side
-from bem.plots.smooth import monotone_cubics
 
 ALONE = pytest.mark.skipif(sys.platform != "linux", reason="copies are made on Linux only")
 
@@ -131,14 +128,3 @@ assert len(started) == 1, started
 """
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
     subprocess.run([sys.executable, "-c", code, tmp_path / "run"], timeout=400, check=True, env=environment)
-
-
-@pytest.mark.parametrize("points", [2, 3, 4, 50])
-def test_monotone_cubics_are_those_of_scipy(points):
-    rng = np.random.default_rng(points)
-    x = np.cumsum(rng.random(points) + 0.1)
-    values = np.cumsum(rng.normal(size=(points, 5)), axis=0)
-    values[points // 2, 0] = values[points // 2 - 1, 0]  # a plateau
-    at = np.linspace(x[0], x[-1], 101)
-    # round-off of values of order ten
-    np.testing.assert_allclose(monotone_cubics(x, values, at), PchipInterpolator(x, values)(at), rtol=0, atol=1e-13)

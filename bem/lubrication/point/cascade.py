@@ -6,12 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from bem.contact import solve_contact
 from bem.grid import FloatArray
 from bem.lubrication.point.levels import Level, PointProblem
 from bem.lubrication.point.newton import Outcome, State, newton
+from bem.monotone import MonotoneCubic
 
 COARSEST = 56
 """Cells along the shorter side of the first grid, at least."""
@@ -67,8 +67,9 @@ def interpolated(level: Level, coarse: Level, state: State) -> State:
     """The state of another grid of the same rectangle."""
 
     def on(values: FloatArray) -> FloatArray:
-        along = PchipInterpolator(coarse.x, values, axis=0)(np.clip(level.x, coarse.x[0], coarse.x[-1]))
-        return np.asarray(PchipInterpolator(coarse.y, along, axis=1)(np.clip(level.y, coarse.y[0], coarse.y[-1])))
+        along = MonotoneCubic(coarse.x, values)(np.clip(level.x, coarse.x[0], coarse.x[-1]))
+        across = MonotoneCubic(coarse.y, along.T)(np.clip(level.y, coarse.y[0], coarse.y[-1]))
+        return np.ascontiguousarray(across.T)
 
     lift = float(state.film.min())
     film = np.exp(on(np.log(state.film / (coarse.gap + lift)))) * (level.gap + lift)

@@ -16,13 +16,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.oils.oil import COLDEST, HOTTEST
 from bem.lubrication.viscosity import ROELANDS_VISCOSITY
+from bem.monotone import MonotoneCubic
 
 POLE = 138.0
 """Temperature at which Roelands' viscosity is infinite [K]."""
@@ -46,7 +46,7 @@ class HotViscosity:
     softening: float
     exponent: float
     hottest: float
-    known: PchipInterpolator | None
+    known: MonotoneCubic | None
 
     @classmethod
     def of(cls, lubricant: Lubricant) -> HotViscosity:
@@ -68,8 +68,8 @@ class HotViscosity:
             points = np.unique(np.append(points[np.abs(points - reference) > 0.1 * _STEP], reference))
             logs = np.array([math.log(lubricant.oil.dynamic_viscosity(float(t)) / ROELANDS_VISCOSITY) for t in points])
             own = math.log(lubricant.oil.dynamic_viscosity(reference) / ROELANDS_VISCOSITY)
-            known = PchipInterpolator(points, np.log(np.maximum(logs, LEAST_SPAN) / own))
-        slope = softening / span if known is None else -float(known.derivative()(hottest))
+            known = MonotoneCubic(points, np.log(np.maximum(logs, LEAST_SPAN) / own))
+        slope = softening / span if known is None else -float(known.slope(hottest))
         exponent = max(slope, 0.0) * (hottest - POLE)
         return cls(lubricant, span, reference, softening, exponent, hottest, known)
 
@@ -101,4 +101,4 @@ class HotViscosity:
         inside = np.clip(temperature, self.known.x[0], self.hottest)
         hot = temperature > self.hottest
         logarithm = self.known(inside) + np.where(hot, beyond, 0.0)
-        return np.exp(logarithm), np.where(hot, steep, self.known.derivative()(inside))
+        return np.exp(logarithm), np.where(hot, steep, self.known.slope(inside))

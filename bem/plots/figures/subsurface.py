@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.markers import TICKRIGHT
 from numpy.typing import NDArray
 
+from bem.monotone import MonotoneCubic
 from bem.plots.figures import FigureKind
-from bem.plots.smooth import monotone_cubics
 from bem.plots.style import SKY, label, prefix
 from bem.scenes.context import release
 
@@ -117,7 +117,7 @@ def _drawn_over_depth(
     Colours that are linear between depths far apart show bands that are not in the stress.
     """
     even = np.linspace(depth[0], depth[-1], _DRAWN_DEPTHS)
-    return even, monotone_cubics(depth, section, even)
+    return even, MonotoneCubic(depth, section)(even)
 
 
 def _mark_depths(axes: Axes, depths: NDArray[np.float64]) -> None:
