@@ -14,7 +14,9 @@ turns plastic. At a step of the undeformed gap, as round a punch, the pressure h
 half-way between the centres.
 
 The constants are fitted to contacts of known edge, Hertz' (cells) and Westergaard's (waves), as the cell becomes small;
-crossings are met to 0.007 of a cell. `reports/experiments/contact_edge.py` fits them anew.
+crossings are met to 0.007 of a cell. `reports/experiments/contact_edge.py` fits them anew. What a narrow piece of
+contact or of gap adds goes with the inverse of its number of cells along the link; those two constants are fitted to
+areas of rough surfaces (`reports/experiments/contact_area.py`) and held against Hertz' and Westergaard's.
 """
 
 from __future__ import annotations
@@ -47,6 +49,12 @@ _WAVES = np.array(
 )
 """a, b and c as polynomials in the cosine n, highest power first; for n from 0.24 to 1."""
 
+_CELLS_ENDS = (0.0, 0.42)
+_WAVES_ENDS = (0.06, 0.217)
+"""How far the edge lies out for a narrow region, and in for a narrow opening beyond it: in cells, times the number of
+cells along the link. Fits that weigh 256 and 512 cells in other ways give 0.059 to 0.071 and 0.20 to 0.22 (waves),
+-0.01 to 0.01 and 0.42 to 0.48 (cells)."""
+
 _LEAST_COSINE = 0.24
 _BEFORE, _BEYOND = -0.3, 1.0
 """How far from the cell inside, in links, a crossing may lie: behind the centre of a cell that barely touches."""
@@ -71,15 +79,23 @@ class Region:
     counted_area: float
 
 
-def contact_region(pressure: FloatArray, gap: FloatArray, undeformed: FloatArray, grid: Grid, modulus: float) -> Region:
+def contact_region(
+    pressure: FloatArray,
+    gap: FloatArray,
+    undeformed: FloatArray,
+    grid: Grid,
+    modulus: float,
+    ends: tuple[float, float] | None = None,
+) -> Region:
     """The cells in contact.
 
     Parameters
     ----------
     pressure : (nx, ny) [Pa], zero outside contact. gap, undeformed : (nx, ny), deformed and undeformed gap [m].
-    grid : of the cells. modulus : E* as the length of a cell sees it [Pa].
+    grid : of the cells. modulus : E* as the length of a cell sees it [Pa]. ends : what narrow contact and narrow gaps
+    add, in place of the fitted constants.
     """
-    return _region(pressure > 0, pressure, gap, undeformed, grid, modulus)
+    return _region(pressure > 0, pressure, gap, undeformed, grid, modulus, ends)
 
 
 def plastic_region(
@@ -101,11 +117,12 @@ def _region(
     undeformed: FloatArray,
     grid: Grid,
     modulus: float,
+    ends: tuple[float, float] | None = None,
 ) -> Region:
-    constants = _WAVES if all(grid.periodic) else _CELLS
+    constants, fitted = (_WAVES, _WAVES_ENDS) if all(grid.periodic) else (_CELLS, _CELLS_ENDS)
     count = int(inside.sum())
     excess, length, squares, turns = _sum_squares(
-        (inside, strength, opening, undeformed), grid.spacing, grid.periodic, 0.75 * modulus, constants
+        (inside, strength, opening, undeformed), grid.spacing, grid.periodic, 0.75 * modulus, constants, ends or fitted
     )
     # chords cut off curvature x chord^3 / 12; the curvature of all edges adds up to 2 pi a piece, less that of holes
     segments = 2 * math.pi * turns * (squares / length) / 12 if length > 0 else 0.0
@@ -173,7 +190,7 @@ def _root(parent, cell):  # type: ignore[no-untyped-def]
 
 
 @_strict
-def _sum_squares(given, spacing, wraps, factor, constants):  # type: ignore[no-untyped-def]
+def _sum_squares(given, spacing, wraps, factor, constants, ends):  # type: ignore[no-untyped-def]
     """Over the squares between four centres: area within the polygons beyond a quarter of a cell for each centre inside
     [m^2], length of the edge [m], sum of chord^3 [m^3], Euler's number of the region.
 
@@ -186,7 +203,7 @@ def _sum_squares(given, spacing, wraps, factor, constants):  # type: ignore[no-u
     nx, ny = inside.shape
     blurred = _blur(inside, wraps_x, wraps_y)
     fields = (*given, blurred)
-    place = (spacing, wraps, factor)
+    place = (spacing, wraps, factor, ends)
     area, length, cubes, corners = 0.0, 0.0, 0.0, 0
     # each link is cut once: a square's upper sides are the lower ones of the next
     rights = np.full(ny, 0.5)
@@ -273,7 +290,7 @@ def _chord(u, v, along, across):  # type: ignore[no-untyped-def]
 def _cut(fields, i, j, axis, place, constants):  # type: ignore[no-untyped-def]
     """Where the edge crosses the link from (i, j) along `axis`, as a fraction of it; 0.5 where it does not."""
     inside, strength, opening, shape, blurred = fields
-    (dx, dy), (wraps_x, wraps_y), factor = place
+    (dx, dy), (wraps_x, wraps_y), factor, (within, beyond) = place
     k, m = _step(inside, i, j, axis, 1, wraps_x, wraps_y)
     first = inside[i, j]
     if first == inside[k, m]:
@@ -298,8 +315,29 @@ def _cut(fields, i, j, axis, place, constants):  # type: ignore[no-untyped-def]
     a = ((constants[0, 0] * cosine + constants[0, 1]) * cosine + constants[0, 2]) * cosine + constants[0, 3]
     b = ((constants[1, 0] * cosine + constants[1, 1]) * cosine + constants[1, 2]) * cosine + constants[1, 3]
     c = ((constants[2, 0] * cosine + constants[2, 1]) * cosine + constants[2, 2]) * cosine + constants[2, 3]
-    crossing = min(max((a - b * ratio) / (c + ratio), _BEFORE), _BEYOND)
+    wraps = wraps_x if axis == 0 else wraps_y
+    ahead, back = _count_like(inside, k, m, axis, 1, wraps), _count_like(inside, i, j, axis, -1, wraps)
+    held_cells, open_cells = (back, ahead) if first else (ahead, back)
+    crossing = (a - b * ratio) / (c + ratio) + within / held_cells - beyond / open_cells
+    crossing = min(max(crossing, _BEFORE), _BEYOND)
     return crossing if first else 1 - crossing
+
+
+@_strict
+def _count_like(inside, i, j, axis, way, wraps):  # type: ignore[no-untyped-def]
+    """How many cells from (i, j) on, along `axis` one way, are like it; a gap that reaches a free edge has no end."""
+    place, most = (i, inside.shape[0]) if axis == 0 else (j, inside.shape[1])
+    like, count = inside[i, j], 1
+    while count < most:
+        place += way
+        if not 0 <= place < most:
+            if not wraps:
+                return float(count) if like else np.inf
+            place -= way * most
+        if (inside[place, j] if axis == 0 else inside[i, place]) != like:
+            break
+        count += 1
+    return float(count)
 
 
 @_strict
