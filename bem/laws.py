@@ -29,6 +29,7 @@ FAMILIES = {
     "boundary_friction": "bem.friction.boundary",
     "criterion": "bem.wear.criterion",
     "removal": "bem.wear.removal",
+    "traction": "bem.wear.traction",
     "growth": "bem.tribofilm.growth",
     "film_property": "bem.tribofilm.properties",
 }

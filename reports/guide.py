@@ -269,7 +269,7 @@ def _laws() -> Iterator[tuple[str, str, str, str]]:
 
 EXTENSIONS = (
     (
-        "a law: viscosity, density, shear, boundary friction, criterion, removal, growth, film property",
+        "a law: viscosity, density, shear, boundary friction, criterion, removal, traction, growth, film property",
         "a frozen dataclass of the family, parameters and a formula",
         "@bem.register above it",
     ),

@@ -20,14 +20,16 @@ from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.scenes import plans
 from bem.scenes.common import PositiveLength, Table, problem
-from bem.scenes.context import Context
+from bem.scenes.context import Context, tell
 from bem.scenes.laws import LawKey
 from bem.scenes.planner import Step, padded_points, stress_kernel_seconds
 from bem.scenes.records import Figure, Record, Series, without_bars
+from bem.scenes.rubbing import rubbing_step
 from bem.scenes.units import Length, WearCoefficient
 from bem.wear.criterion import Detachment, VonMises, WearCriterion
 from bem.wear.loads import wearing_bodies
 from bem.wear.removal import Cap, RemovalLaw
+from bem.wear.traction import GrossSliding, TractionLaw
 
 if TYPE_CHECKING:
     from bem.wear import RunningIn, RunningInState
@@ -62,6 +64,14 @@ class WearScenePart(Table):
     wears: Literal["softer", "lower", "upper", "both"] = "softer"
     shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] = 3
     within_layer: bool = Field(default=True, strict=True)
+    traction: Annotated[TractionLaw, LawKey("traction")] = GrossSliding()
+
+    @model_validator(mode="after")
+    def _goes_together(self) -> Self:
+        for text in self.traction.misfits(self.criterion, self.stress_range):
+            found, allowed = text.rsplit("; allowed: ", 1)
+            raise problem(found, allowed)
+        return self
 
 
 class LastCycles(Table):
@@ -97,17 +107,20 @@ ARCHARD_FIGURES = ("wear_volume", "particle_number", "particles_per_mm_and_N")
 
 
 def cycle_steps(
-    scene: Any, grid: Grid, *, convolutions: int, contacts: str, usual: int, first: int
-) -> tuple[Step, Step, Step]:
-    """Contact, stresses and pieces of a case.
+    scene: Any, grid: Grid, *, convolutions: int, contacts: str, usual: int, first: int, friction: float
+) -> tuple[Step, ...]:
+    """Contact, slip, stresses and pieces of a case.
 
     convolutions : of the contacts of a cycle. contacts : what is solved, in words.
-    usual, first : depths before one at which nothing yields, in a usual cycle and in the first ones.
+    usual, first : depths before one at which nothing yields, in a usual cycle and in the first ones. friction : of the
+    surfaces.
 
     Raises
     ------
-    InputError : neither body has a yield stress, a length of the criterion that the grid has no room for.
+    InputError : neither body has a yield stress, a length of the criterion that the grid has no room for, partial slip
+    without friction.
     """
+    scene.wear.traction.check(friction)
     strengths = [body.build().surface_material.yield_stress for body in (scene.lower, scene.upper)]
     if scene.wear.criterion.needs_strength and all(value is None for value in strengths):
         raise InputError(
@@ -118,6 +131,7 @@ def cycle_steps(
     depths, deepest = min(scene.depths.count, usual), min(scene.depths.count, first)
     return (
         plans.contacts(grid, convolutions * cycles, f"{cycles} cycles a case, {contacts}"),
+        rubbing_step(scene.wear.traction, grid, cycles),
         Step("stresses", "the criterion asks for none", skipped=True)
         if not isinstance(scene.wear.criterion, WearCriterion)
         else Step(
@@ -158,7 +172,7 @@ def wear_loop(
         context.progress(now.cycle, count, "cycles", **figures)
 
     with context.timer("cycles"):
-        return run_in(
+        result = run_in(
             *heights,
             bodies=(scene.lower.build(), scene.upper.build()),
             depths=scene.depths.build(),
@@ -168,6 +182,8 @@ def wear_loop(
             callback=after,
             **contact,
         )
+    tell(context, result.notes)
+    return result
 
 
 class SizesScene(Table):

@@ -6,7 +6,7 @@ Every choice that the source leaves open is a field of `WearModel`, one name awa
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,7 @@ from bem.wear.criterion import Detachment
 from bem.wear.loads import LOWER, UPPER, BodyCycle, Removal, SurfaceLoad, half_the_change, wearing_bodies
 from bem.wear.removal import RemovalLaw
 from bem.wear.segmentation import CONNECTIVITIES, REFINEMENTS
+from bem.wear.traction import Rubbing, TractionLaw
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,9 @@ class WearModel:
     wears : "softer" (lower yield stress; the lower body where equal), "lower", "upper" or "both".
     shift : cells that the counterface slides along x per cycle, the way that friction says; negative is against it.
     within_layer : pieces of a coated body end at the interface at the latest; the film is taken as replenished.
+    traction : the name of one of `bem.wear.traction` or of your own, a table with `kind` and parameters, or a
+        `TractionLaw`. "gross_sliding" is the source's, friction x pressure everywhere; "oscillating_force" and
+        "oscillating_shift" give stresses, pieces and local wear the tractions and the slip of a loop in partial slip.
     """
 
     criterion: str | Mapping[str, Any] | Detachment = "von_mises"
@@ -52,6 +56,7 @@ class WearModel:
     wears: str = "softer"
     shift: int = 3
     within_layer: bool = True
+    traction: str | Mapping[str, Any] | TractionLaw = "gross_sliding"
 
     def __post_init__(self) -> None:
         messages = []
@@ -67,19 +72,29 @@ class WearModel:
         if self.shift != int(self.shift):
             messages.append(f"WearModel: shift {self.shift!r} must be a whole number of cells")
         try:
-            made = make_laws("WearModel", {"criterion": self.criterion, "removal": self.removal}, {})
+            chosen = {key: getattr(self, key) for key in ("criterion", "removal", "traction")}
+            made = make_laws("WearModel", chosen, {})
         except InputError as error:
             raise InputError([*messages, *error.messages]) from None
         if messages:
             raise InputError(messages)
         for key, law in made.items():
             object.__setattr__(self, key, law)
+        misfits = self.tractions.misfits(self.law, self.stress_range)
+        if misfits:
+            raise InputError([f"WearModel: {text}" for text in misfits])
 
     @property
     def law(self) -> Detachment:
         """The criterion, also where it was named."""
         assert isinstance(self.criterion, Detachment)
         return self.criterion
+
+    @property
+    def tractions(self) -> TractionLaw:
+        """The traction law, also where it was named."""
+        assert isinstance(self.traction, TractionLaw)
+        return self.traction
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,6 +132,7 @@ class WearSetup:
     def wearing(self, model: WearModel) -> tuple[int, ...]:
         """Indices of the bodies that wear."""
         model.law.check_length(self.grid)
+        model.tractions.check(self.friction)
         bodies = wearing_bodies(self.bodies, model.wears)
         if model.law.needs_strength and any(not np.isfinite(self.yield_stress(body)) for body in bodies):
             raise InputError("the body that wears has no yield_stress and no hardness: give its material one of them")
@@ -125,7 +141,10 @@ class WearSetup:
 
 @dataclass(frozen=True, eq=False)
 class ContactOutcome:
-    """What a cycle needs to know of a contact, dry or mixed."""
+    """What a cycle needs to know of a contact, dry or mixed.
+
+    rubbing : of a cycle in partial slip, which `wear_cycle` adds; None where all slides.
+    """
 
     pressure: FloatArray
     contact_area: float
@@ -136,6 +155,7 @@ class ContactOutcome:
     convolutions: float
     status: Status
     minimum_film: float = 0.0
+    rubbing: Rubbing | None = None
 
 
 ContactStep = Callable[[FloatArray, FloatArray | None], ContactOutcome]
@@ -192,11 +212,13 @@ def wear_cycle(
     Returns the contact, and what leaves from which body. Nothing is changed in place.
     """
     contact = contact_step(heights[LOWER] + heights[UPPER], start)
-    acting = SurfaceLoad(contact.pressure, contact.friction)
+    rubbing = model.tractions.rub(contact.pressure, contact.friction, setup)
+    acting = SurfaceLoad(contact.pressure, contact.friction, None if rubbing is None else rubbing.traction)
+    slid = None if rubbing is None else model.tractions.loops_per_cycle * rubbing.slid
     slide = abs(model.shift) * setup.grid.spacing[0]
     removals = []
     for body in setup.wearing(model):
         loads = half_the_change(acting, last_loads[body]) if model.stress_range else (acting,)
-        cycle = BodyCycle(contact.pressure, loads, setup, model, body, slide, memories[body])
+        cycle = BodyCycle(contact.pressure, loads, setup, model, body, slide, memories[body], slid)
         removals.append(model.law.detach(cycle))
-    return contact, removals
+    return contact if rubbing is None else replace(contact, rubbing=rubbing), removals

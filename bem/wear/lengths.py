@@ -49,7 +49,14 @@ def averaged(pressure: FloatArray, grid: Grid, diameter: float) -> FloatArray:
 
 def averaged_loads(loads: Sequence[SurfaceLoad], grid: Grid, diameter: float) -> list[SurfaceLoad]:
     """Loads whose stresses are those of others, averaged over a disc [m] along the surface."""
-    return [SurfaceLoad(averaged(load.pressure, grid, diameter), load.friction) for load in loads]
+    return [
+        SurfaceLoad(
+            averaged(load.pressure, grid, diameter),
+            load.friction,
+            None if load.traction is None else np.stack([averaged(part, grid, diameter) for part in load.traction]),
+        )
+        for load in loads
+    ]
 
 
 @njit(cache=True, inline="always")

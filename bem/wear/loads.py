@@ -6,7 +6,7 @@ Knows pressures and pieces; no solver. Verified in tests/wear/test_cycle.py.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bem.grid import FloatArray
 
@@ -30,10 +30,19 @@ def wearing_bodies(bodies: tuple[Body, Body], wears: str) -> tuple[int, ...]:
 
 @dataclass(frozen=True, eq=False)
 class SurfaceLoad:
-    """Pressure (nx, ny) [Pa] on a body, and the friction it slides with: traction over pressure, on the lower body."""
+    """Pressure (nx, ny) [Pa] on a body, and the friction it slides with: traction over pressure, on the lower body.
+
+    traction : (2, nx, ny) [Pa] on the lower body, where it is not friction x pressure along +x everywhere.
+    """
 
     pressure: FloatArray
     friction: float
+    traction: FloatArray | None = None
+
+    def shear(self, body: int) -> dict[str, Any]:
+        """The traction on a body, as stresses take it: on the upper one it has the other sign."""
+        sign = 1 if body == LOWER else -1
+        return {"friction": sign * self.friction} if self.traction is None else {"traction": sign * self.traction}
 
 
 def half_the_change(now: SurfaceLoad, before: SurfaceLoad | None) -> tuple[SurfaceLoad, ...]:
@@ -56,6 +65,8 @@ class BodyCycle:
     change since the last cycle. setup, model : of the run. body : LOWER or UPPER. slide : distance [m] that the
     counterface slides from one cycle to the next. memory : what the criterion keeps of the body's material on the grid,
     (planes, nx, ny), as it was given back in the last cycle and moved with the material; None before the first.
+    slid : (nx, ny) [m], what the surfaces slide at each place in the computed cycle; None where they do so everywhere
+    as far as the bodies move.
     """
 
     pressure: FloatArray
@@ -65,6 +76,7 @@ class BodyCycle:
     body: int
     slide: float
     memory: FloatArray | None = None
+    slid: FloatArray | None = None
 
     @property
     def solid(self) -> Body:

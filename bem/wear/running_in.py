@@ -58,7 +58,8 @@ class RunningIn:
     lower_heights, upper_heights : surfaces at the end [m]. pressure : of the last cycle [Pa].
     cycles : table of `CYCLE_FIELDS`; particles : table of `PARTICLE_FIELDS`; times : of `TIME_FIELDS` [s] per cycle.
     settled : whether the stop rule ended the run. state : to go on from.
-    wearing : the bodies that wear, LOWER or UPPER or both; the counterface is not in it.
+    wearing : the bodies that wear, LOWER or UPPER or both; the counterface is not in it. notes : sentences on what this
+    should not be believed in.
     """
 
     lower_heights: FloatArray
@@ -71,6 +72,7 @@ class RunningIn:
     state: RunningInState
     status: Status
     wearing: tuple[int, ...] = (LOWER,)
+    notes: tuple[str, ...] = ()
 
     def worn_heights(self) -> FloatArray:
         """Heights of the (first) wearing body at the end [m]."""
@@ -170,6 +172,7 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
         state=state,
         status=Status.CONVERGED,
         wearing=wearing,
+        notes=() if state.rubbing is None else state.rubbing.notes,
     )
 
 
@@ -192,6 +195,12 @@ def advance(
         raise ConvergenceError(
             f"cycle {cycle}: the contact ended with status {contact.status.value!r} at residual "
             f"{contact.residual:.1e}; {contact.status.message}"
+        )
+    rubbing = contact.rubbing
+    if rubbing is not None and rubbing.status != Status.CONVERGED:
+        raise ConvergenceError(
+            f"cycle {cycle}: partial slip ended with status {rubbing.status.value!r} at residual "
+            f"{rubbing.residual:.1e}; {rubbing.status.message}"
         )
     heights, remembered = list(state.heights), list(state.memories)
     table = []
@@ -222,6 +231,7 @@ def advance(
             np.array([(elapsed - stress_time - pieces_time, stress_time, pieces_time)], dtype=TIME_FIELDS),
         ),
         memories=(remembered[LOWER], remembered[UPPER]),
+        rubbing=rubbing,
     )
 
 
@@ -336,7 +346,7 @@ def _cycle_row(
     grid: Grid,
 ) -> NDArray[np.void]:
     besides = sum(float(removal.worn.sum()) for removal in removals if removal.worn is not None) * grid.cell_area
-    strip = worn[contact_strip(contact.pressure)]
+    strip, rubbing = worn[contact_strip(contact.pressure)], contact.rubbing
     return np.array(
         [
             (
@@ -353,6 +363,7 @@ def _cycle_row(
                 contact.convolutions,
                 sum(removal.depths_computed for removal in removals),
                 contact.status == Status.CONVERGED,
+                *((0.0, 0.0, 0.0) if rubbing is None else (rubbing.stick_share, rubbing.energy, rubbing.way)),
             )
         ],
         dtype=CYCLE_FIELDS,

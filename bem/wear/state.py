@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.errors import Status
 from bem.grid import FloatArray
 from bem.wear.loads import LOWER, UPPER
+from bem.wear.traction import Rubbing
 
 PARTICLE_FIELDS = np.dtype(
     [
@@ -45,9 +47,13 @@ CYCLE_FIELDS = np.dtype(
         ("convolutions", np.float64),
         ("depths_computed", np.int32),
         ("converged", np.bool_),
+        ("stick_share", np.float64),
+        ("loop_energy", np.float64),
+        ("loop_way", np.float64),
     ]
 )
-"""A cycle as a row of a table: SI units; `rms_height` is Sq of the wearing surface inside the contact strip."""
+"""A cycle as a row of a table: SI units; `rms_height` is Sq of the wearing surface inside the contact strip. The last
+three are of the cycle's `Rubbing`, 0 in gross sliding."""
 
 TIME_FIELDS = np.dtype([("contact", np.float64), ("stress", np.float64), ("particles", np.float64)])
 
@@ -60,7 +66,7 @@ class RunningInState:
     offset : cells that the counterface has slid. pressure : of the last cycle, None before the first.
     removed : what left from each column of the (first) wearing body in the last cycle [m], None before the first.
     memories : what the criterion keeps of the material of the lower and the upper body, (planes, rows, ny) on the
-        heights' own rows; None for nothing.
+        heights' own rows; None for nothing. rubbing : of the last cycle; None in gross sliding.
     """
 
     cycle: int
@@ -72,6 +78,7 @@ class RunningInState:
     particles: NDArray[np.void]
     times: NDArray[np.void]
     memories: tuple[FloatArray | None, FloatArray | None] = (None, None)
+    rubbing: Rubbing | None = None
 
 
 def pack_state(state: RunningInState) -> dict[str, Any]:
@@ -85,6 +92,7 @@ def pack_state(state: RunningInState) -> dict[str, Any]:
         "removed": state.removed,
         "lower_memory": state.memories[LOWER],
         "upper_memory": state.memories[UPPER],
+        "rubbing": None if state.rubbing is None else pack_rubbing(state.rubbing),
         **{name: pack_table(getattr(state, name)) for name in ("cycles", "particles", "times")},
     }
 
@@ -101,7 +109,18 @@ def unpack_state(packed: dict[str, Any]) -> RunningInState:
         particles=unpack_table(packed["particles"], PARTICLE_FIELDS),
         times=unpack_table(packed["times"], TIME_FIELDS),
         memories=(packed["lower_memory"], packed["upper_memory"]),
+        rubbing=None if packed["rubbing"] is None else unpack_rubbing(packed["rubbing"]),
     )
+
+
+def pack_rubbing(rubbing: Rubbing) -> dict[str, Any]:
+    """What friction did in a cycle, as plain arrays, numbers and words."""
+    return {**vars(rubbing), "status": rubbing.status.value, "notes": list(rubbing.notes)}
+
+
+def unpack_rubbing(packed: dict[str, Any]) -> Rubbing:
+    """What was packed."""
+    return Rubbing(**{**packed, "status": Status(packed["status"]), "notes": tuple(packed["notes"])})
 
 
 def pack_table(table: NDArray[np.void]) -> dict[str, NDArray[Any]]:

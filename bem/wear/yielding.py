@@ -15,7 +15,7 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.stress import subsurface_stress, von_mises_limit, von_mises_planes
 from bem.wear.criterion import VonMises, WearCriterion
-from bem.wear.loads import LOWER, Removal, SurfaceLoad
+from bem.wear.loads import Removal, SurfaceLoad
 from bem.wear.segmentation import Segmentation, refine_depths, segment
 
 if TYPE_CHECKING:
@@ -32,18 +32,15 @@ def equivalent_stress_planes(
 ) -> Iterator[FloatArray]:
     """Equivalent stress of all loads together in one body, a plane of `out` (nz, nx, ny) [Pa] per depth, each written
     when it is asked for.
-
-    Traction on the upper body has the other sign.
     """
-    grid, solid, sign = setup.grid, setup.bodies[body], 1 if body == LOWER else -1
+    grid, solid = setup.grid, setup.bodies[body]
     if isinstance(criterion, VonMises) and len(loads) == 1:
         (load,) = loads
-        yield from von_mises_planes(load.pressure, grid, solid, depths, friction=sign * load.friction, out=out)
+        yield from von_mises_planes(load.pressure, grid, solid, depths, **load.shear(body), out=out)
         return
     for index, depth in enumerate(depths):
         stress = sum(
-            subsurface_stress(load.pressure, grid, solid, depth[None], friction=sign * load.friction)[:, 0]
-            for load in loads
+            subsurface_stress(load.pressure, grid, solid, depth[None], **load.shear(body))[:, 0] for load in loads
         )
         out[index] = criterion.equivalent_stress(np.asarray(stress))
         yield out[index]
@@ -52,17 +49,16 @@ def equivalent_stress_planes(
 def cannot_yield(
     loads: Sequence[SurfaceLoad], setup: WearSetup, body: int, depth: float, criterion: WearCriterion
 ) -> bool:
-    """Whether a bound, found without a transform, proves that nothing yields at a depth.
+    """Whether a bound, found without a transform, proves that nothing yields at a depth; there is none for tractions
+    that are not friction x pressure.
 
     Von Mises stress is a norm of the deviator: that of several loads together is at most the sum of theirs.
     """
     factor = criterion.von_mises_factor
-    if factor is None:
+    if factor is None or any(load.traction is not None for load in loads):
         return False
-    grid, solid, sign = setup.grid, setup.bodies[body], 1 if body == LOWER else -1
-    limit = sum(
-        von_mises_limit(load.pressure, grid, solid, [depth], friction=sign * load.friction)[0] for load in loads
-    )
+    grid, solid = setup.grid, setup.bodies[body]
+    limit = sum(von_mises_limit(load.pressure, grid, solid, [depth], **load.shear(body))[0] for load in loads)
     return bool(factor * limit <= setup.yield_stress(body))
 
 

@@ -23,6 +23,7 @@ from bem.scenes.kind import Kind
 from bem.scenes.lubrication import LineContactScene, tell_of_film
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled, without_bars
+from bem.scenes.rubbing import FRICTION_SLIDES, RubbedRecord, rubbed
 from bem.scenes.tables.sharing import RunningInCycles, RunningInSharing
 
 if TYPE_CHECKING:
@@ -90,7 +91,9 @@ def plan(scene: RunningInScene) -> Plan:
             memory=16.0 * scene.sharing.film_points**2,
         ),
         Step("a film for every balance", "films are interpolated in the tables", skipped=True),
-        *wearing.cycle_steps(scene, grid, contacts=_CONTACTS, **cycles),
+        *wearing.cycle_steps(
+            scene, grid, contacts=_CONTACTS, friction=float(scene.contact.boundary_friction != 0), **cycles
+        ),
         plans.figures(grid.cells),
     )
 
@@ -100,7 +103,7 @@ _FOLLOWS_CELL = f"{wearing.FOLLOWS_CELL}; in mixed lubrication the mean by volum
 
 
 @dataclass(frozen=True, eq=False)
-class RunningInRecord(GridRecord):
+class RunningInRecord(GridRecord, RubbedRecord):
     """A lubricated wear loop: friction before and after, particles, histories, the last film and surface."""
 
     scatters: ClassVar[tuple[str, ...]] = (
@@ -189,6 +192,8 @@ def run(scene: RunningInScene, context: Context) -> RunningInRecord:
         contact_step=step,
     )
     tell_of_film(context, step.notes, step.film_notes)
+    if not scene.wear.traction.slides:
+        context.note(FRICTION_SLIDES)
     with context.timer("films"):
         film_error = step.table.error(float(step.rows["film_load"][-1]))
     return _record(scene, initial, result, step, film_table_error=film_error, pressure_frames=np.array(frames))
@@ -221,6 +226,7 @@ def _record(
         figures,
         worn,
         worn.figures,
+        rubbed(result, scene.cycles.settled),
         # the same strip before and after, at all speeds
         worn.strip(hertz_strip(setup.grid.x, setup.line.half_width(setup.load))),
         wearing.mean_radii(worn.late, scene.sizes, *_RADII),
@@ -271,6 +277,7 @@ KIND = Kind.of(
         "worn-surface",
         "pressure-map",
         "running-in-frames",
+        "slip-and-wear",
     ),
     headline=("speed_m_s",),
 )

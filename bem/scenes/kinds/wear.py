@@ -22,6 +22,7 @@ from bem.scenes.context import Context, PlainContext, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, Series, filled, grid_map
+from bem.scenes.rubbing import RubbedRecord, rubbed
 from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 
@@ -81,7 +82,9 @@ def plan(scene: WearScene) -> Plan:
     cycles = {"convolutions": _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": _DEPTHS_AT_FIRST}
     return Plan.of(
         *plans.of_bodies(scene, grid, scene.cylinder.friction, min(scene.depths.count, _DEPTHS_NEEDED)),
-        *wearing.cycle_steps(scene, grid, contacts="each from the last pressure", **cycles),
+        *wearing.cycle_steps(
+            scene, grid, contacts="each from the last pressure", friction=scene.cylinder.friction, **cycles
+        ),
         Step("kernels of an earlier run", _KERNELS, skipped=True),
         Step(f"deeper stresses, down to {scene.depths.count} depths", _DEEPER, skipped=True),
         Step(
@@ -103,7 +106,7 @@ _over, _map = partial(Series, ("cycle",)), partial(grid_map, of="last")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class WearRecord(wearing.MeanSizes, wearing.ParticleTable):
+class WearRecord(wearing.MeanSizes, wearing.ParticleTable, RubbedRecord):
     """What a wear loop gives: means over its settled cycles, tables over cycles and particles, the worn surface."""
 
     scatters: ClassVar[tuple[str, ...]] = (
@@ -258,6 +261,7 @@ def _record(
         WearRecord,
         worn,
         worn.figures,
+        rubbed(result, scene.cycles.settled),
         worn.strip(contact_strip(worn.pressure)),
         settled_means(cycles[-scene.cycles.settled :], grid.area),
         wearing.mean_sizes(late, scene.sizes),
@@ -308,5 +312,6 @@ KIND = Kind.of(
         "worn-surface",
         "particle-shapes",
         "pressure-map",
+        "slip-and-wear",
     ),
 )

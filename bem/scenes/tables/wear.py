@@ -27,6 +27,7 @@ from bem.scenes.units import Length, Ratio
 from bem.scenes.wearing import LastCycles, WearDepthsScene
 from bem.wear.criterion import Detachment
 from bem.wear.removal import RemovalLaw
+from bem.wear.traction import TractionLaw
 
 
 class CylinderScene(CylinderTable):
@@ -97,6 +98,7 @@ class WearVariantScene(Variant):
     refinement: Literal["monotone_cubic", "linear", "exact"] | None = None
     criterion: Annotated[Detachment, LawKey("criterion")] | None = None
     removal: Annotated[RemovalLaw, LawKey("removal")] | None = None
+    traction: Annotated[TractionLaw, LawKey("traction")] | None = None
 
     def applied(self, scene: Model) -> Model:
         """The scene with a variant's changes in it.

@@ -25,11 +25,14 @@ class LocalWear(Detachment):
     """What local laws share: a cycle stands for a distance slid, and so much leaves as k p times it.
 
     Steps of a dry contact are implicit: the pressure is that at their end, found with what wears as a compliance of
-    each place, so no step is too long to be stable, and the volume is k F s to round-off. Under a film the pressure is
-    that at their start. `bem.wear.outcome.step_error` is what the steps leave open.
+    each place, so no step is too long to be stable, and the volume is k F s to round-off. Under a film and in partial
+    slip the pressure is that at their start, and a step must not overshoot. `bem.wear.outcome.step_error` is what the
+    steps leave open. In partial slip each place slides what the traction law's loops give it, and there is no distance.
     """
 
-    distance: float = parameter("distance slid that one computed cycle stands for", "m", above=0)
+    distance: float = parameter(
+        "distance slid that one computed cycle stands for; none in partial slip", "m", default=0.0, at_least=0
+    )
     upper_over_lower: float = parameter("wear rate of the upper body over that of the lower", default=1.0, at_least=0)
 
     @property
@@ -53,6 +56,20 @@ class LocalWear(Detachment):
     def _rate_of(self, setup: WearSetup, body: int, friction: float) -> float:
         return self.rate(setup.bodies[body], friction) * (self.upper_over_lower if body == UPPER else 1.0)
 
+    def _check_step(self, give: float, setup: WearSetup) -> None:
+        """Raises InputError where what a step wears by pressure [m/Pa] exceeds the bodies' compliance in the roughest
+        pattern of the grid: the next contact would alternate from cell to cell."""
+        from bem.convolution import displacement_operator
+
+        middle = tuple(n // 2 for n in setup.grid.shape)
+        signs = np.where(np.indices(setup.grid.shape).sum(axis=0) % 2 == 0, 1.0, -1.0)
+        most = abs(float(displacement_operator(setup.grid, setup.bodies)(signs)[middle]))
+        if give > most:
+            raise InputError(
+                f"criterion {self.name}: {give:.3g} m/Pa worn in a cycle is more than the {most:.3g} m/Pa by which the "
+                f"bodies give way from cell to cell; allowed: {0.99 * most / give:.2g} times the loops, in more cycles"
+            )
+
     @abstractmethod
     def rate(self, body: Body, friction: float) -> float:
         """Volume by load and distance [m^3/(N m)], of the lower body."""
@@ -63,7 +80,10 @@ class LocalWear(Detachment):
         from bem.wear.yielding import no_pieces
 
         began = time.perf_counter()
-        worn = self._rate_of(cycle.setup, cycle.body, cycle.loads[0].friction) * self.distance * cycle.pressure
+        rate = self._rate_of(cycle.setup, cycle.body, cycle.loads[0].friction)
+        if cycle.slid is not None:
+            self._check_step(rate * float(cycle.slid.max()), cycle.setup)
+        worn = rate * (self.distance if cycle.slid is None else cycle.slid) * cycle.pressure
         before = np.zeros_like(worn) if cycle.memory is None else cycle.memory[1]
         pieces, memory = no_pieces(cycle.setup.grid.shape), np.stack([before, worn])
         return Removal(cycle.body, pieces, 0, 0.0, time.perf_counter() - began, memory, worn)

@@ -1,0 +1,37 @@
+"""Gross sliding: the source's."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from bem.grid import FloatArray
+from bem.laws import register
+from bem.wear.criterion import Detachment, LocalWear
+from bem.wear.traction.base import TractionLaw
+
+if TYPE_CHECKING:
+    from bem.wear.cycle import WearSetup
+
+
+@register
+@dataclass(frozen=True)
+class GrossSliding(TractionLaw):
+    """Friction x pressure along +x at every place: the bodies slide over each other (thesis, papers C and D)."""
+
+    name: ClassVar[str] = "gross_sliding"
+
+    @property
+    def slides(self) -> bool:
+        """Everywhere."""
+        return True
+
+    def misfits(self, criterion: Detachment, stress_range: bool) -> tuple[str, ...]:
+        """A local law needs its distance."""
+        if isinstance(criterion, LocalWear) and criterion.distance == 0:
+            return (f"criterion {criterion.name}: distance 0 m wears nothing; allowed: above 0",)
+        return ()
+
+    def rub(self, pressure: FloatArray, friction: float, setup: WearSetup) -> None:
+        """Nothing is to be solved."""
+        return None
