@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -19,12 +20,20 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
     def element(  # reason: the arguments are the options
         file: Annotated[Path, typer.Argument(help="An element's file; `bem new gear-pair` writes one to start from.")],
         scene: Annotated[Path | None, typer.Option(metavar="FILE", help="Write a scene of one contact.")] = None,
-        kind: Annotated[str, typer.Option(help="Kind of that scene: traction (film) or contact (dry).")] = "traction",
+        kind: Annotated[
+            str, typer.Option(help="Kind of that scene: traction, point-film (of balls), contact (dry).")
+        ] = "traction",
         at: Annotated[str, typer.Option(help="Which: worst, thinnest, a number of the table; path: all.")] = "worst",
         path: Annotated[
             Path | None, typer.Option(metavar="FILE", help="Write the path as .csv, for `along` of kind traction.")
         ] = None,
         table: Annotated[Path | None, typer.Option(metavar="FILE", help="Write all contacts as .csv.")] = None,
+        running: Annotated[
+            bool, typer.Option("--running", help="Solve the film with its heat everywhere: friction, power, wear.")
+        ] = False,
+        cases: Annotated[
+            Path | None, typer.Option(metavar="FILE", help="Rows of keys to change, .csv with units: a line for each.")
+        ] = None,
     ) -> None:
         """Show the contacts of a machine element: load, radii, speeds, Hertz contact, film; the worst one, and where
         half-space and line film do not carry.
@@ -33,6 +42,8 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
         Examples, of the file that `bem new gear-pair gears.toml` writes:
           bem element gears.toml --scene flank.toml --at path
           bem element gears.toml --scene worst.toml --at thinnest
+          bem element gears.toml --running --table gears.csv
+          bem element bearing.toml --cases loads.csv --table worst.csv
         """
         from bem.cli._quantity import new_file
         from bem.cli._terminal import show_warnings
@@ -46,6 +57,9 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
             new_file(path, "--path", (".csv",))
         if scene is not None:
             new_file(scene, "--scene", (".toml",))
+        if cases is not None:
+            _cases(file, cases, table, (scene, path, running))
+            return
         found = load_element(file)
         whole = at == "path"
         chosen = found.worst() if whole else _chosen(found, at)
@@ -55,15 +69,68 @@ def register(app: typer.Typer) -> None:  # reason: the command in it; its argume
             scene_from_table(made)
         _show(found, chosen)
         show_warnings(found.notes())
+        more = _running(found) if running else {}
         if path is not None and rows is not None:
             write_text(path, rows)
             print(f"written: {path}")
         if table is not None:
-            write_text(table, found.csv())
+            write_text(table, found.csv(more))
             print(f"written: {table}")
         if scene is not None and made is not None:
             write_text(scene, table_text(made))
             print(f"written: {scene}\nnext:    bem plan {scene}; bem run {scene}")
+
+
+def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...]) -> None:
+    """A line for each case."""
+    from bem.cli._terminal import table
+    from bem.elements.cases import columns, load_cases
+    from bem.elements.element import csv_text
+    from bem.errors import InputError
+    from bem.results.atomic import write_text
+
+    if any(others):
+        raise InputError("--cases: goes with --table alone; allowed: no --scene, --path or --running beside it")
+    found = columns(load_cases(file, rows))
+    lines = [
+        tuple(one if isinstance(one, str) else _spelled(name, one) for name, one in zip(found, row, strict=True))
+        for row in zip(*found.values(), strict=True)
+    ]
+    table(tuple(name.partition(" [")[0].replace("_", " ") for name in found), lines, right=range(2, len(found)))
+    if out is not None:
+        write_text(out, csv_text(found))
+        print(f"written: {out}")
+
+
+def _spelled(name: str, value: float) -> str:
+    """A number in the unit of its column's name, "load [N]"."""
+    from bem.plots.report import spelled
+
+    unit = name.partition(" [")[2].removesuffix("]")
+    if unit == "K":
+        return "" if math.isnan(value) else f"{value - 273.15:.4g} degC"
+    return "" if math.isnan(value) else spelled(f"x_{unit}" if unit else "x", value)[1]
+
+
+def _running(found: Element) -> dict[str, list[float]]:
+    """Show what the element does as it runs; the columns of it."""
+    from bem.cli._terminal import Terminal, table
+    from bem.elements.running import columns, run_all, summary
+
+    with Terminal() as terminal:
+        runs = run_all(found, lambda done, total: terminal.progress(done, total, "films", {}))
+    solved = columns(found, runs)
+    lines = [
+        (str(number), contact.name, *(_spelled(name, value) for name, value in zip(solved, row, strict=True)))
+        for number, (contact, row) in enumerate(
+            zip(found.found.contacts, zip(*solved.values(), strict=True), strict=True), 1
+        )
+        if not all(map(math.isnan, row))
+    ]
+    head = ("", "where", "film", "over Sq", "friction", "power", "oil", "hottest surface", "wear 1", "wear 2 per pass")
+    table(head, lines, title="as it runs", right=range(2, len(head)))
+    table(("", ""), summary(found, runs))
+    return solved
 
 
 def _chosen(found: Element, at: str) -> ElementContact:

@@ -84,7 +84,10 @@ class CamModel(ElementModel):
                     length=self.width,
                 )
             )  # fmt: skip
-        return Contacts(tuple(found), "angle", "rad", self._notes(found, lost))
+        turns = self.speed / (2 * math.pi)
+        return Contacts(
+            tuple(found), "angle", "rad", self._notes(found, lost), self.half_angle / math.pi, (turns, turns)
+        )
 
     def _notes(self, found: list[ElementContact], lost: int) -> tuple[str, ...]:
         said = []

@@ -7,11 +7,12 @@ import io
 import math
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from bem.elements.cam_follower import CamModel
@@ -37,7 +38,7 @@ NOT_HERE = {
     "helical-gear": "contact lines of helical teeth wander along the face; gear-pair has spur gears",
 }
 _SHORT = {"bearing": "rolling-bearing", "gear": "gear-pair", "gears": "gear-pair", "cam": "cam-follower"}
-KINDS = ("traction", "contact")
+KINDS = ("traction", "contact", "point-film")
 """Kinds of scene that are made of a contact."""
 
 
@@ -92,14 +93,9 @@ class Element:
                 found["film_over_roughness"] = [film / self.model.rms_roughness for film in films]
         return found
 
-    def csv(self) -> str:
-        """`columns` as comma-separated text."""
-        sink = io.StringIO()
-        writer = csv.writer(sink, lineterminator="\n")
-        columns = self.columns()
-        writer.writerow(columns)
-        writer.writerows([repr(float(value)) for value in row] for row in zip(*columns.values(), strict=True))
-        return sink.getvalue()
+    def csv(self, more: Mapping[str, Sequence[float]] = MappingProxyType({})) -> str:
+        """`columns`, and more of them, as comma-separated text."""
+        return csv_text({**self.columns(), **more})
 
     def path(self) -> dict[str, list[float]]:
         """What a scene of kind traction reads as `along`: a row for each place, in SI units.
@@ -136,11 +132,9 @@ class Element:
         """
         columns, whole = self.path(), self.scene(self.worst(), "traction")
         width = {"width": self.found.contacts[0].length}
-        rough = self.model.rms_roughness
         rest = {key: value for key, value in whole.items() if key not in ("rolling", "roller", "description")}
         about = {"description": f"{self.model.element}: {self.model.description or 'along its path'}"}
-        more = {} if rough is None else {"roughness": rough}
-        return rest | about | more | {"roller": width, "along": columns}
+        return rest | about | {"roller": width, "along": columns}
 
     def notes(self) -> tuple[str, ...]:
         """What the reader must know: of the element, and where half-space and line film do not carry."""
@@ -169,9 +163,11 @@ class Element:
             "description": f"{self.model.element}: {contact.name}",
         }
         bodies = {"lower": {"material": self.table["first"]}, "upper": {"material": self.table["second"]}}
-        return base | (self._traction(contact, bodies) if kind == "traction" else self._dry(contact, bodies))
+        if kind == "contact":
+            return base | self._dry(contact, bodies)
+        return base | self._film(contact, bodies, kind)
 
-    def _traction(self, contact: ElementContact, bodies: dict[str, Any]) -> dict[str, Any]:
+    def _film(self, contact: ElementContact, bodies: dict[str, Any], kind: str) -> dict[str, Any]:
         if self.model.oil is None:
             raise InputError(f"{self.model.name}: a film needs an oil; allowed: a table [oil], or kind contact")
         ratio = contact.slide_roll_ratio
@@ -181,18 +177,23 @@ class Element:
                 f"{contact.speeds[1]:.3g} m/s), where no steady film of kind traction is; allowed: kind contact, or "
                 f"a place of the table where they do not: {self._with_film()}"
             )
+        shared = {
+            **bodies,
+            "oil": dict(self.table["oil"]),
+            **({} if self.model.rms_roughness is None else {"roughness": self.model.rms_roughness}),
+            "rolling": {"mean_speed": abs(contact.mean_speed), "slide_roll_ratio": ratio},
+        }
+        if kind == "point-film":
+            if contact.length is not None:
+                raise InputError(f"{contact.name}: a line contact, no point; allowed: kind traction or contact")
+            return {**shared, "ball": {"radius": contact.radius, "radius_y": contact.across, "load": contact.load}}
         line_load = contact.line_load(self.modulus)
         width = contact.load / line_load
         known = all(table.build().thermal_diffusivity for table in (self.model.first, self.model.second))
         return {
             **({} if known else {"thermal": "off"}),  # heat needs the constants of both materials
-            **bodies,
+            **shared,
             "roller": {"radius": contact.radius, "width": width, "load": contact.load},
-            "oil": dict(self.table["oil"]),
-            "rolling": {
-                "mean_speed": abs(contact.mean_speed),
-                "slide_roll_ratio": ratio,
-            },
         }
 
     def _with_film(self) -> str:
@@ -225,6 +226,16 @@ class Element:
         }
 
 
+def csv_text(columns: Mapping[str, Sequence[float | str]]) -> str:
+    """Columns of one length as comma-separated text, numbers to the last digit."""
+    sink = io.StringIO()
+    writer = csv.writer(sink, lineterminator="\n")
+    writer.writerow(columns)
+    rows = zip(*columns.values(), strict=True)
+    writer.writerows([one if isinstance(one, str) else repr(float(one)) for one in row] for row in rows)
+    return sink.getvalue()
+
+
 def load_element(source: str | Path | Mapping[str, Any]) -> Element:
     """An element from its TOML file, or from a table.
 
@@ -232,14 +243,7 @@ def load_element(source: str | Path | Mapping[str, Any]) -> Element:
     ------
     InputError : one message per mistake.
     """
-    if isinstance(source, Mapping):
-        table = dict(source)
-    else:
-        try:
-            table = tomllib.loads(read_small(source).decode("utf-8"))
-        except (OSError, ValueError) as error:
-            raise InputError(f"element {show(str(source))}: cannot be read ({error})") from None
-        table.setdefault("name", Path(source).stem)
+    table = dict(source) if isinstance(source, Mapping) else read_element(source)
     kind = str(table.get("element"))
     if kind in NOT_HERE:
         raise InputError(f'element = "{kind}": not here: {NOT_HERE[kind]}')
@@ -251,6 +255,21 @@ def load_element(source: str | Path | Mapping[str, Any]) -> Element:
         return Element(validate(table, MODELS[kind]), table)
     except InputError as error:  # what is wrong with the whole is said of the element
         raise InputError([re.sub("^scene:", f"{kind}:", text) for text in error.messages]) from None
+
+
+def read_element(path: str | Path) -> dict[str, Any]:
+    """The table of an element's TOML file, under the file's name where it says none.
+
+    Raises
+    ------
+    InputError : a file that cannot be read.
+    """
+    try:
+        table = tomllib.loads(read_small(path).decode("utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError(f"element {show(str(path))}: cannot be read ({error})") from None
+    table.setdefault("name", Path(path).stem)
+    return table
 
 
 def element_template(name: str) -> str:

@@ -67,7 +67,7 @@ class GearModel(ElementModel):
                     (omega[0] * radii[0], omega[1] * radii[1]), length=self.face_width,
                 )
             )  # fmt: skip
-        return Contacts(tuple(found), "position", "m", _notes(self, path))
+        return Contacts(tuple(found), "position", "m", _notes(self, path), path.contact_ratio, _turns(omega))
 
 
 @dataclass(frozen=True)
@@ -133,6 +133,11 @@ def _inverse_involute(value: float) -> float:
     if not 0 < value < 3:
         raise InputError("the shifts leave no working pressure angle")
     return float(brentq(lambda a: math.tan(a) - a - value, 1e-6, 1.3, xtol=1e-16, rtol=1e-15))
+
+
+def _turns(omega: tuple[float, float]) -> tuple[float, float]:
+    """Of both gears [1/s]: each flank passes once in one."""
+    return omega[0] / (2 * math.pi), omega[1] / (2 * math.pi)
 
 
 def _notes(model: GearModel, path: Path) -> tuple[str, ...]:

@@ -10,20 +10,31 @@ from pydantic import Field
 from bem.elements.contact import ElementContact
 from bem.scenes.common import MaterialScene, PositiveLength, Table
 from bem.scenes.oil import OilScene
+from bem.scenes.units import Ratio, WearCoefficient
 
 
 @dataclass(frozen=True)
 class Contacts:
-    """The contacts of an element in the order of `along`, what that counts, and what the reader must know."""
+    """The contacts of an element in the order of `along`, what that counts, and what the reader must know.
+
+    at_once : how many there are at a time, where the contacts are one that wanders.
+    passes : how often a place of either body comes through the contact [1/s]; None where that is no single number.
+    """
 
     contacts: tuple[ElementContact, ...]
     along: str
     along_unit: str
     notes: tuple[str, ...] = ()
+    at_once: float = 1.0
+    passes: tuple[float, float] | None = None
 
 
 class ElementModel(Table):
-    """Both materials, the oil, and the rms roughness of both surfaces together, for the film over it."""
+    """Both materials, the oil, and the rms roughness of both surfaces together, for the film over it.
+
+    `specific_wear_rate`: Archard's, under this lubrication. `permissible_film_ratio`: the smallest film over roughness
+    at which a test with this oil and finish showed no micropitting.
+    """
 
     element: str
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,63}$")] = "element"
@@ -32,6 +43,8 @@ class ElementModel(Table):
     second: MaterialScene
     oil: OilScene | None = None
     rms_roughness: PositiveLength | None = None
+    specific_wear_rate: Annotated[WearCoefficient, Field(ge=0)] | None = None
+    permissible_film_ratio: Annotated[Ratio, Field(gt=0)] | None = None
 
     def contacts(self) -> Contacts:
         """All contacts of the element."""

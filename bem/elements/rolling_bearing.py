@@ -84,7 +84,7 @@ class BearingModel(ElementModel):
                             (race.radius, 0.5 * self.diameter), (rolling, rolling), race.across, self.length,
                         )
                     )  # fmt: skip
-        return Contacts(tuple(found), "angle", "rad", _notes(self, shared, pressed_out))
+        return Contacts(tuple(found), "angle", "rad", _notes(self, shared, pressed_out), float(len(found)))
 
 
 @dataclass(frozen=True)

@@ -190,7 +190,7 @@ def run(scene: TractionScene, context: Context) -> TractionRecord:
     from bem.accuracy import traction_bars, traction_figures
     from bem.accuracy.traction import film_of
 
-    case = _case(scene)
+    case = case_of(scene)
     with context.timer("film"):
         found = case.on(case.points)
     film = film_of(found)
@@ -211,7 +211,8 @@ def run(scene: TractionScene, context: Context) -> TractionRecord:
     )
 
 
-def _case(scene: TractionScene) -> TractionCase:
+def case_of(scene: TractionScene) -> TractionCase:
+    """The film that a scene of one place asks for."""
     from bem.accuracy import TractionCase
 
     modulus, oil, rolling = build.modulus_of(scene), scene.oil.build(), scene.rolling

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any
 
 from pydantic import Field, ValidationError, model_validator
@@ -23,7 +23,7 @@ from bem.scenes.validate import nearest
 from bem.small_files import read_small
 
 _MOST_ROWS = 1000
-_NAMED = re.compile(r"\s*([A-Za-z_]+)\s*(?:[\[(]\s*(.*?)\s*[\])])?\s*")
+_NAMED = re.compile(r"\s*([A-Za-z_.]+)\s*(?:[\[(]\s*(.*?)\s*[\])])?\s*")
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?")
 _Positive = Annotated[Length, Field(gt=0)]
 _Rows = Field(min_length=2, max_length=_MOST_ROWS)
@@ -68,9 +68,9 @@ class AlongScene(Table):
         return self.radius[index], self.load[index], mean, (first - second) / mean
 
 
-def columns_of(path: str) -> dict[str, list[str]]:
-    """Columns of a text file by their names, each number with its unit; rows of commas, semicolons or tabs, and
-    comments after #.
+def columns_of(path: str, known: Sequence[str] = COLUMNS, required: Sequence[str] = COLUMNS) -> dict[str, list[str]]:
+    """Columns of a text file by their names, those that are known, each number with its unit; rows of commas,
+    semicolons or tabs, and comments after #.
 
     Raises
     ------
@@ -80,16 +80,16 @@ def columns_of(path: str) -> dict[str, list[str]]:
         text = read_small(path).decode("utf-8-sig")
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
-        raise problem(f"{path} cannot be read ({why})", "a text file with columns " + ", ".join(COLUMNS)) from None
+        raise problem(f"{path} cannot be read ({why})", "a text file with columns " + ", ".join(known)) from None
     lines = [line for line in (line.partition("#")[0].strip() for line in text.splitlines()) if line]
     if len(lines) < 3:
         raise problem(f"{path} has {max(len(lines) - 1, 0)} rows", "a line of names, and two rows or more")
     mark = next((mark for mark in ";\t" if mark in lines[0]), ",")
     rows = list(csv.reader(lines, delimiter=mark, skipinitialspace=True))
-    units = dict(_named(path, rows[0]))
-    missing = [name for name in COLUMNS if name not in units]
+    units = dict(_named(path, rows[0], known))
+    missing = [name for name in required if name not in units]
     if missing:
-        raise problem(f"{path} has no column {', '.join(missing)}", "columns " + ", ".join(COLUMNS))
+        raise problem(f"{path} has no column {', '.join(missing)}", "columns " + ", ".join(required))
     found: dict[str, list[str]] = {name: [] for name in units}
     for number, row in enumerate(rows[1:], 1):
         if len(row) != len(units):
@@ -100,14 +100,14 @@ def columns_of(path: str) -> dict[str, list[str]]:
     return found
 
 
-def _named(path: str, names: list[str]) -> Iterator[tuple[str, str]]:
+def _named(path: str, names: list[str], known: Sequence[str]) -> Iterator[tuple[str, str]]:
     """Names of columns and their units."""
     seen = set()
     for text in names:
         match = _NAMED.fullmatch(text)
         name = match[1] if match else text
-        if match is None or name not in COLUMNS:
-            raise problem(f'{path} has a column "{text}"{nearest(name, COLUMNS)}', ", ".join(COLUMNS))
+        if match is None or name not in known:
+            raise problem(f'{path} has a column "{text}"{nearest(name, known)}', ", ".join(known))
         if name in seen:
             raise problem(f"{path} has {name} twice", "each column once")
         seen.add(name)

@@ -1,0 +1,157 @@
+"""What elements do as they run is what kind traction says of each place; tables of cases; what is not known is said."""
+
+import csv
+import subprocess
+import sys
+import tomllib
+
+import numpy as np
+import pytest
+
+from bem import InputError, load_scene, run_scene
+from bem.elements.cases import columns as case_columns
+from bem.elements.cases import load_cases
+from bem.elements.element import element_template, load_element
+from bem.elements.running import columns, run_all, run_contact, summary, wear_per_pass
+from bem.scenes.kinds.traction import case_of
+from bem.wear.criterion.local import Archard
+
+WEAR_RATE = 1e-18  # m^2/N, 1e-9 mm^3/(N m)
+
+
+def element_of(name, **changes):
+    table = tomllib.loads(element_template(name)) | {"name": name} | changes
+    return load_element(table)
+
+
+@pytest.fixture(scope="module")
+def gears():
+    asked = {"points": 5, "specific_wear_rate": WEAR_RATE, "permissible_film_ratio": 0.25}
+    element = element_of("gear-pair", **asked)
+    return element, run_all(element)
+
+
+def test_a_place_is_what_its_scene_gives(gears, tmp_path):
+    element, runs = gears
+    scene = element.scene(runs[3].contact, "traction") | {"film": {"points": 500}, "outputs": {"errors": False}}
+    found = run_scene(scene, tmp_path / "run", figures=False).summary
+    assert found["friction_power_W"] == pytest.approx(runs[3].power, rel=1e-9)
+    assert found["lambda_ratio"] == pytest.approx(runs[3].film_ratio, rel=1e-9)
+    hottest = max(found["lower_temperature_C"], found["upper_temperature_C"])
+    assert hottest + 273.15 == pytest.approx(runs[3].surface, rel=1e-9)
+
+
+def test_wear_is_local_archard_over_one_pass(gears):
+    """Against the law stepped through Hertz' pressure: k p times the distance slid in each step of the crossing."""
+    element, runs = gears
+    contact = runs[1].contact
+    half = contact.half_width(element.modulus)
+    x = half * (np.arange(4000) + 0.5) / 2000 - half
+    pressure = contact.hertz(element.modulus).maximum_pressure * np.sqrt(1 - (x / half) ** 2)
+    rate = Archard(specific_wear_rate=WEAR_RATE, distance=1.0).rate(None, 0.1)
+    slid = abs(contact.speeds[0] - contact.speeds[1]) / np.array(contact.speeds) * (x[1] - x[0])
+    # midpoints under a square root: 1e-5 of the area on 4000 steps
+    assert wear_per_pass(element, contact) == pytest.approx(tuple(rate * pressure.sum() * slid), rel=1e-4)
+    assert runs[1].wear == wear_per_pass(element, contact)
+
+
+def test_the_whole_gear_pair(gears):
+    element, runs = gears
+    said = dict(summary(element, runs))
+    power = np.mean([one.power for one in runs]) * element.found.at_once
+    assert said["friction power"].startswith(f"{power:.4g} W")
+    assert 0.003 < power / (200 * 2250 * np.pi / 30) < 0.03  # gears lose some per cent at most, films some tenths
+    assert f"safety {min(one.film_ratio for one in runs) / 0.25:.3g}" in said["micropitting"]
+    assert "not its procedure" in said["micropitting"]
+    depths = [one.wear[0] for one in runs]
+    assert f"body 1 {max(depths) * 1e6 * 2250 * 60:.3g} um" in said["wear by hour"]
+    assert "not known from smooth contacts" in said["particles by hour"]
+    assert "at 5 of 5 places the film is thinner" in said["mixed lubrication"]
+    assert len(columns(element, runs)["friction_power [W]"]) == 5
+
+
+def test_what_is_not_known_is_said():
+    cam = element_of("cam-follower", points=9)
+    runs = run_all(cam)
+    assert len(runs) < 9  # under the nose there is no steady film
+    said = dict(summary(cam, runs))
+    assert "without a steady film count none" in said["friction power"]
+    assert "hottest surface" not in said  # cast iron has no constants of heat in the catalogue
+    assert "give specific_wear_rate" in said["wear by hour"]
+    assert "becomes a safety" in said["micropitting"]
+    assert np.isnan(columns(cam, runs)["friction"][4])
+    bearing = element_of("rolling-bearing", specific_wear_rate=WEAR_RATE)
+    one = run_contact(bearing, bearing.worst())
+    assert one.wear == (0.0, 0.0)
+    assert "both surfaces roll at one speed" in dict(summary(bearing, [one]))["wear by hour"]
+
+
+def test_a_ball_has_a_point_film(tmp_path):
+    bearing = element_of("rolling-bearing")
+    scene = bearing.scene(bearing.worst(), "point-film")
+    found = run_scene(
+        scene | {"film": {"cells": 32}, "outputs": {"errors": False}}, tmp_path / "run", figures=False
+    ).summary
+    assert found["status"] == "converged"
+    line = case_of(load_scene(bearing.scene(bearing.worst(), "traction"))).on(300)
+    # an ellipse nine times as long across the rolling is nearly the line of its middle; 32 cells are coarse
+    assert 1e-9 * found["central_thickness_nm"] == pytest.approx(line.central_thickness, rel=0.2)
+    gear = element_of("gear-pair")
+    with pytest.raises(InputError, match="a line contact, no point"):
+        gear.scene(gear.worst(), "point-film")
+
+
+CASES = (
+    "name, radial_load [kN], speed [rpm], oil.temperature [degC], count\nidle, 1, 800, 40, 9\nfull, 6, 3000, 80, 8\n"
+)
+
+
+def test_cases_are_rows_of_a_table(tmp_path):
+    file, rows = tmp_path / "b.toml", tmp_path / "c.csv"
+    file.write_text(element_template("rolling-bearing"))
+    rows.write_text(CASES)
+    cases = load_cases(file, rows)
+    assert [one.model.name for one in cases] == ["idle", "full"]
+    assert cases[1].model.radial_load == 6000.0
+    assert cases[1].model.oil.temperature == pytest.approx(353.15)
+    found = case_columns(cases)
+    assert found["hertz_pressure [Pa]"][1] == cases[1].worst().hertz(cases[1].modulus).maximum_pressure
+    assert found["minimum_film [m]"][0] == min(cases[0].columns()["minimum_film [m]"])
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (CASES.replace("speed", "sped"), 'column "sped .*did you mean "speed"'),
+        (CASES.replace("full, 6", "full, -6"), "row 2 of .*radial_load"),
+        (CASES.replace("idle, 1, 800", "idle, 1 m, 800"), "row 1 of .*radial_load"),
+    ],
+)
+def test_mistakes_in_cases_are_said(text, message, tmp_path):
+    file, rows = tmp_path / "b.toml", tmp_path / "c.csv"
+    file.write_text(element_template("rolling-bearing"))
+    rows.write_text(text)
+    with pytest.raises(InputError, match=message):
+        load_cases(file, rows)
+
+
+def test_the_command_shows_and_writes_them(tmp_path):
+    (tmp_path / "b.toml").write_text(element_template("rolling-bearing"))
+    (tmp_path / "c.csv").write_text(CASES)
+    code = "import sys; sys.argv[0] = 'bem'; from bem.cli import main; main()"
+    command = [sys.executable, "-c", code, "element", "b.toml"]
+
+    def bem(*words):
+        return subprocess.run([*command, *words], cwd=tmp_path, capture_output=True, text=True, check=False)
+
+    done = bem("--running", "--table", "all.csv")
+    assert done.returncode == 0, done.stderr
+    assert "friction power" in done.stdout
+    rows = list(csv.DictReader((tmp_path / "all.csv").read_text().splitlines()))
+    assert len(rows) == 10
+    assert all(float(row["friction_power [W]"]) > 0 for row in rows)
+    assert bem("--cases", "c.csv", "--table", "cases.csv").returncode == 0
+    assert (tmp_path / "cases.csv").read_text().count("\n") == 3
+    both = bem("--cases", "c.csv", "--running")
+    assert both.returncode == 2
+    assert "goes with --table alone" in both.stderr
