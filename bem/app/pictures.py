@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.plots.labels import label, prefix
+from bem.plots.labels import label, largest_of, prefix
 from bem.plots.tables import is_error, is_list, name_and_unit
 from bem.results.arrays import Array, Arrays
 
@@ -18,7 +18,7 @@ MOST_CELLS = 384
 MOST_CURVES = 24
 _PREFIXED = ("m", "Pa", "N", "s")
 _MARGIN = {"l": 60, "r": 10, "t": 36, "b": 46}
-_COLOURS = "Viridis"
+COLOURS = "Viridis"
 
 
 def map_names(arrays: Arrays) -> list[str]:
@@ -33,7 +33,7 @@ def layers_of(arrays: Arrays, name: str) -> list[str]:
     for dim, size in zip(item.dims[:-2], item.shape[:-2], strict=True):
         at = arrays.get(dim)
         values = np.arange(size) if at is None else at.values
-        unit = "" if at is None else _unit(at)
+        unit = "" if at is None else unit_of(at)
         words = [f"{before}{dim} {_one(value, unit)}, " for before in words for value in values]
     return [text.removesuffix(", ") for text in words] if item.ndim > 2 else []
 
@@ -56,7 +56,7 @@ def map_picture(
     percentile where lone points would take them all."""
     steps = [max(1, -(-n // MOST_CELLS)) for n in values.shape]
     seen = values[steps[0] // 2 :: steps[0], steps[1] // 2 :: steps[1]]
-    factor, shown = prefix(values[np.isfinite(values)], unit) if unit in _PREFIXED else (1.0, unit)
+    factor, shown = scaled(values[np.isfinite(values)], unit)
     length, length_unit = prefix([float(np.ptp(side)) for side in sides], "m")
     x, y = (side[step // 2 :: step] * length for side, step in zip(sides, steps, strict=True))
     finite = seen[np.isfinite(seen)] * factor
@@ -64,13 +64,13 @@ def map_picture(
     if not high > low:
         low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     thinned = f" (every {max(steps)}th cell)" if max(steps) > 1 else ""
-    common = {"x": _numbers(x), "y": _numbers(y), "z": _numbers((seen * factor).T), "colorscale": _COLOURS}
+    common = {"x": numbers(x), "y": numbers(y), "z": numbers((seen * factor).T), "colorscale": COLOURS}
     bar = {"colorbar": {"title": {"text": shown}}}
-    title = {"title": {"text": words + thinned, "font": {"size": 14}}}
-    axes = {"xaxis": _axis(label("x, sliding", length_unit)), "yaxis": _axis(label("y", length_unit))}
+    title = {"title": heading(words + thinned)}
+    axes = {"xaxis": axis_title(label("x, sliding", length_unit)), "yaxis": axis_title(label("y", length_unit))}
     if solid:
         trace = {"type": "surface", **common, **bar, "cmin": low, "cmax": high}
-        scene = {**axes, "zaxis": _axis(shown), "aspectratio": {"x": 1, "y": 1, "z": 0.35}}
+        scene = {**axes, "zaxis": axis_title(shown), "aspectratio": {"x": 1, "y": 1, "z": 0.35}}
         return {"data": [trace], "layout": {**title, "scene": scene, "margin": _MARGIN, "height": 460}}
     trace = {"type": "heatmap", **common, **bar, "zmin": low, "zmax": high, "zsmooth": False}
     axes["yaxis"] |= {"scaleanchor": "x", "constrain": "domain"}
@@ -86,7 +86,7 @@ def sections_picture(
     unit: str,
 ) -> Picture:
     """The map along x and along y through one cell."""
-    factor, shown = prefix(values[np.isfinite(values)], unit) if unit in _PREFIXED else (1.0, unit)
+    factor, shown = scaled(values[np.isfinite(values)], unit)
     length, length_unit = prefix([float(np.ptp(side)) for side in sides], "m")
     lines = (
         ("along x", sides[0], values[:, at[1]], f"y = {sides[1][at[1]] * length:.4g}"),
@@ -116,7 +116,7 @@ def curve_picture(arrays: Arrays, name: str) -> Picture:
     """A variable along its last axis, a line for each case, with error bars where it has them."""
     item, axis = arrays[name], arrays[arrays[name].dims[-1]]
     errors = arrays.get(f"{name}_error")
-    unit, along, under = _unit(item), np.asarray(axis.values), _unit(axis)
+    unit, along, under = unit_of(item), np.asarray(axis.values), unit_of(axis)
     if under in _PREFIXED and along.dtype.kind in "fiu":
         length, under = prefix(along, under)
         along = along * length
@@ -124,8 +124,8 @@ def curve_picture(arrays: Arrays, name: str) -> Picture:
     bars = None
     if errors is not None and errors.shape == item.shape:
         bars = np.asarray(errors.values, dtype=np.float64).reshape(rows.shape)
-    factor, shown = prefix(rows[np.isfinite(rows)], unit) if unit in _PREFIXED else (1.0, unit)
-    names = layers_of(Arrays({**arrays.variables, "_": _stood_up(item)}, {}), "_") or [""] * len(rows)
+    factor, shown = scaled(rows[np.isfinite(rows)], unit)
+    names = layers_of(Arrays({**arrays.variables, "_": stood_up(item)}, {}), "_") or [""] * len(rows)
     data = [
         _line(words, along, row * factor, None if bars is None else bars[i] * factor)
         for i, (words, row) in enumerate(zip(names, rows, strict=True))
@@ -157,26 +157,41 @@ def figures_over(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
     return found
 
 
+def scaled(values: Any, unit: str) -> tuple[float, str]:
+    """Factor and unit in which the largest of the values is a number of few digits; areas and volumes by their side."""
+    power = {"m^2": 2, "m^3": 3}.get(unit)
+    if power is None:
+        return prefix(values, unit) if unit in _PREFIXED else (1.0, unit)
+    factor, side = prefix([largest_of(values) ** (1 / power)], "m")
+    return factor**power, f"{side}{'²' if power == 2 else '³'}"
+
+
 _CONFIG = {"displaylogo": False, "modeBarButtonsToRemove": ["sendDataToCloud"]}
 
 
-def _axis(words: str) -> Picture:
+def heading(words: str) -> Picture:
+    """The title of a picture, beside the buttons that come with the mouse."""
+    return {"text": words, "font": {"size": 14}, "x": 0.01, "xanchor": "left"}
+
+
+def axis_title(words: str) -> Picture:
+    """An axis with these words beside it."""
     return {"title": {"text": words}}
 
 
 def _line(name: str, x: Any, y: Any, bars: Any = None) -> Picture:
     trace: Picture = {"type": "scatter", "mode": "lines+markers" if len(x) <= 60 else "lines", "name": name}
-    trace |= {"x": _numbers(np.asarray(x)), "y": _numbers(np.asarray(y))}
+    trace |= {"x": numbers(np.asarray(x)), "y": numbers(np.asarray(y))}
     if bars is not None:
-        trace["error_y"] = {"type": "data", "array": _numbers(np.asarray(bars)), "visible": True}
+        trace["error_y"] = {"type": "data", "array": numbers(np.asarray(bars)), "visible": True}
     return trace
 
 
 def _curves(data: list[Picture], title: str, x: str, y: str, along: Any = None) -> Picture:
     layout: Picture = {
-        "title": {"text": title, "font": {"size": 14}},
-        "xaxis": _axis(x),
-        "yaxis": _axis(y),
+        "title": heading(title),
+        "xaxis": axis_title(x),
+        "yaxis": axis_title(y),
         "legend": {"orientation": "h", "y": -0.25},
         "margin": _MARGIN,
         "height": 340,
@@ -192,7 +207,7 @@ def _is_wide(along: Any) -> bool:
     return values.dtype.kind in "fiu" and bool((values > 0).all()) and bool(values.max() > 30 * values.min())
 
 
-def _unit(item: Array) -> str:
+def unit_of(item: Array) -> str:
     """As it is shown: nothing for none."""
     return "" if item.attrs.get("units", "1") == "1" else str(item.attrs["units"])
 
@@ -201,19 +216,19 @@ def _is_numeric(item: Array) -> bool:
     return item.values.dtype.kind in "fiu"
 
 
-def _stood_up(item: Array) -> Array:
-    """The same axes but the last, as if a map stood at each of them."""
-    return Array((*item.dims[:-1], "x", "y"), (*item.shape[:-1], 2, 2), {}, lambda: np.zeros(0))
+def stood_up(item: Array, kept: int = 1) -> Array:
+    """The same axes but the last `kept`, as if a map stood at each of them."""
+    return Array((*item.dims[:-kept], "x", "y"), (*item.shape[:-kept], 2, 2), {}, lambda: np.zeros(0))
 
 
 def _one(value: Any, unit: str) -> str:
     if isinstance(value, str | np.str_):
         return str(value)
-    factor, shown = prefix([float(value)], unit) if unit in _PREFIXED else (1.0, unit)
+    factor, shown = scaled([float(value)], unit)
     return f"{float(value) * factor:.4g} {shown}".strip()
 
 
-def _numbers(values: NDArray[Any]) -> list[Any]:
+def numbers(values: NDArray[Any]) -> list[Any]:
     """Plain lists; what is not finite becomes nothing, six digits are enough for a screen."""
     if values.dtype.kind not in "fiu":
         return list(values.tolist())

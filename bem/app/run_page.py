@@ -11,7 +11,7 @@ from urllib.parse import quote
 import numpy as np
 from nicegui import run, ui
 
-from bem.app import pictures
+from bem.app import pictures, solids
 from bem.app.downloads import WHAT
 from bem.app.layout import badge, page, rows, say
 from bem.app.workspace import RunState, Workspace
@@ -192,6 +192,7 @@ class RunPage:
             ui.label(f"note: {text}").classes("text-body2").style("color: #9a5b00")
         _over(found)
         Maps(found)
+        _solids(found)
         _curves(found)
 
 
@@ -225,6 +226,35 @@ def _curves(found: FinishedRun) -> None:
             ui.plotly(pictures.curve_picture(found.arrays, name)).classes("w-full")
 
 
+def _solids(found: FinishedRun) -> None:
+    """Stresses below and particles in space, drawn when they are asked for."""
+    names = solids.solid_names(found.arrays)
+    if not names:
+        return
+    with ui.expansion("in space: stresses below, particles").classes("w-full") as outer:
+        outer.props["data-solids"] = "1"
+        with ui.row().classes("items-center"):
+            which = ui.select(names, value=next(iter(names)), label="what").classes("w-96").props("dense outlined")
+            which.props["data-key"] = "solid"
+            case = ui.select({0: ""}, value=0, label="of").classes("w-64").props("dense outlined")
+        place = ui.column().classes("w-full")
+
+    def draw() -> None:
+        place.clear()
+        with place:
+            ui.plotly(solids.solid_picture(found.arrays, str(which.value), int(case.value or 0))).classes("w-full")
+
+    def other() -> None:
+        cases = solids.cases_of(found.arrays, str(which.value))
+        case.set_options(dict(enumerate(cases)) or {0: ""}, value=0)
+        case.set_visibility(bool(cases))
+        draw()
+
+    which.on_value_change(other)
+    case.on_value_change(draw)
+    outer.on_value_change(lambda e: other() if e.value and not place.default_slot.children else None)
+
+
 class Maps:
     """A map of the run that zooms; a click shows the sections through that place."""
 
@@ -243,6 +273,7 @@ class Maps:
             self._layer = ui.select({0: ""}, value=0, label="of", on_change=self._draw)
             self._layer.classes("w-64").props("dense outlined")
             self._solid = ui.switch("in space", on_change=self._draw)
+            self._solid.props["data-key"] = "map.solid"
         self._place = ui.row().classes("w-full no-wrap items-start")
         self._other()
 

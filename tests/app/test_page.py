@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 from small_scenes import WEAR
 
+from bem import open_run, run_scene
 from bem.surfaces.examples import FOLDER
 
 pytest.importorskip("nicegui")
@@ -29,6 +30,8 @@ pytestmark = [
 ]
 ROOT = Path(__file__).resolve().parents[2]
 PATIENCE = 120.0
+LIBRARY = "Resize must be passed a displayed plot"
+"""A mistake of the library's own: a plot that is taken away while its size is looked at."""
 
 
 class Server:
@@ -151,14 +154,49 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
     tab.wait_text("contact.load")
     tab.wait("document.querySelector('[data-overlay] svg')")
 
-    # of the library's own: a plot that is taken away while its size is looked at
-    mistakes = [text for text in (*tab.errors, *other.errors) if "Resize must be passed a displayed plot" not in text]
-    assert mistakes == []
+    assert [text for text in (*tab.errors, *other.errors) if LIBRARY not in text] == []
     elsewhere = [a for a in tab.addresses if not a.startswith((server.base, "data:", "blob:"))]
     assert elsewhere == []  # nothing from a network
 
 
 LONG = WEAR.replace("count = 12", "count = 30000")
+
+
+def test_a_section_by_a_click_and_pictures_in_space(serve, chrome, tmp_path):
+    """A real click on a map moves the sections there; surface, stresses and particles are drawn in space."""
+    runs = tmp_path / "work" / "runs"
+    small = ["grid.shape=24", "outputs.von_mises=true", "outputs.depths=[0.0, 1e-4, 2e-4]", "outputs.errors=false"]
+    run_scene("hertz-sphere", runs / "ball-001", settings=small, figures=False)
+    run_scene(tomllib.loads(WEAR) | {"name": "wear"}, runs / "wear-001", figures=False)
+    server, tab = serve(), chrome.tab()
+    tab.go(server.address)
+    tab.go(f"{server.base}/run/ball-001")
+    tab.wait("document.querySelector('.js-plotly-plot .nsewdrag')")
+    legend = "[...document.querySelectorAll('.legendtext')].map(one => one.textContent).join()"
+    tab.wait(f"{legend}.includes('along x, y = ')")
+    before = tab.look(legend)
+    tab.look("document.querySelector('.js-plotly-plot .nsewdrag').scrollIntoView({block: 'center'})")
+    x, y, width, height = tab.look(
+        "(() => { const r = document.querySelector('.js-plotly-plot .nsewdrag').getBoundingClientRect(); "
+        "return [r.x, r.y, r.width, r.height] })()"
+    )
+    tab.mouse(x + 0.26 * width, y + 0.69 * height)  # the middle of a cell of the 24: the 7th along x, the 8th along y
+    lengths = open_run(runs / "ball-001").arrays
+    at = [1e6 * float(lengths[axis].values[i]) for axis, i in (("y", 7), ("x", 6))]
+    tab.wait(f"{legend} === 'along x, y = {at[0]:.4g} µm,along y, x = {at[1]:.4g} µm'")
+    assert tab.look(legend) != before
+    drawn = "document.querySelectorAll('.gl-container canvas').length"
+    tab.click("[data-solids] .q-item")
+    tab.wait(f"{drawn} === 1")
+    tab.click("[data-key='map.solid']")
+    tab.wait(f"{drawn} === 2")
+    assert "WebGL" not in tab.text()
+    tab.go(f"{server.base}/run/wear-001")
+    tab.wait("document.querySelector('[data-solids]')")
+    tab.click("[data-solids] .q-item")
+    tab.wait(f"{drawn} === 1")
+    tab.wait("document.querySelector('[data-solids] .gtitle').textContent.includes('particles where they came off')")
+    assert [text for text in tab.errors if LIBRARY not in text] == []
 
 
 def test_a_killed_server_and_a_pause_lose_nothing(serve, chrome, tmp_path):

@@ -13,8 +13,10 @@ from bem.app.pictures import (
     layers_of,
     map_names,
     map_picture,
+    scaled,
     sections_picture,
 )
+from bem.app.solids import MOST_PARTICLES, PARTICLES, cases_of, field_picture, solid_names, solid_picture
 from bem.results.arrays import to_arrays
 from bem.scenes.context import Variable
 
@@ -86,3 +88,47 @@ def test_figures_of_the_summary_are_drawn_over_what_they_run_over():
     trace = figure_picture(summary, "friction", "speed_m_s")["data"][0]
     assert trace["y"] == [0.1, None]
     assert trace["error_y"]["array"] == [0.01, None]
+
+
+def test_areas_and_volumes_are_shown_in_units_of_their_side():
+    assert scaled([0.0, 9e-13], "m^2") == (pytest.approx(1e18), "nm²")
+    assert scaled([3e-12], "m^2") == (pytest.approx(1e12), "µm²")
+    assert scaled([5e-19], "m^3") == (pytest.approx(1e27), "nm³")
+
+
+def test_a_field_in_space_is_where_it_was_with_depth_downwards():
+    depth = np.array([0.0, 1e-6, 3e-6])
+    values = 1e6 * (1 + depth[:, None, None] * 1e6 + 0 * X[None, :, None] + 0 * Y[None, None, :])
+    picture = field_picture(values, (depth, X, Y), "stress", "Pa")
+    json.dumps(picture, allow_nan=False)
+    trace = picture["data"][0]
+    deepest = np.array(trace["z"]) == -3.0
+    assert set(np.array(trace["value"])[deepest]) == {4.0}  # MPa
+    assert trace["colorbar"]["title"]["text"] == "MPa"
+    large = field_picture(np.ones((10, 200, 200)), (np.arange(10.0), *[np.arange(200.0)] * 2), "stress", "Pa")
+    assert len(large["data"][0]["value"]) <= 32_000
+    assert "th cell" in large["layout"]["title"]["text"]
+
+
+def test_particles_in_space_have_their_sizes_and_places():
+    count = MOST_PARTICLES + 5
+    sizes = {"length": 4e-7, "width": 2e-7, "thickness": 1e-7}
+    rows = {name: np.full((2, count), value) for name, value in sizes.items()}
+    rows |= {"x": np.tile(np.linspace(-2e-6, 2e-6, count), (2, 1)), "y": np.zeros((2, count))}
+    rows["length"][1, 7] = 8e-7  # the largest one of the second case
+    rows["width"][1, -3:] = np.nan  # places that no particle took
+    variables = {f"particle_{k}": Variable(("load", "particle"), v, "m", k) for k, v in rows.items()}
+    variables["load"] = Variable(("load",), np.array([1.0, 2.0]), "N", "load")
+    variables["stress"] = Variable(("load", "depth", "x", "y"), np.ones((2, 3, 4, 4)), "Pa", "stress")
+    arrays = to_arrays(variables, {})
+    assert list(solid_names(arrays)) == ["stress", PARTICLES]
+    assert cases_of(arrays, PARTICLES) == cases_of(arrays, "stress") == ["load 1 N", "load 2 N"]
+    picture = solid_picture(arrays, PARTICLES, 1)
+    json.dumps(picture, allow_nan=False)
+    assert f"{MOST_PARTICLES} of {count - 3} particles" in picture["layout"]["title"]["text"]
+    trace = picture["data"][0]
+    first = {axis: np.array(trace[axis][: len(trace["x"]) // MOST_PARTICLES]) for axis in "xyz"}
+    assert [float(np.ptp(first[axis])) for axis in "xyz"] == pytest.approx([0.8, 0.2, 0.1], rel=0.06)  # a rough ball
+    assert first["z"].max() == pytest.approx(0.0, abs=1e-6)
+    assert first["x"].mean() == pytest.approx(1e6 * rows["x"][1, 7], abs=1e-3)
+    assert max(max(trace[axis]) for axis in "ijk") < len(trace["x"])
