@@ -231,6 +231,8 @@ def _reduced(scene: dict[str, Any]) -> dict[str, Any]:
     _smaller(scene, ("cycles", "settled"), 2)
     _smaller(scene, ("cycles", "averaged"), 2)
     _smaller(scene, ("march", "steps"), 20)
+    _smaller(scene, ("life", "count"), 1000)
+    _smaller(scene, ("wear", "positions"), 2)
     _smaller(scene, ("film", "points"), 400)
     _smaller(scene, ("film", "cells"), 64)
     _smaller(scene, ("outputs", "depths", "count"), 6)

@@ -23,6 +23,7 @@ ORDER = [
     {"friction"},
     {"wear"},
     {"tribofilm"},
+    {"life"},
     {"accuracy"},
     {"scenes"},
     {"results"},

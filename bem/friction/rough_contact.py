@@ -126,11 +126,13 @@ def reference_friction(setup: MixedSetup, height: FloatArray, speeds: Sequence[f
 
 @dataclass(frozen=True, eq=False)
 class CoupledContact:
-    """The rough half-space, elastic or capped at the hardness; `rough` (nx, ny) [m] without mean."""
+    """The rough half-space, elastic or capped at the hardness; `rough` (nx, ny) [m] without mean. compliance : what
+    each place gives way besides, by its own pressure [m/Pa]: wear in an implicit step."""
 
     setup: MixedSetup
     rough: FloatArray
     traction: float
+    compliance: float = 0.0
 
     @property
     def tolerance(self) -> float:
@@ -151,7 +153,8 @@ class CoupledContact:
     @cached_property
     def operator(self) -> DisplacementOperator:
         """Made when the first contact is solved: full film never needs it."""
-        return displacement_operator(self.setup.grid, self.setup.bodies, friction=self.traction)
+        setup = self.setup
+        return displacement_operator(setup.grid, setup.bodies, friction=self.traction, compliance=self.compliance)
 
     def clears(self, film: PatchFilm) -> bool:
         """As `RoughContact`."""

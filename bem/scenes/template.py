@@ -45,6 +45,8 @@ _ALSO = {
     "archard": "wear",
     "run-in": "running-in",
     "runningin": "running-in",
+    "life": "running-in-life",
+    "cycle-jumps": "running-in-life",
     "zddp": "tribofilm",
     "antiwear": "tribofilm",
     "afm": "particles",

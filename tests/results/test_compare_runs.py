@@ -81,6 +81,7 @@ KINDS = {
     "partial-slip": ("fretting-ball", "push.share=0.5", "traction_x", 1),
     "rolling": ("rolling-creepage", "roll.friction=0.2", "traction_coefficient", 1),
     "running-in": ("running-in-stribeck", "contact.boundary_friction=0.12", "friction_over_cycles", 2),
+    "running-in-life": ("running-in-life", "contact.boundary_friction=0.1", "friction_over_cycles", 1),
     "surface-temperature": ("flash-temperature", "contact.load=5 N", "surface_temperature", 1),
     "traction": ("traction-curve", "roller.hertz_pressure=0.8 GPa", "traction_coefficient", 1),
     "tribofilm": ("tribofilm-macro", "seed=2", "thickness", 2),

@@ -204,8 +204,8 @@ def _contact(scene: Any) -> list[Case]:
 
 
 def _lubricated(scene: Any) -> list[Case]:
-    """Kinds `friction` and `running-in`: a cylinder on a flat, a rough patch under it."""
-    grid, bodies, contact = build.grid_of(scene.grid), _bodies(scene), scene.contact
+    """Kinds `friction`, `running-in` and `running-in-life`: a cylinder on a flat, a rough patch under it."""
+    grid, bodies, contact, wear = build.grid_of(scene.grid), _bodies(scene), scene.contact, getattr(scene, "wear", None)
     modulus = contact_modulus(bodies["lower"].material, bodies["upper"].material)
     (load,) = contact.forces(modulus)
     per_length = load / contact.width
@@ -219,8 +219,8 @@ def _lubricated(scene: Any) -> list[Case]:
             friction=contact.nominal_friction(load, modulus, scene.speeds.build()[0], scene.oil.temperature),
             depths=() if depths is None else tuple(float(d) for d in depths.build()),
             width=contact.width,
-            slide=scene.wear.shift * grid.spacing[0] if hasattr(scene, "wear") else None,
-            wear=getattr(scene, "wear", None),
+            slide=scene.wear.shift * grid.spacing[0] if hasattr(wear, "shift") else None,
+            wear=wear if hasattr(wear, "shift") else None,
             shape="cylinder",
             **bodies,
         )
@@ -307,6 +307,7 @@ _CASES: dict[str, Callable[[Any], list[Case]]] = {
     "film": _film,
     "friction": _lubricated,
     "running-in": _lubricated,
+    "running-in-life": _lubricated,
     "tribofilm": _tribofilm,
     "wear": _wear,
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 import numpy as np
@@ -26,8 +27,8 @@ if TYPE_CHECKING:
     from bem.tribofilm import FilmContact
 
 
-class FilmScene(Table):
-    """The film: kinetics, properties, wear.
+class KineticsScene(Table):
+    """How a film grows and wears.
 
     Growth is stress-activated, of the energy, volume and prefactor given, or that of another law, `growth`.
     """
@@ -36,19 +37,12 @@ class FilmScene(Table):
     prefactor: Annotated[Speed, Field(gt=0)] = 1e-2
     activation_energy: Annotated[Energy, Field(gt=0)] | None = None
     activation_volume: Annotated[Volume, Field(ge=0)] | None = None
-    hardness: Annotated[PropertyLaw, LawKey("film_property")]
-    youngs_modulus: Annotated[PropertyLaw, LawKey("film_property")]
-    poissons_ratio: Annotated[Ratio, Field(gt=-1, lt=0.5)] = 0.3
     wear_coefficient: Annotated[Rate, Field(ge=0)]
-    lag: Annotated[Time, Field(ge=0)] = 0.0
     concentration_constant: Annotated[InverseLength, Field(gt=0)] | None = None
     initial_thickness: Annotated[Length, Field(ge=0)] = 0.0
-    average: Literal["contact", "nominal"] = "contact"
-    feedback: Literal["mean", "local"] = "mean"
-    local_tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = 1e-2
 
     @model_validator(mode="after")
-    def _one_kinetics(self) -> FilmScene:
+    def _one_kinetics(self) -> Self:
         own = {key: getattr(self, key) for key in ("activation_energy", "activation_volume")}
         if self.growth is not None and any(value is not None for value in own.values()):
             raise problem(f"growth with {' and '.join(k for k, v in own.items() if v is not None)}", "one of them")
@@ -68,7 +62,23 @@ class FilmScene(Table):
     def balance(self) -> FilmBalance:
         """As `bem.tribofilm.balance.FilmBalance`."""
         constant = self.concentration_constant or np.inf
-        return FilmBalance(self.wear_coefficient, self.lag, constant, self.initial_thickness)
+        return FilmBalance(self.wear_coefficient, 0.0, constant, self.initial_thickness)
+
+
+class FilmScene(KineticsScene):
+    """The film: kinetics, properties, wear."""
+
+    hardness: Annotated[PropertyLaw, LawKey("film_property")]
+    youngs_modulus: Annotated[PropertyLaw, LawKey("film_property")]
+    poissons_ratio: Annotated[Ratio, Field(gt=-1, lt=0.5)] = 0.3
+    lag: Annotated[Time, Field(ge=0)] = 0.0
+    average: Literal["contact", "nominal"] = "contact"
+    feedback: Literal["mean", "local"] = "mean"
+    local_tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = 1e-2
+
+    def balance(self) -> FilmBalance:
+        """As `bem.tribofilm.balance.FilmBalance`, with the lag."""
+        return replace(super().balance(), lag=self.lag)
 
 
 class VariantScene(Variant):

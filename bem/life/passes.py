@@ -1,0 +1,192 @@
+"""One pass of two bodies through their contact: what a round of positions asks of a contact, dry or lubricated.
+
+Verified in tests/life/test_life.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.contact import solve_contact
+from bem.convolution import displacement_operator
+from bem.errors import ConvergenceError, Status
+from bem.friction.balance import BalanceStart, share_load
+from bem.friction.film import PatchFilm
+from bem.friction.film_table import FilmTable
+from bem.friction.forces import friction_forces, lambda_ratio
+from bem.friction.rough_contact import CoupledContact, rough_contact
+from bem.friction.setup import MixedSetup
+from bem.grid import FloatArray, Grid
+from bem.materials import Body
+
+
+@dataclass(frozen=True)
+class Passing:
+    """Which of (lower, upper) pass through the contact, and in how many positions a round looks at them.
+
+    A body that does not pass lies on the grid and wears a scar; one that passes has all its rows go through, evenly.
+    Both pass in different orders, so that each position pairs other roughness; within a round every pair counts alike.
+    """
+
+    positions: int
+    bodies: tuple[bool, bool]
+
+    def offsets(self, rows: tuple[int, int]) -> tuple[tuple[int, int], ...]:
+        """Rows by which lower and upper body have moved along +x in each position, of bodies of so many rows."""
+        stride = _coprime_near(0.618 * self.positions, self.positions)
+        orders = (range(self.positions), [j * stride % self.positions for j in range(self.positions)])
+        moved = [
+            [round(count * j / self.positions) if passes else 0 for j in order]
+            for count, passes, order in zip(rows, self.bodies, orders, strict=True)
+        ]
+        return tuple(zip(*moved, strict=True))
+
+
+def _coprime_near(wanted: float, count: int) -> int:
+    """The number nearest to that which has no divisor in common with the count."""
+    return min((n for n in range(1, count + 1) if math.gcd(n, count) == 1), key=lambda n: abs(n - wanted))
+
+
+def facing(offset: int, rows: int, whole: int) -> NDArray[np.int_]:
+    """Which of the `whole` rows of a body lie on the grid's `rows` after it moved `offset` of them along +x."""
+    return np.asarray((np.arange(rows) - offset) % whole)
+
+
+@dataclass(frozen=True, eq=False)
+class PassStart:
+    """Where the contact of a position starts from: last pressure (nx, ny) [Pa], film load on the whole width [N] and
+    slope of the balance. It decides nothing but the effort, and the last bits."""
+
+    pressure: FloatArray | None = None
+    film_load: float | None = None
+    slope: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Pass:
+    """A contact that was solved: pressure (nx, ny) [Pa]; friction over the load, and of it the boundary part; shares of
+    the load and of the grid's area in contact; minimum film [m] and that of the whole load over the rms height."""
+
+    pressure: FloatArray
+    boundary_friction: float
+    film_friction: float
+    contact_share: float
+    area_share: float
+    minimum_film: float
+    lambda_ratio: float
+    convolutions: float
+    start: PassStart
+
+
+PassContact = Callable[[FloatArray, PassStart, float], Pass]
+"""(sum of the heights of both bodies (nx, ny) [m], start, compliance [m/Pa] by which each place wears) -> Pass"""
+
+
+@dataclass(frozen=True, eq=False)
+class DryPasses:
+    """Dry contacts under a load [N] on the grid; gap (nx, ny) [m] of the smooth bodies."""
+
+    grid: Grid
+    bodies: tuple[Body, Body]
+    gap: FloatArray
+    load: float
+    friction: float = 0.0
+    hardness: float | None = None
+    tolerance: float = 1e-6
+
+    def __call__(self, heights: FloatArray, start: PassStart, compliance: float) -> Pass:
+        """As `PassContact`.
+
+        Raises
+        ------
+        ConvergenceError : a contact that did not converge.
+        """
+        operator = displacement_operator(self.grid, self.bodies, friction=self.friction, compliance=compliance)
+        found = solve_contact(
+            self.gap - heights,
+            operator,
+            load=self.load,
+            hardness=self.hardness,
+            tolerance=self.tolerance,
+            initial_pressure=start.pressure,
+        )
+        _check(found.status, found.residual)
+        return Pass(
+            pressure=found.pressure,
+            boundary_friction=self.friction,
+            film_friction=0.0,
+            contact_share=1.0,
+            area_share=found.contact_area / self.grid.area,
+            minimum_film=0.0,
+            lambda_ratio=0.0,
+            convolutions=found.convolutions,
+            start=PassStart(found.pressure),
+        )
+
+
+class MixedPasses:
+    """Contacts that share their load with a film; `table` holds the films of the set-up at its speeds.
+
+    What wears in a pass is a compliance of its contact, so that the balance is that at its end.
+    """
+
+    def __init__(self, setup: MixedSetup, table: FilmTable) -> None:
+        self.setup, self.table = setup, table
+        self.film: PatchFilm | None = None
+        self._whole: PatchFilm | None = None
+
+    def __call__(self, heights: FloatArray, start: PassStart, compliance: float) -> Pass:
+        """As `PassContact`.
+
+        Raises
+        ------
+        ConvergenceError : a balance that did not converge.
+        """
+        setup, speeds = self.setup, self.table.speeds
+        if self._whole is None:
+            self._whole = self.table.under(self.table.largest_load)
+        rough = rough_contact(setup, heights, speeds)
+        assert isinstance(rough, CoupledContact)
+        first = 0.5 * setup.load if start.film_load is None else start.film_load
+        balance = share_load(
+            self.table,
+            replace(rough, compliance=compliance),
+            setup.load,
+            setup.tolerance,
+            self._whole,
+            BalanceStart(first, start.slope, start.pressure),
+        )
+        _check(balance.status, abs(balance.imbalance))
+        film, contact = balance.film, balance.contact
+        self.film = film
+        forces = friction_forces(film, contact, setup, speeds)
+        pressure = np.zeros(setup.grid.shape) if contact is None else contact.pressure
+        again = start if contact is None else PassStart(pressure, film.load, balance.slope)
+        return Pass(
+            pressure=pressure,
+            boundary_friction=forces.boundary / setup.load,
+            film_friction=forces.film / setup.load,
+            contact_share=0.0 if contact is None else contact.load / setup.load,
+            area_share=0.0 if contact is None else contact.area / setup.slices / setup.grid.area,
+            minimum_film=film.minimum_thickness,
+            lambda_ratio=lambda_ratio(self._whole, heights),
+            convolutions=balance.convolutions,
+            start=again,
+        )
+
+
+def _check(status: Status, residual: float) -> None:
+    if status is not Status.CONVERGED:
+        raise ConvergenceError(
+            f"a contact of the life ended with status {status.value!r} at residual {residual:.1e}; {status.message}"
+        )
+
+
+def mean_over(passes: Sequence[Pass], name: str) -> float:
+    """Mean of a figure over the positions of a round."""
+    return float(np.mean([getattr(one, name) for one in passes]))

@@ -1,0 +1,127 @@
+"""Figures of a life of many cycles: friction, wear, roughness, film and jumps over cycles, on a logarithmic axis.
+
+Knows a run's dataset; solves nothing. Verified in tests/plots/test_figures.py.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from bem.plots.figures import FigureKind
+from bem.plots.style import BLUE, GREEN, VERMILION
+
+
+def _axis(run: Any, axes: Axes) -> Any:
+    """Cycles on a logarithmic axis."""
+    cycle = run.dataset["cycle"].values
+    axes.set_xscale("log")
+    axes.set_xlim(cycle[0], cycle[-1])
+    axes.set_xlabel("cycles")
+    return cycle
+
+
+def _friction(run: Any, figure: Figure) -> None:
+    axes, data = figure.add_subplot(), run.dataset
+    cycle = _axis(run, axes)
+    axes.plot(cycle, data["friction_over_cycles"].values, color=BLUE, label="friction")
+    axes.plot(cycle, data["boundary_friction_over_cycles"].values, "--", color="0.45", label="of it boundary")
+    axes.set_ylabel("coefficient of friction")
+    axes.set_ylim(0)
+    other = axes.twinx()
+    other.plot(cycle, data["contact_share"].values, ":", color=VERMILION, label="load on contact")
+    other.set_ylabel("share of the load on contact", color=VERMILION)
+    other.set_ylim(0, 1)
+    axes.legend(loc="lower left")
+
+
+def _wear(run: Any, figure: Figure) -> None:
+    axes, data = figure.add_subplot(), run.dataset
+    cycle = _axis(run, axes)
+    missed = 1e9 * data["depth_error_over_cycles"].values
+    for name, colour in (("lower", BLUE), ("upper", VERMILION)):
+        depth = 1e9 * data[f"{name}_depth_over_cycles"].values
+        axes.plot(cycle, 1e9 * data[f"{name}_rms_over_cycles"].values, "--", color=colour, label=f"Sq, {name}")
+        axes.plot(cycle, depth, color=colour, label=f"depth worn, {name}")
+        axes.fill_between(cycle, depth - missed, depth + missed, color=colour, alpha=0.2, linewidth=0)
+    axes.set_ylabel("Sq and mean depth worn (nm)")
+    axes.set_ylim(0)
+    axes.legend(fontsize=7)
+
+
+def _film(run: Any, figure: Figure) -> None:
+    axes, data = figure.add_subplot(), run.dataset
+    cycle = _axis(run, axes)
+    axes.plot(cycle, 1e9 * data["minimum_film_over_cycles"].values, color=BLUE, label="minimum oil film")
+    if "tribofilm_over_cycles" in data.variables:
+        axes.plot(cycle, 1e9 * data["tribofilm_over_cycles"].values, color=GREEN, label="tribofilm, mean")
+    axes.set_ylabel("thickness (nm)")
+    axes.set_ylim(0)
+    other = axes.twinx()
+    other.plot(cycle, data["lambda_over_cycles"].values, "--", color=VERMILION)
+    other.set_ylabel("film over roughness, Λ", color=VERMILION)
+    other.set_ylim(0)
+    axes.legend(loc="center left")
+
+
+def _jumps(run: Any, figure: Figure) -> None:
+    axes, data = figure.add_subplot(), run.dataset
+    place = data["step_cycle"].values
+    axes.loglog(place, data["step_length"].values, ".-", color=BLUE)
+    axes.set_xlabel("cycles")
+    axes.set_ylabel("cycles of a jump", color=BLUE)
+    other = axes.twinx()
+    other.semilogx(place, 100 * data["step_error"].values, ".-", color=VERMILION, linewidth=0.8)
+    other.axhline(100 * run.scene["life"]["tolerance"], color=VERMILION, linestyle=":", linewidth=0.8)
+    other.set_ylabel("its error over what wore in it (%)", color=VERMILION)
+    other.set_ylim(0)
+
+
+def _particles(run: Any, figure: Figure) -> None:
+    axes = figure.add_subplot()
+    cycle = _axis(run, axes)
+    axes.set_yscale("log")
+    axes.plot(cycle, run.dataset["particles_over_cycles"].values, color=BLUE)
+    axes.set_ylabel("pieces that carry away what wore")
+
+
+_WIDE = (6.0, 3.6)
+FIGURES = (
+    FigureKind(
+        "friction-over-life",
+        "Friction and the share of the load on contact over the cycles.",
+        ("cycle", "friction_over_cycles", "boundary_friction_over_cycles", "contact_share"),
+        _friction,
+        _WIDE,
+    ),
+    FigureKind(
+        "wear-over-life",
+        "Roughness and mean depth worn of both surfaces over the cycles; bands are what the jumps leave open.",
+        ("cycle", "lower_depth_over_cycles", "depth_error_over_cycles", "lower_rms_over_cycles"),
+        _wear,
+        _WIDE,
+    ),
+    FigureKind(
+        "film-over-life",
+        "Minimum oil film, tribofilm, and film over roughness over the cycles.",
+        ("cycle", "minimum_film_over_cycles", "lambda_over_cycles"),
+        _film,
+        _WIDE,
+    ),
+    FigureKind(
+        "jumps",
+        "Length of the cycle jumps and their error; dotted: the tolerance.",
+        ("step_cycle", "step_length", "step_error"),
+        _jumps,
+        _WIDE,
+    ),
+    FigureKind(
+        "particles-over-life",
+        "How many pieces of the sizes that the criterion finds carry away what wore.",
+        ("cycle", "particles_over_cycles"),
+        _particles,
+        _WIDE,
+    ),
+)

@@ -1,0 +1,409 @@
+"""Kind `running-in-life`: wear and a tribofilm over up to millions of cycles in mixed lubrication, in jumps whose error
+is known.
+
+A case is one life: one speed, one pair of surfaces.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import numpy as np
+from pydantic import model_validator
+
+from bem.grid import FloatArray
+from bem.scenes import build, plans
+from bem.scenes.axes import Axis
+from bem.scenes.common import Repetitions, problem
+from bem.scenes.context import Context
+from bem.scenes.kind import Kind
+from bem.scenes.lubrication import LineContactScene
+from bem.scenes.packing import keep, kept
+from bem.scenes.planner import Plan, Step
+from bem.scenes.records import Figure, GridRecord, Series, filled, grid_map
+from bem.scenes.tables.life import LifeCycles, LifeFilm, LifeParticles, LifeWear
+from bem.scenes.tables.sharing import RunningInSharing
+
+if TYPE_CHECKING:
+    from bem.friction.setup import MixedSetup
+    from bem.life.march import LifeState
+    from bem.life.passes import MixedPasses
+    from bem.life.surfaces import GrowingFilm, LifeCase
+
+_CONVOLUTIONS = 60  # of the two or three contacts of a pass
+_JUMPS = 40  # steps of a life of a million cycles, each of three rounds
+
+
+class RunningInLifeScene(LineContactScene):
+    """A rough cylinder and a rough flat that wear each other in oil over a life."""
+
+    kind: Literal["running-in-life"] = "running-in-life"
+    wear: LifeWear
+    life: LifeCycles = LifeCycles()
+    sharing: RunningInSharing = RunningInSharing()
+    tribofilm: LifeFilm | None = None
+    particles: LifeParticles | None = None
+    repetitions: Repetitions = 1
+
+    @model_validator(mode="after")
+    def _one_load(self) -> RunningInLifeScene:
+        given = self.contact.loads or self.contact.hertz_pressures or []
+        if len(given) != 1:
+            raise problem(f"{len(given)} loads", "one load; run the scene again for others")
+        film = self.tribofilm
+        if film is not None and film.temperature is None and self.oil.temperature is None:
+            raise problem("a tribofilm without a temperature", "tribofilm.temperature, or oil.temperature")
+        for name in ("lower", "upper"):
+            if film is not None and film.heat and getattr(self, name).build().material.thermal_diffusivity is None:
+                raise problem(
+                    f"tribofilm.heat: heat of the {name} body, whose material has no thermal constants",
+                    "materials with thermal_conductivity, density and heat_capacity, or no heat",
+                )
+        return self
+
+    @property
+    def friction(self) -> float:
+        """Boundary friction as one number, before any contact is known."""
+        (speeds,) = self.speeds.build()
+        return self.contact.nominal_friction(self.load, self.modulus, speeds, self.oil.temperature)
+
+
+def resolve(scene: RunningInLifeScene) -> RunningInLifeScene:
+    """Fill in the grid and the softer surface's hardness."""
+    return build.with_hardness(build.with_grid(scene), needed=False)
+
+
+def axes(scene: RunningInLifeScene) -> tuple[Axis, ...]:
+    """Speeds."""
+    return (scene.speed_axis(),)
+
+
+def plan(scene: RunningInLifeScene) -> Plan:
+    """What will be computed for one life.
+
+    Raises
+    ------
+    InputError : a patch that does not fit, a law without the hardness it needs. InfeasibleError : too much load.
+    """
+    grid, life = scene.check(), scene.life
+    scene.wear.rates(scene.bodies, scene.friction)
+    if scene.particles is not None:
+        scene.particles.build(grid, scene.bodies, scene.contact.hardness, _on_grid(scene))
+    decades = max(np.log2(max(life.count / life.first_step, 2.0)) / 20, 0.1)
+    passes = 3 * scene.wear.positions * _JUMPS * decades * max(0.05 / life.tolerance, 0.5)
+    return Plan.of(
+        plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
+        Step(
+            "film tables",
+            "about 20 films for each speed, shared by all passes",
+            per="grid",
+            seconds=20 * 2e-7 * scene.sharing.film_points**2,
+            memory=16.0 * scene.sharing.film_points**2,
+        ),
+        plans.contacts(
+            grid,
+            _CONVOLUTIONS * passes,
+            f"about {passes / scene.wear.positions / 3:.0f} jumps, each once whole and in two halves, of "
+            f"{scene.wear.positions} positions",
+        ),
+        Step("tribofilm", "grows cell by cell where surfaces touch", skipped=scene.tribofilm is None, seconds=0.1),
+        Step(
+            "pieces",
+            "sizes that the criterion finds after each jump",
+            skipped=scene.particles is None,
+            seconds=0.02 * passes / 3,
+        ),
+        plans.figures(grid.cells),
+    )
+
+
+_over, _shown = partial(Series, ("cycle",)), partial(grid_map, of="first")
+_step = partial(Series, ("step",), rows=True)
+_COUNTS = "pieces follow the mesh under most criteria; see kind wear"
+
+
+@dataclass(frozen=True, eq=False)
+class RunningInLifeRecord(GridRecord):
+    """A life: friction, roughness, film and wear from its first cycle to its last, and the jumps that led there."""
+
+    friction_initial: Annotated[float, Figure("", "friction of the unworn surfaces", headline=True, unjudged=True)]
+    friction_final: Annotated[float, Figure("", "friction at the end", headline=True)]
+    Sq_initial: Annotated[float, Figure("nm", "Sq of the lower surface, unworn", headline=True, unjudged=True)]
+    Sq_final: Annotated[float, Figure("nm", "Sq of the lower surface at the end, its film on it", headline=True)]
+    worn_depth: Annotated[float, Figure("nm", "mean depth worn of the lower surface", headline=True)]
+    upper_Sq_initial: Annotated[float, Figure("nm", "Sq of the upper surface, unworn", unjudged=True)]
+    upper_Sq_final: Annotated[float, Figure("nm", "Sq of the upper surface at the end")]
+    upper_worn_depth: Annotated[float, Figure("nm", "mean depth worn of the upper surface")]
+    lambda_ratio_initial: Annotated[float, Figure("", "film over roughness, unworn", unjudged=True)]
+    lambda_ratio: Annotated[float, Figure("", "film under the whole load over roughness, at the end", headline=True)]
+    contact_share_initial: Annotated[float, Figure("", "share of the load on contact, unworn", unjudged=True)]
+    contact_share_final: Annotated[float, Figure("", "share of the load on contact, at the end")]
+    contact_area_fraction: Annotated[float, Figure("", "real contact area over the patch, at the end")]
+    minimum_film: Annotated[float, Figure("nm", "minimum film thickness at the end")]
+    wear_volume: Annotated[float, Figure("um3", "volume worn of both surfaces of the patch")]
+    tribofilm_thickness: Annotated[float | None, Figure("nm", "mean thickness of the tribofilm", optional=True)]
+    particles: Annotated[float | None, Figure("", "pieces that carry away what wore", optional=True, no_bar=_COUNTS)]
+    particle_equivalent_radius: Annotated[
+        float | None,
+        Figure("nm", "equivalent radius of the mean volume of pieces, over the life", optional=True, no_bar=_COUNTS),
+    ]
+    jump_error: Annotated[float, Figure("nm", "what the jumps leave open of the mean depths worn", unjudged=True)]
+    jumps: Annotated[int, Figure("", "jumps taken", unjudged=True)]
+    jumps_rejected: Annotated[int, Figure("", "jumps made shorter", unjudged=True)]
+    convolutions: Annotated[float, Figure("", "convolutions of all contacts", unjudged=True)]
+    cycle: Annotated[FloatArray, _over("1", "cycle")]
+    friction_over_cycles: Annotated[FloatArray, _over("1", "coefficient of friction")]
+    boundary_friction_over_cycles: Annotated[FloatArray, _over("1", "boundary part of the friction")]
+    contact_share: Annotated[FloatArray, _over("1", "share of the load carried by contact")]
+    minimum_film_over_cycles: Annotated[FloatArray, _over("m", "minimum film thickness")]
+    lambda_over_cycles: Annotated[FloatArray, _over("1", "film over roughness")]
+    lower_rms_over_cycles: Annotated[FloatArray, _over("m", "Sq of the lower surface, its film on it")]
+    upper_rms_over_cycles: Annotated[FloatArray, _over("m", "Sq of the upper surface")]
+    lower_depth_over_cycles: Annotated[FloatArray, _over("m", "mean depth worn of the lower surface")]
+    upper_depth_over_cycles: Annotated[FloatArray, _over("m", "mean depth worn of the upper surface")]
+    depth_error_over_cycles: Annotated[FloatArray, _over("m", "what the jumps leave open of the mean depths worn")]
+    tribofilm_over_cycles: Annotated[FloatArray | None, _over("m", "mean thickness of the tribofilm")]
+    particles_over_cycles: Annotated[FloatArray | None, _over("1", "pieces so far")]
+    step_cycle: Annotated[FloatArray, _step("1", "cycles after a jump")]
+    step_length: Annotated[FloatArray, _step("1", "cycles of a jump")]
+    step_error: Annotated[FloatArray, _step("1", "error of a jump over what wore in it")]
+    height_before: Annotated[FloatArray, _shown("m", "height of the lower surface, unworn")]
+    height_after: Annotated[FloatArray, _shown("m", "height of the lower surface at the end, its film left out")]
+    pressure: Annotated[FloatArray, _shown("Pa", "contact pressure in one of the last positions")]
+    film_map: Annotated[FloatArray | None, _shown("m", "local thickness of the tribofilm at the end")]
+
+
+def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
+    """One life."""
+    from bem.life.march import run_life
+
+    setup = scene.setup(**scene.sharing.model_dump())
+    initial = build.both_heights(scene, setup.grid, context)
+    case, contact = _case(scene, setup)
+    pieces = _Pieces.of(scene, setup)
+    saved = kept(context)
+    state, pieces.rows = (None, []) if saved is None else (saved[0], [list(row) for row in saved[1]])
+    pieces.last = state
+
+    def after(now: LifeState) -> None:
+        pieces.count(now)
+        keep(context, (now, [list(row) for row in pieces.rows]))
+        done = np.log1p(now.cycles / case.first_step) / np.log1p(case.cycles / case.first_step)
+        context.progress(round(1000 * done), 1000, "cycles", friction=float(now.over("friction")[-1]))
+
+    with context.timer("cycles"):
+        end = run_life(case, *initial, state=state, callback=after)
+    _tell(scene, context, setup, contact)
+    if pieces.sizes is not None and not any(row[1] > 0 for row in pieces.rows):
+        context.note("particles: the criterion finds no piece in any pass that was looked at")
+    return _record(scene, setup, end, pieces)
+
+
+def _on_grid(scene: RunningInLifeScene) -> float:
+    grid = build.grid_of(scene.grid)
+    return scene.load * grid.lengths[1] / scene.contact.width
+
+
+def _case(scene: RunningInLifeScene, setup: MixedSetup) -> tuple[LifeCase, MixedPasses]:
+    """What stays the same over the life, and its contact."""
+    from bem.life.passes import MixedPasses, Passing
+    from bem.life.surfaces import LifeCase
+    from bem.scenes.tables.life import INDICES
+    from bem.wear.mixed import shared_film_table
+
+    (speeds,), wear, life = scene.speeds.build(), scene.wear, scene.life
+    contact = MixedPasses(setup, shared_film_table(setup, speeds))
+    passing = Passing(wear.positions, (0 in INDICES[wear.passes], 1 in INDICES[wear.passes]))
+    rates = wear.rates(scene.bodies, scene.friction)
+    film = None if scene.tribofilm is None else _film(scene, scene.tribofilm, setup)
+    return LifeCase(
+        setup.grid, contact, passing, rates, wear.distance, life.count, life.tolerance, film, life.first_step
+    ), contact
+
+
+def _film(scene: RunningInLifeScene, table: LifeFilm, setup: MixedSetup) -> GrowingFilm:
+    """The tribofilm, as warm as the oil, or as rubbing makes each spot."""
+    bulk = table.temperature if table.temperature is not None else scene.oil.temperature
+    assert bulk is not None
+    temperature: float = bulk
+    if not table.heat:
+        return table.build(scene.friction, lambda pressure: temperature)
+
+    from bem.errors import ConvergenceError, Status
+    from bem.heat import flash_temperature
+
+    (speeds,) = scene.speeds.build()
+
+    def spots(pressure: FloatArray) -> float | FloatArray:
+        if not pressure.any():
+            return temperature
+        found = flash_temperature(
+            pressure,
+            setup.grid,
+            scene.bodies,
+            friction=scene.friction,
+            speeds=speeds,
+            bulk=(temperature, temperature),
+        )
+        if found.status is not Status.CONVERGED:
+            raise ConvergenceError(f"the temperature of a pass ended with residual {found.residual:.1e}")
+        return found.temperature
+
+    return table.build(scene.friction, spots)
+
+
+@dataclass
+class _Pieces:
+    """Pieces counted so far: rows of cycles, pieces and their volume [m^3] per jump that wore anything."""
+
+    sizes: Any
+    friction: float
+    rows: list[list[float]]
+    last: LifeState | None = None
+
+    @classmethod
+    def of(cls, scene: RunningInLifeScene, setup: MixedSetup) -> _Pieces:
+        from bem.friction.rough_contact import boundary_traction
+
+        (speeds,) = scene.speeds.build()
+        sizes = None
+        if scene.particles is not None:
+            sizes = scene.particles.build(setup.grid, scene.bodies, setup.hardness, _on_grid(scene))
+        return cls(sizes, boundary_traction(speeds, scene.friction), [])
+
+    def count(self, now: LifeState) -> None:
+        from bem.life.pieces import carried_away
+
+        if self.sizes is None:
+            return
+        before = self.last.surfaces.volume[0] if self.last is not None else 0.0
+        worn = now.surfaces.volume[0] - before
+        number = carried_away(self.sizes.volumes(now.passes, self.friction), worn)
+        self.rows.append([now.cycles, number, worn])
+        self.last = now
+
+    def figures(self, cycle: FloatArray) -> dict[str, Any]:
+        """Of the record; nothing where no criterion was given, or none found a piece."""
+        none = dict.fromkeys(("particles", "particle_equivalent_radius", "particles_over_cycles"))
+        found = np.array([row for row in self.rows if np.isfinite(row[1])]).reshape(-1, 3)
+        if self.sizes is None or not len(found) or found[:, 1].sum() == 0:
+            return none
+        total = np.concatenate([[0.0], np.cumsum(found[:, 1])])
+        volume = found[:, 2].sum() / total[-1]
+        return {
+            "particles": float(total[-1]),
+            "particle_equivalent_radius": float(np.cbrt(3 * volume / (4 * np.pi))),
+            "particles_over_cycles": np.interp(cycle, np.concatenate([[0.0], found[:, 0]]), total),
+        }
+
+
+def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contact: MixedPasses) -> None:
+    """What the reader must know."""
+    wear, (speeds,) = scene.wear, scene.speeds.build()
+    context.note(
+        f"figures over a life are means over {wear.positions} positions that pair each other's roughness; error bars "
+        "hold what the cycle jumps leave open, not cells and positions: run it with more of them"
+    )
+    mean, slide = 0.5 * abs(sum(speeds)), abs(speeds[0] - speeds[1])
+    passing = wear.passes == "both" and mean > 0
+    slid = setup.grid.lengths[0] * slide / mean if passing else wear.distance
+    if passing and slid > 0 and abs(wear.distance / slid - 1) > 0.05:
+        context.note(
+            f"wear.law.distance {wear.distance:.3g} m is not what these speeds make a place slide while the "
+            f"{setup.grid.lengths[0]:.3g} m of the patch pass, {slid:.3g} m"
+        )
+    if contact.film is not None:
+        for note in contact.film.notes:
+            context.note(f"film: {note}")
+
+
+def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, pieces: _Pieces) -> RunningInLifeRecord:
+    """The figures of a life."""
+    from bem.life.bars import bars_of_jumps
+
+    cycle, at = scene.life.reported(), end.over("cycles")
+    over = {name: np.interp(cycle, at, end.over(column)) for name, column in _COLUMNS.items()}
+    figures: dict[str, Any] = {}
+    for name, (column, both) in _FIGURES.items():
+        values = end.over(column)
+        figures |= {name: float(values[-1])} | ({both: float(values[0])} if both else {})
+    film, missed = end.surfaces.film, float(end.over("depth_error")[-1])
+    columns = {name: column for name, (column, _) in _FIGURES.items()}
+    if film is not None:
+        columns["tribofilm_thickness"] = "film_thickness"
+    return filled(
+        RunningInLifeRecord,
+        setup.grid,
+        figures,
+        over,
+        pieces.figures(cycle),
+        cycle=cycle,
+        wear_volume=float(sum(end.surfaces.volume)),
+        tribofilm_thickness=None if film is None else float(film.mean()),
+        tribofilm_over_cycles=None if film is None else np.interp(cycle, at, end.over("film_thickness")),
+        film_map=film,
+        jump_error=missed,
+        jumps=len(end.rows) - 1,
+        jumps_rejected=end.rejected,
+        convolutions=end.convolutions,
+        step_cycle=at[1:],
+        step_length=end.over("step")[1:],
+        step_error=end.over("step_error")[1:],
+        height_before=end.first[0],
+        height_after=end.surfaces.heights[0],
+        pressure=end.passes[0].pressure,
+        errors=bars_of_jumps(end, columns) | {"wear_volume": missed * setup.grid.area},
+    )
+
+
+_COLUMNS = {
+    "friction_over_cycles": "friction",
+    "boundary_friction_over_cycles": "boundary_friction",
+    "contact_share": "contact_share",
+    "minimum_film_over_cycles": "minimum_film",
+    "lambda_over_cycles": "lambda_ratio",
+    "lower_rms_over_cycles": "lower_rms",
+    "upper_rms_over_cycles": "upper_rms",
+    "lower_depth_over_cycles": "lower_depth",
+    "upper_depth_over_cycles": "upper_depth",
+    "depth_error_over_cycles": "depth_error",
+}
+_FIGURES = {
+    "friction_final": ("friction", "friction_initial"),
+    "Sq_final": ("lower_rms", "Sq_initial"),
+    "upper_Sq_final": ("upper_rms", "upper_Sq_initial"),
+    "worn_depth": ("lower_depth", ""),
+    "upper_worn_depth": ("upper_depth", ""),
+    "lambda_ratio": ("lambda_ratio", "lambda_ratio_initial"),
+    "contact_share_final": ("contact_share", "contact_share_initial"),
+    "contact_area_fraction": ("area_share", ""),
+    "minimum_film": ("minimum_film", ""),
+}
+"""Fields of the record by columns of the march, at the end, and at the start where that is a figure too."""
+
+
+def summarise(scene: RunningInLifeScene, axes: Sequence[Axis], records: Sequence[Any]) -> dict[str, Any]:
+    """What is the same for all cases."""
+    return {"cycles": scene.life.count, "load_N": scene.load}
+
+
+KIND = Kind.of(
+    vars(),
+    RunningInLifeScene,
+    RunningInLifeRecord,
+    "running-in over a life: wear and tribofilm over millions of cycles in mixed lubrication, in jumps of known error",
+    figures=(
+        "friction-over-life",
+        "wear-over-life",
+        "film-over-life",
+        "jumps",
+        "particles-over-life",
+        "worn-surface",
+        "pressure-map",
+        "film-map",
+    ),
+    headline=("speed_m_s",),
+)

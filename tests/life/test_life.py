@@ -1,0 +1,165 @@
+"""A life of many cycles: volume, closed forms, cycle by cycle, order in the tolerance, the film's balance, resuming."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem import Body, Grid, InputError, Material, generate_surface
+from bem.life.bars import bars_of_jumps
+from bem.life.march import LifeState, advance, run_life
+from bem.life.passes import DryPasses, Passing
+from bem.life.surfaces import GrowingFilm, LifeCase, round_of
+from bem.scenes.packing import packed, unpacked
+from bem.tribofilm import StressActivatedGrowth
+from bem.tribofilm.balance import FilmBalance
+
+STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
+DISTANCE, PRESSURE = 1e-2, 1e8
+GRID = Grid((32, 16), (1e-6, 1e-6), periodic=(True, True))
+
+
+def surfaces(seed=1):
+    return tuple(generate_surface(GRID, rms_height=rms, seed=seed + k, correlation_length=4e-6)
+                 for k, rms in enumerate((300e-9, 100e-9)))  # fmt: skip
+
+
+def case(cycles, tolerance=0.05, positions=4, **changes):
+    contact = DryPasses(
+        GRID, (STEEL, STEEL), np.zeros(GRID.shape), load=PRESSURE * GRID.area, friction=0.1, hardness=6e9
+    )
+    given = {"rates": (2e-17, 1e-17), "distance": DISTANCE, "first_step": 4.0} | changes
+    return LifeCase(GRID, contact, Passing(positions, (True, True)), cycles=cycles, tolerance=tolerance, **given)
+
+
+def test_positions_cover_both_bodies_evenly_in_pairs_of_their_own():
+    for count in (1, 2, 5, 8, 12):
+        pairs = Passing(count, (True, True)).offsets((24, 48))
+        assert len(set(pairs)) == count
+        lower, upper = (sorted(set(each)) for each in zip(*pairs, strict=True))
+        assert lower == [round(24 * j / count) for j in range(count)]
+        assert upper == [round(48 * j / count) for j in range(count)]
+    assert {low for low, _ in Passing(4, (False, True)).offsets((8, 8))} == {0}
+
+
+def test_volume_is_that_of_archard_s_law_and_that_of_the_heights():
+    lower, upper = surfaces()
+    end = run_life(case(300.0), lower, upper)
+    assert end.cycles == 300.0
+    for body, (rate, before) in enumerate(zip((2e-17, 1e-17), (lower, upper), strict=True)):
+        # load, distance and cycles are exact; the contact meets its load to 1e-9
+        assert end.surfaces.volume[body] == pytest.approx(rate * PRESSURE * GRID.area * DISTANCE * 300, rel=1e-8)
+        lost = (before - end.surfaces.heights[body]).sum() * GRID.cell_area
+        assert lost == pytest.approx(end.surfaces.volume[body], rel=1e-9)
+    assert end.over("lower_rms")[-1] < end.over("lower_rms")[0]
+
+
+def test_jumps_find_what_cycle_by_cycle_finds_and_know_their_error():
+    lower, upper = surfaces()
+    cycles, each = 512.0, case(512.0)
+    truth = run_life(replace(each, cycles=1e-9, first_step=1e-9), lower, upper).surfaces
+    for _ in range(128):  # four real cycles, one in each position
+        truth = round_of(each, truth, cycles / 128).surfaces
+    worn = np.sqrt(np.mean((lower - truth.heights[0]) ** 2))
+    errors, rounds = [], []
+    for tolerance in (0.3, 0.1, 0.03):
+        end = run_life(replace(each, tolerance=tolerance, first_step=64.0), lower, upper)
+        errors.append(np.sqrt(np.mean((end.surfaces.heights[0] - truth.heights[0]) ** 2)) / worn)
+        rounds.append(3 * (len(end.rows) - 1) + 2 * end.rejected)
+        assert errors[-1] < tolerance
+    assert rounds[0] < 40  # instead of 128
+    # of first order, steps in powers of two: a tenth of the tolerance leaves between a fifth and a tenth of the error;
+    # what one step misses is what the next makes good, so that all is ten times better than the tolerance of a step
+    assert errors[2] < 0.4 * errors[0]
+    assert errors[1] < errors[0] < 0.03
+
+
+def test_bars_hold_what_much_shorter_jumps_change():
+    lower, upper = surfaces(7)
+    columns = {"rms": "lower_rms", "area": "area_share"}
+    coarse = run_life(case(300.0, tolerance=0.3), lower, upper)
+    fine = run_life(case(300.0, tolerance=0.05), lower, upper)
+    bars = bars_of_jumps(coarse, {**columns, "depth": "lower_depth"})
+    assert bars["depth"] == coarse.over("depth_error")[-1]
+    # under load control the depth is exact, and nothing else is left to scale a bar by: the surface's own error
+    missed = abs(coarse.over("lower_rms")[-1] - fine.over("lower_rms")[-1])
+    assert missed < 0.05 * (fine.over("lower_rms")[0] - fine.over("lower_rms")[-1])
+
+
+def film(**changes):
+    given = {
+        "growth": StressActivatedGrowth.from_electron_volts(1e-2, 0.665, 53.0),
+        "balance": FilmBalance(wear_coefficient=2.0, concentration_constant=1e8),
+        "friction": 0.1,
+        "temperature": lambda pressure: 360.0,
+        "cycle_time": 1e-3,
+    }
+    return GrowingFilm(**given | changes)
+
+
+def test_a_film_alone_meets_its_closed_form_and_hides_the_substrate():
+    flat = np.zeros(GRID.shape)
+    law = film()
+    end = run_life(case(5000.0, rates=(0.0, 0.0), film=law, positions=2), flat, flat)
+    growth = float(law.growth.rate(np.array(0.1 * PRESSURE), 360.0))
+    steady = growth / 2.0
+    # pressure is uniform: h = g/alpha (1 - exp(-alpha t)), integrated exactly by every step
+    assert end.surfaces.film == pytest.approx(np.full(GRID.shape, steady * -np.expm1(-2.0 * 5.0)), rel=1e-6)
+    worn = case(
+        5000.0, film=film(balance=FilmBalance(0.0, 0.0, 1e9, 50e-9)), positions=2, rates=(1e-18, 0.0), distance=1e-6
+    )
+    hidden = run_life(worn, flat, flat)
+    assert hidden.surfaces.volume[0] < 1e-6 * 1e-18 * PRESSURE * GRID.area * 1e-6 * 5000
+    # what wore instead is film, as much as the law says, but for what grew
+    left = float(hidden.surfaces.film.mean())
+    grown = growth * 5.0
+    assert left == pytest.approx(50e-9 + grown - 1e-18 * PRESSURE * 1e-6 * 5000, rel=1e-9)
+
+
+def test_friction_goes_over_to_that_of_the_film():
+    flat = np.zeros(GRID.shape)
+    law = film(friction_on_film=0.05, cycle_time=0.1, balance=FilmBalance(0.0, 0.0, 1e9, 0.0))
+    end = run_life(case(5e4, rates=(0.0, 0.0), film=law, positions=2, first_step=1e4), flat, flat)
+    assert end.over("friction")[0] == pytest.approx(0.1, rel=1e-12)
+    assert end.over("friction")[-1] == pytest.approx(0.05, rel=1e-3)
+
+
+def test_it_goes_on_from_a_checkpoint_to_the_same_bits():
+    lower, upper = surfaces()
+    one = case(100.0, film=film())
+    whole = run_life(one, lower, upper)
+    kept: list[LifeState] = []
+    run_life(one, lower, upper, callback=lambda now: kept.append(unpacked(packed(now))))
+    again = run_life(one, lower, upper, state=kept[2])
+    assert np.array_equal(again.rows, whole.rows)
+    assert np.array_equal(again.surfaces.heights[0], whole.surfaces.heights[0])
+    assert np.array_equal(again.surfaces.film, whole.surfaces.film)
+
+
+def test_a_step_that_misses_is_made_shorter_and_used():
+    lower, upper = surfaces()
+    bold = case(1e5, tolerance=0.05, first_step=4096.0)
+    started = replace(run_life(replace(bold, cycles=1e-9, first_step=1e-9), lower, upper), step=4096.0)
+    state = advance(bold, started)
+    assert state.rejected > 0
+    assert state.over("step")[-1] < 4096.0
+    assert state.over("step_error")[-1] <= 0.05
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"cycles": 0.0}, "cycles 0.0 must be positive"),
+        ({"tolerance": 1.0}, "tolerance 1.0 must lie between 0 and 1"),
+        ({"distance": -1.0}, "distance -1.0 must be >= 0"),
+        ({"rates": (float("nan"), 0.0)}, "lower wear rate nan"),
+    ],
+)
+def test_what_makes_no_life_is_refused(changes, message):
+    with pytest.raises(InputError, match=message):
+        replace(case(10.0), **changes)
+
+
+def test_a_film_with_a_lag_is_refused():
+    with pytest.raises(InputError, match="no lag"):
+        film(balance=FilmBalance(1.0, 2.0, np.inf, 0.0))

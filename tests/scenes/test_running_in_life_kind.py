@@ -1,0 +1,98 @@
+"""Kind running-in-life: a small life in mixed lubrication, resuming, what is refused."""
+
+import numpy as np
+import pytest
+from small_scenes import PATCH
+
+from bem import InputError
+from bem.scenes import PlainContext, get_kind, load_scene
+
+LIFE = PATCH | {
+    "kind": "running-in-life",
+    "name": "small",
+    "seed": 3,
+    "contact": PATCH["contact"] | {"hardness": "2 GPa"},
+    "speeds": {"values": ["0.05 m/s"], "cylinder": 0.9},
+    "sharing": {"film_points": 200},
+    "wear": {
+        "law": {"kind": "archard", "specific_wear_rate": "1e-7 mm^3/(N*m)", "distance": "5.39 um"},
+        "positions": 2,
+    },
+    "life": {"count": 2e4, "tolerance": 0.2, "first_step": 1000.0, "points": 9},
+}
+FILM = {
+    "activation_energy": "0.665 eV",
+    "activation_volume": "53 angstrom^3",
+    "wear_coefficient": "6.9e-4 1/s",
+    "concentration_constant": "1.24e7 1/m",
+    "cycle_time": "1 ms",
+    "temperature": "90 degC",
+}
+COLD = {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}
+PIECES = {"criterion": "von_mises", "depths": {"count": 8, "spacing": "0.1 um"}}
+
+
+def run(scene, context=None):
+    kind = get_kind("running-in-life")
+    resolved = kind.resolve(load_scene(scene))
+    assert kind.plan(resolved).memory > 0
+    context = PlainContext(3) if context is None else context
+    return kind.run(resolved, context), context
+
+
+def test_a_life_wears_grows_counts_pieces_and_goes_on_to_the_same_bits():
+    scene = LIFE | {"tribofilm": FILM, "particles": PIECES}
+    record, context = run(scene)
+    assert record.status == "converged"
+    assert record.Sq_final < record.Sq_initial
+    assert record.friction_over_cycles[0] == pytest.approx(record.friction_initial, rel=0.02)
+    assert record.friction_over_cycles[-1] == pytest.approx(record.friction_final, rel=1e-12)
+    assert record.worn_depth > 0 < record.upper_worn_depth
+    assert record.errors["worn_depth"] == record.jump_error > 0
+    assert record.tribofilm_thickness > 0
+    assert record.tribofilm_thickness == pytest.approx(float(record.film_map.mean()))
+    assert record.particles > 0
+    assert record.particle_equivalent_radius > 1e-8
+    assert (np.diff(record.particles_over_cycles) >= 0).all()
+    assert any("positions" in note for note in context.notes)
+    # from the checkpoint of the very end nothing is left to do, and nothing differs
+    again, _ = run(scene, PlainContext(3, resumed=True, state=context.state))
+    assert again.friction_final == record.friction_final
+    assert np.array_equal(again.height_after, record.height_after)
+    assert again.particles == record.particles
+
+
+THIN = {"viscosity": "2 mPa*s", "pressure_viscosity": "15 1/GPa"}
+
+
+def test_heat_makes_a_film_grow_faster():
+    steel = {"catalogue": "steel-52100", "hardness": "2 GPa"}
+    lower = {"material": steel, "surface": PATCH["lower"]["surface"]}
+    fast = {"values": ["1 m/s"], "cylinder": 0.2}
+    given = LIFE | {"lower": lower, "upper": {"material": steel}, "speeds": fast, "oil": THIN}
+    life = {"life": {"count": 100, "first_step": 100.0}}
+    warm = run(given | life | {"tribofilm": FILM | {"heat": True}})[0].tribofilm_thickness
+    assert warm > 1.1 * run(given | life | {"tribofilm": FILM})[0].tribofilm_thickness
+
+
+def test_a_distance_that_the_speeds_do_not_make_is_said():
+    law = LIFE["wear"]["law"] | {"distance": "54 um"}
+    scene = LIFE | {"wear": LIFE["wear"] | {"law": law}, "life": {"count": 10, "first_step": 10.0}}
+    assert any("is not what these speeds make a place slide" in note for note in run(scene)[1].notes)
+    assert not any("is not what these speeds" in note for note in run(LIFE | {"life": scene["life"]})[1].notes)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"wear": {"law": "von_mises"}}, "cannot be carried over jumps"),
+        ({"particles": PIECES | {"criterion": LIFE["wear"]["law"]}}, "has no pieces"),
+        ({"tribofilm": {k: v for k, v in FILM.items() if k != "temperature"}}, "tribofilm without a temperature"),
+        ({"tribofilm": FILM | {"heat": True}, "upper": {"material": COLD}}, r"tribofilm\.heat: heat of the upper"),
+        ({"contact": PATCH["contact"] | {"loads": ["1 N", "2 N"]}}, "one load"),
+        ({"life": {"tolerance": 0.9}}, r"life\.tolerance"),
+    ],
+)
+def test_messages(change, message):
+    with pytest.raises(InputError, match=message):
+        load_scene(LIFE | change)
