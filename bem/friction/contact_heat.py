@@ -14,7 +14,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from bem.errors import Status
 from bem.friction.boundary import BoundaryFriction, filled_part
@@ -92,6 +91,8 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
 def _zero(missed: Callable[[float], float], near: float) -> float:
     """Where what a coefficient makes of temperature gives itself; temperatures rise with it, so that a law that falls
     with them has one such."""
+    from scipy.optimize import brentq  # a sixth of a second, for laws that temperature changes
+
     high = max(near, 1e-12)
     while missed(high) > 0 and high < 1e3:
         high *= 2

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from bem.grid import FloatArray
 
@@ -17,8 +16,8 @@ def _primitive(angle: float | FloatArray, exit_angle: float) -> float | FloatArr
     ) / math.cos(exit_angle) ** 2
 
 
-EXIT_ANGLE: float = brentq(lambda angle: float(_primitive(angle, angle)), 0.2, 0.8, xtol=1e-15)
-"""Where the film ends: x = sqrt(2 R h_min) tan(0.44346); there h = 1.22575 h_min."""
+EXIT_ANGLE = 0.4435543342177832
+"""Zero of `_primitive(a, a)`. Where the film ends: x = sqrt(2 R h_min) tan(0.44346); there h = 1.22575 h_min."""
 MARTIN_FACTOR = 6 * math.cos(EXIT_ANGLE) ** 2
 """h_min = 4.8950 mu u R / w, u the mean speed."""
 

@@ -183,12 +183,15 @@ class Factors:
     """Spectra of t, d, e, yz, xz, xy at a depth, as they are kept.
 
     parts : real and imaginary part of each, quarter arrays or `Packed`; None for zero.
+    columns : of each, how many wavenumbers along y count; the coefficients of all others are less than the rounding of
+        the largest. Below the surface they fall exponentially on a periodic axis: half of them are left 20 cells down.
     traction : f where the imaginary part of e is left out: in a homogeneous body zz under traction is xz under pressure
         (-z V_xz both), so that part is f (3/2 xz - t/2) of what is kept; None where it is kept.
     """
 
     parts: tuple[tuple[FloatArray | Packed | None, FloatArray | Packed | None], ...]
     parities: tuple[tuple[int, int], ...]
+    columns: tuple[int, ...]
     traction: float | None
 
     @property
@@ -269,8 +272,25 @@ def factors_of(grid: Grid, body: Body, depth: float, acting: Loads) -> Factors:
     def kept(values: FloatArray | None) -> FloatArray | Packed | None:
         return pack(values) if packed and values is not None else values
 
+    columns = [_columns_of(m) for m in whole]
+    if shared:
+        columns[_E] = max(columns[_E], columns[_XZ], columns[_T])
     return Factors(
         tuple((kept(m.real), kept(m.imaginary)) for m in whole),
         tuple((m.real_parity, m.imaginary_parity) for m in whole),
+        tuple(columns),
         acting[1][1] if shared else None,
     )
+
+
+def _columns_of(spectrum: Multiplier) -> int:
+    """How many wavenumbers along y, from zero on, have a coefficient that is not lost beside the largest."""
+    parts = [np.abs(part).max(axis=1) for part in (spectrum.real, spectrum.imaginary) if part is not None]
+    if not parts:
+        return 0
+    highest = np.max(parts, axis=0)
+    return int(np.flatnonzero(highest >= _LOST * highest.max())[-1]) + 1
+
+
+_LOST = 2.0**-53
+"""Half of a double's last digit: sums of what is less differ by what the transforms themselves round off."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -246,6 +247,10 @@ class _Part:
         spectrum = transform.forward(field)
         return cls(grid, body, acting, transform, spectrum, workspace, SPECTRA.begin(), turned)
 
+    @cached_property
+    def _scratch(self) -> FloatArray:
+        return self.transform.empty_field()
+
     def factors(self, depth: float) -> Factors:
         """Spectra of t, d, e, yz, xz, xy at a depth."""
         key = (self.grid, elastic(self.body), depth, self.acting)
@@ -257,11 +262,12 @@ class _Part:
 
     def inverse(self, factors: Factors, component: int, out: FloatArray) -> None:
         """One of t, d, e, yz, xz, xy at the points of its own grid."""
-        self.transform.inverse(self.spectrum, factors.multiplier(component, self.workspace), out)
+        multiplier = factors.multiplier(component, self.workspace)
+        self.transform.inverse(self.spectrum, multiplier, out, columns=factors.columns[component])
 
     def add(self, factors: Factors, component: int, out: FloatArray) -> None:
         """The same added, in the axes of the request: turned, d changes its sign and yz is xz."""
-        scratch = self.transform.zeros_field()
+        scratch = self._scratch
         self.inverse(factors, _TURNED[component] if self.turned else component, scratch)
         if not self.turned:
             out += scratch

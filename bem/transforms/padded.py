@@ -109,17 +109,28 @@ class PaddedTransform:
         return out
 
     def inverse(
-        self, spectrum: ComplexArray, factor: Multiplier | None = None, out: FloatArray | None = None
+        self,
+        spectrum: ComplexArray,
+        factor: Multiplier | None = None,
+        out: FloatArray | None = None,
+        *,
+        columns: int | None = None,
     ) -> FloatArray:
-        """The first (nx, ny) of the field whose spectrum is `spectrum` times `factor`; `spectrum` is kept."""
+        """The first (nx, ny) of the field whose spectrum is `spectrum` times `factor`; `spectrum` is kept.
+
+        columns : how many wavenumbers along y count, from zero on; the others' columns are left out, by whole blocks.
+        """
         out = np.empty(self.shape, self.dtype) if out is None else out
         plain = out if self._is_plain(out) else np.empty(self.shape, self.dtype)
         parts = self._unit if factor is None else factor.factor(self.dtype)
         with self.lock:
             self.ready(get_threads())
-            self._each(loops.columns_in, self._column_blocks, parts, spectrum)
+            blocks = self._column_blocks if columns is None else -(-columns // self._column_block)
+            self._each(loops.columns_in, blocks, parts, spectrum)
+            done = min(blocks * self._column_block, self.spectrum_shape[0])
+            self.room.half[done:] = 0
             self._each(loops.rows_back, self._row_blocks, plain)
-        self._count(inverse=1, rows=self.shape[0], columns=self.spectrum_shape[0])
+        self._count(inverse=1, rows=self.shape[0], columns=done)
         if plain is not out:
             out[...] = plain
         return out

@@ -22,7 +22,6 @@ from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 
 import numpy as np
-from scipy.constants import Boltzmann, electron_volt
 from scipy.optimize import least_squares
 from scipy.special import gammaincc
 
@@ -30,6 +29,7 @@ from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.small_files import read_small
 from bem.tribofilm.evolution import GrowthRate, evolve_film
+from bem.tribofilm.growth import BOLTZMANN, ELECTRON_VOLT
 from bem.tribofilm.properties import FadingSubstrate
 
 _UNFELT = 1e-6
@@ -98,9 +98,9 @@ class ReducedModel:
             1e-9 * self.hardness_length_nm,
             self.temperature_slope,
         )
-        barrier = self.activation_energy_eV * electron_volt
+        barrier = self.activation_energy_eV * ELECTRON_VOLT
         volume = 1e-30 * self.activation_volume_A3 * self.friction * self.pressure_share
-        thermal = Boltzmann * temperature
+        thermal = BOLTZMANN * temperature
 
         def rate(thickness: float) -> float:
             return self.prefactor * math.exp(-max(barrier - volume * hardness(thickness, temperature), 0.0) / thermal)

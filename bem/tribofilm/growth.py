@@ -7,13 +7,15 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from scipy.constants import Boltzmann, electron_volt
 
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.laws import Law, parameter, register
 
 ZERO_CELSIUS = 273.15
+BOLTZMANN = 1.380649e-23
+"""[J/K], exact by definition of the SI, like `ELECTRON_VOLT` [J]."""
+ELECTRON_VOLT = 1.602176634e-19
 
 
 @dataclass(frozen=True)
@@ -51,7 +53,7 @@ class StressActivatedGrowth(GrowthLaw):
         cls, prefactor: float, activation_energy_ev: float, activation_volume_cubic_angstrom: float
     ) -> StressActivatedGrowth:
         """From the units of the literature: m/s, eV and cubic angstrom."""
-        return cls(prefactor, activation_energy_ev * electron_volt, activation_volume_cubic_angstrom * 1e-30)
+        return cls(prefactor, activation_energy_ev * ELECTRON_VOLT, activation_volume_cubic_angstrom * 1e-30)
 
     def rate(self, shear_stress: FloatArray, temperature: float | FloatArray) -> FloatArray:
         """Growth rate [m/s] under a shear stress [Pa] at an absolute temperature [K], one or as many as stresses.
@@ -66,5 +68,5 @@ class StressActivatedGrowth(GrowthLaw):
             raise InputError(f"temperature {temperature!r} must be positive [K]; add 273.15 to degrees Celsius")
         with np.errstate(over="ignore"):  # a barrier beyond all numbers: nothing grows; a work beyond them: no barrier
             barrier = self.activation_energy - np.asarray(shear_stress, dtype=np.float64) * self.activation_volume
-            height = np.maximum(barrier, 0.0) / (Boltzmann * np.asarray(temperature, dtype=np.float64))
+            height = np.maximum(barrier, 0.0) / (BOLTZMANN * np.asarray(temperature, dtype=np.float64))
         return np.asarray(self.prefactor * np.exp(-height))

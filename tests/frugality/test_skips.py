@@ -10,6 +10,7 @@ from mixed_case import STEEL, mixed_case
 import bem.convolution as convolution
 import bem.kernels.coefficients as coefficients
 import bem.stress as stress
+import bem.stress.spectra as stress_spectra
 import bem.transforms as transforms
 from bem import (
     Body,
@@ -281,3 +282,40 @@ def test_a_load_of_zero_and_a_gap_that_stays_open_need_no_convolution():
     apart = solve_contact(GAP, operator, mean_gap=1.0)
     assert apart.load == nothing.load == 0
     assert (nothing.pressure == 0).all()
+
+
+def test_waves_that_do_not_reach_a_depth_are_not_transformed(monkeypatch):
+    """On a periodic axis a wave falls like exp(-q z): at 30 cells down only a third of the wavenumbers are left."""
+    grid = Grid((240, 240), (100e-9, 100e-9), periodic=(False, True))
+    pressure = np.random.default_rng(3).random(grid.shape) * 1e9
+    depths = np.array([0.0, 0.5e-6, 2e-6, 3e-6, 6e-6])
+
+    def columns_and_stress():
+        found = []
+        for depth in depths:
+            transforms.COUNT.reset()
+            six = subsurface_stress(pressure, grid, SOFT, [depth], friction=0.2)[:, 0]
+            found.append((transforms.COUNT.columns, six))
+        return zip(*found, strict=True)
+
+    columns, found = columns_and_stress()
+    monkeypatch.setattr(stress_spectra, "_LOST", 0.0)
+    set_stress_memory(0)
+    set_stress_memory(1 << 29)
+    every, expected = columns_and_stress()
+    assert columns[:2] == every[:2] == (7 * 121, 7 * 121)  # of the pressure, and of six components
+    # whole blocks of columns are left out
+    assert columns[3] < 0.7 * every[3]
+    assert columns[4] < 0.5 * every[4]
+    for k in range(len(depths)):
+        # the transforms round off as much
+        np.testing.assert_allclose(found[k], expected[k], rtol=0, atol=1e-14 * np.abs(expected[k]).max())
+
+
+def test_tractions_at_many_depths_take_one_field_each_to_be_added_from(monkeypatch):
+    made = []
+    real = transforms.PaddedTransform.empty_field
+    monkeypatch.setattr(transforms.PaddedTransform, "empty_field", lambda self: made.append(1) or real(self))
+    rng = np.random.default_rng(4)
+    subsurface_stress(rng.random(GRID.shape), GRID, SOFT, np.arange(6) * 1e-7, traction=rng.random((2, *GRID.shape)))
+    assert len(made) == 2

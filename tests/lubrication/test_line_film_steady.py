@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import brentq
 
 import bem.lubrication.line_continuation as line_continuation
 import bem.lubrication.line_newton as line_newton
 from bem import InputError, Lubricant, Status, solve_line_film
 from bem.benchmarks.line_film import LOADS, PIEZO, film_row, read_table
 from bem.lubrication.line_newton import newton
+from bem.reference_solutions import line_film
 from bem.reference_solutions.line_film import MartinFilm, dowson_higginson_minimum, moes_central
 
 THESIS = {
@@ -187,6 +189,13 @@ def test_shear_force_near_rolling_has_the_sign_of_the_entrainment():
     by_parts = -np.trapezoid(rolling.pressure * rolling.position, rolling.position) / (2 * 0.01)
     # what lies upstream of the mesh is a few per cent of it
     assert by_parts == pytest.approx(rolling.shear_force, rel=0.04)
+
+
+def test_martins_exit_is_the_root_it_is_said_to_be():
+    """Pressure and its slope both vanish there."""
+    assert brentq(lambda angle: float(line_film._primitive(angle, angle)), 0.2, 0.8, xtol=1e-15) == pytest.approx(
+        line_film.EXIT_ANGLE, rel=1e-14
+    )
 
 
 def test_shear_force_of_rigid_sliding_by_quadrature():
