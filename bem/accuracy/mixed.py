@@ -18,11 +18,12 @@ import numpy as np
 from bem.accuracy.bars import GRID, POINTS, ErrorBars, Rule
 from bem.accuracy.contact import surface_is_resolved
 from bem.accuracy.film import FEWEST
+from bem.accuracy.point import FEWEST as FEWEST_CELLS
 from bem.contact.cascade import sample
 from bem.errors import Status
 from bem.friction import MixedSolution
 from bem.friction.balance import BalanceStart, Regime, share_load
-from bem.friction.film import SolvedFilm
+from bem.friction.films import films_of
 from bem.friction.forces import friction_forces, lambda_ratio
 from bem.friction.oil_volume import OilVolume
 from bem.friction.rough_contact import rough_contact
@@ -113,8 +114,9 @@ def solve_coarser_mixed(case: MixedCase) -> CoarserShares:
     grid = case.setup.grid
     if max(grid.shape) < _FEWEST_CELLS:
         return CoarserShares(None, None, why=_COARSE)
-    points = case.setup.film_points
-    other = points // 2 if points >= 2 * FEWEST else 2 * points
+    points = case.setup.film_resolution
+    fewest = FEWEST if case.setup.radii is None else FEWEST_CELLS
+    other = points // 2 if points >= 2 * fewest else 2 * points
     contact = _shares(case, points)
     both = _shares(case, other)
     if {contact.status, both.status} != {Status.CONVERGED}:
@@ -178,12 +180,13 @@ def _shares(case: MixedCase, points: int) -> Shares:
     """
     grid = half_grid(case.setup.grid)
     old, solution = case.setup.grid, case.solution
-    setup = dataclasses.replace(case.setup, grid=grid, film_points=points, film_position=None)
+    setup = dataclasses.replace(case.setup, grid=grid, film_position=None).with_film(points)
     height = sample(case.height, grid.shape, grid.periodic)
-    position = old.x[::2] if not old.periodic[0] else grid.x
-    film = SolvedFilm(
-        setup.line, solution.speeds, position, points, striated_exit=setup.striated_exit, initial=solution.film
+    x, y = (
+        whole[::2] if not periodic else own
+        for whole, own, periodic in zip((old.x, old.y), (grid.x, grid.y), old.periodic, strict=True)
     )
+    film = films_of(setup, solution.speeds, at=(x, y), initial=solution.film)
     rough = rough_contact(setup, height, solution.speeds)
     whole = film.under(min(setup.load, film.largest_load), len(film.errors) - 1, None)
     pressure = None

@@ -19,7 +19,8 @@ from bem.errors import Status
 from bem.friction.boundary import BoundaryFriction, filled_part
 from bem.friction.film import PatchFilm
 from bem.friction.rough_contact import Pressed
-from bem.friction.setup import FilmHeat, MixedSetup
+from bem.friction.setup import MixedSetup
+from bem.friction.smooth import FilmHeat
 from bem.heat.bodies import conductors_of
 from bem.heat.solution import TemperatureSolution
 from bem.heat.steady import surface_temperature
@@ -48,8 +49,9 @@ class ContactHeat:
 
 def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: tuple[float, float]) -> ContactHeat:
     """Of a contact that carries some load, between surfaces that slide at a pair of speeds [m/s], with heat."""
-    heat, law, slide = setup.line.heat, setup.boundary_law, abs(speeds[0] - speeds[1])
+    heat, law, slide = setup.smooth.heat, setup.boundary_law, abs(speeds[0] - speeds[1])
     assert heat is not None
+    assert setup.radius is not None
     bulk, moving = float(setup.lubricant.temperature or 0.0), _moving(heat, setup.radius, speeds)
     pressure, touching = contact.pressure, contact.pressure > 0
     filled = filled_part(pressure, contact.area / setup.slices, setup.grid)

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from bem.errors import Status
 from bem.friction.oil_beside import OilBeside
+from bem.lubrication import FilmSolution
 
 if TYPE_CHECKING:
     from bem.friction.solution import MixedSolution
@@ -58,7 +59,8 @@ class CurvePoint:
     def of(cls, solution: MixedSolution) -> CurvePoint:
         """Those of a solution."""
         area = 0.0 if solution.contact is None else solution.contact.contact_area
-        starved = solution.film.starvation
+        line = solution.film if isinstance(solution.film, FilmSolution) else None
+        starved = None if line is None else line.starvation
         return cls(
             speed=solution.speeds[0],
             friction=solution.friction,
@@ -76,7 +78,7 @@ class CurvePoint:
             loaded_friction=solution.oil.loaded_friction,
             load=solution.load,
             status=solution.status,
-            oil_temperature=_or_nan(solution.film.mean_temperature),
+            oil_temperature=_or_nan(None if line is None else line.mean_temperature),
             contact_temperature=_or_nan(solution.contact_temperature),
             flash_temperature=_or_nan(solution.flash_temperature),
             film_reduction=1.0 if starved is None else starved.reduction,

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from bem.errors import InputError, Status
-from bem.friction.setup import LineContact
+from bem.friction.smooth import LineContact, SmoothContact
 from bem.grid import FloatArray
-from bem.lubrication import FilmSolution, solve_line_film
+from bem.lubrication import FilmSolution, PointFilmSolution, solve_line_film
 from bem.lubrication.steady import check_entrainment, load_range
 
 BALANCE_POINTS = 400
@@ -43,13 +43,19 @@ class PatchFilm:
     minimum_thickness: float
     status: Status = Status.CONVERGED
     notes: tuple[str, ...] = ()
-    solution: FilmSolution | None = None
+    solution: FilmSolution | PointFilmSolution | None = None
     smooth_gap: FloatArray | None = None
 
     @property
     def gap(self) -> FloatArray:
         """What the rough contact's own deflection adds to, but for a constant [m]."""
         return self.thickness if self.smooth_gap is None else self.smooth_gap
+
+
+def middle_line(field: FloatArray) -> FloatArray:
+    """Of a field (nx, ny), or (nx, 1) where it is the same along y, the line (nx,) through the middle."""
+    ny = field.shape[1]
+    return field[:, 0] if ny == 1 else 0.5 * (field[:, (ny - 1) // 2] + field[:, ny // 2])
 
 
 class Film(Protocol):
@@ -119,6 +125,10 @@ class SolvedFilm:
     striated_exit: bool = False
     initial: FilmSolution | None = None
 
+    step = 0.125  # cubic interpolation is then good to about 1e-4 of the film (tested)
+    growth = 0.5
+    continued = True
+
     def __post_init__(self) -> None:
         check_entrainment(self.speeds)
 
@@ -135,9 +145,21 @@ class SolvedFilm:
     def under(self, load: float, level: int, start: PatchFilm | None) -> PatchFilm:
         """As `Film`."""
         points = self.points if level == len(self.errors) - 1 else BALANCE_POINTS
-        initial = self.initial if start is None else start.solution
-        film = solved_line_film(self.contact, self.speeds, load, points, initial=initial)
-        return sampled(film, self.position, load, self.contact, striated_exit=self.striated_exit)
+        initial = self.initial if start is None else line_solution(start.solution)
+        return self.sampled(solved_line_film(self.contact, self.speeds, load, points, initial=initial), load)
+
+    @property
+    def parabola(self) -> FloatArray:
+        """As `TabulatedFilms`."""
+        return self.contact.parabola(self.position, self.position[:0])
+
+    def solve(self, load: float, initial: FilmSolution | None) -> FilmSolution:
+        """As `TabulatedFilms`."""
+        return solved_line_film(self.contact, self.speeds, load, self.points, initial=initial)
+
+    def sampled(self, film: FilmSolution, load: float, stretch: float = 1.0) -> PatchFilm:
+        """As `TabulatedFilms`."""
+        return sampled(film, stretch * self.position, load, self.contact, striated_exit=self.striated_exit)
 
     def resampled(self, film: PatchFilm, position: FloatArray, *, negligible: bool) -> FilmSolution:
         """The film at abscissae [m] of the caller's choice; a film that carries next to nothing may reach beyond them.
@@ -146,19 +168,20 @@ class SolvedFilm:
         ------
         InputError : a film that counts reaches beyond the positions.
         """
-        assert film.solution is not None
+        solution = line_solution(film.solution)
+        assert solution is not None
         if self.contact.heat is not None:
-            pressure, thickness = film.solution.at(position)
-            return replace(film.solution, position=position, pressure=pressure, thickness=thickness)
+            pressure, thickness = solution.at(position)
+            return replace(solution, position=position, pressure=pressure, thickness=thickness)
         try:
             return solved_line_film(
-                self.contact, self.speeds, film.load, self.points, initial=film.solution, position=position
+                self.contact, self.speeds, film.load, self.points, initial=solution, position=position
             )
         except InputError:
             if not negligible:
                 raise
-        pressure, thickness = film.solution.at(position)
-        return replace(film.solution, position=position, pressure=pressure, thickness=thickness)
+        pressure, thickness = solution.at(position)
+        return replace(solution, position=position, pressure=pressure, thickness=thickness)
 
 
 def largest_film_load(contact: LineContact, speeds: Sequence[float]) -> float:
@@ -188,14 +211,19 @@ def sampled(
         status=film.status,
         notes=film.notes,
         solution=film,
-        smooth_gap=smooth_gap(thickness[:, None], position[:, None], load, contact),
+        smooth_gap=smooth_gap(thickness[:, None], contact.parabola(position, position[:0]), load, contact),
     )
 
 
-def smooth_gap(thickness: FloatArray, position: FloatArray, load: float, contact: LineContact) -> FloatArray | None:
-    """The gap [m] at abscissae [m] that a film's own pressure makes, where its thickness has all of the load's
-    deflection: the parabola, and of the deflection the film's part. None where the thickness is that gap."""
+def line_solution(film: FilmSolution | PointFilmSolution | None) -> FilmSolution | None:
+    """The same, known to be of a line contact if there is one."""
+    assert film is None or isinstance(film, FilmSolution)
+    return film
+
+
+def smooth_gap(thickness: FloatArray, parabola: FloatArray, load: float, contact: SmoothContact) -> FloatArray | None:
+    """The gap [m] that a film's own pressure makes, where its thickness has all of the load's deflection: undeformed
+    the parabola [m], and of the deflection the film's part. None where the thickness is that gap."""
     if contact.deforming_load is None:
         return None
-    share, parabola = load / contact.deforming_load, position**2 / (2 * contact.radius)
-    return parabola + share * (thickness - parabola)
+    return parabola + load / contact.deforming_load * (thickness - parabola)

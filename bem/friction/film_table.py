@@ -1,70 +1,83 @@
-"""Films of a line contact interpolated in the load they carry: one table serves all cycles of a run at one speed."""
+"""Films of a smooth contact interpolated in the load they carry: one table serves all cycles of a run at one speed."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from typing import Any, Protocol
 
 import numpy as np
 
 from bem.errors import InputError, Status
-from bem.friction.film import PatchFilm, largest_film_load, sampled, smooth_gap, solved_line_film
-from bem.friction.setup import LineContact
+from bem.friction.film import PatchFilm, smooth_gap
+from bem.friction.smooth import SmoothContact
 from bem.grid import FloatArray
-from bem.lubrication import FilmSolution
-from bem.lubrication.steady import check_entrainment
 
-LOAD_STEP = 0.125
-"""Step in ln(film load): cubic interpolation is then good to about 1e-4 of the film (tested)."""
+
+class TabulatedFilms(Protocol):
+    """What is tabulated: the films of one contact at one pair of speeds, which lie alike in units of Hertz' contact."""
+
+    @property
+    def contact(self) -> SmoothContact:
+        """The smooth contact and its oil."""
+
+    @property
+    def speeds(self) -> tuple[float, float]:
+        """Of flat and cylinder or ball [m/s]."""
+
+    @property
+    def largest_load(self) -> float:
+        """Load [N] up to which there are films."""
+
+    @property
+    def step(self) -> float:
+        """In ln(film load), for which cubic interpolation is well within the error of the films (tested)."""
+
+    @property
+    def growth(self) -> float:
+        """Power of the load that Hertz' contact grows with."""
+
+    @property
+    def continued(self) -> bool:
+        """Whether a film starts from another, on which its last bits hang then."""
+
+    @property
+    def parabola(self) -> FloatArray:
+        """The undeformed gap on the patch [m]."""
+
+    def solve(self, load: float, initial: Any) -> Any:
+        """The film at a load [N], from one nearby."""
+
+    def sampled(self, film: Any, load: float, stretch: float) -> PatchFilm:
+        """A solved film at the patch's abscissae times `stretch`."""
 
 
 class FilmTable:
-    """Steady films of one line contact at one pair of speeds, over the load they carry; a `Film`.
+    """Steady films of one contact at one pair of speeds, over the load they carry; a `Film`.
 
     Parameters
     ----------
-    position : (nx,) abscissae at which films are wanted [m].
-    contact : the smooth contact and its oil.
-    load : the largest load, on the whole width [N]; more than a film is looked for is cut to that.
-    speeds : (u1, u2) of flat and cylinder [m/s].
-    points : nodes of the films' own mesh.
+    films : that are tabulated.
+    load : the largest load, on the whole contact [N]; more than a film is looked for is cut to that.
 
     A film between two entries is interpolated by cubics in ln(load) through the four nearest, at abscissae in units of
-    the half-width, which moves with the load that deforms the bodies. Entries are solved as far down as is asked for,
-    each started from the one above: the same bits whatever is asked for first.
-
-    Raises
-    ------
-    InputError : speeds that are not finite or entrain nothing.
+    Hertz' contact, which moves with the load that deforms the bodies. Entries are solved as far down as is asked for,
+    each started from the one above where films start from one another: the same bits whatever is asked for first.
     """
 
-    def __init__(
-        self,
-        position: FloatArray,
-        contact: LineContact,
-        *,
-        load: float,
-        speeds: Sequence[float],
-        points: int = 2000,
-    ) -> None:
-        check_entrainment(speeds)
-        self.position = position
-        self.contact = contact
-        self.speeds = (float(speeds[0]), float(speeds[1]))
-        self.points = points
-        self.largest_load = min(load, largest_film_load(contact, self.speeds))
+    def __init__(self, films: TabulatedFilms, *, load: float) -> None:
+        self.films = films
+        self.contact = films.contact
+        self.speeds = films.speeds
+        self.largest_load = min(load, films.largest_load)
         self.errors = (0.0,)
-        self.entries: list[FilmSolution] = []
+        self.entries: dict[int, Any] = {}
 
-    def solve(self, load: float, initial: FilmSolution | None = None) -> FilmSolution:
-        """The film itself at a load [N]."""
-        return solved_line_film(self.contact, self.speeds, load, self.points, initial=initial)
-
-    def entry(self, index: int) -> FilmSolution:
-        """The film at largest_load * exp(-index LOAD_STEP)."""
-        while len(self.entries) <= index:
-            last = self.entries[-1] if self.entries else None
-            self.entries.append(self.solve(self._load(len(self.entries)), last))
+    def entry(self, index: int) -> Any:
+        """The film at largest_load * exp(-index films.step)."""
+        missing = range(len(self.entries), index + 1) if self.films.continued else (index,)
+        for at in missing:
+            if at not in self.entries:
+                self.entries[at] = self.films.solve(self._load(at), self.entries.get(at - 1))
         return self.entries[index]
 
     def under(self, load: float, level: int = 0, start: PatchFilm | None = None) -> PatchFilm:
@@ -76,15 +89,15 @@ class FilmTable:
         """
         if not 0 < load <= self.largest_load * (1 + 1e-12):
             raise InputError(f"load: {load!r} N must lie between 0 and the table's {self.largest_load:g} N")
-        place = max(math.log(self.largest_load / load) / LOAD_STEP, 0.0)
+        place = max(math.log(self.largest_load / load) / self.films.step, 0.0)
         if place < 1e-9:
-            return self._sampled(0, self.position)
+            return self._sampled(0)
         first = max(math.floor(place) - 1, 0)
         weights = [math.prod((place - first - j) / (k - j) for j in range(4) if j != k) for k in range(4)]
-        # half-widths of entry and load: the abscissa that corresponds
-        moves = 0.0 if self.contact.deforming_load is not None else 0.5 * LOAD_STEP
+        # Hertz' contacts of entry and load: the abscissae that correspond
+        moves = 0.0 if self.contact.deforming_load is not None else self.films.growth * self.films.step
         stretch = [math.exp(moves * (place - first - k)) for k in range(4)]
-        films = [self._sampled(first + k, self.position * stretch[k]) for k in range(4)]
+        films = [self._sampled(first + k, stretch[k]) for k in range(4)]
 
         def mean(values: list[FloatArray]) -> FloatArray:
             return sum((w * v for w, v in zip(weights, values, strict=True)), np.zeros_like(values[0]))
@@ -102,18 +115,18 @@ class FilmTable:
             ),
             status=failed[0] if failed else Status.CONVERGED,
             notes=films[1].notes,
-            smooth_gap=smooth_gap(thickness, self.position[:, None], load, self.contact),
+            smooth_gap=smooth_gap(thickness, self.films.parabola, load, self.contact),
         )
 
     def error(self, load: float) -> float:
         """Largest difference between the interpolated thickness and that of the film solved at this very load [N],
         relative to the latter. One film solve."""
-        nearest = self.entry(max(round(math.log(self.largest_load / load) / LOAD_STEP), 0))
-        solved = sampled(self.solve(load, nearest), self.position, load, self.contact)
+        nearest = self.entry(max(round(math.log(self.largest_load / load) / self.films.step), 0))
+        solved = self.films.sampled(self.films.solve(load, nearest), load, 1.0)
         return float(np.max(np.abs(self.under(load).thickness / solved.thickness - 1)))
 
     def _load(self, index: int) -> float:
-        return self.largest_load * math.exp(-LOAD_STEP * index)
+        return self.largest_load * math.exp(-self.films.step * index)
 
-    def _sampled(self, index: int, position: FloatArray) -> PatchFilm:
-        return sampled(self.entry(index), position, self._load(index), self.contact)
+    def _sampled(self, index: int, stretch: float = 1.0) -> PatchFilm:
+        return self.films.sampled(self.entry(index), self._load(index), stretch)

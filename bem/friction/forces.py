@@ -41,7 +41,7 @@ class Forces:
 def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup, speeds: tuple[float, float]) -> Forces:
     """Both parts of friction at a pair of speeds (u1, u2) [m/s]."""
     slide, heat = abs(speeds[0] - speeds[1]), None
-    if setup.line.heat is not None and contact is not None and slide > 0 and contact.pressure.any():
+    if setup.smooth.heat is not None and contact is not None and slide > 0 and contact.pressure.any():
         heat = contact_heat(film, contact, setup, speeds)
     coefficient = _boundary_coefficient(contact, setup, slide) if heat is None else heat.coefficient
     if contact is None:

@@ -20,20 +20,24 @@ from bem.errors import InputError, Status
 from bem.friction.balance import Balance, BalanceStart, Regime, share_load
 from bem.friction.boundary import BoundaryFrictionGiven
 from bem.friction.curves import relative_difference
-from bem.friction.film import PatchFilm, SolvedFilm
+from bem.friction.film import PatchFilm, SolvedFilm, middle_line
+from bem.friction.films import SolvedFilms, films_of
 from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, validity_notes
 from bem.friction.oil_beside import OilBeside, oil_notes
 from bem.friction.oil_sensitivity import oil_beside
 from bem.friction.oil_volume import OilVolume
 from bem.friction.rough_contact import RoughContact, rough_contact
-from bem.friction.setup import MixedSetup
+from bem.friction.setup import FILM_CELLS, MixedSetup
 from bem.friction.solution import MixedSolution
 from bem.grid import FloatArray, Grid
-from bem.lubrication import Lubricant
+from bem.lubrication import FilmSolution, Lubricant, PointFilmSolution
 from bem.lubrication.rough_walls import WallFactors
 from bem.lubrication.steady import check_entrainment
 from bem.lubrication.supply import Supply
 from bem.materials import Body
+
+LARGEST_ERROR = 0.01
+"""Of a film under the whole load, whose minimum makes the lambda ratio."""
 
 
 def solve_mixed(  # reason: the signature is a promise to users' scripts; behind it is one set-up
@@ -41,8 +45,9 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     height: FloatArray,
     grid: Grid,
     bodies: Body | tuple[Body, Body],
-    radius: float,
-    width: float,
+    radius: float | None = None,
+    width: float | None = None,
+    radii: Sequence[float] | None = None,
     load: float,
     speeds: Sequence[float],
     lubricant: Lubricant,
@@ -50,6 +55,7 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     hardness: float | None = None,
     tolerance: float = 1e-4,
     film_points: int = 2000,
+    film_cells: int = FILM_CELLS,
     contact_model: str = "coupled",
     asperity_separation: str = "volume",
     contact_tolerance: float = 1e-6,
@@ -61,23 +67,25 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     supply: Supply | float | None = None,
     thermal: str = "off",
 ) -> MixedSolution:
-    """Friction of a rough cylinder on a flat in mixed lubrication.
+    """Friction of a rough cylinder, ball or ellipsoid on a flat in mixed lubrication.
 
     Parameters
     ----------
     height : (nx, ny), roughness of both surfaces together [m], out of the flat; its mean does not matter.
     grid : of the rough patch, centred under the cylinder; free along x and periodic along y as a rule. Its length
-        along y is one slice of the contact.
+        along y is one slice of the contact. Under a ball it is free, and holds the contact.
     bodies : one Body (the other rigid) or a pair.
     radius, width : of the cylinder [m].
+    radii : (Rx, Ry) of relative curvature of a ball or ellipsoid [m], in place of radius and width. Its film
+        (`solve_point_film`) is flooded, isothermal and between smooth walls.
     load : on the whole width [N].
-    speeds : (u1, u2) of flat and cylinder [m/s].
+    speeds : (u1, u2) of flat and cylinder or ball along x [m/s].
     lubricant : the oil.
     boundary_friction : coefficient where the surfaces touch; or a law of `bem.friction.boundary`, as an object or as a
         table such as {"kind": "pressure_dependent", "shear_strength": 1e6, "pressure_coefficient": 0.1}.
     hardness : cap of the contact pressure [Pa]; None is elastic.
     tolerance : of the balance, (F_H + F_C - load) / load.
-    film_points : nodes of the film's own mesh.
+    film_points : nodes of the film's own mesh. film_cells : of a ball's film along an axis.
     contact_model : "coupled" (the half-space), or "uncoupled" (every summit a Hertz sphere), the usual baseline.
     asperity_separation : distance of the mean planes for uncoupled asperities: "volume" keeps the volume of oil between
         the surfaces, cut where they overlap; "film" is the film thickness itself.
@@ -120,12 +128,14 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
         bodies=bodies,
         radius=radius,
         width=width,
+        radii=radii,
         load=load,
         lubricant=lubricant,
         boundary_friction=boundary_friction,
         hardness=hardness,
         tolerance=tolerance,
         film_points=film_points,
+        film_cells=film_cells,
         contact_model=contact_model,
         asperity_separation=asperity_separation,
         contact_tolerance=contact_tolerance,
@@ -212,14 +222,7 @@ def solve_setup(
     check_entrainment(speeds)
     if not (initial is None or isinstance(initial, MixedSolution)):
         raise InputError(f"initial: {type(initial).__name__} is not a MixedSolution")
-    film = SolvedFilm(
-        setup.line,
-        (float(speeds[0]), float(speeds[1])),
-        setup.grid.x,
-        setup.film_points,
-        striated_exit=setup.striated_exit,
-        initial=None if initial is None else initial.film,
-    )
+    film = films_of(setup, speeds, initial=None if initial is None else initial.film)
     rough = rough_contact(setup, height, film.speeds)
     whole, films = _whole_film(film, rough, setup.load)
     balance = share_load(film, rough, setup.load, setup.tolerance, whole, _start(setup, film.speeds, initial))
@@ -227,17 +230,19 @@ def solve_setup(
     return _solution(setup, height, film, rough, whole, balance, None if initial is None else initial.oil)
 
 
-def _whole_film(film: SolvedFilm, rough: RoughContact, load: float) -> tuple[PatchFilm, int]:
+def _whole_film(film: SolvedFilms, rough: RoughContact, load: float) -> tuple[PatchFilm, int]:
     """Film under the whole load, or under as much as there are films for, and how many were solved: a finer one only
-    where the coarser clears the roughness."""
+    where the coarser clears the roughness, or says too little of the lambda ratio."""
     load = min(load, film.largest_load)
     whole: PatchFilm | None = None
-    for level in range(len(film.errors)):
-        whole = film.under(load, level, whole)
+    levels = [level for level, error in enumerate(film.errors) if error <= LARGEST_ERROR]
+    solved = 0
+    for level in levels:
+        whole, solved = film.under(load, level, whole), solved + 1
         if not rough.clears(whole):
             break
     assert whole is not None
-    return whole, level + 1
+    return whole, solved
 
 
 def _start(setup: MixedSetup, speeds: tuple[float, float], initial: MixedSolution | None) -> BalanceStart:
@@ -252,7 +257,7 @@ def _start(setup: MixedSetup, speeds: tuple[float, float], initial: MixedSolutio
 def _solution(
     setup: MixedSetup,
     height: FloatArray,
-    film: SolvedFilm,
+    film: SolvedFilms,
     rough: RoughContact,
     whole: PatchFilm,
     balance: Balance,
@@ -262,9 +267,10 @@ def _solution(
     forces = friction_forces(found, contact, setup, film.speeds)
     friction = (forces.boundary + forces.film) / setup.load
     oil = oil_beside(setup, height, balance, whole, speeds=film.speeds, friction=friction, before=before)
-    returned = found.solution
+    returned: FilmSolution | PointFilmSolution | None = found.solution
     assert returned is not None
     if setup.film_position is not None:
+        assert isinstance(film, SolvedFilm)
         negligible = balance.regime is Regime.BOUNDARY
         returned = film.resampled(found, setup.film_position, negligible=negligible)
     return MixedSolution(
@@ -277,7 +283,7 @@ def _solution(
         film_load=found.load,
         film=returned,
         contact=None if contact is None else contact.solution,
-        separation=found.thickness[:, 0] if contact is None else contact.separation,
+        separation=middle_line(found.thickness) if contact is None else contact.separation,
         lambda_ratio=lambda_ratio(whole, height),
         minimum_film=found.minimum_thickness,
         contact_area=0.0 if contact is None else contact.area,
@@ -286,6 +292,7 @@ def _solution(
         imbalance=balance.imbalance,
         oil_imbalance=balance.oil_imbalance,
         oil=oil,
+        patch_film=dataclasses.replace(found, solution=None),
         balance_slope=balance.slope,
         status=_status(balance.status, forces),
         grid=setup.grid,

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from bem.errors import Status
 from bem.friction.balance import Balance, BalanceStart, Regime, share_load
-from bem.friction.film import BALANCE_POINTS, PatchFilm, SolvedFilm
+from bem.friction.film import BALANCE_POINTS, PatchFilm
+from bem.friction.films import films_of
 from bem.friction.forces import friction_forces
 from bem.friction.oil_beside import OilBeside
 from bem.friction.oil_volume import OilVolume
+from bem.friction.point_film import BALANCE_CELLS
 from bem.friction.rough_contact import rough_contact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
@@ -50,9 +50,8 @@ def oil_beside(
     counted = replace(
         setup, oil_volume=OilVolume.LOADED, contact_tolerance=max(setup.contact_tolerance, TOLERANCE / 100)
     )
-    film = SolvedFilm(
-        counted.line, speeds, setup.grid.x, min(setup.film_points, BALANCE_POINTS), striated_exit=setup.striated_exit
-    )
+    few = BALANCE_POINTS if setup.radii is None else BALANCE_CELLS
+    film = films_of(counted, speeds, resolution=min(setup.film_resolution, few))
     start = BalanceStart(_first_load(found.film.load, setup.load, before), 1.0, found.contact.pressure)
     other = share_load(
         film, rough_contact(counted, height, speeds), setup.load, max(setup.tolerance, TOLERANCE), whole, start
@@ -78,5 +77,5 @@ def _first_load(found: float, load: float, before: OilBeside | None) -> float:
 
 def share_beside(setup: MixedSetup, film: PatchFilm) -> float:
     """Of a film's oil on the patch, the share beside Hertz' contact under the whole load."""
-    beside = np.abs(setup.grid.x) > setup.line.half_width(setup.load)
+    beside = setup.smooth.beside(setup.grid, setup.load)
     return float(film.thickness[beside].sum() / film.thickness.sum())

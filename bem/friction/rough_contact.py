@@ -33,7 +33,7 @@ from bem.friction.asperities import (
     volume_shift,
 )
 from bem.friction.boundary import reference_pressure
-from bem.friction.film import PatchFilm
+from bem.friction.film import PatchFilm, middle_line
 from bem.friction.oil_volume import OilVolume, mean_where_counted
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
@@ -46,8 +46,8 @@ class Pressed:
     load : on the whole contact [N]. opening : mean distance of the surfaces that oil has to fill, where it is counted
     [m]. pressure : (nx, ny) [Pa]. approach : by how much the mean planes are closer than the film is thick [m]. area :
     real, on the whole contact [m^2]. convolutions : spent. status : outcome. solution : of the patch. notes : what the
-    solution says of itself. separation : (nx,) of the undeformed mean planes [m]. opening_error : how well the opening
-    is known [m].
+    solution says of itself. separation : (nx,) of the undeformed mean planes, on the middle line [m]. opening_error :
+    how well the opening is known [m].
     """
 
     load: float
@@ -118,9 +118,9 @@ def reference_friction(setup: MixedSetup, height: FloatArray, speeds: Sequence[f
         return law.constant
     if sliding_speed == 0:
         return 0.0
-    line = setup.line
-    smooth = setup.load / (2 * line.half_width(setup.load) * setup.width)
-    pressure = reference_pressure(height, setup.grid, line.contact_modulus, smooth, setup.hardness)
+    smooth = setup.smooth
+    mean = smooth.mean_pressure(setup.load)
+    pressure = reference_pressure(height, setup.grid, smooth.contact_modulus, mean, setup.hardness)
     return law.coefficient(pressure, sliding_speed)
 
 
@@ -197,7 +197,7 @@ class CoupledContact:
             convolutions=solution.convolutions,
             status=solution.status,
             solution=solution,
-            separation=film.gap[:, 0] - solution.approach,
+            separation=middle_line(film.gap) - solution.approach,
             notes=solution.notes,
             opening_error=tolerance * float(gap.std()),
         )
@@ -244,7 +244,7 @@ class UncoupledAsperities:
             self._separation(film),
             self._summits,
             load / self.setup.slices,
-            contact_modulus=self.setup.line.contact_modulus,
+            contact_modulus=self.setup.smooth.contact_modulus,
             hardness=self.setup.hardness,
         )
         return self._shifted(film, shift)
@@ -258,7 +258,7 @@ class UncoupledAsperities:
             self._summits,
             self.setup.grid,
             shift=shift,
-            contact_modulus=self.setup.line.contact_modulus,
+            contact_modulus=self.setup.smooth.contact_modulus,
             hardness=self.setup.hardness,
         )
         if self.setup.asperity_separation == "film":
@@ -274,5 +274,5 @@ class UncoupledAsperities:
             convolutions=0.0,
             status=Status.CONVERGED,
             solution=solution,
-            separation=film.thickness[:, 0] - shift,
+            separation=middle_line(film.thickness) - shift,
         )

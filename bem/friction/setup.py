@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from bem.errors import InputError
 from bem.friction.boundary import BoundaryFriction, BoundaryFrictionGiven, boundary_law
 from bem.friction.oil_volume import OilVolume
+from bem.friction.smooth import FilmHeat, LineContact, PointContact
 from bem.grid import FloatArray, Grid
 from bem.heat.bodies import conductors_of
 from bem.lubrication import Lubricant
@@ -20,42 +21,10 @@ from bem.materials import Body, contact_modulus
 
 CONTACT_MODELS = ("coupled", "uncoupled")
 SEPARATIONS = ("volume", "film")
+FILM_CELLS = 96
+"""Of a ball's film, along an axis."""
 HEAT_NEEDS = ("temperature", "density", "heat_capacity", "thermal_conductivity", "temperature_viscosity")
 """Of an oil."""
-
-
-@dataclass(frozen=True)
-class FilmHeat:
-    """Which model of the film's heat, as of `solve_line_film`, and the flat and the cylinder that it enters."""
-
-    model: str
-    bodies: tuple[Body, Body]
-
-
-@dataclass(frozen=True)
-class LineContact:
-    """A cylinder on a flat, and the oil: radius and width [m], E* of the pair [Pa]; how roughness changes the flow;
-    load on the whole width [N] that deforms the bodies where a film has a part of it (`OilVolume.LOADED`), None where
-    the film's own does; how much oil there is, None where the inlet is flooded; its heat, None where it has none."""
-
-    radius: float
-    width: float
-    contact_modulus: float
-    lubricant: Lubricant
-    flow_factors: WallFactors | str = "off"
-    deforming_load: float | None = None
-    supply: Supply | None = None
-    heat: FilmHeat | None = None
-
-    def film_modulus(self, load: float) -> float:
-        """E* [Pa] of the bodies as a film feels it that carries a load on the whole width [N]."""
-        return (
-            self.contact_modulus if self.deforming_load is None else self.contact_modulus * load / self.deforming_load
-        )
-
-    def half_width(self, load: float) -> float:
-        """Hertz' half-width [m] under a load on the whole width [N]; Johnson (1985), eq. 4.43."""
-        return math.sqrt(4 * load / self.width * self.radius / (math.pi * self.contact_modulus))
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,14 +39,16 @@ class MixedSetup:
 
     grid: Grid
     bodies: Body | tuple[Body, Body]
-    radius: float
-    width: float
     load: float
     lubricant: Lubricant
     boundary_friction: BoundaryFrictionGiven
+    radius: float | None = None
+    width: float | None = None
+    radii: Sequence[float] | None = None
     hardness: float | None = None
     tolerance: float = 1e-4
     film_points: int = 2000
+    film_cells: int = FILM_CELLS
     contact_model: str = "coupled"
     asperity_separation: str = "volume"
     contact_tolerance: float = 1e-6
@@ -91,11 +62,13 @@ class MixedSetup:
     def __post_init__(self) -> None:
         if not isinstance(self.grid, Grid):
             raise InputError(f"grid: {self.grid!r} is not a Grid")
-        messages = [*self._numbers(), *self._choices()]
+        messages = [*self._geometry(), *self._numbers(), *self._choices()]
         if messages:
             raise InputError(messages)
-        for name in ("radius", "width", "load"):
+        for name in ("load",) if self.radii is not None else ("radius", "width", "load"):
             object.__setattr__(self, name, float(getattr(self, name)))
+        if self.radii is not None:
+            object.__setattr__(self, "radii", tuple(float(r) for r in self.radii))
         object.__setattr__(self, "oil_volume", OilVolume(self.oil_volume))
         object.__setattr__(self, "supply", checked_supply(self.supply))
         friction = self.boundary_friction
@@ -112,12 +85,35 @@ class MixedSetup:
             object.__setattr__(self, "film_position", np.asarray(self.film_position, dtype=np.float64))
         self._check_reach()
 
+    def _geometry(self) -> list[str]:
+        """A cylinder of some width, or a ball or ellipsoid, whose film has less to it."""
+        names = ("radius", "width")
+        if self.radii is None:
+            missing = [name for name in names if getattr(self, name) is None]
+            values = {name: getattr(self, name) for name in names if name not in missing}
+            advice = "give radius and width of a cylinder, or radii (Rx, Ry) of a ball or ellipsoid"
+            return [f"{name}: missing; {advice}" for name in missing] + _not_positive(values)
+        if any(getattr(self, name) is not None for name in names):
+            return ["radii: given beside radius or width; give radii for a ball, radius and width for a cylinder"]
+        try:
+            radii = tuple(self.radii)
+        except TypeError:
+            radii = ()
+        if len(radii) != 2:
+            return [f"radii: {self.radii!r} must be two positive, finite radii (Rx, Ry) [m]"]
+        messages = _not_positive({"radii": radii[0]}) or _not_positive({"radii": radii[1]})
+        left = {"flow_factors": self.flow_factors, "supply": self.supply or "off", "thermal": self.thermal}
+        left |= {"striated_exit": self.striated_exit or "off"}
+        left |= {"film_position": "off" if self.film_position is None else "given"}
+        for name, value in left.items():
+            if not (isinstance(value, str) and value == "off"):
+                messages.append(f"{name}: the film of a ball has none; leave it out, or take a cylinder")
+        if any(self.grid.periodic):
+            messages.append("grid: the patch holds the contact of a ball and goes on nowhere; make it periodic nowhere")
+        return messages
+
     def _numbers(self) -> list[str]:
-        messages = []
-        for name in ("radius", "width", "load"):
-            value = getattr(self, name)
-            if not (_real(value) and value > 0):
-                messages.append(f"{name}: {value!r} must be positive and finite")
+        messages = _not_positive({"load": self.load})
         messages += [*self._boundary_friction(), *self._supply(), *self._heat()]
         if self.hardness is not None and not (_real(self.hardness) and self.hardness > 0):
             messages.append(f"hardness: {self.hardness!r} must be positive [Pa], or None for elastic contact")
@@ -127,6 +123,8 @@ class MixedSetup:
             messages.append(f"contact_tolerance: {self.contact_tolerance!r} must lie between 0 and 1")
         if not (isinstance(self.film_points, (int, np.integer)) and 100 <= self.film_points <= 20000):
             messages.append(f"film_points: {self.film_points!r} must be an integer from 100 to 20000")
+        if not (isinstance(self.film_cells, (int, np.integer)) and 32 <= self.film_cells <= 1024):
+            messages.append(f"film_cells: {self.film_cells!r} must be an integer from 32 to 1024")
         return messages
 
     def _boundary_friction(self) -> list[str]:
@@ -192,21 +190,29 @@ class MixedSetup:
                 f"height: the rough patch reaches from {x[0]:g} to {x[-1]:g} m, beyond the film grid's "
                 f"{position[0]:g} to {position[-1]:g} m; make the patch smaller or film_position longer"
             )
-        half_width = self.line.half_width(self.load)
-        if isinstance(self.supply, InletDistance) and self.supply.distance <= half_width:
-            raise InputError(inside_hertz(self.supply, half_width))
-        if 0.5 * self.grid.lengths[0] < half_width:
-            raise InputError(
-                f"grid: the rough patch reaches {0.5 * self.grid.lengths[0]:.3g} m to either side, less than the "
-                f"contact's half-width {half_width:.3g} m; make it at least that long"
-            )
+        half_axes = self.smooth.half_axes(self.load)
+        if isinstance(self.supply, InletDistance) and self.supply.distance <= half_axes[0]:
+            raise InputError(inside_hertz(self.supply, half_axes[0]))
+        for axis, length, half in zip("xy", self.grid.lengths, half_axes, strict=True):
+            if math.isfinite(half) and 0.5 * length < half:
+                name, there = (
+                    ("half-width", "") if self.radii is None else (f"half-axis along {axis}", f" along {axis}")
+                )
+                raise InputError(
+                    f"grid: the rough patch reaches {0.5 * length:.3g} m to either side{there}, less than the "
+                    f"contact's {name} {half:.3g} m; make it at least that long"
+                )
 
     @property
-    def line(self) -> LineContact:
+    def smooth(self) -> LineContact | PointContact:
         """The smooth contact and its oil."""
         bodies = (self.bodies,) if isinstance(self.bodies, Body) else self.bodies
         modulus = contact_modulus(*(body.material for body in bodies))
         deforming = self.load if self.counted is OilVolume.LOADED else None
+        if self.radii is not None:
+            return PointContact((self.radii[0], self.radii[1]), modulus, self.lubricant, deforming)
+        assert self.radius is not None
+        assert self.width is not None
         supply = checked_supply(self.supply)
         heat = None if self.thermal == "off" else FilmHeat(self.thermal, (bodies[0], bodies[-1]))
         return LineContact(self.radius, self.width, modulus, self.lubricant, self.flow_factors, deforming, supply, heat)
@@ -224,8 +230,27 @@ class MixedSetup:
 
     @property
     def slices(self) -> float:
-        """How many patches side by side make the width."""
-        return self.width / self.grid.lengths[1]
+        """How many patches side by side make the contact."""
+        return self.smooth.slices(self.grid)
+
+    @property
+    def film_resolution(self) -> int:
+        """Points of the film's mesh, or the cells of a ball's along an axis."""
+        return self.film_points if self.radii is None else self.film_cells
+
+    def with_film(self, resolution: int) -> MixedSetup:
+        """The same with a film of another resolution."""
+        if self.radii is None:
+            return replace(self, film_points=resolution)
+        return replace(self, film_cells=resolution)
+
+
+def _not_positive(values: Mapping[str, object]) -> list[str]:
+    return [
+        f"{name}: {value!r} must be positive and finite"
+        for name, value in values.items()
+        if not (_real(value) and value > 0)  # type: ignore[operator]
+    ]
 
 
 def _real(value: object) -> bool:

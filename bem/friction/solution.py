@@ -11,9 +11,10 @@ from bem.errors import Status
 from bem.friction.asperities import AsperityContact
 from bem.friction.balance import Regime
 from bem.friction.boundary import BoundaryFrictionGiven, boundary_law, filled_part
+from bem.friction.film import PatchFilm, middle_line
 from bem.friction.oil_beside import OilBeside
 from bem.grid import FloatArray, Grid
-from bem.lubrication import FilmSolution
+from bem.lubrication import FilmSolution, PointFilmSolution
 from bem.representation import readable
 
 
@@ -24,14 +25,14 @@ class MixedSolution:
 
     Attributes
     ----------
-    speeds : (u1, u2) of flat and cylinder [m/s].
+    speeds : (u1, u2) of flat and cylinder or ball [m/s].
     friction : coefficient, (boundary part + film part) / load, positive where it resists the sliding.
     boundary_force, film_force : the two parts [N]; without sliding the boundary part is zero.
     load, contact_load, film_load : [N].
     film : smooth film under `film_load`.
     contact : rough contact of one slice as long as the grid is wide; None in full film.
     separation : (nx,) distance [m] between the mean planes of the undeformed surfaces at the grid's abscissae, as the
-        rough contact sees it: film thickness less the shift that keeps the volume of oil.
+        rough contact sees it: film thickness less the shift that keeps the volume of oil; of a ball on y = 0.
     lambda_ratio : minimum of the smooth film under the whole load over the rms height of the patch.
     minimum_film : minimum thickness [m] of `film`.
     contact_area : real, on the whole width [m^2].
@@ -44,6 +45,7 @@ class MixedSolution:
     oil_imbalance : (mean opening between the surfaces - mean thickness of the film) / the latter, where the oil is
         counted (`oil_volume`); of this film and contact, 0 at an end of the balance.
     oil : how far load share and friction hang on the oil beside Hertz' contact.
+    patch_film : the film as the patch sees it.
     regime : "full film", "mixed" or "boundary": the end of the balance, if any, that it is at.
     contact_temperature, flash_temperature : of the surfaces in contact [K], mean by pressure and highest; None without
         heat, contact or sliding. The film's stand in `film`.
@@ -57,7 +59,7 @@ class MixedSolution:
     load: float
     contact_load: float
     film_load: float
-    film: FilmSolution
+    film: FilmSolution | PointFilmSolution
     contact: ContactSolution | AsperityContact | None
     separation: FloatArray
     lambda_ratio: float
@@ -72,6 +74,7 @@ class MixedSolution:
     boundary_friction: BoundaryFrictionGiven
     oil_imbalance: float
     oil: OilBeside
+    patch_film: PatchFilm
     regime: Regime = Regime.MIXED
     contact_temperature: float | None = None
     flash_temperature: float | None = None
@@ -90,14 +93,26 @@ class MixedSolution:
     @property
     def film_pressure(self) -> FloatArray:
         """Pressure of the oil (nx, ny) [Pa], zero on cells in contact."""
-        pressure = self.film.at(self.grid.x)[0]
-        return np.where(self.contact_pressure > 0, 0.0, pressure[:, None])
+        return np.where(self.contact_pressure > 0, 0.0, self.patch_film.pressure)
+
+    @property
+    def film_along_x(self) -> tuple[FloatArray, FloatArray]:
+        """Pressure [Pa] and thickness [m] of the film at the grid's abscissae (nx,); of a ball on y = 0."""
+        if isinstance(self.film, FilmSolution):
+            return self.film.at(self.grid.x)
+        return middle_line(self.patch_film.pressure), middle_line(self.patch_film.thickness)
+
+    @property
+    def film_section(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Abscissae [m], pressure [Pa] and thickness [m] of the film's own mesh; of a ball on y = 0."""
+        if isinstance(self.film, FilmSolution):
+            return self.film.position, self.film.pressure, self.film.thickness
+        return self.film.x, middle_line(self.film.pressure), middle_line(self.film.thickness)
 
     @property
     def film_shear_stress(self) -> FloatArray:
         """Shear stress of the oil (nx, ny) [Pa], zero on cells in contact; signed like `boundary_shear_stress`."""
-        stress = self.film.shear_stress(self.grid.x)
-        return np.where(self.contact_pressure > 0, 0.0, stress[:, None])
+        return np.where(self.contact_pressure > 0, 0.0, self.patch_film.shear_stress)
 
     @property
     def boundary_shear_stress(self) -> FloatArray:

@@ -138,6 +138,13 @@ def ellipse_contact(
     )
 
 
+def ellipse_load(*, radii: tuple[float, float], contact_modulus: float, maximum_pressure: float) -> float:
+    """Load [N] of an elliptic contact by its maximum pressure [Pa], with whose third power it goes (Johnson 1985, eq.
+    4.24, 4.28); otherwise as `ellipse_contact`."""
+    one = ellipse_contact(radii=radii, contact_modulus=contact_modulus, load=1.0)
+    return float((maximum_pressure / one.maximum_pressure) ** 3)
+
+
 def _integrals(k2: float) -> tuple[float, float]:
     """Carlson's R_F(0, k^2, 1) and R_D(0, k^2, 1) / 3; of a circle without loading special functions."""
     if k2 == 1:

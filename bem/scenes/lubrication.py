@@ -1,4 +1,4 @@
-"""What scenes with an oil film share: their tables, and the rough line contact that load sharing works on.
+"""What scenes with an oil film share: their tables, and the rough contact that load sharing works on.
 
 Knows tables, and how they become set-ups of `bem.friction` and `bem.lubrication`; no solver. Verified in
 tests/scenes/test_friction_kinds.py and test_film_kind.py.
@@ -16,15 +16,14 @@ from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError, InputError
 from bem.friction.boundary import BoundaryFriction, boundary_law
+from bem.friction.setup import FILM_CELLS
 from bem.grid import Grid
 from bem.lubrication.supply import InletDistance, inside_hertz
 from bem.materials import Body
-from bem.reference_solutions.hertz import cylinder_contact
 from bem.scenes import build
 from bem.scenes.axes import Axis, changed
 from bem.scenes.common import (
     BodyScene,
-    CylinderTable,
     LineGridScene,
     Loads,
     PositivePressure,
@@ -35,6 +34,7 @@ from bem.scenes.common import (
 from bem.scenes.laws import LawOrNumber
 from bem.scenes.oil import OilScene
 from bem.scenes.records import Figure
+from bem.scenes.tables.smooth import SmoothShapeScene
 from bem.scenes.tables.supply import SupplyScene, build_supply
 from bem.scenes.units import Pressure, Ratio, Speed
 
@@ -44,11 +44,15 @@ if TYPE_CHECKING:
     from bem.scenes.context import Context
 
 
+FilmCells = Annotated[int, Field(strict=True, ge=32, le=1024)]
+
+
 class SpeedsScene(Table):
     """Speeds of the flat: a list, or `count` of them from `first` to `last` in equal ratios.
 
-    The cylinder moves with `cylinder` times the flat's speed: 0 is pure sliding, 1 pure rolling. Speeds against x are
-    negative; without entrainment (speed 0, or `cylinder` -1) there is no steady film.
+    The cylinder or ball moves with `cylinder` times the flat's speed: 0 is pure sliding, 1 pure rolling. The same is
+    said by `slide_roll_ratio`, the difference of flat and ball over the mean of their speeds: 2 is pure sliding, 0 pure
+    rolling. Speeds against x are negative; without entrainment (speed 0, or `cylinder` -1) there is no steady film.
     """
 
     values: Annotated[list[Speed], Field(min_length=1, max_length=512)] | None = None
@@ -56,6 +60,7 @@ class SpeedsScene(Table):
     last: Speed | None = None
     count: Annotated[int, Field(strict=True, ge=2, le=512)] = 20
     cylinder: Ratio = 0.0
+    slide_roll_ratio: Annotated[Ratio, Field(gt=-2, le=2)] | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -79,6 +84,8 @@ class SpeedsScene(Table):
             )
         if self.values is None and math.copysign(1, given[0]) != math.copysign(1, given[1]):
             raise problem("a range in equal ratios cannot pass through zero", "first and last of the same sign")
+        if self.slide_roll_ratio is not None and self.cylinder != 0:
+            raise problem("cylinder and slide_roll_ratio are both given", "one of them: they say the same")
         if self.cylinder == -1:
             raise problem("cylinder -1: the surfaces move against each other and entrain no oil", "cylinder above -1")
         if self.cylinder < -1:
@@ -93,11 +100,17 @@ class SpeedsScene(Table):
             assert self.first is not None
             assert self.last is not None
             flat = [float(v) for v in np.sign(self.first) * np.geomspace(abs(self.first), abs(self.last), self.count)]
-        return [(v, self.cylinder * v) for v in flat]
+        return [(v, self.other_over_flat * v) for v in flat]
+
+    @property
+    def other_over_flat(self) -> float:
+        """Speed of the cylinder or ball over the flat's."""
+        slip = self.slide_roll_ratio
+        return self.cylinder if slip is None else (2 - slip) / (2 + slip)
 
 
-class LubricatedScene(CylinderTable):
-    """The contact as a whole: a cylinder along y on a flat. Loads are on its full width.
+class LubricatedScene(SmoothShapeScene):
+    """The contact as a whole: a cylinder along y, a ball or an ellipsoid on a flat. Loads are on all of it.
 
     Loads may be given as maximum Hertz pressures of the smooth contact instead. `hardness` defaults to the softer
     body's. `boundary_friction` is a coefficient, or a law with its parameters.
@@ -120,30 +133,31 @@ class LubricatedScene(CylinderTable):
         self, load: float, contact_modulus: float, speeds: tuple[float, float], temperature: float | None = None
     ) -> float:
         """Boundary friction as one number, before any contact is known: of a law at the hardness, or else at the mean
-        pressure of the smooth contact under a load on the full width [N], at speeds (u1, u2) [m/s] and the oil's
+        pressure of the smooth contact under a load on all of it [N], at speeds (u1, u2) [m/s] and the oil's
         temperature [K]."""
         law = boundary_law(self.boundary_friction).at_temperature(temperature)
         if law.constant is not None or speeds[0] == speeds[1]:
             return law.constant or 0.0
-        smooth = math.sqrt(math.pi * contact_modulus * load / self.width / self.radius) / 4
-        return law.coefficient(self.hardness or smooth, abs(speeds[0] - speeds[1]))
+        return law.coefficient(self.hardness or self.mean_pressure(load, contact_modulus), abs(speeds[0] - speeds[1]))
 
     def forces(self, contact_modulus: float) -> list[float]:
-        """Loads on the full width [N]; p0 = sqrt(W E* / (pi R)) per unit length, Johnson (1985), eq. 4.45."""
+        """Loads on all of it [N]."""
         if self.loads is not None:
             return [float(v) for v in self.loads]
         assert self.hertz_pressures is not None
-        return [math.pi * self.radius * p * p / contact_modulus * self.width for p in self.hertz_pressures]
+        return [self.load_of(p, contact_modulus) for p in self.hertz_pressures]
 
 
 class FilmMeshScene(Table):
-    """The film's mesh of `points`, graded and as long as the inlet needs, which the solver sees to.
+    """The film's mesh of `points`, graded and as long as the inlet needs, which the solver sees to; of a ball's film as
+    many `cells` along an axis.
 
     With `from`, `to` the film is also given on `count` equal steps there; they must reach the inlet and hold the rough
     patch.
     """
 
     points: Annotated[int, Field(strict=True, ge=100, le=20000)] = 2000
+    cells: FilmCells = FILM_CELLS
     start: float | None = None
     end: float | None = None
     count: Annotated[int, Field(strict=True, ge=50, le=20000)] = 2000
@@ -170,8 +184,8 @@ class FilmMeshScene(Table):
         return None if self.start is None or self.end is None else np.linspace(self.start, self.end, self.count)
 
 
-class LineContactScene(SceneModel):
-    """A rough cylinder on a rough flat with oil between them."""
+class MixedScene(SceneModel):
+    """A rough cylinder, ball or ellipsoid on a rough flat with oil between them."""
 
     lower: BodyScene
     upper: BodyScene
@@ -180,6 +194,21 @@ class LineContactScene(SceneModel):
     speeds: SpeedsScene
     supply: SupplyScene | None = None
     grid: LineGridScene = LineGridScene()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _patch_of_a_ball(cls, data: Any) -> Any:
+        """Under a ball the patch goes on nowhere where the scene does not say."""
+        contact, grid = (data.get(key) for key in ("contact", "grid")) if isinstance(data, dict) else (None, None)
+        if isinstance(contact, dict) and isinstance(grid, dict) and {"ball", "radii"} & set(contact):
+            return {**data, "grid": {"periodic": (False, False), **grid}}
+        return data
+
+    @model_validator(mode="after")
+    def _film_of_a_ball(self) -> Self:
+        if self.contact.point_radii is not None and self.supply is not None:
+            raise problem("supply of a ball's film", "a flooded one: leave supply out, or take a cylinder")
+        return self
 
     @property
     def bodies(self) -> tuple[Body, Body]:
@@ -193,12 +222,12 @@ class LineContactScene(SceneModel):
 
     @property
     def load(self) -> float:
-        """The load of a case on the whole width [N]."""
+        """The load of a case on the whole contact [N]."""
         (load,) = self.contact.forces(self.modulus)
         return float(load)
 
     def load_axis(self) -> Axis:
-        """The loads on the whole width, given as such or by their Hertz pressures."""
+        """The loads on the whole contact, given as such or by their Hertz pressures."""
         key = "loads" if self.contact.loads is not None else "hertz_pressures"
         values = getattr(self.contact, key)
         loads = tuple(self.contact.forces(self.modulus))
@@ -208,8 +237,8 @@ class LineContactScene(SceneModel):
         """Hertz contact of the substrates under the smallest of the loads; the grid's `lengths` have no say in it."""
         from bem.scenes.checks.hertz import smooth_contact
 
-        load = min(self.contact.forces(self.modulus)) / self.contact.width
-        return smooth_contact(*self.bodies, (self.contact.radius, math.inf), load=load)
+        load = min(self.contact.forces(self.modulus)) / self.contact.length
+        return smooth_contact(*self.bodies, self.contact.curvature, load=load)
 
     def with_hardness(self, hardness: float) -> Self:
         """With that hardness of the lower body [Pa]; its yield stress follows it, and so does the cap."""
@@ -223,7 +252,9 @@ class LineContactScene(SceneModel):
         pairs = self.speeds.build()
 
         def at(scene: Any, i: int) -> Any:
-            return changed(scene, "speeds", SpeedsScene(values=[pairs[i][0]], cylinder=scene.speeds.cylinder))
+            speeds = scene.speeds
+            one = SpeedsScene(values=[pairs[i][0]], cylinder=speeds.cylinder, slide_roll_ratio=speeds.slide_roll_ratio)
+            return changed(scene, "speeds", one)
 
         return Axis("speed", tuple(pair[0] for pair in pairs), Figure("m_s", "speed of the flat"), at)
 
@@ -236,14 +267,12 @@ class LineContactScene(SceneModel):
         InfeasibleError : a load beyond hardness times the patch.
         """
         grid, load, hardness = build.grid_of(self.grid), self.load, self.contact.hardness
-        smooth = cylinder_contact(
-            radius=self.contact.radius, contact_modulus=self.modulus, load=load / self.contact.width
-        )
-        _check_patch(grid, film or FilmMeshScene(), smooth.half_width)
+        half_axes = self.contact.half_axes(load, self.modulus)
+        _check_patch(grid, film or FilmMeshScene(), half_axes)
         supply = build_supply(self.supply)
-        if isinstance(supply, InletDistance) and supply.distance <= smooth.half_width:
-            raise InputError(inside_hertz(supply, smooth.half_width))
-        area = grid.lengths[0] * self.contact.width
+        if isinstance(supply, InletDistance) and supply.distance <= half_axes[0]:
+            raise InputError(inside_hertz(supply, half_axes[0]))
+        area = self.contact.slice_area(grid.lengths)
         if hardness is not None and load > hardness * area:
             raise InfeasibleError(
                 f"contact.loads: {load:g} N is beyond hardness x area of the patch, {hardness * area:g} N, and the "
@@ -255,12 +284,10 @@ class LineContactScene(SceneModel):
         """As `bem.friction.setup.MixedSetup`; what its fields say of models and accuracy comes from the kind."""
         from bem.friction.setup import MixedSetup
 
-        given: dict[str, Any] = {"hardness": self.contact.hardness} | accuracy
+        given: dict[str, Any] = {"hardness": self.contact.hardness} | self.contact.geometry | accuracy
         return MixedSetup(
             grid=build.grid_of(self.grid),
             bodies=self.bodies,
-            radius=self.contact.radius,
-            width=self.contact.width,
             load=self.load,
             lubricant=self.oil.build(),
             boundary_friction=self.contact.boundary_friction,
@@ -269,18 +296,24 @@ class LineContactScene(SceneModel):
         )
 
 
-def _check_patch(grid: Grid, film: FilmMeshScene, half_width: float) -> None:
+def _check_patch(grid: Grid, film: FilmMeshScene, half_axes: tuple[float, float]) -> None:
     """Whether the rough patch fits the contact and the film's grid; InputError if not."""
-    reach = 0.5 * grid.lengths[0]
     messages = []
-    if grid.periodic[0]:
+    point = math.isfinite(half_axes[1])
+    if point and any(grid.periodic):
+        messages.append("grid.periodic: the patch holds the contact of a ball; allowed: [false, false]")
+    elif grid.periodic[0]:
         messages.append("grid.periodic: the patch lies under a cylinder; allowed: [false, true] or [false, false]")
-    if reach < half_width:
-        messages.append(
-            f"grid: the rough patch reaches {reach:.3g} m to either side, less than the contact's half-width "
-            f"{half_width:.3g} m; allowed: at least that"
-        )
-    if film.start is not None and film.end is not None and (film.start > grid.x[0] or film.end < grid.x[-1]):
+    for axis, length, half in zip("xy", grid.lengths, half_axes, strict=True):
+        if math.isfinite(half) and 0.5 * length < half:
+            name, there = (f"half-axis along {axis}", f" along {axis}") if point else ("half-width", "")
+            messages.append(
+                f"grid: the rough patch reaches {0.5 * length:.3g} m to either side{there}, less than the contact's "
+                f"{name} {half:.3g} m; allowed: at least that"
+            )
+    if point and film.start is not None:
+        messages.append("film.start: the film of a ball is given on the patch; allowed: no start and end")
+    elif film.start is not None and film.end is not None and (film.start > grid.x[0] or film.end < grid.x[-1]):
         messages.append(
             f"film: the rough patch, {grid.x[0]:.3g} to {grid.x[-1]:.3g} m, is larger than the film grid, "
             f"{film.start:.3g} to {film.end:.3g} m; allowed: film.start and film.end beyond the patch"

@@ -244,7 +244,7 @@ class WornSurface:
         return cls(before, after, result.pressure, particles, late, figures)
 
     def strip(self, where: NDArray[np.bool_]) -> dict[str, float]:
-        """Sq before and after and the mean depth worn [m] in those rows (nx,)."""
+        """Sq before and after and the mean depth worn [m] in those rows (nx,) or cells (nx, ny)."""
         from bem.wear.outcome import strip_wear
 
         strip = strip_wear(self.height_before, self.height_after, where)

@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.friction.balance import NEGLIGIBLE, Balance, BalanceStart, Regime, boundary_note, share_load
-from bem.friction.film import PatchFilm
+from bem.friction.film import PatchFilm, middle_line
 from bem.friction.film_table import FilmTable
+from bem.friction.films import films_of
 from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, validity_notes
 from bem.friction.oil_beside import OilBeside, oil_notes
 from bem.friction.oil_sensitivity import oil_beside
@@ -159,7 +160,7 @@ class MixedContact:
             REGIMES.index(balance.regime),
         )
         self.rows = np.append(self.rows, new)
-        self.film, self.separation = film, film.thickness[:, 0] if contact is None else contact.separation
+        self.film, self.separation = film, middle_line(film.thickness) if contact is None else contact.separation
         self._last = (balance, heights)
         self.contact_solves += balance.contacts
         solution = None if contact is None else contact.solution
@@ -191,7 +192,7 @@ def unpack_balance(packed: dict[str, Any]) -> dict[str, Any]:
 
 def film_table(setup: MixedSetup, speeds: Sequence[float]) -> FilmTable:
     """The films of a set-up at a pair of speeds (u1, u2) [m/s]."""
-    return FilmTable(setup.grid.x, setup.line, load=setup.load, speeds=speeds, points=setup.film_points)
+    return FilmTable(films_of(setup, speeds), load=setup.load)
 
 
 _LAST_TABLES: deque[tuple[Any, FilmTable]] = deque(maxlen=8)
@@ -200,7 +201,7 @@ _LAST_TABLES: deque[tuple[Any, FilmTable]] = deque(maxlen=8)
 def shared_film_table(setup: MixedSetup, speeds: Sequence[float]) -> FilmTable:
     """The films of a set-up at a pair of speeds (u1, u2) [m/s], of this process's last ones where they are there: what
     is in a table never depends on what was asked of it before."""
-    key = (setup.line, tuple(speeds), setup.load, setup.film_points, setup.grid.shape, setup.grid.spacing)
+    key = (setup.smooth, tuple(speeds), setup.load, setup.film_resolution, setup.grid.shape, setup.grid.spacing)
     for known, table in _LAST_TABLES:
         if known == key:
             return table

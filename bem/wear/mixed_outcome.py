@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.friction.film import middle_line
 from bem.grid import FloatArray
 from bem.wear.mixed import MixedContact
 
@@ -53,9 +54,9 @@ def run_in(step: MixedContact, cycles: NDArray[np.void], averaged: int) -> RunIn
         contact_area_fraction=float(cycles["contact_area"][-averaged:].mean() / setup.grid.area),
         evaluations_per_cycle=float(rows["evaluations"].mean()),
         contact_share=rows["contact_load"] / setup.load,
-        film_thickness_patch=film.thickness[:, 0],
-        film_pressure_patch=film.pressure[:, 0],
-        separation=step.separation if step.separation is not None else film.thickness[:, 0],
+        film_thickness_patch=middle_line(film.thickness),
+        film_pressure_patch=middle_line(film.pressure),
+        separation=step.separation if step.separation is not None else middle_line(film.thickness),
         **mean,
     )
 

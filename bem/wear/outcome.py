@@ -5,12 +5,13 @@ Knows heights, pressures and the tables of `wear.state`; no scene. Verified in t
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bem.grid import FloatArray
+from bem.grid import FloatArray, Grid
 from bem.particles import volume_mean_radius
 
 
@@ -24,7 +25,7 @@ class StripWear:
 
 
 def strip_wear(before: FloatArray, after: FloatArray, strip: NDArray[np.bool_]) -> StripWear:
-    """Of heights (nx, ny) [m] in those rows (nx,)."""
+    """Of heights (nx, ny) [m] in those rows (nx,) or cells (nx, ny)."""
     depth = float((before - after)[strip].mean())
     return StripWear(float(before[strip].std()), float(after[strip].std()), depth)
 
@@ -39,6 +40,16 @@ def hertz_strip(x: FloatArray, half_width: float) -> NDArray[np.bool_]:
     """The rows at x (nx,) [m] within Hertz' contact; of one narrower than a cell, those next to the axis."""
     nearest = float(np.abs(x).min()) * (1 + 1e-9)  # on either side of it
     return np.abs(x) <= max(half_width, nearest)
+
+
+def hertz_area(grid: Grid, half_axes: tuple[float, float]) -> NDArray[np.bool_]:
+    """What of a grid lies within Hertz' contact of these half-axes [m]: rows (nx,) of a cylinder's, cells (nx, ny) of
+    an ellipse; of a contact narrower than a cell those next to its middle."""
+    (a, b), x, y = half_axes, grid.x, grid.y
+    if math.isinf(b):
+        return hertz_strip(x, a)
+    a, b = (max(half, float(np.abs(at).min()) * 1.5) for half, at in zip(half_axes, (x, y), strict=True))
+    return np.asarray((x[:, None] / a) ** 2 + (y[None, :] / b) ** 2 <= 1)
 
 
 @dataclass(frozen=True)

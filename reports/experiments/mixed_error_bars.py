@@ -22,7 +22,8 @@ from bem import Body, Grid, Lubricant, Material, solve_line_film
 from bem.accuracy import MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
 from bem.accuracy.contact import surface_is_resolved
 from bem.errors import InputError, Status
-from bem.friction.film import BALANCE_POINTS, SolvedFilm
+from bem.friction.film import BALANCE_POINTS
+from bem.friction.films import films_of
 from bem.friction.load_sharing import solve_setup
 from bem.friction.setup import MixedSetup
 from bem.surfaces import generate_surface
@@ -108,7 +109,7 @@ def rows_of(problem: Problem) -> list[dict[str, Any]]:
     found, truth = mixed_figures(solution), mixed_figures(reference)
     # load sharing looks at the film under the whole load on 400 points where it does not clear the roughness
     fine = FINER * setup.film_points
-    whole = SolvedFilm(setup.line, speeds, setup.grid.x, fine).under(setup.load, int(fine > BALANCE_POINTS), None)
+    whole = films_of(setup, speeds, resolution=fine).under(setup.load, int(fine > BALANCE_POINTS), None)
     truth["lambda_ratio"] = whole.minimum_thickness / float(heights.std())
     return rows_with_parts(
         found,

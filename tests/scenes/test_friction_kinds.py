@@ -14,8 +14,10 @@ from bem.contact import solve_contact
 from bem.errors import InputError, Status
 from bem.friction import load_sharing, solve_mixed
 from bem.friction.asperity_array import SQUARE_LATTICE
+from bem.friction.film import SolvedFilm
 from bem.friction.film_table import FilmTable
-from bem.friction.setup import LineContact, MixedSetup
+from bem.friction.setup import MixedSetup
+from bem.friction.smooth import LineContact
 from bem.grid import Grid
 from bem.lubrication import Lubricant
 from bem.materials import CATALOGUE, Body
@@ -102,10 +104,10 @@ def test_pressures_give_the_load():
 
 def test_film_table_is_the_film():
     position = (np.arange(64) - 31.5) * 0.8e-6
-    table = FilmTable(position, LineContact(2e-3, 1.0, 115e9, OIL), load=900.0, speeds=(0.02, 0.0), points=300)
+    table = FilmTable(SolvedFilm(LineContact(2e-3, 1.0, 115e9, OIL), (0.02, 0.0), position, 300), load=900.0)
     # ten times below the 0.3 % asked of the film, but at the exit's constriction, where films are steep
     assert max(table.error(load) for load in (850.0, 300.0, 60.0)) < 4e-3
-    exact = table.solve(300.0, table.entry(8))
+    exact = table.films.solve(300.0, table.entry(8))
     at = table.under(300.0)
     assert at.thickness.mean() == pytest.approx(exact.at(position)[1].mean(), rel=3e-4)
     assert at.shear_force == pytest.approx(exact.shear_force, rel=1e-3)
@@ -117,7 +119,7 @@ def test_film_table_does_not_depend_on_what_was_asked_first():
     position = (np.arange(16) - 7.5) * 2e-6
     values = []
     for loads in ((100.0, 700.0), (700.0, 100.0)):
-        table = FilmTable(position, LineContact(2e-3, 1.0, 115e9, OIL), load=900.0, speeds=(0.02, 0.0), points=200)
+        table = FilmTable(SolvedFilm(LineContact(2e-3, 1.0, 115e9, OIL), (0.02, 0.0), position, 200), load=900.0)
         found = {load: table.under(load).thickness for load in loads}
         values.append(found)
     for load in (100.0, 700.0):

@@ -204,24 +204,24 @@ def _contact(scene: Any) -> list[Case]:
 
 
 def _lubricated(scene: Any) -> list[Case]:
-    """Kinds `friction`, `running-in` and `running-in-life`: a cylinder on a flat, a rough patch under it."""
+    """Kinds `friction`, `running-in` and `running-in-life`: a cylinder, ball or ellipsoid on a flat, a rough patch under
+    it."""
     grid, bodies, contact, wear = build.grid_of(scene.grid), _bodies(scene), scene.contact, getattr(scene, "wear", None)
     modulus = contact_modulus(bodies["lower"].material, bodies["upper"].material)
     (load,) = contact.forces(modulus)
-    per_length = load / contact.width
     depths = getattr(scene, "depths", None)
     return [
         Case(
             grid=grid,
-            load=per_length * grid.lengths[1],
-            smooth=smooth_contact(bodies["lower"], bodies["upper"], (contact.radius, math.inf), load=per_length),
+            load=contact.on_patch(load, grid.lengths),
+            smooth=smooth_contact(bodies["lower"], bodies["upper"], contact.curvature, load=load / contact.length),
             cap=contact.hardness,
             friction=contact.nominal_friction(load, modulus, scene.speeds.build()[0], scene.oil.temperature),
             depths=() if depths is None else tuple(float(d) for d in depths.build()),
             width=contact.width,
             slide=scene.wear.shift * grid.spacing[0] if hasattr(wear, "shift") else None,
             wear=wear if hasattr(wear, "shift") else None,
-            shape="cylinder",
+            shape="cylinder" if contact.point_radii is None else "ellipsoid",
             **bodies,
         )
     ]

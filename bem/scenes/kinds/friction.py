@@ -24,7 +24,7 @@ from bem.scenes.lubrication import in_words_of_the_scene, tell_of_film
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, columns, filled, mean, spread
-from bem.scenes.resolutions import CELLS, counted
+from bem.scenes.resolutions import CELLS, Resolution, counted
 from bem.scenes.tables.sharing import BASELINE, CurveScene, SurfaceVariant
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ _SEPARATIONS = 10  # of the flow factors' table
 
 
 class FrictionScene(CurveScene):
-    """A rough cylinder on a rough flat with oil between them, at many speeds."""
+    """A rough cylinder, ball or ellipsoid on a rough flat with oil between them, at many speeds."""
 
     kind: Literal["friction"] = "friction"
     outputs: OutputsScene = OutputsScene()
@@ -71,12 +71,7 @@ def plan(scene: FrictionScene) -> Plan:
     grid, speeds, coupled = scene.check(scene.film), len(scene.speeds.build()), scene.coupled
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
-        Step(
-            "films",
-            f"about 8 for each of {speeds} speeds of a curve, most of them on a coarser mesh",
-            seconds=speeds * (0.3 + 5e-8 * scene.film.points**2),
-            memory=16.0 * scene.film.points**2,
-        ),
+        _films(scene, speeds),
         Step(
             "heat",
             'thermal is "off"'
@@ -111,6 +106,16 @@ def plan(scene: FrictionScene) -> Plan:
         plans.traction_kernels(grid, *scene.bodies, scene.contact.boundary_friction, wanted=coupled),
         plans.figures(grid.cells),
     )
+
+
+def _films(scene: FrictionScene, speeds: int) -> Step:
+    """Of a curve: a ball's films take longer, and have no start."""
+    what = f"for each of {speeds} speeds of a curve, most of them on "
+    if scene.contact.point_radii is None:
+        seconds = speeds * (0.3 + 5e-8 * scene.film.points**2)
+        return Step("films", f"about 8 {what}a coarser mesh", seconds=seconds, memory=16.0 * scene.film.points**2)
+    cells = scene.film.cells**2
+    return Step("films", f"about 10 {what}fewer cells", seconds=speeds * (2.0 + 2e-4 * cells), memory=900.0 * cells)
 
 
 _curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="first")
@@ -239,7 +244,8 @@ def _record(
     bars, parts = from_tables(errors, RULES, ORIGINS)
     shown = curve.shown
     assert shown is not None
-    film_pressure, film_thickness = shown.film.at(grid.x)
+    film_pressure, film_thickness = shown.film_along_x
+    position, own_pressure, own_thickness = shown.film_section
     names = [item.name for item in fields(curve.points[0]) if item.name not in left_out]
     bad = [one for one in curve.points if one.status is not Status.CONVERGED]
     return filled(
@@ -254,9 +260,9 @@ def _record(
         separation=shown.separation,
         film_thickness_patch=film_thickness,
         film_pressure_patch=film_pressure,
-        film_x=shown.film.position,
-        film_pressure=shown.film.pressure,
-        film_thickness=shown.film.thickness,
+        film_x=position,
+        film_pressure=own_pressure,
+        film_thickness=own_thickness,
         errors=bars,
         error_parts=parts,
         status=bad[0].status if bad else Status.CONVERGED,
@@ -297,12 +303,26 @@ def _solved(records: np.ndarray) -> list[CurveRecord]:
     return [one for one in records.ravel() if one is not None]
 
 
+_LINE, _POINT = counted("film.points", POINTS, 400, 20000), counted("film.cells", POINTS, 64, 512)
+
+
+def _of_contact(scene: FrictionScene) -> Resolution:
+    return _LINE if scene.contact.point_radii is None else _POINT
+
+
+_FILM = Resolution(
+    POINTS,
+    lambda scene: _of_contact(scene).first(scene),
+    lambda scene: _of_contact(scene).finer(scene),
+    lambda scene: _of_contact(scene).shown(scene),
+    part=POINTS,
+)
 KIND = Kind.of(
     vars(),
     FrictionScene,
     CurveRecord,
     "load sharing between oil film and rough contact over speed: the Stribeck curve",
-    resolutions=(CELLS, counted("film.points", POINTS, 400, 20000)),
+    resolutions=(CELLS, _FILM),
     figures=(
         "stribeck-curve",
         "load-sharing",

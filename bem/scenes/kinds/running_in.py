@@ -20,7 +20,7 @@ from bem.scenes.axes import Axis, changed
 from bem.scenes.common import PositivePressure, Repetitions, problem
 from bem.scenes.context import Context
 from bem.scenes.kind import Kind
-from bem.scenes.lubrication import LineContactScene, tell_of_film
+from bem.scenes.lubrication import MixedScene, tell_of_film
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled, without_bars
 from bem.scenes.rubbing import FRICTION_SLIDES, RubbedRecord, rubbed
@@ -35,8 +35,8 @@ _CONTACTS = "two or three contacts each, from the last pressure; none in full fi
 _DEPTHS_NEEDED = 6
 
 
-class RunningInScene(LineContactScene):
-    """A rough cylinder slides on a rough flat in oil; what yields and reaches the surface leaves."""
+class RunningInScene(MixedScene):
+    """A rough cylinder, ball or ellipsoid slides on a rough flat in oil; what yields and reaches the surface leaves."""
 
     kind: Literal["running-in"] = "running-in"
     depths: wearing.WearDepthsScene
@@ -186,8 +186,10 @@ def run(scene: RunningInScene, context: Context) -> RunningInRecord:
         watch=watch,
         keep=lambda: {"frames": list(frames), **pack_balance(step)},
         grid=setup.grid,
-        load=setup.load * setup.grid.lengths[1] / setup.width,
-        friction=scene.contact.nominal_friction(setup.load, setup.line.contact_modulus, speeds, scene.oil.temperature),
+        load=scene.contact.on_patch(setup.load, setup.grid.lengths),
+        friction=scene.contact.nominal_friction(
+            setup.load, setup.smooth.contact_modulus, speeds, scene.oil.temperature
+        ),
         hardness=scene.contact.hardness,
         contact_step=step,
     )
@@ -213,10 +215,10 @@ def _record(
 ) -> RunningInRecord:
     """The figures of a wear loop and what is kept of it."""
     from bem.wear.mixed_outcome import run_in
-    from bem.wear.outcome import hertz_strip
+    from bem.wear.outcome import hertz_area
 
     setup, cycles, rows = step.setup, result.cycles, step.rows
-    load = setup.load * setup.grid.lengths[1] / setup.width
+    load = scene.contact.on_patch(setup.load, setup.grid.lengths)
     worn, averaged = wearing.WornSurface.of(scene, initial, result, setup.grid, load), scene.cycles.averaged
     figures = run_in(step, cycles, averaged)
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
@@ -228,7 +230,7 @@ def _record(
         worn.figures,
         rubbed(result, scene.cycles.settled),
         # the same strip before and after, at all speeds
-        worn.strip(hertz_strip(setup.grid.x, setup.line.half_width(setup.load))),
+        worn.strip(hertz_area(setup.grid, setup.smooth.half_axes(setup.load))),
         wearing.mean_radii(worn.late, scene.sizes, *_RADII),
         over,
         setup.grid,

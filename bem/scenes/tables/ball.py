@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import Field, field_validator, model_validator
 
-from bem.reference_solutions.hertz import ellipse_contact
+from bem.reference_solutions.hertz import ellipse_load
 from bem.scenes.common import Force, PositiveLength, PositivePressure, Table, exactly_one, one_for_both
 from bem.scenes.units import Angle, Ratio, Speed
 
@@ -32,12 +32,11 @@ class BallScene(Table):
         return self.radius, self.radius if self.radius_y is None else self.radius_y
 
     def force(self, contact_modulus: float) -> float:
-        """Load [N]; of a pressure it goes with its third power (Johnson 1985, eq. 4.24, 4.28)."""
+        """Load [N], as given or by the maximum pressure."""
         if self.load is not None:
             return self.load
         assert self.hertz_pressure is not None
-        one = ellipse_contact(radii=self.radii, contact_modulus=contact_modulus, load=1.0)
-        return float((self.hertz_pressure / one.maximum_pressure) ** 3)
+        return ellipse_load(radii=self.radii, contact_modulus=contact_modulus, maximum_pressure=self.hertz_pressure)
 
 
 class BallRollingScene(Table):

@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 from bem.errors import InputError
 from bem.scenes.axes import with_keys
 from bem.scenes.common import PositiveLength, Table, Variant, problem
-from bem.scenes.lubrication import FilmMeshScene, LineContactScene
+from bem.scenes.lubrication import FilmCells, FilmMeshScene, MixedScene
 from bem.scenes.tables.heat import check_film_heat
 from bem.scenes.units import Ratio
 from bem.scenes.wearing import Count, LastCycles
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from bem.flow import FlowFactors
     from bem.friction.setup import MixedSetup
 
-Line = TypeVar("Line", bound=LineContactScene)
+Line = TypeVar("Line", bound=MixedScene)
 Model = Literal["elastic", "capped", "uncoupled", "uncoupled_elastic"]
 BASELINE = {"capped": "uncoupled", "elastic": "uncoupled_elastic"}
 """Models of the rough half-space, and what each is compared with."""
@@ -49,8 +49,9 @@ class SharingScene(Table):
         return self
 
 
-class CurveScene(LineContactScene):
-    """A rough cylinder on a rough flat with oil between them, at many speeds; in a case there is one model."""
+class CurveScene(MixedScene):
+    """A rough cylinder, ball or ellipsoid on a rough flat with oil between them, at many speeds; in a case there is one
+    model."""
 
     film: FilmMeshScene = FilmMeshScene()
     sharing: SharingScene = SharingScene()
@@ -61,6 +62,20 @@ class CurveScene(LineContactScene):
         if self.thermal == "off":
             return self
         check_film_heat(self.oil, self.lower, self.upper)
+        return self
+
+    @model_validator(mode="after")
+    def _of_a_ball(self) -> Self:
+        if self.contact.point_radii is None:
+            return self
+        asked = {
+            'sharing.flow_factors = "surfaces"': self.sharing.flow_factors != "off",
+            "sharing.striated_exit": self.sharing.striated_exit,
+            'thermal = "lumped"': self.thermal != "off",
+        }
+        for key, given in asked.items():
+            if given:
+                raise problem(f"{key} of a ball's film", "a cylinder, or without: of a point film there is none yet")
         return self
 
     @property
@@ -85,6 +100,7 @@ class CurveScene(LineContactScene):
             hardness=self.cap,
             **self.sharing.model_dump(exclude={"models", "flow_factors"}),
             film_points=self.film.points,
+            film_cells=self.film.cells,
             film_position=self.film.positions(),
             contact_model="coupled" if self.coupled else "uncoupled",
             flow_factors=factors,
@@ -113,7 +129,8 @@ class SurfaceVariant(Variant):
 class RunningInSharing(Table):
     """Accuracy of the load sharing in each cycle.
 
-    `film_points`: nodes of the film's mesh; films are tabulated over the load they carry, once per speed.
+    `film_points`: nodes of the film's mesh, `film_cells` those of a ball's film along an axis; films are tabulated over
+    the load they carry, once per speed.
     `oil_volume`: where the surfaces hold as much oil as the smooth film, on the whole "patch" or where the film is
     "loaded".
     """
@@ -121,6 +138,7 @@ class RunningInSharing(Table):
     tolerance: Annotated[Ratio, Field(ge=1e-8, le=0.01)] = 5e-4
     contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = 1e-4
     film_points: Annotated[int, Field(strict=True, ge=100, le=5000)] = 400
+    film_cells: FilmCells = 64
     oil_volume: Literal["patch", "loaded"] = "patch"
 
 

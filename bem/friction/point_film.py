@@ -1,0 +1,147 @@
+"""Films of a ball or ellipsoid over the load they carry, as load sharing asks for them: solved, on a rough patch.
+
+Verified in tests/friction/test_ball.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.interpolate import RectBivariateSpline
+
+from bem.friction.film import PatchFilm, smooth_gap
+from bem.friction.smooth import PointContact
+from bem.grid import FloatArray
+from bem.lubrication import PointFilmSolution, solve_point_film
+from bem.lubrication.point.scales import point_scales
+from bem.lubrication.point.solve import MOES_LOADS
+from bem.lubrication.steady import check_entrainment
+
+BALANCE_CELLS = 64
+"""Cells of a film along an axis while the balance is looked for."""
+COARSE_FILM = 0.03
+"""Relative error of films of so many cells."""
+LARGEST_MOES_LOAD, GROWTH = 2500.0, 1.25
+"""Moes' load M up to which a film is looked for on `BALANCE_CELLS`, and the power of the cells that it goes with: films
+above stall, their constrictions narrower than a cell (tried with L 1 to 5, Rx/Ry 0.2 and 1, 64 to 128 cells)."""
+
+
+@dataclass(frozen=True, eq=False)
+class SolvedPointFilm:
+    """Films of a point contact, each solved when it is asked for, on few and on the wanted cells.
+
+    x, y : (nx,), (ny,) abscissae of the patch [m]. speeds : (u1, u2) of flat and ball along x [m/s]. cells : of the
+    film's own grid, along an axis.
+
+    Raises
+    ------
+    InputError : speeds that are not finite or entrain nothing.
+    """
+
+    contact: PointContact
+    speeds: tuple[float, float]
+    x: FloatArray
+    y: FloatArray
+    cells: int
+
+    step = 0.25
+    growth = 1 / 3
+    continued = False
+
+    def __post_init__(self) -> None:
+        check_entrainment(self.speeds)
+
+    @property
+    def largest_load(self) -> float:
+        """Load [N] up to which a film is looked for."""
+        return largest_point_load(self.contact, self.speeds, self.cells)
+
+    @property
+    def errors(self) -> tuple[float, ...]:
+        """As `Film`: few cells and those asked for, or these alone if they are no more."""
+        return (COARSE_FILM, 0.0) if self.cells > BALANCE_CELLS else (0.0,)
+
+    def under(self, load: float, level: int, start: PatchFilm | None) -> PatchFilm:
+        """As `Film`; each film begins from the dry contact, whatever `start` is."""
+        cells = self.cells if level == len(self.errors) - 1 else BALANCE_CELLS
+        return self.sampled(solved_point_film(self.contact, self.speeds, load, cells), load)
+
+    @property
+    def parabola(self) -> FloatArray:
+        """As `TabulatedFilms`."""
+        return self.contact.parabola(self.x, self.y)
+
+    def solve(self, load: float, initial: PointFilmSolution | None = None) -> PointFilmSolution:
+        """As `TabulatedFilms`."""
+        return solved_point_film(self.contact, self.speeds, load, self.cells)
+
+    def sampled(self, film: PointFilmSolution, load: float, stretch: float = 1.0) -> PatchFilm:
+        """As `TabulatedFilms`."""
+        return sampled_point(film, stretch * self.x, stretch * self.y, load, self.contact)
+
+
+def largest_point_load(contact: PointContact, speeds: Sequence[float], cells: int) -> float:
+    """Load [N] up to which a film is looked for: Moes' M goes with the load, and with the root of the fourth order of
+    the modulus downwards, which itself goes with the load where all of the load deforms the bodies."""
+    entrained = abs(sum(speeds))
+    one = point_scales(1.0, contact.radii, contact.contact_modulus, entrained, contact.lubricant.viscosity).load
+    narrow = max(contact.radii[0] / contact.radii[1], 1.0)
+    largest = LARGEST_MOES_LOAD * (cells / BALANCE_CELLS) ** GROWTH / narrow / one
+    return largest if contact.deforming_load is None else (largest**4 / contact.deforming_load) ** (1 / 3)
+
+
+def solved_point_film(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:
+    """The film under a load [N] up to the largest, without the solver's state; of rigid bodies where the load is so
+    small that the elastic film is outside its range."""
+    modulus = contact.film_modulus(load)
+    scales = point_scales(load, contact.radii, modulus, abs(sum(speeds)), contact.lubricant.viscosity)
+    film = solve_point_film(
+        load=load,
+        radii=contact.radii,
+        contact_modulus=math.inf if scales.load < MOES_LOADS[0] * (1 + 1e-9) else modulus,
+        speeds=speeds,
+        lubricant=contact.lubricant,
+        shape=(cells, cells),
+    )
+    return replace(film, state=None)
+
+
+def sampled_point(
+    film: PointFilmSolution, x: FloatArray, y: FloatArray, load: float, contact: PointContact
+) -> PatchFilm:
+    """A solved film at the abscissae (nx,), (ny,) [m] of a patch.
+
+    Deflection is interpolated by cubics, pressure and stress linearly. Beyond the film's grid there is no pressure, and
+    the bodies are deflected as by the load at a point, from where the grid ends.
+    """
+    inside_x, inside_y = np.clip(x, film.x[0], film.x[-1]), np.clip(y, film.y[0], film.y[-1])
+    deflection = _interpolated(film, film.thickness - contact.parabola(film.x, film.y), inside_x, inside_y, 3)
+    distance, begins = (np.hypot(a[:, None], b[None, :]) for a, b in ((x, y), (inside_x, inside_y)))
+    beyond = distance > begins
+    at_a_point = load / (math.pi * contact.film_modulus(load))
+    deflection[beyond] += at_a_point * (1 / distance[beyond] - 1 / begins[beyond])
+    parabola = contact.parabola(x, y)
+    thickness = np.maximum(parabola + deflection, film.minimum_thickness)
+    pressure = np.maximum(_interpolated(film, film.pressure, inside_x, inside_y, 1), 0.0)
+    # on the flat, against its sliding over the ball, as of line films
+    stress = -_interpolated(film, film.shear_stress()[0], inside_x, inside_y, 1)
+    pressure[beyond] = stress[beyond] = 0.0
+    return PatchFilm(
+        load=load,
+        thickness=thickness,
+        pressure=pressure,
+        shear_stress=stress,
+        shear_force=-float(film.shear_force[0, 0]),
+        minimum_thickness=film.minimum_thickness,
+        status=film.status,
+        notes=film.notes,
+        solution=film,
+        smooth_gap=smooth_gap(thickness, parabola, load, contact),
+    )
+
+
+def _interpolated(film: PointFilmSolution, field: FloatArray, x: FloatArray, y: FloatArray, order: int) -> FloatArray:
+    return np.asarray(RectBivariateSpline(film.x, film.y, field, kx=order, ky=order)(x, y))

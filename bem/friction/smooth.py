@@ -1,0 +1,157 @@
+"""The smooth contact under a rough patch, and its oil: a cylinder on a flat, or a ball or ellipsoid on one.
+
+Load sharing asks both for the same things (`SmoothContact`); films know more of their own. Forces are on the whole
+contact: on the width of the cylinder, of which the patch is a slice; under a ball the patch holds the contact.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.grid import FloatArray, Grid
+from bem.lubrication import Lubricant
+from bem.lubrication.rough_walls import WallFactors
+from bem.lubrication.supply import Supply
+from bem.materials import Body
+from bem.reference_solutions.hertz import ellipse_contact
+
+
+@dataclass(frozen=True)
+class FilmHeat:
+    """Which model of the film's heat, as of `solve_line_film`, and the flat and the cylinder that it enters."""
+
+    model: str
+    bodies: tuple[Body, Body]
+
+
+class SmoothContact(Protocol):
+    """A smooth contact and its oil, loads [N] on the whole of it."""
+
+    @property
+    def contact_modulus(self) -> float:
+        """E* of the pair [Pa]."""
+
+    @property
+    def lubricant(self) -> Lubricant:
+        """The oil."""
+
+    @property
+    def deforming_load(self) -> float | None:
+        """Load [N] that deforms the bodies where a film has a part of it (`OilVolume.LOADED`), None where the film's
+        own does."""
+
+    @property
+    def heat(self) -> FilmHeat | None:
+        """Of the film; None where it has none."""
+
+    def film_modulus(self, load: float) -> float:
+        """E* [Pa] of the bodies as a film feels it that carries a load [N]."""
+
+    def slices(self, grid: Grid) -> float:
+        """How many patches side by side make the contact."""
+
+    def half_axes(self, load: float) -> tuple[float, float]:
+        """Of Hertz' contact along x and y [m]; infinite along a cylinder."""
+
+    def mean_pressure(self, load: float) -> float:
+        """Of Hertz' contact [Pa]."""
+
+    def parabola(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """The undeformed gap [m] at x (nx,) and y (ny,) [m]: (nx, ny), or (nx, 1) where it is the same along y."""
+
+    def beside(self, grid: Grid, load: float) -> NDArray[np.bool_]:
+        """Cells of a patch beside Hertz' contact: (nx, ny), or (nx, 1) where it is the same along y."""
+
+
+@dataclass(frozen=True)
+class LineContact:
+    """A cylinder on a flat, and the oil: radius and width [m], E* of the pair [Pa]; how roughness changes the flow;
+    how much oil there is, None where the inlet is flooded; otherwise as `SmoothContact`."""
+
+    radius: float
+    width: float
+    contact_modulus: float
+    lubricant: Lubricant
+    flow_factors: WallFactors | str = "off"
+    deforming_load: float | None = None
+    supply: Supply | None = None
+    heat: FilmHeat | None = None
+
+    def film_modulus(self, load: float) -> float:
+        """As `SmoothContact`."""
+        return _felt_modulus(self, load)
+
+    def slices(self, grid: Grid) -> float:
+        """As `SmoothContact`."""
+        return self.width / grid.lengths[1]
+
+    def half_width(self, load: float) -> float:
+        """Hertz' half-width [m] under a load on the whole width [N]; Johnson (1985), eq. 4.43."""
+        return math.sqrt(4 * load / self.width * self.radius / (math.pi * self.contact_modulus))
+
+    def half_axes(self, load: float) -> tuple[float, float]:
+        """As `SmoothContact`."""
+        return self.half_width(load), math.inf
+
+    def mean_pressure(self, load: float) -> float:
+        """As `SmoothContact`."""
+        return load / (2 * self.half_width(load) * self.width)
+
+    def parabola(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """As `SmoothContact`."""
+        return x[:, None] ** 2 / (2 * self.radius)
+
+    def beside(self, grid: Grid, load: float) -> NDArray[np.bool_]:
+        """As `SmoothContact`."""
+        return np.abs(grid.x[:, None]) > self.half_width(load)
+
+
+@dataclass(frozen=True)
+class PointContact:
+    """A ball or ellipsoid on a flat, and the oil: radii (Rx, Ry) [m], E* of the pair [Pa]. Its films are flooded,
+    isothermal and between smooth walls."""
+
+    radii: tuple[float, float]
+    contact_modulus: float
+    lubricant: Lubricant
+    deforming_load: float | None = None
+
+    @property
+    def heat(self) -> None:
+        """None: of a point film there is no heat yet."""
+        return
+
+    def film_modulus(self, load: float) -> float:
+        """As `SmoothContact`: Hertz' ellipse keeps its size, too, where load and modulus change alike."""
+        return _felt_modulus(self, load)
+
+    def slices(self, grid: Grid) -> float:
+        """As `SmoothContact`: the patch holds it."""
+        return 1.0
+
+    def half_axes(self, load: float) -> tuple[float, float]:
+        """As `SmoothContact`."""
+        return ellipse_contact(radii=self.radii, contact_modulus=self.contact_modulus, load=load).semi_axes
+
+    def mean_pressure(self, load: float) -> float:
+        """As `SmoothContact`."""
+        return ellipse_contact(radii=self.radii, contact_modulus=self.contact_modulus, load=load).mean_pressure
+
+    def parabola(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """As `SmoothContact`."""
+        return x[:, None] ** 2 / (2 * self.radii[0]) + y[None, :] ** 2 / (2 * self.radii[1])
+
+    def beside(self, grid: Grid, load: float) -> NDArray[np.bool_]:
+        """As `SmoothContact`."""
+        a, b = self.half_axes(load)
+        return np.asarray((grid.x[:, None] / a) ** 2 + (grid.y[None, :] / b) ** 2 > 1)
+
+
+def _felt_modulus(contact: SmoothContact, load: float) -> float:
+    modulus, deforming = contact.contact_modulus, contact.deforming_load
+    return modulus if deforming is None else modulus * load / deforming
