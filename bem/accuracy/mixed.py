@@ -18,7 +18,6 @@ import numpy as np
 from bem.accuracy.bars import GRID, POINTS, ErrorBars, Rule
 from bem.accuracy.contact import surface_is_resolved
 from bem.accuracy.film import FEWEST
-from bem.accuracy.point import FEWEST as FEWEST_CELLS
 from bem.contact.cascade import sample
 from bem.errors import Status
 from bem.friction import MixedSolution
@@ -27,7 +26,7 @@ from bem.friction.films import films_of
 from bem.friction.forces import friction_forces, lambda_ratio
 from bem.friction.oil_volume import OilVolume
 from bem.friction.rough_contact import rough_contact
-from bem.friction.setup import MixedSetup
+from bem.friction.setup import FEWEST_CELLS, MixedSetup
 from bem.grid import FloatArray, Grid
 
 BALANCE = "balance"

@@ -18,6 +18,8 @@ from bem.lubrication.steady import check_entrainment, load_range
 
 BALANCE_POINTS = 400
 """Film nodes while the balance is looked for; the last evaluations use the number asked for."""
+BALANCE_CELLS = 64
+"""The same of a ball's film: cells along an axis."""
 HOT_SHARE = 0.9
 """Of the largest load that an oil carries, while heat in the inlet thins it by less than a fifth."""
 COARSE_FILM = 1e-3

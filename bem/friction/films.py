@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING, TypeAlias
 
 from bem.friction.film import SolvedFilm
-from bem.friction.point_film import SolvedPointFilm
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, PointFilmSolution
 
-SolvedFilms = SolvedFilm | SolvedPointFilm
+if TYPE_CHECKING:
+    from bem.friction.point_film import SolvedPointFilm
+
+SolvedFilms: TypeAlias = "SolvedFilm | SolvedPointFilm"
 
 
 def films_of(
@@ -38,6 +41,8 @@ def films_of(
     fine = setup.film_resolution if resolution is None else resolution
     contact = setup.smooth
     if isinstance(contact, PointContact):
+        from bem.friction.point_film import SolvedPointFilm  # a cylinder's run does without, and starts sooner
+
         return SolvedPointFilm(contact, pair, x, y, fine)
     initial = initial if isinstance(initial, FilmSolution) else None
     return SolvedFilm(contact, pair, x, fine, striated_exit=setup.striated_exit, initial=initial)

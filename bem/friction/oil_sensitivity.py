@@ -11,12 +11,11 @@ from dataclasses import replace
 
 from bem.errors import Status
 from bem.friction.balance import Balance, BalanceStart, Regime, share_load
-from bem.friction.film import BALANCE_POINTS, PatchFilm
+from bem.friction.film import BALANCE_CELLS, BALANCE_POINTS, PatchFilm
 from bem.friction.films import films_of
 from bem.friction.forces import friction_forces
 from bem.friction.oil_beside import OilBeside
 from bem.friction.oil_volume import OilVolume
-from bem.friction.point_film import BALANCE_CELLS
 from bem.friction.rough_contact import rough_contact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
 
-from bem.friction.film import PatchFilm, smooth_gap
+from bem.friction.film import BALANCE_CELLS, PatchFilm, smooth_gap
 from bem.friction.smooth import PointContact
 from bem.grid import FloatArray
 from bem.lubrication import PointFilmSolution, solve_point_film
@@ -20,8 +20,6 @@ from bem.lubrication.point.scales import point_scales
 from bem.lubrication.point.solve import MOES_LOADS
 from bem.lubrication.steady import check_entrainment
 
-BALANCE_CELLS = 64
-"""Cells of a film along an axis while the balance is looked for."""
 COARSE_FILM = 0.03
 """Relative error of films of so many cells."""
 LARGEST_MOES_LOAD, GROWTH = 2500.0, 1.25

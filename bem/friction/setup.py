@@ -21,8 +21,8 @@ from bem.materials import Body, contact_modulus
 
 CONTACT_MODELS = ("coupled", "uncoupled")
 SEPARATIONS = ("volume", "film")
-FILM_CELLS = 96
-"""Of a ball's film, along an axis."""
+FEWEST_CELLS, FILM_CELLS = 32, 96
+"""Of a ball's film, along an axis: at least, and by default."""
 HEAT_NEEDS = ("temperature", "density", "heat_capacity", "thermal_conductivity", "temperature_viscosity")
 """Of an oil."""
 
@@ -108,6 +108,8 @@ class MixedSetup:
         for name, value in left.items():
             if not (isinstance(value, str) and value == "off"):
                 messages.append(f"{name}: the film of a ball has none; leave it out, or take a cylinder")
+        if isinstance(self.lubricant, Lubricant) and self.lubricant.shears_film:
+            messages.append('lubricant: film_rheology "shear_law" is not there for a ball; use "newtonian"')
         if any(self.grid.periodic):
             messages.append("grid: the patch holds the contact of a ball and goes on nowhere; make it periodic nowhere")
         return messages
@@ -123,8 +125,8 @@ class MixedSetup:
             messages.append(f"contact_tolerance: {self.contact_tolerance!r} must lie between 0 and 1")
         if not (isinstance(self.film_points, (int, np.integer)) and 100 <= self.film_points <= 20000):
             messages.append(f"film_points: {self.film_points!r} must be an integer from 100 to 20000")
-        if not (isinstance(self.film_cells, (int, np.integer)) and 32 <= self.film_cells <= 1024):
-            messages.append(f"film_cells: {self.film_cells!r} must be an integer from 32 to 1024")
+        if not (isinstance(self.film_cells, (int, np.integer)) and FEWEST_CELLS <= self.film_cells <= 1024):
+            messages.append(f"film_cells: {self.film_cells!r} must be an integer from {FEWEST_CELLS} to 1024")
         return messages
 
     def _boundary_friction(self) -> list[str]:

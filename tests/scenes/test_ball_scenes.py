@@ -62,6 +62,7 @@ def test_slide_roll_ratio_is_that_of_both_surfaces(ratio, other):
         ({"grid": {"shape": 64, "lengths": ["320 um", "150 um"]}}, "half-axis along y"),
         ({"thermal": "lumped"}, "thermal"),
         ({"sharing": {"flow_factors": "surfaces"}}, "flow_factors"),
+        ({"oil": {"viscosity": 0.03, "film_rheology": "shear_law"}}, "film of a point contact"),
         ({"supply": {"thickness": "1 um"}}, "supply"),
         ({"speeds": {"values": [0.1], "cylinder": 0.5, "slide_roll_ratio": 1}}, "they say the same"),
         ({"film": {"start": "-1 mm", "end": "1 mm"}}, "film.start"),

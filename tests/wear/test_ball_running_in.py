@@ -1,0 +1,42 @@
+"""Running-in under a ball: cycles of load sharing from one table of films, worn where Hertz' ellipse is."""
+
+import math
+
+import numpy as np
+import pytest
+
+from bem import Grid
+from bem.runs import run_scene
+from bem.scenes import library
+from bem.wear.outcome import hertz_area, hertz_strip
+
+
+def test_hertz_area_is_strip_or_ellipse():
+    grid = Grid((40, 60), (1e-6, 1e-6))
+    assert np.array_equal(hertz_area(grid, (7e-6, math.inf)), hertz_strip(grid.x, 7e-6))
+    inside = hertz_area(grid, (8e-6, 20e-6))
+    assert inside.sum() * grid.cell_area == pytest.approx(math.pi * 8e-6 * 20e-6, rel=0.02)  # cells along its edge
+    assert hertz_area(grid, (1e-9, 1e-9)).sum() == 4  # round the middle
+
+
+def test_a_ball_runs_in(tmp_path):
+    """Film and surfaces carry the load in every cycle, friction is the sum of both, wear lies under the ball."""
+    scene = dict(library()["running-in-ball"])
+    scene |= {
+        "grid": {"shape": 96, "spacing": "0.45 um"},
+        "speeds": {"values": ["0.2 m/s"]},
+        "cycles": {"count": 3, "averaged": 1, "settled": 2},
+        "depths": {"count": 12, "spacing": "300 nm"},
+        "sharing": {"oil_volume": "loaded", "film_cells": 48},
+    }
+    run = run_scene(scene, tmp_path / "run")
+    assert run.summary["status"] == "converged"
+    data = run.dataset
+    carried = data["contact_share"].values.squeeze() + data["film_load_over_cycles"].values.squeeze() / 0.2
+    np.testing.assert_allclose(carried, 1.0, rtol=2e-3)  # the tolerance of the balance in a cycle
+    parts = run.summary["boundary_friction_part"][0] + run.summary["film_friction_part"][0]
+    assert run.summary["friction"][0] == pytest.approx(parts, rel=1e-12)
+    worn = (data["height_before"] - data["height_after"]).values.squeeze()
+    assert worn.max() > 0
+    inside = hertz_area(Grid((96, 96), (0.45e-6, 0.45e-6)), (14e-6, 14e-6))
+    assert worn[inside].mean() > 3 * worn[~inside].mean()
