@@ -204,8 +204,8 @@ def _contact(scene: Any) -> list[Case]:
 
 
 def _lubricated(scene: Any) -> list[Case]:
-    """Kinds `friction`, `running-in` and `running-in-life`: a cylinder, ball or ellipsoid on a flat, a rough patch under
-    it."""
+    """Kinds `friction`, `running-in` and `running-in-life`: a cylinder, ball or ellipsoid on a flat, a rough patch
+    under it."""
     grid, bodies, contact, wear = build.grid_of(scene.grid), _bodies(scene), scene.contact, getattr(scene, "wear", None)
     modulus = contact_modulus(bodies["lower"].material, bodies["upper"].material)
     (load,) = contact.forces(modulus)

@@ -20,7 +20,7 @@ from bem.scenes.axes import Axis
 from bem.scenes.common import Repetitions, problem
 from bem.scenes.context import Context
 from bem.scenes.kind import Kind
-from bem.scenes.lubrication import LineContactScene
+from bem.scenes.lubrication import MixedScene
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled, grid_map
@@ -37,7 +37,7 @@ _CONVOLUTIONS = 60  # of the two or three contacts of a pass
 _JUMPS = 40  # steps of a life of a million cycles, each of three rounds
 
 
-class RunningInLifeScene(LineContactScene):
+class RunningInLifeScene(MixedScene):
     """A rough cylinder and a rough flat that wear each other in oil over a life."""
 
     kind: Literal["running-in-life"] = "running-in-life"
@@ -53,6 +53,8 @@ class RunningInLifeScene(LineContactScene):
         given = self.contact.loads or self.contact.hertz_pressures or []
         if len(given) != 1:
             raise problem(f"{len(given)} loads", "one load; run the scene again for others")
+        if self.contact.point_radii is not None:
+            raise problem("a ball or ellipsoid", "radius and width of a cylinder: lives under a ball were not tried")
         film = self.tribofilm
         if film is not None and film.temperature is None and self.oil.temperature is None:
             raise problem("a tribofilm without a temperature", "tribofilm.temperature, or oil.temperature")
@@ -204,7 +206,7 @@ def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
 
 def _on_grid(scene: RunningInLifeScene) -> float:
     grid = build.grid_of(scene.grid)
-    return scene.load * grid.lengths[1] / scene.contact.width
+    return scene.contact.on_patch(scene.load, grid.lengths)
 
 
 def _case(scene: RunningInLifeScene, setup: MixedSetup) -> tuple[LifeCase, MixedPasses]:
