@@ -124,17 +124,29 @@ def render(page: Page, pages: Sequence[Page] = ()) -> str:
     return _environment().get_template("page.html").render(page=page, pages=pages, facts=machine_facts() | page.facts)
 
 
-def write_site(pages: Sequence[Page], folder: Path = HERE, *, pdf: bool = False) -> list[Path]:
+def write_site(
+    pages: Sequence[Page],
+    folder: Path = HERE,
+    *,
+    pdf: bool = False,
+    title: str = "reports",
+    about: str = "what was checked, how fast it is, what it predicts, and how to use it.",
+) -> list[Path]:
     """Write every page and the index into `folder`, each whole or not at all; PDFs too where a browser is installed.
 
-    Pages that were built before and lie in the folder stay, and stay in the index.
+    Pages that were built before and lie in the folder stay, and stay in the index, which has the title and says what
+    it is about.
     """
     folder.mkdir(parents=True, exist_ok=True)
     names = [page.name for page in pages]
     everything = [*pages, *(page for page in _pages_in(folder) if page.name not in names)]
     everything.sort(key=lambda page: ORDER.index(page.name) if page.name in ORDER else len(ORDER))
     written = [_write(folder / f"{page.name}.html", render(page, everything)) for page in pages]
-    index = _environment().get_template("index.html").render(pages=everything, facts=machine_facts())
+    index = (
+        _environment()
+        .get_template("index.html")
+        .render(pages=everything, facts=machine_facts(), title=title, about=about)
+    )
     written.append(_write(folder / "index.html", index))
     if pdf:
         written += [made for path in written[:-1] if (made := print_pdf(path)) is not None]

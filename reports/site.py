@@ -33,7 +33,8 @@ def pages(runs: Mapping[str, FinishedRun | str]) -> list[Page]:
     made = [Page("start", "Start", WORDS["lead"], start)]
     for name, title in (("app", "The page"), ("elements", "Machine elements")):
         lead, *rest = WORDS[name]["about"]
-        made.append(Page(name, title, lead.replace("`", ""), [Section(title, "".join(text(item) for item in rest))]))
+        body = guide.code(WORDS[name]["commands"]) + "".join(text(item) for item in rest)
+        made.append(Page(name, title, lead.replace("`", ""), [Section("How it goes", body)]))
     made += [kind_page(kind, runs.get(words_of(kind)["scene"])) for kind in documented()]
     theory, *others = guide.theory()
     made += [
@@ -128,7 +129,7 @@ def build(folder: Path = SITE) -> list[Path]:
     for name, found in runs.items():
         if isinstance(found, str):
             _say(f"no picture of {name}: {found}")
-    return write_site(pages(runs), folder)
+    return write_site(pages(runs), folder, title="guide", about=WORDS["about"])
 
 
 def _say(words: str) -> None:

@@ -46,9 +46,11 @@ def rows(title: str, lines: Sequence[Sequence[str]], head: Sequence[str] = ()) -
     with ui.element("table").classes("text-body2").style("border-collapse: collapse; width: 100%"):
         for number, line in enumerate([head, *lines] if head else lines):
             with ui.element("tr"):
-                for cell in line:
+                for place, cell in enumerate(line):
                     tag = "th" if head and number == 0 else "td"
-                    with ui.element(tag).style("padding: 2px 10px 2px 0; vertical-align: top; text-align: left"):
+                    whole = "; white-space: nowrap" if place == 0 else ""
+                    style = f"padding: 2px 10px 2px 0; vertical-align: top; text-align: left{whole}"
+                    with ui.element(tag).style(style):
                         ui.label(str(cell)).style("overflow-wrap: anywhere")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ from bem.app.workspace import RunState, Workspace
 from bem.errors import BemError
 from bem.plots.report import with_error
 from bem.plots.tables import figure_tables, is_list
+from bem.results.compare import Difference, shown
 from bem.results.read import FinishedRun, open_run
 from bem.scenes.kind import get_kind
 
@@ -328,9 +329,20 @@ def _spread(side: np.ndarray, shown: list[float]) -> np.ndarray:
     return np.asarray(side * factor)
 
 
+def _side_by_side(difference: Difference, runs: Sequence[FinishedRun]) -> tuple[str, ...]:
+    """A figure of several runs, each with its error bar."""
+    cells = [
+        with_error(difference.key, run.summary)[1]
+        if isinstance(run.summary.get(difference.key), int | float)
+        else shown(value)
+        for run, value in zip(runs, difference.values, strict=True)
+    ]
+    return (difference.key, *cells)
+
+
 def compare_page(workspace: Workspace, names: list[str]) -> None:
     """Runs side by side: what differs in the scenes, what in the results, curves and sections overlaid."""
-    from bem.results.compare import figure_differences, headline_differences, run_labels, scene_differences, shown
+    from bem.results.compare import figure_differences, headline_differences, run_labels, scene_differences
 
     with page("overlay"):
         try:
@@ -342,7 +354,7 @@ def compare_page(workspace: Workspace, names: list[str]) -> None:
         rows("scenes", [(d.key, *map(shown, d.values)) for d in different], ("key", *names))
         headline = [key for kind in {r.summary["kind"] for r in runs} for key in get_kind(kind).headline]
         found = headline_differences([d for d in figure_differences(*runs) if not d.equal], [*headline, "status"])
-        rows("results", [(d.key, *map(shown, d.values)) for d in found], ("figure", *names))
+        rows("results", [_side_by_side(d, runs) for d in found], ("figure", *names))
         place = ui.column().classes("w-full")
         labels = run_labels(runs, names)
 

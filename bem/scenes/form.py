@@ -15,6 +15,7 @@ from pydantic_core import PydanticUndefined
 
 from bem.errors import InputError
 from bem.laws import laws_of
+from bem.lubrication.oils.catalogue import oil_names
 from bem.materials import CATALOGUE
 from bem.scenes.common import MaterialScene
 from bem.scenes.kind import get_kind
@@ -150,7 +151,7 @@ def _entry(key: str, field: Any, depth: int) -> Entry:
         name=key.rpartition(".")[2].replace("_", " "),
         allowed=about_field(field) or _words(annotation),
         default="" if default == "(not set)" else default,
-        choices=_choices(annotation),
+        choices=_choices(annotation, key),
         closed=typing.get_origin(annotation) is typing.Literal,
         required=field.default is PydanticUndefined and field.default_factory is None,
         switch=annotation is bool,
@@ -195,9 +196,11 @@ def _tag(model: Any) -> str:
     return str(typing.get_args(kind.annotation)[0]) if kind is not None else model.__name__
 
 
-def _choices(annotation: Any) -> tuple[str, ...]:
+def _choices(annotation: Any, key: str) -> tuple[str, ...]:
     if annotation is MaterialScene:
         return tuple(sorted(CATALOGUE))
+    if key.rpartition(".")[2] == "grade":
+        return oil_names()
     return tuple(literals(annotation))
 
 

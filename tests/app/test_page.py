@@ -152,6 +152,7 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
     }  # fmt: skip
     tab.go(f"{server.base}/compare?runs=contact-001,contact-002")
     tab.wait_text("contact.load")
+    tab.wait(r"/load_N\s+[0-9.]+ (± [0-9.e-]+ mN|mN .no error bar)/.test(document.body.innerText)")  # or why not
     tab.wait("document.querySelector('[data-overlay] svg')")
 
     assert [text for text in (*tab.errors, *other.errors) if LIBRARY not in text] == []

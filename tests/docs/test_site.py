@@ -15,13 +15,6 @@ def pages():
     return site.pages({"rough-contact": "no run in this test"})
 
 
-@pytest.mark.slow
-def test_every_kind_of_the_package_has_a_page(pages):
-    assert set(site.WORDS["kinds"]) <= set(_of_the_package())
-    names = {page.name for page in pages}
-    assert names >= {"theory", "thesis", "errors", *(f"kind-{kind}" for kind in _of_the_package())}
-
-
 @pytest.mark.parametrize("kind", site.WORDS["kinds"])
 def test_what_a_page_names_exists(kind):
     words = site.WORDS["kinds"][kind]
@@ -32,7 +25,10 @@ def test_what_a_page_names_exists(kind):
 
 
 @pytest.mark.slow
-def test_pages_have_errors_limits_and_no_network(pages, tmp_path):
+def test_every_kind_has_a_page_with_errors_and_limits_and_nothing_is_from_a_network(pages, tmp_path):
+    assert set(site.WORDS["kinds"]) <= set(_of_the_package())
+    names = {page.name for page in pages}
+    assert names >= {"theory", "thesis", "errors", *(f"kind-{kind}" for kind in _of_the_package())}
     for page in pages:
         text = render(page, pages)
         assert not re.search(r'(src|href)="(https?:)?//', text), page.name
@@ -45,3 +41,6 @@ def test_pages_have_errors_limits_and_no_network(pages, tmp_path):
     assert written[-1].name == "index.html"
     index = written[-1].read_text("utf-8")
     assert all(f'{page.name}.html"' in index for page in pages)
+    # a list of contents is for several sections
+    short, long = ((tmp_path / f"{name}.html").read_text("utf-8") for name in ("elements", "start"))
+    assert ('class="contents"' in short, 'class="contents"' in long) == (False, True)

@@ -43,6 +43,10 @@ def test_entries_say_unit_default_and_choices():
     assert "steel-52100" in entry(form, "lower.material").choices
     assert [one.kind for one in entry(form, "lower.surface").tables] == ["smooth", "generated", "measured"]
     assert entry(form, "shape.kind").choices[0] == "flat"
+    assert "ground" in entry(form, "lower.surface.process").choices
+    grade = entry(form_of("friction"), "oil.grade")
+    assert "ISO VG 68" in grade.choices
+    assert not grade.closed  # other grades have names that can be worked out
     laws = entry(form_of("friction"), "contact.boundary_friction")
     assert laws.typed
     assert "pressure_dependent" in [one.kind for one in laws.tables]
