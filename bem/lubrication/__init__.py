@@ -21,7 +21,9 @@ if TYPE_CHECKING:
     from bem.lubrication.lubricant import Lubricant
     from bem.lubrication.oils import Oil, find_oil
     from bem.lubrication.point.film import PointFilmSolution
+    from bem.lubrication.point.moving import Dent, MeasuredHeights, MovingSurface, Waves
     from bem.lubrication.point.solve import solve_point_film
+    from bem.lubrication.point.transient import march_point_film
     from bem.lubrication.steady import solve_line_film
     from bem.lubrication.supply import InletDistance, OilLayer
     from bem.lubrication.thermal import (
@@ -34,16 +36,21 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Cavitation",
+    "Dent",
     "FilmSolution",
     "FullThermalFilm",
     "InletDistance",
     "Lubricant",
+    "MeasuredHeights",
+    "MovingSurface",
     "Oil",
     "OilLayer",
     "PointFilmSolution",
     "ThermalFilm",
+    "Waves",
     "find_oil",
     "march_line_film",
+    "march_point_film",
     "solve_full_thermal_line_film",
     "solve_line_film",
     "solve_point_film",
@@ -58,7 +65,9 @@ __getattr__ = loader(
         "lubricant": ["Lubricant"],
         "oils": ["Oil", "find_oil"],
         "point.film": ["PointFilmSolution"],
+        "point.moving": ["Dent", "MeasuredHeights", "MovingSurface", "Waves"],
         "point.solve": ["solve_point_film"],
+        "point.transient": ["march_point_film"],
         "steady": ["solve_line_film"],
         "supply": ["InletDistance", "OilLayer"],
         "thermal": ["FullThermalFilm", "ThermalFilm", "solve_full_thermal_line_film", "solve_thermal_line_film"],

@@ -10,6 +10,7 @@ import numpy as np
 
 from bem.errors import Status
 from bem.grid import FloatArray
+from bem.lubrication import time_steps
 from bem.lubrication.cavitation import Cavitation
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_flow import Problem
@@ -20,9 +21,9 @@ from bem.lubrication.line_step import Film, FixedMesh, StepOutcome, elastic_film
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.steady import lowest_film
+from bem.lubrication.time_steps import Derivative, Reached
 from bem.lubrication.validity import Case, notes_on
 
-MAX_HALVINGS = 8
 SETTLING = (0.3, 0.03, 1e-3)
 """Times that a first film is given to settle on the march's mesh where its steady film is not found, in the time that
 the oil takes through half the contact."""
@@ -99,15 +100,6 @@ class March:
         )
 
 
-@dataclass(frozen=True)
-class Reached:
-    """A time [s] and the film there; the time and film a step earlier, None at the start."""
-
-    time: float
-    film: Film
-    earlier: tuple[float, Film] | None = None
-
-
 def film_of_gap(march: March, thickness: float) -> Film:
     """The film of undeformed bodies with a gap [m] at x = 0, full of oil."""
     x = march.mesh.position
@@ -158,7 +150,7 @@ def _fraction_of(march: March, initial: FilmSolution, film: FloatArray) -> Float
     return np.where(behind, np.minimum(np.interp(exit_, x, film) / film, 1.0), 1.0)
 
 
-def given_start(march: March, film: Film, time: float) -> tuple[Reached, FilmSolution]:
+def given_start(march: March, film: Film, time: float) -> tuple[Reached[Film], FilmSolution]:
     """The march from a film as it is, and by how much it misses the load."""
     solution = _solution(march, film, time)
     missed = solution.load / march.operation.load(time) - 1
@@ -168,7 +160,7 @@ def given_start(march: March, film: Film, time: float) -> tuple[Reached, FilmSol
     return Reached(time, film), solution
 
 
-def steady_start(march: March, film: Film, time: float) -> tuple[Reached, FilmSolution]:
+def steady_start(march: March, film: Film, time: float) -> tuple[Reached[Film], FilmSolution]:
     """The march from the steady film on its own mesh, looked for near a film."""
     still = np.zeros_like(film.mass)
     # steady; too far off for Newton, a little later, where load and flow are in balance at any rate
@@ -180,25 +172,15 @@ def steady_start(march: March, film: Film, time: float) -> tuple[Reached, FilmSo
     return Reached(time, kept), _solution(march, kept, time, outcome)
 
 
-def advance(march: March, at: Reached, time: float, depth: int = 0) -> tuple[Reached, FilmSolution]:
-    """One step to a time, of second order (BDF2) but for the first, or as many halves as it takes; where that is not
-    enough, the solution is not converged."""
-    step = (time - at.time) / march.scaling.clock
-    if at.earlier is None:
-        leading = 1 / step
-        history = -at.film.mass / step
-    else:
-        ratio = (time - at.time) / (at.time - at.earlier[0])
-        leading = (1 + 2 * ratio) / (1 + ratio) / step
-        history = (-(1 + ratio) * at.film.mass + ratio**2 / (1 + ratio) * at.earlier[1].mass) / step
-    outcome = march.step(time, at.film, leading, history)
-    if outcome.converged or depth == MAX_HALVINGS:
-        return Reached(time, outcome.film, (at.time, at.film)), _solution(march, outcome.film, time, outcome)
-    middle, halfway = advance(march, at, 0.5 * (at.time + time), depth + 1)
-    if halfway.status is not Status.CONVERGED:
-        return middle, halfway
-    reached, solution = advance(march, middle, time, depth + 1)
-    return reached, replace(solution, iterations=solution.iterations + halfway.iterations)
+def advance(march: March, at: Reached[Film], time: float) -> tuple[Reached[Film], FilmSolution]:
+    """One step to a time, or halves of it."""
+
+    def step(at: Reached[Film], time: float) -> tuple[Film, FilmSolution]:
+        change = Derivative.at(at, time, march.scaling.clock)
+        outcome = march.step(time, at.film, change.leading, change.history(at, lambda film: film.mass))
+        return outcome.film, _solution(march, outcome.film, time, outcome)
+
+    return time_steps.advance(step, at, time)
 
 
 def _solution(march: March, film: Film, time: float, outcome: StepOutcome | None = None) -> FilmSolution:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from bem.errors import InputError, Status
+from bem.errors import InputError
 from bem.grid import FloatArray
+from bem.lubrication import time_steps
 from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_continuation import typical_half_width
@@ -18,7 +19,6 @@ from bem.lubrication.line_march import (
     Contact,
     March,
     Operation,
-    Reached,
     Scaling,
     advance,
     film_of_gap,
@@ -27,10 +27,11 @@ from bem.lubrication.line_march import (
     steady_start,
 )
 from bem.lubrication.line_scales import line_scales, scaled_problem
-from bem.lubrication.line_step import FixedMesh, fixed_mesh
+from bem.lubrication.line_step import Film, FixedMesh, fixed_mesh
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.steady import check_speeds, solve_line_film
 from bem.lubrication.supply import OilLayer, checked_supply
+from bem.lubrication.time_steps import MarchState, Schedule, load_messages, schedule_of, start_messages
 from bem.threads import one_blas_thread
 
 FAR = 50.0
@@ -39,14 +40,7 @@ BARELY_FLOODED = 0.99
 place in a steady film."""
 
 
-@dataclass(frozen=True, eq=False)
-class MarchState:
-    """All that the next step needs: where the march is, the films so far, and the steady film that it set out from
-    where it looked for one."""
-
-    steady: FilmSolution | None
-    reached: Reached
-    solutions: tuple[FilmSolution, ...]
+LineState = MarchState[Film, FilmSolution]
 
 
 @one_blas_thread
@@ -64,8 +58,8 @@ def march_line_film(  # reason: the signature is a promise to users' scripts; fr
     initial_thickness: float | None = None,
     cavitation: Cavitation | str = Cavitation.SWIFT_STIEBER,
     supply: OilLayer | float | None = None,
-    state: MarchState | None = None,
-    callback: Callable[[MarchState], None] | None = None,
+    state: LineState | None = None,
+    callback: Callable[[LineState], None] | None = None,
 ) -> list[FilmSolution]:
     """Film of a line contact at each of `times`, of second order in the time step (BDF2, L-stable).
 
@@ -105,8 +99,8 @@ def march_line_film(  # reason: the signature is a promise to users' scripts; fr
         from, or a supply other than a layer or without mass-conserving cavitation.
     """
     contact, operation = Contact(radius, contact_modulus, lubricant), Operation(load, speeds)
-    schedule = _schedule(times, operation)
-    messages = _messages(schedule, contact, points) + _start_messages(initial, initial_thickness)
+    schedule = schedule_of(times, load, speeds)
+    messages = _messages(schedule, contact, points) + start_messages(initial, initial_thickness)
     try:
         model = cavitation_of(cavitation)
         layer = _layer(supply, model)
@@ -134,43 +128,13 @@ def march_line_film(  # reason: the signature is a promise to users' scripts; fr
             reached, opening = (steady_start if steady else given_start)(march, film, at)
         state = MarchState(initial if steady else None, reached, (opening,))
         tell(state)
-    solutions = list(state.solutions)
-    reached = state.reached
-    for time in schedule.times[len(solutions) :]:
-        if len(solutions) > 1 and solutions[-1].status is not Status.CONVERGED:
-            break
-        reached, solution = advance(march, reached, float(time))
-        solutions.append(solution)
-        tell(MarchState(state.steady, reached, tuple(solutions)))
-    return solutions
-
-
-@dataclass(frozen=True)
-class Schedule:
-    """The times asked for (n,) [s], with the loads [N/m] and pairs of speeds [m/s] at them."""
-
-    times: FloatArray
-    loads: list[float]
-    speeds: list[Sequence[float]]
-
-
-def _schedule(times: FloatArray, operation: Operation) -> Schedule:
-    """What acts at each of the times; refuses times that do not ascend and what is no function."""
-    steps = np.asarray(times, dtype=np.float64)
-    if steps.ndim != 1 or len(steps) < 2 or not np.isfinite(steps).all() or not (np.diff(steps) > 0).all():
-        raise InputError("times: must be at least two finite, ascending times [s]")
-    if not (callable(operation.load) and callable(operation.speeds)):
-        raise InputError("load, speeds: must be functions of time; for constants write lambda t: value")
-    loads, pairs = [operation.load(float(t)) for t in steps], [operation.speeds(float(t)) for t in steps]
-    return Schedule(steps, loads, pairs)
+    return time_steps.march(schedule.times, state, partial(advance, march), tell)
 
 
 def _messages(schedule: Schedule, contact: Contact, points: int) -> list[str]:
     """What is wrong with loads, speeds, bodies, oil and number of points."""
-    messages = []
-    for t, w, pair in zip(schedule.times, schedule.loads, schedule.speeds, strict=True):
-        if not (isinstance(w, (int, float, np.floating)) and math.isfinite(w) and w > 0):
-            messages.append(f"load: {w!r} at time {t:g} s must be positive and finite [N/m]")
+    messages = load_messages(schedule, "N/m")
+    for t, pair in zip(schedule.times, schedule.speeds, strict=True):
         messages += [f"{m} at time {t:g} s" for m in check_speeds(pair)]
     for name, value in (("radius", contact.radius), ("contact_modulus", contact.contact_modulus)):
         if not (isinstance(value, (int, float, np.floating)) and value > 0):
@@ -179,16 +143,6 @@ def _messages(schedule: Schedule, contact: Contact, points: int) -> list[str]:
         messages.append(f"lubricant: {type(contact.lubricant).__name__} is not a Lubricant")
     if not (isinstance(points, (int, np.integer)) and 101 <= points <= 5000):
         messages.append(f"points: {points!r} must be an integer from 101 to 5000")
-    return messages
-
-
-def _start_messages(initial: FilmSolution | None, initial_thickness: float | None) -> list[str]:
-    """What is wrong with the film to start from."""
-    messages = []
-    if initial is not None and initial_thickness is not None:
-        messages.append("initial, initial_thickness: give one of them")
-    if initial_thickness is not None and not (math.isfinite(initial_thickness) and initial_thickness > 0):
-        messages.append(f"initial_thickness: {initial_thickness!r} must be positive and finite [m]")
     return messages
 
 

@@ -52,7 +52,7 @@ def from_dry(level: Level) -> State:
         film = np.maximum(contact.gap, 0.0) * factor + problem.typical_film
         size = 2 * float(contact.approach) * factor
     # between bodies that are pressed flat it would be far too much
-    far = level.far_source / (film + size) ** 2
+    far = level.far_source(0.0) / (film + size) ** 2
     drag, x, y = problem.drag, level.x[:, None], level.y[None, :]
     full = drag[0] * x + drag[1] * y < RUPTURE * np.abs(drag[0] * y - drag[1] * x)
     far = np.where(full, np.maximum(far, LEAST_PRESSURE * max(far.max(), dry.max())), 0.0)

@@ -45,6 +45,8 @@ class PointFilmSolution:
     speeds : ((u1x, u1y), (u2x, u2y)) [m/s]. lubricant : as given.
     film_fraction : (nx, ny) share of the gap that is filled with oil, 1 in the full film; None with Swift and Stieber's
         cavitation, which keeps no account of it.
+    time : [s] of a film in time (`march_point_film`), whose residual and mass_imbalance count what the film gains.
+    heights : (nx, ny) of both surfaces then, out of the bodies [m]; None of smooth ones.
     notes : where the model is outside its validity, a sentence each.
     state : what a solver can start from.
     """
@@ -70,6 +72,8 @@ class PointFilmSolution:
     speeds: tuple[tuple[float, float], tuple[float, float]]
     lubricant: Lubricant
     film_fraction: FloatArray | None = None
+    time: float | None = None
+    heights: FloatArray | None = None
     notes: tuple[str, ...] = ()
     state: KeptPoint | None = field(default=None, repr=False, compare=False)
 

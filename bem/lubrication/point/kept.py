@@ -34,7 +34,7 @@ class KeptPoint:
 @dataclass(frozen=True)
 class Certificate:
     """Of a pressure and H0 alone: the film, the largest relative error of cells and load, differences in oil through
-    lines across, load over M, the film's balance."""
+    lines across, load over M."""
 
     film: FloatArray
     residual: float
@@ -48,10 +48,11 @@ def certificate(level: Level, pressure: FloatArray, datum: float) -> Certificate
     if not film.min() > 0:
         return Certificate(film, np.inf, np.inf, np.nan)
     at = balance(level, State(pressure, film, datum), np.zeros(level.shape))
-    share = at.load / level.problem.load
+    total = level.problem.load
+    share = at.load / total
     residual = max(float(np.abs(at.wrong).max()), abs(share))
     # a cell without pressure whose balance is negative is free: it is among the wrong ones
-    return Certificate(film, residual, at.mass, 1 + share)
+    return Certificate(film, residual, at.mass, level.problem.wanted(datum)[0] / total + share)
 
 
 def film_fraction(level: Level, pressure: FloatArray, film: FloatArray) -> FloatArray:

@@ -12,7 +12,7 @@ from scipy.sparse import csr_matrix
 from bem.convolution import DisplacementOperator
 from bem.grid import FloatArray
 from bem.lubrication.point import loops
-from bem.lubrication.point.far import far_load, far_source
+from bem.lubrication.point.far import Far, far_load
 
 DENSE = 1100
 """Cells of a grid whose matrix is inverted as a whole."""
@@ -20,27 +20,64 @@ SEMI = 1.6
 """Ratio of spacings from which only the finer axis is made coarser."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
+class InTime:
+    """What a step in time adds. storing : d(rho H)/dT = storing rho H + history (nx, ny), dH0/dT = storing H0 +
+    datum_history. inertia : (a, b), the load that accelerates the ball, a H0 + b."""
+
+    storing: float
+    history: FloatArray
+    datum_history: float
+    inertia: tuple[float, float] = (0.0, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
 class PointProblem:
-    """The similarity problem: load M, lambda = Rx/Ry, direction of entrainment, laws of the oil, the elastic bodies.
+    """The similarity problem: load M, curvatures (1, Rx/Ry) of the gap along x and y (others where radii change in
+    time), entrainment over that of its unit, laws of the oil, the elastic bodies.
 
     oil : `loops.flows` has what it gives of pressures. rectangle : (x0, x1, y0, y1), the edges of the outermost cells.
     operator : for a shape, the displacement of both bodies and the factor to films from what it makes of pressures in
-    their unit; None of rigid bodies. typical_film : what is expected in the middle.
+    their unit; None of rigid bodies. typical_film : what is expected in the middle. heights : (nx, ny) of both surfaces
+    out of the bodies, None of smooth ones. in_time : None of a steady film.
     """
 
     load: float
-    ratio: float
+    curvatures: tuple[float, float]
     drag: tuple[float, float]
     oil: Callable[[FloatArray], FloatArray]
     rectangle: tuple[float, float, float, float]
     operator: Callable[[tuple[int, int]], tuple[DisplacementOperator, float]] | None
     typical_film: float
+    heights: FloatArray | None = None
+    in_time: InTime | None = None
+
+    @property
+    def storing(self) -> float:
+        """Derivative of d(rho H)/dT with rho H."""
+        return 0.0 if self.in_time is None else self.in_time.storing
+
+    @property
+    def squeeze_slope(self) -> float:
+        """Derivative of the squeeze's far pressure times film squared with H0 (`far`)."""
+        return -3 / sum(self.curvatures) * self.storing
+
+    def far(self, datum: float) -> Far:
+        """What there is far away."""
+        squeeze = 0.0
+        if self.in_time is not None:
+            squeeze = -3 / sum(self.curvatures) * (self.storing * datum + self.in_time.datum_history)
+        return Far(self.drag, self.curvatures, squeeze)
 
     def outside(self, datum: float) -> tuple[float, float]:
         """Load outside the rectangle, and its derivative with H0."""
         lifting = 0.0 if self.operator is None else self.load
-        return far_load(self.rectangle, self.drag, self.ratio, datum, lifting)
+        return far_load(self.rectangle, self.far(datum), datum, lifting, self.squeeze_slope)
+
+    def wanted(self, datum: float) -> tuple[float, float]:
+        """The load that pressures must carry, inertia included, and its derivative with H0."""
+        slope, rest = (0.0, 0.0) if self.in_time is None else self.in_time.inertia
+        return self.load + slope * datum + rest, slope
 
 
 @dataclass(frozen=True)
@@ -74,12 +111,24 @@ class Level:
     @cached_property
     def gap(self) -> FloatArray:
         """Of the undeformed bodies (nx, ny)."""
-        return 0.5 * self.x[:, None] ** 2 + 0.5 * self.problem.ratio * self.y[None, :] ** 2
+        along, across = self.problem.curvatures
+        gap = 0.5 * along * self.x[:, None] ** 2 + 0.5 * across * self.y[None, :] ** 2
+        return gap if self.problem.heights is None else gap - self.problem.heights
+
+    def far_source(self, datum: float) -> FloatArray:
+        """Pressure times film squared far away (nx, ny); zero in the ruptured film."""
+        if self.problem.in_time is None:
+            return self._steady_source
+        return self.problem.far(datum).source(*self._points)
 
     @cached_property
-    def far_source(self) -> FloatArray:
-        """Pressure times film squared far away (nx, ny); zero in the ruptured film."""
-        return far_source(self.x, self.y, self.problem.drag, self.problem.ratio)
+    def _steady_source(self) -> FloatArray:
+        return self.problem.far(0.0).source(*self._points)
+
+    @property
+    def _points(self) -> tuple[FloatArray, FloatArray]:
+        x, y = np.broadcast_arrays(self.x[:, None], self.y[None, :])
+        return x, y
 
     @cached_property
     def border(self) -> np.ndarray:

@@ -39,19 +39,27 @@ class Change:
 @dataclass(frozen=True)
 class Linear:
     """The equations on one grid, around pressures and films there. held : cells without a balance (nx, ny), where the
-    pressure stays; stencil : see `loops`; tail_slope : derivative of the load outside the rectangle with H0."""
+    pressure stays; stencil : see `loops`; far : pressure times film squared far away (nx, ny); tail_slope : derivative
+    of the load outside the rectangle, less what accelerates, with H0."""
 
     level: Level
     pressure: FloatArray
     film: FloatArray
     held: BoolArray
     stencil: FloatArray
+    far: FloatArray
     tail_slope: float
 
     @cached_property
     def far_slope(self) -> FloatArray:
         """Derivative of pressure - far pressure of the outermost cells with their film."""
-        return np.where(self.level.border, 2 * self.level.far_source / self.film**3, 0.0)
+        return np.where(self.level.border, 2 * self.far / self.film**3, 0.0)
+
+    @cached_property
+    def squeezed(self) -> FloatArray:
+        """Derivative of pressure - far pressure of the outermost cells with H0, by the squeeze alone."""
+        slope = self.level.problem.squeeze_slope
+        return np.where(self.level.border & (self.far > 0), -slope / self.film**2, 0.0)
 
     @cached_property
     def kinds(self) -> NDArray[np.int8]:
@@ -61,8 +69,9 @@ class Linear:
         inside[1:-1, 1:-1] &= free[:-2, 1:-1] & free[2:, 1:-1] & free[1:-1, :-2] & free[1:-1, 2:]
         driven = np.zeros(self.level.shape)
         loops.own_flow(self.stencil, self.level.spacing, driven)
-        drag, (dx, dy) = self.level.problem.drag, self.level.spacing
-        wedge = 6 * (drag[0] / dx + drag[1] / dy) * self.stencil[6] * self.level.near[0, 0, 0]
+        problem, (dx, dy) = self.level.problem, self.level.spacing
+        drag, storing = problem.drag, problem.storing
+        wedge = 6 * (drag[0] / dx + drag[1] / dy + storing) * self.stencil[6] * self.level.near[0, 0, 0]
         spread = inside & (driven < SPREADING * wedge)
         return np.where(free, np.where(spread, 2, 1), 0).astype(np.int8)
 
@@ -71,8 +80,10 @@ class Linear:
         level = self.level
         film = level.deflection(change.pressure) + change.datum
         out = np.zeros(level.shape)
-        loops.applied(self.stencil, level.spacing, level.problem.drag, change.pressure, film, out)
-        np.copyto(out, change.pressure + self.far_slope * film, where=level.border)
+        problem = level.problem
+        loops.applied(self.stencil, level.spacing, problem.drag, problem.storing, change.pressure, film, out)
+        far = change.pressure + self.far_slope * film + self.squeezed * change.datum
+        np.copyto(out, far, where=level.border)
         out[self.held] = 0.0
         return out, float(change.pressure.sum()) * level.cell + self.tail_slope * change.datum
 
@@ -80,16 +91,18 @@ class Linear:
         """Pressures that a sweep over lines adds, there or back; of oil that comes at an angle the way back is along
         the other axis."""
         level = self.level
-        drag = level.problem.drag
+        drag, storing = level.problem.drag, level.problem.storing
         out = np.zeros(level.shape)
         if back and drag[1] > 0:
             crossed = np.zeros(level.shape[::-1])
             right = np.ascontiguousarray(residual.T)
             steps, near = level.spacing[::-1], level.near_across
-            loops.relax(self._crossed, steps, drag[::-1], near, self.kinds.T.copy(), right, DAMPING, True, crossed)
+            kinds = self.kinds.T.copy()
+            loops.relax(self._crossed, steps, drag[::-1], storing, near, kinds, right, DAMPING, True, crossed)
             out[:] = crossed.T
         else:
-            loops.relax(self.stencil, level.spacing, drag, level.near, self.kinds, residual, DAMPING, back, out)
+            steps, near = level.spacing, level.near
+            loops.relax(self.stencil, steps, drag, storing, near, self.kinds, residual, DAMPING, back, out)
         np.copyto(out, residual, where=level.border)
         out[self.held] = 0.0
         return out
@@ -106,14 +119,17 @@ class Linear:
         if coarse is None:
             return None
         held = level.averaged(self.held.astype(float)) > 0.5
-        return linearised(coarse, level.averaged(self.pressure), level.averaged(self.film), held, self.tail_slope)
+        pressure, film = level.averaged(self.pressure), level.averaged(self.film)
+        stencil = flows(coarse, pressure, film)[1]
+        return Linear(coarse, pressure, film, held, stencil, level.averaged(self.far), self.tail_slope)
 
     @cached_property
     def _factors(self) -> tuple[FloatArray, NDArray[np.int32], FloatArray]:
         level = self.level
         n = self.film.size
         rows, by_film = np.zeros((n, n)), np.zeros((n, n))
-        loops.fill_rows(self.stencil, level.spacing, level.problem.drag, rows, by_film)
+        problem = level.problem
+        loops.fill_rows(self.stencil, level.spacing, problem.drag, problem.storing, rows, by_film)
         border = level.border.ravel()
         rows[border], by_film[border] = 0.0, 0.0
         index = np.flatnonzero(border)
@@ -124,7 +140,7 @@ class Linear:
         deflection = level.dense_deflection
         if deflection is not None:
             matrix[:n, :n] += csr_matrix(by_film) @ deflection
-        matrix[:n, n] = by_film.sum(axis=1)
+        matrix[:n, n] = by_film.sum(axis=1) + self.squeezed.ravel()
         matrix[n, :n] = level.cell
         matrix[n, n] = self.tail_slope
         held = np.flatnonzero(self.held.ravel())
@@ -164,11 +180,6 @@ class Linear:
         done, _ = self.applied(Change(pressure, correction.datum))
         pressure += self.relaxed(residual - done, back=True)
         return Change(pressure, correction.datum)
-
-
-def linearised(level: Level, pressure: FloatArray, film: FloatArray, held: BoolArray, tail_slope: float) -> Linear:
-    """The equations around pressures and films (nx, ny) of a grid."""
-    return Linear(level, pressure, film, held, flows(level, pressure, film)[1], tail_slope)
 
 
 def flows(level: Level, pressure: FloatArray, film: FloatArray) -> tuple[FloatArray, FloatArray]:

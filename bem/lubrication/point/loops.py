@@ -4,7 +4,8 @@ In similarity units (`scales`), with the flow between neighbouring cells
 
     F = -rho h^3/m dP/dx + 6 c rho h
 
-the balance of a cell is div F. Fluidity 1/m is its mean between the two pressures. What is dragged is interpolated from
+the balance of a cell is div F, in time div F + 6 d(rho h)/dT with d(rho h)/dT = `storing` rho h + what was there
+(`stepping`). Fluidity 1/m is its mean between the two pressures. What is dragged is interpolated from
 two cells upstream and one downstream (third order; Leonard 1979): films were ten times as accurate as with the two
 upstream ones, and there still is no wave of pressure that the oil does not feel where it is too viscous to flow.
 Entrainment c points to larger indices along both axes. Outermost cells hold no balance.
@@ -123,6 +124,7 @@ def applied(
     stencil: FloatArray,
     spacing: tuple[float, float],
     drag: tuple[float, float],
+    storing: float,
     dp: FloatArray,
     dh: FloatArray,
     out: FloatArray,
@@ -143,6 +145,10 @@ def applied(
     _drag(m, drag[0], 0, flow[0])
     _drag(m, drag[1], 1, flow[1])
     divergence(flow, spacing, out)
+    if storing != 0.0:
+        for i in range(1, nx - 1):
+            for j in range(1, ny - 1):
+                out[i, j] += 6.0 * storing * m[i, j]
 
 
 @nb.njit(**COMPILE)
@@ -171,7 +177,13 @@ def _dragged_row(m: FloatArray, i: int, j: int, wedge: float, across: float, row
 
 @nb.njit(**COMPILE)
 def _rows(
-    s: FloatArray, spacing: tuple[float, float], drag: tuple[float, float], i: int, j: int, rows: FloatArray
+    s: FloatArray,
+    spacing: tuple[float, float],
+    drag: tuple[float, float],
+    storing: float,
+    i: int,
+    j: int,
+    rows: FloatArray,
 ) -> None:
     """Derivatives (2, 7) of the balance of inner cell [i, j] with pressures, films held, and with films, at
     [i - 2 .. i + 1, j], then at [i, j - 2], [i, j - 1], [i, j + 1]."""
@@ -190,6 +202,8 @@ def _rows(
     wedge, across = 6.0 * drag[0] / dx, 6.0 * drag[1] / dy
     _dragged_row(s[7], i, j, wedge, across, rows[0])
     _dragged_row(s[6], i, j, wedge, across, rows[1])
+    rows[0, 2] += 6.0 * storing * s[7, i, j]
+    rows[1, 2] += 6.0 * storing * s[6, i, j]
 
 
 @nb.njit(**COMPILE)
@@ -246,6 +260,7 @@ def relax(
     stencil: FloatArray,
     spacing: tuple[float, float],
     drag: tuple[float, float],
+    storing: float,
     near: FloatArray,
     kinds: Any,
     residual: FloatArray,
@@ -274,7 +289,7 @@ def relax(
             if kinds[i, j] == 0:
                 matrix[i, BAND] = 1.0
                 continue
-            _rows(stencil, spacing, drag, i, j, rows)
+            _rows(stencil, spacing, drag, storing, i, j, rows)
             right[i] = residual[i, j] - (rows[0, 6] * dp[i, j + 1] if downwards else rows[0, 5] * dp[i, j - 1])
             for s in range(max(-BAND, -i), min(BAND, nx - 1 - i) + 1):
                 kind = kinds[i + s, j]
@@ -298,6 +313,7 @@ def fill_rows(
     stencil: FloatArray,
     spacing: tuple[float, float],
     drag: tuple[float, float],
+    storing: float,
     by_pressure: FloatArray,
     by_film: FloatArray,
 ) -> None:
@@ -306,7 +322,7 @@ def fill_rows(
     rows = np.zeros((2, 7))
     for i in range(1, nx - 1):
         for j in range(1, ny - 1):
-            _rows(stencil, spacing, drag, i, j, rows)
+            _rows(stencil, spacing, drag, storing, i, j, rows)
             for t in range(7):
                 k = i + t - 2 if t < 4 else i
                 m = j if t < 4 else j + (t - 6 if t < 6 else 1)

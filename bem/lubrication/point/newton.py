@@ -1,4 +1,4 @@
-"""Newton's method for the steady point contact on one grid.
+"""Newton's method for the point contact on one grid, steady or at a time.
 
 Which cells carry no pressure is settled with each step: they stay so while more oil would leave than comes in
 (Swift-Stieber). As in the line contact, a start's film need not be that of its pressure: the mismatch is carried along
@@ -52,7 +52,7 @@ class Balance:
 
     mismatch : of its film with that of its pressure. right : balances (nx, ny), of outermost cells pressure less far
     pressure. load : what is missing of it, negative. linear : the equations around the state. through : most oil
-    through a line across x, and across y.
+    through a line across x, and across y, in time with what cells gain or lose.
     """
 
     state: State
@@ -68,7 +68,7 @@ class Balance:
         level = self.linear.level
         lost = np.where(self.linear.held | level.border, 0.0, self.right) * level.cell
         found = float(np.abs(np.cumsum(lost.sum(axis=1))).max()) / self.through[0]
-        if level.problem.drag[1] == 0:
+        if level.problem.drag[1] == 0 and level.problem.in_time is None:
             return found
         return max(found, float(np.abs(np.cumsum(lost.sum(axis=0))).max()) / self.through[1])
 
@@ -77,7 +77,8 @@ class Balance:
         """From balances to shares of what is dragged along locally."""
         level, film = self.linear.level, self.state.film
         drag, (dx, dy) = level.problem.drag, level.spacing
-        weight = 1 / (6 * self.linear.stencil[6] * film * (drag[0] / dx + drag[1] / dy))
+        storing = level.problem.storing
+        weight = 1 / (6 * self.linear.stencil[6] * film * (drag[0] / dx + drag[1] / dy + storing))
         weight[level.border] = 1 / max(float(self.state.pressure.max()), 1e-300)
         return weight
 
@@ -106,13 +107,19 @@ def balance(level: Level, state: State, mismatch: FloatArray) -> Balance:
     flow, stencil = flows(level, pressure, film)
     out = np.zeros(level.shape)
     loops.divergence(flow, level.spacing, out)
-    np.copyto(out, pressure - level.far_source / film**2, where=level.border)
+    far, stored = level.far_source(state.datum), 0.0
+    if problem.in_time is not None:
+        gained = 6 * (problem.storing * stencil[6] * film + problem.in_time.history)
+        out += gained
+        stored = float(np.abs(gained[1:-1, 1:-1]).sum()) * level.cell
+    np.copyto(out, pressure - far / film**2, where=level.border)
     outside, tail_slope = problem.outside(state.datum)
-    held = np.where(level.border, level.far_source == 0, (pressure <= 0) & (out > 0))
-    load = float(pressure.sum()) * level.cell + outside - problem.load
+    wanted, inertia = problem.wanted(state.datum)
+    held = np.where(level.border, far == 0, (pressure <= 0) & (out > 0))
+    load = float(pressure.sum()) * level.cell + outside - wanted
     totals = (np.abs(flow[axis, 1:-1, 1:-1].sum(axis=1 - axis)).max() for axis in (0, 1))
-    first, second = (float(total) * step for total, step in zip(totals, level.spacing[::-1], strict=True))
-    linear = Linear(level, pressure, film, held, stencil, tail_slope)
+    first, second = (float(total) * step + stored for total, step in zip(totals, level.spacing[::-1], strict=True))
+    linear = Linear(level, pressure, film, held, stencil, far, tail_slope - inertia)
     return Balance(state, mismatch, out, load, linear, (max(first, 1e-300), max(second, 1e-300)))
 
 
@@ -152,7 +159,8 @@ def _change(at: Balance, forcing: float) -> tuple[Change, int]:
     film = -at.mismatch
     if known.any():
         film = film + level.deflection(known)
-    loops.applied(linear.stencil, level.spacing, level.problem.drag, known, film, done)
+    problem = level.problem
+    loops.applied(linear.stencil, level.spacing, problem.drag, problem.storing, known, film, done)
     np.copyto(done, known + linear.far_slope * film, where=level.border)
     right = np.where(linear.held, 0.0, -at.right - done)
     load = -at.load - float(known.sum()) * level.cell

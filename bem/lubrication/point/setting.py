@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -113,7 +113,14 @@ def setting_of(
         a0, a1, b0, b1 = frame.rectangle(*extent)
         unit = scales.length
         rectangle = (a0 / unit, a1 / unit, b0 / unit, b1 / unit)
-    unit = scales.pressure
+    oil = scaled_oil(lubricant, scales.pressure)
+    operator = None if scales.rigid else Operators(scales, rectangle, contact_modulus, bodies)
+    problem = PointProblem(scales.load, (1.0, scales.ratio), drag, oil, rectangle, operator, film)
+    return Setting(frame, scales, problem, hertz)
+
+
+def scaled_oil(lubricant: Lubricant, unit: float) -> Callable[[FloatArray], FloatArray]:
+    """What `loops.flows` takes of an oil at pressures in their unit [Pa]."""
 
     def oil(pressure: FloatArray) -> FloatArray:
         physical = pressure * unit
@@ -121,18 +128,15 @@ def setting_of(
         density, density_slope = lubricant.density_ratio(physical)
         return np.stack([log_viscosity, slope * unit, density, density_slope * unit])
 
-    operator = None if scales.rigid else _Operators(scales, rectangle, frame, contact_modulus, bodies)
-    problem = PointProblem(scales.load, scales.ratio, drag, oil, rectangle, operator, film)
-    return Setting(frame, scales, problem, hertz)
+    return oil
 
 
 @dataclass(frozen=True)
-class _Operators:
+class Operators:
     """Displacement operators on grids of a rectangle, and the factor from what they make of pressures to films."""
 
     scales: PointScales
     rectangle: Rectangle
-    frame: Frame
     contact_modulus: float
     bodies: Sequence[Body] | None
 

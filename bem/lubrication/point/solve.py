@@ -85,36 +85,40 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
     distributive where the oil does not flow (Venner and Lubrecht, *Multilevel methods in lubrication*, 2000); starts
     from the dry contact lifted by the film of Nijenbanning, Venner and Moes (1994). Of second order.
     """
-    pair = _checked(load, radii, contact_modulus, speeds, lubricant, shape, tolerance, extent)
+    pair = checked(load, radii, contact_modulus, speeds, lubricant, shape, tolerance, extent)
     model, cells = cavitation_of(cavitation), SHAPE if shape is None else (int(shape[0]), int(shape[1]))
     both = (bodies,) if isinstance(bodies, Body) else bodies
     setting = setting_of(
-        float(load), (float(radii[0]), float(radii[1])), float(contact_modulus), _entrainment(pair), lubricant,
-        _edges(extent), both,
+        float(load), (float(radii[0]), float(radii[1])), float(contact_modulus), entrainment(pair), lubricant,
+        edges(extent), both,
     )  # fmt: skip
-    _check_range(setting, load)
+    check_load(setting, load)
+    check_extent(setting)
     along = (cells[1], cells[0]) if setting.frame.exchanged else cells
     reached = solved(setting.problem, along, tolerance, max_iterations)
-    return _result(setting, reached, Request(pair, lubricant, tolerance, model, contact_modulus))
+    return result_of(setting, reached, Request(pair, lubricant, tolerance, contact_modulus, model))
 
 
 @dataclass(frozen=True)
 class Request:
-    """What a result repeats of what was asked for."""
+    """What a result repeats of what was asked for; time [s] of one in time, which was `given` and not solved for."""
 
     speeds: Speeds
     lubricant: Lubricant
     tolerance: float
-    cavitation: Cavitation
     contact_modulus: float
+    cavitation: Cavitation = Cavitation.SWIFT_STIEBER
+    time: float | None = None
+    given: bool = False
 
 
-def _result(setting: Setting, reached: Reached, asked: Request) -> PointFilmSolution:
+def result_of(setting: Setting, reached: Reached, asked: Request) -> PointFilmSolution:
+    """The result, judged by its pressure and H0 alone; a film that was given is taken as it is."""
     level, outcome, scales, frame = reached.level, reached.outcome, setting.scales, setting.frame
     state = outcome.state
     proof = certificate(level, state.pressure, state.datum)
     status = Status.CONVERGED
-    if not max(proof.residual, proof.mass) <= asked.tolerance:
+    if not (asked.given or max(proof.residual, proof.mass) <= asked.tolerance):
         status = Status.STALLED
     sound = np.isfinite(proof.mass)
     film = proof.film if sound else state.film
@@ -144,7 +148,7 @@ def _result(setting: Setting, reached: Reached, asked: Request) -> PointFilmSolu
         minimum_thickness=least * scales.film,
         central_thickness_error=errors[0],
         minimum_thickness_error=errors[1],
-        load=proof.load * scales.load * scales.pressure * scales.length**2,
+        load=proof.load * setting.problem.load * scales.pressure * scales.length**2,
         inlet_load_fraction=share,
         shear_force=np.zeros((2, 2)),
         rolling_force=np.zeros(2),
@@ -157,6 +161,7 @@ def _result(setting: Setting, reached: Reached, asked: Request) -> PointFilmSolu
         speeds=asked.speeds,
         lubricant=asked.lubricant,
         film_fraction=full,
+        time=asked.time,
         state=KeptPoint(setting, level, state),
     )
     forces, rolling = unforced.forces()
@@ -164,20 +169,22 @@ def _result(setting: Setting, reached: Reached, asked: Request) -> PointFilmSolu
     return replace(film_, notes=notes_on_point(film_, setting, level, asked.contact_modulus))
 
 
-def _entrainment(speeds: Speeds) -> tuple[float, float]:
+def entrainment(speeds: Speeds) -> tuple[float, float]:
+    """Sum of both speeds along x and y [m/s]."""
     return speeds[0][0] + speeds[1][0], speeds[0][1] + speeds[1][1]
 
 
-def _edges(extent: Sequence[float] | None) -> Rectangle | None:
+def edges(extent: Sequence[float] | None) -> Rectangle | None:
+    """Of the grid [m], None where they are to be found."""
     if extent is None:
         return None
     x0, x1, y0, y1 = (float(v) for v in extent)
     return x0, x1, y0, y1
 
 
-def _check_range(setting: Setting, load: float) -> None:
-    """Refuse loads and ratios for which there is no film to look for, and grids without the contact."""
-    scales, frame = setting.scales, setting.frame
+def check_load(setting: Setting, load: float) -> None:
+    """Refuse loads for which there is no film to look for."""
+    scales = setting.scales
     low, high = MOES_LOADS
     if not scales.rigid and not low <= scales.load <= high:
         advice = "Raise the load, or give contact_modulus=math.inf."
@@ -187,6 +194,11 @@ def _check_range(setting: Setting, load: float) -> None:
             f"load: {load!r} N is {scales.load:.3g} in Moes' units of a point contact; a film is looked for between "
             f"{low:g} and {high:g}. {advice}"
         )
+
+
+def check_extent(setting: Setting) -> None:
+    """Refuse grids without the contact."""
+    scales, frame = setting.scales, setting.frame
     x0, x1, y0, y1 = setting.problem.rectangle
     a, b = (0.0, 0.0) if setting.hertz is None else setting.hertz.semi_axes
     if not (x0 < -a and x1 > a and y0 < -b and y1 > b):
@@ -194,7 +206,7 @@ def _check_range(setting: Setting, load: float) -> None:
         raise InputError(f"extent: must hold the contact, half-axes {size} m in x and y, with room for the inlet")
 
 
-def _checked(
+def checked(
     load: float,
     radii: Sequence[float],
     contact_modulus: float,
@@ -213,7 +225,7 @@ def _checked(
     messages = []
     if not _positive(load):
         messages.append(f"load: {load!r} must be positive and finite [N]")
-    pair = _numbers(radii, 2)
+    pair = numbers(radii, 2)
     if pair is None or not all(r > 0 for r in pair):
         messages.append(f"radii: {radii!r} must be two positive, finite radii (Rx, Ry) [m]")
     elif not RATIOS[0] <= pair[0] / pair[1] <= RATIOS[1]:
@@ -223,13 +235,13 @@ def _checked(
         )
     if not (_number(contact_modulus) and contact_modulus > 0):
         messages.append(f"contact_modulus: {contact_modulus!r} must be positive [Pa]; math.inf is rigid")
-    vectors = _vectors(speeds)
-    if vectors is None:
+    both = vectors(speeds)
+    if both is None:
         messages.append(
             f"speeds: {speeds!r} must be a pair (u1, u2) of finite speeds along x, or of vectors ((u1x, u1y), (u2x, "
             "u2y)) [m/s]"
         )
-    elif math.hypot(*_entrainment(vectors)) <= 1e-12 * sum(math.hypot(*v) for v in vectors):
+    elif math.hypot(*entrainment(both)) <= 1e-12 * sum(math.hypot(*v) for v in both):
         messages.append(
             f"speeds: {speeds!r} entrain no oil (their sum is zero), so no steady film exists; give a sum other than "
             "zero"
@@ -242,17 +254,17 @@ def _checked(
             "shear law acts on friction alone"
         )
     cells = SHAPE if shape is None else shape
-    if _numbers(cells, 2) is None or not all(float(n).is_integer() and SHORTEST <= n <= LONGEST for n in cells):
+    if numbers(cells, 2) is None or not all(float(n).is_integer() and SHORTEST <= n <= LONGEST for n in cells):
         messages.append(f"shape: {shape!r} must be two integers from {SHORTEST} to {LONGEST}")
     if not (_number(tolerance) and 1e-11 <= tolerance <= 1e-2):
         messages.append(f"tolerance: {tolerance!r} must lie between 1e-11 and 1e-2")
-    edges = (-1, 1, -1, 1) if extent is None else _numbers(extent, 4)
+    edges = (-1, 1, -1, 1) if extent is None else numbers(extent, 4)
     if edges is None or not (edges[0] < 0 < edges[1] and edges[2] < 0 < edges[3]):
         messages.append(f"extent: {extent!r} must be (x0, x1, y0, y1) around the origin [m]")
     if messages:
         raise InputError(messages)
-    assert vectors is not None
-    return vectors
+    assert both is not None
+    return both
 
 
 def _number(value: object) -> bool:
@@ -263,7 +275,7 @@ def _positive(value: Any) -> bool:
     return _number(value) and math.isfinite(value) and value > 0
 
 
-def _numbers(values: Any, count: int) -> tuple[float, ...] | None:
+def numbers(values: Any, count: int) -> tuple[float, ...] | None:
     """So many finite numbers; None where they are not."""
     try:
         listed = tuple(values)
@@ -273,13 +285,13 @@ def _numbers(values: Any, count: int) -> tuple[float, ...] | None:
     return tuple(float(v) for v in listed) if good else None
 
 
-def _vectors(speeds: Any) -> Speeds | None:
+def vectors(speeds: Any) -> Speeds | None:
     """Speeds as vectors; None where they are not."""
-    plain = _numbers(speeds, 2)
+    plain = numbers(speeds, 2)
     if plain is not None:
         return (plain[0], 0.0), (plain[1], 0.0)
     try:
-        found = [_numbers(one, 2) for one in speeds]
+        found = [numbers(one, 2) for one in speeds]
     except TypeError:
         return None
     if len(found) != 2 or found[0] is None or found[1] is None:

@@ -106,7 +106,7 @@ def inlet_shear(film: PointFilmSolution, setting: Setting) -> float:
     scales, problem = setting.scales, setting.problem
     slide = math.hypot(*np.subtract(*film.speeds))
     radius = scales.length**2 / scales.film
-    return film.lubricant.viscosity * slide * radius * far_shear(problem.drag, problem.ratio) * math.log(2)
+    return film.lubricant.viscosity * slide * radius * far_shear(problem.drag, problem.curvatures) * math.log(2)
 
 
 def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, level: Level) -> tuple[str, ...]:
@@ -145,7 +145,8 @@ def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, l
         notes.append(
             f"the grid is coarse: films are uncertain by more than {100 * LARGEST_ERROR:g} % (see their errors)"
         )
-    if film.status is Status.CONVERGED and errors[0][0] is None and len(shapes_up_to(level.shape)) > 1:
+    unknown = film.time is None and film.status is Status.CONVERGED and errors[0][0] is None
+    if unknown and len(shapes_up_to(level.shape)) > 1:
         notes.append(
             "the error of the film is unknown: on half as many cells there is none; take twice as many to see it"
         )

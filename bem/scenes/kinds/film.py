@@ -28,7 +28,7 @@ from bem.scenes.tables.supply import SupplyScene
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars, MarchCase
     from bem.lubrication import FilmSolution
-    from bem.lubrication.transient import MarchState
+    from bem.lubrication.transient import LineState
 
 _CHECKPOINTS = 20  # of a march
 
@@ -140,7 +140,7 @@ def _march(case: MarchCase, context: Context) -> list[FilmSolution]:
     """The films, with a checkpoint at every twentieth of the way."""
     last, made_again = len(case.times) - 1, (case.lubricant,)
 
-    def watch(now: MarchState) -> None:
+    def watch(now: LineState) -> None:
         done = len(now.solutions) - 1
         context.progress(done, last, "steps")
         if done == last or done % math.ceil(last / _CHECKPOINTS) == 0:

@@ -149,7 +149,7 @@ def test_a_rigid_ball_carries_what_reynolds_equation_on_rays_does():
 def test_far_pressure_of_a_sphere_ruptures_where_the_closed_form_does():
     from bem.lubrication.point.far import ANGLES, far_profile
 
-    profile = far_profile((1.0, 0.0), 1.0)
+    profile = far_profile((1.0, 0.0), (1.0, 1.0))
     from scipy.optimize import brentq
 
     edge = brentq(lambda t: math.tan(t) + 3 * math.tanh(3 * t), 1.7, 2.2)

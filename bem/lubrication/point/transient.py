@@ -1,0 +1,181 @@
+"""Film of a point contact in time: load, speeds, radii and rough surfaces that move through it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from bem.errors import InputError
+from bem.grid import FloatArray
+from bem.lubrication import time_steps
+from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.point.film import PointFilmSolution
+from bem.lubrication.point.march import Moment, Operation, advance, film_start, gap_start, steady_start
+from bem.lubrication.point.march_setting import MarchCase, march_of
+from bem.lubrication.point.moving import MovingSurface, Roughness, Travel, heights_over
+from bem.lubrication.point.solve import checked, edges, entrainment, numbers, vectors
+from bem.lubrication.time_steps import MarchState, Reached, Schedule, load_messages, schedule_of, start_messages
+from bem.materials import Body
+from bem.threads import one_blas_thread
+
+SHAPE = (128, 128)
+PointState = MarchState[Moment, PointFilmSolution]
+
+
+@one_blas_thread
+def march_point_film(  # reason: the signature is a promise to users' scripts; frozen groups are made of it at once
+    times: FloatArray,
+    *,
+    load: Callable[[float], float],
+    speeds: Callable[[float], Any],
+    radii: Sequence[float] | Callable[[float], Sequence[float]],
+    contact_modulus: float,
+    lubricant: Lubricant,
+    roughness: Roughness | MovingSurface | Sequence[MovingSurface] | None = None,
+    shape: tuple[int, int] | None = None,
+    tolerance: float = 1e-7,
+    extent: Sequence[float] | None = None,
+    bodies: Body | Sequence[Body] | None = None,
+    mass: float = 0.0,
+    velocity: float = 0.0,
+    initial: PointFilmSolution | None = None,
+    initial_thickness: float | None = None,
+    state: PointState | None = None,
+    callback: Callable[[PointState], None] | None = None,
+) -> list[PointFilmSolution]:
+    """Film of a ball or ellipsoid on a flat at each of `times`, of second order in time (BDF2, L-stable) and space.
+
+    Adds d(rho h)/dt to the equations of `solve_point_film`, with rupture as there (Swift-Stieber: oil behind it is
+    forgotten). One step is taken from each time to the next; a step that does not converge is halved.
+
+    Parameters
+    ----------
+    times : (n,) ascending [s], n >= 2. Where surfaces move, steps of a cell or less see all of what moves.
+    load : function of time: load [N], positive.
+    speeds : function of time: (u1, u2) of flat and ball along x [m/s], or two vectors; their sum may vanish and change
+        its sign.
+    radii : (Rx, Ry) [m], or a function of time.
+    contact_modulus, lubricant, bodies : as for `solve_point_film`.
+    roughness : heights out of the bodies: a `MovingSurface` or several, carried along with the speeds of their body, or
+        a function of time to the heights (nx, ny) [m] of both surfaces on the grid (give `extent`, too).
+    shape : (nx, ny) cells; 128 x 128 by default.
+    tolerance : largest relative residual of a step, see `PointFilmSolution.residual`.
+    extent : (x0, x1, y0, y1), edges of the grid [m]; by default what the films of all times need by themselves.
+    mass : of the ball [kg], which the difference of film and load accelerates; 0: the load is balanced at every time.
+    velocity : at which the ball leaves the flat at first [m/s], negative: falls, with `initial_thickness`.
+    initial : film at the first time. Without it the steady film of smooth bodies of the first time, or
+    initial_thickness : the first film is that of undeformed bodies with this gap [m] at the origin, full of oil.
+    state : of a march with the same arguments, to go on from to the same bits.
+    callback : called with the state after the first film and after every step.
+
+    Returns
+    -------
+    A PointFilmSolution per time, with `time` and `heights`; residual and mass_imbalance are recomputed from pressures
+    and count what the film gains. A first film that is given is taken as it is; `notes` say by how much it misses the
+    load. If a step fails in spite of halving, the last solution has another status and the list ends there.
+
+    Raises
+    ------
+    InputError : as `solve_point_film`, times that do not ascend, no entrainment at the first time and no film to start
+        from, surfaces that leave no gap at the first time.
+
+    Notes
+    -----
+    At the edges the pressure is that of rigid paraboloids of the time's entrainment and approach (`far`); surfaces and
+    their squeeze are smooth beyond.
+    """
+    schedule = schedule_of(times, load, speeds)
+    at_times = radii if callable(radii) else partial(_constant, tuple(radii) if _listed(radii) else radii)
+    cells = SHAPE if shape is None else shape
+    messages = _messages(schedule, at_times, contact_modulus, lubricant, cells, tolerance, extent)
+    messages += start_messages(initial, initial_thickness) + _ball_messages(mass, velocity, initial_thickness)
+    steady = initial is None and initial_thickness is None
+    if not messages and steady and not any(_flow(schedule.speeds[0])):
+        messages.append(
+            f"speeds: {schedule.speeds[0]!r} at the first time entrain no oil, so there is no steady film to start "
+            "from; give initial_thickness or initial"
+        )
+    if messages:
+        raise InputError(messages[:10])
+    both = (bodies,) if isinstance(bodies, Body) else bodies
+    thickness = initial_thickness if initial is None else initial.central_thickness
+    case = MarchCase(
+        schedule, at_times, float(contact_modulus), lubricant, None if both is None else tuple(both), thickness
+    )
+    operation = Operation(load, speeds, at_times, float(mass), None)
+    march = march_of(case, operation, (int(cells[0]), int(cells[1])), tolerance, edges(extent))
+    heights = heights_over(roughness, Travel.over(schedule.times, lambda time: vectors(speeds(time))), *march.points)
+    march = replace(march, operation=replace(operation, roughness=heights))
+    tell = callback or (lambda state: None)
+    if state is None:
+        at = float(schedule.times[0])
+        if initial is not None:
+            moment, opening = film_start(march, at, initial)
+        elif initial_thickness is not None:
+            moment, opening = gap_start(march, at, initial_thickness, velocity)
+        else:
+            moment, opening = steady_start(march, at)
+        if not moment.film.min() > 0:
+            raise InputError(
+                "roughness: leaves no gap at the first time; begin with the surfaces outside of the contact (at, begin)"
+            )
+        state = MarchState(None, Reached(at, moment), (opening,))
+        tell(state)
+    return time_steps.march(schedule.times, state, partial(advance, march), tell)
+
+
+def _constant(value: Any, time: float) -> Any:
+    return value
+
+
+def _listed(values: object) -> bool:
+    return isinstance(values, Sequence | np.ndarray)
+
+
+def _flow(pair: Any) -> tuple[float, float]:
+    found = vectors(pair)
+    return (0.0, 0.0) if found is None else entrainment(found)
+
+
+def _messages(
+    schedule: Schedule,
+    radii: Callable[[float], Any],
+    contact_modulus: float,
+    lubricant: Lubricant,
+    shape: Any,
+    tolerance: float,
+    extent: Any,
+) -> list[str]:
+    """What is wrong with what acts, bodies, oil and grid."""
+    messages = load_messages(schedule, "N")
+    for time, pair in zip(schedule.times, schedule.speeds, strict=True):
+        if vectors(pair) is None:
+            messages.append(
+                f"speeds: {pair!r} at time {time:g} s must be a pair (u1, u2) of finite speeds along x, or of vectors "
+                "((u1x, u1y), (u2x, u2y)) [m/s]"
+            )
+    for time in schedule.times:
+        one = radii(float(time))
+        found = numbers(one, 2)
+        if found is None or not all(r > 0 for r in found):
+            messages.append(f"radii: {one!r} at time {time:g} s must be two positive, finite radii (Rx, Ry) [m]")
+    try:
+        checked(1.0, (1.0, 1.0), contact_modulus, (1.0, 0.0), lubricant, shape, tolerance, extent)
+    except InputError as error:
+        messages += error.messages
+    return messages
+
+
+def _ball_messages(mass: float, velocity: float, initial_thickness: float | None) -> list[str]:
+    messages = []
+    if not (numbers((mass,), 1) and mass >= 0):
+        messages.append(f"mass: {mass!r} must be finite and not negative [kg]")
+    if not numbers((velocity,), 1):
+        messages.append(f"velocity: {velocity!r} must be finite [m/s]")
+    elif velocity != 0 and initial_thickness is None:
+        messages.append("velocity: give initial_thickness, too: a ball that moves begins with a gap")
+    return messages
