@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -89,9 +90,9 @@ class PointFilmSolution:
 
     @property
     def friction(self) -> float:
-        """Size of the sliding part of the shear force over the load."""
+        """Size of the sliding part of the shear force over the load; not-a-number where nothing is carried."""
         sliding = 0.5 * (self.shear_force[0] - self.shear_force[1])
-        return float(np.hypot(*sliding)) / self.load
+        return float(np.hypot(*sliding)) / self.load if self.load else math.nan
 
     def shear_stress(self) -> FloatArray:
         """Shear stress (2, nx, ny) of the oil on surface 1 [Pa], along x and y, zero in the ruptured film.

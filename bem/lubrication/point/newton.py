@@ -77,9 +77,12 @@ class Balance:
         """From balances to shares of what is dragged along locally."""
         level, film = self.linear.level, self.state.film
         drag, (dx, dy) = level.problem.drag, level.spacing
-        storing = level.problem.storing
-        weight = 1 / (6 * self.linear.stencil[6] * film * (drag[0] / dx + drag[1] / dy + storing))
-        weight[level.border] = 1 / max(float(self.state.pressure.max()), 1e-300)
+        # of bodies at rest, whose film is only looked at, nothing is carried along: shares of the film as it is
+        carried = drag[0] / dx + drag[1] / dy + level.problem.storing or 1.0
+        weight = 1 / (6 * self.linear.stencil[6] * film * carried)
+        x0, x1, y0, y1 = level.problem.rectangle
+        mean = level.problem.load / ((x1 - x0) * (y1 - y0))  # where there is no pressure yet
+        weight[level.border] = 1 / max(float(self.state.pressure.max()), mean)
         return weight
 
     @cached_property
