@@ -1,16 +1,17 @@
-"""Error bars of a film in time: fewer points, and fewer steps on these.
+"""Error bars of a film in time, of a line or a point contact: fewer points, and fewer steps on these.
 
-Mesh and steps of `bem.march_line_film` both converge with order two. The march on half the points shows what the mesh
-does, a third one of these points and of steps twice as long what the steps do; together they take about half as long as
-the march itself. Each part is its difference times a safety factor (`reports/experiments/march_error_bars.py`), the bar
-their sum: an estimate, no proved bound, which covers nine errors in ten of coarse, random motions. The time of the
-thinnest film jumps between minima and has no bar.
+Mesh and steps of `bem.march_line_film` and `bem.march_point_film` converge with order two. The march on half the points
+(along either axis) shows what the mesh does, a third one of these points and of steps twice as long what the steps do;
+together they take about half as long as the march itself. Each part is its difference times a safety factor
+(`reports/experiments/march_error_bars.py`, of line contacts), the bar their sum: an estimate, no proved bound, which
+covers nine errors in ten of coarse, random motions of line contacts. The time of the thinnest film jumps between minima
+and has no bar.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -18,10 +19,20 @@ import numpy as np
 from bem.accuracy.bars import POINTS, RESIDUAL, STEPS, ErrorBars
 from bem.errors import Status
 from bem.grid import FloatArray
-from bem.lubrication import Cavitation, FilmSolution, Lubricant, march_line_film
+from bem.lubrication import (
+    Cavitation,
+    FilmSolution,
+    Lubricant,
+    MovingSurface,
+    PointFilmSolution,
+    march_line_film,
+    march_point_film,
+)
+from bem.materials import Body
 
 FIGURES = ("thinnest_film", "film_at_end", "largest_shear_force")
 FEWEST = 101
+FEWEST_CELLS = 32
 _MESH, _STEPS = 1.3, 3.0
 """Factors on the differences to half the points and to steps twice as long. Order two would leave 1/3 of either; coarse
 motions are not there yet, and the steps are compared on the coarser mesh. On fresh seeds less covers too little: with
@@ -52,7 +63,7 @@ class MarchCase:
         """The same march with other points, at every so many of the times and the last one; `going_on` from a state,
         or calling back."""
         return march_line_film(
-            np.unique(np.append(self.times[::every], self.times[-1])),
+            every_so_many(self.times, every),
             load=self.load,
             speeds=self.speeds,
             radius=self.radius,
@@ -77,25 +88,98 @@ def march_figures(films: Sequence[FilmSolution]) -> dict[str, float]:
     }
 
 
+@dataclass(frozen=True, eq=False)
+class PointMarchCase:
+    """The same of `bem.march_point_film`, with surfaces that pass through."""
+
+    films: Sequence[PointFilmSolution]
+    times: FloatArray
+    load: Callable[[float], float]
+    speeds: Callable[[float], Any]
+    radii: tuple[float, float]
+    contact_modulus: float
+    lubricant: Lubricant
+    cells: tuple[int, int]
+    surfaces: tuple[MovingSurface, ...] = ()
+    extent: tuple[float, float, float, float] | None = None
+    bodies: tuple[Body, ...] | None = None
+    initial_thickness: float | None = None
+
+    def done(self, films: Sequence[PointFilmSolution]) -> PointMarchCase:
+        """With the films that were found."""
+        return replace(self, films=films)
+
+    def again(self, cells: tuple[int, int], every: int = 1, **going_on: Any) -> list[PointFilmSolution]:
+        """The same march on other cells, at every so many of the times and the last one."""
+        return march_point_film(
+            every_so_many(self.times, every),
+            load=self.load,
+            speeds=self.speeds,
+            radii=self.radii,
+            contact_modulus=self.contact_modulus,
+            lubricant=self.lubricant,
+            roughness=self.surfaces,
+            shape=cells,
+            extent=self.extent,
+            bodies=self.bodies,
+            initial_thickness=self.initial_thickness,
+            **going_on,
+        )
+
+
+def point_march_figures(films: Sequence[PointFilmSolution]) -> dict[str, float]:
+    """Headline figures [m]."""
+    minimum = np.array([film.minimum_thickness for film in films])
+    return {
+        "thinnest_film": float(minimum.min()),
+        "film_at_end": float(minimum[-1]),
+        "central_film_at_end": films[-1].central_thickness,
+        "thickest_central_film": max(film.central_thickness for film in films),
+    }
+
+
+def point_march_bars(case: PointMarchCase) -> ErrorBars:
+    """Bars of the figures of a march; two marches more, on half the cells."""
+    found = point_march_figures(case.films)
+    if len(case.times) < 5:
+        return ErrorBars.unknown(tuple(found), _FEW)
+    nx, ny = case.cells
+    halved = min(nx, ny) >= 2 * FEWEST_CELLS
+    other = (nx // 2, ny // 2) if halved else (2 * nx, 2 * ny)
+    marches = case.again(other), case.again(other if halved else case.cells, 2)
+    return _together(case.films, marches, point_march_figures, nx / other[0])
+
+
 def march_bars(case: MarchCase) -> ErrorBars:
     """Bars of the figures of a march; two marches more."""
     if len(case.times) < 5:
         return ErrorBars.unknown(FIGURES, _FEW)
     fewer = max(FEWEST, case.points // 2 + 1)
     other = fewer if fewer < case.points else 2 * case.points - 1
-    coarser = case.again(other)
-    longer = case.again(min(other, case.points), 2)
-    if {coarser[-1].status, longer[-1].status, case.films[-1].status} != {Status.CONVERGED}:
-        return ErrorBars.unknown(FIGURES, _UNSOLVED)
-    found, mesh, steps = march_figures(case.films), march_figures(coarser), march_figures(longer)
-    from_here = mesh if other < case.points else found
+    marches = case.again(other), case.again(min(other, case.points), 2)
+    return _together(case.films, marches, march_figures, case.points / other)
+
+
+def every_so_many(times: FloatArray, every: int) -> FloatArray:
+    """Every so many of the times, and the last one."""
+    return np.unique(np.append(times[::every], times[-1]))
+
+
+def _together(
+    films: Any, marches: tuple[Any, Any], figures: Callable[[Any], dict[str, float]], finer: float
+) -> ErrorBars:
+    """Bars from a march on other cells and, on the coarser of both, one of steps twice as long; `finer`: how much finer
+    than the first of them the films' own cells are."""
+    found, mesh, steps = (figures(one) for one in (films, *marches))
+    if {one[-1].status for one in (*marches, films)} != {Status.CONVERGED}:
+        return ErrorBars.unknown(tuple(found), _UNSOLVED)
+    from_here = mesh if finer > 1 else found
     # the difference to half the points, by order two
-    halved = 3 / abs((case.points / other) ** 2 - 1)
-    residual = {name: 10 * _TOLERANCE * abs(value) for name, value in found.items()}
+    halved = 3 / abs(finer**2 - 1)
     return ErrorBars.together(
         {
-            POINTS: {name: _MESH * halved * abs(found[name] - mesh[name]) for name in FIGURES},
-            STEPS: {name: _STEPS * abs(from_here[name] - steps[name]) for name in FIGURES},
-            RESIDUAL: residual,
+            POINTS: {name: _MESH * halved * abs(found[name] - mesh[name]) for name in found},
+            STEPS: {name: _STEPS * abs(from_here[name] - steps[name]) for name in found},
+            RESIDUAL: {name: 10 * _TOLERANCE * abs(value) for name, value in found.items()},
         }
     )

@@ -78,6 +78,7 @@ KINDS = {
     "friction": ("roughness-wavelength", "contact.boundary_friction=0.12", "friction", 4),
     "particles": ("particles-afm-map", "seed=2", "particle_length", 1),
     "point-film": ("film-ball", "rolling.mean_speed=0.3 m/s", "thickness_along", 1),
+    "point-film-time": ("waviness", "seed=2", "minimum_film", 1),
     "partial-slip": ("fretting-ball", "push.share=0.5", "traction_x", 1),
     "rolling": ("rolling-creepage", "roll.friction=0.2", "traction_coefficient", 1),
     "running-in": ("running-in-stribeck", "contact.boundary_friction=0.12", "friction_over_cycles", 2),

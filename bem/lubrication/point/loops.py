@@ -256,7 +256,7 @@ def _coupling(
 
 
 @nb.njit(**COMPILE)
-def relax(
+def relax(  # reason: Numba compiles plain arrays; they are the parts of one equation
     stencil: FloatArray,
     spacing: tuple[float, float],
     drag: tuple[float, float],

@@ -8,7 +8,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import RegularGridInterpolator
 
 from bem.grid import FloatArray
 from bem.lubrication import time_steps
@@ -17,7 +16,7 @@ from bem.lubrication.point.cascade import Reached as Found
 from bem.lubrication.point.cascade import solved
 from bem.lubrication.point.film import PointFilmSolution
 from bem.lubrication.point.levels import InTime, Level, PointProblem
-from bem.lubrication.point.moving import Roughness
+from bem.lubrication.point.moving import Roughness, bilinear
 from bem.lubrication.point.newton import LEAST_FILM, Outcome, State, newton, own_film
 from bem.lubrication.point.scales import PointScales
 from bem.lubrication.point.setting import Frame, Operators, Rectangle, Setting, scaled_oil
@@ -27,6 +26,8 @@ from bem.reference_solutions.hertz import ellipse_contact
 
 LOADED = 0.02
 """Of the highest pressure, above which a given film says where the bodies are."""
+NOTED = 0.01
+"""Of the film, up to which surfaces in the first one are not worth a note."""
 MOST = 25
 """Newton steps of a step in time; what takes more is better halved."""
 
@@ -170,17 +171,14 @@ def film_start(march: PointMarch, time: float, initial: PointFilmSolution) -> tu
     """A film of another grid: its pressure, and H0 that brings the film nearest to its own."""
     setting = march.setting(time)
     level, frame = Level(setting.problem, march.cells(setting.frame)), setting.frame
-    x, y = frame.axes(level.x * march.scales.length, level.y * march.scales.length)
-    points = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
+    x, y = march.points
+    dx, dy = initial.x[1] - initial.x[0], initial.y[1] - initial.y[0]
 
     def on(values: FloatArray) -> FloatArray:
-        there = RegularGridInterpolator((initial.x, initial.y), values, bounds_error=False, fill_value=None)
-        near = np.clip(points, (initial.x[0], initial.y[0]), (initial.x[-1], initial.y[-1]))
-        return np.asarray(there(near))
+        return bilinear(values, (x - initial.x[0]) / dx, (y - initial.y[0]) / dy)
 
     smooth = initial.thickness if initial.heights is None else initial.thickness + initial.heights
-    inside = (points[..., 0] >= initial.x[0]) & (points[..., 0] <= initial.x[-1])
-    inside &= (points[..., 1] >= initial.y[0]) & (points[..., 1] <= initial.y[-1])
+    inside = (x >= initial.x[0]) & (x <= initial.x[-1]) & (y >= initial.y[0]) & (y <= initial.y[-1])
     pressure = frame.inner(np.where(inside, on(initial.pressure), 0.0)) / march.scales.pressure
     film = own_film(level, pressure, 0.0)
     loaded = pressure > LOADED * pressure.max()
@@ -207,7 +205,12 @@ def _with_heights(
 ) -> tuple[Moment, PointFilmSolution]:
     film = moment.film - heights
     missed = solution.load / march.operation.load(solution.time or 0.0) - 1
-    notes = (*solution.notes, f"the first film is {words}: it carries the load {100 * missed:+.2g} %")
+    notes = solution.notes
+    if abs(missed) > march.tolerance:
+        notes += (f"the first film is {words}: it carries the load {100 * missed:+.2g} %",)
+    loaded = moment.pressure > LOADED * moment.pressure.max()
+    if loaded.any() and (np.abs(heights) > NOTED * moment.film)[loaded].any():
+        notes += ("surfaces that are in the contact at first lie in its film undeformed",)
     changed = replace(moment, film=film, mass=moment.mass * film / moment.film)
     unit = march.scales.film
     return changed, replace(solution, thickness=film * unit, heights=heights * unit, notes=notes)

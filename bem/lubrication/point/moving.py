@@ -9,7 +9,6 @@ from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
-from scipy.interpolate import RegularGridInterpolator
 
 from bem.errors import InputError
 from bem.grid import FloatArray
@@ -95,13 +94,27 @@ class MeasuredHeights:
         else:
             values = np.pad(values, 1, mode="edge")
             points = [np.clip(s, 0.0, 1.0) for s in share]
-        axes = [(np.arange(-1, n + 1) + 0.5) / n for n in cells]
-        found = RegularGridInterpolator(tuple(axes), values)(np.stack(points, axis=-1))
-        return np.asarray(found if self.repeated else found * self._fade(share[0]) * self._fade(share[1]))
+        # in cells of the padded patch, whose first centre lies half a cell before the edge
+        found = bilinear(values, points[0] * cells[0] + 0.5, points[1] * cells[1] + 0.5)
+        return found if self.repeated else found * self._fade(share[0]) * self._fade(share[1])
 
     def _fade(self, share: FloatArray) -> FloatArray:
         into = np.clip(np.minimum(share, 1 - share) / max(self.fading, 1e-12), 0.0, 1.0)
         return np.asarray(into**2 * (3 - 2 * into))
+
+
+def bilinear(values: FloatArray, first: FloatArray, second: FloatArray) -> FloatArray:
+    """Values (nx, ny) at places in cells from the first centre, along either axis; beyond the last ones as there."""
+    lows, shares = [], []
+    for place, n in zip((first, second), values.shape, strict=True):
+        inside = np.clip(place, 0.0, n - 1.0)
+        low = np.minimum(inside.astype(int), n - 2)
+        lows.append(low)
+        shares.append(inside - low)
+    (i, j), (s, t) = lows, shares
+    before = (1 - t) * values[i, j] + t * values[i, j + 1]
+    after = (1 - t) * values[i + 1, j] + t * values[i + 1, j + 1]
+    return np.asarray((1 - s) * before + s * after)
 
 
 @dataclass(frozen=True, eq=False)

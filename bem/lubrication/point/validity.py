@@ -121,7 +121,8 @@ def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, l
     begins = float(thickness[0].min())
     if setting.problem.drag[1] > 0.1:
         begins = min(begins, float(thickness[:, 0].min()))
-    if begins < SHORTEST_INLET * film.central_thickness:
+    entrained = any(setting.problem.drag)
+    if entrained and begins < SHORTEST_INLET * film.central_thickness:
         notes.append(
             f"the grid does not reach the inlet: it begins where the gap is less than {SHORTEST_INLET:g} central "
             "films; upstream of it the pressure of rigid bodies is taken, and the film is too thick or too thin"

@@ -45,10 +45,15 @@ def _finely(thickness: NDArray[np.float64]) -> NDArray[np.float64]:
     return thickness
 
 
+def finely_coloured(thickness: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Colours (.., .., 3) of a film (nx, ny) [m], on more dots than it has cells."""
+    return colours_of(_finely(thickness))
+
+
 def _interferogram(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
     extent = field_axes(axes, _array(run, "x"), _array(run, "y"))
-    colours = colours_of(_finely(_array(run, "thickness")))
+    colours = finely_coloured(_array(run, "thickness"))
     axes.imshow(colours.transpose(1, 0, 2), extent=extent, origin="lower", aspect=axes.get_aspect())
 
 

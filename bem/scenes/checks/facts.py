@@ -303,6 +303,7 @@ _CASES: dict[str, Callable[[Any], list[Case]]] = {
     "partial-slip": _contact,
     "rolling": _contact,
     "point-film": _point_film,
+    "point-film-time": _point_film,
     "surface-temperature": _contact,
     "film": _film,
     "friction": _lubricated,
