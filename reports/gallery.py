@@ -214,29 +214,26 @@ def _stand_in(folder: Path, side: str, seed: int) -> Path:
     return path
 
 
+_LONGEST_LISTS = {
+    "cylinder.loads": 1, "contact.loads": 1, "contact.hertz_pressures": 1, "rubbing.temperatures": 2, "variants": 2,
+    "hardnesses": 2, "speeds.values": 2, "array.spacings": 2, "array.interferences": 2,
+}  # fmt: skip
+_LARGEST = {
+    "speeds.count": 3, "cycles.count": 4, "cycles.settled": 2, "cycles.averaged": 2, "march.steps": 20,
+    "life.count": 1000, "wear.positions": 2, "film.points": 400, "film.cells": 64, "outputs.depths.count": 6,
+    "synthetic.count": 30,
+}  # fmt: skip
+"""Of a scene whose physics is the same with less of it."""
+
+
 def _reduced(scene: dict[str, Any]) -> dict[str, Any]:
     """The scene with everything that only costs time made small."""
     if "repetitions" in scene:
         scene["repetitions"] = 1
-    for path, keep in ((("cylinder", "loads"), 1), (("contact", "loads"), 1), (("rubbing", "temperatures"), 2)):
-        _shorten(scene, path, keep)
-    _shorten(scene, ("variants",), 2)
-    _shorten(scene, ("hardnesses",), 2)
-    _shorten(scene, ("contact", "hertz_pressures"), 1)
-    _shorten(scene, ("speeds", "values"), 2)
-    _shorten(scene, ("array", "spacings"), 2)
-    _shorten(scene, ("array", "interferences"), 2)
-    _smaller(scene, ("speeds", "count"), 3)
-    _smaller(scene, ("cycles", "count"), 4)
-    _smaller(scene, ("cycles", "settled"), 2)
-    _smaller(scene, ("cycles", "averaged"), 2)
-    _smaller(scene, ("march", "steps"), 20)
-    _smaller(scene, ("life", "count"), 1000)
-    _smaller(scene, ("wear", "positions"), 2)
-    _smaller(scene, ("film", "points"), 400)
-    _smaller(scene, ("film", "cells"), 64)
-    _smaller(scene, ("outputs", "depths", "count"), 6)
-    _smaller(scene, ("synthetic", "count"), 30)
+    for key, most in _LONGEST_LISTS.items():
+        _shorten(scene, tuple(key.split(".")), most)
+    for key, most in _LARGEST.items():
+        _smaller(scene, tuple(key.split(".")), most)
     if scene["kind"] in ("wear", "running-in") and "cycles" not in scene:
         scene["cycles"] = {"count": 4, "settled": 2}
     if "accuracy" in scene:  # the grid follows from it, and from the shortest waves

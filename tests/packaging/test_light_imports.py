@@ -102,14 +102,19 @@ def test_a_run_loads_no_scheduler_and_no_units_registry(tmp_path, monkeypatch):
     assert not modules & {"nicegui", "fastapi", "uvicorn"}
 
 
-def test_a_run_of_smooth_bodies_loads_hardly_anything_of_scipy(tmp_path, monkeypatch):
-    """Its transforms, splines, special functions and linear algebra took a third of a second of every start."""
+def test_a_run_of_smooth_bodies_loads_hardly_anything_of_scipy_and_nothing_of_wear(tmp_path, monkeypatch):
+    """Its transforms, splines, special functions and linear algebra took a third of a second of every start; wear's
+    tables and laws came in by the checks of scenes, an eighth of what the package itself takes to load."""
     monkeypatch.chdir(tmp_path)
-    names = "\nimport sys; print(sorted(n for n in sys.modules if n.startswith(('scipy.', 'numpy.f2py'))))"
+    names = "\nimport sys; print(sorted(n for n in sys.modules if n.startswith(('scipy.', 'numpy.f2py', 'bem.'))))"
     done = subprocess.run(
         [sys.executable, "-c", COMMAND + names, "run", *SMALL], capture_output=True, text=True, timeout=120, check=True
     )
     packages = {".".join(name.split(".")[:2]) for name in ast.literal_eval(done.stdout.splitlines()[-1])}
+    own = {name for name in packages if name.startswith("bem.")}
+    assert not own & {"bem.wear", "bem.friction", "bem.lubrication", "bem.heat", "bem.tangential", "bem.life"}
+    assert not {name for name in ("bem.scenes.wearing", "bem.scenes.rubbing") if f"'{name}'" in done.stdout}
+    packages -= own
     # scipy loads these with itself; of `fft` the compiled transforms alone
     packages = {name for name in packages if not name.startswith("scipy._")}
     assert packages <= {"scipy.version", "scipy.fft"}

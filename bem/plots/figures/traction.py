@@ -11,7 +11,6 @@ from bem.plots.cases import axes_of, first_case, grouped
 from bem.plots.figures import FigureKind
 from bem.plots.over import COLOURS, axis_of, lines_over
 from bem.plots.style import BLACK, BLUE, GREEN, VERMILION, label, prefix
-from bem.reference_solutions.starved_inlet import starved_film
 
 ALL_CASES = True
 _CELSIUS = 273.15
@@ -102,6 +101,8 @@ def _film(run: Any, figure: Figure) -> None:
 
 
 def _starvation(run: Any, figure: Figure) -> None:
+    from bem.reference_solutions.starved_inlet import starved_film  # its nodes are computed when it is loaded
+
     data = run.dataset
     upper, lower = figure.subplots(2, 1)
     upper.plot(*starved_film(np.geomspace(1e-3, 1e3, 400)), color=BLACK, label="Wolveridge, Baglin and Archard (1971)")

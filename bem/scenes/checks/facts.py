@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bem.grid import Grid
 from bem.materials import Body, Material, contact_modulus
@@ -18,8 +18,9 @@ from bem.scenes.checks.surfaces_of import RoughSurface, rough_surface
 from bem.scenes.checks.words import si
 from bem.scenes.common import SceneModel, SmoothSurface
 from bem.scenes.kind import get_kind
-from bem.scenes.wearing import WearScenePart
-from bem.wear.loads import wearing_bodies
+
+if TYPE_CHECKING:
+    from bem.scenes.wearing import WearScenePart
 
 _MOST_SURFACES = 24
 """Surfaces that are looked at; a sweep of variants beyond that shows no more."""
@@ -83,6 +84,8 @@ class Case:
         """Surface materials of the bodies that wear in a wear loop."""
         if self.wear is None or self.upper is None:
             return []
+        from bem.wear.loads import wearing_bodies
+
         pair = (self.lower, self.upper)
         return [pair[body].surface_material for body in wearing_bodies(pair, self.wear.wears)]
 

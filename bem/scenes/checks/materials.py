@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.words import si
-from bem.wear.criterion import LowCycleFatigue
 
 _MODULI = (1e5, 2e12)
 _POLYMER = 5e9
@@ -58,9 +57,13 @@ def viscoelastic_material(facts: Facts) -> Iterator[str]:
 def fatigue_constants_of_another_material(facts: Facts) -> Iterator[str]:
     """Ductility and exponent of low-cycle fatigue are by default those of unalloyed and low-alloy steels (Baumel and
     Seeger 1990)."""
+    worn = [(case, case.wear.criterion) for case in facts.cases if case.wear is not None]
+    if not worn:
+        return
+    from bem.wear.criterion import LowCycleFatigue
+
     default = LowCycleFatigue()
-    for case in facts.cases:
-        law = None if case.wear is None else case.wear.criterion
+    for case, law in worn:
         if not isinstance(law, LowCycleFatigue) or (law.ductility, law.exponent) != (
             default.ductility,
             default.exponent,

@@ -9,7 +9,6 @@ from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.words import si
 from bem.scenes.common import GeneratedSurface
-from bem.wear.criterion.base import FEWEST_CELLS
 
 _CELLS_ACROSS = 8
 _CELLS_PER_WAVE = 3
@@ -173,6 +172,8 @@ def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[str]:
             continue
         coarse = [law.length(material) for material in case.wearing if not law.resolved(material, case.grid)]
         if coarse:
+            from bem.wear.criterion.base import FEWEST_CELLS
+
             cells = min(coarse) / max(case.grid.spacing)
             yield (
                 f"wear.criterion {law.name}: its length, {si(min(coarse), 'm')}, is {cells:.2g} cells{case.at}: sizes "

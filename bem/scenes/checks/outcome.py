@@ -13,7 +13,6 @@ from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import outcome_check
 from bem.scenes.checks.words import joined, percent, si
 from bem.scenes.context import Outcome
-from bem.wear.criterion import Junction, LowCycleFatigue, Sphere
 
 _AT_EDGE = 1e-4
 _AT_CAP = 0.1
@@ -249,7 +248,11 @@ def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[str]:
 
 
 def _what_it_takes(case: Case) -> str:
-    law = None if case.wear is None else case.wear.criterion
+    if case.wear is None:
+        return ""
+    from bem.wear.criterion import Junction, LowCycleFatigue, Sphere
+
+    law = case.wear.criterion
     if isinstance(law, Junction):
         size = min(law.critical_size(material) for material in case.wearing)
         return f"; a junction must be {si(size, 'm')} wide, d* of its surface_energy and strength_ratio"
