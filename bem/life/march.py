@@ -38,8 +38,8 @@ class LifeState:
     """All that the next step needs, and the record so far.
 
     cycles : so far. step : to try next [cycles]. surfaces : now; first : heights before the first cycle. rows : (n,
-    len(ROW)). rejected : how many steps were made shorter. passes : of the last round. damage : (nz, rows, ny) of the
-    lower body's material where it is counted. convolutions : spent.
+    len(ROW)). rejected : how many steps were made shorter. passes : of the last round. damage : (2, nz, rows, ny), so
+    far and of a cycle, of a body's material where it is counted. convolutions : spent.
     """
 
     cycles: float
@@ -78,7 +78,7 @@ def run_life(
     ------
     ConvergenceError : a contact that did not converge, or steps that shrink without end.
     """
-    state = _begun(case, lower_heights, upper_heights) if state is None else state
+    state = begun(case, lower_heights, upper_heights) if state is None else state
     while state.cycles < case.cycles:
         state = advance(case, state)
         if callback is not None:
@@ -86,8 +86,8 @@ def run_life(
     return state
 
 
-def _begun(case: LifeCase, lower: FloatArray, upper: FloatArray) -> LifeState:
-    """Before the first cycle, with the friction of unworn surfaces."""
+def begun(case: LifeCase, lower: FloatArray, upper: FloatArray) -> LifeState:
+    """Before the first cycle, with the friction of unworn surfaces (rows, ny) [m]."""
     film = None if case.film is None else np.full(np.shape(lower), case.film.balance.initial_thickness)
     heights = (np.array(lower, dtype=np.float64), np.array(upper, dtype=np.float64))
     unworn = Surfaces(heights, film, (PassStart(),) * case.passing.positions)
@@ -100,7 +100,8 @@ def _begun(case: LifeCase, lower: FloatArray, upper: FloatArray) -> LifeState:
 
 def advance(case: LifeCase, state: LifeState) -> LifeState:
     """One jump, made shorter until its error is within the tolerance."""
-    step, rejected, spent = min(state.step, case.cycles - state.cycles), state.rejected, state.convolutions
+    step = min(state.step, case.longest, case.cycles - state.cycles)
+    rejected, spent = state.rejected, state.convolutions
     whole = round_of(case, state.surfaces, step)
     spent += _spent(whole)
     while True:

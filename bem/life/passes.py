@@ -70,7 +70,8 @@ class PassStart:
 @dataclass(frozen=True, eq=False)
 class Pass:
     """A contact that was solved: pressure (nx, ny) [Pa]; friction over the load, and of it the boundary part; shares of
-    the load and of the grid's area in contact; minimum film [m] and that of the whole load over the rms height."""
+    the load and of the grid's area in contact; minimum film [m] and that of the whole load over the rms height;
+    film_pressure (nx, 1) [Pa] of the oil."""
 
     pressure: FloatArray
     boundary_friction: float
@@ -81,6 +82,7 @@ class Pass:
     lambda_ratio: float
     convolutions: float
     start: PassStart
+    film_pressure: FloatArray
 
 
 PassContact = Callable[[FloatArray, PassStart, float], Pass]
@@ -126,6 +128,7 @@ class DryPasses:
             lambda_ratio=0.0,
             convolutions=found.convolutions,
             start=PassStart(found.pressure),
+            film_pressure=np.zeros((self.grid.shape[0], 1)),
         )
 
 
@@ -177,6 +180,7 @@ class MixedPasses:
             lambda_ratio=lambda_ratio(self._whole, heights),
             convolutions=balance.convolutions,
             start=again,
+            film_pressure=film.pressure[:, :1],
         )
 
 

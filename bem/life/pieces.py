@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.grid import FloatArray, Grid
-from bem.life.march import LifeState
 from bem.life.passes import Pass
 from bem.materials import Body
 from bem.wear.criterion import Detachment
@@ -62,8 +61,3 @@ class PieceSizes:
 def carried_away(volumes: FloatArray, worn: float) -> float:
     """How many pieces carry a worn volume [m^3] away, at the mean volume of those found; not-a-number of none."""
     return worn / float(volumes.mean()) if volumes.size else float("nan")
-
-
-def worn_between(before: LifeState, after: LifeState) -> float:
-    """Volume that the lower body lost between two states [m^3]."""
-    return after.surfaces.volume[LOWER] - before.surfaces.volume[LOWER]

@@ -79,7 +79,7 @@ class LifeCase:
     grid : of the contact. contact : of a pass. passing : which bodies pass, in how many positions. rates : volume by
     load and distance [m^2/N] of (lower, upper), zero for one that does not wear. distance : slid by a place of either
     in a cycle, while its body passes or stays under the patch [m]. cycles : in all. tolerance : of a step, relative to
-    what wears in it. film : on the lower body; None for none. first_step : tried first, in cycles.
+    what wears in it. film : on the lower body; None for none. first_step : tried first, longest : allowed, in cycles.
     """
 
     grid: Grid
@@ -91,6 +91,7 @@ class LifeCase:
     tolerance: float = 0.05
     film: GrowingFilm | None = None
     first_step: float = 1.0
+    longest: float = math.inf
 
     def __post_init__(self) -> None:
         messages = []

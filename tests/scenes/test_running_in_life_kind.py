@@ -75,6 +75,25 @@ def test_heat_makes_a_film_grow_faster():
     assert warm > 1.1 * run(given | life | {"tribofilm": FILM})[0].tribofilm_thickness
 
 
+def test_fatigue_counts_pits_of_either_body_and_goes_on():
+    depths = {"count": 4, "first": "0.2 um", "spacing": "0.4 um"}
+    scene = LIFE | {
+        "life": LIFE["life"] | {"count": 4e3, "points": 5},
+        "fatigue": {"body": "upper", "bending": "300 MPa", "depths": depths},
+    }
+    record, context = run(scene)
+    assert 0 < record.micropitted_share <= 1
+    assert record.largest_damage >= 1
+    assert (record.damage_map >= 1).mean() == pytest.approx(record.micropitted_share)
+    assert record.jumps >= 16
+    assert any("cracks do not grow" in note for note in context.notes)
+    again, _ = run(scene, PlainContext(3, resumed=True, state=context.state))
+    assert np.array_equal(again.damage_map, record.damage_map)
+    assert np.array_equal(again.micropitted_over_cycles, record.micropitted_over_cycles)
+    strong = scene["fatigue"] | {"bending": "3 GPa", "body": "lower"}
+    assert run(scene | {"fatigue": strong, "life": {"count": 1e3, "first_step": 500.0}})[0].micropitted_share == 0
+
+
 def test_a_distance_that_the_speeds_do_not_make_is_said():
     law = LIFE["wear"]["law"] | {"distance": "54 um"}
     scene = LIFE | {"wear": LIFE["wear"] | {"law": law}, "life": {"count": 10, "first_step": 10.0}}

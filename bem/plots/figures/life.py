@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLUE, GREEN, VERMILION
+from bem.plots.style import BLUE, GREEN, VERMILION, map_of
 
 
 def _axis(run: Any, axes: Axes) -> Any:
@@ -87,6 +88,20 @@ def _particles(run: Any, figure: Figure) -> None:
     axes.set_ylabel("pieces that carry away what wore")
 
 
+def _pits(run: Any, figure: Figure) -> None:
+    axes = figure.add_subplot()
+    cycle = _axis(run, axes)
+    axes.plot(cycle, 100 * run.dataset["micropitted_over_cycles"].values, color=VERMILION)
+    axes.set_ylabel("micropitted share (%)")
+    axes.set_ylim(0)
+
+
+def _damage(run: Any, figure: Figure) -> None:
+    data = run.dataset
+    shown = np.minimum(data["damage_map"].values, 1.0)
+    map_of(figure, figure.add_subplot(), data["x"].values, data["y"].values, shown, "damage", "", vmin=0, vmax=1)
+
+
 _WIDE = (6.0, 3.6)
 FIGURES = (
     FigureKind(
@@ -122,6 +137,20 @@ FIGURES = (
         "How many pieces of the sizes that the criterion finds carry away what wore.",
         ("cycle", "particles_over_cycles"),
         _particles,
+        _WIDE,
+    ),
+    FigureKind(
+        "micropitting-over-life",
+        "Share of the surface below which a voxel has no life left, over the cycles.",
+        ("cycle", "micropitted_over_cycles"),
+        _pits,
+        _WIDE,
+    ),
+    FigureKind(
+        "damage-map",
+        "Largest damage below each place at the end; one is a micropit.",
+        ("x", "y", "damage_map"),
+        _damage,
         _WIDE,
     ),
 )

@@ -7,7 +7,7 @@ A case is one life: one speed, one pair of surfaces.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -24,17 +24,20 @@ from bem.scenes.lubrication import MixedScene
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled, grid_map
-from bem.scenes.tables.life import LifeCycles, LifeFilm, LifeParticles, LifeWear
+from bem.scenes.tables.life import LifeCycles, LifeFatigue, LifeFilm, LifeParticles, LifeWear
 from bem.scenes.tables.sharing import RunningInSharing
 
 if TYPE_CHECKING:
     from bem.friction.setup import MixedSetup
+    from bem.life.beside import Beside
     from bem.life.march import LifeState
     from bem.life.passes import MixedPasses
     from bem.life.surfaces import GrowingFilm, LifeCase
 
 _CONVOLUTIONS = 60  # of the two or three contacts of a pass
 _JUMPS = 40  # steps of a life of a million cycles, each of three rounds
+
+_JUMPS_OF_FATIGUE = 16  # at least: the stresses of a jump are those of its ends
 
 
 class RunningInLifeScene(MixedScene):
@@ -46,6 +49,7 @@ class RunningInLifeScene(MixedScene):
     sharing: RunningInSharing = RunningInSharing()
     tribofilm: LifeFilm | None = None
     particles: LifeParticles | None = None
+    fatigue: LifeFatigue | None = None
     repetitions: Repetitions = 1
 
     @model_validator(mode="after")
@@ -92,6 +96,8 @@ def plan(scene: RunningInLifeScene) -> Plan:
     """
     grid, life = scene.check(), scene.life
     scene.wear.rates(scene.bodies, scene.friction)
+    if scene.fatigue is not None:
+        scene.fatigue.build(scene.bodies, scene.friction)
     if scene.particles is not None:
         scene.particles.build(grid, scene.bodies, scene.contact.hardness, _on_grid(scene))
     decades = max(np.log2(max(life.count / life.first_step, 2.0)) / 20, 0.1)
@@ -113,6 +119,12 @@ def plan(scene: RunningInLifeScene) -> Plan:
         ),
         Step("tribofilm", "grows cell by cell where surfaces touch", skipped=scene.tribofilm is None, seconds=0.1),
         Step(
+            "fatigue",
+            "stresses of every position after each jump",
+            skipped=scene.fatigue is None,
+            seconds=0.02 * passes,
+        ),
+        Step(
             "pieces",
             "sizes that the criterion finds after each jump",
             skipped=scene.particles is None,
@@ -124,6 +136,7 @@ def plan(scene: RunningInLifeScene) -> Plan:
 
 _over, _shown = partial(Series, ("cycle",)), partial(grid_map, of="first")
 _step = partial(Series, ("step",), rows=True)
+_PITS = "it follows the stresses of single cells, the positions that sample a pass, and the surfaces drawn"
 _COUNTS = "pieces follow the mesh under most criteria; see kind wear"
 
 
@@ -152,6 +165,12 @@ class RunningInLifeRecord(GridRecord):
         float | None,
         Figure("nm", "equivalent radius of the mean volume of pieces, over the life", optional=True, no_bar=_COUNTS),
     ]
+    micropitted_share: Annotated[
+        float | None, Figure("", "share of the surface with a voxel without life left", optional=True, no_bar=_PITS)
+    ]
+    largest_damage: Annotated[
+        float | None, Figure("", "largest share of a voxel's life that is used up", optional=True, no_bar=_PITS)
+    ]
     jump_error: Annotated[float, Figure("nm", "what the jumps leave open of the mean depths worn", unjudged=True)]
     jumps: Annotated[int, Figure("", "jumps taken", unjudged=True)]
     jumps_rejected: Annotated[int, Figure("", "jumps made shorter", unjudged=True)]
@@ -169,6 +188,7 @@ class RunningInLifeRecord(GridRecord):
     depth_error_over_cycles: Annotated[FloatArray, _over("m", "what the jumps leave open of the mean depths worn")]
     tribofilm_over_cycles: Annotated[FloatArray | None, _over("m", "mean thickness of the tribofilm")]
     particles_over_cycles: Annotated[FloatArray | None, _over("1", "pieces so far")]
+    micropitted_over_cycles: Annotated[FloatArray | None, _over("1", "micropitted share of the surface")]
     step_cycle: Annotated[FloatArray, _step("1", "cycles after a jump")]
     step_length: Annotated[FloatArray, _step("1", "cycles of a jump")]
     step_error: Annotated[FloatArray, _step("1", "error of a jump over what wore in it")]
@@ -176,32 +196,50 @@ class RunningInLifeRecord(GridRecord):
     height_after: Annotated[FloatArray, _shown("m", "height of the lower surface at the end, its film left out")]
     pressure: Annotated[FloatArray, _shown("Pa", "contact pressure in one of the last positions")]
     film_map: Annotated[FloatArray | None, _shown("m", "local thickness of the tribofilm at the end")]
+    damage_map: Annotated[FloatArray | None, _shown("1", "largest damage below each place at the end")]
 
 
 def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
     """One life."""
-    from bem.life.march import run_life
+    from bem.life.march import begun, run_life
 
     setup = scene.setup(**scene.sharing.model_dump())
     initial = build.both_heights(scene, setup.grid, context)
     case, contact = _case(scene, setup)
-    pieces = _Pieces.of(scene, setup)
-    saved = kept(context)
-    state, pieces.rows = (None, []) if saved is None else (saved[0], [list(row) for row in saved[1]])
-    pieces.last = state
+    beside, saved = _beside(scene, setup, case), kept(context)
+    if saved is None:
+        state = beside.begun(begun(case, *initial))
+    else:
+        state, beside = saved[0], replace(beside, pieces=saved[1], pits=saved[2], last=saved[0])
 
-    def after(now: LifeState) -> None:
-        pieces.count(now)
-        keep(context, (now, [list(row) for row in pieces.rows]))
+    def after(now: LifeState) -> LifeState:
+        now = beside.after(now)
+        keep(context, (now, beside.pieces, beside.pits))
         done = np.log1p(now.cycles / case.first_step) / np.log1p(case.cycles / case.first_step)
         context.progress(round(1000 * done), 1000, "cycles", friction=float(now.over("friction")[-1]))
+        return now
 
     with context.timer("cycles"):
         end = run_life(case, *initial, state=state, callback=after)
     _tell(scene, context, setup, contact)
-    if pieces.sizes is not None and not any(row[1] > 0 for row in pieces.rows):
-        context.note("particles: the criterion finds no piece in any pass that was looked at")
-    return _record(scene, setup, end, pieces)
+    for note in beside.notes():
+        context.note(note)
+    return _record(scene, setup, end, beside)
+
+
+def _beside(scene: RunningInLifeScene, setup: MixedSetup, case: LifeCase) -> Beside:
+    """What is counted beside the wear: pieces and fatigue."""
+    from bem.friction.rough_contact import boundary_traction
+    from bem.life.beside import Beside
+
+    (speeds,) = scene.speeds.build()
+    friction = boundary_traction(speeds, scene.friction)
+    sizes, fatigue = None, None
+    if scene.particles is not None:
+        sizes = scene.particles.build(setup.grid, scene.bodies, setup.hardness, _on_grid(scene))
+    if scene.fatigue is not None:
+        fatigue = scene.fatigue.build(scene.bodies, friction)
+    return Beside(case, sizes, fatigue, friction)
 
 
 def _on_grid(scene: RunningInLifeScene) -> float:
@@ -222,7 +260,16 @@ def _case(scene: RunningInLifeScene, setup: MixedSetup) -> tuple[LifeCase, Mixed
     rates = wear.rates(scene.bodies, scene.friction)
     film = None if scene.tribofilm is None else _film(scene, scene.tribofilm, setup)
     return LifeCase(
-        setup.grid, contact, passing, rates, wear.distance, life.count, life.tolerance, film, life.first_step
+        setup.grid,
+        contact,
+        passing,
+        rates,
+        wear.distance,
+        life.count,
+        life.tolerance,
+        film,
+        life.first_step,
+        longest=np.inf if scene.fatigue is None else life.count / _JUMPS_OF_FATIGUE,
     ), contact
 
 
@@ -257,51 +304,6 @@ def _film(scene: RunningInLifeScene, table: LifeFilm, setup: MixedSetup) -> Grow
     return table.build(scene.friction, spots)
 
 
-@dataclass
-class _Pieces:
-    """Pieces counted so far: rows of cycles, pieces and their volume [m^3] per jump that wore anything."""
-
-    sizes: Any
-    friction: float
-    rows: list[list[float]]
-    last: LifeState | None = None
-
-    @classmethod
-    def of(cls, scene: RunningInLifeScene, setup: MixedSetup) -> _Pieces:
-        from bem.friction.rough_contact import boundary_traction
-
-        (speeds,) = scene.speeds.build()
-        sizes = None
-        if scene.particles is not None:
-            sizes = scene.particles.build(setup.grid, scene.bodies, setup.hardness, _on_grid(scene))
-        return cls(sizes, boundary_traction(speeds, scene.friction), [])
-
-    def count(self, now: LifeState) -> None:
-        from bem.life.pieces import carried_away
-
-        if self.sizes is None:
-            return
-        before = self.last.surfaces.volume[0] if self.last is not None else 0.0
-        worn = now.surfaces.volume[0] - before
-        number = carried_away(self.sizes.volumes(now.passes, self.friction), worn)
-        self.rows.append([now.cycles, number, worn])
-        self.last = now
-
-    def figures(self, cycle: FloatArray) -> dict[str, Any]:
-        """Of the record; nothing where no criterion was given, or none found a piece."""
-        none = dict.fromkeys(("particles", "particle_equivalent_radius", "particles_over_cycles"))
-        found = np.array([row for row in self.rows if np.isfinite(row[1])]).reshape(-1, 3)
-        if self.sizes is None or not len(found) or found[:, 1].sum() == 0:
-            return none
-        total = np.concatenate([[0.0], np.cumsum(found[:, 1])])
-        volume = found[:, 2].sum() / total[-1]
-        return {
-            "particles": float(total[-1]),
-            "particle_equivalent_radius": float(np.cbrt(3 * volume / (4 * np.pi))),
-            "particles_over_cycles": np.interp(cycle, np.concatenate([[0.0], found[:, 0]]), total),
-        }
-
-
 def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contact: MixedPasses) -> None:
     """What the reader must know."""
     wear, (speeds,) = scene.wear, scene.speeds.build()
@@ -322,7 +324,7 @@ def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contac
             context.note(f"film: {note}")
 
 
-def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, pieces: _Pieces) -> RunningInLifeRecord:
+def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, beside: Beside) -> RunningInLifeRecord:
     """The figures of a life."""
     from bem.life.bars import bars_of_jumps
 
@@ -341,7 +343,7 @@ def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, pieces
         setup.grid,
         figures,
         over,
-        pieces.figures(cycle),
+        beside.figures(cycle, end),
         cycle=cycle,
         wear_volume=float(sum(end.surfaces.volume)),
         tribofilm_thickness=None if film is None else float(film.mean()),
@@ -403,6 +405,8 @@ KIND = Kind.of(
         "film-over-life",
         "jumps",
         "particles-over-life",
+        "micropitting-over-life",
+        "damage-map",
         "worn-surface",
         "pressure-map",
         "film-map",

@@ -11,12 +11,13 @@ from bem.grid import FloatArray, Grid
 from bem.scenes.common import Table, problem
 from bem.scenes.laws import LawKey
 from bem.scenes.tables.tribofilm import KineticsScene
-from bem.scenes.units import Ratio, Temperature, Time
+from bem.scenes.units import Pressure, Ratio, Temperature, Time
 from bem.scenes.wearing import WearDepthsScene
 from bem.wear.criterion import Detachment, LocalWear, VonMises
 from bem.wear.loads import LOWER, UPPER
 
 if TYPE_CHECKING:
+    from bem.life.fatigue import RollingFatigue
     from bem.life.pieces import PieceSizes
     from bem.life.surfaces import GrowingFilm
     from bem.life.surfaces import Temperature as LocalTemperature
@@ -123,3 +124,26 @@ class LifeParticles(Table):
         from bem.life.pieces import PieceSizes
 
         return PieceSizes.of(grid, bodies, self.criterion, self.depths.build(), hardness, load)
+
+
+class LifeFatigue(Table):
+    """Damage of one body by the stresses of passing roughness, while it wears; see `bem.life.criteria.FatigueLimit`.
+
+    `bending` and `slope` are of the limit in reversed bending over ln of the cycles; the default is hardened 52100.
+    """
+
+    body: Literal["lower", "upper"] = "lower"
+    criterion: Literal["dang_van", "crossland"] = "dang_van"
+    bending: Annotated[Pressure, Field(gt=0)] = 1220e6
+    slope: Annotated[Pressure, Field(lt=0)] = -43e6
+    hydrostatic: Annotated[Ratio, Field(ge=0, le=3)] | None = None
+    depths: WearDepthsScene
+
+    def build(self, bodies: tuple[Body, Body], friction: float) -> RollingFatigue:
+        """As `bem.life.fatigue.RollingFatigue`; friction : traction over pressure, as the lower body feels it."""
+        from bem.life.criteria import FatigueLimit
+        from bem.life.fatigue import RollingFatigue
+
+        (body,) = INDICES[self.body]
+        limit = FatigueLimit(self.criterion, self.bending, self.slope, self.hydrostatic)
+        return RollingFatigue(body, bodies[body], self.depths.build(), limit, friction)

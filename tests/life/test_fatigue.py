@@ -1,0 +1,83 @@
+"""Fatigue of a body that passes: the line contact's closed path, convergence with cells and positions, Miner, wear."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem import Body, Grid, Material
+from bem.life.criteria import FatigueLimit
+from bem.life.fatigue import RollingFatigue, pitted_share
+from bem.life.march import advance, run_life
+from bem.life.passes import DryPasses, Passing
+from bem.life.surfaces import LifeCase
+from bem.reference_solutions.mcewen import cylinder_stress
+
+STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
+RADIUS, PEAK = 5e-3, 2e9
+MODULUS = 210e9 / (2 * (1 - 0.3**2))
+HALF_WIDTH = 2 * RADIUS * PEAK / MODULUS
+DEPTHS = HALF_WIDTH * np.array([0.2, 0.55, 1.0])
+
+
+def smooth(cells, positions, rate=0.0, **changes):
+    length = 8 * HALF_WIDTH
+    grid = Grid((cells, 4), (length / cells, length / cells), periodic=(False, True))
+    load = np.pi * RADIUS * PEAK**2 / MODULUS * grid.lengths[1]
+    gap = np.broadcast_to((grid.x**2 / (2 * RADIUS))[:, None], grid.shape)
+    contact = DryPasses(grid, (STEEL, STEEL), gap, load=load)
+    return LifeCase(grid, contact, Passing(positions, (True, False)), (rate, 0.0), 1e-6, **{"cycles": 1e4} | changes)
+
+
+def begun(case):
+    flat = np.zeros(case.grid.shape)
+    return run_life(replace(case, cycles=1e-9, first_step=1e-9), flat, flat)
+
+
+def fatigue(limit=None):
+    return RollingFatigue(0, STEEL, DEPTHS, limit or FatigueLimit(), 0.0)
+
+
+def test_a_smooth_roller_does_what_the_closed_path_says_as_cells_and_positions_grow():
+    place = np.linspace(-6, 6, 481) * HALF_WIDTH
+    path = np.stack([cylinder_stress(place, z, half_width=HALF_WIDTH, maximum_pressure=PEAK, poissons_ratio=0.3)
+                     for z in DEPTHS], axis=-1)  # fmt: skip
+    exact = FatigueLimit().equivalent_shear(path)
+    errors = []
+    for cells, positions in ((32, 16), (64, 32), (128, 64)):
+        case = smooth(cells, positions)
+        found = fatigue().equivalent_shear(case, (cells, cells), begun(case).passes)
+        middle = found[:, cells // 2, 0]
+        errors.append(float(np.abs(middle / exact - 1).max()))
+    # between positions the path's corners are cut
+    assert errors[2] < 0.02
+    assert errors[2] < errors[0]
+
+
+def test_damage_adds_up_and_comes_up_with_the_material():
+    case = smooth(32, 8, rate=2e-16, cycles=4000.0, first_step=4000.0, tolerance=0.5)
+    model = fatigue(FatigueLimit(bending=900e6))
+    first = model.begun(case, begun(case))
+    rate = first.damage[1]
+    still = replace(case, rates=(0.0, 0.0))
+    steady = model.after(still, first, advance(still, replace(first, step=4000.0, cycles=0.0)))
+    # the same stresses all along: cycles times the damage of one
+    assert steady.damage[0] == pytest.approx(4000 * rate, rel=1e-6)
+    deep = replace(first, damage=np.stack([np.ones_like(rate) * np.array([0.1, 0.4, 0.8])[:, None, None], 0 * rate]))
+    worn = advance(case, replace(deep, step=4000.0, cycles=0.0))
+    lost = deep.surfaces.heights[0] - worn.surfaces.heights[0]
+    after = model.after(case, deep, worn).damage
+    # what lay between the first two depths moved up by what wore
+    own = after[0] - 0.5 * 4000 * after[1]
+    expected = 0.1 + 0.3 * lost / (DEPTHS[1] - DEPTHS[0])
+    assert own[0] == pytest.approx(expected, rel=1e-9)
+    assert lost.max() > 1e-10
+
+
+def test_pits_are_columns_without_life_left():
+    case = smooth(32, 4)
+    state = fatigue().begun(case, begun(case))
+    assert pitted_share(state) == 0
+    gone = state.damage.copy()
+    gone[0, 1, :8] = 1.0
+    assert pitted_share(replace(state, damage=gone)) == 0.25
