@@ -413,6 +413,7 @@ def test_a_map_smaller_than_the_grid_is_refused_by_the_plan(maps):
 
 
 GOOD_REASONS = {
+    "micropitting-rig": {"patch_of_few_correlation_lengths"},  # ridges of longitudinal lay are as long as the contact
     "hardness-optimum": {"few_cells_per_wave"},  # the thesis' cell, two to the shortest wave
     "running-in-stribeck": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise
     "running-in-ball": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise, the same surfaces
