@@ -102,5 +102,10 @@ class CamModel(ElementModel):
                 f"entrainment turns round at {', '.join(turns)}: nothing is entrained there and the film lives on by "
                 "squeeze, which steady scenes do not have (kind film follows a film in time)"
             )
+        if self.specific_wear_rate:
+            said.append(
+                "the contact wanders to and fro on the follower, so that its places are passed more than once in a "
+                "turn: wear by hour counts each pass by itself"
+            )
         said.append("the follower does not turn, and both bodies are as long as the cam is wide, without edges")
         return tuple(said)

@@ -17,7 +17,7 @@ from bem.errors import InputError, Status
 from bem.scenes.load import load_scene
 
 POINTS = 500
-"""Of each film: its figures are then within their bars of some tenths of a per cent, and places are many."""
+"""Of each film: of the templates' elements figures are within 0.1 % of those on 2000, and places are many."""
 
 
 @dataclass(frozen=True)
@@ -115,8 +115,8 @@ _COLUMNS: dict[str, Callable[[Running], float | None]] = {
 
 def columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]:
     """A row for each contact as in `Element.columns`; not a number where nothing is known."""
-    found = {one.contact.name: one for one in runs}
-    at = [found.get(contact.name) for contact in element.found.contacts]
+    found = {one.contact: one for one in runs}
+    at = [found.get(contact) for contact in element.found.contacts]
 
     def number(one: Running | None, of: Callable[[Running], float | None]) -> float:
         value = None if one is None else of(one)

@@ -188,6 +188,12 @@ class GeneratedSurface(Table):
                 "is not a manufacturing process of the catalogue",
                 {"found": str(data["process"])[:60], "names": sorted(PROCESSES), "what": "process"},
             )
+        said = str(data.get("source", ""))
+        other = next((name for name, one in PROCESSES.items() if said.startswith(one.title)), data["process"])
+        if other != data["process"]:  # a run's scene has all statistics, which would win
+            raise problem(
+                f"process {data['process']} beside statistics of {other}", "process without them, or without source"
+            )
         known = process.keys("x" if data.get("lay") == "x" else "y")
         own = [key for key in data if key in cls.model_fields and key not in _NO_STATISTIC]
         for key, others in _EXCLUDED.items():

@@ -80,6 +80,9 @@ def test_what_is_not_known_is_said():
     assert "give specific_wear_rate" in said["wear by hour"]
     assert "becomes a safety" in said["micropitting"]
     assert np.isnan(columns(cam, runs)["friction"][4])
+    assert not any("passed more than once" in note for note in cam.notes())
+    worn = element_of("cam-follower", points=9, specific_wear_rate=WEAR_RATE)
+    assert any("passed more than once" in note for note in worn.notes())
     bearing = element_of("rolling-bearing", specific_wear_rate=WEAR_RATE)
     one = run_contact(bearing, bearing.worst())
     assert one.wear == (0.0, 0.0)

@@ -93,6 +93,13 @@ def test_a_scene_of_a_process_is_that_surface(lay):
     assert again == surface
 
 
+def test_a_resolved_surface_keeps_its_process():
+    """Its statistics would win over those of another process, without a word."""
+    resolved = scene_of(process="ground").lower.surface.model_dump(exclude_none=True)
+    with pytest.raises(InputError, match="process honed beside statistics of ground"):
+        scene_of(**resolved | {"process": "honed"})
+
+
 def test_what_is_given_beside_a_process_wins():
     surface = scene_of(process="polished", rms_height="5 nm", correlation_length="4 um").lower.surface
     assert (surface.rms_height, surface.correlation_length, surface.hurst) == (5e-9, 4e-6, None)
