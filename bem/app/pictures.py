@@ -67,7 +67,7 @@ def map_picture(
     common = {"x": numbers(x), "y": numbers(y), "z": numbers((seen * factor).T), "colorscale": COLOURS}
     bar = {"colorbar": {"title": {"text": shown}}}
     title = {"title": heading(words + thinned)}
-    axes = {"xaxis": axis_title(label("x, sliding", length_unit)), "yaxis": axis_title(label("y", length_unit))}
+    axes = {"xaxis": axis_title(label("x", length_unit)), "yaxis": axis_title(label("y", length_unit))}
     if solid:
         trace = {"type": "surface", **common, **bar, "cmin": low, "cmax": high}
         scene = {**axes, "zaxis": axis_title(shown), "aspectratio": {"x": 1, "y": 1, "z": 0.35}}

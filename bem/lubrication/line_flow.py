@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bem.grid import FloatArray
 from bem.lubrication.line_kernel import DEFLECTION, LineOperator
@@ -36,6 +37,14 @@ class Layered(Protocol):
 
     def log_viscosity(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Of the uniform oil through which pressure drives as much, and its slope, at the nodes."""
+
+    def log_sliding_viscosity(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Of the uniform oil that sliding shears at the same stress, and its slope, at the nodes."""
+
+    @property
+    def thinning(self) -> FloatArray:
+        """ln of what pressure drives through the layers of an oil that its shear law thins, over what it drives through
+        the uniform oils of the same stress, at the nodes."""
 
     def cut(self, nodes: slice) -> Layered:
         """At some of the nodes."""
@@ -87,6 +96,17 @@ class Parts:
 
 
 @dataclass(frozen=True)
+class _Layers:
+    """On the cells: what pressure drives through layers that a shear law thins over that of uniform oil; mean fluidity
+    that sliding shears, and its derivatives with the pressures at both ends."""
+
+    share: FloatArray
+    fluidity: FloatArray
+    left: FloatArray
+    right: FloatArray
+
+
+@dataclass(frozen=True)
 class Flow:
     """The flow through n cells between n+1 nodes, relative to `scale` (n,): widths, and how much of the difference
     between the two nodes upstream extrapolates the nearer one."""
@@ -122,13 +142,21 @@ class Flow:
             flow, by_film, steep = mobility * gradient, by_film * gradient, cube * gradient
             left, right = steep * left, steep * right
         else:
-            middle = 0.5 * (positive[1:] + positive[:-1])
-            driven = self.problem.shear.driven(gradient, thickness, fluid, middle)
-            flow, by_film = mobility * driven.gradient, by_film * driven.gradient + 0.5 * mobility * driven.by_film
-            steep = cube * (driven.gradient + fluid * driven.by_fluidity)
-            limited = 0.5 * mobility * driven.by_pressure
-            left, right = steep * left + limited, steep * right + limited
+            middle, layers = 0.5 * (positive[1:] + positive[:-1]), self._layers(positive, pressure > 0)
+            own = fluid if layers is None else layers.fluidity
+            driven = self.problem.shear.driven(gradient, thickness, own, middle)
+            flow = mobility * driven.gradient
+            by_film = by_film * driven.gradient + 0.5 * mobility * driven.by_film
+            limited, softer = 0.5 * mobility * driven.by_pressure, mobility * driven.by_fluidity
             mobility = mobility * driven.by_gradient
+            if layers is None:
+                steep = cube * (driven.gradient + fluid * driven.by_fluidity)
+                left, right = steep * left + limited, steep * right + limited
+            else:
+                steep = cube * driven.gradient
+                left = layers.share * (steep * left + softer * layers.left + limited)
+                right = layers.share * (steep * right + softer * layers.right + limited)
+                flow, by_film, mobility = (layers.share * value for value in (flow, by_film, mobility))
         dragged, dragged_slope = self.problem.dragged(film)
         mass_slope = dragged * density_slope
         leaving = float(self.problem.dragged(np.array([exit_film]))[0][0])
@@ -154,6 +182,17 @@ class Flow:
             density=density,
             density_slope=density_slope,
         )
+
+    def _layers(self, pressure: FloatArray, loaded: NDArray[np.bool_]) -> _Layers | None:
+        """Of an oil that differs across the film and that its shear law thins; None of one that does not differ."""
+        layered = self.problem.layered
+        if layered is None:
+            return None
+        logarithm, slope = layered.log_sliding_viscosity(pressure)
+        slope, thinning = np.where(loaded, slope, 0.0), layered.thinning
+        fluidity, left, right = mean_fluidity(logarithm)
+        share = np.exp(0.5 * (thinning[1:] + thinning[:-1]))
+        return _Layers(share, fluidity, left * slope[:-1], right * slope[1:])
 
     def derivatives(self, parts: Parts) -> tuple[FloatArray, ...]:
         """Of the residual of cell i: with the films at nodes i - 1, i, i + 1, then with the pressures there."""

@@ -20,12 +20,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.shear import ShearLaw
+from bem.lubrication.shear import Moments, ShearLaw
 
 SPREAD = 0.2
 """Half difference of the stresses at the walls over the limit, from which slip is mostly at one of them: limiting
@@ -54,7 +55,17 @@ class Profile:
     slip: FloatArray
 
 
-def shear_profile(law: ShearLaw, newtonian: FloatArray, half: FloatArray, limit: FloatArray | float) -> Profile:
+class Sheared(Protocol):
+    """What a profile is made of: the law of a uniform oil, or of layers that differ; as of `ShearLaw`."""
+
+    def moments(self, middle: FloatArray, half: FloatArray) -> Moments:
+        """Of the Newtonian stress across the film."""
+
+    def middle_stress(self, newtonian: FloatArray, half: FloatArray) -> FloatArray:
+        """At a Newtonian stress of the sliding, before any limit."""
+
+
+def shear_profile(law: Sheared, newtonian: FloatArray, half: FloatArray, limit: FloatArray | float) -> Profile:
     """The profile at Newtonian stresses of the sliding, mu |u1 - u2|/h, at h/2 dp/dx and at limits, (n,) each [Pa]."""
     size, sign = np.abs(half), np.sign(half)
     with np.errstate(over="ignore", invalid="ignore"):
@@ -74,14 +85,14 @@ def shear_profile(law: ShearLaw, newtonian: FloatArray, half: FloatArray, limit:
     return Profile(middle, sign * moment, sign * by_newtonian, by_half, sign * by_limit, slip)
 
 
-def _held(law: ShearLaw, middle: FloatArray, half: FloatArray) -> tuple[FloatArray, ...]:
+def _held(law: Sheared, middle: FloatArray, half: FloatArray) -> tuple[FloatArray, ...]:
     """Moment and derivatives with Newtonian stress, half stress and limit where nothing slips."""
     m = law.moments(middle, half)
     ratio = m.mean_by_half / m.mean_by_middle
     return m.first, 3 * ratio, m.first_by_half - 3 * ratio * m.mean_by_half, np.zeros_like(half)
 
 
-def _slipping(law: ShearLaw, slip: FloatArray, half: FloatArray, limit: FloatArray) -> tuple[FloatArray, ...]:
+def _slipping(law: Sheared, slip: FloatArray, half: FloatArray, limit: FloatArray) -> tuple[FloatArray, ...]:
     """The same where the oil slips at the limit."""
     over = half > limit
     m = law.moments(np.maximum(limit - half, 0.0), np.minimum(half, limit))

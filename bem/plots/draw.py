@@ -113,10 +113,10 @@ def draw(
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    from bem.plots.style import style
+    from bem.plots.style import named_axes, style
 
     run, paths = _for(_seen(run), kind), []
-    with style(), collecting():
+    with style(), named_axes(run.dataset), collecting():
         # at the dots of the file from the start: sizes of texts that the layout asks for serve the picture too
         figure = Figure(figsize=size or kind.size, dpi=_DOTS, layout="constrained")
         canvas = FigureCanvasAgg(figure)

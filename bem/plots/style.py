@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from contextlib import AbstractContextManager
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 import matplotlib
@@ -57,6 +59,28 @@ _MOST_CELLS = 1400
 """Along each axis of a map: twice the dots of the widest."""
 
 
+_ALONG = ContextVar("along x", default="x, sliding")
+
+
+def along_x() -> str:
+    """What a map's first axis is called: "x, sliding" unless the run that is drawn says otherwise."""
+    return _ALONG.get()
+
+
+@contextmanager
+def named_axes(dataset: Any) -> Iterator[None]:
+    """Within it, a map's first axis is called what the record of the results calls x: "x, along rolling" is "x,
+    rolling"."""
+    words = str(dataset["x"].attrs.get("long_name", "")) if "x" in dataset else ""
+    if ", along " in words and ", along the " not in words:
+        words = words.replace(", along ", ", ")
+    token = _ALONG.set(words if words.startswith("x") else _ALONG.get())
+    try:
+        yield
+    finally:
+        _ALONG.reset(token)
+
+
 def style() -> AbstractContextManager[None]:
     """The look, for a `with` block."""
     return matplotlib.rc_context(_RC)  # type: ignore[arg-type]
@@ -90,7 +114,7 @@ def field_axes(axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64]) -> tu
         float(y[0] - dy / 2) * factor,
         float(y[-1] + dy / 2) * factor,
     )
-    axes.set_xlabel(label("x, sliding", unit))
+    axes.set_xlabel(label(along_x(), unit))
     axes.set_ylabel(label("y", unit))
     ratio = (extent[1] - extent[0]) / (extent[3] - extent[2])
     axes.set_aspect("equal" if 0.2 < ratio < 5 else "auto")

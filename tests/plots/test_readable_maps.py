@@ -5,7 +5,8 @@ import pytest
 
 from bem.plots.figures.contact import _one_colour
 from bem.plots.figures.subsurface import _drawn_over_depth
-from bem.plots.style import height_limit, map_of_heights
+from bem.plots.style import along_x, field_axes, height_limit, map_of_heights, named_axes
+from bem.results.arrays import Array
 
 
 def test_a_spike_does_not_take_the_colours_of_a_surface():
@@ -51,3 +52,19 @@ def test_stress_between_depths_is_smooth_and_never_beyond_what_was_computed():
     slope = np.diff(drawn[:, 0]) / np.diff(finer)
     deep = finer[:-1] > 3
     assert np.abs(np.diff(slope[deep])).max() < 0.1 * np.abs(slope[deep]).max()
+
+
+@pytest.mark.parametrize(
+    ("said", "written"),
+    [("x, along rolling", "x, rolling"), ("x, along sliding", "x, sliding"), ("x", "x"),
+     ("x, along the flow", "x, along the flow")],
+)  # fmt: skip
+def test_the_first_axis_of_a_map_is_what_the_results_call_it(said, written):
+    """Maps of rolling contacts and of point films had said "sliding"."""
+    from matplotlib.figure import Figure
+
+    axes, x = Figure().add_subplot(), np.arange(4) * 1e-6
+    with named_axes({"x": Array(("x",), (4,), {"long_name": said}, lambda: x)}):
+        field_axes(axes, x, x)
+    assert axes.get_xlabel().startswith(f"{written} ")
+    assert along_x() == "x, sliding"

@@ -1,30 +1,35 @@
 """Speeds, stress and heat across a film of known temperatures, at the nodes of a strip.
 
-The stress in the middle is the shear law's, as in the isothermal friction: of the sliding alone where the oil's film is
-Newtonian, else of the profile, at the mean fluidity of the layers. Layers share the sliding as they are fluid; what
-slips at the limiting stress does so, too, in proportion to the fluidity: the hottest layer gives way. Where the law
-acts on the film it thins all layers alike for the flow that pressure drives. Heat is what the stress makes of that, and
-what the pressure makes of the oil's expansion,
+The stress is the shear law's, as in the isothermal friction: of the sliding alone at the mean fluidity of the layers
+where the oil's film is Newtonian, else that of layers each sheared by the stress in it (`section`), which also says how
+much pressure drives. Layers share the sliding as they are fluid; what slips at the limiting stress does so, too, in
+proportion to the fluidity: the hottest layer gives way. What pressure drives is shared out as in a Newtonian oil. Heat
+is what the stress makes of that, where it is, and what the pressure makes of the oil's expansion,
 
     made = tau du/dz + alpha T u dp/dx.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray
-from bem.lubrication.shear_profile import middle_stress, shear_profile
+from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.shear_profile import Profile, shear_profile
 from bem.lubrication.thermal.hot_viscosity import LARGEST_LOGARITHM
 from bem.lubrication.thermal.layers import Oil, Sums, middles, sums_of
+from bem.lubrication.thermal.section import Section
 from bem.lubrication.thermal.strip import Strip
 
 _EASED, _LEAST = 50.0, 1e-300
 _STEP = 1e-4
 """Relative, of the Newtonian stress, for the slope of the law."""
+_SLIGHT = 1e-6
+"""Of the largest half stress, from which on thinning is that of none."""
 
 
 @dataclass(frozen=True)
@@ -32,27 +37,33 @@ class Across:
     """At the nodes of a strip, of K layers.
 
     through : mass through every section over the oil's density [m^2/s]. newtonian : stress of the sliding of a
-    Newtonian oil (n,) [Pa]. stress : tau in the middle, of du/dz (n,) [Pa]. flux : mass through a layer over the oil's
-    density (n, K) [m^2/s]. heat : made in a layer by shear (n, K) [W/m^2]; of these `sheared` by the stress in the
-    middle. expanding : heat that compression makes, over temperature and rise of pressure (n, K) [m^2/(s K)]. softer :
-    -d ln(viscosity)/dT (n, K) [1/K]. share : of the sliding (n, K). steep : d ln(stress)/d ln(Newtonian stress) (n,).
-    dense : density over that of the oil without pressure (n, K). slow : one over the flux (n, K).
-    pushed : rise of speed through a layer by the pressure over lever (n, K) [m/s]. lever : s less where that is none
-    (n, K). turning : heat of it over lever (n, K) [W/m^2]. yielding : d ln(flow driven)/dT (n, K) [1/K].
+    Newtonian oil (n,) [Pa]. stress : tau in the middle, of du/dz (n,) [Pa]; centred : where the fluidity has its
+    centre, and steep : d ln(it)/d ln(newtonian) (n,). flux : mass through a layer over the oil's density (n, K)
+    [m^2/s]. heat : made in a layer by shear (n, K) [W/m^2]; of these sheared : by the centred stress in the sliding;
+    crossing : by that in what pressure shears; leaning : by the pressure's in the sliding. expanding : heat that
+    compression makes, over temperature and rise of pressure (n, K) [m^2/(s K)]. softer : -d ln(viscosity)/dT (n, K)
+    [1/K]. share : of the sliding (n, K). dense : density over that of the oil without pressure (n, K). slow : one over
+    the flux (n, K). thinning : (n,) see `line_flow.Layered`. pushed : rise of speed through a layer by the pressure
+    over lever (n, K) [m/s]. lever : s less where the fluidity has its centre (n, K). turning : heat lost as that centre
+    moves (n, K) [W/m^2]. yielding : d ln(flow driven)/dT (n, K) [1/K].
     """
 
     through: float
     newtonian: FloatArray
     stress: FloatArray
+    centred: FloatArray
     flux: FloatArray
     heat: FloatArray
     sheared: FloatArray
+    crossing: FloatArray
+    leaning: FloatArray
     expanding: FloatArray
     softer: FloatArray
     share: FloatArray
     steep: FloatArray
     dense: FloatArray
     slow: FloatArray
+    thinning: FloatArray
     pushed: FloatArray
     lever: FloatArray
     turning: FloatArray
@@ -74,8 +85,17 @@ class Across:
         return np.asarray(flux - flux.sum(axis=1, keepdims=True) * (bow / bow.sum())[:, None])
 
 
-def across(oil: Oil, strip: Strip, temperature: FloatArray, resistance: FloatArray) -> Across:
-    """Of temperatures (n, K) [K]; resistance : ln of the viscosity ratio against which the film's pressure drives it.
+@dataclass(frozen=True)
+class Given:
+    """What the film was solved with, (n,): ln of the viscosity ratio against which its pressure drives it, and where
+    across the film, s, its fluidity has its centre."""
+
+    resistance: FloatArray
+    centre: FloatArray
+
+
+def across(oil: Oil, strip: Strip, temperature: FloatArray, given: Given) -> Across:
+    """Of temperatures (n, K) [K].
 
     The flow that pressure drives is the film's, whatever the temperatures: the stress follows. A pressure gradient that
     stays would drive more and more through oil that it heats.
@@ -88,84 +108,112 @@ def across(oil: Oil, strip: Strip, temperature: FloatArray, resistance: FloatArr
     least = logarithm.min(axis=1)
     found = sums_of(np.exp(least[:, None] - logarithm), oil.density(strip.pressure, temperature))
     viscosity = lubricant.viscosity * np.exp(least)
-    eased = np.exp(np.clip(least - np.log(np.maximum(found.driven, _LEAST)) - resistance, -_EASED, _EASED))
+    eased = np.exp(np.clip(least - np.log(np.maximum(found.driven, _LEAST)) - given.resistance, -_EASED, _EASED))
     half = 0.5 * strip.thickness * strip.gradient * eased
-    resisting = viscosity / _thinning(oil, strip, found, viscosity)
-    sheared = _sheared(oil, strip, found, viscosity, resisting, half)
+    thinned = _thinned(oil, strip, found, viscosity)
+    resisting = viscosity / thinned.by
+    sheared = _sheared(oil, strip, found, viscosity, given.centre)
+    lever = s - (found.by_place / found.mean)[:, None]
+    share = found.fluidity * weight / found.mean[:, None]
+    pushed = (strip.thickness * half / resisting)[:, None] * found.fluidity * weight
+    rates = pushed * lever - strip.sliding * share
     # within a layer the stress is linear
-    inner = (strip.thickness * half / resisting)[:, None] * found.fluidity * weight**3 / 3
+    inner = pushed * weight**2 / 3
     through = strip.flow * float(found.drag(-strip.sliding / sum(strip.speeds))[-1])
-    flux = _flux(strip, found, sheared.rates, inner, through)
+    flux = _flux(strip, found, rates, inner, through)
     density = lubricant.density_ratio(strip.pressure)[0]
     volume = flux / (density[:, None] * found.density)
+    dragged = -(sheared.centred * strip.sliding)[:, None] * share
+    # what a stress of one makes of what the other shears is zero over the film, and not in a layer; where only friction
+    # follows the law both halves are that of its stress, so that no layer cools
+    crossing, leaning = sheared.centred[:, None] * pushed, -(half * strip.sliding)[:, None] * share
+    crossing, leaning = (crossing, leaning) if lubricant.shears_film else (2 * crossing, 0 * leaning)
     softer = -(times_slope * cold + plus_slope)
-    lever = s - (found.by_place / found.mean)[:, None]
     yields = (found.mass - (found.by_mass / found.mean)[:, None]) * lever + found.density * weight**2 / 3
+    yielding = 3 * weight * yields * found.fluidity * softer / found.driven[:, None]
     return Across(
         through=through,
         newtonian=sheared.newtonian,
         stress=sheared.stress,
+        centred=sheared.centred,
         flux=flux,
-        heat=sheared.dragged + sheared.driven + half[:, None] * inner,
-        sheared=sheared.dragged,
+        heat=dragged + (crossing + leaning) * lever + half[:, None] * (pushed * lever**2 + inner),
+        sheared=dragged,
+        crossing=crossing * lever,
+        leaning=leaning * lever,
         expanding=oil.expands(strip.pressure)[:, None] * found.density * volume,
         softer=softer,
-        share=found.fluidity * weight / found.mean[:, None],
+        share=share,
         steep=sheared.steep,
         dense=found.density * density[:, None],
         slow=np.where(flux != 0, 1 / np.where(flux != 0, flux, 1.0), 0.0),
-        pushed=(strip.thickness * half / resisting)[:, None] * found.fluidity * weight,
+        thinning=thinned.more,
+        pushed=pushed,
         lever=lever,
-        turning=(half * strip.thickness * half / resisting)[:, None] * found.fluidity * weight * lever,
-        yielding=3 * weight * yields * found.fluidity * softer / found.driven[:, None],
+        turning=crossing + leaning + 2 * half[:, None] * pushed * lever,
+        yielding=yielding,
     )
 
 
 @dataclass(frozen=True)
 class _Sheared:
-    """Stress of the sliding of a Newtonian oil, that in the middle and its slope (n,), by how much the speed rises
-    through each layer (n, K) [m/s], and what the stresses make of that (n, K) [W/m^2]: that of the sliding and that of
-    the pressure."""
+    """Stress of the sliding of a Newtonian oil, that in the middle, that where the fluidity has its centre and its
+    slope, all (n,)."""
 
     newtonian: FloatArray
     stress: FloatArray
+    centred: FloatArray
     steep: FloatArray
-    rates: FloatArray
-    dragged: FloatArray
-    driven: FloatArray
 
 
-def _sheared(
-    oil: Oil, strip: Strip, found: Sums, viscosity: FloatArray, resisting: FloatArray, half: FloatArray
-) -> _Sheared:
+def _sheared(oil: Oil, strip: Strip, found: Sums, viscosity: FloatArray, centre: FloatArray) -> _Sheared:
     lubricant, sliding = oil.lubricant, -strip.sliding
-    s, weight = middles(found.fluidity.shape[1]), 1 / found.fluidity.shape[1]
     newtonian = viscosity * sliding / (strip.thickness * found.mean)
+    half = 0.5 * strip.thickness * strip.gradient
 
-    def stress_of(value: FloatArray) -> FloatArray:
-        return middle_stress(lubricant, value, strip.pressure, strip.thickness, strip.gradient)
+    def centred_of(value: FloatArray) -> FloatArray:
+        if not lubricant.shears_film:
+            return lubricant.shear_stress(value, strip.pressure)
+        middle = _profile(lubricant, strip, found, value, half).middle
+        return math.copysign(1.0, sliding) * middle + half * found.by_place / found.mean
 
-    stress = stress_of(newtonian)
+    centred = centred_of(newtonian)
     with np.errstate(invalid="ignore", divide="ignore"):
-        steep = np.where(stress != 0, (stress_of(newtonian * (1 + _STEP)) / stress - 1) / _STEP, 1.0)
-    share = found.fluidity * weight / found.mean[:, None]
-    # of the flow that pressure drives; what it and the sliding do to each other is zero over the film
-    flow = (strip.thickness / resisting)[:, None] * found.fluidity * weight
-    off = half[:, None] * (s - (found.by_place / found.mean)[:, None])
-    dragged = stress[:, None] * share * sliding
-    return _Sheared(newtonian, stress, steep, share * sliding + flow * off, dragged, flow * off**2)
+        steep = np.where(centred != 0, (centred_of(newtonian * (1 + _STEP)) / centred - 1) / _STEP, 1.0)
+    return _Sheared(newtonian, centred - half * centre, centred, steep)
 
 
-def _thinning(oil: Oil, strip: Strip, found: Sums, viscosity: FloatArray) -> FloatArray:
-    """Flow that pressure drives over that of a Newtonian oil (n,), at the mean fluidity as in Reynolds' equation."""
+def _profile(lubricant: Lubricant, strip: Strip, found: Sums, newtonian: FloatArray, half: FloatArray) -> Profile:
+    """Of layers whose oil its shear law thins, as if sliding sheared it by positive stress."""
+    law, rising = lubricant.shear_law, half * math.copysign(1.0, -strip.sliding)
+    return shear_profile(Section.of(law, found, rising), np.abs(newtonian), half, law.limit(strip.pressure))
+
+
+@dataclass(frozen=True)
+class _Thinned:
+    """Flow that pressure drives over that of Newtonian layers (n,), and ln of it over what it is of uniform oil that
+    sliding shears at the same stress (n,)."""
+
+    by: FloatArray
+    more: FloatArray
+
+
+def _thinned(oil: Oil, strip: Strip, found: Sums, viscosity: FloatArray) -> _Thinned:
+    """With the film's own pressure."""
     lubricant = oil.lubricant
     if not lubricant.shears_film:
-        return np.ones_like(viscosity)
-    half, law = 0.5 * strip.thickness * strip.gradient, lubricant.shear_law
+        return _Thinned(np.ones_like(viscosity), np.zeros_like(viscosity))
+    half = 0.5 * strip.thickness * strip.gradient
+    least = _SLIGHT * np.abs(half).max()
+    half = np.where(np.abs(half) < least, least, half)
     newtonian = np.abs(viscosity * strip.sliding / (strip.thickness * found.mean))
-    profile = shear_profile(law, newtonian, half, law.limit(strip.pressure))
-    some = np.abs(half) > 1e-9 * (1 + np.abs(half).max())
-    return np.maximum(np.where(some, profile.moment / np.where(some, half, 1.0), profile.by_half), 1.0)
+    uniform = shear_profile(lubricant.shear_law, newtonian, half, lubricant.shear_law.limit(strip.pressure))
+    layered = _profile(lubricant, strip, found, newtonian, half)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        by, more = layered.moment / half, np.log(layered.moment / uniform.moment)
+    return _Thinned(
+        np.maximum(np.nan_to_num(by, nan=1.0, posinf=1.0), 1.0), np.nan_to_num(more, posinf=0.0, neginf=0.0)
+    )
 
 
 def _flux(strip: Strip, found: Sums, rates: FloatArray, inner: FloatArray, through: float) -> FloatArray:

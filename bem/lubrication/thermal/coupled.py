@@ -15,6 +15,7 @@ from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_continuation import MAX_IMBALANCE, SPIKE_CELLS
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_newton import Outcome, State, mesh_imbalance, newton, remesh, spike_cell
+from bem.lubrication.thermal.across import Given
 from bem.lubrication.thermal.field import TOLERANCE, Duct, Field, temperature_field, warming_of
 from bem.lubrication.thermal.layers import HotFilm, Oil
 from bem.lubrication.thermal.made import Made
@@ -79,17 +80,22 @@ class Coupling:
             warming,
         )
 
-    def hot(self, state: State, temperature: FloatArray) -> Problem:
-        """Reynolds' problem with temperatures at the nodes of a state (n, K) [K]."""
-        layered = HotFilm.of(self.oil, temperature, state.pressure, self.problem.log_viscosity, self.slide, self.unit)
-        return replace(self.problem, layered=layered)
+    def layered(self, state: State, layers: FloatArray) -> HotFilm:
+        """Temperatures at the nodes of a state [K] and, last, the thinning of layers (n, K + 1), see
+        `line_flow.Layered`."""
+        cold, temperature, thinning = self.problem.log_viscosity, layers[:, :-1], layers[:, -1]
+        return HotFilm.of(self.oil, temperature, state.pressure, cold, self.slide, self.unit, thinning)
+
+    def hot(self, state: State, layers: FloatArray) -> Problem:
+        """Reynolds' problem with these."""
+        return replace(self.problem, layered=self.layered(state, layers))
 
 
 @dataclass(frozen=True)
 class Heated:
-    """A film with its heat: what is said of the film, its strip, duct, heat and field, the temperatures at the
-    nodes that it was given and those found (n, K) [K], Reynolds' residual at these,
-    Newton steps and rounds in all."""
+    """A film with its heat: what is said of the film, its strip, duct, heat and field, the temperatures and the
+    thinning at the nodes that it was given and those found (n, K + 1), see `Coupling.layered`, Reynolds' residual at
+    these, Newton steps and rounds in all."""
 
     film: FilmSolution
     outcome: Outcome
@@ -110,7 +116,8 @@ class Heated:
 
 def coupled(coupling: Coupling, start: Outcome) -> Heated:
     """From a film without heat, or of another case."""
-    kept = np.full((len(start.state.offset), coupling.layers), coupling.oil.viscosity.reference)
+    kept = np.full((len(start.state.offset), coupling.layers + 1), coupling.oil.viscosity.reference)
+    kept[:, -1] = 0.0
     at = _heated(coupling, start, kept, None, 1.0)
     steps, rounds, history, remeshed = start.iterations, 1, History(), 0
     while True:
@@ -137,7 +144,7 @@ def coupled(coupling: Coupling, start: Outcome) -> Heated:
 
 
 def _heated(coupling: Coupling, outcome: Outcome, given: FloatArray, before: Heated | None, residual: float) -> Heated:
-    """The heat of a film that was solved for at given temperatures (n, K) [K], to a share of the residual before."""
+    """The heat of a film that was solved for as it was given, see `Heated`, to a share of the residual before."""
     film = coupling.film_of(outcome)
     kept = before is not None and before.outcome.state.offset is outcome.state.offset
     places = before.made.edge if before is not None and kept else None
@@ -146,23 +153,25 @@ def _heated(coupling: Coupling, outcome: Outcome, given: FloatArray, before: Hea
         return cell_edges(x, pressure, coupling.columns) if places is None else x[places]
 
     strip = strip_of(film, edges, coupling.oil.kept_work)
-    resistance = coupling.hot(outcome.state, given).flowing(np.maximum(outcome.state.pressure, 0.0))[0]
+    layered, pressure = coupling.layered(outcome.state, given), np.maximum(outcome.state.pressure, 0.0)
+    solved_with = Given(layered.log_viscosity(pressure)[0], layered.centre(pressure))
     duct = coupling.duct(strip, None if before is None else before.duct)
-    made = Made.of(coupling.oil, strip, resistance)
+    made = Made.of(coupling.oil, strip, solved_with)
     guess = np.full((duct.columns, coupling.layers + 2), duct.supply)
     warm = before is not None and before.field.temperature.shape == guess.shape
     if before is not None and warm:
         guess = before.field.temperature
     wanted = max(TOLERANCE, min(EXACTNESS * residual, COARSE))
     field = temperature_field(duct, made, guess, wanted, held=0.0 if warm else 1.0)
-    found = made.at_nodes(_smoothed(field.oil))
+    warm_layers = _smoothed(field.oil)
+    found = np.column_stack([made.at_nodes(warm_layers), made.across(warm_layers).thinning])
     left = newton(coupling.hot(outcome.state, found), outcome.state, coupling.tolerance, 0).residual
     return Heated(film, outcome, strip, duct, made, field, given, found, left)
 
 
 @dataclass
 class History:
-    """Temperatures that films were solved with and those that were found of them: where both will be the same, by the
+    """What films were solved with, see `Heated`, and what was found of them: where both will be the same, by the
     secants between the last of them (Anderson, J. ACM 12 (1965) 547; Walker and Ni, SIAM J. Numer. Anal. 49 (2011)
     1715)."""
 
@@ -170,7 +179,7 @@ class History:
     found: list[FloatArray] = field_of(default_factory=list)
 
     def following(self, given: FloatArray, found: FloatArray) -> FloatArray:
-        """The temperatures to go on with."""
+        """What to go on with."""
         self.given, self.found = [*self.given, given][-MEMORY:], [*self.found, found][-MEMORY:]
         if len(self.given) == 1:
             return found
@@ -196,7 +205,8 @@ def _is_misplaced(problem: Problem, state: State, residual: float) -> bool:
 def _followed(
     coupling: Coupling, outcome: Outcome, kept: FloatArray, wanted: FloatArray, tolerance: float
 ) -> tuple[Outcome | None, FloatArray, int]:
-    """The film at the wanted temperatures, or as far towards them as it can be followed from those it had."""
+    """The film with the wanted temperatures and thinning, or as far towards them as it can be followed from what it
+    had."""
     share, spent = 1.0, 0
     while share >= SHORTEST_SHARE:
         temperature = kept + share * (wanted - kept)

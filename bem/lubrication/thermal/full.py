@@ -2,9 +2,10 @@
 
 The oil's temperature along and across the film follows from conduction, convection, compression and dissipation
 (`field`, `made`), that of the surfaces from the heat that enters them; viscosity and density across the film at those
-temperatures change what flows (`layers`), and with it pressure and thickness. `coupled` goes from one to the other
-until both hold. Nothing is fitted. Conductivity and heat capacity of the oil are those without pressure and at its own
-temperature; beyond the exit nothing is followed. Verified in tests/lubrication/test_full_thermal.py.
+temperatures change what flows (`layers`), and with it pressure and thickness; where the film follows its shear law,
+that acts in every layer (`section`). `coupled` goes from one to the other until both hold. Nothing is fitted.
+Conductivity and heat capacity of the oil are those without pressure and at its own temperature; beyond the exit nothing
+is followed. Verified in tests/lubrication/test_full_thermal.py and test_layers_sheared.py.
 """
 
 from __future__ import annotations

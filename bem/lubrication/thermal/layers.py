@@ -106,7 +106,7 @@ class HotFilm:
 
     cold : ln of the viscosity at the oil's own temperature, over scaled pressure. times, plus : (n, K), see
     `HotViscosity.line`. density : (n, K), at the pressures that the film was made with. slide : (u2 - u1)/(u1 + u2).
-    leaving : drag at the exit.
+    leaving : drag at the exit. thinning : (n,) see `line_flow.Layered`, at temperatures and film that it was found at.
     """
 
     cold: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
@@ -114,6 +114,7 @@ class HotFilm:
     plus: FloatArray
     density: FloatArray
     slide: float
+    thinning: FloatArray
     leaving: float
 
     @classmethod
@@ -125,12 +126,13 @@ class HotFilm:
         cold: Callable[[FloatArray], tuple[FloatArray, FloatArray]],
         slide: float,
         unit: float,
+        thinning: FloatArray | float = 0.0,
     ) -> HotFilm:
         """Of temperatures (n, K) [K] at pressures (n,) in a unit [Pa]; slide : as of `Sums.drag`."""
         pressure = np.maximum(pressure, 0.0)
-        film = cls(
-            cold, *oil.viscosity.line(temperature)[:2], oil.density(pressure * unit, temperature), slide, leaving=1.0
-        )
+        times, plus = oil.viscosity.line(temperature)[:2]
+        density = oil.density(pressure * unit, temperature)
+        film = cls(cold, times, plus, density, slide, np.broadcast_to(thinning, pressure.shape), leaving=1.0)
         return replace(film, leaving=float(film._sums(pressure)[1].drag(slide)[-1]))
 
     def drag(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -155,6 +157,17 @@ class HotFilm:
         share = (found.mass - other) * (middles(layers) - one) + found.density / (3 * layers**2)
         return least - np.log(found.driven), 3 * (share * found.fluidity * steep).mean(axis=1) / found.driven
 
+    def log_sliding_viscosity(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Of the uniform oil that sliding shears at the same stress; and its slope."""
+        least, found, steep = self._sums(pressure)
+        return least - np.log(found.mean), (found.fluidity * steep).mean(axis=1) / found.mean
+
+    def centre(self, pressure: FloatArray) -> FloatArray:
+        """Where across the film, s, the fluidity has its centre."""
+        found = self._sums(pressure)[1]
+        return np.asarray(found.by_place / found.mean)
+
     def cut(self, nodes: slice) -> HotFilm:
         """At some of the nodes."""
-        return replace(self, times=self.times[nodes], plus=self.plus[nodes], density=self.density[nodes])
+        parts = {name: getattr(self, name)[nodes] for name in ("times", "plus", "density", "thinning")}
+        return replace(self, **parts)

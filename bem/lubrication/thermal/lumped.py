@@ -55,18 +55,18 @@ EXTRAPOLATED_INLET = (
     "film's thickness is an estimate"
 )
 LARGEST_LOADING = 0.05
-"""Thermal loading of the inlet up to which film and friction were within 6 % of full heat's at slide-to-roll ratios up
-to 1: reports/experiments/lumped_heat.py, at 0.004 and 0.02; at 0.24 friction was up to 21 %, at 1.4 up to 53 % off."""
+"""Thermal loading of the inlet up to which film and friction were within 5 % of full heat's at slide-to-roll ratios up
+to 0.5, at 0.004 and 0.02; at 0.24 friction was up to 27 %, at 1.4 up to 58 % off: reports/experiments/lumped_heat.py."""
 LARGEST_SLIDE, LARGEST_RISE = 1.0, 5.0
-"""Slide-to-roll ratio above which, with a rise of the oil's mean temperature [K] of more than that, films were
-1.2 to 2.7 times as thick as full heat's: the same experiment."""
+"""Slide-to-roll ratio above which, with a rise of the oil's mean temperature [K] of more than that, films were up to
+2.8 times as thick as full heat's: the same experiment; at a ratio of 1 up to 1.17 times, and that at 3 GPa."""
 FAST_INLET = (
     "the inlet heats the oil beyond what lumped heat describes (mu0 beta u^2/k above 0.05): against full heat its film "
-    "was found up to a third too thin, its friction 10 to 50 % off"
+    "was found up to a third too thin, its friction 10 to 60 % off"
 )
 SLOW_SURFACE = (
-    "heat of the slower surface warms the inlet, which lumped heat leaves out: at slide-to-roll ratios above 1 its "
-    "flooded film was found 1.2 to 2.7 times as thick as with full heat"
+    "heat of the slower surface warms the inlet, which lumped heat leaves out: at a slide-to-roll ratio of 2 its "
+    "flooded film was found 1.2 to 2.8 times as thick as with full heat"
 )
 
 

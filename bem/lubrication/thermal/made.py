@@ -9,7 +9,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray
-from bem.lubrication.thermal.across import Across, across
+from bem.lubrication.thermal.across import Across, Given, across
 from bem.lubrication.thermal.field import Sources
 from bem.lubrication.thermal.layers import Oil
 from bem.lubrication.thermal.strip import Strip
@@ -24,7 +24,7 @@ class Made:
     nodes is put right to that by as much in each.
 
     edge : nodes where columns begin and end (m+1,). right, share : the column behind a node and its share in the
-    temperature there, that of the one before it is the rest. resistance : see `across`.
+    temperature there, that of the one before it is the rest. given : see `across`.
     """
 
     oil: Oil
@@ -32,15 +32,15 @@ class Made:
     edge: NDArray[np.intp]
     right: NDArray[np.intp]
     share: FloatArray
-    resistance: FloatArray
+    given: Given
 
     @classmethod
-    def of(cls, oil: Oil, strip: Strip, resistance: FloatArray) -> Made:
+    def of(cls, oil: Oil, strip: Strip, given: Given) -> Made:
         """In the cells of a strip."""
         middle = 0.5 * (strip.edges[1:] + strip.edges[:-1])
         right = np.clip(np.searchsorted(middle, strip.x), 1, len(middle) - 1)
         share = np.maximum((strip.x - middle[right - 1]) / (middle[right] - middle[right - 1]), 0.0)
-        return cls(oil, strip, np.searchsorted(strip.x, strip.edges), right, share, resistance)
+        return cls(oil, strip, np.searchsorted(strip.x, strip.edges), right, share, given)
 
     def at_nodes(self, temperature: FloatArray) -> FloatArray:
         """Of temperatures of the columns (m, ...), linear between their middles."""
@@ -49,7 +49,7 @@ class Made:
 
     def across(self, temperature: FloatArray) -> Across:
         """Stress, flow and heat at the nodes."""
-        return across(self.oil, self.strip, self.at_nodes(temperature), self.resistance)
+        return across(self.oil, self.strip, self.at_nodes(temperature), self.given)
 
     @property
     def ambient(self) -> float:
@@ -59,7 +59,7 @@ class Made:
     def __call__(self, temperature: FloatArray) -> Sources:
         """As the class says."""
         strip, nodes = self.strip, self.at_nodes(temperature)
-        found = across(self.oil, strip, nodes, self.resistance)
+        found = across(self.oil, strip, nodes, self.given)
         layers = temperature.shape[1]
         driven = self._in_columns(found.heat - found.sheared)
         made = self._in_columns(found.sheared) + self._by_pressure(found.expanding * nodes)
@@ -81,10 +81,12 @@ class Made:
 
     def _shifted(self, found: Across, nodes: FloatArray, bending: FloatArray, blunted: FloatArray) -> FloatArray:
         """Derivatives (3, m, K, K) of the heat that pressure drives, of which a share is taken, and of compression."""
-        driven = found.heat - found.sheared
-        slope = self._gathered(driven, found.softer, 2 * found.yielding)[0]
-        turned = 2 * found.share * found.softer * found.lever
-        slope += self._gathered(found.turning, 0 * found.softer, turned)[0]
+        gained = found.share * found.softer
+        squared = found.heat - found.sheared - found.crossing - found.leaning
+        slope = self._gathered(squared, found.softer, 2 * found.yielding)[0]
+        slope += self._gathered(found.crossing, found.softer, found.steep[:, None] * gained + found.yielding)[0]
+        slope += self._gathered(found.leaning, found.softer, gained + found.yielding)[0]
+        slope += self._gathered(found.turning, 0 * found.softer, gained * found.lever)[0]
         slope *= blunted[:, None, None]
         expanded = self._by_pressure(found.expanding * nodes * found.slow)
         slope[1] += expanded[:, :, None] * 0.5 * (bending[1:] + bending[:-1])

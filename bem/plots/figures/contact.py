@@ -18,6 +18,7 @@ from bem.plots.style import (
     OPEN,
     ORANGE,
     VERMILION,
+    along_x,
     field_axes,
     label,
     map_of,
@@ -105,7 +106,7 @@ def _section(run: Any, figure: Figure) -> None:
     factor, unit = prefix(pressure[:, row], "Pa")
     lower.fill_between(x * factor_x, pressure[:, row] * factor, step="mid", color=VERMILION, alpha=0.85, linewidth=0)
     lower.set_ylabel(label("pressure", unit))
-    lower.set_xlabel(label("y" if along_y else "x, sliding", unit_x))
+    lower.set_xlabel(label("y" if along_y else along_x(), unit_x))
     lower.set_xlim(x[0] * factor_x, x[-1] * factor_x)
     lower.set_ylim(0)
 

@@ -31,7 +31,6 @@ def _map(run: Any, figure: Figure) -> None:
         markeredgewidth=0.7,
         linestyle="none",
     )
-    axes.set_xlabel(axes.get_xlabel().replace("x, sliding", "x"))
     axes.set_title(f"{data['particle_x'].size} particles")
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bem.monotone import MonotoneCubic
 from bem.plots.figures import FigureKind
-from bem.plots.style import SKY, label, prefix
+from bem.plots.style import SKY, along_x, label, prefix
 from bem.scenes.context import release
 
 _DRAWN_DEPTHS = 480
@@ -75,7 +75,7 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
     _mark_depths(axes, computed * factor_z)
     axes.set_xlim(across_x[0] * factor_x, across_x[-1] * factor_x)
     axes.set_ylim(depth[-1] * factor_z, depth[0] * factor_z)
-    axes.set_xlabel(label("x, sliding" if across == "y" else "y", unit_x))
+    axes.set_xlabel(label(along_x() if across == "y" else "y", unit_x))
     axes.set_ylabel(label("depth", unit_z))
     position = run.dataset[across].values[iy]
     factor_y, unit_y = prefix([position], "m")

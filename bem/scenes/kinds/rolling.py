@@ -60,6 +60,7 @@ _map = partial(Series, ("x", "y"))
 class RollingRecord(GridRecord):
     """A contact that rolls steadily."""
 
+    x: Annotated[FloatArray, Series(("x",), "m", "x, along rolling")]
     load: Annotated[float, Figure("N", "load")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid")]
     force: Annotated[float, Figure("N", "force on the lower body along x", headline=True, no_bar=FIRST_ORDER)]
