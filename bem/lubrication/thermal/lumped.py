@@ -55,8 +55,9 @@ EXTRAPOLATED_INLET = (
     "film's thickness is an estimate"
 )
 LARGEST_LOADING = 0.05
-"""Thermal loading of the inlet up to which film and friction were within 5 % of full heat's at slide-to-roll ratios up
-to 0.5, at 0.004 and 0.02; at 0.24 friction was up to 27 %, at 1.4 up to 58 % off: reports/experiments/lumped_heat.py."""
+"""Thermal loading of the inlet up to which film and friction were within 5 % of full heat's at slide-to-roll ratios
+up to 0.5, at 0.004 and 0.02; at 0.24 friction was up to 27 %, at 1.4 up to 58 % off:
+reports/experiments/lumped_heat.py."""
 LARGEST_SLIDE, LARGEST_RISE = 1.0, 5.0
 """Slide-to-roll ratio above which, with a rise of the oil's mean temperature [K] of more than that, films were up to
 2.8 times as thick as full heat's: the same experiment; at a ratio of 1 up to 1.17 times, and that at 3 GPa."""
