@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from bem.accuracy.bars import DEPTHS, GRID, ErrorBars, Rule
@@ -15,6 +17,8 @@ NAMES = ("max_von_mises", "max_von_mises_depth")
 _VON_MISES = Rule(0.5, 0.67, edge=0.01, rough_edge=0.02)
 _VOLUME = Rule(1.0, 1.1)
 """On the difference to the volume of the coarser pressure, on twice the cell and at every second depth."""
+_RUBBED = 2.0
+"""Factor on the stress' bar under tractions of their own, which are of first order at the edges of stick."""
 _JUMP = 1.3
 """Factor on the depth's bar where the surface is not resolved: the highest stress may lie under another spot."""
 _LOOKED, _LOOKED_DEPTH = 0.3, 0.05
@@ -36,7 +40,12 @@ _DEEPEST = "the highest von Mises stress has no error bar: it lies at the deepes
 
 
 def stress_bars(
-    case: ContactCase, coarser: Coarser, body: Body, below: StressBelow, friction: float = 0.0
+    case: ContactCase,
+    coarser: Coarser,
+    body: Body,
+    below: StressBelow,
+    friction: float = 0.0,
+    traction: FloatArray | None = None,
 ) -> ErrorBars:
     """Bars from the coarser pressure at every second depth, and from the depths next to the highest stress.
 
@@ -44,11 +53,15 @@ def stress_bars(
     ----------
     case, coarser : the contact and its coarser solution, as `bem.accuracy.contact` makes them.
     body, friction : as `bem.stress.stress_below` takes them. below : what it gave for the contact.
+    traction : the coarser one (2, nx, ny) [Pa] where `below` is that of tractions of their own.
     """
-    return _of_stress(case, coarser, body, below, friction) | _of_volume(case, coarser, body, below, friction)
+    rubbed = {"friction": friction, "traction": traction}
+    return _of_stress(case, coarser, body, below, rubbed) | _of_volume(case, coarser, body, below, rubbed)
 
 
-def _of_volume(case: ContactCase, coarser: Coarser, body: Body, below: StressBelow, friction: float) -> ErrorBars:
+def _of_volume(
+    case: ContactCase, coarser: Coarser, body: Body, below: StressBelow, rubbed: dict[str, Any]
+) -> ErrorBars:
     found, depths = below.yielded_volume, below.depths
     if found is None:
         return ErrorBars()
@@ -59,12 +72,14 @@ def _of_volume(case: ContactCase, coarser: Coarser, body: Body, below: StressBel
         return ErrorBars.together({GRID: {"yielded_volume": 0.0}})
     first, last = max(near[0] - 2, 0), min(near[-1] + 2, len(depths) - 1)  # what lies farther does not yield
     few = depths[sorted({*range(first, last, 2), last})]
-    there = stress_below(coarser.solution.pressure, coarser.grid, body, few, friction=friction).yielded_volume
+    there = stress_below(coarser.solution.pressure, coarser.grid, body, few, **rubbed).yielded_volume
     assert there is not None
     return ErrorBars.together({GRID: {"yielded_volume": _VOLUME.bar(found - there, 0.0, resolved=is_resolved(case))}})
 
 
-def _of_stress(case: ContactCase, coarser: Coarser, body: Body, below: StressBelow, friction: float) -> ErrorBars:
+def _of_stress(
+    case: ContactCase, coarser: Coarser, body: Body, below: StressBelow, rubbed: dict[str, Any]
+) -> ErrorBars:
     if coarser.solution is None or coarser.grid is None:
         return ErrorBars(dict.fromkeys(NAMES))
     depths, highest = below.depths, below.highest
@@ -77,9 +92,10 @@ def _of_stress(case: ContactCase, coarser: Coarser, body: Body, below: StressBel
     if k == 0 and depths[0] > 0 and not few:
         return ErrorBars.unknown(NAMES, _SHALLOWEST)
     kept = depths[sorted({*range(k % 2, len(depths), 2), max(k - 1, 0), min(k + 1, len(depths) - 1)})]
-    there = _highest_below(coarser.solution.pressure, coarser.grid, body, kept, friction)
+    there = _highest_below(coarser.solution.pressure, coarser.grid, body, kept, rubbed)
     resolved, edge = is_resolved(case), share_at_edge(case)
     stress = _VON_MISES.bar(below.max_von_mises - there.max_von_mises, edge * below.max_von_mises, resolved=resolved)
+    stress *= 1.0 if rubbed["traction"] is None else _RUBBED
     jump = 1.0 if resolved else _JUMP
     top, error = (0.0, 0.0) if few else _between(below, k)
     for interface in () if few else body.interfaces:
@@ -95,11 +111,13 @@ def _of_stress(case: ContactCase, coarser: Coarser, body: Body, below: StressBel
     )
 
 
-def _highest_below(pressure: FloatArray, grid: Grid, body: Body, depths: FloatArray, friction: float) -> StressBelow:
+def _highest_below(
+    pressure: FloatArray, grid: Grid, body: Body, depths: FloatArray, rubbed: dict[str, Any]
+) -> StressBelow:
     """Stresses next to the depth where they are highest; planes are not kept on the way to it."""
-    planes = von_mises_planes(pressure, grid, body, depths, friction=friction, out=np.empty(grid.shape))
+    planes = von_mises_planes(pressure, grid, body, depths, **rubbed, out=np.empty(grid.shape))
     k = int(np.argmax([plane.max() for plane in planes]))
-    return stress_below(pressure, grid, body, depths[max(k - 2, 0) : k + 3], friction=friction)
+    return stress_below(pressure, grid, body, depths[max(k - 2, 0) : k + 3], **rubbed)
 
 
 def _between(below: StressBelow, k: int) -> tuple[float, float]:

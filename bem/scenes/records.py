@@ -33,12 +33,13 @@ UNITS: dict[str, tuple[str, float, float, float]] = {
     "um": ("m", 1e6, 1, 0), "um3": ("m^3", 1e18, 1, 0), "mm3": ("m^3", 1e9, 1, 0), "N": ("N", 1, 1, 0),
     "Pa": ("Pa", 1, 1, 0), "K": ("K", 1, 1, 0), "C": ("K", 1, 1, -273.15), "s": ("s", 1, 1, 0), "h": ("s", 1, 3600, 0),
     "m_s": ("m/s", 1, 1, 0), "nm_s": ("m/s", 1e9, 1, 0), "percent": ("1", 100, 1, 0), "J": ("J", 1, 1, 0),
-    "N_m": ("N/m", 1, 1, 0), "per_m": ("1/m", 1, 1, 0),
+    "N_m": ("N/m", 1, 1, 0), "per_m": ("1/m", 1, 1, 0), "Nm": ("N*m", 1, 1, 0),
+    "rad": ("rad", 1, 1, 0),
     "W": ("W", 1, 1, 0), "mm3_Nm": ("m^2/N", 1e9, 1, 0),
 }  # fmt: skip
 """How units end the names of figures: the SI unit, and factor, divisor and offset from it."""
-_WRITTEN = {"C": "degC", "nm_s": "nm/s", "m_s": "m/s", "N_m": "N/m", "per_m": "1/m", "m2": "m^2", "m3": "m^3",
-            "um3": "um^3", "mm3": "mm^3", "mm3_Nm": "mm^3/(N m)", "percent": "%"}  # fmt: skip
+_WRITTEN = {"C": "degC", "nm_s": "nm/s", "m_s": "m/s", "N_m": "N/m", "Nm": "N m", "per_m": "1/m", "m2": "m^2",
+            "m3": "m^3", "um3": "um^3", "mm3": "mm^3", "mm3_Nm": "mm^3/(N m)", "percent": "%"}  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,12 @@
-"""What the kinds with stick and slip share: the contact, a word on bodies that differ, stresses under the tractions.
+"""What the kinds with stick and slip share: the contact, bodies that differ, stresses under tractions, error bars.
 
 Knows `build` and the solvers. Verified in tests/scenes/test_partial_slip_kind.py and test_rolling_kind.py.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,22 +18,87 @@ from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.tables.pressing import StressedScene
 
 if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars
+    from bem.accuracy.bars import Rule
     from bem.contact import ContactSolution
+    from bem.scenes.tables.tangential import PushedScene, RolledScene
+    from bem.stress import StressBelow
 
-FIRST_ORDER = "of first order in the cell at the edges of contact and stick; compare with the grid of twice the cell"
-"""Why figures of stick and slip have no error bar."""
+
+@dataclass(frozen=True)
+class Site:
+    """Where bodies stick and slip: grid, undeformed gap (nx, ny) [m], the contact without friction; `rough` : the gap
+    counts from first touch."""
+
+    grid: Grid
+    gap: FloatArray
+    contact: ContactSolution
+    rough: bool
 
 
-def pressed_together(scene: StressedScene, grid: Grid, context: Context) -> tuple[FloatArray, ContactSolution]:
-    """The undeformed gap (nx, ny) [m] and the contact without friction."""
+def pressed_together(scene: StressedScene, context: Context) -> Site:
+    """The contact without friction."""
     from bem.contact import solve_contact
 
-    gap = build.undeformed_gap(scene, grid, *build.both_heights(scene, grid, context))
+    grid = build.grid_of(scene.grid)
+    lower, upper = build.both_heights(scene, grid, context)
+    gap = build.undeformed_gap(scene, grid, lower, upper)
     with context.timer("contact"):
         asked = scene.contact.prescribed(grid.area) | scene.contact.accuracy()
         contact = solve_contact(gap, build.operator_of(scene, grid, 0.0), **asked)
     tell(context, contact.notes)
-    return gap, contact
+    return Site(grid, gap, contact, bool(lower.any() or upper.any()))
+
+
+@dataclass(frozen=True)
+class Coarse:
+    """What came of the grid of twice the cell: figures that have error bars, traction (2, nx, ny) on the lower body
+    [Pa], whether all of it converged; and figures with half the steps in which the load comes, where it has any."""
+
+    figures: dict[str, float]
+    traction: FloatArray
+    converged: bool
+    fewer: dict[str, float] | None = None
+
+
+@dataclass(frozen=True)
+class Found:
+    """What error bars are of: figures and their rules, which are `given`, the largest residual, friction x load [N],
+    stresses."""
+
+    figures: dict[str, float]
+    rules: Mapping[str, Rule]
+    given: tuple[str, ...]
+    residual: float
+    limit: float
+    below: StressBelow | None
+
+
+def bars(scene: StressedScene, site: Site, found: Found, again: Callable[[Site], Coarse]) -> ErrorBars:
+    """Error bars of figures that have rules, of contact and stresses, from what `again` finds on the coarser grid."""
+    from bem.accuracy import ContactCase, ErrorBars, contact_bars, solve_coarser, stress_bars
+    from bem.accuracy.sticking import UNSOLVED, sticking_bars
+    from bem.contact.cascade import sample
+
+    given = scene.contact.prescribed(site.grid.area)
+    operator = build.operator_of(scene, site.grid, 0.0)
+    case = ContactCase(operator, site.gap, site.contact, **given, from_touch=site.rough)
+    coarser = solve_coarser(case, scene.contact.max_iterations)
+    if coarser.grid is None or coarser.solution is None:
+        return ErrorBars.unknown(found.figures, coarser.why)
+    gap = np.array(sample(site.gap, coarser.grid.shape, coarser.grid.periodic))
+    there = again(Site(coarser.grid, gap - gap.min() if site.rough else gap, coarser.solution, site.rough))
+    of_contact = contact_bars(case, coarser).renamed({name: name for name in ("load", "contact_area_fraction")})
+    if not there.converged:
+        return ErrorBars.unknown(found.figures, UNSOLVED) | of_contact
+    own = sticking_bars(
+        found.rules, case, found.figures, there.figures, found.residual, there.fewer, found.given, found.limit
+    )
+    if found.below is None:
+        return own | of_contact
+    body, sign = scene.stressed()
+    below = replace(found.below, yielded_volume=None)
+    return own | of_contact | stress_bars(case, coarser, body, below, traction=sign * there.traction)
 
 
 def coupled(scene: StressedScene) -> bool:
@@ -44,7 +110,7 @@ def coupled(scene: StressedScene) -> bool:
 
 
 def tell_coupled(scene: StressedScene, context: Context) -> None:
-    """A note where it does."""
+    """A note that it is not followed, where it does."""
     if coupled(scene):
         context.note(
             "the bodies differ in elasticity, so that tractions change the pressure: the pressure is that of the "
@@ -52,8 +118,9 @@ def tell_coupled(scene: StressedScene, context: Context) -> None:
         )
 
 
-def plan_around(scene: StressedScene, steps: Callable[[Grid, float], Iterable[Step]]) -> Plan:
-    """The plan of a kind, whose own steps follow from the grid and the points of its transforms.
+def plan_around(scene: PushedScene | RolledScene, steps: Callable[[Grid, float], Iterable[Step]], again: float) -> Plan:
+    """The plan of a kind, whose own steps follow from the grid and the points of its transforms; its error bars take
+    `again` times as many, on a quarter of the points.
 
     Raises
     ------
@@ -62,29 +129,40 @@ def plan_around(scene: StressedScene, steps: Callable[[Grid, float], Iterable[St
     grid, outputs = build.grid_of(scene.grid), scene.outputs
     scene.contact.check_load(grid.area)
     stressed = (scene.lower if outputs.body == "lower" else scene.upper).build()
+    points = padded_points(grid.shape, grid.periodic)
+    own = tuple(steps(grid, points))
+    coarser = plans.coarser_contact(grid, len(outputs.wanted_depths()))
+    coarser["transforms"] += again * sum(step.transforms for step in own if not step.skipped)
     return Plan.of(
         *plans.of_bodies(scene, grid, 1.0),
         plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}"),
-        *steps(grid, padded_points(grid.shape, grid.periodic)),
+        *own,
         plans.stresses(grid, stressed, outputs.body, len(outputs.wanted_depths()), fields=1, loads=3),
+        plans.error_bars(outputs.errors, "the same on the grid of twice the cell", **coarser),
         plans.figures(grid.cells),
     )
 
 
 def stresses_under(
     scene: StressedScene, grid: Grid, pressure: FloatArray, traction: FloatArray, context: Context
-) -> dict[str, Any]:
-    """Von Mises stress under the pressure (nx, ny) and the traction (2, nx, ny) on the lower body [Pa], as a record's
-    fields; nothing where it is not wanted.
+) -> StressBelow | None:
+    """Stresses under the pressure (nx, ny) and the traction (2, nx, ny) on the lower body [Pa]; None where they are not
+    wanted.
     """
     from bem.stress import stress_below
 
     depths = np.array(scene.outputs.wanted_depths())
     if not len(depths):
-        return {}
+        return None
     body, sign = scene.stressed()
     with context.timer("stresses"):
-        below = stress_below(pressure, grid, body, depths, traction=sign * traction)
+        return stress_below(pressure, grid, body, depths, traction=sign * traction)
+
+
+def stress_figures(below: StressBelow | None) -> dict[str, Any]:
+    """Von Mises stress as a record's fields."""
+    if below is None:
+        return {}
     return {
         "depth": below.depths,
         "von_mises": below.von_mises,

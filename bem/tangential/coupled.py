@@ -8,7 +8,7 @@ to ten a round. What is judged is the pair at the end: the contact once more und
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -35,7 +35,7 @@ class CoupledSolution:
     Attributes
     ----------
     contact : its gap has what the tractions lift, its displacement is that of the pressure alone.
-    tangential : stick and slip under its pressure.
+    tangential : stick and slip under its pressure; its convolutions and iterations are those of all rounds.
     lift : (nx, ny) [m], by which the tractions press the surfaces apart, both together.
     rounds : of contact and slip by turns.
     residual : the largest of both residuals, and of how far the contact misses its gap under the tractions at the end,
@@ -122,6 +122,7 @@ def solve_coupled_slip(  # reason: a promise to users' scripts, each of them a c
     status = Status.CONVERGED if residual <= tolerance else Status.MAX_ITERATIONS
     if Status.CONVERGED not in (contact.status, status):
         status = contact.status
+    near = replace(near, convolutions=convolutions, iterations=iterations)
     return CoupledSolution(contact, near, answer, rounds, residual, status, (*contact.notes, *near.notes))
 
 

@@ -7,7 +7,7 @@ import pytest
 from small_scenes import pressed_ball
 
 from bem import CATALOGUE, InputError
-from bem.reference_solutions.partial_slip import PushedBall
+from bem.reference_solutions.partial_slip import PushedBall, TwistedBall
 from bem.scenes import PlainContext, get_kind, load_scene
 
 STEEL = CATALOGUE["steel-52100"].material
@@ -40,9 +40,10 @@ def test_a_cycle_is_mindlin_and_deresiewicz_s():
     assert record.force == pytest.approx(share * limit, rel=1e-6)
     assert record.step_force[3 + 5] == pytest.approx(-share * limit, rel=1e-6)
     closed = PushedBall(radius, 20.0, 0.4, 2 * (2 - STEEL.poissons_ratio) / STEEL.shear_modulus)
-    # 35 cells across: the edge of stick is found to half a cell
     assert record.shift == pytest.approx(closed.shift(share * limit), rel=0.01)
-    assert record.stick_fraction == pytest.approx((1 - share) ** (2 / 3), abs=0.05)
+    # 35 cells across; of a history, whose steps move the edge by three cells
+    assert record.stick_fraction == pytest.approx((1 - share) ** (2 / 3), rel=0.02)
+    assert record.counted_stick_fraction == pytest.approx((1 - share) ** (2 / 3), abs=0.05)
     cycle = closed.cycle_energy(share * limit)
     assert record.dissipated_in_cycle == pytest.approx(cycle, rel=0.03)
     assert record.friction_energy.sum() * (300e-6 / 48) ** 2 == pytest.approx(record.dissipated, rel=1e-9)
@@ -57,14 +58,16 @@ def test_share_force_and_shift_ask_for_the_same():
     assert shift.force == pytest.approx(share.force, rel=1e-2)  # its steps are even in shift, not in force
 
 
+POM = {"upper": {"material": "pom"}, "grid": {"shape": 40, "lengths": "1.1 mm"}}
+
+
 def test_bodies_that_differ_are_pressed_in_steps_and_say_so():
-    """Steel on POM: at once less than half of what sticks is found."""
-    more = {"upper": {"material": "pom"}, "grid": {"shape": 48, "lengths": "1.1 mm"}}
-    push = PUSH | {"steps": 1, "share": 0.01}
+    """Steel on POM, the pressure left as it is: at once less than half of what sticks is found."""
+    push = PUSH | {"steps": 1, "share": 0.01, "coupled": False}
     sticks = {}
     for steps in (None, 32, 1):
         given = {} if steps is None else {"pressing_steps": steps}
-        record, context = run(**more, push=push | given)
+        record, context = run(**POM, push=push | given, outputs={"errors": False})
         assert record.status == "converged"
         assert any("tractions change the pressure" in note for note in context.notes)
         assert any(
@@ -73,6 +76,54 @@ def test_bodies_that_differ_are_pressed_in_steps_and_say_so():
         sticks[steps] = record.stick_fraction
     assert sticks[None] == pytest.approx(sticks[32], rel=0.08)
     assert sticks[1] < 0.7 * sticks[32]
+
+
+def test_of_bodies_that_differ_the_pressure_follows():
+    """By itself; steps and tractions both hold, and the middle carries more than without friction."""
+    push = PUSH | {"steps": 1, "share": 0.01, "pressing_steps": 6}
+    record, context = run(**POM, push=push)
+    given, _ = run(**POM, push=push | {"coupled": False}, outputs={"errors": False})
+    assert record.status == given.status == "converged"
+    assert not any("tractions change the pressure" in note for note in context.notes)
+    assert record.load == pytest.approx(given.load, rel=1e-6)
+    assert record.pressure.max() > 1.02 * given.pressure.max()
+    assert record.contact_area_fraction < given.contact_area_fraction
+    assert (np.hypot(record.traction_x, record.traction_y) <= 0.4 * record.pressure * (1 + 1e-9)).all()
+    # what half the pressing steps change is a part of the bar
+    assert record.error_parts["pressing steps"]["stick_fraction"] > 0.01
+
+
+def test_a_turn_is_lubkin_s():
+    """The ball turned about its axis alone: moment and stick radius over the angle."""
+    radius = (3 * 20.0 * 10e-3 / (4 * STEEL.plane_strain_modulus / 2)) ** (1 / 3)
+    closed = TwistedBall(radius, 20.0, 0.4, 2 / STEEL.shear_modulus)
+    stick = 0.6 * radius
+    record, _ = run(push={"friction": 0.4, "rotation": closed.angle(stick), "steps": 1})
+    assert record.status == "converged"
+    assert record.moment == pytest.approx(closed.moment(stick), rel=0.02)  # of 35 cells across
+    assert abs(record.moment - closed.moment(stick)) < record.errors["moment"]
+    assert record.stick_fraction == pytest.approx(0.36, rel=0.02)
+    assert record.force == pytest.approx(0, abs=1e-9)
+    assert record.step_moment[-1] == record.moment
+    both, _ = run(push=PUSH | {"rotation": closed.angle(stick)})
+    assert both.force == pytest.approx(0.6 * 0.4 * 20.0)
+    assert both.stick_fraction < record.stick_fraction
+
+
+def test_figures_have_error_bars_with_origins():
+    record, _ = run(outputs={"von_mises": True, "stiffness": True})
+    radius = (3 * 20.0 * 10e-3 / (4 * STEEL.plane_strain_modulus / 2)) ** (1 / 3)
+    closed = PushedBall(radius, 20.0, 0.4, 2 * (2 - STEEL.poissons_ratio) / STEEL.shear_modulus)
+    assert abs(record.tangential_stiffness - stiffness_of_mindlin(radius)) < record.errors["tangential_stiffness"]
+    # 0.1 % is the sideways slip that the closed form leaves out
+    assert abs(record.shift - closed.shift(4.8)) < record.errors["shift"] + 2e-3 * record.shift
+    assert abs(record.stick_fraction - 0.4 ** (2 / 3)) < record.errors["stick_fraction"] + 2e-3
+    for name in ("shift", "stick_fraction", "first_stiffness", "dissipated", "normal_stiffness", "max_von_mises"):
+        assert 0 < record.errors[name] < 0.1 * getattr(record, name)
+        parts = [part.get(name, 0.0) for part in record.error_parts.values()]
+        assert sum(parts) == pytest.approx(record.errors[name])
+    assert record.errors["force"] < 1e-5 * record.force  # given
+    assert set(record.error_parts) == {"grid", "residual", "depths"}
 
 
 def test_without_contact_nothing_sticks_and_nothing_breaks():
@@ -121,6 +172,8 @@ def test_messages():
         scene(push={"friction": 0.4})
     with pytest.raises(InputError, match=r"push\.share"):
         scene(push={"friction": 0.4, "share": 1.2})
+    with pytest.raises(InputError, match=r"push\.rotation on a periodic grid"):
+        scene(push={"friction": 0.4, "rotation": 1e-4}, grid={"shape": 48, "lengths": "300 um", "periodic": True})
     with pytest.raises(InputError, match=r"push\.friction or"):
         scene(contact={"load": "20 N", "friction": 0.1})
 

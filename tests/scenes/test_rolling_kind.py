@@ -52,6 +52,16 @@ def test_bodies_that_differ_say_that_the_pressure_stays():
     assert any("tractions change the pressure" in note for note in context.notes)
 
 
+def test_figures_have_error_bars_of_first_order():
+    record, _ = run({"creepage": 5e-4, "creepage_across": 2e-4})
+    finer, _ = run({"creepage": 5e-4, "creepage_across": 2e-4}, grid={"shape": 120, "lengths": "300 um"})
+    for name in ("force", "force_across", "traction_coefficient", "stick_fraction", "friction_work"):
+        error = abs(getattr(record, name) - getattr(finer, name))
+        assert error < record.errors[name] < 0.2 * abs(getattr(record, name))
+        assert finer.errors[name] < 0.7 * record.errors[name]
+    assert record.errors["creepage"] < 1e-5 * record.creepage  # given
+
+
 def test_nothing_in_contact_carries_nothing():
     record, _ = run({"creepage": 1e-4}, contact={"approach": "-1 um"})
     assert record.status == "converged"

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -12,31 +12,36 @@ import numpy as np
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.scenes import build
-from bem.scenes.context import Context
+from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
+from bem.scenes.pushing import PRESSING_STEPS, Path, answers, figures_of, pressed, pressing_steps, pushed
 from bem.scenes.records import Figure, GridRecord, Series, filled
+from bem.scenes.resolutions import CELLS, DEPTHS
 from bem.scenes.sticking import (
-    FIRST_ORDER,
+    Coarse,
+    Found,
+    Site,
+    bars,
     coupled,
     plan_around,
     pressed_together,
+    stress_figures,
     stresses_under,
     tell_coupled,
 )
 from bem.scenes.tables.tangential import PushedScene
 
 if TYPE_CHECKING:
-    from bem.contact import ContactSolution
-    from bem.tangential import TangentialSolution
+    from bem.accuracy import ErrorBars
+    from bem.stress import StressBelow
 
 _TRANSFORMS = 6.0 * 60
 """Of a step: 40 to 60 convolutions were counted on 256 to 1024 cells a side, in every step of a history alike, each of
 four transforms and vector passes worth two more."""
-
-PRESSING_STEPS = 16
-"""Of bodies that differ: the stick radius of a ball is then 4 % small, of first order in the steps (Spence, tests)."""
+_ANSWERED = 3.0
+"""Times as much where the pressure follows the tractions: six to nine rounds, each from the one before."""
 
 
 class PartialSlipScene(PushedScene):
@@ -47,7 +52,8 @@ class PartialSlipScene(PushedScene):
 
 def plan(scene: PartialSlipScene) -> Plan:
     """What will be computed."""
-    count, pressing = len(scene.push.path()), _pressing_steps(scene)
+    count, pressing = len(scene.push.path()), pressing_steps(scene)
+    each = _TRANSFORMS * (_ANSWERED if answers(scene) else 1.0)
 
     def steps(grid: Grid, points: float) -> tuple[Step, ...]:
         return (
@@ -57,13 +63,14 @@ def plan(scene: PartialSlipScene) -> Plan:
                 if pressing > 1
                 else "pressure does not make these bodies slip, or push.pressing_steps is 1",
                 skipped=pressing == 1,
-                transforms=(40.0 + _TRANSFORMS) * (pressing - 1),
+                transforms=(40.0 + each) * (pressing - 1),
                 points=points,
             ),
             Step(
                 "partial slip",
-                f"{count} steps along x, friction {scene.push.friction:g}",
-                transforms=_TRANSFORMS * count,
+                f"{count} steps along x, friction {scene.push.friction:g}"
+                + (", the pressure follows the tractions" if answers(scene) else ""),
+                transforms=each * count,
                 points=points,
                 memory=8.0 * points * 6 + 8.0 * grid.cells * 40,
                 kept=8.0 * grid.cells * 10,
@@ -78,12 +85,11 @@ def plan(scene: PartialSlipScene) -> Plan:
             ),
         )
 
-    return plan_around(scene, steps)
+    return plan_around(scene, steps, 1.0 if pressing == 1 else 1.5)
 
 
 _map = partial(Series, ("x", "y"))
 _step = partial(Series, ("step",))
-_asked = partial(Figure, optional=True, headline=True, no_bar=FIRST_ORDER)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -92,34 +98,35 @@ class PartialSlipRecord(GridRecord):
 
     load: Annotated[float, Figure("N", "load")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid")]
-    force: Annotated[float, Figure("N", "tangential force at the end", headline=True, no_bar=FIRST_ORDER)]
-    shift: Annotated[float, Figure("m", "shift at the end", headline=True, no_bar=FIRST_ORDER)]
-    stick_fraction: Annotated[
-        float, Figure("", "share of the contact that sticks at the end", headline=True, no_bar=FIRST_ORDER)
-    ]
-    first_stiffness: Annotated[
-        float, Figure("N_m", "force over shift of the first step", headline=True, no_bar=FIRST_ORDER)
-    ]
-    dissipated: Annotated[float, Figure("J", "energy of friction in all steps", headline=True, no_bar=FIRST_ORDER)]
+    force: Annotated[float, Figure("N", "tangential force at the end", headline=True)]
+    shift: Annotated[float, Figure("m", "shift at the end", headline=True)]
+    stick_fraction: Annotated[float, Figure("", "share of the contact that sticks at the end", headline=True)]
+    first_stiffness: Annotated[float, Figure("N_m", "force over shift of the first step", headline=True)]
+    dissipated: Annotated[float, Figure("J", "energy of friction in all steps", headline=True)]
     dissipated_in_cycle: Annotated[
         float | None,
-        Figure("J", "energy of friction in the last cycle", optional=True, headline=True, no_bar=FIRST_ORDER),
+        Figure("J", "energy of friction in the last cycle", optional=True, headline=True),
     ] = None
     normal_stiffness: Annotated[
-        float | None, Figure("N_m", "normal stiffness of the contact", optional=True, headline=True, no_bar=FIRST_ORDER)
+        float | None, Figure("N_m", "normal stiffness of the contact", optional=True, headline=True)
     ] = None
     tangential_stiffness: Annotated[
         float | None,
-        Figure("N_m", "tangential stiffness before slip", optional=True, headline=True, no_bar=FIRST_ORDER),
+        Figure("N_m", "tangential stiffness before slip", optional=True, headline=True),
     ] = None
     max_von_mises: Annotated[
         float | None,
-        Figure("Pa", "highest von Mises stress at the end", optional=True, headline=True, no_bar=FIRST_ORDER),
+        Figure("Pa", "highest von Mises stress at the end", optional=True, headline=True),
     ] = None
-    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True, no_bar=FIRST_ORDER)] = None
-    contact_residual: Annotated[float, Figure("", "relative residual of the contact")]
-    slip_residual: Annotated[float, Figure("", "largest relative residual of the steps")]
-    convolutions: Annotated[float, Figure("", "convolutions of all steps")]
+    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)] = None
+    counted_stick_fraction: Annotated[float, Figure("", "cells that stick over cells in contact", unjudged=True)]
+    moment: Annotated[
+        float | None, Figure("Nm", "moment about the grid's centre at the end", optional=True, headline=True)
+    ] = None
+    rotation: Annotated[float | None, Figure("rad", "rotation at the end", optional=True, unjudged=True)] = None
+    contact_residual: Annotated[float, Figure("", "relative residual of the contact", unjudged=True)]
+    slip_residual: Annotated[float, Figure("", "largest relative residual of the steps", unjudged=True)]
+    convolutions: Annotated[float, Figure("", "convolutions of all steps", unjudged=True)]
     pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
     traction_x: Annotated[FloatArray, _map("Pa", "traction on the lower body along x, at the end")]
     traction_y: Annotated[FloatArray, _map("Pa", "traction on the lower body along y, at the end")]
@@ -131,47 +138,74 @@ class PartialSlipRecord(GridRecord):
     step_shift: Annotated[FloatArray, _step("m", "shift")]
     step_stick_fraction: Annotated[FloatArray, _step("1", "share of the contact that sticks")]
     step_dissipated: Annotated[FloatArray, _step("J", "energy of friction in the step")]
+    step_rotation: Annotated[FloatArray | None, _step("rad", "rotation")] = None
+    step_moment: Annotated[FloatArray | None, _step("N*m", "moment about the grid's centre")] = None
     depth: Annotated[FloatArray | None, Series(("depth",), "m", "depth below the surface")] = None
     von_mises: Annotated[FloatArray | None, Series(("depth", "x", "y"), "Pa", "von Mises stress")] = None
 
 
-@dataclass(frozen=True, eq=False)
-class _Path:
-    """What came of the steps so far: `steps` (steps, 5), force, shift, share that sticks, energy, residual; `sums`
-    (2, nx, ny), distance slid and energy by area.
-    """
-
-    last: TangentialSolution | None
-    steps: FloatArray
-    sums: FloatArray
-    convolutions: float
-    status: Status
-
-
 def run(scene: PartialSlipScene, context: Context) -> PartialSlipRecord:
     """Solve the contact, then step after step."""
-    grid = build.grid_of(scene.grid)
-    gap, contact = pressed_together(scene, grid, context)
+    site = pressed_together(scene, context)
+    steps = pressing_steps(scene)
+
+    def after(path: Path, done: int, total: int) -> None:
+        keep(context, path)
+        context.progress(done, total, "steps", residual=float(path.column("residual")[-1]))
+
     with context.timer("partial slip"):
-        path = kept(context) or _pressed(scene, grid, gap, contact)
-        path = _pushed(scene, grid, contact, path, context)
-    tell_coupled(scene, context)
-    if coupled(scene):
-        steps = _pressing_steps(scene)
-        context.note(
-            f"pressure alone makes bodies that differ slip: the load comes in {steps} steps, and what sticks is known "
-            f"to about 1/{steps} of it; take twice push.pressing_steps to see"
-            if steps > 1
-            else "the whole load comes at once, while surfaces that differ slip as it grows: far too little sticks; "
-            f"leave push.pressing_steps out ({PRESSING_STEPS}) or raise it"
-        )
+        path: Path = kept(context) or pressed(scene, site, steps)
+        path = pushed(scene, site, path, after)
+    _tell(scene, steps, context)
     extra: dict[str, Any] = {}
     if scene.outputs.stiffness:
         with context.timer("stiffness"):
-            extra |= _stiffness(scene, grid, gap, contact, context)
-    assert path.last is not None
-    extra |= stresses_under(scene, grid, contact.pressure, path.last.traction, context)
-    return _record(scene, grid, contact, path, extra)
+            extra |= _stiffness(scene, site, context.note)
+    below = stresses_under(scene, site.grid, path.contact(site).pressure, path.last.traction, context)
+    wanted = scene.outputs.errors and site.contact.load > 0 and Status.CONVERGED is site.contact.status is path.status
+    errors = error_bars(context, wanted, lambda: _bars(scene, site, path, below, extra))
+    return _record(scene, site, path, extra | stress_figures(below), errors)
+
+
+def _tell(scene: PartialSlipScene, steps: int, context: Context) -> None:
+    """What bodies that differ do under pressure alone."""
+    if not coupled(scene):
+        return
+    if not answers(scene):
+        tell_coupled(scene, context)
+    context.note(
+        f"pressure alone makes bodies that differ slip: the load comes in {steps} steps, and what sticks is known "
+        f"to about 1/{steps} of it; take twice push.pressing_steps to see"
+        if steps > 1
+        else "the whole load comes at once, while surfaces that differ slip as it grows: far too little sticks; "
+        f"leave push.pressing_steps out ({PRESSING_STEPS}) or raise it"
+    )
+
+
+def _bars(
+    scene: PartialSlipScene, site: Site, path: Path, below: StressBelow | None, extra: dict[str, Any]
+) -> ErrorBars:
+    """From the same steps on the grid of twice the cell, and there with half of those in which the load comes."""
+    from bem.accuracy.sticking import PUSH_RULES
+
+    steps = pressing_steps(scene)
+
+    def again(coarser: Site) -> Coarse:
+        there = pushed(scene, coarser, pressed(scene, coarser, steps))
+        figures, fewer, converged = figures_of(scene, there), None, there.status is Status.CONVERGED
+        if steps > 1:
+            half = pushed(scene, coarser, pressed(scene, coarser, max(steps // 2, 1)))
+            fewer, converged = figures_of(scene, half), converged and half.status is Status.CONVERGED
+        if scene.outputs.stiffness:
+            stiff = _stiffness(scene, coarser)
+            figures, fewer = figures | stiff, None if fewer is None else fewer | stiff
+        return Coarse(figures, there.last.traction, converged, fewer)
+
+    figures = figures_of(scene, path) | extra
+    given = ("shift",) if scene.push.shift is not None else ("force",)
+    residual = max(site.contact.residual, float(path.column("residual").max()))
+    limit = scene.push.friction * site.contact.load
+    return bars(scene, site, Found(figures, PUSH_RULES, given, residual, limit, below), again)
 
 
 _PROBE = 1e-3
@@ -179,115 +213,46 @@ _PROBE = 1e-3
 
 
 def _stiffness(
-    scene: PartialSlipScene, grid: Grid, gap: FloatArray, contact: ContactSolution, context: Context
+    scene: PartialSlipScene, site: Site, note: Callable[[str], None] = lambda text: None
 ) -> dict[str, float]:
     """Of the contact as a whole [N/m]: load over approach, by its difference, and force over shift where all sticks."""
     from bem.contact import solve_contact
     from bem.tangential import tangential_stiffness
 
+    contact = site.contact
     if not contact.load > 0:
         return {"normal_stiffness": 0.0, "tangential_stiffness": 0.0}
     asked = scene.contact.accuracy() | {"hardness": scene.contact.hardness, "initial_pressure": contact.pressure}
-    operator = build.operator_of(scene, grid, 0.0)
+    operator = build.operator_of(scene, site.grid, 0.0)
     step = _PROBE * max(abs(contact.approach), float(np.ptp(contact.gap)))
-    near = [solve_contact(gap, operator, approach=contact.approach + sign * step, **asked) for sign in (-1.0, 1.0)]
+    near = [solve_contact(site.gap, operator, approach=contact.approach + sign * step, **asked) for sign in (-1, 1)]
     for found in near:
         if found.status is not Status.CONVERGED:
-            context.note(f"normal stiffness: {found.status.message}, residual {found.residual:.1e}")
-    stuck = tangential_stiffness(contact, grid, build.bodies_of(scene), tolerance=scene.push.tolerance)
+            note(f"normal stiffness: {found.status.message}, residual {found.residual:.1e}")
+    stuck = tangential_stiffness(contact, site.grid, build.bodies_of(scene), tolerance=scene.push.tolerance)
     return {
         "normal_stiffness": (near[1].load - near[0].load) / (2 * step),
         "tangential_stiffness": float(stuck[0, 0]),
     }
 
 
-def _pressing_steps(scene: PartialSlipScene) -> int:
-    given = scene.push.pressing_steps
-    return given if given is not None else PRESSING_STEPS if coupled(scene) else 1
-
-
-def _pressed(scene: PartialSlipScene, grid: Grid, gap: FloatArray, contact: ContactSolution) -> _Path:
-    """What pressure alone does, in steps in which the contact's size grows evenly: a ball's load like its cube."""
-    from bem.contact import solve_contact
-    from bem.tangential import solve_partial_slip
-
-    path = _Path(None, np.zeros((0, 5)), np.zeros((2, *grid.shape)), 0.0, Status.CONVERGED)
-    steps = _pressing_steps(scene)
-    if steps == 1 or not contact.load > 0:
-        return path
-    bodies, operator = build.bodies_of(scene), build.operator_of(scene, grid, 0.0)
-    power = 1 + sum(math.isfinite(radius) for radius in scene.shape.radii)
-    asked: dict[str, Any] = {"friction": scene.push.friction, "force": (0.0, 0.0), "tolerance": scene.push.tolerance}
-    for number in range(1, steps + 1):
-        part = contact
-        if number < steps:
-            load = contact.load * (number / steps) ** power
-            part = solve_contact(gap, operator, load=load, hardness=scene.contact.hardness, **scene.contact.accuracy())
-        found = solve_partial_slip(part, grid, bodies, previous=path.last, **asked)
-        met = part.status if part.status is not Status.CONVERGED else found.status
-        status = path.status if path.status is not Status.CONVERGED else met
-        path = replace(path, last=found, convolutions=path.convolutions + found.convolutions, status=status)
-    return path
-
-
-def _pushed(scene: PartialSlipScene, grid: Grid, contact: ContactSolution, path: _Path, context: Context) -> _Path:
-    """All steps, going on from the last one that was kept."""
-    from bem.tangential import solve_partial_slip
-
-    push = scene.push
-    wanted = push.path() * push.peak * (push.friction * contact.load if push.share is not None else 1.0)
-    name = "shift" if push.shift is not None else "force"
-    bodies = build.bodies_of(scene)
-    asked: dict[str, Any] = {"friction": push.friction, "tolerance": push.tolerance}
-    for number in range(len(path.steps), len(wanted)):
-        asked[name] = (float(wanted[number]), 0.0)
-        found = solve_partial_slip(contact, grid, bodies, previous=path.last, **asked)
-        path = _after(path, found)
-        keep(context, path)
-        context.progress(number + 1, len(wanted), "steps", residual=found.residual)
-    return path
-
-
-def _after(path: _Path, found: TangentialSolution) -> _Path:
-    """With one step more."""
-    area = found.stick_area + found.slip_area
-    row = [
-        found.force[0],
-        found.shift[0],
-        found.stick_area / area if area > 0 else 1.0,
-        found.dissipated_energy,
-        found.residual,
-    ]
-    slid = np.stack([np.hypot(*found.slip), -(found.traction * found.slip).sum(axis=0)])
-    worse = found.status if path.status is Status.CONVERGED else path.status
-    return _Path(
-        found, np.concatenate([path.steps, [row]]), path.sums + slid, path.convolutions + found.convolutions, worse
-    )
-
-
 def _record(
-    scene: PartialSlipScene, grid: Grid, contact: ContactSolution, path: _Path, extra: dict[str, Any]
+    scene: PartialSlipScene, site: Site, path: Path, extra: dict[str, Any], errors: dict[str, Any]
 ) -> PartialSlipRecord:
-    last = path.last
-    assert last is not None
-    force, shift, sticks, energy, residual = path.steps.T
+    last, contact, turns = path.last, path.contact(site), scene.push.rotation is not None
     state = np.where(contact.pressure > 0, np.where(last.slip.any(axis=0), 2.0, 1.0), 0.0)
-    in_cycle = 4 * scene.push.steps
-    status = contact.status if contact.status is not Status.CONVERGED else path.status
+    status = site.contact.status if site.contact.status is not Status.CONVERGED else path.status
     return filled(
         PartialSlipRecord,
-        grid,
+        site.grid,
+        figures_of(scene, path),
         extra,
         load=contact.load,
-        contact_area_fraction=contact.contact_area / grid.area,
-        force=float(force[-1]),
-        shift=float(shift[-1]),
-        stick_fraction=float(sticks[-1]),
-        first_stiffness=float(force[0] / shift[0]) if shift[0] else math.nan,
-        dissipated=float(energy.sum()),
-        dissipated_in_cycle=float(energy[-in_cycle:].sum()) if scene.push.cycles else None,
+        contact_area_fraction=contact.contact_area / site.grid.area,
+        counted_stick_fraction=float(path.column("counted_stick")[-1]),
+        rotation=last.rotation if turns else None,
         contact_residual=contact.residual,
-        slip_residual=float(residual.max()),
+        slip_residual=float(path.column("residual").max()),
         convolutions=path.convolutions,
         pressure=contact.pressure,
         traction_x=last.traction[0],
@@ -295,11 +260,14 @@ def _record(
         slip=path.sums[0],
         friction_energy=path.sums[1],
         stick_state=state,
-        step=np.arange(1.0, len(force) + 1),
-        step_force=force,
-        step_shift=shift,
-        step_stick_fraction=sticks,
-        step_dissipated=energy,
+        step=np.arange(1.0, len(path.steps) + 1),
+        step_force=path.column("force"),
+        step_shift=path.column("shift"),
+        step_stick_fraction=path.column("stick"),
+        step_dissipated=path.column("energy"),
+        step_rotation=path.column("rotation") if turns else None,
+        step_moment=path.column("moment") if turns else None,
+        **errors,
         status=status,
         where=f"contact: {contact.status.message}; partial slip: {path.status.message}",
     )
@@ -311,6 +279,7 @@ KIND = Kind.of(
     PartialSlipRecord,
     "pressed bodies pushed along, once or there and back: where they stick and slip, loop, energy of friction",
     resolve=PartialSlipScene.resolved,
+    resolutions=(CELLS, DEPTHS),
     figures=(
         "contact-stiffness",
         "slip-map",

@@ -11,15 +11,27 @@ import numpy as np
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.scenes import build
-from bem.scenes.context import Context, tell
+from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled
-from bem.scenes.sticking import FIRST_ORDER, plan_around, pressed_together, stresses_under, tell_coupled
+from bem.scenes.resolutions import CELLS, DEPTHS
+from bem.scenes.sticking import (
+    Coarse,
+    Found,
+    Site,
+    bars,
+    plan_around,
+    pressed_together,
+    stress_figures,
+    stresses_under,
+    tell_coupled,
+)
 from bem.scenes.tables.tangential import RolledScene
 
 if TYPE_CHECKING:
-    from bem.contact import ContactSolution
+    from bem.accuracy import ErrorBars
+    from bem.stress import StressBelow
     from bem.tangential import TangentialSolution
 
 _TRANSFORMS = 6.0 * 2.8
@@ -50,7 +62,7 @@ def plan(scene: RollingContactScene) -> Plan:
             ),
         )
 
-    return plan_around(scene, steps)
+    return plan_around(scene, steps, 0.5)
 
 
 _map = partial(Series, ("x", "y"))
@@ -63,23 +75,21 @@ class RollingRecord(GridRecord):
     x: Annotated[FloatArray, Series(("x",), "m", "x, along rolling")]
     load: Annotated[float, Figure("N", "load")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid")]
-    force: Annotated[float, Figure("N", "force on the lower body along x", headline=True, no_bar=FIRST_ORDER)]
-    force_across: Annotated[float, Figure("N", "force on the lower body along y", headline=True, no_bar=FIRST_ORDER)]
-    traction_coefficient: Annotated[float, Figure("", "size of the force over load", headline=True, no_bar=FIRST_ORDER)]
-    creepage: Annotated[float, Figure("", "creepage along x", headline=True, no_bar=FIRST_ORDER)]
-    creepage_across: Annotated[float, Figure("", "creepage along y", no_bar=FIRST_ORDER)]
-    stick_fraction: Annotated[float, Figure("", "share of the contact that sticks", headline=True, no_bar=FIRST_ORDER)]
-    friction_work: Annotated[
-        float, Figure("N", "energy of friction over the distance rolled, a drag", headline=True, no_bar=FIRST_ORDER)
-    ]
+    force: Annotated[float, Figure("N", "force on the lower body along x", headline=True)]
+    force_across: Annotated[float, Figure("N", "force on the lower body along y", headline=True)]
+    traction_coefficient: Annotated[float, Figure("", "size of the force over load", headline=True)]
+    creepage: Annotated[float, Figure("", "creepage along x", headline=True)]
+    creepage_across: Annotated[float, Figure("", "creepage along y")]
+    stick_fraction: Annotated[float, Figure("", "share of the contact that sticks", headline=True)]
+    friction_work: Annotated[float, Figure("N", "energy of friction over the distance rolled, a drag", headline=True)]
     resolved_work: Annotated[float, Figure("", "share of it that the map of cells shows", unjudged=True)]
-    max_von_mises: Annotated[
-        float | None, Figure("Pa", "highest von Mises stress", optional=True, headline=True, no_bar=FIRST_ORDER)
-    ] = None
-    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True, no_bar=FIRST_ORDER)] = None
-    contact_residual: Annotated[float, Figure("", "relative residual of the contact")]
-    slip_residual: Annotated[float, Figure("", "relative residual of slip and stick")]
-    convolutions: Annotated[float, Figure("", "convolutions of the rolling")]
+    max_von_mises: Annotated[float | None, Figure("Pa", "highest von Mises stress", optional=True, headline=True)] = (
+        None
+    )
+    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)] = None
+    contact_residual: Annotated[float, Figure("", "relative residual of the contact", unjudged=True)]
+    slip_residual: Annotated[float, Figure("", "relative residual of slip and stick", unjudged=True)]
+    convolutions: Annotated[float, Figure("", "convolutions of the rolling", unjudged=True)]
     pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
     traction_x: Annotated[FloatArray, _map("Pa", "traction on the lower body along x")]
     traction_y: Annotated[FloatArray, _map("Pa", "traction on the lower body along y")]
@@ -92,44 +102,69 @@ class RollingRecord(GridRecord):
 
 def run(scene: RollingContactScene, context: Context) -> RollingRecord:
     """Solve the contact, then what sticks while it rolls."""
-    from bem.tangential import solve_rolling
-
-    grid = build.grid_of(scene.grid)
-    _, contact = pressed_together(scene, grid, context)
-    roll, bodies = scene.roll, build.bodies_of(scene)
-    given: dict[str, Any] = {"creepage": (roll.creepage, roll.creepage_across)}
-    if roll.share is not None:
-        given = {"force": (roll.share * roll.friction * contact.load, 0.0)}
+    site = pressed_together(scene, context)
     with context.timer("rolling"):
-        found = solve_rolling(
-            contact, grid, bodies, friction=roll.friction, spin=roll.spin, tolerance=roll.tolerance, **given
-        )
+        found = _rolled(scene, site)
     tell(context, found.notes)
     tell_coupled(scene, context)
-    return _record(scene, grid, contact, found, stresses_under(scene, grid, contact.pressure, found.traction, context))
+    below = stresses_under(scene, site.grid, site.contact.pressure, found.traction, context)
+    wanted = scene.outputs.errors and Status.CONVERGED is site.contact.status is found.status
+    errors = error_bars(context, wanted, lambda: _bars(scene, site, found, below))
+    return _record(site, found, stress_figures(below), errors)
 
 
-def _record(
-    scene: RollingContactScene, grid: Grid, contact: ContactSolution, found: TangentialSolution, extra: dict[str, Any]
-) -> RollingRecord:
+def _rolled(scene: RollingContactScene, site: Site) -> TangentialSolution:
+    from bem.tangential import solve_rolling
+
+    roll = scene.roll
+    given: dict[str, Any] = {"creepage": (roll.creepage, roll.creepage_across)}
+    if roll.share is not None:
+        given = {"force": (roll.share * roll.friction * site.contact.load, 0.0)}
+    asked: dict[str, Any] = {"friction": roll.friction, "spin": roll.spin, "tolerance": roll.tolerance}
+    return solve_rolling(site.contact, site.grid, build.bodies_of(scene), **given, **asked)
+
+
+def _figures(site: Site, found: TangentialSolution) -> dict[str, float]:
+    """Those that have error bars, SI units."""
+    load, area = site.contact.load, found.stick_area + found.slip_area
+    return {
+        "force": float(found.force[0]),
+        "force_across": float(found.force[1]),
+        "traction_coefficient": float(np.hypot(*found.force)) / load if load > 0 else 0.0,
+        "creepage": float(found.creepage[0]),
+        "creepage_across": float(found.creepage[1]),
+        "stick_fraction": found.stick_area / area if area > 0 else 1.0,
+        "friction_work": found.dissipated_energy / site.grid.spacing[0],
+    }
+
+
+def _bars(scene: RollingContactScene, site: Site, found: TangentialSolution, below: StressBelow | None) -> ErrorBars:
+    """From the same on the grid of twice the cell."""
+    from bem.accuracy.sticking import ROLL_RULES
+
+    def again(coarser: Site) -> Coarse:
+        rolled = _rolled(scene, coarser)
+        return Coarse(_figures(coarser, rolled), rolled.traction, rolled.status is Status.CONVERGED)
+
+    given = ("creepage", "creepage_across") if scene.roll.share is None else ("force", "force_across")
+    residual = max(site.contact.residual, found.residual)
+    limit = scene.roll.friction * site.contact.load
+    return bars(scene, site, Found(_figures(site, found), ROLL_RULES, given, residual, limit, below), again)
+
+
+def _record(site: Site, found: TangentialSolution, extra: dict[str, Any], errors: dict[str, Any]) -> RollingRecord:
+    grid, contact = site.grid, site.contact
     slid = found.slip / grid.spacing[0]
     energy = -(found.traction * slid).sum(axis=0)
-    touching, area = contact.pressure > 0, found.stick_area + found.slip_area
-    size, work = float(np.hypot(*found.force)), found.dissipated_energy / grid.spacing[0]
+    work = found.dissipated_energy / grid.spacing[0]
     status = contact.status if contact.status is not Status.CONVERGED else found.status
     return filled(
         RollingRecord,
         grid,
+        _figures(site, found),
         extra,
         load=contact.load,
         contact_area_fraction=contact.contact_area / grid.area,
-        force=float(found.force[0]),
-        force_across=float(found.force[1]),
-        traction_coefficient=size / contact.load if contact.load > 0 else 0.0,
-        creepage=float(found.creepage[0]),
-        creepage_across=float(found.creepage[1]),
-        stick_fraction=found.stick_area / area if area > 0 else 1.0,
-        friction_work=work,
         resolved_work=float(energy.sum()) * grid.cell_area / work if work > 0 else 1.0,
         contact_residual=contact.residual,
         slip_residual=found.residual,
@@ -139,7 +174,8 @@ def _record(
         traction_y=found.traction[1],
         slip=np.hypot(*slid),
         friction_energy=energy,
-        stick_state=np.where(touching, np.where(found.slip.any(axis=0), 2.0, 1.0), 0.0),
+        stick_state=np.where(contact.pressure > 0, np.where(found.slip.any(axis=0), 2.0, 1.0), 0.0),
+        **errors,
         status=status,
         where=f"contact: {contact.status.message}; rolling: {found.status.message}, residual {found.residual:.1e}",
     )
@@ -151,5 +187,6 @@ KIND = Kind.of(
     RollingRecord,
     "pressed bodies that roll over each other with creepage and spin: stick and slip, traction, energy of friction",
     resolve=RollingContactScene.resolved,
+    resolutions=(CELLS, DEPTHS),
     figures=("creep-curve", "slip-map", "traction-section", "pressure-map", "von-mises-section", "von-mises-depth"),
 )

@@ -10,33 +10,38 @@ from pydantic import Field, model_validator
 from bem.grid import FloatArray
 from bem.scenes.common import Force, Table, exactly_one, problem
 from bem.scenes.tables.pressing import StressedScene, StressOutputs
-from bem.scenes.units import InverseLength, Length, Ratio
+from bem.scenes.units import Angle, InverseLength, Length, Ratio
 
 
 class PushScene(Table):
-    """A force or a shift along x, up to a peak and in cycles between it and its opposite."""
+    """A force or a shift along x, a rotation, or both, up to a peak and in cycles between it and its opposite."""
 
     friction: Annotated[Ratio, Field(gt=0, le=10)]
     share: Annotated[Ratio, Field(gt=0, lt=1)] | None = None
     """Peak force over friction x load."""
     force: Annotated[Force, Field(gt=0)] | None = None
     shift: Annotated[Length, Field(gt=0)] | None = None
+    rotation: Annotated[Angle, Field(gt=0, le=0.1)] | None = None
+    """Of the lower body against the upper one about the grid's centre, from x to y, beside the push or alone."""
     cycles: Annotated[int, Field(strict=True, ge=0, le=10_000)] = 0
     steps: Annotated[int, Field(strict=True, ge=1, le=10_000)] = 8
     """From rest to the peak; a cycle has four times as many."""
     pressing_steps: Annotated[int, Field(strict=True, ge=1, le=1000)] | None = None
     """In which the load comes, before the push; 1 for bodies alike, which do not slip under pressure, else 16."""
+    coupled: bool | None = None
+    """Whether the pressure follows the tractions; of bodies that differ it does where this is left out."""
     tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = 1e-7
 
     @model_validator(mode="after")
     def _one_control(self) -> PushScene:
-        exactly_one(self, "share", "force", "shift")
+        if self.rotation is None or self.peak:
+            exactly_one(self, "share", "force", "shift")
         return self
 
     @property
     def peak(self) -> float:
-        """Of what is given: a share of friction x load, a force [N] or a shift [m]."""
-        return next(value for value in (self.share, self.force, self.shift) if value is not None)
+        """Of what is given: a share of friction x load, a force [N] or a shift [m]; 0 of a rotation alone."""
+        return next((value for value in (self.share, self.force, self.shift) if value is not None), 0.0)
 
     def path(self) -> FloatArray:
         """What is given at every step, over its peak: up to it, then whole cycles that start and end there."""
@@ -61,8 +66,14 @@ class StickingScene(StressedScene):
         return self
 
 
-class SlipOutputs(StressOutputs):
+class StickOutputs(StressOutputs):
     """What is wanted besides pressure, tractions and slip."""
+
+    errors: bool = Field(default=True, strict=True)
+
+
+class SlipOutputs(StickOutputs):
+    """The same of a contact that is pushed."""
 
     stiffness: bool = Field(default=False, strict=True)
     """Normal and tangential stiffness of the contact before anything slips."""
@@ -73,6 +84,12 @@ class PushedScene(StickingScene):
 
     push: PushScene
     outputs: SlipOutputs = SlipOutputs()
+
+    @model_validator(mode="after")
+    def _turned_on_a_free_grid(self) -> Self:
+        if self.push.rotation is not None and any(self.grid.periodic):
+            raise problem("push.rotation on a periodic grid, which cannot turn", "a free grid, or no rotation")
+        return self
 
 
 class RollScene(Table):
@@ -101,3 +118,4 @@ class RolledScene(StickingScene):
     """A contact that rolls along x."""
 
     roll: RollScene
+    outputs: StickOutputs = StickOutputs()

@@ -1,0 +1,78 @@
+"""Error bars of contacts that stick and slip, pushed or rolling: the same on the grid of twice the cell.
+
+Parts: of the grid, the difference to the coarser one times a factor, and a share of the figure that grows with what of
+the contact lies within a cell of its edge; of the steps in which a load comes, the difference to half of them; and what
+the residual may hide. Pushed contacts are near second order, rolling ones of first. Factors are set by
+`reports/experiments/sticking_error_bars.py`: an estimate, no proved bound.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Container, Mapping
+
+from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars, Rule
+from bem.accuracy.contact import ContactCase, is_resolved, share_at_edge
+
+PRESSING = "pressing steps"
+_MOVED = Rule(1.0, 0.6, edge=0.005, rough_edge=0.02)
+_SPENT = Rule(1.2, 1.0, edge=0.01, rough_edge=0.05)
+_STIFF = Rule(1.7, 1.0, edge=0.01, rough_edge=0.05)
+PUSH_RULES = dict.fromkeys(("force", "shift", "first_stiffness", "moment"), _MOVED) | {
+    "stick_fraction": Rule(1.5, 1.0, edge=0.03, rough_edge=0.12),
+    "dissipated": _SPENT,
+    "dissipated_in_cycle": _SPENT,
+    "normal_stiffness": _STIFF,
+    "tangential_stiffness": _STIFF,
+}
+_CARRIED = Rule(1.3, 1.3, edge=0.01, rough_edge=0.03)
+_CREPT = Rule(1.5, 1.5, edge=0.05, rough_edge=0.08)
+ROLL_RULES = dict.fromkeys(("force", "force_across", "traction_coefficient"), _CARRIED) | {
+    "creepage": _CREPT,
+    "creepage_across": _CREPT,
+    "friction_work": _CREPT,
+    "stick_fraction": Rule(1.5, 1.2, edge=0.12, rough_edge=0.12),
+}
+_PRESSING = 1.5
+"""On the difference to half the steps: what first order leaves."""
+_FORCES = ("force", "force_across")
+_ALGEBRAIC = 10.0
+"""Relative change of a figure over the residuals."""
+
+UNSOLVED = "no error bars of stick and slip: on the grid of twice the cell they did not converge"
+
+
+def sticking_bars(
+    rules: Mapping[str, Rule],
+    case: ContactCase,
+    fine: Mapping[str, float],
+    coarse: Mapping[str, float],
+    residual: float,
+    fewer: Mapping[str, float] | None = None,
+    given: Container[str] = (),
+    limit: float = 0.0,
+) -> ErrorBars:
+    """Bars of the figures `fine` that have a rule.
+
+    Parameters
+    ----------
+    case : the contact without friction. coarse : figures on the grid of twice the cell.
+    residual : the largest of all steps and of the contact.
+    fewer : figures on the coarser grid with half the pressing steps; None where the load comes at once.
+    given : figures that are prescribed, which have no error but the residual's. limit : friction x load [N], which
+        residuals of forces are relative to.
+    """
+    resolved, edge = is_resolved(case), share_at_edge(case)
+    grid, steps, left = {}, {}, {}
+    for name, value in fine.items():
+        if name not in rules or not math.isfinite(value):
+            continue
+        inexact = 0.0 if name in given else 1.0
+        # the edge of stick is as much shorter as the root of what sticks, and no shorter than a cell
+        at_edge = edge * math.sqrt(value) + edge**2 if name == "stick_fraction" else edge * value
+        grid[name] = inexact * rules[name].bar(value - coarse[name], at_edge, resolved=resolved)
+        left[name] = _ALGEBRAIC * residual * max(abs(value), limit if name in _FORCES else 0.0)
+        if fewer is not None:
+            steps[name] = inexact * _PRESSING * abs(coarse[name] - fewer[name])
+    parts = {GRID: grid, RESIDUAL: left} if fewer is None else {GRID: grid, PRESSING: steps, RESIDUAL: left}
+    return ErrorBars.together(parts)

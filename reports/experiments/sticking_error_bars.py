@@ -1,0 +1,124 @@
+"""Error bars of random contacts that stick and slip, against references four times finer.
+
+    python -m reports.experiments.sticking_error_bars [CASES]
+
+Balls and rough flats, of like and unlike bodies, pushed by a force or a shift, once or to and fro, turned, or rolling
+with creepage, spin or a given force. References have four times the cells a side, the same surfaces, and four times the
+steps in which the load of unlike bodies comes. The result is stored in `reports/results/sticking_error_bars.json`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem.errors import Status
+from bem.scenes import PlainContext, get_kind, load_scene
+from reports.experiments.judging import Rows, judge
+
+RESULT = Path(__file__).resolve().parents[1] / "results" / "sticking_error_bars.json"
+FINER = 4
+_FIRST_STEPS = 6
+"""In which the load of unlike bodies comes, in the case that is judged."""
+
+
+def _bodies(rng: np.random.Generator, *, unlike: bool) -> tuple[dict[str, Any], float]:
+    """Tables of both bodies, and their contact modulus [Pa]."""
+    moduli, ratios = np.array([210e9, 210e9]), np.array([0.3, 0.3])
+    if unlike:
+        moduli[1] *= 10 ** rng.uniform(-0.5, 0.5)
+        ratios[1] = rng.uniform(0.15, 0.4)
+    tables = {
+        name: {"material": {"youngs_modulus": float(e), "poissons_ratio": float(nu)}}
+        for name, e, nu in zip(("lower", "upper"), moduli, ratios, strict=True)
+    }
+    return tables, float(1 / ((1 - ratios**2) / moduli).sum())
+
+
+def draw(rng: np.random.Generator) -> dict[str, Any]:
+    """A random scene."""
+    rolls, unlike = rng.random() < 0.4, rng.random() < 0.25
+    rough = rng.random() < (0.15 if rolls else 0.35)
+    cells = int(rng.integers(28, 49))
+    scene, modulus = _bodies(rng, unlike=unlike)
+    if rough:
+        side = 100e-6
+        waves = float(rng.uniform(5, 12)) * side / cells
+        surface = {"kind": "generated", "rms_height": 100e-9, "hurst": 0.8, "rolloff_wavelength": side / 2}
+        scene["lower"]["surface"] = surface | {"cutoff_wavelength": waves, "drawn_on": [cells, cells]}
+        scene["contact"] = {"mean_pressure": float(10 ** rng.uniform(7.3, 8.5))}
+        size, friction, load = waves, 0.3, None
+    else:
+        radius, load, friction = 10e-3, float(10 ** rng.uniform(0, 2)), float(rng.uniform(0.1, 0.6))
+        size = float(np.cbrt(3 * load * radius / (4 * modulus)))
+        side = 2 * size * float(rng.uniform(1.15, 1.9))
+        scene |= {"shape": {"kind": "sphere", "radius": radius}, "contact": {"load": load}}
+    scene["grid"] = {"shape": [cells, cells], "lengths": [side, side], "periodic": rough}
+    scene["outputs"] = {"von_mises": bool(rng.random() < 0.2)}
+    if rolls:
+        full = friction * size / 10e-3 if load is not None else 0.01 * friction
+        roll: dict[str, Any] = {"friction": friction}
+        if rng.random() < 0.4:
+            roll["share"] = float(rng.uniform(0.1, 0.9))
+        else:
+            along, across = full * rng.uniform(0.05, 1.2), full * rng.uniform(0, 0.6)
+            roll |= {"creepage": float(along), "creepage_across": float(across)}
+        if not rough and rng.random() < 0.3:
+            roll["spin"] = float(rng.uniform(0.2, 1.5)) * full / size
+        return scene | {"kind": "rolling", "roll": roll}
+    push: dict[str, Any] = {"friction": friction, "steps": int(rng.integers(1, 4)), "cycles": int(rng.random() < 0.3)}
+    turned = not rough and rng.random() < 0.2
+    if turned:
+        push["rotation"] = friction * float(rng.uniform(0.3, 2)) * size / 10e-3
+    if not turned or rng.random() < 0.5:
+        push["share"] = float(rng.uniform(0.1, 0.95))
+    if unlike:
+        push["pressing_steps"] = _FIRST_STEPS
+    scene["outputs"]["stiffness"] = bool(rng.random() < 0.3)
+    return scene | {"kind": "partial-slip", "push": push}
+
+
+def _finer(scene: dict[str, Any]) -> dict[str, Any]:
+    cells = [FINER * n for n in scene["grid"]["shape"]]
+    fine = scene | {
+        "grid": scene["grid"] | {"shape": cells},
+        "outputs": scene["outputs"] | {"errors": False},
+    }
+    if "pressing_steps" in scene.get("push", {}):
+        fine["push"] = scene["push"] | {"pressing_steps": FINER * scene["push"]["pressing_steps"]}
+    return fine
+
+
+def _run(scene: dict[str, Any]) -> Any:
+    kind = get_kind(scene["kind"])
+    resolved = kind.resolve(load_scene(scene))
+    return kind.run(resolved, PlainContext(resolved.seed))
+
+
+def rows_of(rng: np.random.Generator) -> Rows:
+    """Bar, parts and true error of every figure of a random scene."""
+    scene = draw(rng)
+    found, truth = _run(scene), _run(_finer(scene))
+    words = f"{scene['kind']}, {'rough' if 'surface' in scene['lower'] else 'ball'}, {scene['grid']['shape'][0]} cells"
+    if not Status.CONVERGED is found.status is truth.status:
+        return []
+    push = scene.get("push", {})
+    turned = "rotation" in push and "share" not in push
+    return [
+        {
+            "figure": f"{scene['kind']}: {name}",
+            "scene": words,
+            "value": getattr(found, name),
+            "parts": {origin: part[name] for origin, part in found.error_parts.items() if name in part},
+            "error": abs(getattr(found, name) - getattr(truth, name)),
+            "bar": bar,
+        }
+        for name, bar in found.errors.items()
+        if not (turned and name in ("force", "shift"))  # zero but for rounding
+    ]
+
+
+if __name__ == "__main__":
+    judge(rows_of, RESULT, 60)
