@@ -102,7 +102,9 @@ def pushed(
     scale = push.peak * (push.friction * site.contact.load if push.share is not None else 1.0)
     name = "shift" if push.shift is not None else "force"
     for number in range(len(path.steps), len(way)):
-        asked = {name: (float(way[number] * scale), 0.0), "rotation": float(way[number]) * (push.rotation or 0.0)}
+        pushed_by, rotation = float(way[number] * scale), float(way[number]) * (push.rotation or 0.0)
+        carried = site.carried(rotation) if name == "shift" else (0.0, 0.0)
+        asked = {name: (pushed_by + carried[0], carried[1]), "rotation": rotation}
         path = _after(site, path, _solved(scene, site, path, None, asked))
         after(path, number + 1, len(way))
     return path
@@ -141,10 +143,11 @@ def _after(site: Site, path: Path, found: TangentialSolution | CoupledSolution) 
     slip, grid = _slip_of(found), site.grid
     area, counted = slip.stick_area + slip.slip_area, _contact_of(found, site).counted_area
     x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
+    x, y = x - site.centre[0], y - site.centre[1]
     moment = float((x[:, None] * slip.traction[1] - y * slip.traction[0]).sum()) * grid.cell_area
     row = [
         slip.force[0],
-        slip.shift[0],
+        slip.shift[0] - site.carried(slip.rotation)[0],
         slip.stick_area / area if area > 0 else 1.0,
         slip.counted_stick_area / counted if counted > 0 else 1.0,
         slip.dissipated_energy,

@@ -28,12 +28,29 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Site:
     """Where bodies stick and slip: grid, undeformed gap (nx, ny) [m], the contact without friction; `rough` : the gap
-    counts from first touch."""
+    counts from first touch; `centre` [m] : about which bodies turn, from the middle of the grid."""
 
     grid: Grid
     gap: FloatArray
     contact: ContactSolution
     rough: bool
+    centre: tuple[float, float] = (0.0, 0.0)
+
+    def coarser(self, grid: Grid, contact: ContactSolution) -> Site:
+        """On every second cell, whose middle lies half a cell beside that of an even number of them."""
+        from bem.contact.cascade import sample
+
+        gap = np.array(sample(self.gap, grid.shape, grid.periodic))
+        middles = [
+            0.5 * ((n - 1) * d - (m - 1) * e)
+            for n, d, m, e in zip(self.grid.shape, self.grid.spacing, grid.shape, grid.spacing, strict=True)
+        ]
+        centre = (self.centre[0] + middles[0], self.centre[1] + middles[1])
+        return Site(grid, gap - gap.min() if self.rough else gap, contact, self.rough, centre)
+
+    def carried(self, turn: float) -> tuple[float, float]:
+        """What a turn about `centre` is besides one about the middle of the grid, along x and y."""
+        return turn * self.centre[1], -turn * self.centre[0]
 
 
 def pressed_together(scene: StressedScene, context: Context) -> Site:
@@ -78,7 +95,6 @@ def bars(scene: StressedScene, site: Site, found: Found, again: Callable[[Site],
     """Error bars of figures that have rules, of contact and stresses, from what `again` finds on the coarser grid."""
     from bem.accuracy import ContactCase, ErrorBars, contact_bars, solve_coarser, stress_bars
     from bem.accuracy.sticking import UNSOLVED, sticking_bars
-    from bem.contact.cascade import sample
 
     given = scene.contact.prescribed(site.grid.area)
     operator = build.operator_of(scene, site.grid, 0.0)
@@ -86,8 +102,7 @@ def bars(scene: StressedScene, site: Site, found: Found, again: Callable[[Site],
     coarser = solve_coarser(case, scene.contact.max_iterations)
     if coarser.grid is None or coarser.solution is None:
         return ErrorBars.unknown(found.figures, coarser.why)
-    gap = np.array(sample(site.gap, coarser.grid.shape, coarser.grid.periodic))
-    there = again(Site(coarser.grid, gap - gap.min() if site.rough else gap, coarser.solution, site.rough))
+    there = again(site.coarser(coarser.grid, coarser.solution))
     of_contact = contact_bars(case, coarser).renamed({name: name for name in ("load", "contact_area_fraction")})
     if not there.converged:
         return ErrorBars.unknown(found.figures, UNSOLVED) | of_contact

@@ -108,6 +108,8 @@ def test_a_turn_is_lubkin_s():
     both, _ = run(push=PUSH | {"rotation": closed.angle(stick)})
     assert both.force == pytest.approx(0.6 * 0.4 * 20.0)
     assert both.stick_fraction < record.stick_fraction
+    # the coarser grid has its middle elsewhere, about which nothing must turn
+    assert both.errors["shift"] < 5e-3 * both.shift
 
 
 def test_figures_have_error_bars_with_origins():

@@ -110,29 +110,31 @@ def run(scene: RollingContactScene, context: Context) -> RollingRecord:
     below = stresses_under(scene, site.grid, site.contact.pressure, found.traction, context)
     wanted = scene.outputs.errors and Status.CONVERGED is site.contact.status is found.status
     errors = error_bars(context, wanted, lambda: _bars(scene, site, found, below))
-    return _record(site, found, stress_figures(below), errors)
+    return _record(site, found, _figures(site, found, scene.roll.spin) | stress_figures(below), errors)
 
 
 def _rolled(scene: RollingContactScene, site: Site) -> TangentialSolution:
     from bem.tangential import solve_rolling
 
     roll = scene.roll
-    given: dict[str, Any] = {"creepage": (roll.creepage, roll.creepage_across)}
+    carried = site.carried(roll.spin)
+    given: dict[str, Any] = {"creepage": (roll.creepage + carried[0], roll.creepage_across + carried[1])}
     if roll.share is not None:
         given = {"force": (roll.share * roll.friction * site.contact.load, 0.0)}
     asked: dict[str, Any] = {"friction": roll.friction, "spin": roll.spin, "tolerance": roll.tolerance}
     return solve_rolling(site.contact, site.grid, build.bodies_of(scene), **given, **asked)
 
 
-def _figures(site: Site, found: TangentialSolution) -> dict[str, float]:
-    """Those that have error bars, SI units."""
+def _figures(site: Site, found: TangentialSolution, spin: float) -> dict[str, float]:
+    """Those that have error bars, SI units; `spin` [1/m] of the rolling."""
     load, area = site.contact.load, found.stick_area + found.slip_area
+    creepage = found.creepage - site.carried(spin)
     return {
         "force": float(found.force[0]),
         "force_across": float(found.force[1]),
         "traction_coefficient": float(np.hypot(*found.force)) / load if load > 0 else 0.0,
-        "creepage": float(found.creepage[0]),
-        "creepage_across": float(found.creepage[1]),
+        "creepage": float(creepage[0]),
+        "creepage_across": float(creepage[1]),
         "stick_fraction": found.stick_area / area if area > 0 else 1.0,
         "friction_work": found.dissipated_energy / site.grid.spacing[0],
     }
@@ -144,12 +146,14 @@ def _bars(scene: RollingContactScene, site: Site, found: TangentialSolution, bel
 
     def again(coarser: Site) -> Coarse:
         rolled = _rolled(scene, coarser)
-        return Coarse(_figures(coarser, rolled), rolled.traction, rolled.status is Status.CONVERGED)
+        return Coarse(_figures(coarser, rolled, scene.roll.spin), rolled.traction, rolled.status is Status.CONVERGED)
 
     given = ("creepage", "creepage_across") if scene.roll.share is None else ("force", "force_across")
     residual = max(site.contact.residual, found.residual)
     limit = scene.roll.friction * site.contact.load
-    return bars(scene, site, Found(_figures(site, found), ROLL_RULES, given, residual, limit, below), again)
+    return bars(
+        scene, site, Found(_figures(site, found, scene.roll.spin), ROLL_RULES, given, residual, limit, below), again
+    )
 
 
 def _record(site: Site, found: TangentialSolution, extra: dict[str, Any], errors: dict[str, Any]) -> RollingRecord:
@@ -161,7 +165,6 @@ def _record(site: Site, found: TangentialSolution, extra: dict[str, Any], errors
     return filled(
         RollingRecord,
         grid,
-        _figures(site, found),
         extra,
         load=contact.load,
         contact_area_fraction=contact.contact_area / grid.area,
