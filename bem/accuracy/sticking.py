@@ -52,11 +52,12 @@ def sticking_bars(
     given: Container[str] = (),
     limit: float = 0.0,
 ) -> ErrorBars:
-    """Bars of the figures `fine` that have a rule.
+    """Bars of figures that have a rule.
 
     Parameters
     ----------
-    case : the contact without friction. coarse : figures on the grid of twice the cell.
+    rules : by the names of figures. case : the contact without friction.
+    fine, coarse : figures on its grid and on that of twice the cell, SI units.
     residual : the largest of all steps and of the contact.
     fewer : figures on the coarser grid with half the pressing steps; None where the load comes at once.
     given : figures that are prescribed, which have no error but the residual's. limit : friction x load [N], which
