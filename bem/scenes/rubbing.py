@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 from bem.grid import FloatArray, Grid
 from bem.scenes.planner import Step, padded_points
 from bem.scenes.records import Figure, Record, grid_map
-from bem.scenes.sticking import FIRST_ORDER
 from bem.wear.traction import TractionLaw
 
 if TYPE_CHECKING:
@@ -25,6 +24,8 @@ FRICTION_SLIDES = (
     "stresses below the surface and in what wears"
 )
 """Note of kind running-in."""
+FIRST_ORDER = "of first order in the cell at the edges of contact and stick; compare with the grid of twice the cell"
+"""Why figures of a loop have no error bar."""
 _told = partial(Figure, optional=True, headline=True, no_bar=FIRST_ORDER)
 _map = partial(grid_map, of="last")
 

@@ -1,7 +1,7 @@
 """Contact and partial slip together: of bodies that differ tractions lift the surfaces, and the pressure answers.
 
 By turns: the contact under the gap that the last tractions leave, then stick and slip under its pressure. Each answers
-the other by the bodies' mismatch (Dundurs' beta, at most 1/2) times as much, so that it closes in by a factor of three
+the other by the bodies' mismatch (Dundurs' beta, at most 1/2) times as much, so that it closes in by a factor of two
 to ten a round. What is judged is the pair at the end: the contact once more under the gap that its own tractions make.
 """
 
