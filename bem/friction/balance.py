@@ -309,7 +309,7 @@ class _Search:
 
     def is_no_film(self, trial: _Trial) -> bool:
         """Whether a film is so thin that the surfaces carry the load without it, and can."""
-        return trial.film.minimum_thickness < THINNEST_FILM and self.load <= self.rough.largest_load
+        return trial.film.carrying_thickness < THINNEST_FILM and self.load <= self.rough.largest_load
 
     def is_boundary(self, probe: _Trial) -> bool:
         """Whether the film, negligible as it is, is thinner than the surfaces leave open."""

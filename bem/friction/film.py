@@ -34,7 +34,7 @@ class PatchFilm:
     film [N], signed like `FilmSolution.shear_force`. minimum_thickness : of the whole film [m]. status : outcome.
     notes : where the film's model is outside its validity. solution : what it was sampled from, if it was solved.
     smooth_gap : of the surfaces as far as the film's pressure alone deforms them, but for a constant [m]; the thickness
-    if None.
+    if None. plateau : a ball's film at its centre [m]; None of a cylinder.
     """
 
     load: float
@@ -47,6 +47,13 @@ class PatchFilm:
     notes: tuple[str, ...] = ()
     solution: FilmSolution | PointFilmSolution | None = None
     smooth_gap: FloatArray | None = None
+    plateau: float | None = None
+
+    @property
+    def carrying_thickness(self) -> float:
+        """Of the film where it carries [m]: at a ball's centre, whose constrictions are far thinner; else the
+        minimum."""
+        return self.minimum_thickness if self.plateau is None else self.plateau
 
     @property
     def gap(self) -> FloatArray:

@@ -115,6 +115,9 @@ class FilmTable:
             ),
             status=failed[0] if failed else Status.CONVERGED,
             notes=films[1].notes,
+            plateau=None
+            if films[0].plateau is None
+            else math.exp(sum(w * math.log(film.carrying_thickness) for w, film in zip(weights, films, strict=True))),
             smooth_gap=smooth_gap(thickness, self.films.parabola, load, self.contact),
         )
 

@@ -11,7 +11,7 @@ from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
 from bem.friction.film_table import FilmTable
 from bem.friction.films import films_of
-from bem.friction.point_film import SolvedPointFilm, sampled_point
+from bem.friction.point_film import SolvedPointFilm, sampled_point, solved_point_film, thin_film
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
 from bem.reference_solutions.hertz import ellipse_contact
@@ -63,8 +63,9 @@ def test_without_oil_it_is_the_dry_ball():
     found = solve_mixed(**BALL | {"lubricant": thin}, height=height, speeds=(1e-5, 0.0))
     gap = (GRID.x[:, None] ** 2 + GRID.y[None, :] ** 2) / 0.02 - height
     dry = solve_contact(gap, displacement_operator(GRID, (Body(STEEL), Body(STEEL))), load=20.0)
-    assert found.regime.value == "boundary"
-    # the film is left with a hundred-thousandth of the load
+    # the film has a ten-thousandth of the load, and is thinner than a molecule
+    assert found.film_load < 3e-4 * 20.0
+    assert any("few molecules" in note for note in found.notes)
     assert found.contact_area == pytest.approx(dry.contact_area, rel=1e-3)
     assert np.abs(found.contact_pressure - dry.pressure).max() < 1e-3 * dry.pressure.max()
     assert found.friction == pytest.approx(0.12, rel=1e-3)
@@ -163,3 +164,27 @@ def test_table_is_the_film(counted):
 def test_bad_input_is_said(wrong, said):
     with pytest.raises(InputError, match=said):
         MixedSetup(**BALL | wrong)
+
+
+@pytest.mark.parametrize("counted", [None, 20.0])
+def test_thin_film_goes_on_from_a_solved_one(counted):
+    """A film made from that of 0.4 of the load, against the film solved under all of it."""
+    contact, speeds = PointContact((0.01, 0.012), MODULUS, OIL, counted), (0.06, 0.02)
+    small, whole = (solved_point_film(contact, speeds, load, 64) for load in (8.0, 20.0))
+    made = thin_film(small, contact, speeds, 8.0, 20.0)
+    assert made.central_thickness == pytest.approx(whole.central_thickness, rel=0.03)
+    assert made.maximum_pressure == pytest.approx(whole.maximum_pressure, rel=0.03)
+    assert -made.shear_force[0, 0] == pytest.approx(-whole.shear_force[0, 0], rel=0.03)
+    cell = np.diff(made.x)[0] * np.diff(made.y)[0]
+    assert made.pressure.sum() * cell == pytest.approx(20.0, rel=0.01)  # the far inlet carries the rest
+    assert any("thinner than its cells" in note for note in made.notes)
+
+
+def test_a_film_that_its_cells_cannot_show_is_no_boundary_lubrication():
+    """At 1.5 GPa the film under the largest load that is solved is 30 nm thick at its centre and far less beside it:
+    it was taken for none, and the surfaces for what carries all of the load, converged."""
+    heavy = BALL | {"grid": Grid((64, 64), (8e-6, 8e-6)), "load": 135.0, "film_cells": 64}
+    found = solve_mixed(**heavy, height=rough(30e-9, heavy["grid"]), speeds=(0.07, 0.07))
+    assert found.status is Status.CONVERGED
+    assert found.regime.value == "mixed"
+    assert found.film_load > 40.0
