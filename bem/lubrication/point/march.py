@@ -15,6 +15,7 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.cascade import Reached as Found
 from bem.lubrication.point.cascade import solved
 from bem.lubrication.point.film import PointFilmSolution
+from bem.lubrication.point.kept import least_film
 from bem.lubrication.point.levels import InTime, Level, PointProblem
 from bem.lubrication.point.moving import Roughness, bilinear
 from bem.lubrication.point.newton import LEAST_FILM, Outcome, State, newton, own_film
@@ -49,7 +50,7 @@ class PointMarch:
     """What stays the same: units of the highest load and the largest entrainment, the axis along which most of it is,
     edges on the user's axes [m], cells on these, and the tolerance of a step.
 
-    length : radius [m] that curvatures are one over in their unit. speed : largest entrainment [m/s].
+    radius : [m], over which curvatures are 1. speed : largest entrainment [m/s].
     """
 
     operation: Operation
@@ -151,10 +152,7 @@ def steady_start(march: PointMarch, time: float) -> tuple[Moment, PointFilmSolut
     found = solved(setting.problem, march.cells(setting.frame), march.tolerance, 40)
     moment = _moment(march, setting.frame, found.outcome.state)
     solution = _said(march, setting, found, time)
-    heights = march.heights(time)
-    if heights is None or not heights.any():
-        return moment, solution
-    return _with_heights(march, moment, solution, heights, "the steady one of smooth bodies")
+    return _with_heights(march, moment, solution, march.heights(time), "the steady one of smooth bodies")
 
 
 def gap_start(march: PointMarch, time: float, thickness: float, velocity: float) -> tuple[Moment, PointFilmSolution]:
@@ -194,26 +192,37 @@ def _given(
     moment = _moment(march, setting.frame, state)
     found = Found(level, Outcome(state, 0, 0, 0.0, True), None, level.convolutions)
     solution = _said(march, setting, found, time, given=True)
-    heights = march.heights(time)
-    if heights is None:
-        heights = np.zeros(march.shape)
-    return _with_heights(march, moment, solution, heights, words)
+    return _with_heights(march, moment, solution, march.heights(time), words)
 
 
 def _with_heights(
-    march: PointMarch, moment: Moment, solution: PointFilmSolution, heights: FloatArray, words: str
+    march: PointMarch, moment: Moment, solution: PointFilmSolution, heights: FloatArray | None, words: str
 ) -> tuple[Moment, PointFilmSolution]:
-    film = moment.film - heights
+    """The first film with the surfaces (nx, ny) in it, in films, and what a reader must know of it."""
     missed = solution.load / march.operation.load(solution.time or 0.0) - 1
-    notes = solution.notes
     if abs(missed) > march.tolerance:
-        notes += (f"the first film is {words}: it carries the load {100 * missed:+.2g} %",)
+        note = f"the first film is {words}: it carries the load {100 * missed:+.2g} %"
+        solution = replace(solution, notes=(*solution.notes, note))
+    if heights is None:
+        return moment, solution
+    film, unit = moment.film - heights, march.scales.film
     loaded = moment.pressure > LOADED * moment.pressure.max()
     if loaded.any() and (np.abs(heights) > NOTED * moment.film)[loaded].any():
-        notes += ("surfaces that are in the contact at first lie in its film undeformed",)
-    changed = replace(moment, film=film, mass=moment.mass * film / moment.film)
-    unit = march.scales.film
-    return changed, replace(solution, thickness=film * unit, heights=heights * unit, notes=notes)
+        note = "surfaces that are in the contact at first lie in its film undeformed"
+        solution = replace(solution, notes=(*solution.notes, note))
+    x, y = solution.x, solution.y
+    middle = bilinear(heights, -x[0] / (x[1] - x[0]), -y[0] / (y[1] - y[0]))
+    solution = replace(
+        solution,
+        thickness=film * unit,
+        heights=heights * unit,
+        central_thickness=solution.central_thickness - float(middle) * unit,
+        minimum_thickness=least_film(film) * unit,
+    )
+    if film.min() > 0:
+        forces, rolling = solution.forces()
+        solution = replace(solution, shear_force=forces, rolling_force=rolling)
+    return replace(moment, film=film, mass=moment.mass * film / moment.film), solution
 
 
 def advance(march: PointMarch, at: Reached[Moment], time: float) -> tuple[Reached[Moment], PointFilmSolution]:

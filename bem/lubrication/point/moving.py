@@ -20,7 +20,7 @@ Roughness = Callable[[float], FloatArray]
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 SMOOTH = 0.5
-"""Wavelengths over which waves begin."""
+"""Wavelengths over which waves grow behind their front."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +53,8 @@ class Dent:
 
 @dataclass(frozen=True)
 class Waves:
-    """amplitude cos(2 pi s/wavelength) along a direction [rad from x]. begin : where they begin [m] along it, behind
-    which the body is smooth (a wave needs half its length to grow); None: everywhere. All in m."""
+    """amplitude cos(2 pi s/wavelength) along a direction [rad from x]. begin : the front [m]
+    along it, ahead of which the body is smooth (they grow over half a wave behind it); None: waves everywhere."""
 
     amplitude: float
     wavelength: float
@@ -107,7 +107,7 @@ def bilinear(values: FloatArray, first: FloatArray, second: FloatArray) -> Float
     """Values (nx, ny) at places in cells from the first centre, along either axis; beyond the last ones as there."""
     lows, shares = [], []
     for place, n in zip((first, second), values.shape, strict=True):
-        inside = np.clip(place, 0.0, n - 1.0)
+        inside = np.clip(np.asarray(place, dtype=np.float64), 0.0, n - 1.0)
         low = np.minimum(inside.astype(int), n - 2)
         lows.append(low)
         shares.append(inside - low)

@@ -34,7 +34,7 @@ class DentScene(Table):
 
 
 class WavesScene(Table):
-    """Waviness on the `lower` or `upper` body, with a direction from x; `begin`: where it begins at first, behind which
+    """Waviness on the `lower` or `upper` body, with a direction from x; `begin`: its front at first, ahead of which
     the body is smooth."""
 
     amplitude: PositiveLength

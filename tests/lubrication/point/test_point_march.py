@@ -226,6 +226,15 @@ def test_it_goes_on_to_the_same_bits():
     assert np.array_equal(rest[-1].thickness, whole[-1].thickness)
 
 
+def test_a_first_film_has_the_surfaces_in_it_and_says_so():
+    smooth, first = (march([0, 1e-6], roughness=one)[0] for one in (None, MovingSurface(Dent(5e-8, 6e-5))))
+    assert smooth.heights is None
+    # linear between 12 um wide cells, of a dent that is round there
+    assert first.central_thickness - smooth.central_thickness == pytest.approx(5e-8, rel=0.05)
+    assert first.thickness == pytest.approx(smooth.thickness - first.heights, rel=1e-9)
+    assert first.notes == ("surfaces that are in the contact at first lie in its film undeformed",)
+
+
 def test_a_film_goes_on_from_one_that_is_given():
     first = march([0, 1e-5])[0]
     films = march([0, 2e-4], initial=first, shape=(48, 48))
@@ -255,17 +264,17 @@ def test_the_curve_of_amplitudes():
 
 @pytest.mark.slow
 def test_long_waves_are_pressed_flat_and_short_ones_stay():
-    """Beside Venner and Lubrecht's fit; on finer grids amplitudes are above it by 0.04 (2) to 0.13 (1)."""
+    """Beside Venner and Lubrecht's fit, which amplitudes are above: by 0.08 to 0.16 on finer grids, undamped."""
     moes = math.sqrt(63.8 / 5.79)
     left = []
     for share in (1.0, 2.0):
         wave = share * HALF
         begin = -1.5 * HALF
-        times = np.linspace(0, (1.5 * HALF + 1.7 * wave) / SPEED, 33 if share == 1 else 41)
+        times = np.linspace(0, (1.5 * HALF + 1.7 * wave) / SPEED, 65 if share == 1 else 50)
         surface = MovingSurface(Waves(20e-9, wave, begin=begin))
         films = all_found(march(times, roughness=surface, shape=(56, 48)))
         left.append(amplitude_in_centre(films, wave, begin) / 20e-9)
-        assert left[-1] == pytest.approx(amplitude_reduction(share * moes), abs=0.13)
+        assert left[-1] == pytest.approx(amplitude_reduction(share * moes), abs=0.16)
     assert left[1] < 0.75 * left[0]
 
 
