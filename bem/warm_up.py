@@ -10,6 +10,7 @@ from bem.errors import BemError
 from bem.runs import run_scene
 
 _FEW = ("repetitions=1", "cycles.count=3", "cycles.settled=1", "depths.count=8")
+_SHORT = ("life.count=64", "wear.positions=2")
 
 SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("hertz-sphere", ()),
@@ -25,6 +26,8 @@ SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("film-reciprocating", ("march.duration=5 ms", "march.steps=20")),
     ("stribeck-mineral-oil", ("repetitions=1", "speeds.count=3", "grid.shape=100", "film.points=500")),
     ("running-in-stribeck", (*_FEW, 'speeds.values=["0.01 m/s"]', "cycles.averaged=1", "grid.shape=96")),
+    ("micropitting-rig", (*_SHORT, "grid.shape=[80, 12]", "fatigue.depths.count=2")),
+    ("running-in-life", (*_SHORT, 'fatigue={criterion = "crossland", depths = {count = 2, spacing = "1 um"}}')),
     ("wear-soft-roughness", (*_FEW, "domain.cells=120", "domain.half_widths=2.4")),
     ("wear-steel-brass", (*_FEW, "domain.cells=160")),
     # what a voxel bears is used up at once, so that damage moves with what leaves

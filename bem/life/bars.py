@@ -18,8 +18,9 @@ _LAST = 4
 def bars_of_jumps(state: LifeState, columns: Mapping[str, str]) -> dict[str, float]:
     """Errors of figures at the end, by their names, of the columns of `ROW` that they are.
 
-    The errors of the steps' mean depths add up; a figure follows the depth worn as its last rows do, so that a depth
-    too small by as much moves it along that line. First order, ours.
+    The errors of the steps' mean depths add up, and go to the bodies as their wear does, which the same pressure makes;
+    a figure follows the depth worn as its last rows do, so that a depth too small by as much moves it along that line.
+    First order, ours.
     """
     missed = float(state.over("depth_error")[-1])
     depth = state.over("lower_depth") + state.over("upper_depth")
@@ -29,7 +30,7 @@ def bars_of_jumps(state: LifeState, columns: Mapping[str, str]) -> dict[str, flo
     for name, column in columns.items():
         values = state.over(column)
         if column.endswith("_depth"):
-            bars[name] = missed
+            bars[name] = missed * float(values[-1]) / float(depth[-1]) if depth[-1] > 0 else 0.0
         else:
             steepest = float(np.abs(np.diff(values[first:])).sum())
             bars[name] = steepest / run * missed if run > 0 else 0.0

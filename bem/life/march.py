@@ -1,7 +1,7 @@
 """A life of many cycles in jumps whose error is known: each is made once whole and once in two halves.
 
 The halves stay; their difference from the whole is the halves' own error, since a round is of first order. Steps are
-powers of two times the first, so that the operators of a step are made once. A state holds all that the next step
+powers of two times the first (but the last, and the longest allowed), so that operators are made once. A state holds all that the next step
 needs: a life that is stopped goes on to the same bits. Cycle jumps with step doubling are ours.
 
 Verified in tests/life/test_life.py: against cycle by cycle, order in the tolerance, volume, resuming.
@@ -23,7 +23,7 @@ from bem.wear.loads import LOWER, UPPER
 ROW = (
     *("cycles", "step", "friction", "boundary_friction", "film_friction", "contact_share", "area_share"),
     *("minimum_film", "lambda_ratio", "lower_rms", "upper_rms", "lower_depth", "upper_depth", "film_thickness"),
-    *("film_in_contact", "step_error", "depth_error"),
+    *("step_error", "depth_error"),
 )
 """A step's end as a row of numbers: SI units; means over the positions of its last round and over whole surfaces."""
 
@@ -167,15 +167,13 @@ def _row(
     surfaces, passes = found.surfaces, found.passes
     lower, upper = surfaces.heights
     film = np.zeros(lower.shape) if surfaces.film is None else surfaces.film
-    means = [mean_over(passes, name) for name in _OF_PASSES]
-    boundary, oil, *others = means
-    worn = lower != first[LOWER] if (lower != first[LOWER]).any() else np.ones(lower.shape, bool)
+    boundary, oil, *others = (mean_over(passes, name) for name in _OF_PASSES)
     return np.array(
         [
             *(cycles, step, boundary + oil, boundary, oil, *others),
             *(float((lower + film).std()), float(upper.std())),
             *(float((first[body] - surfaces.heights[body]).mean()) for body in (LOWER, UPPER)),
-            *(float(film.mean()), float(film[worn].mean()), *errors),
+            *(float(film.mean()), *errors),
         ]
     )
 

@@ -79,8 +79,10 @@ def test_bars_hold_what_much_shorter_jumps_change():
     columns = {"rms": "lower_rms", "area": "area_share"}
     coarse = run_life(case(300.0, tolerance=0.3), lower, upper)
     fine = run_life(case(300.0, tolerance=0.05), lower, upper)
-    bars = bars_of_jumps(coarse, {**columns, "depth": "lower_depth"})
-    assert bars["depth"] == coarse.over("depth_error")[-1]
+    bars = bars_of_jumps(coarse, {**columns, "depth": "lower_depth", "other": "upper_depth"})
+    # half of the upper body's wear rate is half of its error
+    assert bars["depth"] == pytest.approx(2 * bars["other"], rel=1e-6)
+    assert bars["depth"] + bars["other"] == pytest.approx(coarse.over("depth_error")[-1], rel=1e-12)
     # under load control the depth is exact, and nothing else is left to scale a bar by: the surface's own error
     missed = abs(coarse.over("lower_rms")[-1] - fine.over("lower_rms")[-1])
     assert missed < 0.05 * (fine.over("lower_rms")[0] - fine.over("lower_rms")[-1])

@@ -67,10 +67,11 @@ class LifeWear(Table):
 
     def rates(self, bodies: tuple[Body, Body], friction: float) -> tuple[float, float]:
         """Volume by load and distance of (lower, upper) [m^2/N]."""
-        assert isinstance(self.law, LocalWear)
-        lower, upper = (self.law.rate(body, friction) for body in bodies)
-        wear = INDICES[self.wears]
-        return lower if LOWER in wear else 0.0, upper * self.law.upper_over_lower if UPPER in wear else 0.0
+        law, rates = self.law, [0.0, 0.0]
+        assert isinstance(law, LocalWear)
+        for body in INDICES[self.wears]:
+            rates[body] = law.rate(bodies[body], friction) * (law.upper_over_lower if body == UPPER else 1.0)
+        return rates[LOWER], rates[UPPER]
 
     @property
     def distance(self) -> float:
