@@ -1,8 +1,8 @@
 """A life of many cycles in jumps whose error is known: each is made once whole and once in two halves.
 
 The halves stay; their difference from the whole is the halves' own error, since a round is of first order. Steps are
-powers of two times the first (but the last, and the longest allowed), so that operators are made once. A state holds all that the next step
-needs: a life that is stopped goes on to the same bits. Cycle jumps with step doubling are ours.
+powers of two times the first (but the last, and the longest allowed), so that operators are made once. A state holds
+all that the next step needs: a life that is stopped goes on to the same bits. Cycle jumps with step doubling are ours.
 
 Verified in tests/life/test_life.py: against cycle by cycle, order in the tolerance, volume, resuming.
 """
