@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -46,6 +47,6 @@ class ElementModel(Table):
     specific_wear_rate: Annotated[WearCoefficient, Field(ge=0)] | None = None
     permissible_film_ratio: Annotated[Ratio, Field(gt=0)] | None = None
 
+    @abstractmethod
     def contacts(self) -> Contacts:
         """All contacts of the element."""
-        raise NotImplementedError
