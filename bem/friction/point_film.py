@@ -36,9 +36,9 @@ _TRIED = (1.0, 0.5, 0.25)
 """Shares of a load under which a film is looked for, one after the other."""
 _DECADES = 12.0
 THIN_NOTE = (
-    "under the heaviest of its loads the film is thinner than its cells can show: taken is that of a smaller load, its "
-    "pressure going on as Hertz' and its thickness by the fit of Nijenbanning, Venner and Moes (film.cells raises the "
-    "load from which)"
+    "the film is thinner than its cells can show: taken is that of a smaller load, its pressure going on as Hertz' and "
+    "its thickness by the fit of Nijenbanning, Venner and Moes, its minimum not to be trusted; more cells of the film "
+    "put that off"
 )
 
 

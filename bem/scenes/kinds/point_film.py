@@ -50,7 +50,7 @@ class PointFilmScene(SceneModel):
     @model_validator(mode="after")
     def _smooth(self) -> PointFilmScene:
         if self.lower.surface.kind != "smooth" or self.upper.surface.kind != "smooth":
-            raise problem("a rough surface", "smooth surfaces; of a point contact there is no load sharing yet")
+            raise problem("a rough surface", "smooth surfaces here; kind friction shares the load of rough balls")
         if self.oil.film_rheology == "shear_law":
             raise problem('film_rheology = "shear_law"', '"newtonian": the film of a point contact follows no other')
         return self
