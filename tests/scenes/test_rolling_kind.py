@@ -5,6 +5,7 @@ import pytest
 from small_scenes import pressed_ball
 
 from bem import InputError
+from bem.campaigns.refine import solve_case
 from bem.scenes import PlainContext, get_kind, load_scene
 
 
@@ -60,6 +61,17 @@ def test_figures_have_error_bars_of_first_order():
         assert error < record.errors[name] < 0.2 * abs(getattr(record, name))
         assert finer.errors[name] < 0.7 * record.errors[name]
     assert record.errors["creepage"] < 1e-5 * record.creepage  # given
+
+
+def test_an_accuracy_can_be_asked_for():
+    """Of the force alone: cells are chosen and refined until its bar is within it."""
+    asked = scene({"creepage": 5e-4}, grid={"lengths": "300 um"}, accuracy={"force": "1.5 %"})
+    kind = get_kind("rolling")
+    resolved = kind.resolved(asked)
+    record = solve_case(kind, resolved, PlainContext(resolved.seed))
+    assert record.status == "converged"
+    assert record.errors["force"] <= 0.015 * abs(record.force)
+    assert record.pressure.shape[0] > resolved.grid.shape[0]  # not met on the first level
 
 
 def test_nothing_in_contact_carries_nothing():
