@@ -29,6 +29,11 @@ def case(load: float, oil: float, ratio: float, points: int) -> dict[str, Any]:
     lubricant = Lubricant.of(
         "ISO VG 68", temperature=SUPPLY, density_law="dowson_higginson", shear_law="eyring", shear_stress_limit=5e6
     )
+    return of_moes(lubricant, load, oil, ratio) | {"points": points}
+
+
+def of_moes(lubricant: Lubricant, load: float, oil: float, ratio: float) -> dict[str, Any]:
+    """Of any oil between these bodies."""
     twice, steel = 2 * MODULUS, Body(CATALOGUE["steel-52100"].material)
     number = (oil / (lubricant.pressure_viscosity * twice)) ** 4
     mean = 0.5 * number * twice * RADIUS / lubricant.viscosity
@@ -39,7 +44,6 @@ def case(load: float, oil: float, ratio: float, points: int) -> dict[str, Any]:
         "speeds": (mean * (1 + ratio / 2), mean * (1 - ratio / 2)),
         "lubricant": lubricant,
         "bodies": (steel, steel),
-        "points": points,
     }
 
 

@@ -19,12 +19,11 @@ import numpy as np
 
 from bem import Lubricant, solve_full_thermal_line_film, solve_thermal_line_film
 from bem.errors import InputError, Status
-from bem.materials import CATALOGUE, Body
 from reports.experiments.kept import keep
+from reports.experiments.lumped_heat import MODULUS, RADIUS, of_moes
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "thermal_films.json"
 MODELS = {"lumped": solve_thermal_line_film, "full": solve_full_thermal_line_film}
-MODULUS, RADIUS = 115.5e9, 0.01
 LOADS, OILS, RATIOS, TEMPERATURES = (0.01, 5000.0), (0.0, 25.0), (0.0, 2.0), (293.15, 423.15)
 """Moes' M (evenly over its logarithm) and L, slide-to-roll ratio, temperature of oil and bodies [K]."""
 NAMES = ("ISO VG 10", "ISO VG 32", "ISO VG 68", "ISO VG 100", "ISO VG 320", "PAO 4")
@@ -42,20 +41,10 @@ def case(rng: np.random.Generator) -> tuple[dict[str, Any], dict[str, Any]]:
     laws: dict[str, Any] = {"density_law": str(rng.choice(DENSITIES)), "shear_law": str(rng.choice(SHEARS))}
     strength = {"shear_stress_limit": 5e6} if laws["shear_law"] == "eyring" else {}
     lubricant = Lubricant.of(name, temperature=temperature, **laws, **strength)
-    twice, steel = 2 * MODULUS, Body(CATALOGUE["steel-52100"].material)
-    number = (oil / (lubricant.pressure_viscosity * twice)) ** 4
-    mean = 0.5 * number * twice * RADIUS / lubricant.viscosity
-    asked = {
-        "load": load * math.sqrt(number) * twice * RADIUS,
-        "radius": RADIUS,
-        "contact_modulus": MODULUS,
-        "speeds": (mean * (1 + ratio / 2), mean * (1 - ratio / 2)),
-        "lubricant": lubricant,
-        "bodies": (steel, steel),
-    }
+    asked = of_moes(lubricant, load, oil, ratio)
     hertz = math.sqrt(asked["load"] * MODULUS / (math.pi * RADIUS))
     said = {"M": load, "L": oil, "slide_roll_ratio": ratio, "temperature_C": temperature - 273.15, "oil": name, **laws}
-    return said | {"hertz_pressure_GPa": hertz / 1e9, "mean_speed": mean}, asked
+    return said | {"hertz_pressure_GPa": hertz / 1e9, "mean_speed": 0.5 * sum(asked["speeds"])}, asked
 
 
 def tried(model: str, asked: dict[str, Any]) -> dict[str, Any]:
