@@ -417,8 +417,6 @@ GOOD_REASONS = {
     "hardness-optimum": {"few_cells_per_wave"},  # the thesis' cell, two to the shortest wave
     "running-in-stribeck": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise
     "running-in-ball": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise, the same surfaces
-    # a disc of 1 mm on a contact of 0.2 mm; the hardness is the martensite's, the yield stress is given apart from it
-    "running-in-life": {"cylinder_too_narrow_for_a_line", "yield_against_hardness"},
     "wear-criteria": {"few_cells_per_length_of_the_criterion"},  # a sphere of two cells: its sizes never settle
     "tribofilm-macro": {"few_cells_per_wave"},  # 430 um on 256 cells hold waves of 4 um with 2.4 cells
     "wear-hard-roughness": {"steep_roughness"},  # Sq 1500 nm is the variant's point; its slope is 5
