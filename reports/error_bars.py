@@ -19,7 +19,7 @@ RESULTS = Path(__file__).parent / "results"
 _KINDS = {
     "contact": "contact", "film": "friction", "mixed": "friction", "march": "film", "asperities": "asperities",
     "flow": "flow-factors", "rubbing": "surface-temperature", "tribofilm": "tribofilm",
-    "wear": "wear", "particle": "particles", "sticking": "partial-slip",
+    "wear": "wear", "running_in": "running-in", "particle": "particles", "sticking": "partial-slip",
 }  # fmt: skip
 """The kind of scene whose code an experiment runs."""
 

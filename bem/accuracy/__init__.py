@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from bem.accuracy.stress import stress_bars
     from bem.accuracy.traction import TractionCase, traction_bars, traction_figures
     from bem.accuracy.tribofilm import TribofilmCase, history_figures, tribofilm_bars
-    from bem.accuracy.wear import wear_bars
+    from bem.accuracy.wear import running_in_bars, wear_bars
 
 __all__ = [
     "Coarser",
@@ -63,6 +63,7 @@ __all__ = [
     "mixed_figures",
     "particle_bars",
     "rubbing_bars",
+    "running_in_bars",
     "solve_coarser",
     "solve_coarser_film",
     "solve_coarser_mixed",
@@ -97,6 +98,6 @@ __getattr__ = loader(
         "stress": ["stress_bars"],
         "traction": ["TractionCase", "traction_bars", "traction_figures"],
         "tribofilm": ["TribofilmCase", "history_figures", "tribofilm_bars"],
-        "wear": ["wear_bars"],
+        "wear": ["running_in_bars", "wear_bars"],
     },
 )

@@ -7,6 +7,7 @@ test_friction_kinds.py.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -75,10 +76,14 @@ class WearScenePart(Table):
 
 
 class LastCycles(Table):
-    """How many cycles, and over how many of the last ones means are taken."""
+    """How many cycles, and over how many of the last ones means are taken.
+
+    `coarser_grid` : the same cycles once more on the grid of twice the cell, for error bars of what cells leave open.
+    """
 
     count: Count = 200
     settled: Count = 50
+    coarser_grid: bool = Field(default=False, strict=True)
 
     @model_validator(mode="after")
     def _enough(self) -> Self:
@@ -144,6 +149,43 @@ def cycle_steps(
         ),
         Step("pieces", "runs of yielded voxels along depth", seconds=0.004 * cycles, memory=8.0 * grid.cells * 8),
     )
+
+
+def bars_step(scene: Any, grid: Grid, convolutions: int) -> Step:
+    """Of a plan: the loop on the coarser grid; `convolutions` of the contacts of a cycle."""
+    wanted = scene.cycles.coarser_grid
+    return Step(
+        "error bars",
+        "the same cycles on the grid of twice the cell" if wanted else _SCATTER_ALONE,
+        skipped=not wanted,
+        kept=0.0,
+        transforms=4.0 * convolutions * scene.cycles.count,
+        points=padded_points(grid.shape, grid.periodic) // 4,
+    )
+
+
+_SCATTER_ALONE = "cycles.coarser_grid is false: what repetitions scatter is all that is told of errors"
+
+
+def resolution_keys(scene: Any, factor: float) -> dict[str, Any]:
+    """Keys of a scene with so many times the depths, that slides as far in a cycle on so many times the cells."""
+    depths, shift = scene.depths, factor * scene.wear.shift
+    return {
+        "depths.count": max(2, round(factor * (depths.count - 1)) + 1),
+        "depths.spacing": depths.spacing / factor,
+        "wear.shift": math.floor(abs(shift) + 0.5) * (1 if shift > 0 else -1),
+    }
+
+
+def on_every_second_cell(heights: tuple[FloatArray, FloatArray], grid: Grid) -> tuple[FloatArray, FloatArray] | None:
+    """Heights of both bodies on the grid of twice the cell; None where cells are odd or too few for one."""
+    from bem.accuracy.wear import FEWEST
+    from bem.contact.cascade import sample
+
+    if not all(n % 2 == 0 and n >= FEWEST for n in grid.shape):
+        return None
+    lower, upper = (np.array(sample(each, grid.coarsened().shape, grid.periodic)) for each in heights)
+    return lower, upper
 
 
 def wear_loop(

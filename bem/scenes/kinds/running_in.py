@@ -7,7 +7,7 @@ run-in friction the mean of the last ones.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
@@ -16,9 +16,9 @@ from pydantic import model_validator
 
 from bem.grid import FloatArray
 from bem.scenes import build, plans, wearing
-from bem.scenes.axes import Axis, changed
+from bem.scenes.axes import Axis, changed, with_keys
 from bem.scenes.common import PositivePressure, Repetitions, problem
-from bem.scenes.context import Context
+from bem.scenes.context import Context, PlainContext, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.lubrication import MixedScene, tell_of_film
 from bem.scenes.planner import Plan, Step
@@ -27,6 +27,7 @@ from bem.scenes.rubbing import FRICTION_SLIDES, RubbedRecord, rubbed
 from bem.scenes.tables.sharing import RunningInCycles, RunningInSharing
 
 if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars
     from bem.wear import RunningIn, RunningInState
     from bem.wear.mixed import MixedContact
 
@@ -94,6 +95,7 @@ def plan(scene: RunningInScene) -> Plan:
         *wearing.cycle_steps(
             scene, grid, contacts=_CONTACTS, friction=float(scene.contact.boundary_friction != 0), **cycles
         ),
+        wearing.bars_step(scene, grid, _CONVOLUTIONS),
         plans.figures(grid.cells),
     )
 
@@ -163,12 +165,47 @@ class RunningInRecord(GridRecord, RubbedRecord):
 
 
 def run(scene: RunningInScene, context: Context) -> RunningInRecord:
-    """One wear loop."""
+    """One wear loop, and where its errors are asked for the same on a coarser grid."""
+    initial = build.both_heights(scene, build.grid_of(scene.grid), context)
+    found = wear_down(scene, initial, context)
+    return replace(found, **error_bars(context, scene.cycles.coarser_grid, lambda: bars(scene, initial, found)))
+
+
+def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: RunningInRecord) -> ErrorBars:
+    """Of the loop on every second cell and half the points of the film."""
+    from bem.accuracy import running_in_bars
+    from bem.accuracy.wear import MIXED_RULES
+
+    coarse, there = wearing.on_every_second_cell(initial, build.grid_of(scene.grid)), None
+    if coarse is not None:
+        there = wear_down(at_resolution(scene, 0.5), coarse, PlainContext(scene.seed))
+    figures = (None if one is None else {name: getattr(one, name) for name in MIXED_RULES} for one in (found, there))
+    return running_in_bars(*figures)  # type: ignore[arg-type]
+
+
+def at_resolution(scene: RunningInScene, factor: float) -> RunningInScene:
+    """The scene with so many times the cells, depths and points of the film, that slides as far in a cycle."""
+    grid = scene.grid
+    assert grid.shape is not None
+    keys: dict[str, Any] = {
+        "grid.shape": tuple(round(factor * n) for n in grid.shape),
+        "sharing.film_points": min(max(round(factor * scene.sharing.film_points), _FEWEST_POINTS), _MOST_POINTS),
+    }
+    if grid.spacing is not None:
+        keys["grid.spacing"] = tuple(h / factor for h in grid.spacing)
+    return with_keys(scene, keys | wearing.resolution_keys(scene, factor))
+
+
+_FEWEST_POINTS, _MOST_POINTS = 100, 2000
+"""Of the film in loops for error bars: its tables' error is far below what cells leave."""
+
+
+def wear_down(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], context: Context) -> RunningInRecord:
+    """The wear loop of a scene from these heights [m] on its grid."""
     from bem.wear.mixed import MixedContact, pack_balance, shared_film_table, unpack_balance
 
     sharing, (speeds,), saved = scene.sharing, scene.speeds.build(), context.saved()
     setup = scene.setup(**sharing.model_dump())
-    initial = build.both_heights(scene, setup.grid, context)
     frames = [] if saved is None else [np.asarray(frame) for frame in saved["frames"]]
     balance = {} if saved is None else unpack_balance(saved)
     step = MixedContact(setup, speeds, table=shared_film_table(setup, speeds), **balance)

@@ -5,7 +5,6 @@ A case is one load, one variant and one pair of surfaces; sizes are means over t
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
@@ -20,7 +19,7 @@ from bem.scenes.axes import Axis, listed, variants, with_keys
 from bem.scenes.common import BodyScene, Repetitions, SceneModel, problem
 from bem.scenes.context import Context, PlainContext, error_bars
 from bem.scenes.kind import Kind
-from bem.scenes.planner import Plan, Step, padded_points
+from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, filled, grid_map
 from bem.scenes.rubbing import RubbedRecord, rubbed
 from bem.scenes.tables.shape import ShapeScene
@@ -87,19 +86,11 @@ def plan(scene: WearScene) -> Plan:
         ),
         Step("kernels of an earlier run", _KERNELS, skipped=True),
         Step(f"deeper stresses, down to {scene.depths.count} depths", _DEEPER, skipped=True),
-        Step(
-            "error bars",
-            "the same cycles on the grid of twice the cell" if scene.cycles.coarser_grid else _SCATTER_ALONE,
-            skipped=not scene.cycles.coarser_grid,
-            kept=0.0,
-            transforms=4.0 * _CONVOLUTIONS * scene.cycles.count,
-            points=padded_points(grid.shape, grid.periodic) // 4,
-        ),
+        wearing.bars_step(scene, grid, _CONVOLUTIONS),
         plans.figures(grid.cells),
     )
 
 
-_SCATTER_ALONE = "cycles.coarser_grid is false: what repetitions scatter is all that is told of errors"
 _KERNELS = "not kept on disk: made once for all cycles, in a few per cent of the run's time"
 _DEEPER = "no piece that reaches the surface gets past a depth at which nothing yields"
 _over, _map = partial(Series, ("cycle",)), partial(grid_map, of="last")
@@ -176,16 +167,11 @@ def run(scene: WearScene, context: Context) -> WearRecord:
 def bars(scene: WearScene, initial: tuple[FloatArray, FloatArray], found: WearRecord) -> ErrorBars:
     """Of the loop on every second cell, with the reported sizes."""
     from bem.accuracy import wear_bars
-    from bem.accuracy.wear import FEWEST, RULES
-    from bem.contact.cascade import sample
+    from bem.accuracy.wear import RULES
 
-    cells = scene.domain.cells
-    there = None
-    if all(n % 2 == 0 and n >= FEWEST for n in cells):
-        coarser = at_resolution(scene, 0.5)
-        grid, _ = _slice(coarser)
-        lower, upper = (np.array(sample(heights, grid.shape, grid.periodic)) for heights in initial)
-        there = wear_down(coarser, (lower, upper), PlainContext(scene.seed))
+    coarse, there = wearing.on_every_second_cell(initial, _slice(scene)[0]), None
+    if coarse is not None:
+        there = wear_down(at_resolution(scene, 0.5), coarse, PlainContext(scene.seed))
     figures = (None if one is None else {name: getattr(one, name) for name in RULES} for one in (found, there))
     told = wear_bars(*figures)  # type: ignore[arg-type]
     reported = {f"{scene.sizes.report}_mean_{size}": f"reported_{size}" for size in wearing.QUANTITIES}
@@ -203,14 +189,9 @@ def _slice(scene: WearScene) -> tuple[Grid, float]:
 
 def at_resolution(scene: WearScene, factor: float) -> WearScene:
     """The scene with so many times the cells and depths, that slides as far in a cycle."""
-    (nx, ny), depths, shift = scene.domain.cells, scene.depths, factor * scene.wear.shift
-    keys = {
-        "domain.cells": (round(factor * nx), round(factor * ny)),
-        "depths.count": max(2, round(factor * (depths.count - 1)) + 1),
-        "depths.spacing": depths.spacing / factor,
-        "wear.shift": math.floor(abs(shift) + 0.5) * (1 if shift > 0 else -1),
-    }
-    return with_keys(scene, keys)
+    nx, ny = scene.domain.cells
+    cells = {"domain.cells": (round(factor * nx), round(factor * ny))}
+    return with_keys(scene, cells | wearing.resolution_keys(scene, factor))
 
 
 def wear_down(scene: WearScene, initial: tuple[FloatArray, FloatArray], context: Context) -> WearRecord:

@@ -75,13 +75,9 @@ class DomainScene(Table):
 
 
 class CyclesScene(LastCycles):
-    """How long: `count` cycles, or until settled; means are over the last `settled` cycles.
-
-    `coarser_grid` : the same cycles once more on the grid of twice the cell, for error bars of what cells leave open.
-    """
+    """How long: `count` cycles, or until settled; means are over the last `settled` cycles."""
 
     stop_when_settled: bool = Field(default=False, strict=True)
-    coarser_grid: bool = Field(default=False, strict=True)
     tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = 0.02
 
 

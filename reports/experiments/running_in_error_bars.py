@@ -1,0 +1,97 @@
+"""Error bars of random running-in loops against loops on a quarter of the cell.
+
+    python -m reports.experiments.running_in_error_bars [CASES]
+
+Patches of 51 um by 26 um with 80 to 112 cells along the sliding, three to eight of them to the correlation length, a
+cylinder of 2 mm under 3 to 8 N on 6 mm at 1 mm/s to 0.3 m/s, 12 cycles of which the last six count. The finer grid sees
+the same waves, with four times the depths and points of the film. The result is stored in
+`reports/results/running_in_error_bars.json`.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem.accuracy.wear import MIXED_RULES
+from bem.errors import BemError
+from bem.scenes import build
+from bem.scenes.context import PlainContext
+from bem.scenes.kind import get_kind
+from bem.scenes.kinds import running_in
+from bem.scenes.load import scene_from_table
+from reports.experiments.contact_error_bars import waves_through
+from reports.experiments.judging import judge
+
+RESULT = Path(__file__).resolve().parents[1] / "results" / "running_in_error_bars.json"
+FINER, SIDE = 4, 51.2e-6
+
+
+def draw(rng: np.random.Generator) -> dict[str, Any]:
+    """A random scene."""
+    cells = int(rng.choice([80, 96, 112]))
+    cell = SIDE / cells
+    correlated = float(rng.uniform(3, 8)) * cell
+
+    def rough(low: float, high: float) -> dict[str, Any]:
+        return {"kind": "generated", "rms_height": float(rng.uniform(low, high)), "correlation_length": correlated}
+
+    return {
+        "kind": "running-in",
+        "seed": int(rng.integers(1 << 30)),
+        "lower": {"material": "steel-disk-110HV", "surface": rough(60e-9, 200e-9)},
+        "upper": {"material": "steel-cylinder", "surface": rough(10e-9, 60e-9)},
+        "contact": {
+            "radius": 2e-3,
+            "width": 6e-3,
+            "loads": [float(rng.uniform(3, 8))],
+            "boundary_friction": float(rng.uniform(0.08, 0.2)),
+        },
+        "oil": {"viscosity": 0.36, "pressure_viscosity": 25e-9},
+        "speeds": [10 ** float(rng.uniform(-3, math.log10(0.3)))],
+        "grid": {"shape": [cells, cells // 2], "spacing": cell},
+        "depths": {"count": int(rng.integers(8, 14)), "spacing": float(rng.uniform(0.15, 0.25)) * cell},
+        "wear": {"shift": int(rng.integers(2, 6))},
+        "cycles": {"count": 12, "settled": 6, "averaged": 6, "coarser_grid": True},
+        "sharing": {"film_points": 200},
+    }
+
+
+def rows_of(table: dict[str, Any]) -> list[dict[str, Any]]:
+    """Bar and true error of every figure of a loop; none of a loop that cannot be run."""
+    kind = get_kind("running-in")
+    scene = kind.resolved(scene_from_table(table))
+    grid = build.grid_of(scene.grid)
+    words = f"{grid.shape[0]} cells, {table['speeds'][0]:.2g} m/s, seed {table['seed']}"
+    lower, upper = (waves_through(h, 1) for h in build.both_heights(scene, grid, PlainContext(scene.seed)))
+    fine = (waves_through(lower, FINER), waves_through(upper, FINER))
+    try:
+        found = running_in.wear_down(scene, (lower, upper), PlainContext(scene.seed))
+        bars = running_in.bars(scene, (lower, upper), found)
+        truth = running_in.wear_down(running_in.at_resolution(scene, FINER), fine, PlainContext(scene.seed))
+    except BemError as error:
+        print(f"{words}: {error}")
+        return []
+    print(words, flush=True)
+    return [
+        {
+            "figure": name,
+            "loop": words,
+            "value": getattr(found, name),
+            "error": abs(getattr(found, name) - getattr(truth, name)),
+            "bar": bars.values[name],
+        }
+        for name in MIXED_RULES
+    ]
+
+
+def main() -> None:
+    """Judge the bars of so many."""
+    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=24)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,90 @@
+"""Error bars of running-in: from the same cycles on the grid of twice the cell, where that is asked for."""
+
+import copy
+import json
+
+import pytest
+from small_scenes import PATCH
+
+from bem.accuracy import running_in_bars
+from bem.accuracy.wear import FROM_START, MIXED_RULES
+from bem.runs import run_scene
+from bem.scenes import build, get_kind
+from bem.scenes.kinds.running_in import at_resolution
+from bem.scenes.load import scene_from_table
+from reports.experiments.running_in_error_bars import RESULT
+
+SCENE = {
+    "kind": "running-in",
+    "speeds": ["0.003 m/s", "0.5 m/s"],
+    "depths": {"count": 12, "spacing": "100 nm"},
+    "cycles": {"count": 6, "averaged": 3, "settled": 3, "coarser_grid": True},
+    "sharing": {"film_points": 200},
+    **PATCH,
+    "contact": PATCH["contact"] | {"boundary_friction": 0.35},  # so that the coarser loop wears, too
+}
+
+
+def summary_of(tmp_path, **tables):
+    return run_scene(copy.deepcopy(SCENE) | tables, tmp_path / "run", figures=False).summary
+
+
+def test_figures_have_bars_in_boundary_lubrication_and_in_full_film_and_stay_what_they_are(tmp_path):
+    found = summary_of(tmp_path)
+    assert found["particles_per_cycle"][0] > 0 == found["contact_load_N"][1]
+    for key in (
+        "friction_initial",
+        "friction_run_in",
+        "Sq_initial_nm",
+        "Sq_final_nm",
+        "minimum_film_nm",
+        "lambda_ratio",
+    ):
+        assert found[f"{key}_error"] == found[f"{key}_error_grid"], key
+        assert all(error > 0 for error in found[f"{key}_error"]), key
+    # no contact on either grid, and so none that could be wrong
+    assert found["contact_load_N_error"][1] == 0
+    # both loads together are given
+    assert found["film_load_N_error"] == found["contact_load_N_error"]
+    assert found["particle_equivalent_radius_nm_error"] in (None, [None, None])
+    plain = summary_of(tmp_path / "plain", cycles={"count": 6, "averaged": 3, "settled": 3})
+    for key in ("friction_run_in", "Sq_final_nm", "contact_load_N", "particles_per_cycle"):
+        assert found[key] == plain[key], key
+    assert "friction_run_in_error" not in plain
+
+
+def test_the_coarser_loop_has_half_of_all_and_slides_as_far():
+    kind = get_kind("running-in")
+    scene = kind.resolved(scene_from_table(copy.deepcopy(SCENE)))
+    half = at_resolution(scene, 0.5)
+    one, other = build.grid_of(scene.grid), build.grid_of(half.grid)
+    assert other.shape == (32, 16)
+    assert other.lengths == pytest.approx(one.lengths)
+    assert half.sharing.film_points == 100
+    assert half.wear.shift == 2  # of 3: half a cell cannot be slid
+    assert build.grid_of(at_resolution(half, 2).grid) == one
+
+
+def test_where_nothing_wears_only_what_was_before_any_wear_has_a_bar():
+    worn = dict.fromkeys(MIXED_RULES, 1.0)
+    for found, coarser in ((worn, worn | {"worn_depth": 0.0}), (worn | {"worn_depth": 0.0},) * 2):
+        told = running_in_bars(found, coarser)
+        assert {name for name, bar in told.values.items() if bar is not None} == set(FROM_START)
+        assert "nothing wears" in told.notes[0]
+    full = worn | {"worn_depth": 0.0, "contact_load": 0.0}
+    assert None not in running_in_bars(full, full).values.values()
+    assert None not in running_in_bars(worn, worn | {"friction": 2.0}).values.values()
+
+
+def test_odd_grids_have_none_and_say_so(tmp_path):
+    found = summary_of(tmp_path, grid={"shape": [64, 31], "spacing": "0.8 um"}, speeds=["0.5 m/s"])
+    assert found["friction_run_in_error"] in (None, [None])
+    assert any("it needs even numbers of cells" in note for note in found["notes"])
+
+
+def test_the_stored_judgement_covers():
+    stored = json.loads(RESULT.read_text())
+    bars = sum(row["bars"] for row in stored["figures"].values())
+    covered = sum(row["bars"] * row["covered"] for row in stored["figures"].values())
+    assert bars > 100
+    assert covered / bars > 0.88
