@@ -210,3 +210,20 @@ def test_stopped_between_steps_it_goes_on_to_the_same_bits():
             assert np.array_equal(one, two), field.name
         elif isinstance(one, float):
             assert one == two, field.name
+
+
+@pytest.mark.parametrize(("pressure", "told"), [("100 MPa", False), ("5 GPa", True)])
+def test_a_closed_joint_has_no_stiffness_and_says_so(pressure, told):
+    rough = {"kind": "generated", "rms_height": "20 nm", "correlation_length": "20 um"}
+    record, context = run(
+        outputs={"stiffness": True},
+        grid={"shape": 16, "lengths": "100 um", "periodic": [True, True]},
+        lower={"material": "steel-52100", "surface": rough},
+        shape={"kind": "flat"},
+        contact={"mean_pressure": pressure},
+        push={"friction": 0.4, "share": 0.5, "steps": 1},
+    )
+    assert (record.normal_stiffness is None) == (record.tangential_stiffness is None) == told
+    assert ("no stiffness of the joint" in " ".join(context.notes)) == told
+    if not told:
+        assert record.tangential_stiffness == pytest.approx(1.4 / 1.7 * record.normal_stiffness, rel=0.1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
-from bem.errors import Status
+from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid
 from bem.scenes import build
 from bem.scenes.context import Context, error_bars
@@ -197,7 +198,8 @@ def _bars(
             half = pushed(scene, coarser, pressed(scene, coarser, max(steps // 2, 1)))
             fewer, converged = figures_of(scene, half), converged and half.status is Status.CONVERGED
         if scene.outputs.stiffness:
-            stiff = _stiffness(scene, coarser)
+            # closed on the coarser grid: what is not known there has no bar
+            stiff = _stiffness(scene, coarser) or dict.fromkeys(("normal_stiffness", "tangential_stiffness"), math.nan)
             figures, fewer = figures | stiff, None if fewer is None else fewer | stiff
         return Coarse(figures, there.last.traction, converged, fewer)
 
@@ -212,6 +214,13 @@ _PROBE = 1e-3
 """Of the approach from first touch, or of the range of gaps: how far the bodies are moved for the normal stiffness."""
 
 
+_CLOSED = (
+    "no stiffness of the joint: every cell carries load on a doubly periodic grid, no gap is left to give way, and the "
+    "bodies' own elasticity is not part of it"
+)
+"""Note on full contact."""
+
+
 def _stiffness(
     scene: PartialSlipScene, site: Site, note: Callable[[str], None] = lambda text: None
 ) -> dict[str, float]:
@@ -222,16 +231,23 @@ def _stiffness(
     contact = site.contact
     if not contact.load > 0:
         return {"normal_stiffness": 0.0, "tangential_stiffness": 0.0}
+    if all(site.grid.periodic) and contact.pressure.min() > 0:
+        note(_CLOSED)
+        return {}
     asked = scene.contact.accuracy() | {"hardness": scene.contact.hardness, "initial_pressure": contact.pressure}
     operator = build.operator_of(scene, site.grid, 0.0)
     step = _PROBE * max(abs(contact.approach), float(np.ptp(contact.gap)))
-    near = [solve_contact(site.gap, operator, approach=contact.approach + sign * step, **asked) for sign in (-1, 1)]
+    near = [solve_contact(site.gap, operator, approach=contact.approach - step, **asked)]
+    try:
+        near.append(solve_contact(site.gap, operator, approach=contact.approach + step, **asked))
+    except InfeasibleError:  # nearly closed: no room for a step further
+        near.append(contact)
     for found in near:
         if found.status is not Status.CONVERGED:
             note(f"normal stiffness: {found.status.message}, residual {found.residual:.1e}")
     stuck = tangential_stiffness(contact, site.grid, build.bodies_of(scene), tolerance=scene.push.tolerance)
     return {
-        "normal_stiffness": (near[1].load - near[0].load) / (2 * step),
+        "normal_stiffness": (near[1].load - near[0].load) / (near[1].approach - near[0].approach),
         "tangential_stiffness": float(stuck[0, 0]),
     }
 

@@ -185,19 +185,16 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
 
 def at_resolution(scene: RunningInScene, factor: float) -> RunningInScene:
     """The scene with so many times the cells, depths and points of the film, that slides as far in a cycle."""
-    grid = scene.grid
+    grid, sharing = scene.grid, scene.sharing
     assert grid.shape is not None
     keys: dict[str, Any] = {
         "grid.shape": tuple(round(factor * n) for n in grid.shape),
-        "sharing.film_points": min(max(round(factor * scene.sharing.film_points), _FEWEST_POINTS), _MOST_POINTS),
+        "sharing.film_points": min(max(round(factor * sharing.film_points), 100), 2000),
+        "sharing.film_cells": min(max(round(factor * sharing.film_cells), 32), 256),
     }
     if grid.spacing is not None:
         keys["grid.spacing"] = tuple(h / factor for h in grid.spacing)
     return with_keys(scene, keys | wearing.resolution_keys(scene, factor))
-
-
-_FEWEST_POINTS, _MOST_POINTS = 100, 2000
-"""Of the film in loops for error bars: its tables' error is far below what cells leave."""
 
 
 def wear_down(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], context: Context) -> RunningInRecord:
