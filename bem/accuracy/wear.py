@@ -4,7 +4,8 @@ Wear is chaotic in the small: which piece leaves first decides which is left, so
 is discretisation and scatter in one, and so is the bar, the difference times a factor and a share of the figure where
 it happens to pass zero. Numbers and means by number follow the cell; lengths and widths do so as long as a correlation
 length has few of them (against a quarter of the cell, 40 % off with three to eight, 20 % on half the cell): no bars.
-Factors are set by experiment and judged by `reports/experiments/wear_error_bars.py`: an estimate, no proved bound.
+Factors are set by experiment and judged by `reports/experiments/wear_error_bars.py` and `running_in_error_bars.py`: an
+estimate, no proved bound.
 """
 
 from __future__ import annotations
@@ -72,7 +73,7 @@ def running_in_bars(found: Mapping[str, float], coarser: Mapping[str, float] | N
 
 def _of_film(found: Mapping[str, float], bars: dict[str, float]) -> dict[str, float]:
     """With what the contact's load leaves of the film's: together they are given, so that both have one error. A film
-    that carries little is as thin as its load is large, at most (rigid walls); its friction follows the root of it."""
+    that carries little is as thin as its load is large, at most (rigid walls); its friction was seen to follow half as much."""
     film = found["film_load"]
     share = min(bars["contact_load"] / film, 1.0) if film > 0 else 1.0
     return bars | {

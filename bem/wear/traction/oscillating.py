@@ -26,8 +26,6 @@ AT_ONCE = (
     "what sticks in the loop is less sure than of bodies alike; tractions change no pressure"
 )
 """Note on bodies that differ."""
-
-
 ALL_SLIPS = (
     "the force is less than friction x load, and yet every cell slips: what sticks is narrower than a cell, and how "
     "far the surfaces slide hangs on cells alone; take a smaller share, or smaller cells"
@@ -41,8 +39,8 @@ class Oscillating(TractionLaw):
     peak again, a step each; traction and slip are of that loop.
 
     Coulomb's friction with the local pressure (Cattaneo 1938; Mindlin and Deresiewicz 1953). Under a pressure that
-    stays, the first way back erases what was before, so the loop is the steady one, and a step each gives its energy
-    where slip keeps its direction. Pieces leave under the tractions at its end; a local law wears by what each place
+    stays, the first way back erases what was before (but for what slips sideways), so the loop is the steady one, and a
+    step each gives its energy where slip keeps its direction. Pieces leave under the tractions at its end; a local law wears by what each place
     slides in `loops` of them.
     """
 
