@@ -46,7 +46,10 @@ _MIXED_NOTHING = (
     "run-in figures have no error bars: surfaces touch, and nothing wears on the grid of twice the cell, or here; "
     "whether anything does on finer cells is not known"
 )
-_ODD = f"no error bars from a coarser loop: it needs even numbers of cells, {FEWEST} at least"
+_ODD = (
+    f"no error bars from a coarser loop: it needs even numbers of cells, {FEWEST} at least, and contacts that converge "
+    "on the grid of twice the cell"
+)
 _NOTHING = "no error bars from a coarser loop: nothing wears on the grid of twice the cell, or here"
 
 
@@ -73,7 +76,8 @@ def running_in_bars(found: Mapping[str, float], coarser: Mapping[str, float] | N
 
 def _of_film(found: Mapping[str, float], bars: dict[str, float]) -> dict[str, float]:
     """With what the contact's load leaves of the film's: together they are given, so that both have one error. A film
-    that carries little is as thin as its load is large, at most (rigid walls); its friction was seen to follow half as much."""
+    that carries little is as thin as its load is large, at most (rigid walls); its friction was seen to follow half as
+    much."""
     film = found["film_load"]
     share = min(bars["contact_load"] / film, 1.0) if film > 0 else 1.0
     return bars | {

@@ -11,13 +11,13 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from bem.errors import InputError
+from bem.errors import ConvergenceError, InputError
 from bem.grid import FloatArray, Grid
 from bem.scenes import plans
 from bem.scenes.common import PositiveLength, Table, problem
@@ -35,6 +35,7 @@ from bem.wear.traction import GrossSliding, TractionLaw
 if TYPE_CHECKING:
     from bem.wear import RunningIn, RunningInState
 
+Found = TypeVar("Found")
 _CHECKPOINT_EVERY = 10  # cycles
 Count = Annotated[int, Field(strict=True, ge=1)]
 IntArray = NDArray[np.int_]
@@ -177,15 +178,21 @@ def resolution_keys(scene: Any, factor: float) -> dict[str, Any]:
     }
 
 
-def on_every_second_cell(heights: tuple[FloatArray, FloatArray], grid: Grid) -> tuple[FloatArray, FloatArray] | None:
-    """Heights of both bodies on the grid of twice the cell; None where cells are odd or too few for one."""
+def on_every_second_cell(
+    heights: tuple[FloatArray, FloatArray], grid: Grid, loop: Callable[[tuple[FloatArray, FloatArray]], Found]
+) -> Found | None:
+    """What a loop finds from the heights of both bodies on the grid of twice the cell; None where cells are odd or too
+    few for one, or a contact there does not converge."""
     from bem.accuracy.wear import FEWEST
     from bem.contact.cascade import sample
 
     if not all(n % 2 == 0 and n >= FEWEST for n in grid.shape):
         return None
     lower, upper = (np.array(sample(each, grid.coarsened().shape, grid.periodic)) for each in heights)
-    return lower, upper
+    try:
+        return loop((lower, upper))
+    except ConvergenceError:
+        return None
 
 
 def wear_loop(

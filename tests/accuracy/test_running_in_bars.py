@@ -3,15 +3,18 @@
 import copy
 import json
 
+import numpy as np
 import pytest
 from small_scenes import PATCH
 
+from bem import ConvergenceError, Grid
 from bem.accuracy import running_in_bars
 from bem.accuracy.wear import FROM_START, MIXED_RULES
 from bem.runs import run_scene
 from bem.scenes import build, get_kind
 from bem.scenes.kinds.running_in import at_resolution
 from bem.scenes.load import scene_from_table
+from bem.scenes.wearing import on_every_second_cell
 from reports.experiments.running_in_error_bars import RESULT
 
 SCENE = {
@@ -88,3 +91,18 @@ def test_the_stored_judgement_covers():
     covered = sum(row["bars"] * row["covered"] for row in stored["figures"].values())
     assert bars > 100
     assert covered / bars > 0.88
+
+
+def test_a_coarser_loop_that_does_not_converge_leaves_the_case_as_it_is():
+    grid = Grid((32, 24), (1e-6, 1e-6), periodic=(False, True))
+    flat = np.zeros(grid.shape)
+
+    def stalls(heights):
+        assert heights[0].shape == (16, 12)
+        raise ConvergenceError("cycle 1: the contact stalled")
+
+    assert on_every_second_cell((flat, flat), grid, stalls) is None
+    assert on_every_second_cell((flat, flat), grid, lambda heights: 7.0) == 7.0
+    told = running_in_bars(dict.fromkeys(MIXED_RULES, 1.0), None)
+    assert set(told.values.values()) == {None}
+    assert "contacts that converge" in told.notes[0]

@@ -176,9 +176,10 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
     from bem.accuracy import running_in_bars
     from bem.accuracy.wear import MIXED_RULES
 
-    coarse, there = wearing.on_every_second_cell(initial, build.grid_of(scene.grid)), None
-    if coarse is not None:
-        there = wear_down(at_resolution(scene, 0.5), coarse, PlainContext(scene.seed))
+    def loop(heights: tuple[FloatArray, FloatArray]) -> RunningInRecord:
+        return wear_down(at_resolution(scene, 0.5), heights, PlainContext(scene.seed))
+
+    there = wearing.on_every_second_cell(initial, build.grid_of(scene.grid), loop)
     figures = (None if one is None else {name: getattr(one, name) for name in MIXED_RULES} for one in (found, there))
     return running_in_bars(*figures)  # type: ignore[arg-type]
 

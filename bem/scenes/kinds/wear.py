@@ -169,9 +169,10 @@ def bars(scene: WearScene, initial: tuple[FloatArray, FloatArray], found: WearRe
     from bem.accuracy import wear_bars
     from bem.accuracy.wear import RULES
 
-    coarse, there = wearing.on_every_second_cell(initial, _slice(scene)[0]), None
-    if coarse is not None:
-        there = wear_down(at_resolution(scene, 0.5), coarse, PlainContext(scene.seed))
+    def loop(heights: tuple[FloatArray, FloatArray]) -> WearRecord:
+        return wear_down(at_resolution(scene, 0.5), heights, PlainContext(scene.seed))
+
+    there = wearing.on_every_second_cell(initial, _slice(scene)[0], loop)
     figures = (None if one is None else {name: getattr(one, name) for name in RULES} for one in (found, there))
     told = wear_bars(*figures)  # type: ignore[arg-type]
     reported = {f"{scene.sizes.report}_mean_{size}": f"reported_{size}" for size in wearing.QUANTITIES}

@@ -39,9 +39,9 @@ class Oscillating(TractionLaw):
     peak again, a step each; traction and slip are of that loop.
 
     Coulomb's friction with the local pressure (Cattaneo 1938; Mindlin and Deresiewicz 1953). Under a pressure that
-    stays, the first way back erases what was before (but for what slips sideways), so the loop is the steady one, and a
-    step each gives its energy where slip keeps its direction. Pieces leave under the tractions at its end; a local law wears by what each place
-    slides in `loops` of them.
+    stays, the first way back erases what was before (but for what slips sideways), so the loop is the steady one, and
+    a step each gives its energy where slip keeps its direction. Pieces leave under the tractions at its end; a local
+    law wears by what each place slides in `loops` of them.
     """
 
     loops: float = parameter("loops that one computed cycle stands for, of a local law", default=1.0, above=0)
