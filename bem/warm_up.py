@@ -22,6 +22,7 @@ SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("rolling-creepage", ("grid.shape=24", 'over={"roll.creepage" = [0.001]}')),
     ("coated-sphere", ("grid.shape=96",)),
     ("film-barrel", ("film.cells=64",)),
+    ("waviness", ("film.cells=32", "march.steps=4", "march.duration=0.1 ms")),
     ("traction-curve", ("film.points=300", 'over={"rolling.slide_roll_ratio" = [0.1]}')),
     ("film-reciprocating", ("march.duration=5 ms", "march.steps=20")),
     ("stribeck-mineral-oil", ("repetitions=1", "speeds.count=3", "grid.shape=100", "film.points=500")),

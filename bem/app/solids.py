@@ -132,7 +132,7 @@ def _ball(rings: int = 6, sides: int = 10) -> tuple[NDArray[np.float64], NDArray
 
 def _space(words: str, unit: str) -> Picture:
     scene = {
-        "xaxis": axis_title(label("x, sliding", unit)),
+        "xaxis": axis_title(label("x", unit)),
         "yaxis": axis_title(label("y", unit)),
         "zaxis": axis_title(label("z", unit)),
         "aspectmode": "data",

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+from scipy.special import ellipe, ellipk
 
 from bem import Body, Grid, InputError, Material, displacement_operator, generate_surface, solve_contact
-from bem.reference_solutions.partial_slip import bonded_stiffening
+from bem.reference_solutions.partial_slip import bonded_stiffening, spence_stick_share
 from bem.tangential import solve_coupled_slip, solve_partial_slip, tangential_operator
 
 SOFT = Body(Material("soft", youngs_modulus=1e9, poissons_ratio=0.1))
@@ -50,6 +51,59 @@ def test_a_ball_that_sticks_is_as_stiff_as_spence_has_it(nu):
     assert 2 * fine - coarse == pytest.approx(exact, rel=6e-3)
     assert abs(2 * fine - coarse - exact) < 0.25 * abs(4 / (1 - nu) - exact)
     assert found.tangential.slip_area < 0.02 * found.contact.contact_area
+
+
+def sticking_share(friction, nu, coupled, rings=100):
+    """Radius of what sticks over that of contact, of a rigid ball pressed on: from rings of pressure and traction.
+
+    What grows alike at every load moves in the plane by a^2 f(r/a); what sticks keeps what it has, so f = C s^2 there.
+    The rings are those of Boussinesq and Cerruti (Johnson, Contact Mechanics, 3.8): elliptic integrals for pressure on
+    height and traction in the plane, sums within or without a radius for one on the other. Traction runs on smoothly
+    into friction x pressure for one share only. Nothing is shared with bem.
+    """
+    edges = np.linspace(0, 1, rings + 1)
+    r, width, fine = 0.5 * (edges[1:] + edges[:-1]), 1 / rings, (np.arange(40) + 0.5) / 40
+    at, source = r[:, None, None], (edges[:-1, None] + width * fine)[None]
+    low, high = np.minimum(at, source), np.maximum(at, source)
+    first, second = ellipk((low / high) ** 2), ellipe((low / high) ** 2)
+    height = 2 * (1 - nu**2) * (2 / np.pi * first / high * source).sum(2) * width / 40
+    plane = 2 * (1 - nu**2) * (2 / np.pi * (first - second) / low * source).sum(2) * width / 40
+    part = (1 - 2 * nu) * (1 + nu) * width
+    within = np.tril(np.ones((rings, rings)), -1) + 0.5 * np.eye(rings)
+    drawn, lifted = -part * within * r / r[:, None], -part * within.T * coupled
+
+    def excess(stuck):
+        size = rings + stuck + 2  # pressures, tractions that stick, C, approach
+        system, right = np.zeros((size, size)), np.zeros(size)
+        system[:rings, :rings] = height
+        system[:rings, rings : rings + stuck] = lifted[:, :stuck]
+        system[:rings, stuck:rings] += friction * lifted[:, stuck:]
+        system[:rings, -1], right[:rings] = -1, -0.5 * r**2
+        system[rings : rings + stuck, :rings] = drawn[:stuck]
+        system[rings : rings + stuck, stuck:rings] += friction * plane[:stuck, stuck:]
+        system[rings : rings + stuck, rings : rings + stuck] = plane[:stuck, :stuck]
+        system[rings : rings + stuck, -2] = -(r[:stuck] ** 2)
+        # pressure falls like a root at its edge, and the traction that sticks runs on into that which slips
+        system[-1, rings - 1], system[-1, rings - 2] = 1, -np.sqrt(1 / 3)
+        system[-2, [rings + stuck - 1, rings + stuck - 2, stuck]] = 2, -1, -friction
+        found = np.linalg.solve(system, right)
+        return found[rings + stuck - 2] / found[stuck - 2] / friction - 1
+
+    counts = np.arange(rings // 10, rings // 2)
+    values = np.array([excess(count) for count in counts])
+    after = int(np.argmax(values >= 0))
+    return float(np.interp(0, values[after - 1 : after + 1], counts[after - 1 : after + 1])) / rings
+
+
+def test_less_sticks_under_the_pressure_that_friction_makes():
+    """Rings of first order, extrapolated; they meet Spence's closed form, which leaves the pressure as it is."""
+    alone, both = (2 * sticking_share(0.2, 0.0, c) - sticking_share(0.2, 0.0, c, rings=50) for c in (False, True))
+    assert alone == pytest.approx(spence_stick_share(0.2 / 0.5), rel=0.01)
+    found, _ = pressed(0.2, 16)
+    share = np.sqrt(found.tangential.stick_area / found.contact.contact_area)
+    # measured 1 %, with 14 cells to a radius and 16 steps of first order
+    assert share == pytest.approx(both, rel=0.03)
+    assert both < 0.75 * alone
 
 
 def test_friction_draws_the_pressure_together_and_less_sticks():

@@ -12,6 +12,7 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray
+from bem.representation import readable
 
 Heights = Callable[[FloatArray, FloatArray], FloatArray]
 """Heights out of the body [m] at points (x, y) on it [m], arrays of one shape."""
@@ -71,6 +72,7 @@ class Waves:
         return waves * into**2 * (3 - 2 * into)
 
 
+@readable
 @dataclass(frozen=True, eq=False)
 class MeasuredHeights:
     """A patch of heights (nx, ny) [m] with sides of cells (dx, dy) [m], as `bem.read_surface` or `bem.generate_surface`
