@@ -34,9 +34,9 @@ class CoupledSolution:
 
     Attributes
     ----------
-    contact : its gap has what the tractions lift, its displacement is that of the pressure alone.
+    contact : its gap has what the tractions move, its displacement is that of the pressure alone.
     tangential : stick and slip under its pressure; its convolutions and iterations are those of all rounds.
-    lift : (nx, ny) [m], by which the tractions press the surfaces apart, both together.
+    normal_displacement : (nx, ny) [m], by which the tractions press the surfaces apart, both together.
     rounds : of contact and slip by turns.
     residual : the largest of both residuals, and of how far the contact misses its gap under the tractions at the end,
         over its largest displacement.
@@ -46,7 +46,7 @@ class CoupledSolution:
 
     contact: ContactSolution
     tangential: TangentialSolution
-    lift: FloatArray
+    normal_displacement: FloatArray
     rounds: int
     residual: float
     status: Status
@@ -102,23 +102,23 @@ def solve_coupled_slip(  # reason: a promise to users' scripts, each of them a c
     inner: dict[str, Any] = {"tolerance": _INNER * tolerance, "max_iterations": max_iterations}
     asked: dict[str, Any] = {"load": load, "approach": approach, "mean_gap": mean_gap, "hardness": hardness}
     before = None if previous is None else previous.tangential
-    lift = np.zeros(grid.shape) if previous is None else previous.lift
+    moved = np.zeros(grid.shape) if previous is None else previous.normal_displacement
     pressure = None if previous is None else previous.contact.pressure
     near: TangentialSolution | None = None
     rounds, convolutions, iterations = 0, 0.0, 0
     while True:
         rounds += 1
-        contact = solve_contact(gap + lift, operator, initial_pressure=pressure, **asked, **inner)
+        contact = solve_contact(gap + moved, operator, initial_pressure=pressure, **asked, **inner)
         pressure = contact.pressure
         request = checked(contact, grid, bodies, friction=friction, force=force, shift=shift, previous=before)
         near = solve_step(request, rotation, before, _INNER * tolerance, max_iterations, near)
         convolutions, iterations = convolutions + near.convolutions, iterations + near.iterations
-        answer = tangential.lift(near.traction)
-        missed = _missed(contact, answer - lift, free=approach is None)
+        answer = tangential.normal_displacement(near.traction)
+        missed = _missed(contact, answer - moved, free=approach is None)
         residual = max(contact.residual + missed, near.residual)
         if residual <= tolerance or rounds >= max_rounds:
             break
-        lift = answer
+        moved = answer
     status = Status.CONVERGED if residual <= tolerance else Status.MAX_ITERATIONS
     if Status.CONVERGED not in (contact.status, status):
         status = contact.status

@@ -81,7 +81,7 @@ def _push(odd_x: FloatArray, odd_y: FloatArray, pressure: ComplexArray, out: Com
 
 
 @_fast
-def _lift(odd_x: FloatArray, odd_y: FloatArray, along_x: ComplexArray, along_y: ComplexArray) -> None:
+def _normal(odd_x: FloatArray, odd_y: FloatArray, along_x: ComplexArray, along_y: ComplexArray) -> None:
     """Spectrum of the normal displacement in place of that of the traction along x: the adjoint of `_push`."""
     rows, length = along_x.shape
     half = length // 2 + 1
@@ -199,7 +199,7 @@ class TangentialOperator:
         _push(*self._pushed, along_y, along_x)
         return self._back(along_x, along_y)
 
-    def lift(self, traction: FloatArray) -> FloatArray:
+    def normal_displacement(self, traction: FloatArray) -> FloatArray:
         """Normal displacement (nx, ny) [m] of both surfaces together under `traction` (2, nx, ny) [Pa].
 
         Into the bodies. By reciprocity the adjoint of `under_pressure`: zero where that is.
@@ -208,7 +208,7 @@ class TangentialOperator:
             return np.zeros(self.grid.shape)
         transform = transform_of(self.grid.shape, self.padded)
         along_x, along_y = transform.forward(traction[0]), transform.forward(traction[1])
-        _lift(*self._pushed, along_x, along_y)
+        _normal(*self._pushed, along_x, along_y)
         out = np.empty(self.grid.shape)
         transform.inverse(along_x, out=out)
         return out

@@ -20,10 +20,10 @@ def test_tractions_lift_as_friction_does(periodic):
     pressure = np.random.default_rng(1).random(grid.shape)
     with_friction, without = (displacement_operator(grid, (SOFT, HARD), friction=f)(pressure) for f in (0.3, 0.0))
     operator = tangential_operator(grid, (SOFT, HARD))
-    lift = operator.lift(np.stack([0.3 * pressure, np.zeros(grid.shape)]))
+    lift = operator.normal_displacement(np.stack([0.3 * pressure, np.zeros(grid.shape)]))
     assert np.abs(lift - (with_friction - without)).max() < 1e-12 * np.abs(lift).max()
     turned = tangential_operator(Grid(grid.shape[::-1], grid.spacing[::-1], periodic=periodic[::-1]), (SOFT, HARD))
-    across = turned.lift(np.stack([np.zeros(grid.shape[::-1]), 0.3 * pressure.T]))
+    across = turned.normal_displacement(np.stack([np.zeros(grid.shape[::-1]), 0.3 * pressure.T]))
     assert np.abs(across.T - lift).max() < 1e-12 * np.abs(lift).max()
 
 
@@ -134,13 +134,13 @@ def test_both_hold_under_each_other():
     assert found.residual <= 1e-7
     pressure, traction = found.contact.pressure, found.tangential.traction
     operator = tangential_operator(grid, (SOFT, HARD))
-    opened = gap + displacement_operator(grid, (SOFT, HARD))(pressure) + operator.lift(traction)
+    opened = gap + displacement_operator(grid, (SOFT, HARD))(pressure) + operator.normal_displacement(traction)
     touches = pressure > 0
     scale = np.abs(found.contact.displacement).max()
     middle = opened[touches].mean()
     assert np.abs(opened[touches] - middle).max() < 3e-7 * scale  # mean and middle of what is missed differ
     assert (opened - middle).min() > -3e-7 * scale
-    assert np.abs(operator.lift(traction)).max() > 1e-3 * scale  # there is something to miss
+    assert np.abs(operator.normal_displacement(traction)).max() > 1e-3 * scale  # there is something to miss
     assert (np.hypot(*traction) <= 0.5 * pressure * (1 + 1e-12)).all()
     moved = operator(traction) + operator.under_pressure(pressure) - found.tangential.shift[:, None, None]
     inside = touches & (np.hypot(*traction) < 0.5 * pressure * (1 - 1e-6))
@@ -156,7 +156,7 @@ def test_like_bodies_answer_in_one_round():
     contact = solve_contact(gap, displacement_operator(grid, (SOFT, SOFT)), load=0.1)
     alone = solve_partial_slip(contact, grid, (SOFT, SOFT), friction=0.3, force=(0.01, 0.0))
     assert found.rounds == 1
-    assert not found.lift.any()
+    assert not found.normal_displacement.any()
     assert found.tangential.shift == pytest.approx(alone.shift, rel=1e-5, abs=1e-14)
 
 
