@@ -7,6 +7,7 @@ forms, so nothing cancels as the ellipse becomes a circle, and one formula gives
 from __future__ import annotations
 
 import math
+import sys
 from dataclasses import dataclass
 
 import numpy as np
@@ -140,9 +141,20 @@ def ellipse_contact(
 
 def ellipse_load(*, radii: tuple[float, float], contact_modulus: float, maximum_pressure: float) -> float:
     """Load [N] of an elliptic contact by its maximum pressure [Pa], with whose third power it goes (Johnson 1985, eq.
-    4.24, 4.28); otherwise as `ellipse_contact`."""
-    one = ellipse_contact(radii=radii, contact_modulus=contact_modulus, load=1.0)
-    return float((maximum_pressure / one.maximum_pressure) ** 3)
+    4.24, 4.28); otherwise as `ellipse_contact`.
+
+    Raises
+    ------
+    InputError : as `ellipse_contact`, and a load beyond numbers.
+    """
+    check_positive("Hertz: ", maximum_pressure=maximum_pressure)
+    one = ellipse_contact(radii=radii, contact_modulus=contact_modulus, load=1.0).maximum_pressure
+    # logarithms: the power of a float that is too large raises an error of its own
+    if not one > 0 or 3 * math.log(maximum_pressure / one) > math.log(sys.float_info.max):
+        raise InputError(
+            f"Hertz: radii {radii} take a load beyond numbers at {maximum_pressure:g} Pa; give smaller radii"
+        )
+    return float((maximum_pressure / one) ** 3)
 
 
 def _integrals(k2: float) -> tuple[float, float]:

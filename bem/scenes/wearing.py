@@ -50,7 +50,11 @@ class WearDepthsScene(Table):
     first: Annotated[Length, Field(ge=0)] = 0.0
 
     def build(self) -> NDArray[np.float64]:
-        """Depths [m]."""
+        """Depths [m]; InputError if they are beyond numbers."""
+        if not math.isfinite(self.first + self.spacing * self.count):
+            raise InputError(
+                f"depths.spacing = {self.spacing:g} m: the deepest lies beyond numbers; give a smaller one"
+            )
         return self.first + self.spacing * np.arange(self.count, dtype=np.float64)
 
 

@@ -5,7 +5,7 @@ In similarity units (`scales`), with the flow between neighbouring cells
     F = -rho h^3/m dP/dx + 6 c rho h
 
 the balance of a cell is div F, in time div F + 6 d(rho h)/dT with d(rho h)/dT = `storing` rho h + what was there
-(`stepping`). Fluidity 1/m is its mean between the two pressures. What is dragged is interpolated from
+(`InTime`). Fluidity 1/m is its mean between the two pressures. What is dragged is interpolated from
 two cells upstream and one downstream (third order; Leonard 1979): films were ten times as accurate as with the two
 upstream ones, and there still is no wave of pressure that the oil does not feel where it is too viscous to flow.
 Entrainment c points to larger indices along both axes. Outermost cells hold no balance.
