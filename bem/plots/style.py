@@ -101,8 +101,11 @@ def height_limit(heights: NDArray[np.float64]) -> float:
     return limit if limit > 0 else largest_of(heights)
 
 
-def field_axes(axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    """Label an axes as a map over x and y in one unit; returns the extent for `imshow`."""
+def field_axes(
+    axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], *, along: str | None = None
+) -> tuple[float, float, float, float]:
+    """Label an axes as a map over x (`along`, where `along_x` does not say it) and y in one unit; returns the extent
+    for `imshow`."""
     dx = float(x[1] - x[0]) if len(x) > 1 else 1.0
     dy = float(y[1] - y[0]) if len(y) > 1 else dx
     if len(x) < 2:
@@ -114,7 +117,7 @@ def field_axes(axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64]) -> tu
         float(y[0] - dy / 2) * factor,
         float(y[-1] + dy / 2) * factor,
     )
-    axes.set_xlabel(label(along_x(), unit))
+    axes.set_xlabel(label(along or along_x(), unit))
     axes.set_ylabel(label("y", unit))
     ratio = (extent[1] - extent[0]) / (extent[3] - extent[2])
     axes.set_aspect("equal" if 0.2 < ratio < 5 else "auto")

@@ -34,7 +34,7 @@ def _disturbed(run: Any) -> int:
 
 def _interferogram(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
-    extent = field_axes(axes, _array(run, "film_x"), _array(run, "film_y"))
+    extent = field_axes(axes, _array(run, "film_x"), _array(run, "film_y"), along="x")
     shown = _disturbed(run)
     colours = finely_coloured(_array(run, "frame_thickness")[shown])
     axes.imshow(colours.transpose(1, 0, 2), extent=extent, origin="lower", aspect=axes.get_aspect())
@@ -51,7 +51,7 @@ def _animate(run: Any, path: Path) -> None:
     figure = Figure(figsize=(4.6, 6.0), layout="constrained")
     FigureCanvasAgg(figure)
     above, below = figure.subplots(2, 1, height_ratios=(3, 2))
-    extent = field_axes(above, x, y)
+    extent = field_axes(above, x, y, along="x")
     image = above.imshow(
         finely_coloured(frames[0]).transpose(1, 0, 2), extent=extent, origin="lower", aspect=above.get_aspect()
     )
@@ -102,9 +102,10 @@ def _sections(run: Any, figure: Figure) -> None:
         other = axes.twinx()
         other.plot(x * along, pressure[index] * force, color=VERMILION, linestyle="--", linewidth=0.9)
         other.set_ylim(0, 1.05 * float(pressure.max()) * force)
-        other.set_ylabel(label("p", force_unit))
+        other.set_ylabel(label("p", force_unit), color=VERMILION)
         axes.set_ylabel(label("h", film_unit))
         axes.set_title(f"{times[index] * factor:.3g} {time_unit}", fontsize="small", loc="left")
+    panels[0].plot([], [], color=VERMILION, linestyle="--", linewidth=0.9, label="pressure, right")
     panels[0].legend(fontsize="x-small", loc="upper center")
     panels[-1].set_xlabel(label("x, through the middle", unit))
 
