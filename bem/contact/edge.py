@@ -121,11 +121,12 @@ def _region(
 ) -> Region:
     constants, fitted = (_WAVES, _WAVES_ENDS) if all(grid.periodic) else (_CELLS, _CELLS_ENDS)
     count = int(inside.sum())
-    excess, length, squares, turns = _sum_squares(
+    excess, length, chords, cubes, turns = _sum_squares(
         (inside, strength, opening, undeformed), grid.spacing, grid.periodic, 0.75 * modulus, constants, ends or fitted
     )
-    # chords cut off curvature x chord^3 / 12; the curvature of all edges adds up to 2 pi a piece, less that of holes
-    segments = 2 * math.pi * turns * (squares / length) / 12 if length > 0 else 0.0
+    # chords cut off curvature x chord^3 / 12; the curvature of all edges adds up to 2 pi a piece, less that of holes;
+    # chords that run back count as well, or what is left of a jagged edge's length makes any area
+    segments = 2 * math.pi * turns * (cubes / chords) / 12 if chords > 0 else 0.0
     area = count * grid.cell_area + excess + segments
     return Region(min(max(area, _LEAST_SHARE * count * grid.cell_area), grid.area), length, count * grid.cell_area)
 
@@ -192,7 +193,7 @@ def _root(parent, cell):  # type: ignore[no-untyped-def]
 @_strict
 def _sum_squares(given, spacing, wraps, factor, constants, ends):  # type: ignore[no-untyped-def]
     """Over the squares between four centres: area within the polygons beyond a quarter of a cell for each centre inside
-    [m^2], length of the edge [m], sum of chord^3 [m^3], Euler's number of the region.
+    [m^2], length of the edge [m], sums of chords [m] and of their cubes [m^3], Euler's number of the region.
 
     given : (inside, strength, opening, shape). strength : vanishes like the root of the distance to the edge inside;
     opening : grows with its power 3/2 outside. shape : the undeformed gap.
@@ -204,7 +205,7 @@ def _sum_squares(given, spacing, wraps, factor, constants, ends):  # type: ignor
     blurred = _blur(inside, wraps_x, wraps_y)
     fields = (*given, blurred)
     place = (spacing, wraps, factor, ends)
-    area, length, cubes, corners = 0.0, 0.0, 0.0, 0
+    area, length, chords, cubes, corners = 0.0, 0.0, 0.0, 0.0, 0
     # each link is cut once: a square's upper sides are the lower ones of the next
     rights = np.full(ny, 0.5)
     for i in range(nx if wraps_x else nx - 1):
@@ -235,8 +236,9 @@ def _sum_squares(given, spacing, wraps, factor, constants, ends):  # type: ignor
             chord = _chord(u * dx, v * dy, along, across)
             area += (share - 0.25 * number) * dx * dy
             length += chord
+            chords += abs(chord)
             cubes += abs(chord) ** 3
-    return area, length, cubes, 0.25 * corners
+    return area, length, chords, cubes, 0.25 * corners
 
 
 @_strict
