@@ -127,6 +127,18 @@ def test_one_problem_from_the_reference_itself(tmp_path):
         fresh.solve(fresh.Drawn("bad", "harmonic", {"nu": 0.7}), tmp_path / "bad.json")
 
 
+@pytest.mark.fem
+def test_a_strip_on_a_thin_soft_layer_has_cells_to_match(tmp_path):
+    """Found by a draw: with cells of 1/120, six over the layer, a small shear was 10 % off."""
+    if not fresh.INTERPRETER.exists():
+        pytest.skip("no .venv-fem: `make setup-fem` makes it")
+    parameters = {"nu": 0.147, "layer": [0.0226, 0.157, 0.0539], "load": "normal"}
+    (gate,) = fresh.gates([fresh.Drawn("thin", "strip", parameters)], tmp_path)
+    found = gate.run()
+    assert any("layer" in row.quantity for row in found)
+    assert [row for row in found if not row.passed] == []
+
+
 def test_points_of_a_drawn_rectangle_are_middles_of_the_cells_of_its_gate():
     """A width that was none ended the draw in a ValueError."""
     from bem.verification.fresh import _rectangle
