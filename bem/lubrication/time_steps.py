@@ -103,7 +103,7 @@ def march(
 ) -> list[Solution]:
     """From a state to the last of all times, or to the first that is not converged; told of every step."""
     for time in times[len(state.solutions) :]:
-        if len(state.solutions) > 1 and state.solutions[-1].status is not Status.CONVERGED:
+        if state.solutions[-1].status is not Status.CONVERGED:
             break
         reached, solution = to(state.reached, float(time))
         state = MarchState(state.steady, reached, (*state.solutions, solution))

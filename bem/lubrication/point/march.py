@@ -81,14 +81,22 @@ class PointMarch:
         """The ball's mass, in units of load over film and time squared."""
         return self.operation.mass * self.scales.film / self.clock**2 / self.force
 
+    def _flow(self, time: float) -> tuple[float, float]:
+        """Sum of the speeds along the frame's axes [m/s]."""
+        pair = vectors(self.operation.speeds(time))
+        assert pair is not None  # the times asked for were checked; between them a function may not change its kind
+        first, second = entrainment(pair)
+        return (second, first) if self.exchanged else (first, second)
+
+    def frame(self, time: float) -> Frame:
+        """In which entrainment points to larger indices."""
+        first, second = self._flow(time)
+        return Frame(self.exchanged, (first < 0, second < 0))
+
     def setting(self, time: float, in_time: InTime | None = None, heights: FloatArray | None = None) -> Setting:
         """The problem at a time; heights (nx, ny) in films on the user's axes."""
-        scales, operation = self.scales, self.operation
-        pair = vectors(operation.speeds(time))
-        assert pair is not None  # the times asked for were checked; between them a function may not change its kind
-        flow = entrainment(pair)
-        first, second = flow[::-1] if self.exchanged else flow
-        frame = Frame(self.exchanged, (first < 0, second < 0))
+        scales, operation, frame = self.scales, self.operation, self.frame(time)
+        first, second = self._flow(time)
         radii = frame.pair([float(r) for r in operation.radii(time)])
         rectangle = frame.rectangle(*(edge / scales.length for edge in self.edges))
         problem = PointProblem(
@@ -104,8 +112,8 @@ class PointMarch:
         )
         hertz = None
         if not scales.rigid:
-            units = tuple(1 / curvature for curvature in problem.curvatures)
-            hertz = ellipse_contact(radii=units, contact_modulus=0.5, load=problem.load)  # type: ignore[arg-type]
+            along, across = problem.curvatures
+            hertz = ellipse_contact(radii=(1 / along, 1 / across), contact_modulus=0.5, load=problem.load)
         return Setting(frame, scales, problem, hertz)
 
     @property
@@ -231,8 +239,7 @@ def advance(march: PointMarch, at: Reached[Moment], time: float) -> tuple[Reache
 
 
 def _step(march: PointMarch, at: Reached[Moment], time: float) -> tuple[Moment, PointFilmSolution]:
-    change = Derivative.at(at, time, march.clock)
-    frame = march.setting(time).frame
+    change, frame = Derivative.at(at, time, march.clock), march.frame(time)
     datum_history = change.history(at, lambda moment: moment.datum)
     leading, weight = change.leading, march.weight
     in_time = InTime(
@@ -248,9 +255,14 @@ def _step(march: PointMarch, at: Reached[Moment], time: float) -> tuple[Moment, 
     setting = march.setting(time, in_time, heights)
     level = Level(setting.problem, march.cells(frame))
     before = at.film
-    pressure = frame.inner(before.pressure)
-    film = np.maximum(own_film(level, pressure, before.datum), LEAST_FILM * frame.inner(before.film))
-    outcome = newton(level, State(pressure, film, before.datum), march.tolerance, MOST)
+    pressure, lowest = frame.inner(before.pressure), LEAST_FILM * frame.inner(before.film)
+    # at rest, or as fast as they were: where bodies part, far pressures vanish at once, too far from rest for Newton
+    for velocity in (0.0, before.velocity):
+        datum = before.datum + velocity * change.step
+        film = np.maximum(own_film(level, pressure, datum), lowest)
+        outcome = newton(level, State(pressure, film, datum), march.tolerance, MOST)
+        if outcome.converged:
+            break
     moment = _moment(march, frame, outcome.state, leading * outcome.state.datum + datum_history)
     solution = _said(march, setting, Found(level, outcome, None, level.convolutions), time)
     if heights is not None:

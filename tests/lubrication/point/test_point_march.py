@@ -322,3 +322,26 @@ def test_mouriers_dimple_where_the_disc_is_slower():
 def test_mistakes_are_said(changes, words):
     with pytest.raises(InputError, match=words):
         march(changes.pop("times"), **changes)
+
+
+def test_a_lightly_loaded_ball_that_lifts_goes_on():
+    """Where it parts from the flat, far pressures vanish at once beside and behind it; a twentieth of a newton stalled
+    while its speed doubled."""
+
+    def speeds(t):
+        return 0.135 * (1 + t / 1e-3), 0.045 * (1 + t / 1e-3)
+
+    light = {"extent": None, "shape": (36, 36), "contact_modulus": 115e9}
+    films = all_found(march(np.linspace(0, 1e-3, 9), load=lambda t: 0.05, speeds=speeds, **light))
+    assert films[-1].central_thickness > 1.05 * films[0].central_thickness
+
+
+def test_from_a_steady_film_that_is_not_found_it_does_not_go_on(monkeypatch):
+    from bem.lubrication.point import march as stepping
+
+    solved = stepping.solved
+    monkeypatch.setattr(
+        stepping, "solved", lambda problem, cells, tolerance, most: solved(problem, cells, tolerance, 2)
+    )
+    films = march([0, 1e-4, 2e-4])
+    assert [film.status for film in films] == [Status.STALLED]
