@@ -7,7 +7,6 @@ formed anew from both. `converged` is said of that.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -104,12 +103,12 @@ def _regions(
             f"at the hardness, the cells in contact are {contact.counted_area / least:.2f} times as many; take a finer "
             "grid",
         )
-    contact = replace(contact, area=max(contact.area, least))
+    contact = contact.of_area(max(contact.area, least))
     if not (pressure >= cap).any():
-        return contact, Region(0.0, 0.0, 0.0), doubt
+        return contact, Region(0.0, 0.0, 0.0, 0.0), doubt
     plastic = plastic_region(pressure, deformed, request.gap, cap, grid, modulus)
     # the rest carries what the load has beyond it
-    return contact, replace(plastic, area=min(plastic.area, least)), doubt
+    return contact, plastic.of_area(min(plastic.area, least)), doubt
 
 
 def _relative(error: float, reference: float) -> float:

@@ -22,7 +22,7 @@ areas of rough surfaces (`reports/experiments/contact_area.py`) and held against
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -72,11 +72,22 @@ _LEAST_SHARE = 0.1
 
 @dataclass(frozen=True)
 class Region:
-    """Part of the surface: area [m^2] and perimeter [m], of second order; the area of its cells as counted [m^2]."""
+    """Part of the surface: area [m^2] and perimeter [m], of second order; the area of its cells as counted [m^2], and
+    the length of the sides that they do not share [m]."""
 
     area: float
     perimeter: float
     counted_area: float
+    sides: float
+
+    def of_area(self, area: float) -> Region:
+        """The same with another area [m^2], and a perimeter that is not shorter than its cells' sides leave it.
+
+        A length of edge passes sides of at most sqrt(2) times its length, and the cells' edge is to that of the region
+        as the roots of their areas. Where chords run back by far, as round single cells, nothing else is known of it.
+        """
+        share = min(area / self.counted_area, 1.0) if self.counted_area > 0 else 0.0
+        return replace(self, area=area, perimeter=max(self.perimeter, math.sqrt(0.5 * share) * self.sides))
 
 
 def contact_region(
@@ -95,7 +106,8 @@ def contact_region(
     grid : of the cells. modulus : E* as the length of a cell sees it [Pa]. ends : what narrow contact and narrow gaps
     add, in place of the fitted constants.
     """
-    return _region(pressure > 0, pressure, gap, undeformed, grid, modulus, ends)
+    found = _region(pressure > 0, pressure, gap, undeformed, grid, modulus, ends)
+    return found.of_area(found.area)
 
 
 def plastic_region(
@@ -107,7 +119,8 @@ def plastic_region(
     # seen from the elastic part of the contact, contact turns plastic as it opens: with the signs turned
     strength = np.where(pressure > 0, hardness - pressure, 0.0)
     rest = _region(elastic, strength, -gap, undeformed, grid, modulus)
-    return Region(grid.area - rest.area, rest.perimeter, grid.area - rest.counted_area)
+    area = grid.area - rest.area
+    return replace(rest, counted_area=grid.area - rest.counted_area).of_area(area)
 
 
 def _region(
@@ -121,14 +134,15 @@ def _region(
 ) -> Region:
     constants, fitted = (_WAVES, _WAVES_ENDS) if all(grid.periodic) else (_CELLS, _CELLS_ENDS)
     count = int(inside.sum())
-    excess, length, chords, cubes, turns = _sum_squares(
+    excess, length, sides, chords, cubes, turns = _sum_squares(
         (inside, strength, opening, undeformed), grid.spacing, grid.periodic, 0.75 * modulus, constants, ends or fitted
     )
     # chords cut off curvature x chord^3 / 12; the curvature of all edges adds up to 2 pi a piece, less that of holes;
     # chords that run back count as well, or what is left of a jagged edge's length makes any area
     segments = 2 * math.pi * turns * (cubes / chords) / 12 if chords > 0 else 0.0
     area = count * grid.cell_area + excess + segments
-    return Region(min(max(area, _LEAST_SHARE * count * grid.cell_area), grid.area), length, count * grid.cell_area)
+    area = min(max(area, _LEAST_SHARE * count * grid.cell_area), grid.area)
+    return Region(area, length, count * grid.cell_area, sides)
 
 
 def count_spots(pressure: FloatArray, grid: Grid) -> int:
@@ -193,7 +207,8 @@ def _root(parent, cell):  # type: ignore[no-untyped-def]
 @_strict
 def _sum_squares(given, spacing, wraps, factor, constants, ends):  # type: ignore[no-untyped-def]
     """Over the squares between four centres: area within the polygons beyond a quarter of a cell for each centre inside
-    [m^2], length of the edge [m], sums of chords [m] and of their cubes [m^3], Euler's number of the region.
+    [m^2], length of the edge [m], that of sides between cells inside and not [m], sums of chords [m] and of their cubes
+    [m^3], Euler's number of the region.
 
     given : (inside, strength, opening, shape). strength : vanishes like the root of the distance to the edge inside;
     opening : grows with its power 3/2 outside. shape : the undeformed gap.
@@ -205,7 +220,7 @@ def _sum_squares(given, spacing, wraps, factor, constants, ends):  # type: ignor
     blurred = _blur(inside, wraps_x, wraps_y)
     fields = (*given, blurred)
     place = (spacing, wraps, factor, ends)
-    area, length, chords, cubes, corners = 0.0, 0.0, 0.0, 0.0, 0
+    area, length, sides, chords, cubes, corners = 0.0, 0.0, 0.0, 0.0, 0.0, 0
     # each link is cut once: a square's upper sides are the lower ones of the next
     rights = np.full(ny, 0.5)
     for i in range(nx if wraps_x else nx - 1):
@@ -220,11 +235,14 @@ def _sum_squares(given, spacing, wraps, factor, constants, ends):  # type: ignor
             if number == 0 or number == 4:
                 continue
             # where the edge crosses the four sides, from their lower end; 0.5 where it does not
+            sides += dy * (c != d) + dx * (b != c)
             if j == 0:
                 low = _cut(fields, i, j, 0, place, constants)
+                sides += 0.0 if wraps_y else dy * (a != b)
             high = _cut(fields, i, m, 0, place, constants)
             if i == 0:
                 left = _cut(fields, i, j, 1, place, constants)
+                sides += 0.0 if wraps_x else dx * (a != d)
             right = _cut(fields, k, j, 1, place, constants)
             rights[j] = right
             share, u, v, turn = _polygon((a, b, c, d), number, (low, high, left, right))
@@ -238,7 +256,7 @@ def _sum_squares(given, spacing, wraps, factor, constants, ends):  # type: ignor
             length += chord
             chords += abs(chord)
             cubes += abs(chord) ** 3
-    return area, length, chords, cubes, 0.25 * corners
+    return area, length, sides, chords, cubes, 0.25 * corners
 
 
 @_strict

@@ -189,6 +189,20 @@ def test_jagged_edges_make_no_area():
         gap = np.where(inside, 0.0, rng.uniform(0.0, 30.0, grid.shape))
         region = contact_region(np.where(inside, 1.0, 0.0), gap, rng.normal(size=grid.shape), grid, 1.0)
         assert region.area <= region.counted_area
+        # nor does what is left of their length, which was as often below zero: edges of no length count as resolved
+        assert region.perimeter > np.sqrt(4 * np.pi * region.area)
+
+
+def test_cells_at_the_hardness_have_edges():
+    """Heights that nothing joins, as of worn surfaces: single cells carry the hardness, the load says their area."""
+    grid = Grid((48, 48), (1.0, 1.0), periodic=(True, True))
+    heights = 3 * np.random.default_rng(1).normal(size=grid.shape)
+    solution = solve_contact(-heights, displacement_operator(grid, Body(UNIT)), load=0.5, hardness=0.01)
+    spots = count_spots(solution.pressure, grid)
+    assert spots > 10
+    assert solution.contact_area == pytest.approx(50, rel=1e-3)
+    # round spots of one size have an edge of 2 sqrt(pi N area), square cells that hang together less
+    assert 0.7 < solution.contact_perimeter / np.sqrt(4 * np.pi * spots * solution.contact_area) < 1.2
 
 
 def test_everywhere_and_nowhere():
