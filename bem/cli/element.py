@@ -114,8 +114,8 @@ def _spelled(name: str, value: float) -> str:
 
 def _running(found: Element) -> dict[str, list[float]]:
     """Show what the element does as it runs; the columns of it."""
-    from bem.cli._terminal import Terminal, table
-    from bem.elements.running import columns, run_all, summary
+    from bem.cli._terminal import Terminal, show_warnings, table
+    from bem.elements.running import columns, notes, run_all, summary
 
     with Terminal() as terminal:
         runs = run_all(found, lambda done, total: terminal.progress(done, total, "films", {}))
@@ -130,6 +130,7 @@ def _running(found: Element) -> dict[str, list[float]]:
     head = ("", "where", "film", "over Sq", "friction", "power", "oil", "hottest surface", "wear 1", "wear 2 per pass")
     table(head, lines, title="as it runs", right=range(2, len(head)))
     table(("", ""), summary(found, runs))
+    show_warnings(notes(runs))
     return solved
 
 

@@ -86,7 +86,7 @@ class CamModel(ElementModel):
             )  # fmt: skip
         turns = self.speed / (2 * math.pi)
         return Contacts(
-            tuple(found), "angle", "rad", self._notes(found, lost), self.half_angle / math.pi, (turns, turns)
+            tuple(found), "angle", "rad", self._notes(found, lost), self.half_angle / math.pi, (turns, None)
         )
 
     def _notes(self, found: list[ElementContact], lost: int) -> tuple[str, ...]:
@@ -104,8 +104,8 @@ class CamModel(ElementModel):
             )
         if self.specific_wear_rate:
             said.append(
-                "the contact wanders to and fro on the follower, so that its places are passed more than once in a "
-                "turn: wear by hour counts each pass by itself"
+                "the contact wanders to and fro on the follower, whose places are passed more than once in a turn and "
+                "slowly where it turns round: depths per pass have no limit there, wear by hour of it is not known"
             )
         said.append("the follower does not turn, and both bodies are as long as the cam is wide, without edges")
         return tuple(said)

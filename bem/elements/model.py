@@ -19,7 +19,8 @@ class Contacts:
     """The contacts of an element in the order of `along`, what that counts, and what the reader must know.
 
     at_once : how many there are at a time, where the contacts are one that wanders.
-    passes : how often a place of either body comes through the contact [1/s]; None where that is no single number.
+    passes : how often a place of either body comes through the contact [1/s]; None of one where that is no single
+        number.
     """
 
     contacts: tuple[ElementContact, ...]
@@ -27,7 +28,7 @@ class Contacts:
     along_unit: str
     notes: tuple[str, ...] = ()
     at_once: float = 1.0
-    passes: tuple[float, float] | None = None
+    passes: tuple[float | None, float | None] = (None, None)
 
 
 class ElementModel(Table):

@@ -8,6 +8,7 @@ point of body i sees all of W in the time that it takes to cross at u_i.
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -27,7 +28,7 @@ class Running:
     minimum_film : [m]. film_ratio : that over the rms roughness of both.
     friction : force over load. power : of friction [W].
     oil : mean temperature in the contact [K]. surface : the hotter surface at its hottest, flash included [K].
-    wear : depth per pass of the lower and the upper body [m].
+    notes : what the film says of its own limits.
     """
 
     contact: ElementContact
@@ -38,7 +39,12 @@ class Running:
     power: float
     oil: float | None
     surface: float | None
-    wear: tuple[float | None, float | None]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def converged(self) -> bool:
+        """Whether film and heat are those of their equations; what is not is no figure of the element."""
+        return self.status is Status.CONVERGED
 
 
 def run_contact(element: Element, contact: ElementContact) -> Running:
@@ -49,7 +55,6 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
     InputError : no oil, or surfaces that run against each other.
     """
     from bem.accuracy import traction_figures
-    from bem.accuracy.traction import film_of
     from bem.scenes.kinds.traction import TractionScene, case_of
 
     scene = load_scene(element.scene(contact, "traction"))
@@ -60,14 +65,14 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
     hottest = max((figures[f"{body}_temperature"] for body in ("lower", "upper")), default=None) if case.hot else None
     return Running(
         contact,
-        film_of(found).status if found.status is Status.CONVERGED else found.status,
+        found.status,
         figures["minimum_thickness"],
         figures.get("lambda_ratio"),
         figures["traction_coefficient"],
         figures["friction_power"],
         figures.get("film_temperature"),
         hottest,
-        wear_per_pass(element, contact),
+        tuple(found.notes),
     )
 
 
@@ -108,25 +113,36 @@ _COLUMNS: dict[str, Callable[[Running], float | None]] = {
     "friction_power [W]": lambda one: one.power,
     "oil_temperature [K]": lambda one: one.oil,
     "surface_temperature [K]": lambda one: one.surface,
-    "wear_per_pass_1 [m]": lambda one: one.wear[0],
-    "wear_per_pass_2 [m]": lambda one: one.wear[1],
 }
 
 
 def columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]:
-    """A row for each contact as in `Element.columns`; not a number where nothing is known."""
-    found = {one.contact: one for one in runs}
+    """A row for each contact as in `Element.columns`; not a number where nothing is known, or no film was found.
+    Wear needs no film, only what it slides."""
+    found = {one.contact: one for one in runs if one.converged}
     at = [found.get(contact) for contact in element.found.contacts]
 
-    def number(one: Running | None, of: Callable[[Running], float | None]) -> float:
-        value = None if one is None else of(one)
+    def number(value: float | None) -> float:
         return math.nan if value is None else value
 
-    return {name: [number(one, of) for one in at] for name, of in _COLUMNS.items()}
+    films = {name: [number(None if one is None else of(one)) for one in at] for name, of in _COLUMNS.items()}
+    worn = [wear_per_pass(element, contact) for contact in element.found.contacts]
+    return films | {f"wear_per_pass_{body} [m]": [number(both[body - 1]) for both in worn] for body in (1, 2)}
 
 
-def summary(element: Element, runs: Sequence[Running]) -> tuple[tuple[str, str], ...]:
-    """What the element does as a whole, in words: power, thinnest film, micropitting, wear by hour, particles."""
+def notes(runs: Sequence[Running]) -> tuple[str, ...]:
+    """What the films say of their limits, each once and of how many places."""
+    said = Counter(text for one in runs if one.converged for text in dict.fromkeys(one.notes))
+    return tuple(f"at {count} of {len(runs)} places: {text}" for text, count in said.items())
+
+
+def summary(element: Element, solved: Sequence[Running]) -> tuple[tuple[str, str], ...]:
+    """What the element does as a whole, in words: power, thinnest film, micropitting, wear by hour, particles; of the
+    films that converged."""
+    lost, runs = [one for one in solved if not one.converged], [one for one in solved if one.converged]
+    missed = [("not converged", f"{len(lost)} of {len(solved)} films, the first at {one.contact.name}") for one in lost]
+    if not runs:
+        return tuple(missed[:1])
     found, places = element.found, len(element.found.contacts)
     power = sum(one.power for one in runs) / places * found.at_once
     rows = [("friction power", f"{power:.4g} W, mean over the places{_of(runs, places)}, {found.at_once:.4g} at once")]
@@ -146,7 +162,7 @@ def summary(element: Element, runs: Sequence[Running]) -> tuple[tuple[str, str],
             )
         )
     rows.append(("micropitting", _micropitting(element, thinnest)))
-    rows.append(("wear by hour", _wear(element, runs)))
+    rows.append(("wear by hour", _wear(element)))
     rows.append(
         (
             "particles by hour",
@@ -154,14 +170,15 @@ def summary(element: Element, runs: Sequence[Running]) -> tuple[tuple[str, str],
             "wear and running-in, whose results say how many by distance)",
         )
     )
-    lost = [one for one in runs if one.status is not Status.CONVERGED]
-    if lost:
-        rows.append(("not converged", f"{len(lost)} of {len(runs)} films, the first at {lost[0].contact.name}"))
-    return tuple(rows)
+    return (*rows, *missed[:1])
 
 
 def _of(runs: Sequence[Running], places: int) -> str:
-    return "" if len(runs) == places else f" (those {places - len(runs)} of {places} without a steady film count none)"
+    return (
+        ""
+        if len(runs) == places
+        else f" (those {places - len(runs)} of {places} without a steady film that converged count none)"
+    )
 
 
 def _micropitting(element: Element, thinnest: Running) -> str:
@@ -178,17 +195,17 @@ def _micropitting(element: Element, thinnest: Running) -> str:
     )
 
 
-def _wear(element: Element, runs: Sequence[Running]) -> str:
-    rates = element.found.passes
+def _wear(element: Element) -> str:
+    contacts, rates = element.found.contacts, element.found.passes
     if element.model.specific_wear_rate is None:
         return "not known: give specific_wear_rate, measured with this oil and load share"
-    if all(one.contact.speeds[0] == one.contact.speeds[1] for one in runs):
+    if all(one.speeds[0] == one.speeds[1] for one in contacts):
         return "none by sliding: both surfaces roll at one speed"
-    if rates is None:
-        return "not known: how often a place is passed is not one number here"
     said = []
-    for body, name in enumerate(("body 1", "body 2")):
-        depths = [(one.wear[body] or 0.0, one.contact.name) for one in runs]
-        depth, where = max(depths)
-        said.append(f"{name} {3600 * rates[body] * depth * 1e6:.3g} um at {where}")
+    for body, rate in enumerate(rates):
+        if rate is None:
+            said.append(f"body {body + 1} not known: how often a place is passed, and how fast, is not one number")
+            continue
+        depth, where = max((wear_per_pass(element, one)[body] or 0.0, one.name) for one in contacts)
+        said.append(f"body {body + 1} {3600 * rate * depth * 1e6:.3g} um at {where}")
     return ", ".join(said) + "; Archard's law with the whole load, the rate being that of this lubrication"

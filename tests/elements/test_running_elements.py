@@ -4,6 +4,7 @@ import csv
 import subprocess
 import sys
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +13,8 @@ from bem import InputError, load_scene, run_scene
 from bem.elements.cases import columns as case_columns
 from bem.elements.cases import load_cases
 from bem.elements.element import element_template, load_element
-from bem.elements.running import columns, run_all, run_contact, summary, wear_per_pass
+from bem.elements.running import columns, notes, run_all, run_contact, summary, wear_per_pass
+from bem.errors import Status
 from bem.scenes.kinds.traction import case_of
 from bem.wear.criterion.local import Archard
 
@@ -44,7 +46,7 @@ def test_a_place_is_what_its_scene_gives(gears, tmp_path):
 def test_wear_is_local_archard_over_one_pass(gears):
     """Against the law stepped through Hertz' pressure: k p times the distance slid in each step of the crossing."""
     element, runs = gears
-    contact = runs[1].contact
+    contact = element.found.contacts[1]
     half = contact.half_width(element.modulus)
     x = half * (np.arange(4000) + 0.5) / 2000 - half
     pressure = contact.hertz(element.modulus).maximum_pressure * np.sqrt(1 - (x / half) ** 2)
@@ -52,7 +54,8 @@ def test_wear_is_local_archard_over_one_pass(gears):
     slid = abs(contact.speeds[0] - contact.speeds[1]) / np.array(contact.speeds) * (x[1] - x[0])
     # midpoints under a square root: 1e-5 of the area on 4000 steps
     assert wear_per_pass(element, contact) == pytest.approx(tuple(rate * pressure.sum() * slid), rel=1e-4)
-    assert runs[1].wear == wear_per_pass(element, contact)
+    found = columns(element, runs)
+    assert (found["wear_per_pass_1 [m]"][1], found["wear_per_pass_2 [m]"][1]) == wear_per_pass(element, contact)
 
 
 def test_the_whole_gear_pair(gears):
@@ -63,11 +66,39 @@ def test_the_whole_gear_pair(gears):
     assert 0.003 < power / (200 * 2250 * np.pi / 30) < 0.03  # gears lose some per cent at most, films some tenths
     assert f"safety {min(one.film_ratio for one in runs) / 0.25:.3g}" in said["micropitting"]
     assert "not its procedure" in said["micropitting"]
-    depths = [one.wear[0] for one in runs]
+    depths = columns(element, runs)["wear_per_pass_1 [m]"]
     assert f"body 1 {max(depths) * 1e6 * 2250 * 60:.3g} um" in said["wear by hour"]
     assert "not known from smooth contacts" in said["particles by hour"]
     assert "at 5 of 5 places the film is thinner" in said["mixed lubrication"]
     assert len(columns(element, runs)["friction_power [W]"]) == 5
+
+
+def test_the_films_limits_are_said(tmp_path):
+    """A creeping bearing at 1.6 GPa: 0.6 nm of oil are no film of Reynolds' equation, as that place's scene says."""
+    bearing = element_of("rolling-bearing", speed="0.5 rpm", radial_load="1 kN")
+    one = run_contact(bearing, bearing.worst())
+    assert one.minimum_film < 1e-9
+    scene = bearing.scene(bearing.worst(), "traction") | {"outputs": {"errors": False}}
+    said = run_scene(scene, tmp_path / "run", figures=False).summary["notes"]
+    assert any("a few molecules" in text for text in one.notes)
+    assert any("exceeds 1 GPa" in text for text in one.notes)
+    assert set(one.notes) <= set(said)
+    assert notes([one, replace(one, notes=())])[0] == f"at 1 of 2 places: {one.notes[0]}"
+
+
+def test_what_did_not_converge_is_no_figure(gears):
+    """Its film had been the thinnest, its power in the mean."""
+    element, runs = gears
+    lost = replace(runs[0], status=Status.STALLED, minimum_film=1e-12, film_ratio=1e-6, power=1e9, notes=("lost",))
+    said = dict(summary(element, (lost, *runs[1:])))
+    assert said["not converged"] == f"1 of 5 films, the first at {lost.contact.name}"
+    assert "count none" in said["friction power"]
+    assert float(said["friction power"].split(" W")[0]) < 1e5
+    assert "safety 1e" not in said["micropitting"]
+    assert said["thinnest film"] == dict(summary(element, runs[1:]))["thinnest film"]
+    assert np.isnan(columns(element, (lost, *runs[1:]))["friction_power [W]"][0])
+    assert notes((lost,)) == ()
+    assert dict(summary(element, (lost,))) == {"not converged": f"1 of 1 films, the first at {lost.contact.name}"}
 
 
 def test_what_is_not_known_is_said():
@@ -75,7 +106,7 @@ def test_what_is_not_known_is_said():
     runs = run_all(cam)
     assert len(runs) < 9  # under the nose there is no steady film
     said = dict(summary(cam, runs))
-    assert "without a steady film count none" in said["friction power"]
+    assert "without a steady film that converged count none" in said["friction power"]
     assert "hottest surface" not in said  # cast iron has no constants of heat in the catalogue
     assert "give specific_wear_rate" in said["wear by hour"]
     assert "becomes a safety" in said["micropitting"]
@@ -83,9 +114,16 @@ def test_what_is_not_known_is_said():
     assert not any("passed more than once" in note for note in cam.notes())
     worn = element_of("cam-follower", points=9, specific_wear_rate=WEAR_RATE)
     assert any("passed more than once" in note for note in worn.notes())
+    nose = worn.found.contacts[4]  # where the cam wears most, and no steady film is
+    assert abs(nose.slide_roll_ratio) > 2
+    depths = columns(worn, [])["wear_per_pass_1 [m]"]
+    assert depths[4] == np.nanmax(depths) == wear_per_pass(worn, nose)[0]
+    said = dict(summary(worn, runs))["wear by hour"]
+    assert f"at {nose.name}" in said
+    assert "body 2 not known" in said  # one over the speed with which the contact turns round there
     bearing = element_of("rolling-bearing", specific_wear_rate=WEAR_RATE)
     one = run_contact(bearing, bearing.worst())
-    assert one.wear == (0.0, 0.0)
+    assert wear_per_pass(bearing, one.contact) == (0.0, 0.0)
     assert "both surfaces roll at one speed" in dict(summary(bearing, [one]))["wear by hour"]
 
 
