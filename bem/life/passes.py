@@ -5,7 +5,6 @@ Verified in tests/life/test_life.py.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
@@ -30,7 +29,8 @@ class Passing:
     """Which of (lower, upper) pass through the contact, and in how many positions a round looks at them.
 
     A body that does not pass lies on the grid and wears a scar; one that passes has all its rows go through, evenly.
-    Both pass in different orders, so that each position pairs other roughness; within a round every pair counts alike.
+    Where both pass, which places meet hangs on the difference of their offsets alone: those are spread evenly, too,
+    all different in an odd number of positions; in an even one, which no permutation can do, but for one.
     """
 
     positions: int
@@ -38,18 +38,21 @@ class Passing:
 
     def offsets(self, rows: tuple[int, int]) -> tuple[tuple[int, int], ...]:
         """Rows by which lower and upper body have moved along +x in each position, of bodies of so many rows."""
-        stride = _coprime_near(0.618 * self.positions, self.positions)
-        orders = (range(self.positions), [j * stride % self.positions for j in range(self.positions)])
         moved = [
             [round(count * j / self.positions) if passes else 0 for j in order]
-            for count, passes, order in zip(rows, self.bodies, orders, strict=True)
+            for count, passes, order in zip(rows, self.bodies, _orders(self.positions), strict=True)
         ]
         return tuple(zip(*moved, strict=True))
 
 
-def _coprime_near(wanted: float, count: int) -> int:
-    """The number nearest to that which has no divisor in common with the count."""
-    return min((n for n in range(1, count + 1) if math.gcd(n, count) == 1), key=lambda n: abs(n - wanted))
+def _orders(count: int) -> tuple[list[int], list[int]]:
+    """Two orders of 0 ... count - 1 whose differences modulo the count are as many as can be: forwards, and backwards,
+    which makes every second difference, in an even count one less from its half on, which makes the others."""
+    even = count % 2 == 0
+    backwards = [(-j - (1 if even and 2 * j >= count else 0)) % count for j in range(count)]
+    if even:
+        backwards[-1] = count // 2
+    return list(range(count)), backwards
 
 
 def facing(offset: int, rows: int, whole: int) -> NDArray[np.int_]:

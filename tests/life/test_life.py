@@ -39,6 +39,9 @@ def test_positions_cover_both_bodies_evenly_in_pairs_of_their_own():
         lower, upper = (sorted(set(each)) for each in zip(*pairs, strict=True))
         assert lower == [round(24 * j / count) for j in range(count)]
         assert upper == [round(48 * j / count) for j in range(count)]
+        # what meets is decided by the difference: even counts have no permutation with all of them (their sum is odd)
+        apart = {(low - up) % count for low, up in Passing(count, (True, True)).offsets((count, count))}
+        assert len(apart) >= count - (count % 2 == 0)
     assert {low for low, _ in Passing(4, (False, True)).offsets((8, 8))} == {0}
 
 
