@@ -146,6 +146,8 @@ class SolvedFilm:
         """Load [N] up to which a film is looked for."""
         return largest_film_load(self.contact, self.speeds)
 
+    solved_load = math.inf  # as of `SolvedPointFilm`: none goes on from another
+
     @property
     def errors(self) -> tuple[float, ...]:
         """As `Film`: a coarse mesh and the one asked for, or that alone if it is no finer."""

@@ -12,6 +12,7 @@ from bem.accuracy import MixedCase, mixed_bars, mixed_figures, solve_coarser_mix
 from bem.accuracy.mixed import half_grid
 from bem.errors import Status
 from bem.friction.balance import Regime
+from bem.friction.films import films_of
 from bem.friction.load_sharing import solve_setup
 from bem.friction.setup import MixedSetup
 from reports.experiments.mixed_error_bars import draw, rows_of
@@ -91,3 +92,25 @@ def test_bars_cover_nine_errors_in_ten_and_are_not_far_too_large():
     # of so few contacts, whose figures go together, the share scatters by a tenth
     assert np.mean(ratios >= 1) >= 0.8
     assert np.median(ratios) <= 7
+
+
+def test_bars_of_a_ball_hold_how_far_its_film_goes_on():
+    """A film at six times the load that it is solved under, against the film solved under all of it: the film's part of
+    friction's bar fell short, and the minimum, of half the thickness, had a bar of a tenth."""
+    grid = Grid((40, 40), (14e-6, 20e-6))
+    ball = {"radii": (0.01, 0.025), "load": 110.0, "lubricant": Lubricant(0.03, pressure_viscosity=8e-9)}
+    ball |= {"boundary_friction": 0.12, "film_cells": 32, "oil_volume": "loaded"}
+    height = 40e-9 * np.sin(2 * np.pi * grid.x / 60e-6)[:, None] * np.sin(2 * np.pi * grid.y / 60e-6)
+    setup, speeds = MixedSetup(**steel_line(grid, **ball, radius=None, width=None)), (0.05, 0.035)
+    case = MixedCase(setup, height, solve_setup(setup, height, speeds))
+    fine = setup.with_film(112)
+    assert 6 * films_of(setup, speeds).solved_load < case.solution.film_load < films_of(fine, speeds).solved_load
+    bars, there = mixed_bars(case, solve_coarser_mixed(case)), mixed_figures(solve_setup(fine, height, speeds))
+    found = mixed_figures(case.solution)
+    assert bars.parts["film points"]["friction"] > abs(found["friction"] - there["friction"])
+    for name in ("minimum_film", "lambda_ratio"):
+        assert found[name] < 0.6 * there[name]
+        assert bars.values[name] is None
+    assert any("thinner than their cells can show" in note for note in bars.notes)
+    for name in ("friction", "contact_load", "film_load", "film_part", "contact_area_fraction"):
+        assert abs(found[name] - there[name]) < bars.values[name], name
