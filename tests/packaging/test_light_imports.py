@@ -121,11 +121,20 @@ def test_a_run_of_smooth_bodies_loads_hardly_anything_of_scipy_and_nothing_of_we
     assert "scipy.fft._basic" not in done.stdout
 
 
-def test_films_and_their_friction_load_no_splines_and_no_optimisers():
+@pytest.mark.parametrize(
+    ("modules", "heavy"),
+    [
+        (
+            "bem.lubrication.steady, bem.lubrication.line_march, bem.friction.load_sharing, bem.tribofilm",
+            ("interpolate", "optimize", "constants", "spatial"),
+        ),
+        ("bem.lubrication.point.transient", ("interpolate",)),
+    ],
+)
+def test_films_and_their_friction_load_no_splines_and_no_optimisers(modules, heavy):
     """Scipy's took half a second of every start: for monotone cubics, a root and two constants of nature."""
-    code = "import bem.lubrication.steady, bem.lubrication.line_march, bem.friction.load_sharing, bem.tribofilm, sys"
-    show = "; print([n for n in ('interpolate', 'optimize', 'constants', 'spatial') if 'scipy.' + n in sys.modules])"
-    done = subprocess.run([sys.executable, "-c", code + show], capture_output=True, text=True, timeout=120, check=True)
+    show = f"import sys, {modules}; print([n for n in {heavy} if 'scipy.' + n in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", show], capture_output=True, text=True, timeout=120, check=True)
     assert done.stdout.split() == ["[]"]
 
 

@@ -3,6 +3,7 @@
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 from matplotlib.figure import Figure
 
 from bem.plots.figures import all_figures
@@ -43,3 +44,16 @@ def test_filled_share_over_place_and_time():
 
 def test_a_film_without_it_has_no_such_figure():
     assert not all_figures()["film-fraction"].fits(film_run(fraction=False))
+
+
+@pytest.mark.parametrize(("friction", "panels"), [(0.0, 2), (0.05, 3)])
+def test_friction_over_time_only_where_surfaces_slide(friction, panels):
+    time = np.linspace(0, 0.02, 11)
+    drawn = {"speed": 1.0, "minimum_film": 2e-7, "central_film": 3e-7, "friction": friction}
+    variables = {name: Variable(("time",), np.full(11, value), "1", name) for name, value in drawn.items()}
+    kind, figure = all_figures()["film-over-time"], Figure()
+    kind.draw(
+        SimpleNamespace(dataset=to_arrays(variables | {"time": Variable(("time",), time, "s", "time")}, {})), figure
+    )
+    assert len(figure.axes) == panels
+    assert figure.axes[-1].get_xlabel() == "time (ms)"

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import RectBivariateSpline
 
 from bem.grid import FloatArray
 from bem.lubrication.point import loops
@@ -72,11 +71,19 @@ def order_missed(difference: float, value: float) -> float:
 
 
 def central_film(level: Level, film: FloatArray) -> float:
-    """At the origin, by a cubic spline around it."""
+    """At the origin, by the cubic spline (without a knot beside its ends) through the cells around it."""
     i, j = (int(np.clip(np.searchsorted(a, 0.0), AROUND, len(a) - AROUND)) for a in (level.x, level.y))
     near = np.s_[i - AROUND : i + AROUND, j - AROUND : j + AROUND]
-    spline = RectBivariateSpline(level.x[near[0]], level.y[near[1]], film[near])
-    return float(spline(0.0, 0.0)[0, 0])
+    return float(_at_origin(level.x[near[0]]) @ film[near] @ _at_origin(level.y[near[1]]))
+
+
+def _at_origin(x: FloatArray) -> FloatArray:
+    """Weights (n,) of values at abscissae (n,) in their cubic spline at 0."""
+    size = x[-1] - x[0]
+    places = np.append(x, 0.0)[:, None] / size
+    # powers, and one cubic from each knot on
+    basis = np.hstack([places ** np.arange(4), np.maximum(places - x[2:-2] / size, 0.0) ** 3])
+    return np.asarray(np.linalg.solve(basis[:-1].T, basis[-1]))
 
 
 def least_film(film: FloatArray) -> float:

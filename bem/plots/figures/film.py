@@ -19,7 +19,9 @@ def _over_time(run: Any, figure: Figure) -> None:
     data = run.dataset
     t_factor, t_unit = prefix(data["time"].values, "s")
     time = data["time"].values * t_factor
-    panels = figure.subplots(3, 1, sharex=True)
+    friction = data["friction"].values
+    sliding = bool(np.nan_to_num(friction).any())
+    panels = figure.subplots(3 if sliding else 2, 1, sharex=True)
     panels[0].plot(time, data["speed"].values, color=BLACK)
     panels[0].set_ylabel("speed (m/s)")
     factor, unit = prefix(data["central_film"].values, "m")
@@ -28,9 +30,10 @@ def _over_time(run: Any, figure: Figure) -> None:
     panels[1].set_ylabel(label("film", unit))
     panels[1].set_ylim(0)
     panels[1].legend()
-    panels[2].plot(time, data["friction"].values, color=BLACK)
-    panels[2].set_ylabel("friction")
-    panels[2].set_xlabel(label("time", t_unit))
+    if sliding:
+        panels[2].plot(time, friction, color=BLACK)
+        panels[2].set_ylabel("friction")
+    panels[-1].set_xlabel(label("time", t_unit))
 
 
 def _profiles(run: Any, figure: Figure, name: str, text: str, base: str) -> None:
@@ -85,7 +88,7 @@ def _fraction(run: Any, figure: Figure) -> None:
 FIGURES = (
     FigureKind(
         "film-over-time",
-        "Speed, film thickness and friction over time.",
+        "Speed, film thickness and, where the surfaces slide, friction over time.",
         ("time", "minimum_film", "central_film"),
         _over_time,
         (5.0, 6.0),
