@@ -69,10 +69,12 @@ def pressed_together(scene: StressedScene, context: Context) -> Site:
 
 @dataclass(frozen=True)
 class Coarse:
-    """What came of the grid of twice the cell: figures that have error bars, traction (2, nx, ny) on the lower body
-    [Pa], whether all of it converged; and figures with half the steps in which the load comes, where it has any."""
+    """What came of the grid of twice the cell: figures that have error bars, the contact under its tractions, these
+    (2, nx, ny) on the lower body [Pa], whether all of it converged; and figures with half the steps in which the load
+    comes, where it has any."""
 
     figures: dict[str, float]
+    contact: ContactSolution
     traction: FloatArray
     converged: bool
     fewer: dict[str, float] | None = None
@@ -80,10 +82,11 @@ class Coarse:
 
 @dataclass(frozen=True)
 class Found:
-    """What error bars are of: figures and their rules, which are `given`, the largest residual, friction x load [N],
-    stresses."""
+    """What error bars are of: figures, the contact under its tractions, rules, which are `given`, the largest residual,
+    friction x load [N], stresses."""
 
     figures: dict[str, float]
+    contact: ContactSolution
     rules: Mapping[str, Rule]
     given: tuple[str, ...]
     residual: float
@@ -103,6 +106,8 @@ def bars(scene: StressedScene, site: Site, found: Found, again: Callable[[Site],
     if coarser.grid is None or coarser.solution is None:
         return ErrorBars.unknown(found.figures, coarser.why)
     there = again(site.coarser(coarser.grid, coarser.solution))
+    # both under their tractions: where the pressure follows them, that it does is no error
+    case, coarser = replace(case, solution=found.contact), replace(coarser, solution=there.contact)
     of_contact = contact_bars(case, coarser).renamed({name: name for name in ("load", "contact_area_fraction")})
     if not there.converged:
         return ErrorBars.unknown(found.figures, UNSOLVED) | of_contact

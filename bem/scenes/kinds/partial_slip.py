@@ -201,13 +201,13 @@ def _bars(
             # closed on the coarser grid: what is not known there has no bar
             stiff = _stiffness(scene, coarser) or dict.fromkeys(("normal_stiffness", "tangential_stiffness"), math.nan)
             figures, fewer = figures | stiff, None if fewer is None else fewer | stiff
-        return Coarse(figures, there.last.traction, converged, fewer)
+        return Coarse(figures, there.contact(coarser), there.last.traction, converged, fewer)
 
     figures = figures_of(scene, path) | extra
     given = ("shift",) if scene.push.shift is not None else ("force",)
     residual = max(site.contact.residual, float(path.column("residual").max()))
     limit = scene.push.friction * site.contact.load
-    return bars(scene, site, Found(figures, PUSH_RULES, given, residual, limit, below), again)
+    return bars(scene, site, Found(figures, path.contact(site), PUSH_RULES, given, residual, limit, below), again)
 
 
 _PROBE = 1e-3

@@ -146,14 +146,14 @@ def _bars(scene: RollingContactScene, site: Site, found: TangentialSolution, bel
 
     def again(coarser: Site) -> Coarse:
         rolled = _rolled(scene, coarser)
-        return Coarse(_figures(coarser, rolled, scene.roll.spin), rolled.traction, rolled.status is Status.CONVERGED)
+        figures, converged = _figures(coarser, rolled, scene.roll.spin), rolled.status is Status.CONVERGED
+        return Coarse(figures, coarser.contact, rolled.traction, converged)
 
     given = ("creepage", "creepage_across") if scene.roll.share is None else ("force", "force_across")
     residual = max(site.contact.residual, found.residual)
     limit = scene.roll.friction * site.contact.load
-    return bars(
-        scene, site, Found(_figures(site, found, scene.roll.spin), ROLL_RULES, given, residual, limit, below), again
-    )
+    figures = _figures(site, found, scene.roll.spin)
+    return bars(scene, site, Found(figures, site.contact, ROLL_RULES, given, residual, limit, below), again)
 
 
 def _record(site: Site, found: TangentialSolution, extra: dict[str, Any], errors: dict[str, Any]) -> RollingRecord:
