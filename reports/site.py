@@ -35,7 +35,7 @@ def pages(runs: Mapping[str, FinishedRun | str]) -> list[Page]:
         lead, *rest = WORDS[name]["about"]
         body = guide.code(WORDS[name]["commands"]) + "".join(text(item) for item in rest)
         made.append(Page(name, title, lead.replace("`", ""), [Section("How it goes", body)]))
-    made += [kind_page(kind, runs.get(words_of(kind)["scene"])) for kind in documented()]
+    made += [kind_page(kind, runs) for kind in documented()]
     theory, *others = guide.theory()
     made += [
         Page("theory", "Theory", "All formulas with sources and errata, and the laws by name.", [theory, *others]),
@@ -60,17 +60,17 @@ def documented() -> list[str]:
 def words_of(kind: str) -> dict[str, Any]:
     """What the prose says of a kind; of one without words its first built-in scene."""
     scenes = [name for name, scene in library().items() if scene["kind"] == kind]
-    plain = {"scene": scenes[0] if scenes else "", "about": "", "theory": [], "limits": []}
+    plain = {"scenes": scenes[:1], "about": "", "theory": [], "limits": []}
     return plain | WORDS["kinds"].get(kind, {})
 
 
-def kind_page(kind: str, run: FinishedRun | str | None) -> Page:
-    """What the kind answers, its picture, a scene, its theory, errors and limits."""
+def kind_page(kind: str, runs: Mapping[str, FinishedRun | str]) -> Page:
+    """What the kind answers, its pictures, a scene, its theory, errors and limits."""
     words, found = words_of(kind), get_kind(kind)
     formulas = [item for item in guide.THEORY if item[0] in words["theory"]]
     limits = [item for item in guide.LIMITS if item[0] in words["limits"]]
     sections = [
-        Section("Picture", _pictures(words["scene"], run)),
+        Section("Pictures", "".join(_pictures(scene, runs.get(scene)) for scene in words["scenes"])),
         Section("Built-in scenes", table(("name", "what it is", "redoes"), list(_scenes(kind)))),
         Section("A scene", _scene(kind)),
         Section("Keys", table(("key", "default", "allowed", "effect"), list(guide.keys_of(found.model, "")))),
@@ -124,7 +124,7 @@ def _errors(kind: str) -> str:
 
 def build(folder: Path = SITE) -> list[Path]:
     """Run what pictures are missing of, and write the site; what was written, the index last."""
-    names = [scene for kind in documented() if (scene := words_of(kind)["scene"])]
+    names = [scene for kind in documented() for scene in words_of(kind)["scenes"]]
     runs = run_gallery(folder / "runs", names=names, reduced=True, say=_say)
     for name, found in runs.items():
         if isinstance(found, str):

@@ -18,15 +18,21 @@ def pages():
 @pytest.mark.parametrize("kind", site.WORDS["kinds"])
 def test_what_a_page_names_exists(kind):
     words = site.WORDS["kinds"][kind]
-    assert library()[words["scene"]]["kind"] == kind
+    assert {library()[scene]["kind"] for scene in words["scenes"]} == {kind}
     titles, assumptions = {item[0] for item in guide.THEORY}, {item[0] for item in guide.LIMITS}
     assert set(words["theory"]) <= titles
     assert set(words["limits"]) <= assumptions
 
 
+def test_every_limit_and_formula_is_on_the_page_of_a_kind():
+    for key, known in (("theory", guide.THEORY), ("limits", guide.LIMITS)):
+        named = {title for words in site.WORDS["kinds"].values() for title in words[key]}
+        assert named == {item[0] for item in known}
+
+
 @pytest.mark.slow
 def test_every_kind_has_a_page_with_errors_and_limits_and_nothing_is_from_a_network(pages, tmp_path):
-    assert set(site.WORDS["kinds"]) <= set(_of_the_package())
+    assert set(site.WORDS["kinds"]) == set(_of_the_package())
     names = {page.name for page in pages}
     assert names >= {"theory", "thesis", "errors", *(f"kind-{kind}" for kind in _of_the_package())}
     for page in pages:
@@ -34,7 +40,7 @@ def test_every_kind_has_a_page_with_errors_and_limits_and_nothing_is_from_a_netw
         assert not re.search(r'(src|href)="(https?:)?//', text), page.name
         if page.name.startswith("kind-"):
             titles = [section.title for section in page.sections]
-            assert titles[0] == "Picture"
+            assert titles[0] == "Pictures"
             assert {"Keys", "Figures and their errors", "Theory", "Limits"} <= set(titles)
     assert "no run in this test" in render(next(page for page in pages if page.name == "kind-contact"))
     written = write_site(pages, tmp_path)
