@@ -74,7 +74,7 @@ def element_text(name: str) -> str:
 
 
 _ELEMENTS = (
-    *("rolling-bearing", "bearing", "gear-pair", "gear", "gears", "cam-follower", "cam"),
-    *("journal-bearing", "plain-bearing", "piston-ring", "helical-gear"),
+    *("rolling-bearing", "bearing", "gear-pair", "gear", "gears", "helical-gear", "cam-follower", "cam"),
+    *("journal-bearing", "plain-bearing", "piston-ring"),
 )
 """Known without loading them."""

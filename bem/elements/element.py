@@ -35,9 +35,14 @@ NOT_HERE = {
     "plain-bearing": "bush and shaft conform: neither half-space nor a film between parabolas carries there",
     "piston-ring": "its film is that of a rigid profile whose flooding changes over the stroke; kind film takes a "
     "cylinder of the ring's radius over a motion in time, flooded",
-    "helical-gear": "contact lines of helical teeth wander along the face; gear-pair has spur gears",
 }
-_SHORT = {"bearing": "rolling-bearing", "gear": "gear-pair", "gears": "gear-pair", "cam": "cam-follower"}
+_SHORT = {
+    "bearing": "rolling-bearing",
+    "gear": "gear-pair",
+    "gears": "gear-pair",
+    "helical-gear": "gear-pair",
+    "cam": "cam-follower",
+}
 KINDS = ("traction", "contact", "point-film")
 """Kinds of scene that are made of a contact."""
 

@@ -1,10 +1,15 @@
-"""Spur gears with involute flanks: the path of contact, with load, radii and speeds all along.
+"""Spur and helical gears with involute flanks: the path of contact, with load, radii and speeds all along.
 
 Geometry of ISO 21771: base circles r_b = m z cos(alpha) / 2, tips r_a = r + m (1 + x), working pressure angle by
 inv(alpha_w) = inv(alpha) + 2 tan(alpha) (x1 + x2) / (z1 + z2). At a distance s from the pinion's base point along the
 line of action the flanks bend with s and a sin(alpha_w) - s, and move over the contact with omega times that. One pair
 carries F = T / r_b1 alone between B and D; where two pairs carry, the share rises from 1/3 to 2/3 and back (ISO/TR
 15144-1, flanks without modification, quality 7).
+
+Of helical gears all this is the transverse section's, tan(alpha_t) = tan(alpha_n) / cos(beta), and lines of contact lie
+at beta_b to the axes in the plane of action, sin(beta_b) = sin(beta) cos(alpha_n). Across a line the flanks bend with
+s / cos(beta_b) and move over it with omega s (both have the same speed along it). The force F / cos(beta_b) presses
+evenly on all lines that lie in the plane of action at a time, whose length is exact: no share of a standard's.
 """
 
 from __future__ import annotations
@@ -13,28 +18,35 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, Literal, Self
 
+import numpy as np
 from pydantic import Field, model_validator
 
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.errors import InputError
+from bem.grid import FloatArray
 from bem.scenes.common import PositiveLength, problem
 from bem.scenes.units import Angle, Dimension, Rate, Ratio
 
 Torque = Annotated[float, Dimension("N*m", "a torque", "30 N*m")]
 Teeth = Annotated[int, Field(strict=True, ge=6, le=2000)]
 
+_ACROSS = 1024
+"""Places over the face at which the lines' length is taken, which is piecewise linear: to 1e-6 of the mean."""
+
 
 class GearModel(ElementModel):
-    """A pair of external spur gears: module, teeth, torque and speed of the pinion, which drives and is body 1.
+    """A pair of external gears: module, teeth, torque and speed of the pinion, which drives and is body 1.
 
-    Tips are at the module times 1 + x over the reference circle where `tip_diameters` does not say otherwise.
+    Tips are at the module times 1 + x over the reference circle where `tip_diameters` does not say otherwise. Module,
+    pressure angle and profile shifts of helical gears are those of the normal section.
     """
 
     element: Literal["gear-pair"] = "gear-pair"
     module: PositiveLength
     teeth: tuple[Teeth, Teeth]
     pressure_angle: Annotated[Angle, Field(gt=0.17, lt=0.7)] = math.radians(20)
+    helix_angle: Annotated[Angle, Field(ge=0, lt=0.8)] = 0.0
     profile_shifts: tuple[Ratio, Ratio] = (0.0, 0.0)
     tip_diameters: tuple[PositiveLength, PositiveLength] | None = None
     face_width: PositiveLength
@@ -55,16 +67,18 @@ class GearModel(ElementModel):
     def contacts(self) -> Contacts:
         """By distance from the pitch point C: from A, where the wheel's tip comes in, to E, the end of the pinion's."""
         path = path_of_contact(self)
-        normal = self.torque / path.base_radii[0]
+        inclined = math.cos(path.base_helix)
+        normal = self.torque / (path.base_radii[0] * inclined)
         omega = (self.speed, self.speed * self.teeth[0] / self.teeth[1])
         found = []
         for i in range(self.points):
             s = path.start + (path.end - path.start) * i / (self.points - 1)
-            radii = (s, path.line - s)
+            distances = (s, path.line - s)
             found.append(
                 ElementContact(
-                    f"{1e3 * (s - path.pitch):.3g} mm from C", s - path.pitch, normal * path.share(s), radii,
-                    (omega[0] * radii[0], omega[1] * radii[1]), length=self.face_width,
+                    f"{1e3 * (s - path.pitch):.3g} mm from C", s - path.pitch, normal * path.share(s),
+                    (distances[0] / inclined, distances[1] / inclined),
+                    (omega[0] * distances[0], omega[1] * distances[1]), length=self.face_width / inclined,
                 )
             )  # fmt: skip
         return Contacts(tuple(found), "position", "m", _notes(self, path), path.contact_ratio, _turns(omega))
@@ -74,7 +88,8 @@ class GearModel(ElementModel):
 class Path:
     """The path of contact, in distances [m] from the pinion's base point T1 along the line of action.
 
-    `start` A, `single` B and D between which one pair carries, `pitch` C, `end` E; `line` is T1 T2.
+    `start` A, `single` B and D between which one pair carries, `pitch` C, `end` E; `line` is T1 T2; teeth follow one
+    another by `base_pitch`. `base_helix` [rad] inclines lines of contact, which cross the `face_width` [m].
     """
 
     base_radii: tuple[float, float]
@@ -85,16 +100,40 @@ class Path:
     single: tuple[float, float]
     pitch: float
     end: float
-    contact_ratio: float
+    base_pitch: float
+    base_helix: float
+    face_width: float
+
+    @property
+    def contact_ratio(self) -> float:
+        """Of the transverse section: so many lines as long as the face is wide touch at a time, on the mean."""
+        return (self.end - self.start) / self.base_pitch
+
+    @property
+    def overlap(self) -> float:
+        """How far lines of contact lean along the path while they cross the face [m]."""
+        return self.face_width * math.tan(self.base_helix)
 
     def share(self, s: float) -> float:
-        """Of the normal force at a distance."""
+        """Of the normal force, on a line of contact as long as the face is wide; of helical teeth the mean over it."""
+        if self.base_helix:
+            starts = s - self.overlap * (np.arange(_ACROSS) + 0.5) / _ACROSS
+            return float(np.mean(1 / self.lines(starts)))
         b, d = self.single
         if b <= s <= d:
             return 1.0
         if s < b:
             return (1 + (s - self.start) / (b - self.start)) / 3
         return (1 + (self.end - s) / (self.end - d)) / 3
+
+    def lines(self, starts: FloatArray) -> FloatArray:
+        """Length of all lines of contact of helical teeth when one of them meets the face's edge at these distances
+        [m], over that of a line across the whole face."""
+        around = math.ceil((self.end - self.start + 2 * self.overlap) / self.base_pitch) + 1
+        offset = self.base_pitch * np.arange(-around, around + 1)
+        low = np.asarray(starts)[..., None] + offset
+        inside = np.minimum(low + self.overlap, self.end) - np.maximum(low, self.start)
+        return np.asarray(np.maximum(inside, 0.0).sum(axis=-1) / self.overlap)
 
 
 def path_of_contact(model: GearModel) -> Path:
@@ -104,11 +143,12 @@ def path_of_contact(model: GearModel) -> Path:
     ------
     InputError : gears that cannot mesh, or whose involute ends before the path does (undercut).
     """
-    angle, (z1, z2) = model.pressure_angle, model.teeth
-    radii = [0.5 * model.module * z for z in (z1, z2)]
+    normal, helix, (z1, z2) = model.pressure_angle, model.helix_angle, model.teeth
+    angle = math.atan(math.tan(normal) / math.cos(helix))
+    radii = [0.5 * model.module * z / math.cos(helix) for z in (z1, z2)]
     base = [r * math.cos(angle) for r in radii]
     shifts = sum(model.profile_shifts)
-    working = _inverse_involute(math.tan(angle) - angle + 2 * math.tan(angle) * shifts / (z1 + z2))
+    working = _inverse_involute(math.tan(angle) - angle + 2 * math.tan(normal) * shifts / (z1 + z2))
     distance = (base[0] + base[1]) / math.cos(working)
     line = distance * math.sin(working)
     tips = [r + model.module * (1 + x) for r, x in zip(radii, model.profile_shifts, strict=True)]
@@ -116,14 +156,16 @@ def path_of_contact(model: GearModel) -> Path:
         tips = [0.5 * d for d in model.tip_diameters]
     reach = [math.sqrt(max(tip**2 - rb**2, 0.0)) for tip, rb in zip(tips, base, strict=True)]
     start, end = line - reach[1], reach[0]
-    pitch = math.pi * model.module * math.cos(angle)
+    pitch = math.pi * model.module * math.cos(angle) / math.cos(helix)
     if start <= 0 or end >= line:
         raise InputError("the tip of one gear meets the other below its base circle (undercut)")
     single = (max(end - pitch, start), min(start + pitch, end))
-    if (end - start) >= 2 * pitch:
+    if not helix and (end - start) >= 2 * pitch:
         raise InputError(f"contact ratio {(end - start) / pitch:.3g}: three pairs at once are not shared here")
     where = base[0] * math.tan(working)
-    return Path((base[0], base[1]), distance, working, line, start, single, where, end, (end - start) / pitch)
+    base_helix = math.asin(math.sin(helix) * math.cos(normal))
+    found = (distance, working, line, start, single, where, end, pitch, base_helix, model.face_width)
+    return Path((base[0], base[1]), *found)
 
 
 def _inverse_involute(value: float) -> float:
@@ -141,11 +183,20 @@ def _turns(omega: tuple[float, float]) -> tuple[float, float]:
 
 
 def _notes(model: GearModel, path: Path) -> tuple[str, ...]:
-    return (
+    said = [
         f"contact ratio {path.contact_ratio:.4g}, working pressure angle {math.degrees(path.working_angle):.4g} deg, "
         f"centre distance {1e3 * path.centre_distance:.6g} mm",
         "at A and E a tip's edge touches: its pressure is higher than that of the flanks' curvature, which a "
         "half-space under smooth bodies does not carry; tip relief, bending of teeth and dynamic load are left out",
         "a scene takes each place as steady: teeth pass the path in "
         f"{1e3 * (path.end - path.start) / (model.speed * path.base_radii[0]):.3g} ms",
-    )
+    ]
+    if path.base_helix:
+        lengths = path.lines(path.base_pitch * np.arange(_ACROSS) / _ACROSS)
+        said[1:1] = [
+            f"helix {math.degrees(path.base_helix):.4g} deg on the base circles, overlap ratio "
+            f"{path.overlap / path.base_pitch:.4g}: the load lies evenly on lines of contact {lengths.min():.4g} to "
+            f"{lengths.max():.4g} faces long together, a place's is the mean over the face, and where they are "
+            f"shortest {path.contact_ratio / lengths.min() - 1:.2g} above that; a tooth's stiffer ends are left out"
+        ]
+    return tuple(said)

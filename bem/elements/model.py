@@ -11,7 +11,7 @@ from pydantic import Field
 from bem.elements.contact import ElementContact
 from bem.scenes.common import MaterialScene, PositiveLength, Table
 from bem.scenes.oil import OilScene
-from bem.scenes.units import Ratio, WearCoefficient
+from bem.scenes.units import Ratio, Volume, WearCoefficient
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,8 @@ class ElementModel(Table):
     """Both materials, the oil, and the rms roughness of both surfaces together, for the film over it.
 
     `specific_wear_rate`: Archard's, under this lubrication. `permissible_film_ratio`: the smallest film over roughness
-    at which a test with this oil and finish showed no micropitting.
+    at which a test with this oil and finish showed no micropitting. `mean_particle_volume`: of the particles that come
+    off, counted (AFM, or kinds wear and running-in), for how many do so by hour.
     """
 
     element: str
@@ -47,6 +48,7 @@ class ElementModel(Table):
     rms_roughness: PositiveLength | None = None
     specific_wear_rate: Annotated[WearCoefficient, Field(ge=0)] | None = None
     permissible_film_ratio: Annotated[Ratio, Field(gt=0)] | None = None
+    mean_particle_volume: Annotated[Volume, Field(gt=0)] | None = None
 
     @abstractmethod
     def contacts(self) -> Contacts:

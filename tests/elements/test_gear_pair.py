@@ -154,3 +154,66 @@ def test_a_path_is_read_as_the_scene_reads_it(tmp_path):
     again = load_scene(element.path_scene() | {"along": {"path": str(tmp_path / "path.csv")}})
     np.testing.assert_allclose(again.along.radius, scene.along.radius, rtol=1e-8)
     assert scene.roughness == pytest.approx(3e-7)
+
+
+@pytest.mark.parametrize("helix", [8.0, 30.0])
+def test_helical_flanks_are_curved_as_their_surfaces(helix):
+    """The flank of a helical gear is an involute screwed along the axis: its principal curvatures from differences of
+    such a surface are zero along a line and one over the radius across it, and it moves as the body turns."""
+    element = made(helix_angle=f"{helix} deg", points=7)
+    model = element.model
+    assert isinstance(model, GearModel)
+    path = path_of_contact(model)
+    base, lead = path.base_radii[0], math.tan(path.base_helix) / path.base_radii[0]
+
+    def surface(u, z):
+        """Unwound by the angle u, at a height z."""
+        turn = u + lead * z
+        return base * np.array(
+            [np.cos(turn) + u * np.sin(turn), np.sin(turn) - u * np.cos(turn), z / base * np.ones_like(turn)]
+        )
+
+    for contact in element.found.contacts:
+        u, (du, dz) = (path.pitch + contact.place) / base, (1e-3, 1e-5)
+        at = {(i, j): surface(np.float64(u + i * du), j * dz) for i in (-1, 0, 1) for j in (-1, 0, 1)}
+        along_u, along_z = (at[1, 0] - at[-1, 0]) / (2 * du), (at[0, 1] - at[0, -1]) / (2 * dz)
+        normal = np.cross(along_u, along_z)
+        normal /= np.linalg.norm(normal)
+        uu, zz = (at[1, 0] + at[-1, 0] - 2 * at[0, 0]) / du**2, (at[0, 1] + at[0, -1] - 2 * at[0, 0]) / dz**2
+        uz = (at[1, 1] - at[1, -1] - at[-1, 1] + at[-1, -1]) / (4 * du * dz)
+        first = np.array([[along_u @ along_u, along_u @ along_z], [along_u @ along_z, along_z @ along_z]])
+        second = np.array([[uu @ normal, uz @ normal], [uz @ normal, zz @ normal]])
+        curvatures = sorted(np.abs(np.linalg.eigvals(np.linalg.solve(first, second))))
+        assert curvatures[1] * contact.radii[0] == pytest.approx(1, rel=1e-4)  # second differences
+        assert curvatures[0] < 1e-4 * curvatures[1]
+        # across the line of contact in the tangent plane: at right angles to normal and generator
+        values, vectors = np.linalg.eig(np.linalg.solve(first, second))
+        w = vectors[:, np.argmax(np.abs(values))]
+        across = w[0] * along_u + w[1] * along_z
+        velocity = model.speed * np.array([-at[0, 0][1], at[0, 0][0], 0.0])
+        assert abs(velocity @ across) / np.linalg.norm(across) == pytest.approx(contact.speeds[0], rel=1e-4)
+
+
+def test_load_of_helical_gears():
+    """On lines clipped one by one from the plane of action, each carrying by its length; all of it is the force, and
+    the normal force is the torque over the reference radius and the angles of the normal section."""
+    element = made(helix_angle="12 deg", points=801)
+    model = element.model
+    assert isinstance(model, GearModel)
+    path = path_of_contact(model)
+    radius = 0.5 * 2e-3 * 20 / math.cos(math.radians(12))
+    force = 50 / (radius * math.cos(math.radians(20)) * math.cos(math.radians(12)))
+    loads = [one.load for one in element.found.contacts]
+    assert np.trapezoid(loads) / 800 * path.contact_ratio == pytest.approx(force, rel=1e-4)
+    y = np.linspace(0, 20e-3, 2001)
+    for phase in np.linspace(0, 1, 6):
+        long = 0.0
+        for k in range(-9, 10):
+            x = path.start + (phase + k) * path.base_pitch + y * math.tan(path.base_helix)
+            long += float(np.mean((x >= path.start) & (x <= path.end)))
+        lines = path.lines(np.array([path.start + phase * path.base_pitch]))
+        assert lines[0] == pytest.approx(long, abs=2e-3)  # of points each
+    # without lean they are the lines of spur gears, one or two
+    nearly = path_of_contact(made(helix_angle="1e-4 deg").model)
+    assert set(np.round(nearly.lines(nearly.start + nearly.base_pitch * np.array([0.3, 0.9])), 3)) == {1.0, 2.0}
+    assert "helix 11.2" in " ".join(element.notes())

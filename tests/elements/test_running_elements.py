@@ -13,7 +13,8 @@ from bem import InputError, load_scene, run_scene
 from bem.elements.cases import columns as case_columns
 from bem.elements.cases import load_cases
 from bem.elements.element import element_template, load_element
-from bem.elements.running import columns, notes, run_all, run_contact, summary, wear_per_pass
+from bem.elements.gear_pair import path_of_contact
+from bem.elements.running import columns, notes, run_all, run_contact, summary, wear_per_pass, worn_volume_rate
 from bem.errors import Status
 from bem.scenes.kinds.traction import case_of
 from bem.wear.criterion.local import Archard
@@ -68,9 +69,27 @@ def test_the_whole_gear_pair(gears):
     assert "not its procedure" in said["micropitting"]
     depths = columns(element, runs)["wear_per_pass_1 [m]"]
     assert f"body 1 {max(depths) * 1e6 * 2250 * 60:.3g} um" in said["wear by hour"]
-    assert "not known from smooth contacts" in said["particles by hour"]
+    assert "with mean_particle_volume" in said["particles by hour"]
     assert "at 5 of 5 places the film is thinner" in said["mixed lubrication"]
     assert len(columns(element, runs)["friction_power [W]"]) == 5
+
+
+def test_worn_volume_is_that_of_the_depths_over_both_flanks():
+    """Depth of a pass over the flank's length (s ds / r_b of an involute) and width, for each tooth that passes."""
+    element = element_of("gear-pair", points=401, specific_wear_rate=WEAR_RATE, mean_particle_volume="0.02 um^3")
+    path = path_of_contact(element.model)
+    depths = np.array([wear_per_pass(element, one) for one in element.found.contacts]).T
+    s = path.pitch + np.array([one.place for one in element.found.contacts])
+    teeth = element.model.speed / (2 * np.pi) * element.model.teeth[0]
+    volumes = [
+        np.trapezoid(depth * along / base, s) * element.model.face_width * teeth
+        for depth, along, base in zip(depths, (s, path.line - s), path.base_radii, strict=True)
+    ]
+    rate = worn_volume_rate(element)
+    assert rate == pytest.approx(sum(volumes), rel=5e-3)  # the mean over the places counts both ends whole
+    said = dict(summary(element, [run_contact(element, element.worst())]))["particles by hour"]
+    assert f"{3600e9 * rate:.3g} mm^3" in said
+    assert f"{3600 * rate / 0.02e-18:.3g} of 0.02 um^3" in said
 
 
 def test_the_films_limits_are_said(tmp_path):
