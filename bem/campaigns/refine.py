@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from bem.campaigns.cases import Campaign
 from bem.errors import Status
-from bem.scenes.asked import ALL, relative_error, shortfall, wanted
+from bem.scenes.asked import ALL, ANY, figures_of_chance, relative_error, shortfall, wanted
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Context
 from bem.scenes.kind import Kind
@@ -99,7 +99,9 @@ def expected_levels(kind: Kind, scene: SceneModel) -> list[SceneModel]:
     least = min((share for share in asked.values() if not isinstance(share, str)), default=1.0)
     bodies = (getattr(scene, name, None) for name in ("lower", "upper"))
     rough = any(body is not None and body.surface.kind != "smooth" for body in bodies)
-    further = max(0, round(math.log2((_FIRST_ROUGH if rough else _FIRST_SMOOTH) / least) / _ORDER))
+    falls = next((one.falls for one in kind.resolutions if one.falls), None)
+    error, order = falls or (_FIRST_ROUGH if rough else _FIRST_SMOOTH, _ORDER)
+    further = max(0, round(math.log2(error / least) / order))
     found = [scene]
     for _ in range(min(_MOST_LEVELS - 1, further)):
         refined = tuple(i for i, one in enumerate(kind.resolutions) if not isinstance(one.finer(found[-1]), str))
@@ -235,10 +237,28 @@ def told_in_summary(campaign: Campaign, records: Sequence[Record | None]) -> dic
 
 
 def words_of_levels(campaign: Campaign, records: Sequence[Record | None]) -> list[str]:
-    """One sentence on how the accuracy was reached."""
+    """How the accuracy was reached, and what was left out of it."""
     found = [record.refinement for record in records if record is not None and record.refinement.get("levels")]
     if not found:
         return []
+    return [*_reached(campaign, found), *_left_to_chance(campaign)]
+
+
+def _left_to_chance(campaign: Campaign) -> list[str]:
+    """What of the headline figures all did not mean, and why."""
+    asked, kind = campaign.base.accuracy, campaign.kind
+    if isinstance(asked, Mapping) and asked.get(ALL, ANY) == ANY:
+        return []
+    left = figures_of_chance(kind.record, kind.headline)
+    by_reason = {why: [name for name in left if left[name] == why] for why in left.values()}
+    return [
+        f"the accuracy is not asked of {', '.join(' '.join(name.split('_')) for name in names)}: {why}"
+        for why, names in by_reason.items()
+    ]
+
+
+def _reached(campaign: Campaign, found: Sequence[Mapping[str, Any]]) -> list[str]:
+    """One sentence on how."""
     if len(campaign.cases) == 1:
         (only,) = found
         *_, last = only["levels"]

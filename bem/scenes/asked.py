@@ -83,16 +83,27 @@ def figures_that_may_be_asked(record: type[Record], headline: Iterable[str]) -> 
     return {
         item.name or name: item.key(name) in first
         for name, item in described(record).items()
-        if isinstance(item, Figure) and not item.no_bar and not item.unjudged
+        if isinstance(item, Figure) and not (item.no_bar or item.unjudged or item.chance)
     }
 
 
 def figures_that_may_not(record: type[Record]) -> dict[str, str]:
     """Why an accuracy cannot be asked of the other figures of a record, by their names."""
-    return {
+    return figures_of_chance(record) | {
         item.name or name: f"it has no error bar: {item.no_bar or _UNJUDGED}"
         for name, item in described(record).items()
         if isinstance(item, Figure) and (item.no_bar or item.unjudged)
+    }
+
+
+def figures_of_chance(record: type[Record], headline: Iterable[str] | None = None) -> dict[str, str]:
+    """What of the error bars of figures finer cells do not narrow, by their names; of all figures that have bars, or of
+    the headline figures."""
+    shown = None if headline is None else set(headline)
+    return {
+        item.name or name: f"its error bar holds chance: {item.chance}"
+        for name, item in described(record).items()
+        if isinstance(item, Figure) and item.chance and (shown is None or item.key(name) in shown)
     }
 
 

@@ -59,6 +59,7 @@ class Figure:
     unjudged : no error bar is made of it, and no accuracy can be asked of it: a count, what whole cells or the solvers
         tell of themselves, what is given.
     part_of : fields whose sum it is a part of, and against which an accuracy that is asked for counts; itself if none.
+    chance : what of its error bar finer cells do not narrow, in words: no accuracy can be asked of it.
     """
 
     unit: str = ""
@@ -70,6 +71,7 @@ class Figure:
     no_bar: str = ""
     unjudged: bool = False
     part_of: tuple[str, ...] = ()
+    chance: str = ""
 
     def __post_init__(self) -> None:
         if self.unit not in UNITS:

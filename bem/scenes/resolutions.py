@@ -25,6 +25,7 @@ _PER_WAVE, _PER_RADIUS, _PER_LAYER, _FEWEST = 4, 6, 1, 32
 """Cells of the first level to the shortest wave or correlation length, to the radius of the smooth contact, to the
 thinnest layer, and along an axis: error bars come from a grid of twice the cell."""
 _MOST_CELLS = 65536
+_TOO_MANY = f"a grid can have {_MOST_CELLS} cells along an axis at most"
 _LEAST_TOLERANCE = 1e-8
 _MARGIN, _HIGH = 1.25, 3.0
 """Half the grid over the radius in which bodies may touch: where the smooth contact, pressed apart by so many times the
@@ -45,6 +46,8 @@ class Resolution:
     shown : how many, for a reader.
     figures : fields of the figures that depend on it; all of them if none are named.
     part : the origin in the parts of error bars that it answers for, where the record has parts.
+    falls : the largest relative error of a first level, and the order by which it falls: of some scenes, for plans of
+        the first resolution of a kind alone; the kinds' usual ones if not given.
     """
 
     what: str
@@ -53,6 +56,7 @@ class Resolution:
     shown: Callable[[Any], str]
     figures: tuple[str, ...] = ()
     part: str = ""
+    falls: tuple[float, float] | None = None
 
 
 def counted(key: str, what: str, first: int, most: int) -> Resolution:
@@ -124,26 +128,41 @@ def _first_cells(scene: Any) -> Any:
     ------
     InputError : a size, or a shortest wave, that nothing says.
     """
-    if any(isinstance(body.surface, MeasuredSurface) for body in (scene.lower, scene.upper)):
+    if _measured(scene):
         return scene
     grid = scene.grid
     if grid.shape is None and grid.spacing is None:
         lengths = grid.lengths or _lengths(scene)
-        least = [max(counts) for counts in zip(*_fewest_cells(scene, lengths), strict=True)]
-        if not max(least) <= _MOST_CELLS:
-            raise InputError(
-                f"grid: {max(least):.3g} cells along a side would be needed to begin with, of {lengths[0]:.3g} m by "
-                f"{lengths[1]:.3g} m; allowed: {_MOST_CELLS}, or grid.lengths and grid.shape of your own"
-            )
-        grid = grid.model_copy(update={"lengths": lengths, "shape": (_even(least[0]), _even(least[1]))})
-    if grid.shape is None:
-        return scene
-    made = changed(scene, "grid", grid)
+        shape = _to_begin_with(scene, lengths, "grid", "grid.lengths and grid.shape")
+        grid = grid.model_copy(update={"lengths": lengths, "shape": shape})
+    return scene if grid.shape is None else _drawn_on(changed(scene, "grid", grid), grid.shape)
+
+
+def _measured(scene: Any) -> str:
+    """The key of a surface that is measured, the lower body's first; empty where none is."""
+    measured = (name for name in ("lower", "upper") if isinstance(getattr(scene, name).surface, MeasuredSurface))
+    return next((f"{name}.surface" for name in measured), "")
+
+
+def _to_begin_with(scene: Any, lengths: tuple[float, float], table: str, keys: str) -> tuple[int, int]:
+    """Cells of the first level on a grid of these sides [m]; InputError if they are too many, which names the table
+    and the keys that would say others."""
+    least = [max(counts) for counts in zip(*_fewest_cells(scene, lengths), strict=True)]
+    if not max(least) <= _MOST_CELLS:
+        raise InputError(
+            f"{table}: {max(least):.3g} cells along a side would be needed to begin with, of {lengths[0]:.3g} m by "
+            f"{lengths[1]:.3g} m; allowed: {_MOST_CELLS}, or {keys} of your own"
+        )
+    return _even(least[0]), _even(least[1])
+
+
+def _drawn_on(scene: Any, shape: tuple[int, int]) -> Any:
+    """The scene with its generated surfaces drawn on so many cells, where it does not say on how many."""
     for name in ("lower", "upper"):
         surface = getattr(scene, name).surface
         if isinstance(surface, GeneratedSurface) and surface.drawn_on is None:
-            made = changed(made, f"{name}.surface.drawn_on", grid.shape)
-    return made
+            scene = changed(scene, f"{name}.surface.drawn_on", shape)
+    return scene
 
 
 def _lengths(scene: Any) -> tuple[float, float]:
@@ -212,17 +231,16 @@ def _even(cells: float) -> int:
 
 
 def _finer_cells(scene: Any) -> Any:
-    for name in ("lower", "upper"):
-        if isinstance(getattr(scene, name).surface, MeasuredSurface):
-            dx, dy = (f"{1e6 * d:.4g}" for d in build.grid_of(scene.grid).spacing)
-            return (
-                f"{name}.surface is measured, and cells of {dx} um x {dy} um are where the data of the files end: "
-                "finer ones would follow the interpolation"
-            )
+    if name := _measured(scene):
+        dx, dy = (f"{1e6 * d:.4g}" for d in build.grid_of(scene.grid).spacing)
+        return (
+            f"{name} is measured, and cells of {dx} um x {dy} um are where the data of the files end: finer ones would "
+            "follow the interpolation"
+        )
     grid = build.grid_of(scene.grid)
     shape = tuple(2 * n if n > 1 else n for n in grid.shape)
     if max(shape) > _MOST_CELLS:
-        return f"a grid can have {_MOST_CELLS} cells along an axis at most"
+        return _TOO_MANY
     spacing = tuple(length / n for length, n in zip(grid.lengths, shape, strict=True))
     return changed(scene, "grid", scene.grid.model_copy(update={"shape": shape, "spacing": spacing, "lengths": None}))
 
@@ -264,3 +282,63 @@ def _depths_shown(scene: Any) -> str:
 _STRESSES = ("max_von_mises", "max_von_mises_depth")
 DEPTHS = Resolution("depths", _first_depths, _finer_depths, _depths_shown, _STRESSES, BELOW)
 """Depths below a contact where stresses are wanted."""
+
+
+def of_loop(
+    begin: Callable[[Any], Any],
+    cells: Callable[[Any], tuple[int, int]],
+    at_resolution: Callable[[Any, float], Any],
+    shown: Callable[[Any], str] = lambda scene: "",
+) -> Resolution:
+    """Cells and depths of a loop of wear together, for their errors come from one coarser loop, which it then makes.
+
+    begin : the scene with its first cells. cells : those of a scene. at_resolution : the scene with so many times all
+    that it resolves. shown : what else there is more of, for a reader.
+    """
+
+    def first(scene: Any) -> Any:
+        cycles = scene.cycles
+        if "coarser_grid" in cycles.model_fields_set and not cycles.coarser_grid:
+            raise InputError("accuracy: cycles.coarser_grid is false; allowed: true, error bars say whether it is met")
+        return changed(begin(scene), "cycles.coarser_grid", True)
+
+    def finer(scene: Any) -> Any:
+        if name := _measured(scene):
+            return f"{name} is measured: cells finer than those of the first level may follow the interpolation"
+        found = at_resolution(scene, 2)
+        if max(cells(found)) > _MOST_CELLS:
+            return _TOO_MANY
+        if found.depths.count > _MOST_DEPTHS:
+            return f"depths.count can be {_MOST_DEPTHS} at most"
+        if abs(found.wear.shift) > _MOST_SHIFT:
+            return f"wear.shift can be {_MOST_SHIFT} cells at most"
+        return found
+
+    def text(scene: Any) -> str:
+        return "{} x {} cells, {} depths".format(*cells(scene), scene.depths.count) + shown(scene)
+
+    return Resolution("cells", first, finer, text, part=GRID, falls=_LOOP_FALLS)
+
+
+_MOST_SHIFT = 10_000
+_LOOP_FALLS = (0.4, 1.0)
+
+
+def first_domain(scene: Any) -> Any:
+    """The cells of a slice's domain, where the scene gives none, and what generated surfaces are drawn on.
+
+    Raises
+    ------
+    InputError : a shortest wave that nothing says.
+    """
+    if _measured(scene):
+        return scene
+    domain, modulus = scene.domain, build.modulus_of(scene)
+    if "cells" not in domain.model_fields_set:
+        sides = [
+            domain.at(scene.cylinder.model_copy(update={"loads": [load]}), modulus)[0].lengths
+            for load in scene.cylinder.loads
+        ]
+        each = [_to_begin_with(scene, lengths, "domain", "domain.cells") for lengths in sides]
+        domain = domain.model_copy(update={"cells": tuple(max(counts) for counts in zip(*each, strict=True))})
+    return _drawn_on(changed(scene, "domain", domain), domain.cells)

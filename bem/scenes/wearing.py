@@ -320,12 +320,16 @@ class ParticleTable(Record):
     particle_y: Annotated[FloatArray, particle_rows("m", "y of a particle's centre")]
 
 
+_OF_PIECES = "which pieces leave first decides the sizes of those that follow, and repetitions narrow that, no cells"
+
+
 def _reported(quantity: str) -> Figure:
     return Figure(
         "nm",
         f"{quantity} of the particles, the reported mean",
         name=f"particle_{quantity.replace(' ', '_')}",
         headline=True,
+        chance=_OF_PIECES,
     )
 
 
@@ -337,8 +341,12 @@ FOLLOWS_CELL = (
 
 
 def _by(weight: str, quantity: str) -> Figure:
+    follows = "number" in weight
     return Figure(
-        "nm", f"{quantity} of the particles, mean {weight}", no_bar=FOLLOWS_CELL if "number" in weight else ""
+        "nm",
+        f"{quantity} of the particles, mean {weight}",
+        no_bar=FOLLOWS_CELL if follows else "",
+        chance="" if follows else _OF_PIECES,
     )
 
 

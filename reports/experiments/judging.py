@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +26,38 @@ def judge(rows_of_next: Callable[[np.random.Generator], Rows], path: Path, cases
     for name, row in verdict.items():
         print(name, {key: round(value, 5) for key, value in row.items()})
     path.write_text(json.dumps({"cases": cases, "seed": seed, "figures": verdict, "rows": rows}, indent=1) + "\n")
+
+
+def worn_bodies(
+    rng: np.random.Generator, disk: str, lower: tuple[float, float], upper: tuple[float, float], correlated: float
+) -> dict[str, Any]:
+    """Tables of two bodies that wear, a disk of some material and a cylinder: rough surfaces with rms heights from
+    these intervals [m], correlated over the same length [m]."""
+
+    def body(material: str, interval: tuple[float, float]) -> dict[str, Any]:
+        height = float(rng.uniform(*interval))
+        surface = {"kind": "generated", "rms_height": height, "correlation_length": correlated}
+        return {"material": material, "surface": surface}
+
+    return {
+        "seed": int(rng.integers(1 << 30)),
+        "lower": body(disk, lower),
+        "upper": body("steel-cylinder", upper),
+    }
+
+
+def loop_rows(found: Any, bars: Any, truth: Any, names: Iterable[str], words: str) -> Rows:
+    """A row for each of the named figures of a loop of wear: its bar and its error against a finer loop."""
+    return [
+        {
+            "figure": name,
+            "loop": words,
+            "value": getattr(found, name),
+            "error": abs(getattr(found, name) - getattr(truth, name)),
+            "bar": bars.values[name],
+        }
+        for name in names
+    ]
 
 
 def rows_with_parts(found: dict[str, float], truth: dict[str, float], bars: Any, **told: Any) -> Rows:

@@ -24,7 +24,7 @@ from bem.scenes.kind import get_kind
 from bem.scenes.kinds import running_in
 from bem.scenes.load import scene_from_table
 from reports.experiments.contact_error_bars import waves_through
-from reports.experiments.judging import judge
+from reports.experiments.judging import judge, loop_rows, worn_bodies
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "running_in_error_bars.json"
 FINER, SIDE = 4, 51.2e-6
@@ -35,15 +35,9 @@ def draw(rng: np.random.Generator) -> dict[str, Any]:
     cells = int(rng.choice([80, 96, 112]))
     cell = SIDE / cells
     correlated = float(rng.uniform(3, 8)) * cell
-
-    def rough(low: float, high: float) -> dict[str, Any]:
-        return {"kind": "generated", "rms_height": float(rng.uniform(low, high)), "correlation_length": correlated}
-
     return {
         "kind": "running-in",
-        "seed": int(rng.integers(1 << 30)),
-        "lower": {"material": "steel-disk-110HV", "surface": rough(60e-9, 200e-9)},
-        "upper": {"material": "steel-cylinder", "surface": rough(10e-9, 60e-9)},
+        **worn_bodies(rng, "steel-disk-110HV", (60e-9, 200e-9), (10e-9, 60e-9), correlated),
         "contact": {
             "radius": 2e-3,
             "width": 6e-3,
@@ -76,16 +70,7 @@ def rows_of(table: dict[str, Any]) -> list[dict[str, Any]]:
         print(f"{words}: {error}")
         return []
     print(words, flush=True)
-    return [
-        {
-            "figure": name,
-            "loop": words,
-            "value": getattr(found, name),
-            "error": abs(getattr(found, name) - getattr(truth, name)),
-            "bar": bars.values[name],
-        }
-        for name in MIXED_RULES
-    ]
+    return loop_rows(found, bars, truth, MIXED_RULES, words)
 
 
 def main() -> None:

@@ -3,8 +3,9 @@
     python -m reports.experiments.wear_error_bars [CASES]
 
 Slices of 4 um with 32 to 64 cells a side, three to eight of them to the correlation length of either surface, capped at
-the hardness of steel, 1 to 6 N on 6 mm, sliding 2 to 6 cells a cycle, 24 cycles of which the last 12 count. The finer
-grid sees the same waves. The result is stored in `reports/results/wear_error_bars.json`.
+the hardness of steel or, every second one, higher up (2.5 to 12 GPa), 1 to 6 N on 6 mm, sliding 2 to 6 cells a cycle,
+24 cycles of which the last 12 count. The finer grid sees the same waves. The result is stored in
+`reports/results/wear_error_bars.json`.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from bem.scenes.kind import get_kind
 from bem.scenes.kinds import wear
 from bem.scenes.load import load_scene
 from reports.experiments.contact_error_bars import waves_through
-from reports.experiments.judging import judge
+from reports.experiments.judging import judge, loop_rows, worn_bodies
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "wear_error_bars.json"
 FINER, SIDE = 4, 4e-6
@@ -32,21 +33,16 @@ def draw(rng: np.random.Generator) -> dict[str, Any]:
     cells = int(rng.choice([32, 40, 48, 64]))
     cell = SIDE / cells
     correlated = float(rng.uniform(3, 8)) * cell
-
-    def rough(low: float, high: float) -> dict[str, Any]:
-        height = float(rng.uniform(low, high))
-        return {"kind": "generated", "rms_height": height, "correlation_length": correlated}
-
+    higher = {"hardness": float(rng.uniform(2.5e9, 12e9))} if rng.random() < 0.5 else {}
     return {
         "kind": "wear",
-        "seed": int(rng.integers(1 << 30)),
-        "lower": {"material": "steel-disk", "surface": rough(40e-9, 150e-9)},
-        "upper": {"material": "steel-cylinder", "surface": rough(10e-9, 50e-9)},
+        **worn_bodies(rng, "steel-disk", (40e-9, 150e-9), (10e-9, 50e-9), correlated),
         "cylinder": {
             "radius": 2e-3,
             "width": 6e-3,
             "loads": [float(rng.uniform(1, 6))],
             "friction": float(rng.uniform(0, 0.3)),
+            **higher,
         },
         "domain": {"cells": cells, "lengths": SIDE},
         "depths": {"count": int(rng.integers(14, 24)), "spacing": float(rng.uniform(0.8, 1.2)) * cell},
@@ -66,17 +62,8 @@ def rows_of(table: dict[str, Any]) -> list[dict[str, Any]]:
     truth = wear.wear_down(wear.at_resolution(scene, FINER), fine, PlainContext(scene.seed))
     correlated = table["lower"]["surface"]["correlation_length"]
     words = f"{table['domain']['cells']} cells, correlated over {correlated:.2g} m"
-    return [
-        {
-            "figure": name,
-            "loop": words,
-            "value": getattr(found, name),
-            "error": abs(getattr(found, name) - getattr(truth, name)),
-            "bar": bars.values[name],
-        }
-        for name in RULES
-        if truth.worn_volume_per_cycle > 0
-    ]
+    names = RULES if truth.worn_volume_per_cycle > 0 else ()
+    return loop_rows(found, bars, truth, names, words)
 
 
 def main() -> None:

@@ -58,6 +58,18 @@ def test_odd_grids_and_loops_that_wear_nothing_have_none_and_say_so(tmp_path):
     assert set(wear_bars(nothing, nothing).values.values()) == {None}
 
 
+def test_bars_of_what_converges_shrink_with_the_differences_and_those_of_sizes_do_not():
+    """Shares of the figures (15 % of the volume) stood in all bars: no accuracy below was to be had on any grid."""
+    figures = dict.fromkeys(RULES, 1.0)
+    bars = wear_bars(figures, dict.fromkeys(RULES, 1.004)).values
+    sizes = {name for name in RULES if name.endswith(("_mean_equivalent_radius", "_mean_thickness"))}
+    assert all(bars[name] <= 0.01 for name in RULES if name not in sizes)
+    assert all(bars[name] >= 0.1 for name in sizes)
+    # a difference that happens to pass zero where others do not is no sign of an exact figure
+    same = wear_bars(figures, {**dict.fromkeys(RULES, 1.2), "worn_volume_per_cycle": 1.0}).values
+    assert same["worn_volume_per_cycle"] > 0.02
+
+
 def test_the_plan_and_the_notes_know_of_it(tmp_path):
     steps = {step.name: step for step in plan_scene(SCENE, ASKED)[1].steps}
     assert not steps["error bars"].skipped

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import tomllib
 from typing import Annotated, Literal
 
 import numpy as np
@@ -27,7 +28,7 @@ from bem.surfaces import Surface, write_surface
 from reports.experiments.accuracy_asked import RESULT, draw, rows_of
 from tests.campaigns.test_engine import Telling, content
 from tests.campaigns.test_inside_a_case import ARRAY, GROWTH, TRIBOFILM
-from tests.small_scenes import FILM
+from tests.small_scenes import FILM, WEAR
 from tests.small_scenes import PATCH as PATCH_OF_A_LINE
 
 BALL = {
@@ -240,6 +241,55 @@ def test_grid_lengths_without_shape_need_an_accuracy():
         plan_scene(scene)
 
 
+LOOP = tomllib.loads(WEAR)
+del LOOP["domain"]["cells"]
+ROUGHER = {"depths": {"count": 10, "spacing": "120 nm"}, "cycles": {"count": 6, "settled": 3}}
+
+
+def test_loops_of_wear_are_refined_as_a_whole_but_for_what_is_chance(tmp_path):
+    done = run({**LOOP, **ROUGHER, "accuracy": "40 %"}, tmp_path / "run")
+    assert (done.summary["status"], done.summary["accuracy"]["met"]) == ("converged", True)
+    assert levels(done)[0] == "54 x 54 cells, 10 depths"  # four to a correlation length of 0.3 um
+    assert levels(done)[1:] == ["108 x 108 cells, 19 depths"]
+    left = [note for note in done.summary["notes"] if "not asked of particle equivalent radius" in note]
+    assert "repetitions narrow that" in left[0]
+    (case,) = done.summary["accuracy"]["cases"]
+    assert set(case["levels"][0]["errors"]) == {
+        "Sq_initial",
+        "Sq_final",
+        "contact_area_fraction",
+        "criterion_wear_rate",
+    }
+    assert not askable_without_bar(done) - {"first_cycles_radius_nm"}
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        (["accuracy.particle_thickness=5%"], "particle_thickness: its error bar holds chance: which pieces leave"),
+        (["accuracy.particles_per_cycle=5%"], "particles_per_cycle: it has no error bar: it follows the mesh"),
+        (["accuracy.cycles=5%"], "accuracy.cycles: it has no error bar: none is made of counts"),
+        (["accuracy=5%", "cycles.coarser_grid=false"], "accuracy: cycles.coarser_grid is false; allowed: true"),
+    ],
+)
+def test_what_cannot_be_asked_of_a_loop_of_wear_is_refused_figure_by_figure(settings, message):
+    with pytest.raises(InputError) as caught:
+        plan_scene(LOOP, settings)
+    assert message in str(caught.value)
+
+
+def test_loops_of_wear_slide_as_far_on_every_level_and_end_where_their_depths_do():
+    kind = get_kind("wear")
+    scene = kind.resolved(load_scene({**LOOP, "accuracy": "5 %"}))
+    (loop,) = kind.resolutions
+    finer = loop.finer(scene)
+    assert finer.wear.shift == 2 * scene.wear.shift
+    assert finer.domain.cells == tuple(2 * n for n in scene.domain.cells)
+    assert finer.lower.surface.drawn_on == scene.domain.cells
+    deep = kind.resolved(load_scene({**LOOP, "depths": {"count": 600, "spacing": "10 nm"}, "accuracy": "5 %"}))
+    assert loop.finer(deep) == "depths.count can be 1024 at most"
+
+
 WORN = {
     "kind": "friction",
     "name": "worn",
@@ -263,6 +313,17 @@ RUBBED = {
     "contact": {"load": "20 N", "friction": 0.1},
     "heat": {"lower_speed": "2 m/s"},
 }
+RUNNING_IN = {
+    **PATCH_OF_A_LINE,
+    "kind": "running-in",
+    "name": "running-in",
+    "contact": PATCH_OF_A_LINE["contact"] | {"boundary_friction": 0.35},  # so that the coarser loop wears, too
+    "grid": {"lengths": ["51.2 um", "25.6 um"], "periodic": [False, True]},
+    "speeds": ["0.003 m/s"],
+    "depths": {"count": 8, "spacing": "150 nm"},
+    "cycles": {"count": 4, "averaged": 2, "settled": 2},
+    "sharing": {"film_points": 100},
+}
 WALLS = {
     "kind": "flow-factors",
     "name": "walls",
@@ -281,6 +342,7 @@ WALLS = {
         (TIP, {"all": "2 %"}, ["64 x 64 cells", "reuse tolerance 0.002"]),
         (RUBBED, {"all": "0.2 %"}, ["64 x 64 cells"]),
         (WALLS, {"all": "2 %"}, ["cells"]),
+        (RUNNING_IN, {"friction_run_in": "10 %"}, ["cells, ", "depths, ", "film points"]),
     ],
 )
 def test_other_kinds_refine_what_they_resolve(tmp_path, scene, asked, least):

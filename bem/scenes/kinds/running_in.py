@@ -23,6 +23,7 @@ from bem.scenes.kind import Kind
 from bem.scenes.lubrication import MixedScene, tell_of_film
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled, without_bars
+from bem.scenes.resolutions import CELLS, of_loop
 from bem.scenes.rubbing import FRICTION_SLIDES, RubbedRecord, rubbed
 from bem.scenes.tables.sharing import RunningInCycles, RunningInSharing
 
@@ -131,7 +132,8 @@ class RunningInRecord(GridRecord, RubbedRecord):
     contact_area_fraction: Annotated[float, Figure("", "real contact area over patch, run in")]
     worn_depth: Annotated[float, Figure("nm", "mean depth worn in Hertz' strip")]
     step_error: Annotated[
-        float | None, Figure("nm", "what the steps leave open of a depth worn by pressure", optional=True)
+        float | None,
+        Figure("nm", "what the steps leave open of a depth worn by pressure", optional=True, unjudged=True),
     ]
     criterion_wear_rate: Annotated[
         float | None, Figure("mm3_Nm", "wear rate of the criterion itself, by load and distance")
@@ -139,9 +141,9 @@ class RunningInRecord(GridRecord, RubbedRecord):
     particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled", no_bar=wearing.FOLLOWS_CELL)]
     particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle", no_bar=wearing.FOLLOWS_CELL)]
     particles_last_cycles: Annotated[float, Figure("", "particles of the last cycles", no_bar=wearing.FOLLOWS_CELL)]
-    film_table_error: Annotated[float, Figure("", "error of the film that is interpolated in the table")]
-    evaluations_per_cycle: Annotated[float, Figure("", "films per cycle")]
-    convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle")]
+    film_table_error: Annotated[float, Figure("", "error of the film that is interpolated in the table", unjudged=True)]
+    evaluations_per_cycle: Annotated[float, Figure("", "films per cycle", unjudged=True)]
+    convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle", unjudged=True)]
     number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number", no_bar=wearing.FOLLOWS_CELL)]
     volume_mean_radius: Annotated[float, Figure("nm", "the same, mean by volume", no_bar=_FOLLOWS_CELL)]
     cycle: Annotated[wearing.IntArray, _over("1", "cycle")]
@@ -180,7 +182,8 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
         return wear_down(at_resolution(scene, 0.5), heights, PlainContext(scene.seed))
 
     there = wearing.on_every_second_cell(initial, build.grid_of(scene.grid), loop)
-    figures = (None if one is None else {name: getattr(one, name) for name in MIXED_RULES} for one in (found, there))
+    known = [name for name in MIXED_RULES if getattr(found, name) is not None]
+    figures = (None if one is None else {name: getattr(one, name) for name in known} for one in (found, there))
     return running_in_bars(*figures)  # type: ignore[arg-type]
 
 
@@ -299,12 +302,18 @@ def scattering(scene: RunningInScene) -> tuple[str, ...]:
     return () if scene.wear.criterion.needs_strength else tuple(without_bars(RunningInRecord))
 
 
+def _film_shown(scene: RunningInScene) -> str:
+    sharing = scene.sharing
+    return f", {sharing.film_points if scene.contact.point_radii is None else sharing.film_cells} film points"
+
+
 KIND = Kind.of(
     vars(),
     RunningInScene,
     RunningInRecord,
     "running-in in mixed lubrication: wear cycles with the load shared between film and contact",
     always_lists=True,
+    resolutions=(of_loop(CELLS.first, lambda scene: build.grid_of(scene.grid).shape, at_resolution, _film_shown),),
     figures=(
         "running-in-stribeck",
         "friction-over-cycles",

@@ -21,12 +21,14 @@ from bem.scenes.context import Context, PlainContext, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, filled, grid_map
+from bem.scenes.resolutions import first_domain, of_loop
 from bem.scenes.rubbing import RubbedRecord, rubbed
 from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
+    from bem.scenes.checks.hertz import SmoothContact
     from bem.wear import RunningIn
 
 _CONVOLUTIONS = 10  # of one warm-started contact solve, coarse levels included
@@ -55,6 +57,14 @@ class WearScene(SceneModel):
         if self.cylinder.radius == 0 and self.domain.lengths is None:
             raise problem("half_widths for a flat", "domain.lengths where cylinder.radius is 0")
         return self
+
+    def smooth_contact(self, lengths: tuple[float, float] | None = None) -> SmoothContact | None:
+        """Hertz contact of the substrates under the smallest of the loads; the domain's `lengths` have no say in it."""
+        from bem.scenes.checks.hertz import smooth_contact
+
+        cylinder = self.cylinder
+        radii = (cylinder.radius or np.inf, np.inf)
+        return smooth_contact(self.lower.build(), self.upper.build(), radii, load=min(cylinder.loads) / cylinder.width)
 
 
 def axes(scene: WearScene) -> tuple[Axis, ...]:
@@ -117,20 +127,30 @@ class WearRecord(wearing.MeanSizes, wearing.ParticleTable, RubbedRecord):
     first_cycles_radius: Annotated[float, Figure("nm", "volume-mean radius of the particles of the first five cycles")]
     step_error: Annotated[
         float | None,
-        Figure("nm", "what the steps leave open of a depth worn by pressure", optional=True, headline=True),
+        Figure(
+            "nm",
+            "what the steps leave open of a depth worn by pressure",
+            optional=True,
+            headline=True,
+            unjudged=True,
+        ),
     ]
     criterion_wear_rate: Annotated[
         float | None, Figure("mm3_Nm", "wear rate of the criterion itself, by load and distance", headline=True)
     ]
-    cycles: Annotated[int, Figure("", "cycles", headline=True)]
-    truncated_particles: Annotated[int, Figure("", "particles cut off by the deepest depth")]
-    cell: Annotated[float, Figure("nm", "root of the cell's area")]
-    contact_seconds: Annotated[float, Figure("", "seconds in contacts")]
-    stress_seconds: Annotated[float, Figure("", "seconds in stresses")]
-    particles_seconds: Annotated[float, Figure("", "seconds in pieces")]
-    depths_computed_per_cycle: Annotated[float, Figure("", "depths at which stress was computed, per cycle")]
-    convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle")]
-    wear_volume: Annotated[float | None, Figure("mm3", "worn volume by Archard's law", optional=True)] = None
+    cycles: Annotated[int, Figure("", "cycles", headline=True, unjudged=True)]
+    truncated_particles: Annotated[int, Figure("", "particles cut off by the deepest depth", unjudged=True)]
+    cell: Annotated[float, Figure("nm", "root of the cell's area", unjudged=True)]
+    contact_seconds: Annotated[float, Figure("", "seconds in contacts", unjudged=True)]
+    stress_seconds: Annotated[float, Figure("", "seconds in stresses", unjudged=True)]
+    particles_seconds: Annotated[float, Figure("", "seconds in pieces", unjudged=True)]
+    depths_computed_per_cycle: Annotated[
+        float, Figure("", "depths at which stress was computed, per cycle", unjudged=True)
+    ]
+    convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle", unjudged=True)]
+    wear_volume: Annotated[
+        float | None, Figure("mm3", "worn volume by Archard's law", optional=True, unjudged=True)
+    ] = None
     particle_number: Annotated[
         float | None, Figure("", "number of particles in it", optional=True, no_bar=wearing.FOLLOWS_CELL)
     ] = None
@@ -284,6 +304,7 @@ KIND = Kind.of(
     WearRecord,
     "wear particles and running-in of a cylinder on a flat in boundary lubrication",
     resolve=partial(build.with_hardness, table="cylinder", needed=False),
+    resolutions=(of_loop(first_domain, lambda scene: scene.domain.cells, at_resolution),),
     figures=(
         "particle-radius-over-cycles",
         "wear-volume-over-cycles",
