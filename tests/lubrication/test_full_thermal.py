@@ -58,10 +58,10 @@ def test_of_one_temperature_nothing_changes():
     hot, cold = unit_oil(oil())
     pressure = np.array([0.0, 2e8, 1e9])
     for layers in (6, 17):
-        own = HotFilm.of(hot, np.full((3, layers), 333.15), pressure, cold, 0.7, 1.0)
+        own = HotFilm.of(hot, np.full((3, layers), 333.15), cold, 0.7, 1.0)
         np.testing.assert_allclose(own.log_viscosity(pressure), cold(pressure), rtol=1e-12, atol=1e-13)
         np.testing.assert_allclose(own.drag(pressure)[0], 1.0, rtol=1e-12)
-        warm = HotFilm.of(hot, np.full((3, layers), 363.15), pressure, cold, 0.7, 1.0)
+        warm = HotFilm.of(hot, np.full((3, layers), 363.15), cold, 0.7, 1.0)
         expected = np.log(hot.viscosity(pressure, np.full(3, 363.15))[0] / hot.lubricant.viscosity)
         np.testing.assert_allclose(warm.log_viscosity(pressure)[0], expected, rtol=1e-12)
 
@@ -79,7 +79,7 @@ def test_layers_are_dowsons_integrals():
     dragged = 1 - slide * centre
     missed = []
     for layers in (16, 32):
-        found = HotFilm.of(hot, profile(middles(layers))[None], pressure, cold, slide, 1.0)
+        found = HotFilm.of(hot, profile(middles(layers))[None], cold, slide, 1.0)
         missed.append(
             [np.exp(-found.log_viscosity(pressure)[0][0]) / driven - 1, found.drag(pressure)[0][0] / dragged - 1]
         )
@@ -93,7 +93,7 @@ def test_slopes_of_layers_are_differences():
     hot, cold = unit_oil(oil())
     pressure = np.array([1e8, 8e8])
     uneven = 333.15 + 25 * np.linspace(0, 1, 12)[None] ** 2 * np.ones((2, 1))
-    found = HotFilm.of(hot, uneven, pressure, cold, 0.9, 1.0)
+    found = HotFilm.of(hot, uneven, cold, 0.9, 1.0)
     step = 1e3
     for values in (found.log_viscosity, found.drag):
         slope = (values(pressure + step)[0] - values(pressure - step)[0]) / (2 * step)

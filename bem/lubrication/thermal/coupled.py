@@ -80,15 +80,15 @@ class Coupling:
             warming,
         )
 
-    def layered(self, state: State, layers: FloatArray) -> HotFilm:
-        """Temperatures at the nodes of a state [K] and, last, the thinning of layers (n, K + 1), see
+    def layered(self, layers: FloatArray) -> HotFilm:
+        """Temperatures at the nodes [K] and, last, the thinning of layers (n, K + 1), see
         `line_flow.Layered`."""
         cold, temperature, thinning = self.problem.log_viscosity, layers[:, :-1], layers[:, -1]
-        return HotFilm.of(self.oil, temperature, state.pressure, cold, self.slide, self.unit, thinning)
+        return HotFilm.of(self.oil, temperature, cold, self.slide, self.unit, thinning)
 
-    def hot(self, state: State, layers: FloatArray) -> Problem:
+    def hot(self, layers: FloatArray) -> Problem:
         """Reynolds' problem with these."""
-        return replace(self.problem, layered=self.layered(state, layers))
+        return replace(self.problem, layered=self.layered(layers))
 
 
 @dataclass(frozen=True)
@@ -132,7 +132,7 @@ def coupled(coupling: Coupling, start: Outcome) -> Heated:
             remeshed += 1
             state = remesh(coupling.problem, outcome.state, len(outcome.state.offset) - 1, SPIKE_CELLS[-1])
             moved = _moved(outcome.state.offset, kept, state.offset)
-            again = newton(coupling.hot(state, moved), state, goal, coupling.limit)
+            again = newton(coupling.hot(moved), state, goal, coupling.limit)
             steps += again.iterations
             if again.converged:
                 outcome, kept, history = again, moved, History()
@@ -153,7 +153,7 @@ def _heated(coupling: Coupling, outcome: Outcome, given: FloatArray, before: Hea
         return cell_edges(x, pressure, coupling.columns) if places is None else x[places]
 
     strip = strip_of(film, edges, coupling.oil.kept_work)
-    layered, pressure = coupling.layered(outcome.state, given), np.maximum(outcome.state.pressure, 0.0)
+    layered, pressure = coupling.layered(given), np.maximum(outcome.state.pressure, 0.0)
     solved_with = Given(layered.log_viscosity(pressure)[0], layered.centre(pressure))
     duct = coupling.duct(strip, None if before is None else before.duct)
     made = Made.of(coupling.oil, strip, solved_with)
@@ -165,7 +165,7 @@ def _heated(coupling: Coupling, outcome: Outcome, given: FloatArray, before: Hea
     field = temperature_field(duct, made, guess, wanted, held=0.0 if warm else 1.0)
     warm_layers = _smoothed(field.oil)
     found = np.column_stack([made.at_nodes(warm_layers), made.across(warm_layers).thinning])
-    left = newton(coupling.hot(outcome.state, found), outcome.state, coupling.tolerance, 0).residual
+    left = newton(coupling.hot(found), outcome.state, coupling.tolerance, 0).residual
     return Heated(film, outcome, strip, duct, made, field, given, found, left)
 
 
@@ -210,7 +210,7 @@ def _followed(
     share, spent = 1.0, 0
     while share >= SHORTEST_SHARE:
         temperature = kept + share * (wanted - kept)
-        trial = newton(coupling.hot(outcome.state, temperature), outcome.state, tolerance, coupling.limit)
+        trial = newton(coupling.hot(temperature), outcome.state, tolerance, coupling.limit)
         spent += trial.iterations
         if trial.converged:
             return trial, temperature, spent

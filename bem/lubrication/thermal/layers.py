@@ -70,6 +70,10 @@ class Oil:
         """Over that at the lubricant's own temperature and the same pressure; (n,), (n, K)."""
         return np.asarray(1 / (1 + self.expands(pressure)[:, None] * (temperature - self.viscosity.reference)))
 
+    def stiffening(self, pressure: FloatArray, density: FloatArray) -> FloatArray:
+        """Slope of `density`, of given ones (n, K), with pressures (n,) [1/Pa]."""
+        return np.asarray(density * (1 - density) / (EXPANSION_PRESSURE + pressure)[:, None])
+
 
 @dataclass(frozen=True)
 class Sums:
@@ -88,12 +92,17 @@ class Sums:
         return np.asarray(self.density.mean(axis=1) - slide * self.by_mass / self.mean)
 
 
+def mass_of(density: FloatArray) -> FloatArray:
+    """r of densities (n, K), linear in them."""
+    total = density.sum(axis=1, keepdims=True)
+    return np.asarray((2 * np.cumsum(density, axis=1) - density - total) / density.shape[1])
+
+
 def sums_of(fluidity: FloatArray, density: FloatArray) -> Sums:
     """Of fluidities and densities (n, K)."""
     layers = fluidity.shape[1]
     s, weight = middles(layers), 1 / layers
-    total = density.sum(axis=1, keepdims=True)
-    mass = (2 * np.cumsum(density, axis=1) - density - total) * weight
+    mass = mass_of(density)
     mean, by_place, by_mass = fluidity.mean(axis=1), fluidity @ s * weight, (fluidity * mass).mean(axis=1)
     # within a layer the stress goes on being linear: s^2 is larger on average than in the middle
     both = (fluidity * (mass * s + density * weight**2 / 3)).mean(axis=1)
@@ -101,73 +110,95 @@ def sums_of(fluidity: FloatArray, density: FloatArray) -> Sums:
 
 
 @dataclass(frozen=True)
-class HotFilm:
-    """Temperatures of a film at the nodes of its mesh as Reynolds' equation sees them (`line_flow.Layered`).
+class _At:
+    """A film at pressures: ln of the viscosity of the least viscous layer (n,), sums, and with pressure the slopes of
+    ln(viscosity), steep, and of the density of the layers, stiff (n, K)."""
 
-    cold : ln of the viscosity at the oil's own temperature, over scaled pressure. times, plus : (n, K), see
-    `HotViscosity.line`. density : (n, K), at the pressures that the film was made with. slide : (u2 - u1)/(u1 + u2).
-    leaving : drag at the exit. thinning : (n,) see `line_flow.Layered`, at temperatures and film that it was found at.
+    least: FloatArray
+    sums: Sums
+    steep: FloatArray
+    stiff: FloatArray
+
+
+@dataclass(frozen=True)
+class HotFilm:
+    """Temperatures of a film at the nodes of its mesh as Reynolds' equation sees them (`line_flow.Layered`), in which
+    density and viscosity follow the pressure that it solves for.
+
+    cold : ln of the viscosity at the oil's own temperature, over scaled pressure, in a unit [Pa]. temperature : (n, K)
+    [K]. times, plus : (n, K), see `HotViscosity.line`. slide : (u2 - u1)/(u1 + u2). thinning : (n,) see
+    `line_flow.Layered`, at temperatures and film that it was found at.
     """
 
+    oil: Oil
     cold: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+    unit: float
+    temperature: FloatArray
     times: FloatArray
     plus: FloatArray
-    density: FloatArray
     slide: float
     thinning: FloatArray
-    leaving: float
 
     @classmethod
     def of(
         cls,
         oil: Oil,
         temperature: FloatArray,
-        pressure: FloatArray,
         cold: Callable[[FloatArray], tuple[FloatArray, FloatArray]],
         slide: float,
         unit: float,
         thinning: FloatArray | float = 0.0,
     ) -> HotFilm:
-        """Of temperatures (n, K) [K] at pressures (n,) in a unit [Pa]; slide : as of `Sums.drag`."""
-        pressure = np.maximum(pressure, 0.0)
+        """Of temperatures (n, K) [K]; slide : as of `Sums.drag`."""
         times, plus = oil.viscosity.line(temperature)[:2]
-        density = oil.density(pressure * unit, temperature)
-        film = cls(cold, times, plus, density, slide, np.broadcast_to(thinning, pressure.shape), leaving=1.0)
-        return replace(film, leaving=float(film._sums(pressure)[1].drag(slide)[-1]))
+        return cls(oil, cold, unit, temperature, times, plus, slide, np.broadcast_to(thinning, len(temperature)))
+
+    @property
+    def leaving(self) -> float:
+        """Drag at the exit, where there is no pressure."""
+        exit_ = self.cut(slice(-1, None))
+        return float(exit_._at(np.zeros(1)).sums.drag(self.slide)[0])
 
     def drag(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Couette flow over that of the oil as it comes, and its slope."""
-        _, found, steep = self._sums(pressure)
+        at = self._at(pressure)
+        found = at.sums
         off = found.mass - (found.by_mass / found.mean)[:, None]
-        return found.drag(self.slide), self.slide * (found.fluidity * steep * off).mean(axis=1) / found.mean
+        shifted = (found.fluidity * (at.steep * off - mass_of(at.stiff))).mean(axis=1) / found.mean
+        return found.drag(self.slide), at.stiff.mean(axis=1) + self.slide * shifted
 
-    def _sums(self, pressure: FloatArray) -> tuple[FloatArray, Sums, FloatArray]:
-        """At pressures: ln of the viscosity of the least viscous layer, sums, and d ln(viscosity)/dp of the layers."""
+    def _at(self, pressure: FloatArray) -> _At:
         cold, slope = (value[:, None] for value in self.cold(pressure))
         logarithm = np.minimum(self.times * cold + self.plus, LARGEST_LOGARITHM)
         least = logarithm.min(axis=1)
-        return least, sums_of(np.exp(least[:, None] - logarithm), self.density), self.times * slope
+        density = self.oil.density(pressure * self.unit, self.temperature)
+        stiff = self.unit * self.oil.stiffening(pressure * self.unit, density)
+        return _At(least, sums_of(np.exp(least[:, None] - logarithm), density), self.times * slope, stiff)
 
     def log_viscosity(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Of the uniform oil that pressure drives as much of; and its slope."""
-        least, found, steep = self._sums(pressure)
-        layers = found.fluidity.shape[1]
-        # what Phi changes by with the fluidity of a layer
+        at = self._at(pressure)
+        found, layers = at.sums, at.sums.fluidity.shape[1]
+        # what Phi changes by with the fluidity of a layer, and with the densities
         one, other = (found.by_place / found.mean)[:, None], (found.by_mass / found.mean)[:, None]
-        share = (found.mass - other) * (middles(layers) - one) + found.density / (3 * layers**2)
-        return least - np.log(found.driven), 3 * (share * found.fluidity * steep).mean(axis=1) / found.driven
+        lever = middles(layers) - one
+        share = (found.mass - other) * lever + found.density / (3 * layers**2)
+        stiffer = mass_of(at.stiff) * lever + at.stiff / (3 * layers**2)
+        slope = 3 * (found.fluidity * (share * at.steep - stiffer)).mean(axis=1) / found.driven
+        return at.least - np.log(found.driven), slope
 
     def log_sliding_viscosity(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Of the uniform oil that sliding shears at the same stress; and its slope."""
-        least, found, steep = self._sums(pressure)
-        return least - np.log(found.mean), (found.fluidity * steep).mean(axis=1) / found.mean
+        at = self._at(pressure)
+        found = at.sums
+        return at.least - np.log(found.mean), (found.fluidity * at.steep).mean(axis=1) / found.mean
 
     def centre(self, pressure: FloatArray) -> FloatArray:
         """Where across the film, s, the fluidity has its centre."""
-        found = self._sums(pressure)[1]
+        found = self._at(pressure).sums
         return np.asarray(found.by_place / found.mean)
 
     def cut(self, nodes: slice) -> HotFilm:
         """At some of the nodes."""
-        parts = {name: getattr(self, name)[nodes] for name in ("times", "plus", "density", "thinning")}
+        parts = {name: getattr(self, name)[nodes] for name in ("temperature", "times", "plus", "thinning")}
         return replace(self, **parts)
