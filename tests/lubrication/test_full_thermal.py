@@ -2,7 +2,7 @@
 energy equation, conservation, order of convergence, limits, what it costs, and what it refuses to call converged."""
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -12,6 +12,7 @@ from scipy.optimize import brentq
 from bem.errors import InputError, Status
 from bem.heat.bodies import Conductor
 from bem.lubrication import Lubricant, solve_full_thermal_line_film, solve_line_film, solve_thermal_line_film
+from bem.lubrication.density import DowsonHigginson
 from bem.lubrication.shear import Newtonian
 from bem.lubrication.thermal import coupled, full
 from bem.lubrication.thermal.across import Given
@@ -89,15 +90,17 @@ def test_layers_are_dowsons_integrals():
 
 
 def test_slopes_of_layers_are_differences():
-    """With pressure, at frozen temperatures."""
-    hot, cold = unit_oil(oil())
-    pressure = np.array([1e8, 8e8])
+    """With pressure, at temperatures that stay: of the drag it is that of the densities, too, which had been those of
+    the round before. In any unit of pressure."""
+    hot, pressure, unit = Oil.of(oil()), np.array([1e8, 8e8]), 1e7
+    cold = lambda p: [value * by for value, by in zip(unit_oil(oil())[1](p * unit), (1, unit), strict=True)]  # noqa: E731
     uneven = 333.15 + 25 * np.linspace(0, 1, 12)[None] ** 2 * np.ones((2, 1))
-    found = HotFilm.of(hot, uneven, cold, 0.9, 1.0)
-    step = 1e3
-    for values in (found.log_viscosity, found.drag):
-        slope = (values(pressure + step)[0] - values(pressure - step)[0]) / (2 * step)
-        np.testing.assert_allclose(values(pressure)[1], slope, rtol=1e-6)
+    found, at, step = HotFilm.of(hot, uneven, cold, 0.9, unit), pressure / unit, 1e-3
+    for values in (found.log_viscosity, found.drag, found.log_sliding_viscosity):
+        slope = (values(at + step)[0] - values(at - step)[0]) / (2 * step)
+        np.testing.assert_allclose(values(at)[1], slope, rtol=1e-6)
+    still = HotFilm.of(replace(hot, expansion=0.0), uneven, cold, 0.9, unit)
+    assert (found.drag(at)[1] > 1.05 * still.drag(at)[1]).all()
 
 
 # --- heat along and across
@@ -418,6 +421,37 @@ def test_a_spike_without_limit_does_not_keep_heat_from_its_film(monkeypatch):
     assert thinner[0] == pytest.approx(thinner[1], rel=0.01)
     monkeypatch.setattr(coupled, "MOST_ROUNDS", 1)
     assert any('density_law "dowson_higginson" blunts it' in note for note in film(5.0, 0.0, lubricant=plain).notes)
+
+
+@dataclass(frozen=True)
+class Compressed(DowsonHigginson):
+    """A share of the oil's compression."""
+
+    share: float
+
+    def density_ratio(self, pressure):
+        """1 + share (ratio - 1)."""
+        ratio, slope = super().density_ratio(pressure)
+        return 1 + self.share * (ratio - 1), self.share * slope
+
+
+@pytest.mark.parametrize(("mean", "slide", "hertz"), [(3.0, 0.1, 1e9), (15.0, 2.0, 1.5e9)])
+def test_the_spike_without_limit_does_not_jump(mean, slide, hertz):
+    """Sliding of the default oil: the film was solved with the densities that its last pressure made, which a spike
+    answered each round with another pressure; and columns warmed each other to and fro without end. What is found is
+    where oils of ever less compression tend to."""
+    plain = Lubricant.of("ISO VG 68", temperature=333.15)
+    found = film(mean, slide, hertz, plain, points=400)
+    assert found.status is Status.CONVERGED
+    assert found.rounds <= 40  # both had 80, and were not found
+    figures = []
+    for share in (0.2, 0.1):
+        less = film(mean, slide, hertz, replace(plain, density_law=Compressed(share)), points=400)
+        assert less.status is Status.CONVERGED
+        figures.append([less.central_thickness, less.shear_force])
+    # the film goes about linearly with the compression; the spike's mesh leaves some thousandths
+    limit = 2 * np.array(figures[1]) - figures[0]
+    np.testing.assert_allclose(limit, [found.central_thickness, found.shear_force], rtol=3e-3)
 
 
 def test_the_film_s_own_solver_asks_for_heat():

@@ -22,7 +22,7 @@ from bem.lubrication.thermal.made import Made
 from bem.lubrication.thermal.strip import Strip, cell_edges, strip_of
 
 MOST_ROUNDS = 80
-SMOOTHED = 2
+SMOOTHED = 4
 """Times that temperatures are smoothed for the flow."""
 SETTLED = 0.3
 """Residual from which a spike is where it will be."""
@@ -31,6 +31,9 @@ MISPLACED = 3.0
 MOST_MESHES = 3
 MEMORY = 6
 """Rounds that the next one learns from."""
+LEAST_MIXING = 0.25
+FALLING, PATIENCE = 0.7, 6
+"""Of the least residual so far, what counts as less; rounds that may go by without."""
 EXACTNESS = 0.03
 """Of a round, over the error that the last one left."""
 COARSE = 1e-3
@@ -124,23 +127,28 @@ def coupled(coupling: Coupling, start: Outcome) -> Heated:
         if at.met(coupling.tolerance) or rounds >= MOST_ROUNDS or not np.isfinite(at.residual):
             return replace(at, steps=steps, rounds=rounds)
         goal = max(coupling.tolerance, min(EXACTNESS * at.residual, COARSE))
-        outcome, kept, spent = _followed(coupling, at.outcome, at.given, history.following(at.given, at.found), goal)
+        outcome, kept, spent = _followed(coupling, at.outcome, at.given, history.following(at), goal)
         steps += spent
-        if outcome is None:
-            return replace(at, steps=steps, rounds=rounds)
-        if remeshed < MOST_MESHES and _is_misplaced(coupling.problem, outcome.state, at.residual):
+        if (
+            outcome is not None
+            and remeshed < MOST_MESHES
+            and _is_misplaced(coupling.problem, outcome.state, at.residual)
+        ):
             remeshed += 1
             state = remesh(coupling.problem, outcome.state, len(outcome.state.offset) - 1, SPIKE_CELLS[-1])
             moved = _moved(outcome.state.offset, kept, state.offset)
             again = newton(coupling.hot(moved), state, goal, coupling.limit)
             steps += again.iterations
             if again.converged:
-                outcome, kept, history = again, moved, History()
-        following = _heated(coupling, outcome, kept, at, at.residual)
+                outcome, kept, history = again, moved, History(mixing=history.mixing)
+        following = None if outcome is None else _heated(coupling, outcome, kept, at, at.residual)
         rounds += 1
-        if not following.field.residual <= LOST:
+        if following is not None and following.field.residual <= LOST:
+            at = following
+        elif history.mixing > LEAST_MIXING:
+            history = History(mixing=0.5 * history.mixing)
+        else:
             return replace(at, steps=steps, rounds=rounds)
-        at = following
 
 
 def _heated(coupling: Coupling, outcome: Outcome, given: FloatArray, before: Heated | None, residual: float) -> Heated:
@@ -173,14 +181,26 @@ def _heated(coupling: Coupling, outcome: Outcome, given: FloatArray, before: Hea
 class History:
     """What films were solved with, see `Heated`, and what was found of them: where both will be the same, by the
     secants between the last of them (Anderson, J. ACM 12 (1965) 547; Walker and Ni, SIAM J. Numer. Anal. 49 (2011)
-    1715)."""
+    1715).
 
+    mixing : share of the way to what was found, halved where residuals do not fall: columns that heat each other by way
+    of density, film and pressure swing about. least : residual so far; since : rounds that did not lower it.
+    """
+
+    mixing: float = 1.0
     given: list[FloatArray] = field_of(default_factory=list)
     found: list[FloatArray] = field_of(default_factory=list)
+    least: float = np.inf
+    since: int = 0
 
-    def following(self, given: FloatArray, found: FloatArray) -> FloatArray:
+    def following(self, at: Heated) -> FloatArray:
         """What to go on with."""
-        self.given, self.found = [*self.given, given][-MEMORY:], [*self.found, found][-MEMORY:]
+        self.since = 0 if at.residual < FALLING * self.least else self.since + 1
+        self.least = min(self.least, at.residual)
+        if self.since > PATIENCE and self.mixing > LEAST_MIXING:
+            self.mixing, self.since, self.given, self.found = 0.5 * self.mixing, 0, [], []
+        found = at.given + self.mixing * (at.found - at.given)
+        self.given, self.found = [*self.given, at.given][-MEMORY:], [*self.found, found][-MEMORY:]
         if len(self.given) == 1:
             return found
         missed = [(b - a).ravel() for a, b in zip(self.given, self.found, strict=True)]
@@ -225,7 +245,13 @@ def _moved(old: FloatArray, values: FloatArray, new: FloatArray) -> FloatArray:
 
 def _smoothed(oil: FloatArray) -> FloatArray:
     """Temperatures of columns (m, K) as the flow sees them: less rough from one column to the next, by what is of
-    second order in width: else where a spike narrower than a column stands would follow from which column it is in."""
+    fourth order in width: else where a spike narrower than a column stands would follow from which column it is in.
+    What a smoothing takes is given back once, itself smoothed (Hamming, Digital filters (1989): twicing)."""
+    once = _binomial(oil)
+    return once + _binomial(oil - once)
+
+
+def _binomial(oil: FloatArray) -> FloatArray:
     for _ in range(SMOOTHED):
         padded = np.vstack([oil[:1], oil, oil[-1:]])
         oil = 0.25 * (padded[:-2] + 2 * padded[1:-1] + padded[2:])
