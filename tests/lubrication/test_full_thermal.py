@@ -353,7 +353,7 @@ def test_an_oil_that_heat_does_not_thin_has_the_isothermal_film():
 @pytest.mark.slow
 def test_second_order_in_columns_and_layers(monkeypatch):
     """Film, heat carried and mean temperature between bodies that stay cool, on one film mesh: what a halving
-    changes is a quarter of what the one before did. Columns of evenly many nodes."""
+    changes is a quarter of what the one before did; the film hardly knows the columns. Columns of evenly many nodes."""
     steel = STEEL.material
     cool = Body(
         Material("cool", youngs_modulus=steel.youngs_modulus, poissons_ratio=steel.poissons_ratio,
@@ -366,8 +366,10 @@ def test_second_order_in_columns_and_layers(monkeypatch):
         assert found.status is Status.CONVERGED
         return np.array([found.central_thickness, found.power_carried, found.film_temperature.max()])
 
-    for levels, shown in ((((16, 12), (8, 12), (4, 12)), [0, 1]), (((8, 8), (8, 16), (8, 32)), [0, 2])):
+    for levels, shown in ((((16, 12), (8, 12), (4, 12)), [1]), (((8, 8), (8, 16), (8, 32)), [0, 2])):
         one, two, three = (figures(*level) for level in levels)
+        if 0 not in shown:  # smoothing of second order had left 4e-4 of the film to the columns; now it is the mesh's
+            np.testing.assert_allclose([one[0], two[0]], three[0], rtol=2e-5)
         ratio = ((one - two) / (two - three))[shown]
         # 4, less what the next order does; the highest temperature stands at the spike and follows its columns, and the
         # heat carried has thin layers at the walls of the far inlet
