@@ -14,7 +14,7 @@ from bem.errors import InputError, Status
 from bem.friction.smooth import LineContact, SmoothContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, PointFilmSolution, solve_line_film
-from bem.lubrication.steady import check_entrainment, load_range
+from bem.lubrication.steady import load_range
 
 BALANCE_POINTS = 400
 """Film nodes while the balance is looked for; the last evaluations use the number asked for."""
@@ -121,10 +121,6 @@ class SolvedFilm:
     position : (nx,) abscissae of the patch [m]. speeds : (u1, u2) of flat and cylinder [m/s]. points : of the film's
     own mesh. striated_exit : whether the oil behind the exit adds to the shear force. initial : a film of a similar
     case, where the first one starts.
-
-    Raises
-    ------
-    InputError : speeds that are not finite or entrain nothing.
     """
 
     contact: LineContact
@@ -137,9 +133,6 @@ class SolvedFilm:
     step = 0.125  # cubic interpolation is then good to about 1e-4 of the film (tested)
     growth = 0.5
     continued = True
-
-    def __post_init__(self) -> None:
-        check_entrainment(self.speeds)
 
     @property
     def largest_load(self) -> float:

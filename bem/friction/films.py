@@ -10,6 +10,7 @@ from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, PointFilmSolution
+from bem.lubrication.steady import check_entrainment
 
 if TYPE_CHECKING:
     from bem.friction.point_film import SolvedPointFilm
@@ -36,6 +37,7 @@ def films_of(
     ------
     InputError : speeds that are not finite or entrain nothing.
     """
+    check_entrainment(speeds)
     pair = (float(speeds[0]), float(speeds[1]))
     x, y = (setup.grid.x, setup.grid.y) if at is None else at
     fine = setup.film_resolution if resolution is None else resolution

@@ -87,7 +87,19 @@ def validity_notes(
             f"a film under the whole load is outside its model, which ends at {whole.load:.3g} N at this speed and "
             "viscosity: lambda_ratio is that of this load, an upper bound"
         )
-    return tuple(notes)
+    return (*notes, *coating_notes(setup))
+
+
+def coating_notes(setup: MixedSetup) -> tuple[str, ...]:
+    """What to say of coated bodies, whose layers only the rough contact feels."""
+    bodies = (setup.bodies,) if isinstance(setup.bodies, Body) else setup.bodies
+    thickest = max((body.interfaces[-1] for body in bodies if body.layers), default=0.0)
+    if thickest == 0:
+        return ()
+    return (
+        "the film is that between uncoated bodies: only the rough contact feels the layers, as thick as "
+        f"{thickest / setup.smooth.half_axes(setup.load)[0]:.2g} of the contact's half-width",
+    )
 
 
 def coupling_notes(forces: Forces, traction: float, setup: MixedSetup) -> tuple[str, ...]:

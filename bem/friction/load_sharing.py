@@ -32,7 +32,6 @@ from bem.friction.solution import MixedSolution
 from bem.grid import FloatArray, Grid
 from bem.lubrication import FilmSolution, Lubricant, PointFilmSolution
 from bem.lubrication.rough_walls import WallFactors
-from bem.lubrication.steady import check_entrainment
 from bem.lubrication.supply import Supply
 from bem.materials import Body
 
@@ -219,7 +218,6 @@ def solve_setup(
     InputError : heights of another shape or not finite; no entrainment; film positions that do not reach the inlet.
     """
     height = setup.grid.check_field(height, "height")
-    check_entrainment(speeds)
     if not (initial is None or isinstance(initial, MixedSolution)):
         raise InputError(f"initial: {type(initial).__name__} is not a MixedSolution")
     film = films_of(setup, speeds, initial=None if initial is None else initial.film)

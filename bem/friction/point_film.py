@@ -21,7 +21,6 @@ from bem.grid import FloatArray
 from bem.lubrication import PointFilmSolution, solve_point_film
 from bem.lubrication.point.scales import nijenbanning_film, point_scales
 from bem.lubrication.point.solve import MOES_LOADS
-from bem.lubrication.steady import check_entrainment
 from bem.lubrication.validity import THINNEST_FILM
 from bem.reference_solutions.hertz import ellipse_contact
 
@@ -48,10 +47,6 @@ class SolvedPointFilm:
 
     x, y : (nx,), (ny,) abscissae of the patch [m]. speeds : (u1, u2) of flat and ball along x [m/s]. cells : of the
     film's own grid, along an axis.
-
-    Raises
-    ------
-    InputError : speeds that are not finite or entrain nothing.
     """
 
     contact: PointContact
@@ -63,9 +58,6 @@ class SolvedPointFilm:
     step = 0.25
     growth = 1 / 3
     continued = False
-
-    def __post_init__(self) -> None:
-        check_entrainment(self.speeds)
 
     @property
     def solved_load(self) -> float:

@@ -22,7 +22,6 @@ from bem import Body, Grid, Lubricant, Material, solve_line_film
 from bem.accuracy import MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
 from bem.accuracy.contact import surface_is_resolved
 from bem.errors import InputError, Status
-from bem.friction.film import BALANCE_POINTS
 from bem.friction.films import films_of
 from bem.friction.load_sharing import solve_setup
 from bem.friction.setup import MixedSetup
@@ -90,7 +89,7 @@ def finer(setup: MixedSetup) -> MixedSetup:
     """Each cell cut into 4 x 4, films of four times the points."""
     (nx, ny), (dx, dy) = setup.grid.shape, setup.grid.spacing
     grid = Grid((FINER * nx, FINER * ny), (dx / FINER, dy / FINER), periodic=setup.grid.periodic)
-    return replace(setup, grid=grid, film_points=FINER * setup.film_points, tolerance=setup.tolerance / 10)
+    return replace(setup, grid=grid, tolerance=setup.tolerance / 10).with_film(FINER * setup.film_resolution)
 
 
 def rows_of(problem: Problem) -> list[dict[str, Any]]:
@@ -107,9 +106,9 @@ def rows_of(problem: Problem) -> list[dict[str, Any]]:
     coarser = solve_coarser_mixed(case)
     bars = mixed_bars(case, coarser)
     found, truth = mixed_figures(solution), mixed_figures(reference)
-    # load sharing looks at the film under the whole load on 400 points where it does not clear the roughness
-    fine = FINER * setup.film_points
-    whole = films_of(setup, speeds, resolution=fine).under(setup.load, int(fine > BALANCE_POINTS), None)
+    # load sharing looks at the film under the whole load on few points where it does not clear the roughness
+    films = films_of(setup, speeds, resolution=FINER * setup.film_resolution)
+    whole = films.under(setup.load, len(films.errors) - 1, None)
     truth["lambda_ratio"] = whole.minimum_thickness / float(heights.std())
     return rows_with_parts(
         found,

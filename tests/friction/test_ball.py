@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from bem import Body, Grid, Lubricant, Material, generate_surface, solve_contact, solve_mixed, solve_point_film
+from bem import Body, Grid, Layer, Lubricant, Material, generate_surface, solve_contact, solve_mixed, solve_point_film
 from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
 from bem.friction.film_table import FilmTable
@@ -188,3 +188,10 @@ def test_a_film_that_its_cells_cannot_show_is_no_boundary_lubrication():
     assert found.status is Status.CONVERGED
     assert found.regime.value == "mixed"
     assert found.film_load > 40.0
+
+
+def test_a_coated_ball_says_that_its_film_is_the_uncoated_ones():
+    layer = Layer(Material("DLC", youngs_modulus=150e9, poissons_ratio=0.25), 2e-6)
+    coated = BALL | {"bodies": (Body(STEEL, layer=layer), Body(STEEL))}
+    found = solve_mixed(**coated, height=rough(), speeds=(0.5, 0.5))
+    assert [note for note in found.notes if "uncoated bodies" in note and "as thick as 0.018 of" in note]
