@@ -46,6 +46,7 @@ _CONTINUED = (
     "from a third to twenty times the solved one was found"
 )
 _UNSOLVED = "no error bars: load sharing on the grid of twice the cell did not converge"
+_REPEATED = "no error bars: not known yet of a cell that repeats; compare with one of half the spacing"
 _COARSE = "no error bars: the grid is too small to be compared with one of twice the cell"
 _LOADS = Rule(0.5, 0.5, edge=0.004, rough_edge=0.003)
 RULES: dict[str, Rule] = {
@@ -120,6 +121,8 @@ def solve_coarser_mixed(case: MixedCase) -> CoarserShares:
     """The balance again on the grid of twice the cell, with the film on as many points and on half of them (on twice as
     many where half are too few)."""
     grid = case.setup.grid
+    if case.setup.repeated_cell:
+        return CoarserShares(None, None, why=_REPEATED)
     if max(grid.shape) < _FEWEST_CELLS:
         return CoarserShares(None, None, why=_COARSE)
     points = case.setup.film_resolution

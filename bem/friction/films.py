@@ -39,7 +39,7 @@ def films_of(
     """
     check_entrainment(speeds)
     pair = (float(speeds[0]), float(speeds[1]))
-    x, y = (setup.grid.x, setup.grid.y) if at is None else at
+    x, y = (setup.film_grid.x, setup.film_grid.y) if at is None else at
     fine = setup.film_resolution if resolution is None else resolution
     contact = setup.smooth
     if isinstance(contact, PointContact):

@@ -46,7 +46,8 @@ def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup,
     coefficient = _boundary_coefficient(contact, setup, slide) if heat is None else heat.coefficient
     if contact is None:
         return Forces(0.0, sliding_sign(speeds) * film.shear_force, coefficient)
-    covered = float(np.sum(film.shear_stress * (contact.pressure > 0))) * setup.grid.cell_area * setup.slices
+    film_grid = setup.film_grid
+    covered = float(np.sum(film.shear_stress * contact.covered)) * film_grid.cell_area * setup.smooth.slices(film_grid)
     boundary = coefficient * contact.load if slide > 0 else 0.0
     return Forces(boundary, sliding_sign(speeds) * (film.shear_force - covered), coefficient, heat)
 
@@ -57,6 +58,8 @@ def _boundary_coefficient(contact: Pressed | None, setup: MixedSetup, sliding_sp
         return law.constant
     if contact is None or sliding_speed == 0 or not contact.pressure.any():
         return 0.0
+    if contact.cells is not None:
+        return contact.cells.mean_coefficient(law, contact.pressure, sliding_speed)
     filled = filled_part(contact.pressure, contact.area / setup.slices, setup.grid)
     return law.mean_coefficient(contact.pressure, filled, sliding_speed)
 

@@ -72,7 +72,9 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     ----------
     height : (nx, ny), roughness of both surfaces together [m], out of the flat; its mean does not matter.
     grid : of the rough patch, centred under the cylinder; free along x and periodic along y as a rule. Its length
-        along y is one slice of the contact. Under a ball it is free, and holds the contact.
+        along y is one slice of the contact. Under a ball it is free, and holds the contact; or it is periodic along x
+        and y, a cell of the roughness that repeats all over the contact (`bem.friction.repeated_cell`), with the oil
+        counted where the film is "loaded".
     bodies : one Body (the other rigid) or a pair.
     radius, width : of the cylinder [m].
     radii : (Rx, Ry) of relative curvature of a ball or ellipsoid [m], in place of radius and width. Its film
@@ -249,7 +251,8 @@ def _start(setup: MixedSetup, speeds: tuple[float, float], initial: MixedSolutio
     # at a given thickness the film carries in proportion to the speed
     faster = abs(sum(speeds)) / abs(sum(initial.speeds))
     share = min(faster * initial.film_load / initial.load, 0.98)
-    return BalanceStart(share * setup.load, initial.balance_slope, initial.contact_pressure)
+    pressure = None if setup.repeated_cell else initial.contact_pressure
+    return BalanceStart(share * setup.load, initial.balance_slope, pressure)
 
 
 def _solution(
@@ -267,6 +270,7 @@ def _solution(
     oil = oil_beside(setup, height, balance, whole, speeds=film.speeds, friction=friction, before=before)
     returned: FilmSolution | PointFilmSolution | None = found.solution
     assert returned is not None
+    seen = _seen(found, setup)
     if setup.film_position is not None:
         assert isinstance(film, SolvedFilm)
         negligible = balance.regime is Regime.BOUNDARY
@@ -281,7 +285,7 @@ def _solution(
         film_load=found.load,
         film=returned,
         contact=None if contact is None else contact.solution,
-        separation=middle_line(found.thickness) if contact is None else contact.separation,
+        separation=_separation(seen, setup) if contact is None else contact.separation,
         lambda_ratio=lambda_ratio(whole, height),
         minimum_film=found.minimum_thickness,
         contact_area=0.0 if contact is None else contact.area,
@@ -290,7 +294,7 @@ def _solution(
         imbalance=balance.imbalance,
         oil_imbalance=balance.oil_imbalance,
         oil=oil,
-        patch_film=dataclasses.replace(found, solution=None),
+        patch_film=seen,
         balance_slope=balance.slope,
         status=_status(balance.status, forces),
         grid=setup.grid,
@@ -304,6 +308,21 @@ def _solution(
         + (() if forces.heat is None else tuple(note for note in forces.heat.notes if note not in balance.notes))
         + oil_notes([oil]),
     )
+
+
+def _seen(film: PatchFilm, setup: MixedSetup) -> PatchFilm:
+    """The film as the rough patch sees it, without what it was sampled from."""
+    film = dataclasses.replace(film, solution=None)
+    if not setup.repeated_cell:
+        return film
+    from bem.friction.repeated_cell import at_centre
+
+    return at_centre(film)
+
+
+def _separation(film: PatchFilm, setup: MixedSetup) -> FloatArray:
+    """Of surfaces that a film (as the patch sees it) keeps apart, on the middle line (nx,) [m]."""
+    return np.broadcast_to(middle_line(film.thickness), setup.grid.shape[:1])
 
 
 def _status(of_balance: Status, forces: Forces) -> Status:

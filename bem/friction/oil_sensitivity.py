@@ -75,6 +75,9 @@ def _first_load(found: float, load: float, before: OilBeside | None) -> float:
 
 
 def share_beside(setup: MixedSetup, film: PatchFilm) -> float:
-    """Of a film's oil on the patch, the share beside Hertz' contact under the whole load."""
+    """Of a film's oil on the patch, the share beside Hertz' contact under the whole load; none of a cell that repeats
+    within it."""
+    if setup.repeated_cell:
+        return 0.0
     beside = setup.smooth.beside(setup.grid, setup.load)
     return float(film.thickness[beside].sum() / film.thickness.sum())

@@ -17,7 +17,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -38,16 +38,22 @@ from bem.friction.oil_volume import OilVolume, mean_where_counted
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 
+if TYPE_CHECKING:
+    from bem.friction.cell_law import CellLaw
+    from bem.friction.repeated_cell import SpreadContact
+
 
 @dataclass(frozen=True, eq=False)
 class Pressed:
     """Rough surfaces pressed together.
 
     load : on the whole contact [N]. opening : mean distance of the surfaces that oil has to fill, where it is counted
-    [m]. pressure : (nx, ny) [Pa]. approach : by how much the mean planes are closer than the film is thick [m]. area :
-    real, on the whole contact [m^2]. convolutions : spent. status : outcome. solution : of the patch. notes : what the
-    solution says of itself. separation : (nx,) of the undeformed mean planes, on the middle line [m]. opening_error :
-    how well the opening is known [m].
+    [m]. pressure : (nx, ny) [Pa], of cells that repeat their means at the film's places. approach : by how much the
+    mean planes are closer than the film is thick [m]. area : real, on the whole contact [m^2]. convolutions : spent.
+    status : outcome. solution : of the patch. notes : what the solution says of itself. separation : (nx,) of the
+    undeformed mean planes, on the middle line [m]. opening_error : how well the opening is known [m]. film_left_out :
+    share of the film's places that is in contact; the cells with pressure if None. cells : how cells that repeat give
+    way, None of a patch.
     """
 
     load: float
@@ -57,10 +63,17 @@ class Pressed:
     area: float
     convolutions: float
     status: Status
-    solution: ContactSolution | AsperityContact
+    solution: ContactSolution | AsperityContact | SpreadContact
     separation: FloatArray
     notes: tuple[str, ...] = ()
     opening_error: float = 0.0
+    film_left_out: FloatArray | None = None
+    cells: CellLaw | None = None
+
+    @property
+    def covered(self) -> FloatArray:
+        """Share of each of the film's places that is in contact."""
+        return (self.pressure > 0).astype(np.float64) if self.film_left_out is None else self.film_left_out
 
 
 class RoughContact(Protocol):
@@ -108,7 +121,12 @@ def rough_contact(setup: MixedSetup, height: FloatArray, speeds: Sequence[float]
     rough = height - height.mean()
     if setup.contact_model == "uncoupled":
         return UncoupledAsperities(setup, rough)
-    return CoupledContact(setup, rough, boundary_traction(speeds, reference_friction(setup, rough, speeds)))
+    patch = CoupledContact(setup, rough, boundary_traction(speeds, reference_friction(setup, rough, speeds)))
+    if not setup.repeated_cell:
+        return patch
+    from bem.friction.repeated_cell import RepeatedCell  # of balls alone
+
+    return RepeatedCell(setup, patch)
 
 
 def reference_friction(setup: MixedSetup, height: FloatArray, speeds: Sequence[float]) -> float:

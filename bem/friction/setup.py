@@ -23,6 +23,9 @@ CONTACT_MODELS = ("coupled", "uncoupled")
 SEPARATIONS = ("volume", "film")
 FEWEST_CELLS, FILM_CELLS = 32, 96
 """Of a ball's film, along an axis: at least, and by default."""
+FILM_PLACES, REACH = 96, 1.5
+"""Over a contact with a cell that repeats, the film is looked at in so many places along an axis, to so many half-axes
+from its centre."""
 HEAT_NEEDS = ("temperature", "density", "heat_capacity", "thermal_conductivity", "temperature_viscosity")
 """Of an oil."""
 
@@ -110,9 +113,20 @@ class MixedSetup:
                 messages.append(f"{name}: the film of a ball has none; leave it out, or take a cylinder")
         if isinstance(self.lubricant, Lubricant) and self.lubricant.shears_film:
             messages.append('lubricant: film_rheology "shear_law" is not there for a ball; use "newtonian"')
-        if any(self.grid.periodic):
-            messages.append("grid: the patch holds the contact of a ball and goes on nowhere; make it periodic nowhere")
-        return messages
+        return messages + self._patch_of_a_ball()
+
+    def _patch_of_a_ball(self) -> list[str]:
+        """One that holds the contact, or a cell of the roughness that repeats all over it."""
+        if self.grid.periodic[0] is not self.grid.periodic[1]:
+            return [
+                "grid: a patch that holds the contact of a ball goes on nowhere, a cell that repeats all over it goes "
+                "on along both; make it periodic nowhere, or along x and y"
+            ]
+        if self.repeated_cell and self.oil_volume != OilVolume.LOADED:
+            return ['oil_volume: a cell that repeats has its oil where the film carries; make it "loaded"']
+        if self.repeated_cell and self.contact_model == "uncoupled":
+            return ["grid: uncoupled asperities need a patch that holds the contact; make it periodic nowhere"]
+        return []
 
     def _numbers(self) -> list[str]:
         messages = _not_positive({"load": self.load})
@@ -195,6 +209,13 @@ class MixedSetup:
         half_axes = self.smooth.half_axes(self.load)
         if isinstance(self.supply, InletDistance) and self.supply.distance <= half_axes[0]:
             raise InputError(inside_hertz(self.supply, half_axes[0]))
+        if self.repeated_cell:
+            if max(self.grid.lengths) > min(half_axes):
+                raise InputError(
+                    f"grid: the cell of the roughness is {max(self.grid.lengths):.3g} m long, more than the contact's "
+                    f"half-axis {min(half_axes):.3g} m; make it shorter, or a patch that holds the contact"
+                )
+            return
         for axis, length, half in zip("xy", self.grid.lengths, half_axes, strict=True):
             if math.isfinite(half) and 0.5 * length < half:
                 name, there = (
@@ -231,9 +252,24 @@ class MixedSetup:
         return value if isinstance(value, BoundaryFriction) else boundary_law(value)
 
     @property
+    def repeated_cell(self) -> bool:
+        """Whether the rough patch is a cell that repeats all over the contact of a ball."""
+        return self.radii is not None and all(self.grid.periodic)
+
+    @property
     def slices(self) -> float:
-        """How many patches side by side make the contact."""
+        """How many patches side by side make the contact: of cells that repeat, as many as Hertz' ellipse holds."""
+        if self.repeated_cell:
+            return math.pi * math.prod(self.smooth.half_axes(self.load)) / self.grid.area
         return self.smooth.slices(self.grid)
+
+    @property
+    def film_grid(self) -> Grid:
+        """Where the film is looked at: the rough patch, or all of the contact over which a cell repeats."""
+        if not self.repeated_cell:
+            return self.grid
+        a, b = self.smooth.half_axes(self.load)
+        return Grid((FILM_PLACES, FILM_PLACES), (2 * REACH * a / FILM_PLACES, 2 * REACH * b / FILM_PLACES))
 
     @property
     def film_resolution(self) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,6 +18,9 @@ from bem.grid import FloatArray, Grid
 from bem.lubrication import FilmSolution, PointFilmSolution
 from bem.representation import readable
 
+if TYPE_CHECKING:
+    from bem.friction.repeated_cell import SpreadContact
+
 
 @readable
 @dataclass(frozen=True)
@@ -30,7 +34,8 @@ class MixedSolution:
     boundary_force, film_force : the two parts [N]; without sliding the boundary part is zero.
     load, contact_load, film_load : [N].
     film : smooth film under `film_load`.
-    contact : rough contact of one slice as long as the grid is wide; None in full film.
+    contact : rough contact of one slice as long as the grid is wide (`SpreadContact` of a cell that
+        repeats); None in full film.
     separation : (nx,) distance [m] between the mean planes of the undeformed surfaces at the grid's abscissae, as the
         rough contact sees it: film thickness less the shift that keeps the volume of oil; of a ball on y = 0.
     lambda_ratio : minimum of the smooth film under the whole load over the rms height of the patch.
@@ -45,7 +50,8 @@ class MixedSolution:
     oil_imbalance : (mean opening between the surfaces - mean thickness of the film) / the latter, where the oil is
         counted (`oil_volume`); of this film and contact, 0 at an end of the balance.
     oil : how far load share and friction hang on the oil beside Hertz' contact.
-    patch_film : the film as the patch sees it.
+    patch_film : the film as the patch sees it; a cell that repeats, as at the contact's centre: so are pressures and
+        stresses of such a cell.
     regime : "full film", "mixed" or "boundary": the end of the balance, if any, that it is at.
     contact_temperature, flash_temperature : of the surfaces in contact [K], mean by pressure and highest; None without
         heat, contact or sliding. The film's stand in `film`.
@@ -60,7 +66,7 @@ class MixedSolution:
     contact_load: float
     film_load: float
     film: FilmSolution | PointFilmSolution
-    contact: ContactSolution | AsperityContact | None
+    contact: ContactSolution | AsperityContact | SpreadContact | None
     separation: FloatArray
     lambda_ratio: float
     minimum_film: float
@@ -100,7 +106,8 @@ class MixedSolution:
         """Pressure [Pa] and thickness [m] of the film at the grid's abscissae (nx,); of a ball on y = 0."""
         if isinstance(self.film, FilmSolution):
             return self.film.at(self.grid.x)
-        return middle_line(self.patch_film.pressure), middle_line(self.patch_film.thickness)
+        fields = (middle_line(self.patch_film.pressure), middle_line(self.patch_film.thickness))
+        return np.broadcast_to(fields[0], self.grid.shape[:1]), np.broadcast_to(fields[1], self.grid.shape[:1])
 
     @property
     def film_section(self) -> tuple[FloatArray, FloatArray, FloatArray]:

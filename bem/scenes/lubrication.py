@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Annotated, Any, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -195,6 +195,9 @@ class MixedScene(SceneModel):
     supply: SupplyScene | None = None
     grid: LineGridScene = LineGridScene()
 
+    cell_may_repeat: ClassVar[bool] = False
+    """Whether the rough patch of a ball may be a cell that repeats all over the contact."""
+
     @model_validator(mode="before")
     @classmethod
     def _patch_of_a_ball(cls, data: Any) -> Any:
@@ -211,6 +214,11 @@ class MixedScene(SceneModel):
         if self.contact.point_radii is not None and self.oil.film_rheology == "shear_law":
             raise problem('film_rheology = "shear_law"', '"newtonian": the film of a point contact follows no other')
         return self
+
+    @property
+    def cell_repeats(self) -> bool:
+        """Whether the rough patch is a cell that repeats all over the contact of a ball."""
+        return self.contact.point_radii is not None and all(self.grid.periodic) and self.cell_may_repeat
 
     @property
     def bodies(self) -> tuple[Body, Body]:
@@ -270,11 +278,17 @@ class MixedScene(SceneModel):
         """
         grid, load, hardness = build.grid_of(self.grid), self.load, self.contact.hardness
         half_axes = self.contact.half_axes(load, self.modulus)
-        _check_patch(grid, film or FilmMeshScene(), half_axes)
+        if not self.cell_repeats:
+            _check_patch(grid, film or FilmMeshScene(), half_axes)
+        elif max(grid.lengths) > min(half_axes):
+            raise InputError(
+                f"grid: the cell that repeats is {max(grid.lengths):.3g} m long; allowed: at most the contact's "
+                f"half-axis, {min(half_axes):.3g} m"
+            )
         supply = build_supply(self.supply)
         if isinstance(supply, InletDistance) and supply.distance <= half_axes[0]:
             raise InputError(inside_hertz(supply, half_axes[0]))
-        area = self.contact.slice_area(grid.lengths)
+        area = math.pi * math.prod(half_axes) if self.cell_repeats else self.contact.slice_area(grid.lengths)
         if hardness is not None and load > hardness * area:
             raise InfeasibleError(
                 f"contact.loads: {load:g} N is beyond hardness x area of the patch, {hardness * area:g} N, and the "
@@ -303,7 +317,10 @@ def _check_patch(grid: Grid, film: FilmMeshScene, half_axes: tuple[float, float]
     messages = []
     point = math.isfinite(half_axes[1])
     if point and any(grid.periodic):
-        messages.append("grid.periodic: the patch holds the contact of a ball; allowed: [false, false]")
+        messages.append(
+            "grid.periodic: the patch holds the contact of a ball; allowed: [false, false], or in kind friction "
+            "[true, true], a cell of the roughness that repeats all over the contact"
+        )
     elif grid.periodic[0]:
         messages.append("grid.periodic: the patch lies under a cylinder; allowed: [false, true] or [false, false]")
     for axis, length, half in zip("xy", grid.lengths, half_axes, strict=True):

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.errors import InputError
 from bem.friction.balance import NEGLIGIBLE, Balance, BalanceStart, Regime, boundary_note, share_load
 from bem.friction.film import PatchFilm, middle_line
 from bem.friction.film_table import FilmTable
@@ -74,7 +75,7 @@ class MixedContact:
 
     Raises
     ------
-    InputError : speeds that are not finite or entrain nothing.
+    InputError : speeds that are not finite or entrain nothing; a cell that repeats, on which nothing wears yet.
     """
 
     def __init__(
@@ -86,6 +87,8 @@ class MixedContact:
         state: MixedState | None = None,
         rows: NDArray[np.void] | None = None,
     ) -> None:
+        if setup.repeated_cell:
+            raise InputError("grid: a cell that repeats does not wear; take a patch that holds the contact of the ball")
         self.setup = setup
         self.table = table if table is not None else film_table(setup, speeds)
         self.speeds = self.table.speeds
@@ -167,7 +170,7 @@ class MixedContact:
         return ContactOutcome(
             pressure=np.zeros(setup.grid.shape) if solution is None else solution.pressure,
             contact_area=0.0 if solution is None else solution.contact_area,
-            plastic_area=0.0 if solution is None else solution.plastic_area,
+            plastic_area=getattr(solution, "plastic_area", 0.0),
             load=0.0 if solution is None else solution.load,
             friction=boundary_traction(self.speeds, forces.coefficient),
             residual=getattr(solution, "residual", 0.0),

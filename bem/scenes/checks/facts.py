@@ -213,9 +213,13 @@ def _lubricated(scene: Any) -> list[Case]:
     modulus = contact_modulus(bodies["lower"].material, bodies["upper"].material)
     (load,) = contact.forces(modulus)
     depths = getattr(scene, "depths", None)
+    cell = []
+    if scene.cell_repeats:  # of the contact, and part of a flat
+        cell = [Case(grid=grid, load=contact.mean_pressure(load, modulus) * grid.area, cap=contact.hardness, **bodies)]
     return [
+        *cell,
         Case(
-            grid=grid,
+            grid=None if cell else grid,
             load=contact.on_patch(load, grid.lengths),
             smooth=smooth_contact(bodies["lower"], bodies["upper"], contact.curvature, load=load / contact.length),
             cap=contact.hardness,
@@ -226,7 +230,7 @@ def _lubricated(scene: Any) -> list[Case]:
             wear=wear if hasattr(wear, "shift") else None,
             shape="cylinder" if contact.point_radii is None else "ellipsoid",
             **bodies,
-        )
+        ),
     ]
 
 

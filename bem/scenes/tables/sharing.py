@@ -57,6 +57,8 @@ class CurveScene(MixedScene):
     sharing: SharingScene = SharingScene()
     thermal: Literal["off", "lumped"] = "off"
 
+    cell_may_repeat = True
+
     @model_validator(mode="after")
     def _heat(self) -> Self:
         if self.thermal == "off":
@@ -76,6 +78,19 @@ class CurveScene(MixedScene):
         for key, given in asked.items():
             if given:
                 raise problem(f"{key} of a ball's film", "a cylinder, or without: of a point film there is none yet")
+        return self
+
+    @model_validator(mode="after")
+    def _cell(self) -> Self:
+        if not self.cell_repeats:
+            return self
+        if self.sharing.oil_volume != "loaded":
+            raise problem(
+                'a ball on a cell that repeats (grid.periodic = true) with sharing.oil_volume = "patch"',
+                'oil_volume = "loaded", or a patch that holds the contact',
+            )
+        if not {"elastic", "capped"} >= set(self.sharing.models):
+            raise problem("uncoupled asperities on a cell that repeats", "models elastic and capped")
         return self
 
     @property

@@ -1,0 +1,259 @@
+"""A cell of the roughness that repeats all over the contact of a ball, in place of a patch that holds the contact.
+
+Where the roughness is short against the contact, a place of it is known by the mean pressure p there: how far the mean
+planes are apart, s(p), how much oil they hold and how much of it touches are those of a periodic cell under p
+(`bem.friction.cell_law`). The pressures of all places are found as a patch's are, with s(p) for the roughness:
+
+    gap(x, y) + u[p](x, y) - delta = s(p(x, y)),   integral of p = load,
+
+gap the film's, u the deflection of the smooth bodies. It is Greenwood and Tripp's problem (*J. Appl. Mech.* 34, 1967,
+153) with the cell's own law and the film's gap; -s rises with p, so that there is one answer. In ln p, by Newton's
+method with conjugate gradients: u and -s'(p) are symmetric and positive. Verified in tests/friction/
+test_repeated_cell.py against patches that hold the contact.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from bem.contact import ContactSolution, solve_contact
+from bem.convolution import DisplacementOperator, displacement_operator
+from bem.errors import Status
+from bem.friction.cell_law import CellLaw, SolvedCell
+from bem.friction.film import PatchFilm
+from bem.friction.oil_volume import OilVolume, mean_where_counted
+from bem.friction.rough_contact import CoupledContact, Pressed
+from bem.friction.setup import MixedSetup
+from bem.grid import FloatArray, Grid
+from bem.representation import readable
+
+LEAST, MOST, STEPS = 1e-4, 4.0, 28
+"""Mean pressures of the cells that are tabulated: from and to that many times Hertz' mean, in so many equal ratios."""
+MOST_YIELDED = 0.97
+"""Of the hardness: cells above yield nearly everywhere."""
+NEWTON_STEPS, LINEAR_STEPS = 60, 400
+LARGEST_STEP = 1.5
+"""In ln p."""
+COUNTS = 1e-3
+"""Of the highest pressure: places below carry nothing to speak of."""
+FEWEST_CELLS_ACROSS = 4.0
+"""Lengths of the cell to a half-axis, above which its roughness is short against the contact. With five and a half, two
+crossed waves, the surfaces' share was within 1 % of a patch's (tests)."""
+
+
+@readable
+@dataclass(frozen=True)
+class SpreadContact:
+    """Contact of a cell that repeats. pressure, displacement : (nx, ny) of the cell where the mean pressure is highest
+    [Pa, m]. mean_pressure : of the cells, on the film's grid [Pa]. load, contact_area : mean of the cells within Hertz'
+    ellipse, of one [N, m^2]."""
+
+    pressure: FloatArray
+    displacement: FloatArray
+    mean_pressure: FloatArray
+    load: float
+    contact_area: float
+
+
+@dataclass(frozen=True, eq=False)
+class RepeatedCell:
+    """Many of one cell; a `RoughContact`. cell : one of them."""
+
+    setup: MixedSetup
+    cell: CoupledContact
+
+    @property
+    def traction(self) -> float:
+        """As `RoughContact`; it acts within the cells."""
+        return self.cell.traction
+
+    @property
+    def tolerance(self) -> float:
+        """As `RoughContact`."""
+        return self.cell.tolerance
+
+    @property
+    def counted(self) -> OilVolume:
+        """As `RoughContact`."""
+        return self.cell.counted
+
+    @property
+    def largest_load(self) -> float:
+        """As `RoughContact`: with all places as high as the cells are tabulated to."""
+        return float(self._pressures[-1]) * self.setup.slices * self.setup.grid.area
+
+    @cached_property
+    def law(self) -> CellLaw:
+        """Made when the first contact is solved."""
+        return CellLaw.tabulated(self.setup.grid, self._solved, self._pressures)
+
+    @cached_property
+    def operator(self) -> DisplacementOperator:
+        """Of the smooth bodies, over the contact."""
+        return displacement_operator(self.setup.film_grid, self.setup.bodies)
+
+    def clears(self, film: PatchFilm) -> bool:
+        """As `RoughContact`."""
+        return float(film.thickness.min()) >= float(self.cell.rough.max())
+
+    def at_volume(self, film: PatchFilm, tolerance: float, start: FloatArray | None) -> Pressed:
+        """Not there: the oil is counted where the film carries."""
+        raise NotImplementedError("a cell that repeats has no oil beside the contact to count")
+
+    def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
+        """As `RoughContact`; the pressures are the cells' means on the film's grid."""
+        setup, law = self.setup, self.law
+        grid = setup.film_grid
+        first = start if start is not None and start.shape == grid.shape and start.any() else self._hertz()
+        scale = float(self.cell.rough.std())
+        spread = spread_pressure(film.gap, law, self.operator, grid, load, first, tolerance * scale)
+        logarithm = np.log(spread.pressure)
+        share = law.share(logarithm)
+        area = float(share.sum()) * grid.cell_area
+        cell_pressure, displacement = law.shown(float(spread.pressure.max()))
+        n = setup.slices
+        return Pressed(
+            load=load * (1 + spread.load_missed),
+            opening=mean_where_counted(spread.separation + law.overlap(logarithm), film, self.counted),
+            pressure=spread.pressure,
+            approach=spread.approach,
+            area=area,
+            convolutions=spread.convolutions,
+            status=spread.status if law.status is Status.CONVERGED else law.status,
+            solution=SpreadContact(cell_pressure, displacement, spread.pressure, load / n, area / n),
+            separation=np.full(setup.grid.shape[:1], float(law.separation(np.array(float(logarithm.max())))[0])),
+            notes=self._notes(spread.pressure),
+            opening_error=tolerance * scale + max(cell.opening_error for cell in law.cells),
+            film_left_out=share,
+            cells=law,
+        )
+
+    @cached_property
+    def _pressures(self) -> FloatArray:
+        mean = self.setup.smooth.mean_pressure(self.setup.load)
+        most = MOST * mean
+        if self.setup.hardness is not None:
+            most = min(most, MOST_YIELDED * self.setup.hardness)
+        return np.geomspace(min(LEAST * mean, 0.1 * most), most, STEPS)
+
+    def _solved(self, pressure: float, start: FloatArray | None) -> SolvedCell:
+        """The cell under a mean pressure [Pa]."""
+        grid, rough = self.setup.grid, self.cell.rough
+        found: ContactSolution = solve_contact(
+            -rough,
+            self.cell.operator,
+            load=pressure * grid.area,
+            hardness=self.setup.hardness,
+            tolerance=self.tolerance,
+            initial_pressure=start,
+        )
+        return SolvedCell(
+            mean_pressure=pressure,
+            separation=float(found.gap.mean()),
+            opening=float(np.maximum(found.gap, 0.0).mean()),
+            share=found.contact_area / grid.area,
+            pressure=found.pressure,
+            displacement=found.displacement,
+            opening_error=self.tolerance * float(rough.std()),
+            status=found.status,
+            convolutions=found.convolutions,
+        )
+
+    def _hertz(self) -> FloatArray:
+        """A pressure to begin with."""
+        grid, (a, b) = self.setup.film_grid, self.setup.smooth.half_axes(self.setup.load)
+        inside = 1 - (grid.x[:, None] / a) ** 2 - (grid.y[None, :] / b) ** 2
+        return np.sqrt(np.maximum(inside, 1e-4))
+
+    def _notes(self, pressure: FloatArray) -> tuple[str, ...]:
+        """What to say of cells that are long against the contact, and of pressures beyond the table."""
+        notes = []
+        across = min(self.setup.smooth.half_axes(self.setup.load)) / max(self.setup.grid.lengths)
+        if across < FEWEST_CELLS_ACROSS:
+            notes.append(
+                f"the cell that repeats goes {across:.2g} times into the contact's half-axis: its roughness is not "
+                "short against the contact; take a shorter one, or a patch that holds the contact"
+            )
+        if float(pressure.max()) > float(self._pressures[-1]) * 1.01:
+            notes.append("the surfaces' mean pressure is higher at places than cells were solved for")
+        return tuple(notes)
+
+
+@dataclass(frozen=True, eq=False)
+class Spread:
+    """Mean pressures (n, m) [Pa] of cells over a contact, distance (n, m) of the deflected mean planes and approach of
+    the bodies [m], what is missed of the load, relative to it, applications of the operator, outcome."""
+
+    pressure: FloatArray
+    separation: FloatArray
+    approach: float
+    load_missed: float
+    convolutions: float
+    status: Status
+
+
+def spread_pressure(
+    gap: FloatArray,
+    law: CellLaw,
+    operator: DisplacementOperator,
+    grid: Grid,
+    load: float,
+    start: FloatArray,
+    goal: float,
+) -> Spread:
+    """Pressures whose separations are the gap (n, m) [m], deflected and less the approach, to a goal [m] wherever they
+    are above a thousandth of the highest, under a load [N]."""
+    sum_of = load / grid.cell_area
+    logarithm = np.log(start * (sum_of / start.sum()))
+    spent, status, approach = 0, Status.STALLED, 0.0
+    for _ in range(NEWTON_STEPS):
+        pressure = np.exp(logarithm)
+        separation, slope = law.separation(logarithm)
+        opened = gap + operator(pressure) - separation
+        weight = np.minimum(pressure, pressure.max() * 0.1)
+        approach = float((opened * weight).sum() / weight.sum())
+        missed, too_little = opened - approach, sum_of - float(pressure.sum())
+        spent += 1
+        if float(np.abs(missed[pressure > COUNTS * pressure.max()]).max()) <= goal and abs(too_little) <= 1e-9 * sum_of:
+            status = Status.CONVERGED
+            break
+        winkler = -slope / pressure
+        by_gap, first = _conjugate_gradients(operator, winkler, -missed)
+        by_approach, second = _conjugate_gradients(operator, winkler, np.ones_like(gap))
+        spent += first + second
+        deeper = (too_little - float(by_gap.sum())) / float(by_approach.sum())
+        change = (by_gap + deeper * by_approach) / pressure
+        logarithm = logarithm + np.clip(change, -LARGEST_STEP, LARGEST_STEP)
+    apart = np.maximum(opened + separation - approach, 0.0)
+    return Spread(pressure, apart, approach, -too_little / sum_of, float(spent), status)
+
+
+def _conjugate_gradients(
+    operator: DisplacementOperator, winkler: FloatArray, right: FloatArray
+) -> tuple[FloatArray, int]:
+    """x with u[x] + winkler x = right, all (n, m) [m/Pa, Pa, m], and how many applications of u it took. In units in
+    which the diagonal is one: places that carry nothing give way by orders of magnitude more."""
+    unit = 1 / np.sqrt(winkler)
+    residual = unit * right
+    found, direction = np.zeros_like(right), residual.copy()
+    square = goal = float((residual**2).sum())
+    steps = 0
+    while steps < LINEAR_STEPS and square > 1e-16 * goal:
+        steps += 1
+        image = direction + unit * operator(unit * direction)
+        length = square / float((direction * image).sum())
+        found += length * direction
+        residual -= length * image
+        before, square = square, float((residual**2).sum())
+        direction = residual + (square / before) * direction
+    return unit * found, steps
+
+
+def at_centre(film: PatchFilm) -> PatchFilm:
+    """A film as a cell at its centre sees it, everywhere alike: fields (1, 1)."""
+    i, j = (n // 2 for n in film.thickness.shape)
+    middle = {name: getattr(film, name)[i : i + 1, j : j + 1] for name in ("thickness", "pressure", "shear_stress")}
+    return replace(film, **middle, smooth_gap=None)
