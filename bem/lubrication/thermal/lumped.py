@@ -25,6 +25,7 @@ from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_scales import line_scales
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors
 from bem.lubrication.shear_profile import middle_stress
@@ -39,12 +40,15 @@ from bem.lubrication.thermal.notes import notes_of_film, notes_of_heat
 from bem.lubrication.thermal.strip import Strip, cell_edges, derivative_of, strip_of, summed
 from bem.lubrication.viscosity import ViscosityLaw
 from bem.materials import Body
+from bem.reference_solutions.line_film import moes_central
 from bem.threads import one_blas_thread
 
 COARSE = 250
 """Points of the films that say how thin the oil must be."""
-FILM_EXPONENT = 0.69
-"""Of the film with viscosity, of heavily loaded line contacts: Dowson and Higginson (1966)."""
+COARSE_TOLERANCE = 1e-5
+"""Of these films: far below that of the factor."""
+_TYPICAL, _SLIGHTEST, _ROUNDS = 0.7, -1e-3, 3
+"""Exponent that the fitted one is found from, the least ln of a share that it is looked up for, and how often."""
 FACTOR_TOLERANCE = 5e-3
 """Of the film that inlet heating leaves; the factor itself is good to some 0.05."""
 MOST_FILMS = 4
@@ -236,9 +240,10 @@ def _thinned(
     case: dict[str, Any], lubricant: Lubricant, points: int, initial: FilmSolution | None, inlet: InletHeating
 ) -> _Thinned:
     """How thin the oil must be is found on a coarse mesh, where that has films; only the last film is on all points."""
-    found = _search(case | {"points": min(points, COARSE)}, lubricant, initial if points <= COARSE else None, inlet)
     if points <= COARSE:
-        return found
+        return _search(case | {"points": points}, lubricant, initial, inlet)
+    tolerance = max(case["tolerance"], COARSE_TOLERANCE)
+    found = _search(case | {"points": COARSE, "tolerance": tolerance}, lubricant, _coarse_start(initial), inlet)
     if found.missed > FACTOR_TOLERANCE:
         spent, found = found.steps, _search(case | {"points": points}, lubricant, initial, inlet)
         found.steps += spent
@@ -250,10 +255,11 @@ def _thinned(
 
 
 def _search(case: dict[str, Any], lubricant: Lubricant, initial: FilmSolution | None, inlet: InletHeating) -> _Thinned:
-    """All on one mesh, with the exponent of the film in the viscosity that was found last."""
+    """All on one mesh, with the exponent of the film in the viscosity that was found last, of a fit at first."""
     found = _Thinned(inlet)
     found.add(solve_line_film(**case, lubricant=lubricant, initial=initial))
-    isothermal, wanted, exponent, ratio = found.films[0], math.log(inlet.factor), FILM_EXPONENT, 0.0
+    isothermal, wanted, ratio = found.films[0], math.log(inlet.factor), 0.0
+    exponent = _fitted_exponent(case, lubricant, wanted)
     while found.films[-1].status is Status.CONVERGED:
         reached = math.log(found.films[-1].central_thickness / isothermal.central_thickness)
         found.missed = abs(math.expm1(reached - wanted))
@@ -267,6 +273,30 @@ def _search(case: dict[str, Any], lubricant: Lubricant, initial: FilmSolution | 
         found.add(solve_line_film(**case, lubricant=thinner, initial=found.films[-1]))
     found.missed = math.inf
     return found
+
+
+def _coarse_start(initial: FilmSolution | None) -> FilmSolution | None:
+    """Of a film with lumped heat on more points: its own coarse one without heat."""
+    heat = None if initial is None else initial.heat
+    return heat.isothermal if isinstance(heat, ThermalFilm) else None
+
+
+def _fitted_exponent(case: dict[str, Any], lubricant: Lubricant, wanted: float) -> float:
+    """Of the film in the viscosity, down to a film whose ln is `wanted` less; of Moes' fit (`moes_central`)."""
+    entrainment = abs(sum(case["speeds"]))
+    scales = line_scales(case["load"], case["radius"], case["contact_modulus"], entrainment, lubricant.viscosity)
+    piezo = lubricant.pressure_viscosity * scales.pressure
+
+    def film(ratio: float) -> float:
+        return 0.5 * ratio + math.log(
+            moes_central(scales.load * math.exp(-0.5 * ratio), piezo * math.exp(0.25 * ratio))
+        )
+
+    exponent = _TYPICAL
+    for _ in range(_ROUNDS):
+        ratio = min(wanted / exponent, _SLIGHTEST)
+        exponent = (film(ratio) - film(0.0)) / ratio
+    return exponent
 
 
 def _of_share(lubricant: Lubricant, share: float) -> Lubricant:
