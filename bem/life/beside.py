@@ -19,7 +19,14 @@ from bem.wear.loads import LOWER
 
 FIGURES = (
     *("particles", "particle_equivalent_radius", "particles_over_cycles"),
-    *("micropitted_share", "largest_damage", "micropitted_over_cycles", "damage_map"),
+    *(
+        "micropitted_share",
+        "micropitted_at_most",
+        "micropitted_at_least",
+        "largest_damage",
+        "micropitted_over_cycles",
+        "damage_map",
+    ),
 )
 
 
@@ -66,7 +73,8 @@ class Beside:
         if self.fatigue is not None:
             notes.append(
                 "micropitting: one cycle of stress a pass, sampled in the positions; pits stay in the surface, cracks "
-                "do not grow, and no residual stress is known; compare lives with more positions and cells"
+                "do not grow, and no residual stress is known; at most and at least bracket jumps and what meets in a "
+                "pass, not cells"
             )
         return tuple(notes)
 
@@ -83,6 +91,7 @@ class Beside:
         if end.damage is not None:
             highest = end.damage[0].max(axis=0)
             found["micropitted_share"] = pitted_share(end)
+            found["micropitted_at_most"], found["micropitted_at_least"] = (pitted_share(end, of) for of in (1, 2))
             found["largest_damage"] = float(highest.max())
             found["micropitted_over_cycles"] = np.interp(cycle, self.pits[:, 0], self.pits[:, 1])
             found["damage_map"] = highest[: self.case.grid.shape[0]]

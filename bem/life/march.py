@@ -38,8 +38,9 @@ class LifeState:
     """All that the next step needs, and the record so far.
 
     cycles : so far. step : to try next [cycles]. surfaces : now; first : heights before the first cycle. rows : (n,
-    len(ROW)). rejected : how many steps were made shorter. passes : of the last round. damage : (2, nz, rows, ny), so
-    far and of a cycle, of a body's material where it is counted. convolutions : spent.
+    len(ROW)). rejected : how many steps were made shorter. passes : of the last round. damage : (5, nz, rows, ny) of a
+    body's material where it is counted: so far, at most and at least, and of a cycle as one path and position by
+    position. convolutions : spent.
     """
 
     cycles: float

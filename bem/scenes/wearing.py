@@ -172,6 +172,18 @@ def bars_step(scene: Any, grid: Grid, convolutions: int) -> Step:
 _SCATTER_ALONE = "cycles.coarser_grid is false: what repetitions scatter is all that is told of errors"
 
 
+def grid_keys(scene: Any, factor: float) -> dict[str, Any]:
+    """Keys of a scene in mixed lubrication with so many times the cells and points of the film."""
+    grid, sharing = scene.grid, scene.sharing
+    assert grid.shape is not None
+    keys: dict[str, Any] = {
+        "grid.shape": tuple(round(factor * n) for n in grid.shape),
+        "sharing.film_points": min(max(round(factor * sharing.film_points), 100), 2000),
+        "sharing.film_cells": min(max(round(factor * sharing.film_cells), 32), 256),
+    }
+    return keys if grid.spacing is None else keys | {"grid.spacing": tuple(h / factor for h in grid.spacing)}
+
+
 def resolution_keys(scene: Any, factor: float) -> dict[str, Any]:
     """Keys of a scene with so many times the depths, that slides as far in a cycle on so many times the cells."""
     depths, shift = scene.depths, factor * scene.wear.shift

@@ -33,7 +33,12 @@ def test_reversed_bending_meets_the_limit_that_defines_it():
     life = 1e6
     amplitude = DANG_VAN.bending + DANG_VAN.slope * np.log(life)
     found = DANG_VAN.damage(DANG_VAN.equivalent_shear(path(yy=amplitude * np.cos(PHASES))))
-    assert found == pytest.approx(1 / life, rel=0.03)  # N = exp(.../43 MPa): a thousandth of the stress is 1.5 %
+    assert found == pytest.approx(1 / life, rel=0.05)  # N = exp(.../18.7 MPa): a thousandth of the stress is 5 %
+
+
+def test_the_default_is_as_strong_as_hardened_bearing_steel_after_many_cycles():
+    # rotating bending at 1e9 cycles: 858 MPa (Li, Sakai et al. 2011); steels of one grade differ by more than 5 %
+    assert DANG_VAN.bending + DANG_VAN.slope * np.log(1e9) == pytest.approx(858e6, rel=0.05)
 
 
 def test_a_mean_stress_shakes_down_but_for_its_hydrostatic_part():

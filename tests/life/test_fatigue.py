@@ -56,22 +56,49 @@ def test_a_smooth_roller_does_what_the_closed_path_says_as_cells_and_positions_g
 
 def test_damage_adds_up_and_comes_up_with_the_material():
     case = smooth(32, 8, rate=2e-16, cycles=4000.0, first_step=4000.0, tolerance=0.5)
-    model = fatigue(FatigueLimit(bending=900e6))
+    model = fatigue(FatigueLimit(bending=700e6))
     first = model.begun(case, begun(case))
-    rate = first.damage[1]
+    rate = first.damage[3]
     still = replace(case, rates=(0.0, 0.0))
     steady = model.after(still, first, advance(still, replace(first, step=4000.0, cycles=0.0)))
-    # the same stresses all along: cycles times the damage of one
+    # the same stresses all along: cycles times the damage of one; jumps leave nothing open
     assert steady.damage[0] == pytest.approx(4000 * rate, rel=1e-6)
-    deep = replace(first, damage=np.stack([np.ones_like(rate) * np.array([0.1, 0.4, 0.8])[:, None, None], 0 * rate]))
+    assert steady.damage[1] == pytest.approx(steady.damage[0], rel=1e-6)
+    assert steady.damage[2] == pytest.approx(4000 * first.damage[4], rel=1e-6)
+    so_far = np.ones_like(rate) * np.array([0.1, 0.4, 0.8])[:, None, None]
+    deep = replace(first, damage=np.stack([so_far] * 3 + [0 * rate] * 2))
     worn = advance(case, replace(deep, step=4000.0, cycles=0.0))
     lost = deep.surfaces.heights[0] - worn.surfaces.heights[0]
     after = model.after(case, deep, worn).damage
     # what lay between the first two depths moved up by what wore
-    own = after[0] - 0.5 * 4000 * after[1]
+    own = after[0] - 0.5 * 4000 * after[3]
     expected = 0.1 + 0.3 * lost / (DEPTHS[1] - DEPTHS[0])
     assert own[0] == pytest.approx(expected, rel=1e-9)
     assert lost.max() > 1e-10
+
+
+def test_brackets_hold_the_path_and_what_lies_between_the_ends_of_a_jump():
+    case = smooth(32, 8, rate=2e-16, cycles=4000.0, first_step=4000.0, tolerance=0.5)
+    model = fatigue(FatigueLimit(bending=700e6))
+    first = model.begun(case, begun(case))
+    # a path of fewer states needs no larger ball, and is as hot at rest; each of eight counts an eighth
+    assert (first.damage[4] <= first.damage[3]).all()
+    now = model.after(case, first, advance(case, replace(first, step=4000.0, cycles=0.0)))
+    assert (now.damage[2] <= now.damage[0]).all()
+    assert (now.damage[0] <= now.damage[1]).all()
+    assert (now.damage[0] < now.damage[1]).any()
+    assert pitted_share(now, 2) <= pitted_share(now) <= pitted_share(now, 1)
+
+
+def test_oil_on_a_contact_at_the_cap_presses_no_harder():
+    case = smooth(32, 4)
+    rows, solved = (32, 32), begun(case)
+    passes = [replace(one, film_pressure=0.2 * one.pressure[:, :1]) for one in solved.passes]
+    capped = replace(fatigue(), hardness=PEAK).equivalent_shear(case, rows, passes)
+    pressed = [replace(one, pressure=np.minimum(1.2 * one.pressure, PEAK)) for one in solved.passes]
+    # the smallest ball is found to a millionth
+    assert capped == pytest.approx(fatigue().equivalent_shear(case, rows, pressed), rel=1e-5)
+    assert capped.max() < fatigue().equivalent_shear(case, rows, passes).max()
 
 
 def test_pits_are_columns_without_life_left():
@@ -81,3 +108,4 @@ def test_pits_are_columns_without_life_left():
     gone = state.damage.copy()
     gone[0, 1, :8] = 1.0
     assert pitted_share(replace(state, damage=gone)) == 0.25
+    assert pitted_share(replace(state, damage=gone), 1) == 0.0

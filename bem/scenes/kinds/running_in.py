@@ -189,16 +189,7 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
 
 def at_resolution(scene: RunningInScene, factor: float) -> RunningInScene:
     """The scene with so many times the cells, depths and points of the film, that slides as far in a cycle."""
-    grid, sharing = scene.grid, scene.sharing
-    assert grid.shape is not None
-    keys: dict[str, Any] = {
-        "grid.shape": tuple(round(factor * n) for n in grid.shape),
-        "sharing.film_points": min(max(round(factor * sharing.film_points), 100), 2000),
-        "sharing.film_cells": min(max(round(factor * sharing.film_cells), 32), 256),
-    }
-    if grid.spacing is not None:
-        keys["grid.spacing"] = tuple(h / factor for h in grid.spacing)
-    return with_keys(scene, keys | wearing.resolution_keys(scene, factor))
+    return with_keys(scene, wearing.grid_keys(scene, factor) | wearing.resolution_keys(scene, factor))
 
 
 def wear_down(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], context: Context) -> RunningInRecord:

@@ -15,10 +15,10 @@ import numpy as np
 from pydantic import model_validator
 
 from bem.grid import FloatArray
-from bem.scenes import build, plans
+from bem.scenes import build, lives, plans
 from bem.scenes.axes import Axis
 from bem.scenes.common import Repetitions, problem
-from bem.scenes.context import Context
+from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.lubrication import MixedScene
 from bem.scenes.packing import keep, kept
@@ -32,12 +32,9 @@ if TYPE_CHECKING:
     from bem.life.beside import Beside
     from bem.life.march import LifeState
     from bem.life.passes import MixedPasses
-    from bem.life.surfaces import GrowingFilm, LifeCase
 
 _CONVOLUTIONS = 60  # of the two or three contacts of a pass
 _JUMPS = 40  # steps of a life of a million cycles, each of three rounds
-
-_JUMPS_OF_FATIGUE = 16  # at least: the stresses of a jump are those of its ends
 
 
 class RunningInLifeScene(MixedScene):
@@ -99,7 +96,7 @@ def plan(scene: RunningInLifeScene) -> Plan:
     if scene.fatigue is not None:
         scene.fatigue.build(scene.bodies, scene.friction)
     if scene.particles is not None:
-        scene.particles.build(grid, scene.bodies, scene.contact.hardness, _on_grid(scene))
+        scene.particles.build(grid, scene.bodies, scene.contact.hardness, lives.on_grid(scene))
     decades = max(np.log2(max(life.count / life.first_step, 2.0)) / 20, 0.1)
     passes = 3 * scene.wear.positions * _JUMPS * decades * max(0.05 / life.tolerance, 0.5)
     return Plan.of(
@@ -130,10 +127,17 @@ def plan(scene: RunningInLifeScene) -> Plan:
             skipped=scene.particles is None,
             seconds=0.02 * passes / 3,
         ),
+        plans.error_bars(
+            life.coarser_lives,
+            "a life on twice the cell, and there one of half the positions",
+            if_not=_JUMPS_ALONE,
+            **plans.coarser_contacts(grid, 1.5 * _CONVOLUTIONS * passes, 2.0),
+        ),
         plans.figures(grid.cells),
     )
 
 
+_JUMPS_ALONE = "hold what the cycle jumps leave open alone: life.coarser_lives is false"
 _over, _shown = partial(Series, ("cycle",)), partial(grid_map, of="first")
 _step = partial(Series, ("step",), rows=True)
 _PITS = "it follows the stresses of single cells, the positions that sample a pass, and the surfaces drawn"
@@ -144,17 +148,17 @@ _COUNTS = "pieces follow the mesh under most criteria; see kind wear"
 class RunningInLifeRecord(GridRecord):
     """A life: friction, roughness, film and wear from its first cycle to its last, and the jumps that led there."""
 
-    friction_initial: Annotated[float, Figure("", "friction of the unworn surfaces", headline=True, unjudged=True)]
+    friction_initial: Annotated[float, Figure("", "friction of the unworn surfaces", headline=True)]
     friction_final: Annotated[float, Figure("", "friction at the end", headline=True)]
-    Sq_initial: Annotated[float, Figure("nm", "Sq of the lower surface, unworn", headline=True, unjudged=True)]
+    Sq_initial: Annotated[float, Figure("nm", "Sq of the lower surface, unworn", headline=True)]
     Sq_final: Annotated[float, Figure("nm", "Sq of the lower surface at the end, its film on it", headline=True)]
     worn_depth: Annotated[float, Figure("nm", "mean depth worn of the lower surface", headline=True)]
-    upper_Sq_initial: Annotated[float, Figure("nm", "Sq of the upper surface, unworn", unjudged=True)]
+    upper_Sq_initial: Annotated[float, Figure("nm", "Sq of the upper surface, unworn")]
     upper_Sq_final: Annotated[float, Figure("nm", "Sq of the upper surface at the end")]
     upper_worn_depth: Annotated[float, Figure("nm", "mean depth worn of the upper surface")]
-    lambda_ratio_initial: Annotated[float, Figure("", "film over roughness, unworn", unjudged=True)]
+    lambda_ratio_initial: Annotated[float, Figure("", "film over roughness, unworn")]
     lambda_ratio: Annotated[float, Figure("", "film under the whole load over roughness, at the end", headline=True)]
-    contact_share_initial: Annotated[float, Figure("", "share of the load on contact, unworn", unjudged=True)]
+    contact_share_initial: Annotated[float, Figure("", "share of the load on contact, unworn")]
     contact_share_final: Annotated[float, Figure("", "share of the load on contact, at the end")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over the patch, at the end")]
     minimum_film: Annotated[float, Figure("nm", "minimum film thickness at the end")]
@@ -167,6 +171,14 @@ class RunningInLifeRecord(GridRecord):
     ]
     micropitted_share: Annotated[
         float | None, Figure("", "share of the surface with a voxel without life left", optional=True, no_bar=_PITS)
+    ]
+    micropitted_at_most: Annotated[
+        float | None,
+        Figure("", "the same with the larger damage of either end of each jump", optional=True, unjudged=True),
+    ]
+    micropitted_at_least: Annotated[
+        float | None,
+        Figure("", "the same with the smaller, position by position instead of one path", optional=True, unjudged=True),
     ]
     largest_damage: Annotated[
         float | None, Figure("", "largest share of a voxel's life that is used up", optional=True, no_bar=_PITS)
@@ -201,12 +213,13 @@ class RunningInLifeRecord(GridRecord):
 
 def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
     """One life."""
+    from bem.accuracy.life import jump_bars
     from bem.life.march import begun, run_life
 
     setup = scene.setup(**scene.sharing.model_dump())
     initial = build.both_heights(scene, setup.grid, context)
-    case, contact = _case(scene, setup)
-    beside, saved = _beside(scene, setup, case), kept(context)
+    case, contact = lives.case_of(scene, setup)
+    beside, saved = lives.beside_of(scene, setup, case), kept(context)
     if saved is None:
         state = beside.begun(begun(case, *initial))
     else:
@@ -224,84 +237,9 @@ def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
     _tell(scene, context, setup, contact)
     for note in beside.notes():
         context.note(note)
-    return _record(scene, setup, end, beside)
-
-
-def _beside(scene: RunningInLifeScene, setup: MixedSetup, case: LifeCase) -> Beside:
-    """What is counted beside the wear: pieces and fatigue."""
-    from bem.friction.rough_contact import boundary_traction
-    from bem.life.beside import Beside
-
-    (speeds,) = scene.speeds.build()
-    friction = boundary_traction(speeds, scene.friction)
-    sizes, fatigue = None, None
-    if scene.particles is not None:
-        sizes = scene.particles.build(setup.grid, scene.bodies, setup.hardness, _on_grid(scene))
-    if scene.fatigue is not None:
-        fatigue = scene.fatigue.build(scene.bodies, friction)
-    return Beside(case, sizes, fatigue, friction)
-
-
-def _on_grid(scene: RunningInLifeScene) -> float:
-    grid = build.grid_of(scene.grid)
-    return scene.contact.on_patch(scene.load, grid.lengths)
-
-
-def _case(scene: RunningInLifeScene, setup: MixedSetup) -> tuple[LifeCase, MixedPasses]:
-    """What stays the same over the life, and its contact."""
-    from bem.life.passes import MixedPasses, Passing
-    from bem.life.surfaces import LifeCase
-    from bem.scenes.tables.life import INDICES
-    from bem.wear.mixed import shared_film_table
-
-    (speeds,), wear, life = scene.speeds.build(), scene.wear, scene.life
-    contact = MixedPasses(setup, shared_film_table(setup, speeds))
-    passing = Passing(wear.positions, (0 in INDICES[wear.passes], 1 in INDICES[wear.passes]))
-    rates = wear.rates(scene.bodies, scene.friction)
-    film = None if scene.tribofilm is None else _film(scene, scene.tribofilm, setup)
-    return LifeCase(
-        setup.grid,
-        contact,
-        passing,
-        rates,
-        wear.distance,
-        life.count,
-        life.tolerance,
-        film,
-        life.first_step,
-        longest=np.inf if scene.fatigue is None else life.count / _JUMPS_OF_FATIGUE,
-    ), contact
-
-
-def _film(scene: RunningInLifeScene, table: LifeFilm, setup: MixedSetup) -> GrowingFilm:
-    """The tribofilm, as warm as the oil, or as rubbing makes each spot."""
-    bulk = table.temperature if table.temperature is not None else scene.oil.temperature
-    assert bulk is not None
-    temperature: float = bulk
-    if not table.heat:
-        return table.build(scene.friction, lambda pressure: temperature)
-
-    from bem.errors import ConvergenceError, Status
-    from bem.heat import flash_temperature
-
-    (speeds,) = scene.speeds.build()
-
-    def spots(pressure: FloatArray) -> float | FloatArray:
-        if not pressure.any():
-            return temperature
-        found = flash_temperature(
-            pressure,
-            setup.grid,
-            scene.bodies,
-            friction=scene.friction,
-            speeds=speeds,
-            bulk=(temperature, temperature),
-        )
-        if found.status is not Status.CONVERGED:
-            raise ConvergenceError(f"the temperature of a pass ended with residual {found.residual:.1e}")
-        return found.temperature
-
-    return table.build(scene.friction, spots)
+    wanted = scene.life.coarser_lives
+    bars = error_bars(context, wanted, lambda: lives.bars(scene, initial, end)) or {"errors": jump_bars(end)}
+    return replace(_record(scene, setup, end, beside), **bars)
 
 
 def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contact: MixedPasses) -> None:
@@ -309,7 +247,7 @@ def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contac
     wear, (speeds,) = scene.wear, scene.speeds.build()
     context.note(
         f"figures over a life are means over {wear.positions} positions that pair each other's roughness; error bars "
-        "hold what the cycle jumps leave open, not cells and positions: run it with more of them"
+        + ("hold cycle jumps, positions and cells" if scene.life.coarser_lives else _JUMPS_ALONE)
     )
     mean, slide = 0.5 * abs(sum(speeds)), abs(speeds[0] - speeds[1])
     passing = wear.passes == "both" and mean > 0
@@ -326,27 +264,18 @@ def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contac
 
 def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, beside: Beside) -> RunningInLifeRecord:
     """The figures of a life."""
-    from bem.life.bars import bars_of_jumps
+    from bem.accuracy.life import life_figures
 
     cycle, at = scene.life.reported(), end.over("cycles")
     over = {name: np.interp(cycle, at, end.over(column)) for name, column in _COLUMNS.items()}
-    figures: dict[str, Any] = {}
-    for name, (column, both) in _FIGURES.items():
-        values = end.over(column)
-        figures |= {name: float(values[-1])} | ({both: float(values[0])} if both else {})
     film, missed = end.surfaces.film, float(end.over("depth_error")[-1])
-    columns = {name: column for name, (column, _) in _FIGURES.items()}
-    if film is not None:
-        columns["tribofilm_thickness"] = "film_thickness"
     return filled(
         RunningInLifeRecord,
         setup.grid,
-        figures,
+        life_figures(end),
         over,
         beside.figures(cycle, end),
         cycle=cycle,
-        wear_volume=float(sum(end.surfaces.volume)),
-        tribofilm_thickness=None if film is None else float(film.mean()),
         tribofilm_over_cycles=None if film is None else np.interp(cycle, at, end.over("film_thickness")),
         film_map=film,
         jump_error=missed,
@@ -359,7 +288,7 @@ def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, beside
         height_before=end.first[0],
         height_after=end.surfaces.heights[0],
         pressure=end.passes[0].pressure,
-        errors=bars_of_jumps(end, columns) | {"wear_volume": missed * setup.grid.area},
+        **({} if film is not None else {"tribofilm_thickness": None}),
     )
 
 
@@ -375,18 +304,6 @@ _COLUMNS = {
     "upper_depth_over_cycles": "upper_depth",
     "depth_error_over_cycles": "depth_error",
 }
-_FIGURES = {
-    "friction_final": ("friction", "friction_initial"),
-    "Sq_final": ("lower_rms", "Sq_initial"),
-    "upper_Sq_final": ("upper_rms", "upper_Sq_initial"),
-    "worn_depth": ("lower_depth", ""),
-    "upper_worn_depth": ("upper_depth", ""),
-    "lambda_ratio": ("lambda_ratio", "lambda_ratio_initial"),
-    "contact_share_final": ("contact_share", "contact_share_initial"),
-    "contact_area_fraction": ("area_share", ""),
-    "minimum_film": ("minimum_film", ""),
-}
-"""Fields of the record by columns of the march, at the end, and at the start where that is a figure too."""
 
 
 def summarise(scene: RunningInLifeScene, axes: Sequence[Axis], records: Sequence[Any]) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
@@ -30,13 +31,15 @@ INDICES = {"lower": (LOWER,), "upper": (UPPER,), "both": (LOWER, UPPER)}
 class LifeCycles(Table):
     """How long: `count` cycles, in jumps whose error is at most `tolerance` of what wears in them.
 
-    `first_step` is tried first; figures over cycles have `points` of them, in equal ratios.
+    `first_step` is tried first; figures over cycles have `points` of them, in equal ratios. `coarser_lives`: two more,
+    on twice the cell and there in half the positions, for error bars of what cells and positions leave open.
     """
 
     count: Annotated[Ratio, Field(gt=0, le=1e12)] = 1e6
     tolerance: Annotated[Ratio, Field(ge=1e-4, le=0.5)] = 0.05
     first_step: Annotated[Ratio, Field(gt=0)] = 1.0
     points: Annotated[int, Field(strict=True, ge=2, le=10_000)] = 61
+    coarser_lives: bool = Field(default=True, strict=True)
 
     def reported(self) -> FloatArray:
         """The cycles that figures over them have."""
@@ -130,21 +133,24 @@ class LifeParticles(Table):
 class LifeFatigue(Table):
     """Damage of one body by the stresses of passing roughness, while it wears; see `bem.life.criteria.FatigueLimit`.
 
-    `bending` and `slope` are of the limit in reversed bending over ln of the cycles; the default is hardened 52100.
+    `bending` and `slope` are of the limit in reversed bending over ln of the cycles; the default is hardened 52100,
+    which loses 43 MPa a decade.
     """
 
     body: Literal["lower", "upper"] = "lower"
     criterion: Literal["dang_van", "crossland"] = "dang_van"
     bending: Annotated[Pressure, Field(gt=0)] = 1220e6
-    slope: Annotated[Pressure, Field(lt=0)] = -43e6
+    slope: Annotated[Pressure, Field(lt=0)] = -43e6 / math.log(10)
     hydrostatic: Annotated[Ratio, Field(ge=0, le=3)] | None = None
     depths: WearDepthsScene
 
-    def build(self, bodies: tuple[Body, Body], friction: float) -> RollingFatigue:
-        """As `bem.life.fatigue.RollingFatigue`; friction : traction over pressure, as the lower body feels it."""
+    def build(self, bodies: tuple[Body, Body], friction: float, hardness: float | None = None) -> RollingFatigue:
+        """As `bem.life.fatigue.RollingFatigue`; friction : traction over pressure, as the lower body feels it;
+        hardness : the contact's cap [Pa]."""
         from bem.life.criteria import FatigueLimit
         from bem.life.fatigue import RollingFatigue
 
         (body,) = INDICES[self.body]
         limit = FatigueLimit(self.criterion, self.bending, self.slope, self.hydrostatic)
-        return RollingFatigue(body, bodies[body], self.depths.build(), limit, friction)
+        cap = math.inf if hardness is None else hardness
+        return RollingFatigue(body, bodies[body], self.depths.build(), limit, friction, cap)

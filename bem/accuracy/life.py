@@ -1,0 +1,164 @@
+"""Error bars of a life: what its cycle jumps leave open, its positions, its cells, the points of its films.
+
+Two more lives tell of cells and positions: one on the grid of twice the cell, and there one of half the positions; they
+take a quarter and an eighth of the life's work. Films have half their points in a round on the surfaces of the start
+and in one on those of the end: what wears follows the share of the load in contact. A bar is the sum of what the jumps
+leave open (`bem.life.bars`) and of these differences, times factors; where those of positions happen to pass zero, what
+the positions of the last round scatter stays. Factors are set by experiment and judged by
+`reports/experiments/life_error_bars.py`: an estimate, no proved bound.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bem.accuracy.bars import GRID, POINTS, ErrorBars
+from bem.grid import FloatArray
+from bem.life.bars import bars_of_jumps
+from bem.life.march import LifeState
+from bem.life.passes import Pass
+from bem.life.surfaces import LifeCase, round_of
+
+JUMPS, POSITIONS = "cycle jumps", "positions"
+ORIGINS = (JUMPS, POSITIONS, GRID, POINTS)
+END = {
+    "friction_final": "friction",
+    "Sq_final": "lower_rms",
+    "upper_Sq_final": "upper_rms",
+    "worn_depth": "lower_depth",
+    "upper_worn_depth": "upper_depth",
+    "lambda_ratio": "lambda_ratio",
+    "contact_share_final": "contact_share",
+    "contact_area_fraction": "area_share",
+    "minimum_film": "minimum_film",
+}
+"""Figures at the end by columns of the march."""
+START = {
+    "friction_initial": "friction",
+    "Sq_initial": "lower_rms",
+    "upper_Sq_initial": "upper_rms",
+    "lambda_ratio_initial": "lambda_ratio",
+    "contact_share_initial": "contact_share",
+}
+"""Those of the unworn surfaces."""
+_SAMPLED = {
+    "friction": ("boundary_friction", "film_friction"),
+    "contact_share": ("contact_share",),
+    "area_share": ("area_share",),
+    "minimum_film": ("minimum_film",),
+    "lambda_ratio": ("lambda_ratio",),
+}
+"""Columns that are means over positions, and what of a pass they are the means of."""
+_FACTORS = {GRID: 1.0, POSITIONS: 1.5, POINTS: 1.0}
+_SCATTER = 1.0
+_NONE = (
+    "no error bars: a life on the grid of twice the cell needs even numbers of cells, 24 at least, and contacts that "
+    "converge there"
+)
+
+
+def fewer_positions(positions: int) -> int:
+    """Half of them; twice where there is no half."""
+    return positions // 2 if positions > 1 else 2
+
+
+def life_figures(end: LifeState) -> dict[str, float]:
+    """Figures of a life that have bars, SI."""
+    found = {name: float(end.over(column)[-1]) for name, column in END.items()}
+    found |= {name: float(end.over(column)[0]) for name, column in START.items()}
+    found["wear_volume"] = float(sum(end.surfaces.volume))
+    if end.surfaces.film is not None:
+        found["tribofilm_thickness"] = float(end.over("film_thickness")[-1])
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class OtherLives:
+    """What a life is compared with: its end on the grid of twice the cell, and there with `fewer_positions`; and means
+    of a round by column of the march on the surfaces of (start, end), as it is and with half the points of its films.
+    """
+
+    coarser: LifeState
+    fewer: LifeState
+    rounds: tuple[dict[str, float], dict[str, float]]
+    half_rounds: tuple[dict[str, float], dict[str, float]]
+
+
+def two_rounds(case: LifeCase, end: LifeState) -> tuple[dict[str, float], dict[str, float]]:
+    """Means over the positions by column of the march, on the unworn surfaces and on those of the end."""
+    film = end.surfaces.film
+    grown = None if film is None or case.film is None else np.full(film.shape, case.film.balance.initial_thickness)
+    unworn = replace(end.surfaces, heights=end.first, film=grown)
+    first, last = (round_of(case, surfaces, 0.0).passes for surfaces in (unworn, end.surfaces))
+    return _means(first), _means(last)
+
+
+def life_bars(end: LifeState, other: OtherLives | None) -> ErrorBars:
+    """Bars of a life from its end, and from other lives where these could be had."""
+    found = life_figures(end)
+    if other is None:
+        return ErrorBars.unknown(found, _NONE)
+    one, two, scatter = life_figures(other.coarser), life_figures(other.fewer), _scatter(end)
+    positions = {name: max(_FACTORS[POSITIONS] * abs(one[name] - two[name]), scatter.get(name, 0.0)) for name in found}
+    return ErrorBars.together(
+        {
+            JUMPS: jump_bars(end),
+            POSITIONS: positions,
+            GRID: {name: _FACTORS[GRID] * abs(found[name] - one[name]) for name in found},
+            POINTS: {name: _FACTORS[POINTS] * value for name, value in _of_films(end, other).items()},
+        }
+    )
+
+
+def _of_films(end: LifeState, other: OtherLives) -> dict[str, float]:
+    """Differences that half the points of the films make. What wears, and what follows wear, changes by as large a part
+    as the share of the load in contact."""
+    apart = [
+        {column: abs(value - half[column]) for column, value in whole.items()}
+        for whole, half in zip(other.rounds, other.half_rounds, strict=True)
+    ]
+    shares = [whole["contact_share"] for whole in other.rounds]
+    part = max(each["contact_share"] / share if share > 0 else 0.0 for each, share in zip(apart, shares, strict=True))
+    found = {
+        name: abs(value) * part for name, value in life_figures(end).items() if name.endswith(("_depth", "volume"))
+    }
+    for which, figures in zip(apart, (START, END), strict=True):
+        found |= {name: which[column] for name, column in figures.items() if column in which}
+    for name, start in (("Sq_final", "Sq_initial"), ("upper_Sq_final", "upper_Sq_initial")):
+        found[name] = part * abs(float(end.over(END[name])[-1]) - float(end.over(START[start])[0]))
+    return found
+
+
+def jump_bars(end: LifeState) -> dict[str, float]:
+    """What the jumps of a life leave open of its figures at the end."""
+    columns = END if end.surfaces.film is None else END | {"tribofilm_thickness": "film_thickness"}
+    # rows hold mean depths over whole surfaces, whose areas turn them into volumes
+    areas = [v / d for v, d in zip(end.surfaces.volume, _depths(end), strict=True) if d > 0]
+    return bars_of_jumps(end, columns) | {"wear_volume": float(end.over("depth_error")[-1]) * max(areas, default=0.0)}
+
+
+def _depths(end: LifeState) -> tuple[float, float]:
+    return float(end.over("lower_depth")[-1]), float(end.over("upper_depth")[-1])
+
+
+def _means(passes: Sequence[Pass]) -> dict[str, float]:
+    return {column: float(np.mean(_of_passes(passes, column))) for column in _SAMPLED}
+
+
+def _of_passes(passes: Sequence[Pass], column: str) -> FloatArray:
+    """A column of the march, position by position."""
+    return np.sum([[getattr(one, part) for one in passes] for part in _SAMPLED[column]], axis=0)
+
+
+def _scatter(end: LifeState) -> dict[str, float]:
+    """Standard error of the means over the positions of the last round, as if they were drawn at random."""
+    found = {}
+    for name, column in {**START, **END}.items():
+        if column in _SAMPLED and len(end.passes) > 1:
+            values = _of_passes(end.passes, column)
+            found[name] = _SCATTER * float(values.std(ddof=1)) / math.sqrt(len(end.passes))
+    return found

@@ -1,0 +1,138 @@
+"""What a life of a scene is made of: its case with contact and film, what is counted beside it, and the scene coarser,
+for error bars.
+
+Verified in tests/scenes/test_running_in_life_kind.py.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bem.errors import ConvergenceError, Status
+from bem.grid import FloatArray
+from bem.scenes import build, wearing
+from bem.scenes.axes import with_keys
+
+if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars
+    from bem.friction.setup import MixedSetup
+    from bem.life.beside import Beside
+    from bem.life.march import LifeState
+    from bem.life.passes import MixedPasses
+    from bem.life.surfaces import GrowingFilm, LifeCase
+    from bem.scenes.tables.life import LifeFilm
+
+_JUMPS_OF_FATIGUE = 16  # at least: the stresses of a jump are those of its ends
+
+
+def beside_of(scene: Any, setup: MixedSetup, case: LifeCase) -> Beside:
+    """What is counted beside the wear: pieces and fatigue."""
+    from bem.friction.rough_contact import boundary_traction
+    from bem.life.beside import Beside
+
+    (speeds,) = scene.speeds.build()
+    friction = boundary_traction(speeds, scene.friction)
+    sizes, fatigue = None, None
+    if scene.particles is not None:
+        sizes = scene.particles.build(setup.grid, scene.bodies, setup.hardness, on_grid(scene))
+    if scene.fatigue is not None:
+        fatigue = scene.fatigue.build(scene.bodies, friction, setup.hardness)
+    return Beside(case, sizes, fatigue, friction)
+
+
+def on_grid(scene: Any) -> float:
+    """What of the load lies on the patch [N]."""
+    grid = build.grid_of(scene.grid)
+    return scene.contact.on_patch(scene.load, grid.lengths)
+
+
+def case_of(scene: Any, setup: MixedSetup) -> tuple[LifeCase, MixedPasses]:
+    """What stays the same over the life, and its contact."""
+    from bem.life.passes import MixedPasses, Passing
+    from bem.life.surfaces import LifeCase
+    from bem.scenes.tables.life import INDICES
+    from bem.wear.mixed import shared_film_table
+
+    (speeds,), wear, life = scene.speeds.build(), scene.wear, scene.life
+    contact = MixedPasses(setup, shared_film_table(setup, speeds))
+    passing = Passing(wear.positions, (0 in INDICES[wear.passes], 1 in INDICES[wear.passes]))
+    rates = wear.rates(scene.bodies, scene.friction)
+    film = None if scene.tribofilm is None else _film(scene, scene.tribofilm, setup)
+    return LifeCase(
+        setup.grid,
+        contact,
+        passing,
+        rates,
+        wear.distance,
+        life.count,
+        life.tolerance,
+        film,
+        life.first_step,
+        longest=np.inf if scene.fatigue is None else life.count / _JUMPS_OF_FATIGUE,
+    ), contact
+
+
+def _film(scene: Any, table: LifeFilm, setup: MixedSetup) -> GrowingFilm:
+    """The tribofilm, as warm as the oil, or as rubbing makes each spot."""
+    bulk = table.temperature if table.temperature is not None else scene.oil.temperature
+    assert bulk is not None
+    temperature: float = bulk
+    if not table.heat:
+        return table.build(scene.friction, lambda pressure: temperature)
+
+    from bem.heat import flash_temperature
+
+    (speeds,) = scene.speeds.build()
+
+    def spots(pressure: FloatArray) -> float | FloatArray:
+        if not pressure.any():
+            return temperature
+        found = flash_temperature(
+            pressure,
+            setup.grid,
+            scene.bodies,
+            friction=scene.friction,
+            speeds=speeds,
+            bulk=(temperature, temperature),
+        )
+        if found.status is not Status.CONVERGED:
+            raise ConvergenceError(f"the temperature of a pass ended with residual {found.residual:.1e}")
+        return found.temperature
+
+    return table.build(scene.friction, spots)
+
+
+def end_of(scene: Any, heights: tuple[FloatArray, FloatArray]) -> LifeState:
+    """A scene's life from these heights [m] on its grid, to its end."""
+    from bem.life.march import run_life
+
+    return run_life(_alone(scene), *heights)
+
+
+def bars(scene: Any, initial: tuple[FloatArray, FloatArray], end: LifeState) -> ErrorBars:
+    """Of a life from these heights (lower, upper) [m] to its end."""
+    from bem.accuracy.life import OtherLives, fewer_positions, life_bars, two_rounds
+
+    def half(positions: int) -> LifeState | None:
+        keys = {"wear.positions": positions, "particles": None, "fatigue": None}
+        cells = {name: value for name, value in wearing.grid_keys(scene, 0.5).items() if name.startswith("grid.")}
+        return wearing.on_every_second_cell(initial, grid, partial(end_of, with_keys(scene, cells | keys)))
+
+    grid, positions = build.grid_of(scene.grid), scene.wear.positions
+    coarser, fewer = half(positions), half(fewer_positions(positions))
+    if coarser is None or fewer is None:
+        return life_bars(end, None)
+    # halved where films were solved for, too: not below the fewest points
+    points = max(scene.sharing.film_points // 2, 100)
+    rounds = [
+        two_rounds(_alone(with_keys(scene, {"sharing.film_points": count})), end)
+        for count in (scene.sharing.film_points, points)
+    ]
+    return life_bars(end, OtherLives(coarser, fewer, rounds[0], rounds[1]))
+
+
+def _alone(scene: Any) -> LifeCase:
+    return case_of(scene, scene.setup(**scene.sharing.model_dump()))[0]
