@@ -53,8 +53,11 @@ _SAMPLED = {
     "lambda_ratio": ("lambda_ratio",),
 }
 """Columns that are means over positions, and what of a pass they are the means of."""
-_FACTORS = {GRID: 1.0, POSITIONS: 1.5, POINTS: 1.0}
-_SCATTER = 1.0
+_POSITIONS = {
+    **dict.fromkeys(("friction_final", "friction_initial"), 2.0),
+    **dict.fromkeys(("upper_Sq_final", "contact_share_final"), 2.0),
+}
+"""Factors on what half the positions change; 1 elsewhere, and on what cells and points of films change."""
 _NONE = (
     "no error bars: a life on the grid of twice the cell needs even numbers of cells, 24 at least, and contacts that "
     "converge there"
@@ -103,13 +106,15 @@ def life_bars(end: LifeState, other: OtherLives | None) -> ErrorBars:
     if other is None:
         return ErrorBars.unknown(found, _NONE)
     one, two, scatter = life_figures(other.coarser), life_figures(other.fewer), _scatter(end)
-    positions = {name: max(_FACTORS[POSITIONS] * abs(one[name] - two[name]), scatter.get(name, 0.0)) for name in found}
+    positions = {
+        name: max(_POSITIONS.get(name, 1.0) * abs(one[name] - two[name]), scatter.get(name, 0.0)) for name in found
+    }
     return ErrorBars.together(
         {
             JUMPS: jump_bars(end),
             POSITIONS: positions,
-            GRID: {name: _FACTORS[GRID] * abs(found[name] - one[name]) for name in found},
-            POINTS: {name: _FACTORS[POINTS] * value for name, value in _of_films(end, other).items()},
+            GRID: {name: abs(found[name] - one[name]) for name in found},
+            POINTS: _of_films(end, other),
         }
     )
 
@@ -160,5 +165,5 @@ def _scatter(end: LifeState) -> dict[str, float]:
     for name, column in {**START, **END}.items():
         if column in _SAMPLED and len(end.passes) > 1:
             values = _of_passes(end.passes, column)
-            found[name] = _SCATTER * float(values.std(ddof=1)) / math.sqrt(len(end.passes))
+            found[name] = float(values.std(ddof=1)) / math.sqrt(len(end.passes))
     return found

@@ -26,6 +26,7 @@ from bem.scenes.laws import LawKey
 from bem.scenes.planner import Step, padded_points, stress_kernel_seconds
 from bem.scenes.records import Figure, Record, Series, without_bars
 from bem.scenes.rubbing import rubbing_step
+from bem.scenes.tables.third_bodies import ThirdBodiesScene
 from bem.scenes.units import Length, WearCoefficient
 from bem.wear.criterion import Detachment, VonMises, WearCriterion
 from bem.wear.loads import wearing_bodies
@@ -34,6 +35,7 @@ from bem.wear.traction import GrossSliding, TractionLaw
 
 if TYPE_CHECKING:
     from bem.wear import RunningIn, RunningInState
+    from bem.wear.third_bodies import ThirdBodies
 
 Found = TypeVar("Found")
 _CHECKPOINT_EVERY = 10  # cycles
@@ -71,6 +73,7 @@ class WearScenePart(Table):
     shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] = 3
     within_layer: bool = Field(default=True, strict=True)
     traction: Annotated[TractionLaw, LawKey("traction")] = GrossSliding()
+    third_bodies: ThirdBodiesScene | None = None
 
     @model_validator(mode="after")
     def _goes_together(self) -> Self:
@@ -218,13 +221,14 @@ def wear_loop(
     *,
     watch: Callable[[RunningInState], Mapping[str, float]],
     keep: Callable[[], Mapping[str, Any]] = dict,
+    third_bodies: ThirdBodies | None = None,
     **contact: Any,
 ) -> RunningIn:
     """The wear loop of a case, from its checkpoint where there is one.
 
     heights : of both bodies at the start [m]. watch : called after every cycle; gives the figures beside the progress.
     keep : what the checkpoint holds then besides the loop's own state, under names other than "wear".
-    contact : further arguments of `bem.wear.run_in`.
+    third_bodies : particles between the surfaces. contact : further arguments of `bem.wear.run_in`.
     """
     from bem.wear import WearModel, pack_state, run_in, unpack_state
 
@@ -242,7 +246,7 @@ def wear_loop(
             bodies=(scene.lower.build(), scene.upper.build()),
             depths=scene.depths.build(),
             cycles=count,
-            model=WearModel(**scene.wear.model_dump()),
+            model=WearModel(**scene.wear.model_dump(exclude={"third_bodies"}), third_bodies=third_bodies),
             state=None if saved is None else unpack_state(saved["wear"]),
             callback=after,
             **contact,

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.contact import solve_contact
+from bem.contact import ContactSolution, solve_contact
 from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
@@ -21,6 +21,7 @@ from bem.wear.criterion import Detachment
 from bem.wear.loads import LOWER, UPPER, BodyCycle, Removal, SurfaceLoad, half_the_change, wearing_bodies
 from bem.wear.removal import RemovalLaw
 from bem.wear.segmentation import CONNECTIVITIES, REFINEMENTS
+from bem.wear.third_bodies import ThirdBodies, ThirdBodyLoad
 from bem.wear.traction import Rubbing, TractionLaw
 
 
@@ -45,6 +46,8 @@ class WearModel:
     traction : the name of one of `bem.wear.traction` or of your own, a table with `kind` and parameters, or a
         `TractionLaw`. "gross_sliding" is the source's, friction x pressure everywhere; "oscillating_force" and
         "oscillating_shift" give stresses, pieces and local wear the tractions and the slip of a loop in partial slip.
+    third_bodies : particles that stay between the surfaces, `bem.wear.third_bodies.ThirdBodies` or a table of its
+        fields; None for none. Of dry contacts.
     """
 
     criterion: str | Mapping[str, Any] | Detachment = "von_mises"
@@ -57,6 +60,7 @@ class WearModel:
     shift: int = 3
     within_layer: bool = True
     traction: str | Mapping[str, Any] | TractionLaw = "gross_sliding"
+    third_bodies: ThirdBodies | Mapping[str, Any] | None = None
 
     def __post_init__(self) -> None:
         messages = []
@@ -80,6 +84,8 @@ class WearModel:
             raise InputError(messages)
         for key, law in made.items():
             object.__setattr__(self, key, law)
+        if isinstance(self.third_bodies, Mapping):
+            object.__setattr__(self, "third_bodies", ThirdBodies(**self.third_bodies))
         misfits = self.tractions.misfits(self.law, self.stress_range)
         if misfits:
             raise InputError([f"WearModel: {text}" for text in misfits])
@@ -89,6 +95,12 @@ class WearModel:
         """The criterion, also where it was named."""
         assert isinstance(self.criterion, Detachment)
         return self.criterion
+
+    @property
+    def particles(self) -> ThirdBodies | None:
+        """The third bodies, also where they were a table."""
+        assert self.third_bodies is None or isinstance(self.third_bodies, ThirdBodies)
+        return self.third_bodies
 
     @property
     def tractions(self) -> TractionLaw:
@@ -143,7 +155,8 @@ class WearSetup:
 class ContactOutcome:
     """What a cycle needs to know of a contact, dry or mixed.
 
-    rubbing : of a cycle in partial slip, which `wear_cycle` adds; None where all slides.
+    rubbing : of a cycle in partial slip, which `wear_cycle` adds; None where all slides. third_bodies : what particles
+    between the surfaces do; None where there are none.
     """
 
     pressure: FloatArray
@@ -156,6 +169,7 @@ class ContactOutcome:
     status: Status
     minimum_film: float = 0.0
     rubbing: Rubbing | None = None
+    third_bodies: ThirdBodyLoad | None = None
 
 
 ContactStep = Callable[[FloatArray, FloatArray | None], ContactOutcome]
@@ -179,18 +193,23 @@ def dry_contact(setup: WearSetup, *, tolerance: float = 1e-6, compliance: float 
             tolerance=tolerance,
             initial_pressure=last_pressure,
         )
-        return ContactOutcome(
-            pressure=solution.pressure,
-            contact_area=solution.contact_area,
-            plastic_area=solution.plastic_area,
-            load=solution.load,
-            friction=setup.friction,
-            residual=solution.residual,
-            convolutions=solution.convolutions,
-            status=solution.status,
-        )
+        return outcome_of(solution, setup)
 
     return step
+
+
+def outcome_of(solution: ContactSolution, setup: WearSetup) -> ContactOutcome:
+    """What a cycle needs to know of a dry contact."""
+    return ContactOutcome(
+        pressure=solution.pressure,
+        contact_area=solution.contact_area,
+        plastic_area=solution.plastic_area,
+        load=solution.load,
+        friction=setup.friction,
+        residual=solution.residual,
+        convolutions=solution.convolutions,
+        status=solution.status,
+    )
 
 
 def wear_cycle(

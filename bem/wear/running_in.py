@@ -26,6 +26,7 @@ from bem.wear.loads import LOWER, UPPER, Removal, SurfaceLoad
 from bem.wear.outcome import contact_strip
 from bem.wear.segmentation import describe_pieces
 from bem.wear.state import CYCLE_FIELDS, PARTICLE_FIELDS, TIME_FIELDS, RunningInState, initial_state
+from bem.wear.third_body_contact import third_body_contact
 
 
 @dataclass(frozen=True)
@@ -154,7 +155,16 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
         state = initial_state(lower_heights, upper_heights)
     _check_heights(state, grid, counterface)
     give = sum(choices.law.compliance(setup, body) for body in wearing)
-    step = contact_step if contact_step is not None else dry_contact(setup, compliance=give)
+    particles = choices.particles
+    if particles is not None and contact_step is not None:
+        raise InputError(
+            "third bodies share the load of dry contacts alone; allowed: no contact_step, or no third bodies"
+        )
+    if particles is not None:
+        slide = abs(choices.shift) * grid.spacing[0]
+        step = third_body_contact(setup, particles, slide, compliance=give)
+    else:
+        step = contact_step if contact_step is not None else dry_contact(setup, compliance=give)
     settled = False
     while state.cycle < cycles and not settled:
         state = advance(state, setup, choices, step, counterface)
@@ -213,6 +223,11 @@ def advance(
             heights[body] = heights[body] - removal.thickness
             remembered[body] = removal.memory
         table.append(_particle_rows(removal, setup.grid, cycle))
+    if contact.third_bodies is not None:
+        for body in (LOWER, UPPER):
+            heights[body] = _remove_from_window(
+                heights[body], contact.third_bodies.cut[body], offset if body == counterface else 0
+            )
     elapsed = time.perf_counter() - began
     stress_time = sum(removal.stress_time for removal in removals)
     pieces_time = sum(removal.segmentation_time for removal in removals)
@@ -346,7 +361,8 @@ def _cycle_row(
     grid: Grid,
 ) -> NDArray[np.void]:
     besides = sum(float(removal.worn.sum()) for removal in removals if removal.worn is not None) * grid.cell_area
-    strip, rubbing = worn[contact_strip(contact.pressure)], contact.rubbing
+    strip, rubbing, third = worn[contact_strip(contact.pressure)], contact.rubbing, contact.third_bodies
+    besides += 0.0 if third is None else float(sum(cut.sum() for cut in third.cut)) * grid.cell_area
     return np.array(
         [
             (
@@ -364,6 +380,7 @@ def _cycle_row(
                 sum(removal.depths_computed for removal in removals),
                 contact.status == Status.CONVERGED,
                 *((0.0, 0.0, 0.0) if rubbing is None else (rubbing.stick_share, rubbing.energy, rubbing.way)),
+                0.0 if third is None else third.load,
             )
         ],
         dtype=CYCLE_FIELDS,

@@ -50,10 +50,11 @@ CYCLE_FIELDS = np.dtype(
         ("stick_share", np.float64),
         ("loop_energy", np.float64),
         ("loop_way", np.float64),
+        ("third_body_load", np.float64),
     ]
 )
-"""A cycle as a row of a table: SI units; `rms_height` is Sq of the wearing surface inside the contact strip. The last
-three are of the cycle's `Rubbing`, 0 in gross sliding."""
+"""A cycle as a row of a table: SI units; `rms_height` is Sq of the wearing surface inside the contact strip.
+`stick_share`, `loop_energy` and `loop_way` are of the cycle's `Rubbing`, 0 in gross sliding."""
 
 TIME_FIELDS = np.dtype([("contact", np.float64), ("stress", np.float64), ("particles", np.float64)])
 

@@ -221,3 +221,39 @@ def test_a_cylinder_wears_to_the_flat_of_archards_law():
     assert 0 < summary["step_error_nm"] < 0.02 * 1e9 * worn.max()
     assert summary["criterion_wear_rate_mm3_Nm"] == pytest.approx(1e-6, rel=1e-9)
     assert summary["particles_per_cycle"] == 0
+
+
+STAY = '\n[wear.third_bodies]\ndiameter = "300 nm"\n'
+
+
+def test_particles_that_stay_bear_load_and_are_told(scene_file, tmp_path):
+    given = scene_file(WEAR + STAY + "number_per_area = 1e11\nfriction = 0.05\n")
+    outcome = run(given)
+    share, coverage = (outcome.summary[f"third_body_{name}"] for name in ("load_share", "coverage"))
+    assert 0 < share < 1
+    assert coverage == pytest.approx(np.pi / 4 * 300e-9**2 * 1e11)
+    own = load_scene(given).cylinder.friction
+    assert outcome.summary["third_body_friction"] == pytest.approx((1 - share) * own + share * 0.05)
+    none, plain = (run(scene_file(WEAR + more)) for more in (STAY + "number_per_area = 0.0\n", ""))
+    assert np.array_equal(none.variables["height_after"].values, plain.variables["height_after"].values)
+    assert "third_body_load_share" not in plain.summary
+
+
+def test_as_many_particles_lie_there_as_wear_makes_within_their_residence(scene_file):
+    found = STAY + 'specific_wear_rate = "1e-6 mm^3/(N*m)"\nresidence = "1 mm"\nkept = 0.5\n'
+    table = load_scene(scene_file(WEAR + found)).wear.third_bodies
+    # depth worn along the residence over the volume of a sphere
+    assert table.build(1e9).number_per_area == pytest.approx(0.5 * 1e-15 * 1e9 * 1e-3 / (np.pi / 6 * 300e-9**3))
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        ("", "number_per_area alone nor"),
+        ('number_per_area = 1e11\nresidence = "1 mm"\n', "specific_wear_rate with residence"),
+        ("number_per_area = 1e15\n", "covers 70.7 times the area"),
+    ],
+)
+def test_particles_that_cannot_be_are_refused_before_any_work(scene_file, more, message):
+    with pytest.raises(InputError, match=message):
+        plan(campaign_of(load_scene(scene_file(WEAR + STAY + more))))

@@ -54,6 +54,8 @@ class RunningInScene(MixedScene):
         given = self.contact.loads or self.contact.hertz_pressures or []
         if len(given) != 1:
             raise problem(f"{len(given)} loads", "one load; run the scene again for others")
+        if self.wear.third_bodies is not None:
+            raise problem("wear.third_bodies in a film of oil", "none; kind wear has them between dry surfaces")
         return self
 
 

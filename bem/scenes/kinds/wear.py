@@ -27,11 +27,15 @@ from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from bem.accuracy import ErrorBars
     from bem.scenes.checks.hertz import SmoothContact
     from bem.wear import RunningIn
+    from bem.wear.third_bodies import ThirdBodies
 
 _CONVOLUTIONS = 10  # of one warm-started contact solve, coarse levels included
+_SHARING = 7  # contacts until particles that stay have their share of the load
 _DEPTHS_NEEDED = 8  # before a depth is met at which nothing yields, on average
 _DEPTHS_AT_FIRST = 40  # the same in the first cycle, of sharp asperities
 
@@ -88,7 +92,11 @@ def plan(scene: WearScene) -> Plan:
             f"cylinder.loads: {scene.cylinder.loads[0]:g} N is beyond hardness x area of the domain; allowed: a "
             "smaller load, a larger domain or a higher hardness"
         )
-    cycles = {"convolutions": _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": _DEPTHS_AT_FIRST}
+    particles = _third_bodies(scene)
+    if particles is not None:
+        particles.hardnesses((scene.lower.build(), scene.upper.build()))
+    solves = 1 if particles is None else _SHARING
+    cycles = {"convolutions": solves * _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": _DEPTHS_AT_FIRST}
     return Plan.of(
         *plans.of_bodies(scene, grid, scene.cylinder.friction, min(scene.depths.count, _DEPTHS_NEEDED)),
         *wearing.cycle_steps(
@@ -103,6 +111,7 @@ def plan(scene: WearScene) -> Plan:
 
 _KERNELS = "not kept on disk: made once for all cycles, in a few per cent of the run's time"
 _DEEPER = "no piece that reaches the surface gets past a depth at which nothing yields"
+_PARTICLES = "it follows the gap between rough surfaces, and how many particles there are is given, not computed"
 _over, _map = partial(Series, ("cycle",)), partial(grid_map, of="last")
 
 
@@ -156,6 +165,15 @@ class WearRecord(wearing.MeanSizes, wearing.ParticleTable, RubbedRecord):
     ] = None
     particles_per_mm_and_N: Annotated[
         float | None, Figure("", "particles per mm and N", optional=True, no_bar=wearing.FOLLOWS_CELL)
+    ] = None
+    third_body_load_share: Annotated[
+        float | None, Figure("", "share of the load on particles that stay", optional=True, no_bar=_PARTICLES)
+    ] = None
+    third_body_friction: Annotated[
+        float | None, Figure("", "friction of surfaces and rolling particles", optional=True, no_bar=_PARTICLES)
+    ] = None
+    third_body_coverage: Annotated[
+        float | None, Figure("", "share of the area below particles that stay", optional=True, unjudged=True)
     ] = None
     cycle: Annotated[wearing.IntArray, _over("1", "cycle")]
     radius: Annotated[FloatArray, _over("m", "volume-mean equivalent radius of the particles")]
@@ -240,9 +258,26 @@ def wear_down(scene: WearScene, initial: tuple[FloatArray, FloatArray], context:
         gap=build.shape_of(cylinder, grid),
         friction=scene.cylinder.friction,
         hardness=scene.cylinder.hardness,
+        third_bodies=_third_bodies(scene),
         stop=Settled(tolerance=scene.cycles.tolerance) if scene.cycles.stop_when_settled else None,
     )
     return _record(scene, grid, load, initial, result)
+
+
+def _third_bodies(scene: WearScene) -> ThirdBodies | None:
+    """Particles between the surfaces of a case."""
+    (grid, load), table = _slice(scene), scene.wear.third_bodies
+    return None if table is None else table.build(load / grid.area)
+
+
+def _of_third_bodies(scene: WearScene, cycles: NDArray[np.void], load: float) -> dict[str, float]:
+    """What the particles between the surfaces carry of a load [N], over the settled cycles, and the friction of all."""
+    particles = _third_bodies(scene)
+    if particles is None:
+        return {}
+    share = float(cycles["third_body_load"].mean()) / load
+    friction = (1 - share) * scene.cylinder.friction + share * particles.friction
+    return {"third_body_load_share": share, "third_body_friction": friction, "third_body_coverage": particles.coverage}
 
 
 def _record(
@@ -266,6 +301,7 @@ def _record(
         rubbed(result, scene.cycles.settled),
         worn.strip(contact_strip(worn.pressure)),
         settled_means(cycles[-scene.cycles.settled :], grid.area),
+        _of_third_bodies(scene, cycles[-scene.cycles.settled :], share),
         wearing.mean_sizes(late, scene.sizes),
         scene.archard.figures(load, float(late["volume"].mean())) if scene.archard and late.size else {},
         {name: cycles[name].astype(np.float64) for name in _PER_CYCLE},

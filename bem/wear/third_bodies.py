@@ -1,0 +1,165 @@
+"""Third bodies: particles between the surfaces, which bear load, roll and cut. A model of our own, off by default.
+
+Equal spheres lie spread evenly in the gap, so many on each area. One that is larger than the gap at its place is
+pressed into both surfaces, with the same force on either side: hardness times the area of the cap that has gone in. It
+yields itself where it is the softer one. Contact and particles carry the load together. They roll, half as far on
+either body as the bodies slide; of the groove a share is cut off, the rest is pushed aside and leaves the mean height
+as it was. New ones come as others leave: how many there are does not change.
+
+Left out: elastic indentation (up to (3 pi H / 2 E*)^2 of the radius the force is less than here), how the surfaces bend
+under single particles, what particles do to the stresses below, and those in a film of oil. Verified in
+tests/wear/test_third_bodies.py: closed forms of one particle and of many between flats, shares of the load, limits.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from bem.errors import InputError
+from bem.grid import FloatArray
+from bem.materials import Body
+from bem.wear.loads import LOWER, UPPER
+
+BALANCE = 1e-6
+"""Of the load: what contact and particles may miss it by."""
+_TRIALS = 60
+
+
+@dataclass(frozen=True)
+class ThirdBodies:
+    """Particles between two surfaces.
+
+    diameter : of the spheres [m]. number_per_area : how many on an area [1/m^2]. hardness : theirs [Pa]. friction :
+    force over load while they roll. removed : share of a groove that is cut off.
+    """
+
+    diameter: float
+    number_per_area: float
+    hardness: float = math.inf
+    friction: float = 0.0
+    removed: float = 0.0
+
+    def __post_init__(self) -> None:
+        messages = []
+        for name, above, most in (
+            ("diameter", 0.0, math.inf),
+            ("number_per_area", -1.0, math.inf),
+            ("hardness", 0.0, math.inf),
+            ("friction", -1.0, 2.0),
+            ("removed", -1.0, 1.0),
+        ):
+            value = getattr(self, name)
+            least = "more than 0" if above == 0 else "at least 0"
+            if math.isnan(value) or not (value > above and value >= 0 and value <= most):
+                messages.append(f"third bodies: {name} {value!r} must be {least} and at most {most}")
+        for name in ("diameter", "number_per_area"):
+            if math.isinf(getattr(self, name)):
+                messages.append(f"third bodies: {name} must be finite")
+        if not messages and self.coverage > 1:
+            messages.append(
+                f"third bodies: number_per_area {self.number_per_area:g} /m^2 of {self.diameter:g} m covers "
+                f"{self.coverage:.3g} times the area; allowed: once at most"
+            )
+        if messages:
+            raise InputError(messages)
+
+    @property
+    def coverage(self) -> float:
+        """Share of the area below the particles."""
+        return math.pi / 4 * self.diameter**2 * self.number_per_area
+
+    def hardnesses(self, bodies: tuple[Body, Body]) -> tuple[float, float]:
+        """Of the surfaces of (lower, upper) [Pa].
+
+        Raises
+        ------
+        InputError : a surface without hardness.
+        """
+        lower, upper = (body.surface_material.hardness for body in bodies)
+        if lower is None or upper is None:
+            raise InputError("third bodies: each surface needs a hardness to be indented: give both materials one")
+        return lower, upper
+
+    def indented(self, gap: FloatArray, hardnesses: tuple[float, float]) -> tuple[FloatArray, tuple[FloatArray, ...]]:
+        """Force [N] of a particle in each gap [m], and how deep [m] it is in the (lower, upper) body of those
+        hardnesses [Pa]; or they in it, where it is the softer.
+
+        A cap of depth z has the area pi z (d - z), that of half a sphere at most. Equal forces make a quadratic.
+        """
+        d = self.diameter
+        pressures = [min(hardness, self.hardness) for hardness in hardnesses]
+        soft, other = sorted((LOWER, UPPER), key=lambda body: pressures[body])
+        ratio = pressures[soft] / pressures[other]
+        # whole: both surfaces touch, and the particle fills what it has pressed out
+        approach = np.clip(d - gap, 0.0, d * (1 - 1e-12))
+        b = ratio * d + d - 2 * approach
+        c = approach * (d - approach)
+        root = np.sqrt(b**2 + 4 * (1 - ratio) * c)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            deeper = np.where(b >= 0, 2 * c / (b + root), (root - b) / (2 * max(1 - ratio, 1e-300)))
+        half = deeper > 0.5 * d
+        shallow = 0.5 * d * (1 - math.sqrt(1 - ratio))
+        deeper = np.where(approach > 0, np.where(half, approach - shallow, deeper), 0.0)
+        force = math.pi * pressures[soft] * np.where(half, 0.25 * d**2, deeper * (d - deeper))
+        depths = {soft: deeper, other: approach - deeper}
+        return force, (depths[LOWER], depths[UPPER])
+
+    def cut(self, depth: FloatArray, hardness: float, slide: float) -> FloatArray:
+        """Mean depth [m] that they cut off a body of that hardness [Pa], in which they are `depth` deep [m], while the
+        bodies slide so far [m]; nothing of one that is harder than they."""
+        if hardness > self.hardness:
+            return np.zeros_like(depth)
+        radius, deep = 0.5 * self.diameter, np.clip(depth, 0.0, 0.5 * self.diameter)
+        across = np.sqrt(np.maximum(deep * (self.diameter - deep), 0.0))
+        groove = radius**2 * np.arccos(1 - deep / radius) - (radius - deep) * across
+        return np.asarray(self.removed * self.number_per_area * 0.5 * slide * groove)
+
+
+@dataclass(frozen=True, eq=False)
+class ThirdBodyLoad:
+    """What particles carry [N], and what they cut off the (lower, upper) body (nx, ny) [m]."""
+
+    load: float
+    cut: tuple[FloatArray, FloatArray]
+
+
+def share(
+    load: float, carried: Callable[[float], float], touching: float, apart: Callable[[float], float], diameter: float
+) -> tuple[float, float]:
+    """Load [N] of the contact, and, where it is zero, how far the surfaces stay apart [m], such that contact and
+    particles carry a load [N].
+
+    carried : load of the contact [N] -> of the particles [N]; rises. touching : what they carry when the surfaces just
+    touch. apart : distance beyond that [m] -> the same; falls to zero at their diameter.
+    """
+    if touching > load:
+        return 0.0, _rising_zero(lambda away: load - apart(away), (0.0, load - touching), (diameter, load), load)
+    beyond = carried(load)
+    if beyond <= 0:
+        return load, 0.0
+    return _rising_zero(lambda own: own + carried(own) - load, (0.0, touching - load), (load, beyond), load), 0.0
+
+
+def _rising_zero(
+    function: Callable[[float], float], left: tuple[float, float], right: tuple[float, float], load: float
+) -> float:
+    """Zero between two places with their values, one below and one above zero, to the balance's tolerance: regula falsi
+    that halves the value of an end that stays (Illinois)."""
+    (a, below), (b, above) = left, right
+    at, kept = a, 0
+    for _ in range(_TRIALS):
+        at = b - above * (b - a) / (above - below)
+        value = function(at)
+        if abs(value) <= 0.3 * BALANCE * load:
+            break
+        if value < 0:
+            a, below, above = at, value, above * (0.5 if kept < 0 else 1.0)
+            kept = -1
+        else:
+            b, above, below = at, value, below * (0.5 if kept > 0 else 1.0)
+            kept = 1
+    return at
