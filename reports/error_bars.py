@@ -20,6 +20,7 @@ _KINDS = {
     "contact": "contact", "film": "friction", "mixed": "friction", "mixed_ball": "friction", "march": "film",
     "asperities": "asperities", "flow": "flow-factors", "rubbing": "surface-temperature", "tribofilm": "tribofilm",
     "wear": "wear", "running_in": "running-in", "particle": "particles", "sticking": "partial-slip",
+    "life": "running-in-life",
 }  # fmt: skip
 """The kind of scene whose code an experiment runs."""
 

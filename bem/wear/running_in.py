@@ -223,11 +223,8 @@ def advance(
             heights[body] = heights[body] - removal.thickness
             remembered[body] = removal.memory
         table.append(_particle_rows(removal, setup.grid, cycle))
-    if contact.third_bodies is not None:
-        for body in (LOWER, UPPER):
-            heights[body] = _remove_from_window(
-                heights[body], contact.third_bodies.cut[body], offset if body == counterface else 0
-            )
+    for body, cut in enumerate(() if contact.third_bodies is None else contact.third_bodies.cut):
+        heights[body] = _remove_from_window(heights[body], cut, offset if body == counterface else 0)
     elapsed = time.perf_counter() - began
     stress_time = sum(removal.stress_time for removal in removals)
     pieces_time = sum(removal.segmentation_time for removal in removals)

@@ -3,7 +3,7 @@
     python -m reports.experiments.micropitting_slopes
 
 Morales-Espejel and Brizmer (2011) find 1 % of the roller micropitted, computed and measured. Their surfaces are not
-public: ridges of their Rq are drawn here one to four times as wide as in the scene, which makes them as much less
+public: ridges of their Rq are drawn here one to three times as wide as in the scene, which makes them as much less
 steep, with as many cells. The Wohler curve loses 43 MPa a decade, and, as it was read before, per factor e. The result
 is stored in `reports/results/micropitting_slopes.json`.
 """
@@ -21,7 +21,7 @@ from bem.scenes import PlainContext, build, get_kind, load_scene
 from bem.scenes.axes import with_keys
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "micropitting_slopes.json"
-CASES = ((1, 10.0), (1, math.e), (2, 10.0), (2, math.e), (3, 10.0), (4, 10.0))
+CASES = ((3, 10.0), (2, 10.0), (1, 10.0), (1, math.e))
 """How many times as wide, and the base of the logarithm over which 43 MPa are lost."""
 FIGURES = (
     *("micropitted_share", "micropitted_at_least", "micropitted_at_most", "largest_damage"),
@@ -51,7 +51,7 @@ def main() -> None:
     rows = []
     for wider, base in CASES:
         rows.append(life(wider, base))
-        print({name: round(value, 4) for name, value in rows[-1].items()}, flush=True)
+        print({name: float(f"{value:.4g}") for name, value in rows[-1].items()}, flush=True)
     RESULT.write_text(json.dumps({"rows": rows}, indent=1) + "\n")
 
 
