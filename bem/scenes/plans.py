@@ -153,9 +153,9 @@ def stresses(grid: Grid, body: Body | None, name: str, depths: int, *, fields: i
     )
 
 
-def error_bars(wanted: bool, why: str, *, if_not: str = "outputs.errors is false", **cost: Any) -> Step:
+def error_bars(wanted: bool, why: str, **cost: Any) -> Step:
     """Figures once more, coarser; `cost` as a `Step` has it. Nothing of it is kept."""
-    return Step("error bars", why if wanted else if_not, skipped=not wanted, kept=0.0, **cost)
+    return Step("error bars", why if wanted else "outputs.errors is false", skipped=not wanted, kept=0.0, **cost)
 
 
 def coarser_contact(grid: Grid, depths: int) -> dict[str, float]:

@@ -22,7 +22,7 @@ from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.lubrication import MixedScene
 from bem.scenes.packing import keep, kept
-from bem.scenes.planner import Plan, Step
+from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, filled, grid_map
 from bem.scenes.tables.life import LifeCycles, LifeFatigue, LifeFilm, LifeParticles, LifeWear
 from bem.scenes.tables.sharing import RunningInSharing
@@ -127,11 +127,13 @@ def plan(scene: RunningInLifeScene) -> Plan:
             skipped=scene.particles is None,
             seconds=0.02 * passes / 3,
         ),
-        plans.error_bars(
-            life.coarser_lives,
-            "a life on twice the cell, and there one of half the positions",
-            if_not=_JUMPS_ALONE,
-            **plans.coarser_contacts(grid, 1.5 * _CONVOLUTIONS * passes, 2.0),
+        Step(
+            "error bars",
+            "a life on twice the cell, and there one of half the positions" if life.coarser_lives else _JUMPS_ALONE,
+            skipped=not life.coarser_lives,
+            kept=0.0,
+            transforms=3.0 * _CONVOLUTIONS * passes,
+            points=padded_points(grid.shape, grid.periodic) // 4,
         ),
         plans.figures(grid.cells),
     )
