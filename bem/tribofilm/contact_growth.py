@@ -65,6 +65,12 @@ class FilmContact:
         if self.nominal_area is not None and np.shape(self.nominal_area) != self.grid.shape:
             raise InputError(f"nominal_area: shape {np.shape(self.nominal_area)} does not match {self.grid.shape}")
 
+    def hardness_at(self, thickness: float) -> float:
+        """That of a film of some thickness [m], or of the counterface where that is softer [Pa]."""
+        hardness = self.hardness(thickness, self.temperature)
+        other = None if self.counterface is None else self.counterface.hardness
+        return hardness if other is None else min(hardness, other)
+
 
 @dataclass(frozen=True, eq=False)
 class ContactSample:
@@ -100,9 +106,7 @@ def solve_film_contact(
     InfeasibleError : the load exceeds the film's hardness times the grid's area.
     ConvergenceError : the contact did not converge, or its heat did not.
     """
-    hardness = contact.hardness(thickness, contact.temperature)
-    if contact.counterface is not None and contact.counterface.hardness is not None:
-        hardness = min(hardness, contact.counterface.hardness)
+    hardness = contact.hardness_at(thickness)
     layer = None
     if thickness > _NEGLIGIBLE_LAYER * min(contact.grid.spacing):
         film = Material(

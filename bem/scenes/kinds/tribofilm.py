@@ -13,12 +13,13 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from bem.accuracy.bars import REUSE, STEPS
-from bem.grid import FloatArray
+from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import OutputsScene, Repetitions, problem
 from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
+from bem.scenes.lubrication import tell_of_film
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, layered_kernel_seconds, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, columns, filled, grid_map
@@ -82,6 +83,15 @@ def plan(scene: TribofilmScene) -> Plan:
             seconds=0.0 if all(grid.periodic) else 0.25 * layered_kernel_seconds(grid.cells) * _CONTACTS,
             memory=8.0 * padded_points(grid.shape, grid.periodic) / 4 + 16.0 * grid.cells * _CONTACTS,
         ),
+        Step(
+            "oil film",
+            "no oil: the surfaces carry all of the load"
+            if scene.oil is None
+            else "load shared once between oil and surfaces",
+            skipped=scene.oil is None,
+            seconds=2.0 + 2e-4 * scene.oil_cells**2,
+            memory=900.0 * scene.oil_cells**2,
+        ),
         plans.contacts(grid, _CONVOLUTIONS * _CONTACTS, f"about {_CONTACTS} for each film, from the last pressure"),
         Step(
             "contacts at other times",
@@ -113,6 +123,7 @@ def plan(scene: TribofilmScene) -> Plan:
 
 
 _spots = partial(Figure, "C", optional=True, no_bar="it is that of the hottest of a few cells")
+_of_oil = partial(Figure, optional=True, no_bar="kind friction shares the load with bars")
 _over_time, _sample = partial(Series, ("time",)), partial(Series, ("sample",), rows=True)
 
 
@@ -134,6 +145,10 @@ class FilmRecord(GridRecord):
         float | None, Figure("nm", "thickness at which growth and wear are equal", headline=True)
     ]
     flash_temperature: Annotated[float | None, _spots("highest temperature of spots in contact")]
+    contact_load: Annotated[float | None, _of_oil("N", "load carried by the surfaces", headline=True)]
+    oil_film_load: Annotated[float | None, _of_oil("N", "load carried by the oil film", headline=True)]
+    minimum_oil_film: Annotated[float | None, _of_oil("nm", "minimum oil film thickness")]
+    lambda_ratio: Annotated[float | None, _of_oil("", "oil film under the whole load over roughness")]
     contacts_solved: Annotated[int, Figure("", "contacts that were solved", headline=True, unjudged=True)]
     time: Annotated[FloatArray, _over_time("s", "time of rubbing")]
     thickness: Annotated[FloatArray, _over_time("m", "mean film thickness")]
@@ -159,7 +174,8 @@ def run(scene: TribofilmScene, context: Context) -> FilmRecord:
     report = scene.rubbing.report
     times = np.unique(np.concatenate([np.linspace(0.0, scene.rubbing.duration, scene.rubbing.points), report or ()]))
     grid = build.grid_of(scene.grid)
-    contact = scene.contact(grid, *build.both_heights(scene, grid, context))
+    lower, upper = build.both_heights(scene, grid, context)
+    contact, shares = _contact(scene, grid, lower, upper, context)
     with context.timer("films"):
         local = scene.film.feedback == "local"
         film = (_local_film if local else _mean_film)(scene, contact, times, context)
@@ -179,11 +195,29 @@ def run(scene: TribofilmScene, context: Context) -> FilmRecord:
         film,
         columns(film.samples, _SAMPLED, "sample_"),
         grid,
+        shares,
         flash_temperature=None if contact.speeds is None else max(one.temperature for one in film.samples),
         **error_bars(context, scene.outputs.errors, lambda: tribofilm_bars(case, figures)),
     )
 
 
+def _contact(
+    scene: TribofilmScene, grid: Grid, lower: FloatArray, upper: FloatArray, context: Context
+) -> tuple[FilmContact, dict[str, float | None]]:
+    """The contact that the film grows in, and figures of how oil and surfaces share the load, None without oil."""
+    contact = scene.contact(grid, lower, upper)
+    if scene.oil is None:
+        return contact, dict.fromkeys(_SHARED)
+    from bem.tribofilm.under_oil import NOTE, under_oil
+
+    with context.timer("oil film"):
+        contact, shared = under_oil(contact, lower + upper, scene.shape.radii, scene.oil.build(), scene.oil_cells)
+    tell_of_film(context, (*shared.notes, NOTE), shared.film.notes)
+    values = (shared.contact_load, shared.film_load, shared.minimum_film, shared.lambda_ratio)
+    return contact, dict(zip(_SHARED, values, strict=True))
+
+
+_SHARED = ("contact_load", "oil_film_load", "minimum_oil_film", "lambda_ratio")
 _SAMPLED = ("thickness", "mean_pressure", "hardness", "growth", "contact_area")
 
 

@@ -16,6 +16,8 @@ from bem.scenes import build
 from bem.scenes.axes import Model, with_keys
 from bem.scenes.common import BodyScene, GridScene, Loads, SceneModel, Table, Variant, problem
 from bem.scenes.laws import LawKey
+from bem.scenes.lubrication import FilmCells
+from bem.scenes.oil import OilScene
 from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.units import Energy, InverseLength, Length, Rate, Ratio, Speed, Temperature, Time, Volume
 from bem.tribofilm.balance import FilmBalance
@@ -115,7 +117,11 @@ class RubbingScene(Table):
 
 
 class RubbedScene(SceneModel):
-    """Two rough bodies that rub, and the film on the lower one; in a case there is one load and one temperature."""
+    """Two rough bodies that rub, and the film on the lower one; in a case there is one load and one temperature.
+
+    With `oil` under a sphere or ellipsoid the surfaces carry what the oil film leaves them (`bem.tribofilm.under_oil`),
+    of `oil_cells` along an axis; it is as warm as the contact.
+    """
 
     grid: GridScene = GridScene()
     lower: BodyScene
@@ -123,6 +129,28 @@ class RubbedScene(SceneModel):
     shape: ShapeScene = ShapeScene()
     rubbing: RubbingScene
     film: FilmScene
+    oil: OilScene | None = None
+    oil_cells: FilmCells = 64
+
+    @model_validator(mode="after")
+    def _oil_under_a_ball(self) -> Self:
+        if self.oil is None:
+            return self
+        temperatures = self.rubbing.temperatures
+        if self.shape.kind not in ("sphere", "ellipsoid") or any(self.grid.periodic):
+            raise problem(
+                "oil of anything but a ball on a free grid", "a sphere or ellipsoid, and grid.periodic = false"
+            )
+        if self.rubbing.speeds is None or sum(self.rubbing.speeds) == 0:
+            raise problem("oil without rubbing.speeds that entrain it", "speeds of both surfaces, their sum not zero")
+        if self.oil.film_rheology == "shear_law":
+            raise problem('film_rheology = "shear_law"', '"newtonian": the film of a point contact follows no other')
+        if len(temperatures) > 1 or self.oil.temperature not in (None, *temperatures):
+            raise problem(
+                "oil at another temperature than the contact",
+                "one of rubbing.temperatures, and oil.temperature the same",
+            )
+        return self
 
     @model_validator(mode="after")
     def _film_is_the_layer(self) -> Self:

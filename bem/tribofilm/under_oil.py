@@ -1,0 +1,69 @@
+"""A ball that rubs in oil: the surfaces carry what its oil film leaves them, and the tribofilm grows under that alone.
+
+The load is shared once, between the surfaces without tribofilm and an oil film that all of the load deforms
+(`OilVolume.LOADED`, so that the patch's length has no say). The share then stays as it is: tribofilms of tens of
+nanometres lie on both sides of the balance, on the roughness and under the oil. What the tribofilm sees is the rough
+contact of that balance: the gap that the oil film leaves, and the surfaces' part of the load. Verified in
+tests/tribofilm/test_under_oil.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from bem.errors import ConvergenceError, InfeasibleError, Status
+from bem.friction.oil_volume import OilVolume
+from bem.grid import FloatArray
+from bem.materials import Body
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from bem.friction import MixedSolution
+    from bem.lubrication import Lubricant
+    from bem.tribofilm.contact_growth import FilmContact
+
+NOTE = (
+    "oil and surfaces share the load as before any tribofilm grew: how its thickness and softness change the share is "
+    "left out"
+)
+
+
+def under_oil(
+    contact: FilmContact, height: FloatArray, radii: Sequence[float], lubricant: Lubricant, film_cells: int
+) -> tuple[FilmContact, MixedSolution]:
+    """What surfaces of heights (nx, ny) [m] carry under a ball or ellipsoid of radii (Rx, Ry) [m] in oil, and how the
+    load is shared; `contact` has the whole load and the speeds of both surfaces. film_cells : of the oil film along an
+    axis.
+
+    Raises
+    ------
+    InputError : a patch that does not hold the contact; no entrainment; no speeds.
+    InfeasibleError : an oil film that carries all of the load, so that no tribofilm grows.
+    ConvergenceError : a load that was not shared.
+    """
+    from bem.friction.load_sharing import solve_setup
+    from bem.friction.setup import MixedSetup
+
+    substrate = Body(contact.substrate)
+    setup = MixedSetup(
+        grid=contact.grid,
+        bodies=substrate if contact.counterface is None else (substrate, Body(contact.counterface)),
+        radii=radii,
+        load=contact.load,
+        lubricant=lubricant,
+        boundary_friction=contact.friction,
+        hardness=contact.hardness_at(0.0),
+        film_cells=film_cells,
+        oil_volume=OilVolume.LOADED,
+    )
+    shared = solve_setup(setup, height, contact.speeds or (0.0, 0.0))
+    if shared.status is not Status.CONVERGED:
+        raise ConvergenceError(f"tribofilm: oil and surfaces did not share the load: {shared.status.message}")
+    if shared.full_film:
+        raise InfeasibleError(
+            f"tribofilm: the oil film, {1e9 * shared.minimum_film:.3g} nm at its thinnest, carries all of the load, so "
+            "that no tribofilm grows; allowed: slower speeds, a thinner oil or rougher surfaces"
+        )
+    return replace(contact, gap=shared.patch_film.gap - height, load=shared.contact_load), shared
