@@ -24,7 +24,6 @@ from bem.friction import MixedSolution
 from bem.friction.balance import BalanceStart, Regime, share_load
 from bem.friction.films import films_of
 from bem.friction.forces import friction_forces, lambda_ratio
-from bem.friction.oil_volume import OilVolume
 from bem.friction.rough_contact import rough_contact
 from bem.friction.setup import FEWEST_CELLS, MixedSetup
 from bem.grid import FloatArray, Grid
@@ -233,13 +232,11 @@ def _shares(case: MixedCase, points: int) -> Shares:
 
 
 def _balance_part(solution: MixedSolution, setup: MixedSetup, found: dict[str, float]) -> dict[str, float]:
-    """What the balance's imbalance and the contact's tolerance may hide: the film load is off by the imbalance over the
-    slope of the balance, the contact's load by that and the imbalance, all else in proportion."""
+    """What the balance's imbalances and the contact's tolerance may hide: the film load is off by that of the oil over
+    the slope of the balance, the contact's load by as much and the imbalance, all else in proportion."""
     if solution.full_film:
         return dict.fromkeys(RULES, 0.0)
-    missing = abs(solution.imbalance) + setup.contact_tolerance
-    if setup.counted is OilVolume.LOADED:  # loads add up exactly there; what is left of the oil moves them
-        missing += abs(solution.oil_imbalance)
+    missing = abs(solution.imbalance) + setup.contact_tolerance + abs(solution.oil_imbalance)
     film = missing * solution.film_load / max(solution.balance_slope, 0.1)
     if solution.regime is Regime.BOUNDARY:  # anything from nothing to this
         film = solution.film_load

@@ -104,18 +104,6 @@ def asperity_loads(
     return load, area, plastic
 
 
-def volume_shift(gap: FloatArray, mean_gap: float) -> float:
-    """Shift s [m] with mean(max(gap - s, 0)) = mean_gap: the surfaces, cut where they overlap, hold the same oil."""
-    values = np.sort(gap.ravel())[::-1]
-    sums = np.cumsum(values)
-    count = np.arange(1, len(values) + 1)
-    shifts = (sums - mean_gap * len(values)) / count
-    # with the k largest gaps positive the shift is shifts[k-1]; right where the next gap is not above it
-    following = np.append(values[1:], -np.inf)
-    k = int(np.argmax((shifts < values) & (shifts >= following)))
-    return float(shifts[k])
-
-
 def shift_for_load(
     separation: FloatArray, summits: Summits, load: float, *, contact_modulus: float, hardness: float | None
 ) -> float:

@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 LONGEST_STEP = 3.0
-"""Until there is a bracket."""
-BEYOND = 1.2
-"""By how much steps without a bracket are longer than the slope says, to get one."""
+"""Upwards, until there is a bracket; a longer one down goes to the lower end at once, which often is the answer."""
+BEYOND, NEAR = 1.2, 0.1
+"""By how much each step without a bracket is longer than the slope says, to get one, more each time; and the value
+below which the slope is good enough for the first to need none."""
 NARROWEST = 1e-10
 
 
@@ -35,7 +36,7 @@ def falling_zero(
     low: tuple[float, float] | None = None
     high: tuple[float, float] | None = None
     before: tuple[float, float] | None = None
-    for _ in range(trials):
+    for trial in range(trials):
         value, met = evaluate(place)
         if before is not None and (value - before[1]) * (place - before[0]) < 0:
             slope = (before[1] - value) / (place - before[0])
@@ -48,8 +49,8 @@ def falling_zero(
             high, low = before, (low[0], low[1] / 2) if low and side < 0 else low
         side = 1 if value > 0 else -1
         if low is None or high is None:
-            step = BEYOND * value / slope
-            place = min(max(place + min(max(step, -LONGEST_STEP), LONGEST_STEP), first), last)
+            step = BEYOND ** (trial + (abs(value) > NEAR)) * value / slope
+            place = first if step < -LONGEST_STEP else min(max(place + min(step, LONGEST_STEP), first), last)
             continue
         width = high[0] - low[0]
         if width < NARROWEST:

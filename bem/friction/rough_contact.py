@@ -1,8 +1,7 @@
 """Rough surfaces with a film between them: what load sharing asks of a contact, and the two contacts there are.
 
-The film is as thick as between smooth surfaces. Under *volume* control the rough ones are pressed together until they
-hold the same oil; under *load* control until they carry what they are given, where the film has no say but for where
-their opening is counted (`oil_volume`).
+The film is as thick as between smooth surfaces. The rough ones are pressed together until they carry what they are
+given; the film says how the smooth bodies lie apart, and where the opening between them is counted (`oil_volume`).
 
 Boundary friction couples into the normal gap by one rule. Where the surfaces slide, the flat (the lower body) feels the
 traction f p against its sliding over the cylinder, along -x where u1 > u2, the cylinder the opposite; f is the
@@ -30,7 +29,6 @@ from bem.friction.asperities import (
     find_summits,
     shift_for_load,
     uncoupled_contact,
-    volume_shift,
 )
 from bem.friction.boundary import reference_pressure
 from bem.friction.film import PatchFilm, middle_line
@@ -93,13 +91,10 @@ class RoughContact(Protocol):
 
     @property
     def counted(self) -> OilVolume:
-        """Where the oil is counted. Only of a whole patch can its volume be prescribed (`at_volume`)."""
+        """Where the oil is counted."""
 
     def clears(self, film: PatchFilm) -> bool:
         """Whether undeformed surfaces that hold the film's oil do not touch."""
-
-    def at_volume(self, film: PatchFilm, tolerance: float, start: FloatArray | None) -> Pressed:
-        """Pressed together until the patch holds the film's oil; `start` is a pressure nearby."""
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """Pressed together by a load [N] on the whole contact."""
@@ -178,29 +173,13 @@ class CoupledContact:
         """As `RoughContact`."""
         return bool((film.thickness - self.rough).min() >= shift_apart(film, self.rough, self.counted))
 
-    def at_volume(self, film: PatchFilm, tolerance: float, start: FloatArray | None) -> Pressed:
-        """As `RoughContact`."""
-        return self._solve(film, tolerance, start, mean_gap=float(film.thickness.mean()))
-
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """As `RoughContact`."""
-        return self._solve(film, tolerance, start, load=load / self.setup.slices)
-
-    def _solve(
-        self,
-        film: PatchFilm,
-        tolerance: float,
-        start: FloatArray | None,
-        *,
-        load: float | None = None,
-        mean_gap: float | None = None,
-    ) -> Pressed:
         gap = film.gap - self.rough
         solution = solve_contact(
             gap,
             self.operator,
-            load=load,
-            mean_gap=mean_gap,
+            load=load / self.setup.slices,
             hardness=self.setup.hardness,
             tolerance=tolerance,
             initial_pressure=start if start is not None and start.any() else None,
@@ -247,12 +226,6 @@ class UncoupledAsperities:
         if (film.thickness - self.rough).min() < shift:
             return False
         return bool((self._separation(film) - self._summits.height >= shift).all())
-
-    def at_volume(self, film: PatchFilm, tolerance: float, start: FloatArray | None) -> Pressed:
-        """As `RoughContact`; with the separation "film" the mean planes are as far apart as the film is thick."""
-        if self.setup.asperity_separation == "film":
-            return self._shifted(film, 0.0)
-        return self._shifted(film, volume_shift(film.thickness - self.rough, float(film.thickness.mean())))
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """As `RoughContact`; infeasible where the patch has no summit."""

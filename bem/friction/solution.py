@@ -43,7 +43,7 @@ class MixedSolution:
     contact_area : real, on the whole width [m^2].
     evaluations : films solved; contact_solves : rough contacts solved.
     imbalance : (film_load + contact_load - load) / load, of these three.
-    balance_slope : of ln(film_load + contact_load) with ln(film_load): where the next speed's balance starts from.
+    balance_slope : of ln(opening / film thickness) with ln(film_load): where the next speed's balance starts from.
     status : converged where the imbalance is within the tolerance and film and contact are converged themselves;
         infeasible where film and surfaces cannot carry the load within their models.
     grid, boundary_friction : as given; a law where one was.

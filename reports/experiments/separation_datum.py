@@ -22,7 +22,8 @@ from typing import Any
 import numpy as np
 
 from bem import Body, Grid, Material, displacement_operator, generate_surface, solve_contact
-from bem.friction.asperities import find_summits, uncoupled_contact, volume_shift
+from bem.friction.asperities import find_summits, uncoupled_contact
+from bem.grid import FloatArray
 from reports.experiments.kept import keep
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "separation_datum.json"
@@ -32,6 +33,18 @@ RADIUS, SIDE, CELLS, ROUGHNESS = 2e-3, 408e-6, 272, 240e-9
 LENGTHS, PRESSURES, SEEDS = (34e-6, 57e-6), (0.6e9, 0.8e9, 1.0e9), (0, 1)
 SINKING = 0.946
 """Mean sinking of a square under uniform pressure, over p side / E*; Johnson (1985), section 3.3 gives 0.95."""
+
+
+def volume_shift(gap: FloatArray, mean_gap: float) -> float:
+    """Shift s [m] with mean(max(gap - s, 0)) = mean_gap: the surfaces, cut where they overlap, hold the same oil."""
+    values = np.sort(gap.ravel())[::-1]
+    sums = np.cumsum(values)
+    count = np.arange(1, len(values) + 1)
+    shifts = (sums - mean_gap * len(values)) / count
+    # with the k largest gaps positive the shift is shifts[k-1]; right where the next gap is not above it
+    following = np.append(values[1:], -np.inf)
+    k = int(np.argmax((shifts < values) & (shifts >= following)))
+    return float(shifts[k])
 
 
 def differences(length: float, hertz_pressure: float, seed: int) -> dict[str, float]:

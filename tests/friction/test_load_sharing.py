@@ -78,7 +78,8 @@ def test_boundary_limit():
 
 def test_elastic_shift_is_the_mean_displacement():
     """Where the gap vanishes under pressure, conserving volume closes by itself: shift = <u>, heights free of mean."""
-    point = solve_mixed(**{**CASE, "hardness": None}, speeds=(0.01, 0.0), contact_tolerance=1e-8)
+    exact = {"hardness": None, "tolerance": 1e-9, "contact_tolerance": 1e-10}
+    point = solve_mixed(**CASE | exact, speeds=(0.01, 0.0))
     mean = point.contact.displacement.mean()
     # the contact's tolerance against a roughness of 100 nm
     assert point.contact.approach == pytest.approx(mean, abs=1e-6 * 100e-9)
@@ -92,7 +93,8 @@ def test_capped_contact_keeps_the_volume():
     point = solve_mixed(**{**CASE, "hardness": 0.4e9}, speeds=(0.01, 0.0))
     assert point.contact.plastic_area > 0
     assert point.contact.pressure.max() <= 0.4e9 * (1 + 1e-12)
-    assert np.maximum(point.contact.gap, 0).mean() == pytest.approx(point.film.at(GRID.x)[1].mean(), rel=1e-5)
+    # the balance's tolerance
+    assert np.maximum(point.contact.gap, 0).mean() == pytest.approx(point.film.at(GRID.x)[1].mean(), rel=1e-4)
 
 
 def test_film_and_contact_live_on_their_own_grids():

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bem import Grid
-from bem.friction.asperities import asperity_loads, find_summits, uncoupled_contact, volume_shift
+from bem.friction.asperities import asperity_loads, find_summits, uncoupled_contact
+from reports.experiments.separation_datum import volume_shift
 
 
 def bumps(grid, radius, centres):
