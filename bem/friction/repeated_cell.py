@@ -99,10 +99,6 @@ class RepeatedCell:
         """As `RoughContact`."""
         return float(film.thickness.min()) >= float(self.cell.rough.max())
 
-    def at_volume(self, film: PatchFilm, tolerance: float, start: FloatArray | None) -> Pressed:
-        """Not there: the oil is counted where the film carries."""
-        raise NotImplementedError("a cell that repeats has no oil beside the contact to count")
-
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """As `RoughContact`; the pressures are the cells' means on the film's grid."""
         setup, law = self.setup, self.law
