@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from bem import surfaces
 from bem.compiled import provide_folder
 from bem.lazy import loader
 
@@ -37,28 +38,7 @@ _HOMES = {
     "flow": ["FlowFactors", "flow_factors"],
     "stress": ["subsurface_stress", "von_mises"],
     "heat": ["TemperatureSolution", "flash_temperature", "surface_temperature", "surface_temperature_history"],
-    "surfaces": [
-        "PROCESSES",
-        "RadialSpectrum",
-        "Surface",
-        "SurfaceDescription",
-        "autocorrelation",
-        "close_seams",
-        "crop",
-        "describe_surface",
-        "despike",
-        "detrend",
-        "fill_missing",
-        "generate_surface",
-        "high_pass",
-        "low_pass",
-        "mirror_to_periodic",
-        "radial_spectrum",
-        "read_surface",
-        "resample",
-        "scale_to_rms",
-        "write_surface",
-    ],
+    "surfaces": surfaces.__all__,
     "extensions": ["register"],
     "lubrication": [
         "Cavitation",

@@ -13,72 +13,73 @@ if TYPE_CHECKING:
     from bem.elements.element import Element
 
 
-def register(app: typer.Typer) -> None:  # reason: the command in it; its arguments are the options
+def register(app: typer.Typer) -> None:
     """Add the command."""
+    app.command(short_help="Bearing, gear pair, cam: all contacts, and scenes of them.")(element)
 
-    @app.command(short_help="Bearing, gear pair, cam: all contacts, and scenes of them.")
-    def element(  # reason: the arguments are the options
-        file: Annotated[Path, typer.Argument(help="An element's file; `bem new gear-pair` writes one to start from.")],
-        scene: Annotated[Path | None, typer.Option(metavar="FILE", help="Write a scene of one contact.")] = None,
-        kind: Annotated[
-            str, typer.Option(help="Kind of that scene: traction, point-film (of balls), contact (dry).")
-        ] = "traction",
-        at: Annotated[str, typer.Option(help="Which: worst, thinnest, a number of the table; path: all.")] = "worst",
-        path: Annotated[
-            Path | None, typer.Option(metavar="FILE", help="Write the path as .csv, for `along` of kind traction.")
-        ] = None,
-        table: Annotated[Path | None, typer.Option(metavar="FILE", help="Write all contacts as .csv.")] = None,
-        running: Annotated[
-            bool, typer.Option("--running", help="Solve the film with its heat everywhere: friction, power, wear.")
-        ] = False,
-        cases: Annotated[
-            Path | None, typer.Option(metavar="FILE", help="Rows of keys to change, .csv with units: a line for each.")
-        ] = None,
-    ) -> None:
-        """Show the contacts of a machine element: load, radii, speeds, Hertz contact, film; the worst one, and where
-        half-space and line film do not carry.
 
-        \b
-        Examples, of the file that `bem new gear-pair gears.toml` writes:
-          bem element gears.toml --scene flank.toml --at path
-          bem element gears.toml --scene worst.toml --at thinnest
-          bem element gears.toml --running --table gears.csv
-          bem element bearing.toml --cases loads.csv --table worst.csv
-        """
-        from bem.cli._quantity import new_file
-        from bem.cli._terminal import show_warnings
-        from bem.elements.element import load_element
-        from bem.results.atomic import write_text
-        from bem.scenes.load import scene_from_table, table_text
+def element(  # reason: the arguments are the options
+    file: Annotated[Path, typer.Argument(help="An element's file; `bem new gear-pair` writes one to start from.")],
+    scene: Annotated[Path | None, typer.Option(metavar="FILE", help="Write a scene of one contact.")] = None,
+    kind: Annotated[
+        str, typer.Option(help="Kind of that scene: traction, point-film (of balls), contact (dry).")
+    ] = "traction",
+    at: Annotated[str, typer.Option(help="Which: worst, thinnest, a number of the table; path: all.")] = "worst",
+    path: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Write the path as .csv, for `along` of kind traction.")
+    ] = None,
+    table: Annotated[Path | None, typer.Option(metavar="FILE", help="Write all contacts as .csv.")] = None,
+    running: Annotated[
+        bool, typer.Option("--running", help="Solve the film with its heat everywhere: friction, power, wear.")
+    ] = False,
+    cases: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Rows of keys to change, .csv with units: a line for each.")
+    ] = None,
+) -> None:
+    """Show the contacts of a machine element: load, radii, speeds, Hertz contact, film; the worst one, and where
+    half-space and line film do not carry.
 
-        if table is not None:
-            new_file(table, "--table", (".csv",))
-        if path is not None:
-            new_file(path, "--path", (".csv",))
-        if scene is not None:
-            new_file(scene, "--scene", (".toml",))
-        if cases is not None:
-            _cases(file, cases, table, (scene, path, running))
-            return
-        found = load_element(file)
-        whole = at == "path"
-        chosen = found.worst() if whole else _chosen(found, at)
-        made = None if scene is None else found.path_scene() if whole else found.scene(chosen, kind)
-        rows = None if path is None else found.path_csv()
-        if made is not None:
-            scene_from_table(made)
-        _show(found, chosen)
-        show_warnings(found.notes())
-        more = _running(found) if running else {}
-        if path is not None and rows is not None:
-            write_text(path, rows)
-            print(f"written: {path}")
-        if table is not None:
-            write_text(table, found.csv(more))
-            print(f"written: {table}")
-        if scene is not None and made is not None:
-            write_text(scene, table_text(made))
-            print(f"written: {scene}\nnext:    bem plan {scene}; bem run {scene}")
+    \b
+    Examples, of the file that `bem new gear-pair gears.toml` writes:
+      bem element gears.toml --scene flank.toml --at path
+      bem element gears.toml --scene worst.toml --at thinnest
+      bem element gears.toml --running --table gears.csv
+      bem element bearing.toml --cases loads.csv --table worst.csv
+    """
+    from bem.cli._quantity import new_file
+    from bem.cli._terminal import show_warnings
+    from bem.elements.element import load_element
+    from bem.results.atomic import write_text
+    from bem.scenes.load import scene_from_table, table_text
+
+    if table is not None:
+        new_file(table, "--table", (".csv",))
+    if path is not None:
+        new_file(path, "--path", (".csv",))
+    if scene is not None:
+        new_file(scene, "--scene", (".toml",))
+    if cases is not None:
+        _cases(file, cases, table, (scene, path, running))
+        return
+    found = load_element(file)
+    whole = at == "path"
+    chosen = found.worst() if whole else _chosen(found, at)
+    made = None if scene is None else found.path_scene() if whole else found.scene(chosen, kind)
+    rows = None if path is None else found.path_csv()
+    if made is not None:
+        scene_from_table(made)
+    _show(found, chosen)
+    show_warnings(found.notes())
+    more = _running(found) if running else {}
+    if path is not None and rows is not None:
+        write_text(path, rows)
+        print(f"written: {path}")
+    if table is not None:
+        write_text(table, found.csv(more))
+        print(f"written: {table}")
+    if scene is not None and made is not None:
+        write_text(scene, table_text(made))
+        print(f"written: {scene}\nnext:    bem plan {scene}; bem run {scene}")
 
 
 def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...]) -> None:

@@ -245,15 +245,8 @@ def read_map(surface: MeasuredSurface) -> Surface:
     """The measured map: read, levelled, filled and cropped."""
     from bem.surfaces import crop, read_surface
 
-    found = read_surface(
-        surface.path,
-        detrend=surface.detrend,
-        fill=surface.fill,
-        channel=surface.channel,
-        spacing=surface.spacing,
-        height_unit=surface.height_unit,
-        despike=surface.despike,
-    )
+    asked = surface.model_dump(include={"detrend", "fill", "channel", "spacing", "height_unit", "despike"})
+    found = read_surface(surface.path, **asked)
     return found if surface.crop is None else crop(found, surface.crop, centre=surface.centre)
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, field_validator, model_validator
 from pydantic_core import PydanticCustomError
@@ -65,6 +67,18 @@ class CylinderTable(Table):
     width: PositiveLength
 
 
+_Entry = TypeVar("_Entry")
+
+
+def _named(name: Any, catalogue: Mapping[str, _Entry], wrong: str) -> _Entry:
+    """The entry of a catalogue; a name that it does not have is `wrong`."""
+    entry = catalogue.get(name) if isinstance(name, str) else None
+    if entry is None:
+        told = {"found": str(name)[:60], "names": sorted(catalogue)}
+        raise PydanticCustomError("unknown_name", wrong, told)
+    return entry
+
+
 class MaterialScene(Table):
     """`material = "steel-52100"` from the catalogue, or constants of one's own; with both, the constants win."""
 
@@ -86,25 +100,8 @@ class MaterialScene(Table):
         if not isinstance(data, dict) or "catalogue" not in data:
             return data
         own = {key: value for key, value in data.items() if key != "catalogue"}
-        entry = CATALOGUE.get(data["catalogue"]) if isinstance(data["catalogue"], str) else None
-        if entry is None:
-            raise PydanticCustomError(
-                "unknown_name",
-                "is not in the catalogue of materials",
-                {"found": str(data["catalogue"])[:60], "names": sorted(CATALOGUE), "what": "material"},
-            )
-        material = entry.material
-        constants = {
-            "name": material.name,
-            "youngs_modulus": material.youngs_modulus,
-            "poissons_ratio": material.poissons_ratio,
-            "hardness": material.hardness,
-            "yield_stress": material.yield_stress,
-            "thermal_conductivity": material.thermal_conductivity,
-            "density": material.density,
-            "heat_capacity": material.heat_capacity,
-            "source": entry.source,
-        }
+        entry = _named(data["catalogue"], CATALOGUE, "is not in the catalogue of materials")
+        constants = asdict(entry.material) | {"source": entry.source}
         if own:
             constants["source"] = f"{entry.source}; changed in the scene: {', '.join(sorted(own))}"
         if "hardness" in own and "yield_stress" not in own:
@@ -113,16 +110,7 @@ class MaterialScene(Table):
 
     def build(self) -> Material:
         """As `bem.Material`."""
-        return Material(
-            self.name,
-            youngs_modulus=self.youngs_modulus,
-            poissons_ratio=self.poissons_ratio,
-            hardness=self.hardness,
-            yield_stress=self.yield_stress,
-            thermal_conductivity=self.thermal_conductivity,
-            density=self.density,
-            heat_capacity=self.heat_capacity,
-        )
+        return Material(**self.model_dump(exclude={"source"}))
 
 
 class LayerScene(Table):
@@ -181,13 +169,7 @@ class GeneratedSurface(Table):
     def _of_process(cls, data: Any) -> Any:
         if not isinstance(data, dict) or data.get("process") is None:
             return data
-        process = PROCESSES.get(data["process"]) if isinstance(data["process"], str) else None
-        if process is None:
-            raise PydanticCustomError(
-                "unknown_name",
-                "is not a manufacturing process of the catalogue",
-                {"found": str(data["process"])[:60], "names": sorted(PROCESSES), "what": "process"},
-            )
+        process = _named(data["process"], PROCESSES, "is not a manufacturing process of the catalogue")
         said = str(data.get("source", ""))
         other = next((name for name, one in PROCESSES.items() if said.startswith(one.title)), data["process"])
         if other != data["process"]:  # a run's scene has all statistics, which would win

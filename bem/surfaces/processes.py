@@ -1,8 +1,8 @@
 """Surfaces by how they are made: what `generate_surface` is asked for where a scene names only the process.
 
-Roughness of a process scatters by a factor of three and more; these are starting points for who has no measured map.
-Each figure has its source, or is said to be chosen here. No process of these is only random: feed marks, cross-hatch
-and scratches have a phase that waves of random phase do not have, which `left_out` says.
+Roughness of a process scatters by a factor of three and more; the figures, in `processes.toml`, are starting points
+for who has no measured map. Each has its source, or is said to be chosen here. No process of these is only random: feed
+marks, cross-hatch and scratches have a phase that waves of random phase do not have, which `left_out` says.
 
 Sees only errors. Verified in tests/surfaces/test_surface_processes.py: what is drawn has the statistics stated.
 """
@@ -10,16 +10,15 @@ Sees only errors. Verified in tests/surfaces/test_surface_processes.py: what is 
 from __future__ import annotations
 
 import math
+import tomllib
 from dataclasses import dataclass
+from importlib.resources import files
 from typing import Any, Literal
 
 from bem.errors import InputError
 
 ProcessName = Literal["ball", "blasted", "eroded", "ground", "honed", "lapped", "polished", "superfinished", "turned"]
 Lay = Literal["x", "y"]
-
-_CHART = "range: chart of ASME B46.1, average application, Ra x 1.25, from memory"
-_GAUSSIAN = "the Gaussian autocorrelation that is drawn has fewer short waves than an exponential one"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,113 +101,10 @@ def _length(value: float) -> str:
     return f"{1e6 * value:.4g} um" if value >= 1e-6 else f"{1e9 * value:.4g} nm"
 
 
-PROCESSES: dict[str, Process] = {
-    "ball": Process(
-        title="bearing ball of grade 10, lapped",
-        rms_height=15e-9,
-        usual=(10e-9, 25e-9),
-        across=5e-6,
-        along=5e-6,
-        source="Ra 12 nm of grade 10, 8 to 20 nm of grades 3 to 20 (grades of ISO 3290), x 1.25",
-        chosen="correlation length, Gaussian heights",
-        left_out="single scratches",
-    ),
-    "blasted": Process(
-        title="blasted with beads or sand",
-        rms_height=1.4e-6,
-        usual=(0.5e-6, 6e-6),
-        across=13e-6,
-        along=13e-6,
-        source="Greenwood & Williamson, Proc. R. Soc. A 295 (1966) 300: bead-blasted aluminium, Sq 1.4 um, Gaussian "
-        "heights; from memory",
-        chosen="range, correlation length (of the size of their summits' radius)",
-        left_out=f"steep flanks; {_GAUSSIAN}",
-    ),
-    "eroded": Process(
-        title="electrical discharge machined",
-        rms_height=4e-6,
-        usual=(2e-6, 8e-6),
-        across=30e-6,
-        along=30e-6,
-        skewness=0.3,
-        kurtosis=3.2,
-        source="range: Ra 3.2 to 6.3 um commonly, 1.6 where fine (tables of production methods), x 1.25; craters "
-        "overlapping at random: Materials 13 (2020) 3830",
-        chosen="Sq, correlation length (of a crater), skewness and kurtosis",
-        left_out="rims of the craters",
-    ),
-    "ground": Process(
-        title="ground in one direction",
-        rms_height=0.5e-6,
-        usual=(0.12e-6, 2e-6),
-        across=6.5e-6,
-        along=65e-6,
-        source="Whitehouse & Archard, Proc. R. Soc. A 316 (1970) 97: ground specimen Aachen 64-13, Sq 0.5 um, Gaussian "
-        f"heights, exponential autocorrelation of 6.5 um; from memory. {_CHART}",
-        chosen="ten times as long along the grooves as across",
-        left_out=f"single deep grooves, which make skewness negative; {_GAUSSIAN}",
-    ),
-    "honed": Process(
-        title="plateau-honed, as cylinder liners",
-        rms_height=0.5e-6,
-        usual=(0.12e-6, 1e-6),
-        across=15e-6,
-        along=15e-6,
-        skewness=-1.2,
-        kurtosis=5.0,
-        source=f"negative skewness and high kurtosis: Bhushan (ed.), Modern Tribology Handbook, ch. 2. {_CHART}",
-        chosen="Sq, correlation length, the figures of skewness and kurtosis",
-        left_out="the two directions of the cross-hatch and its plateaus: it is drawn without a direction",
-    ),
-    "lapped": Process(
-        title="lapped flat",
-        rms_height=0.15e-6,
-        usual=(0.06e-6, 0.5e-6),
-        across=6e-6,
-        along=6e-6,
-        skewness=-0.3,
-        kurtosis=3.3,
-        source=_CHART,
-        chosen="Sq, correlation length, skewness and kurtosis",
-        left_out="single scratches",
-    ),
-    "polished": Process(
-        title="polished, self-affine",
-        rms_height=20e-9,
-        usual=(5e-9, 100e-9),
-        hurst=0.8,
-        rolloff_wavelength=20e-6,
-        source="H near 0.8 of polished, ground and blasted surfaces: Persson et al., J. Phys.: Condens. Matter 17 "
-        "(2005) R1; from memory",
-        chosen="Sq and range of metallographic polish, roll-off, Gaussian heights",
-        left_out="scratches, pits and raised carbides; waves are drawn down to two cells where no cutoff is given",
-    ),
-    "superfinished": Process(
-        title="superfinished by vibration, as gears and bearings",
-        rms_height=75e-9,
-        usual=(60e-9, 250e-9),
-        across=15e-6,
-        along=15e-6,
-        skewness=-1.0,
-        kurtosis=4.5,
-        source="Ra below 76 nm, planarised, without direction: Hansen, Salerno & Winkelmann, AGMA 06FTM02 (2006). "
-        f"{_CHART}",
-        chosen="correlation length, the figures of skewness and kurtosis: peaks are gone, valleys are left",
-        left_out="what is left of the grinding's direction",
-    ),
-    "turned": Process(
-        title="finish-turned: feed 0.1 mm, nose radius 0.8 mm",
-        rms_height=0.47e-6,
-        usual=(0.2e-6, 3e-6),
-        across=17.5e-6,
-        along=350e-6,
-        skewness=0.4,
-        kurtosis=2.6,
-        source="cusps of a round nose, derived here: height f^2 / 8 r, Sq = 2 / sqrt(45) of it, autocorrelation at 1/e "
-        "after 0.176 f, skewness 0.64, kurtosis 2.14; measured skewness -0.5 to above 0, rising with the feed: Molnar, "
-        "Symmetry 14 (2022) 1591",
-        chosen="skewness and kurtosis between cusps and measurement, twenty times as long along the grooves as across",
-        left_out="the period of the feed: it is drawn as waves of random phase",
-    ),
-}
-"""Manufacturing processes by name."""
+def _catalogue() -> dict[str, Process]:
+    tables = tomllib.loads(files("bem.surfaces").joinpath("processes.toml").read_text(encoding="utf-8"))
+    return {name: Process(**table | {"usual": tuple(table["usual"])}) for name, table in tables.items()}
+
+
+PROCESSES: dict[str, Process] = _catalogue()
+"""Manufacturing processes by name, from `processes.toml`."""
