@@ -1,8 +1,9 @@
-"""Checks of arguments that functions all over `bem` share: one message for each number that is out of range."""
+"""Arguments that functions all over `bem` check alike, one message for each number out of range, and hand on."""
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from bem.errors import InputError
 
@@ -31,3 +32,8 @@ def check_not_negative(**values: float) -> None:
     ]
     if messages:
         raise InputError(messages)
+
+
+def named(source: object, names: str) -> dict[str, Any]:
+    """Attributes of an object, "load radius", by their names: what goes on as keyword arguments."""
+    return {name: getattr(source, name) for name in names.split()}

@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bem.accuracy.bars import POINTS, RESIDUAL, ErrorBars
+from bem.arguments import named
 from bem.errors import Status
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
 from bem.lubrication.validity import Case, spike_unresolved
@@ -77,15 +78,8 @@ class FilmCase:
 
     def on(self, points: int) -> FilmSolution:
         """The same film on a mesh of other points."""
-        return solve_line_film(
-            load=self.load,
-            radius=self.radius,
-            contact_modulus=self.contact_modulus,
-            speeds=self.speeds,
-            lubricant=self.lubricant,
-            points=points,
-            initial=self.solution,
-        )
+        asked = named(self, "load radius contact_modulus speeds lubricant")
+        return solve_line_film(**asked, points=points, initial=self.solution)
 
 
 @dataclass(frozen=True)

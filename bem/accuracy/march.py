@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from bem.accuracy.bars import POINTS, RESIDUAL, STEPS, ErrorBars
+from bem.arguments import named
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.lubrication import (
@@ -62,19 +63,9 @@ class MarchCase:
     def again(self, points: int, every: int = 1, **going_on: Any) -> list[FilmSolution]:
         """The same march with other points, at every so many of the times and the last one; `going_on` from a state,
         or calling back."""
-        return march_line_film(
-            every_so_many(self.times, every),
-            load=self.load,
-            speeds=self.speeds,
-            radius=self.radius,
-            contact_modulus=self.contact_modulus,
-            lubricant=self.lubricant,
-            points=points,
-            initial_thickness=self.initial_thickness,
-            cavitation=self.cavitation,
-            supply=self.layer,
-            **going_on,
-        )
+        asked = named(self, "load speeds radius contact_modulus lubricant initial_thickness cavitation")
+        times = every_so_many(self.times, every)
+        return march_line_film(times, **asked, points=points, supply=self.layer, **going_on)
 
 
 def march_figures(films: Sequence[FilmSolution]) -> dict[str, float]:
@@ -111,20 +102,9 @@ class PointMarchCase:
 
     def again(self, cells: tuple[int, int], every: int = 1, **going_on: Any) -> list[PointFilmSolution]:
         """The same march on other cells, at every so many of the times and the last one."""
-        return march_point_film(
-            every_so_many(self.times, every),
-            load=self.load,
-            speeds=self.speeds,
-            radii=self.radii,
-            contact_modulus=self.contact_modulus,
-            lubricant=self.lubricant,
-            roughness=self.surfaces,
-            shape=cells,
-            extent=self.extent,
-            bodies=self.bodies,
-            initial_thickness=self.initial_thickness,
-            **going_on,
-        )
+        asked = named(self, "load speeds radii contact_modulus lubricant extent bodies initial_thickness")
+        times = every_so_many(self.times, every)
+        return march_point_film(times, **asked, roughness=self.surfaces, shape=cells, **going_on)
 
 
 def point_march_figures(films: Sequence[PointFilmSolution]) -> dict[str, float]:

@@ -17,6 +17,7 @@ import numpy as np
 
 from bem.accuracy.bars import GRID, INLET, RESIDUAL, ErrorBars
 from bem.accuracy.film import FilmRule
+from bem.arguments import named
 from bem.errors import Status
 from bem.lubrication import Lubricant, PointFilmSolution, solve_point_film
 from bem.lubrication.point.kept import order_missed
@@ -55,16 +56,8 @@ class PointCase:
 
     def on(self, cells: tuple[int, int]) -> PointFilmSolution:
         """The film on so many cells."""
-        return solve_point_film(
-            load=self.load,
-            radii=self.radii,
-            contact_modulus=self.contact_modulus,
-            speeds=self.speeds,
-            lubricant=self.lubricant,
-            shape=cells,
-            bodies=self.bodies,
-            cavitation="mass_conserving",
-        )
+        asked = named(self, "load radii contact_modulus speeds lubricant bodies")
+        return solve_point_film(**asked, shape=cells, cavitation="mass_conserving")
 
 
 def point_figures(case: PointCase, film: PointFilmSolution) -> dict[str, float]:

@@ -16,6 +16,7 @@ from typing import Any
 
 from bem.accuracy.bars import POINTS, RESIDUAL, ErrorBars
 from bem.accuracy.film import FEWEST, SPIKE, FilmCase, spike_is_unresolved
+from bem.arguments import named
 from bem.errors import Status
 from bem.lubrication import (
     FilmSolution,
@@ -79,14 +80,7 @@ class TractionCase:
     def on(self, points: int, coarseness: int = 1) -> Any:
         """The film on a mesh of so many points: a `ThermalFilm` or a `FullThermalFilm` with its heat, on as many times
         fewer cells, else a `FilmSolution`."""
-        asked: dict[str, Any] = {
-            "load": self.load,
-            "radius": self.radius,
-            "contact_modulus": self.contact_modulus,
-            "speeds": self.speeds,
-            "lubricant": self.lubricant,
-            "points": points,
-        }
+        asked = named(self, "load radius contact_modulus speeds lubricant") | {"points": points}
         if self.bodies is None:
             return solve_line_film(**asked, supply=self.supply)
         asked |= {"bodies": self.bodies, "bulk": self.bulk}

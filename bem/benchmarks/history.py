@@ -14,6 +14,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from bem.arguments import named
 from bem.benchmarks.floor import Floor
 from bem.benchmarks.measure import Point
 from bem.errors import InputError, ResultsError
@@ -183,9 +184,7 @@ def compare(old: Run, new: Run) -> list[Change]:
         noise = max(0.05, before.spread + point.spread)
         changes.append(
             Change(
-                case=point.case,
-                size=point.size,
-                threads=point.threads,
+                **named(point, "case size threads"),
                 before=before.cpu_median,
                 after=point.cpu_median,
                 ratio=ratio,

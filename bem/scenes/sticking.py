@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from bem.grid import FloatArray, Grid
 from bem.scenes import build, plans
 from bem.scenes.context import Context, tell
 from bem.scenes.planner import Plan, Step, padded_points
+from bem.scenes.records import Figure, GridRecord, Series, grid_map
 from bem.scenes.tables.pressing import StressedScene
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from bem.contact import ContactSolution
     from bem.scenes.tables.tangential import PushedScene, RolledScene
     from bem.stress import StressBelow
+    from bem.tangential import TangentialSolution
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,35 @@ class Site:
     def carried(self, turn: float) -> tuple[float, float]:
         """What a turn about `centre` is besides one about the middle of the grid, along x and y."""
         return turn * self.centre[1], -turn * self.centre[0]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class StickRecord(GridRecord):
+    """A contact that sticks and slips, and the stresses under it where they are asked for; of several steps, the last
+    one's."""
+
+    load: Annotated[float, Figure("N", "load")]
+    contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid")]
+    pressure: Annotated[FloatArray, grid_map("Pa", "contact pressure")]
+    traction_x: Annotated[FloatArray, grid_map("Pa", "traction on the lower body along x")]
+    traction_y: Annotated[FloatArray, grid_map("Pa", "traction on the lower body along y")]
+    stick_state: Annotated[FloatArray, grid_map("1", "0 open, 1 sticks, 2 slips")]
+    depth: Annotated[FloatArray | None, Series(("depth",), "m", "depth below the surface")] = None
+    von_mises: Annotated[FloatArray | None, Series(("depth", "x", "y"), "Pa", "von Mises stress")] = None
+    contact_residual: Annotated[float, Figure("", "relative residual of the contact", unjudged=True)]
+
+
+def stuck(grid: Grid, contact: ContactSolution, found: TangentialSolution) -> dict[str, Any]:
+    """The fields of `StickRecord`, but for stresses."""
+    return {
+        "load": contact.load,
+        "contact_area_fraction": contact.contact_area / grid.area,
+        "pressure": contact.pressure,
+        "traction_x": found.traction[0],
+        "traction_y": found.traction[1],
+        "stick_state": np.where(contact.pressure > 0, np.where(found.slip.any(axis=0), 2.0, 1.0), 0.0),
+        "contact_residual": contact.residual,
+    }
 
 
 def pressed_together(scene: StressedScene, context: Context) -> Site:

@@ -17,8 +17,8 @@ from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene, problem
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
+from bem.scenes.marching import JUMPS, few_of, marched
 from bem.scenes.oil import OilScene
-from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, columns, filled
 from bem.scenes.resolutions import counted
@@ -28,9 +28,6 @@ from bem.scenes.tables.supply import SupplyScene
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars, MarchCase
     from bem.lubrication import FilmSolution
-    from bem.lubrication.transient import LineState
-
-_CHECKPOINTS = 20  # of a march
 
 
 class FilmScene(SceneModel):
@@ -75,7 +72,6 @@ def plan(scene: FilmScene) -> Plan:
     )
 
 
-_JUMPS = "a film is often nearly as thin at several times, and other steps may pick another of them"
 _BY_TIME = "the thinnest one and the last one have theirs"
 
 
@@ -88,7 +84,7 @@ class FilmTimeRecord(Record):
         FloatArray, Figure("nm", "minimum film", ("reported",), name="minimum_film", no_bar=_BY_TIME)
     ]
     thinnest_film: Annotated[float, Figure("nm", "thinnest film of all times", headline=True)]
-    thinnest_film_time: Annotated[float, Figure("s", "when it is that thin", headline=True, no_bar=_JUMPS)]
+    thinnest_film_time: Annotated[float, Figure("s", "when it is that thin", headline=True, no_bar=JUMPS)]
     film_at_end: Annotated[float, Figure("nm", "minimum film at the end", headline=True)]
     largest_friction_force: Annotated[float, Figure("N", "largest friction force")]
     volume_imbalance: Annotated[
@@ -129,24 +125,11 @@ def run(scene: FilmScene, context: Context) -> FilmTimeRecord:
         layer=None if scene.supply is None else scene.supply.layer,
     )
     with context.timer("film"):
-        films = _march(case, context)
+        films: list[FilmSolution] = marched(case, case.points, context)
     tell(context, dict.fromkeys(note for film in films for note in film.notes), "film: ")
     wanted = scene.outputs.errors and films[-1].status is Status.CONVERGED
     errors = error_bars(context, wanted, lambda: _bars(replace(case, films=films), cylinder.width))
     return _record(films, cylinder.width, errors, starved=scene.supply is not None)
-
-
-def _march(case: MarchCase, context: Context) -> list[FilmSolution]:
-    """The films, with a checkpoint at every twentieth of the way."""
-    last, made_again = len(case.times) - 1, (case.lubricant,)
-
-    def watch(now: LineState) -> None:
-        done = len(now.solutions) - 1
-        context.progress(done, last, "steps")
-        if done == last or done % math.ceil(last / _CHECKPOINTS) == 0:
-            keep(context, now, made_again)
-
-    return case.again(case.points, state=kept(context, made_again), callback=watch)
 
 
 def _bars(case: MarchCase, width: float) -> ErrorBars:
@@ -161,7 +144,7 @@ def _record(films: Sequence[FilmSolution], width: float, errors: Mapping[str, An
     from bem.accuracy import march_figures
 
     last, figures, over = films[-1], march_figures(films), columns(films, _OVER_TIME)
-    few = sorted({round(i) for i in np.linspace(0, len(films) - 1, min(len(films), 21))})
+    few = few_of(len(films), 21)
     time, minimum = over["time"], over["minimum_thickness"]
     return filled(
         FilmTimeRecord,

@@ -12,26 +12,15 @@ import numpy as np
 
 from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid
-from bem.scenes import build
+from bem.scenes import build, sticking
 from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.pushing import PRESSING_STEPS, Path, answers, figures_of, pressed, pressing_steps, pushed
-from bem.scenes.records import Figure, GridRecord, Series, filled
+from bem.scenes.records import Figure, Series, filled, grid_map
 from bem.scenes.resolutions import CELLS, DEPTHS
-from bem.scenes.sticking import (
-    Coarse,
-    Found,
-    Site,
-    bars,
-    coupled,
-    plan_around,
-    pressed_together,
-    stress_figures,
-    stresses_under,
-    tell_coupled,
-)
+from bem.scenes.sticking import Coarse, Found, Site, StickRecord
 from bem.scenes.tables.tangential import PushedScene
 
 if TYPE_CHECKING:
@@ -86,19 +75,16 @@ def plan(scene: PartialSlipScene) -> Plan:
             ),
         )
 
-    return plan_around(scene, steps, 1.0 if pressing == 1 else 1.5)
+    return sticking.plan_around(scene, steps, 1.0 if pressing == 1 else 1.5)
 
 
-_map = partial(Series, ("x", "y"))
 _step = partial(Series, ("step",))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class PartialSlipRecord(GridRecord):
+class PartialSlipRecord(StickRecord):
     """A contact that was pushed along."""
 
-    load: Annotated[float, Figure("N", "load")]
-    contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid")]
     force: Annotated[float, Figure("N", "tangential force at the end", headline=True)]
     shift: Annotated[float, Figure("m", "shift at the end", headline=True)]
     stick_fraction: Annotated[float, Figure("", "share of the contact that sticks at the end", headline=True)]
@@ -125,15 +111,10 @@ class PartialSlipRecord(GridRecord):
         float | None, Figure("Nm", "moment about the grid's centre at the end", optional=True, headline=True)
     ] = None
     rotation: Annotated[float | None, Figure("rad", "rotation at the end", optional=True, unjudged=True)] = None
-    contact_residual: Annotated[float, Figure("", "relative residual of the contact", unjudged=True)]
     slip_residual: Annotated[float, Figure("", "largest relative residual of the steps", unjudged=True)]
     convolutions: Annotated[float, Figure("", "convolutions of all steps", unjudged=True)]
-    pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
-    traction_x: Annotated[FloatArray, _map("Pa", "traction on the lower body along x, at the end")]
-    traction_y: Annotated[FloatArray, _map("Pa", "traction on the lower body along y, at the end")]
-    slip: Annotated[FloatArray, _map("m", "distance slid in all steps")]
-    friction_energy: Annotated[FloatArray, _map("J/m^2", "energy of friction in all steps")]
-    stick_state: Annotated[FloatArray, _map("1", "0 open, 1 sticks, 2 slips in the last step")]
+    slip: Annotated[FloatArray, grid_map("m", "distance slid in all steps")]
+    friction_energy: Annotated[FloatArray, grid_map("J/m^2", "energy of friction in all steps")]
     step: Annotated[FloatArray, _step("1", "step")]
     step_force: Annotated[FloatArray, _step("N", "tangential force")]
     step_shift: Annotated[FloatArray, _step("m", "shift")]
@@ -141,13 +122,11 @@ class PartialSlipRecord(GridRecord):
     step_dissipated: Annotated[FloatArray, _step("J", "energy of friction in the step")]
     step_rotation: Annotated[FloatArray | None, _step("rad", "rotation")] = None
     step_moment: Annotated[FloatArray | None, _step("N*m", "moment about the grid's centre")] = None
-    depth: Annotated[FloatArray | None, Series(("depth",), "m", "depth below the surface")] = None
-    von_mises: Annotated[FloatArray | None, Series(("depth", "x", "y"), "Pa", "von Mises stress")] = None
 
 
 def run(scene: PartialSlipScene, context: Context) -> PartialSlipRecord:
     """Solve the contact, then step after step."""
-    site = pressed_together(scene, context)
+    site = sticking.pressed_together(scene, context)
     steps = pressing_steps(scene)
 
     def after(path: Path, done: int, total: int) -> None:
@@ -162,18 +141,18 @@ def run(scene: PartialSlipScene, context: Context) -> PartialSlipRecord:
     if scene.outputs.stiffness:
         with context.timer("stiffness"):
             extra |= _stiffness(scene, site, context.note)
-    below = stresses_under(scene, site.grid, path.contact(site).pressure, path.last.traction, context)
+    below = sticking.stresses_under(scene, site.grid, path.contact(site).pressure, path.last.traction, context)
     wanted = scene.outputs.errors and site.contact.load > 0 and Status.CONVERGED is site.contact.status is path.status
     errors = error_bars(context, wanted, lambda: _bars(scene, site, path, below, extra))
-    return _record(scene, site, path, extra | stress_figures(below), errors)
+    return _record(scene, site, path, extra | sticking.stress_figures(below), errors)
 
 
 def _tell(scene: PartialSlipScene, steps: int, context: Context) -> None:
     """What bodies that differ do under pressure alone."""
-    if not coupled(scene):
+    if not sticking.coupled(scene):
         return
     if not answers(scene):
-        tell_coupled(scene, context)
+        sticking.tell_coupled(scene, context)
     context.note(
         f"pressure alone makes bodies that differ slip: the load comes in {steps} steps, and what sticks is known "
         f"to about 1/{steps} of it; take twice push.pressing_steps to see"
@@ -207,7 +186,9 @@ def _bars(
     given = ("shift",) if scene.push.shift is not None else ("force",)
     residual = max(site.contact.residual, float(path.column("residual").max()))
     limit = scene.push.friction * site.contact.load
-    return bars(scene, site, Found(figures, path.contact(site), PUSH_RULES, given, residual, limit, below), again)
+    return sticking.bars(
+        scene, site, Found(figures, path.contact(site), PUSH_RULES, given, residual, limit, below), again
+    )
 
 
 _PROBE = 1e-3
@@ -256,26 +237,19 @@ def _record(
     scene: PartialSlipScene, site: Site, path: Path, extra: dict[str, Any], errors: dict[str, Any]
 ) -> PartialSlipRecord:
     last, contact, turns = path.last, path.contact(site), scene.push.rotation is not None
-    state = np.where(contact.pressure > 0, np.where(last.slip.any(axis=0), 2.0, 1.0), 0.0)
     status = site.contact.status if site.contact.status is not Status.CONVERGED else path.status
     return filled(
         PartialSlipRecord,
         site.grid,
+        sticking.stuck(site.grid, contact, last),
         figures_of(scene, path),
         extra,
-        load=contact.load,
-        contact_area_fraction=contact.contact_area / site.grid.area,
         counted_stick_fraction=float(path.column("counted_stick")[-1]),
         rotation=last.rotation if turns else None,
-        contact_residual=contact.residual,
         slip_residual=float(path.column("residual").max()),
         convolutions=path.convolutions,
-        pressure=contact.pressure,
-        traction_x=last.traction[0],
-        traction_y=last.traction[1],
         slip=path.sums[0],
         friction_energy=path.sums[1],
-        stick_state=state,
         step=np.arange(1.0, len(path.steps) + 1),
         step_force=path.column("force"),
         step_shift=path.column("shift"),

@@ -16,8 +16,8 @@ from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, problem
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
+from bem.scenes.marching import JUMPS, few_of, marched
 from bem.scenes.oil import OilScene
-from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, columns, filled
 from bem.scenes.tables.ball import BallRollingScene, BallScene
@@ -31,11 +31,8 @@ from bem.scenes.tables.passing import (
 )
 
 if TYPE_CHECKING:
-    from bem.accuracy.march import PointMarchCase
     from bem.lubrication import MovingSurface, PointFilmSolution
-    from bem.lubrication.point.transient import PointState
 
-_CHECKPOINTS = 20  # of a march
 _FEW_STEPS = 24
 """A wave, below which steps damp it by more than 2.5 % over its length: BDF2 by (2 pi/n)^4/4 a step."""
 _FRAMES = 24
@@ -98,7 +95,6 @@ def plan(scene: PointFilmTimeScene) -> Plan:
     )  # fmt: skip
 
 
-_JUMPS = "a film is often nearly as thin at several times, and other steps may pick another of them"
 _SPIKE = "pressure spikes are narrower than the cells, and their height follows them"
 _FITTED = "it is fitted through one wave of the film; finer cells and steps say how good it is"
 _FIT = "a fit to published films, with the scatter of these"
@@ -109,7 +105,7 @@ class PointFilmTimeRecord(Record):
     """A film in time."""
 
     thinnest_film: Annotated[float, Figure("nm", "thinnest film of all times", headline=True)]
-    thinnest_film_time: Annotated[float, Figure("s", "when it is that thin", no_bar=_JUMPS)]
+    thinnest_film_time: Annotated[float, Figure("s", "when it is that thin", no_bar=JUMPS)]
     film_at_end: Annotated[float, Figure("nm", "minimum film at the end", headline=True)]
     central_film_at_end: Annotated[float, Figure("nm", "film at the centre at the end", headline=True)]
     thickest_central_film: Annotated[float, Figure("nm", "thickest film at the centre", headline=True)]
@@ -172,7 +168,7 @@ def run(scene: PointFilmTimeScene, context: Context) -> PointFilmTimeRecord:
             f"{steps:.0f} steps a wave: steps damp waves, by 5 % over a wavelength with 20 steps a wave, by 1 % with 32"
         )
     with context.timer("film"):
-        films = _march(case, context)
+        films: list[PointFilmSolution] = marched(case, case.cells, context)
     tell(context, dict.fromkeys(note for film in films for note in film.notes), "film: ")
     wanted = scene.outputs.errors and films[-1].status is Status.CONVERGED
     errors = error_bars(context, wanted, lambda: point_march_bars(case.done(films)))
@@ -203,19 +199,6 @@ def _surfaces(scene: PointFilmTimeScene, context: Context) -> tuple[MovingSurfac
     return tuple(found)
 
 
-def _march(case: PointMarchCase, context: Context) -> list[PointFilmSolution]:
-    """The films, with a checkpoint at every twentieth of the way."""
-    last, made_again = len(case.times) - 1, (case.lubricant,)
-
-    def watch(now: PointState) -> None:
-        done = len(now.solutions) - 1
-        context.progress(done, last, "steps")
-        if done == last or done % math.ceil(last / _CHECKPOINTS) == 0:
-            keep(context, now, made_again)
-
-    return case.again(case.cells, state=kept(context, made_again), callback=watch)
-
-
 def _record(
     scene: PointFilmTimeScene, films: Sequence[PointFilmSolution], errors: Mapping[str, Any]
 ) -> PointFilmTimeRecord:
@@ -224,7 +207,7 @@ def _record(
     last, over = films[-1], columns(films, ("time", "minimum_thickness", "central_thickness", "friction", "load"))
     time, minimum, solved = over["time"], over["minimum_thickness"], films[1:]
     wanted = np.array([film.load for film in solved]) / [_load(scene, film.time) for film in solved]
-    few = sorted({round(i) for i in np.linspace(0, len(films) - 1, min(len(films), _FRAMES))})
+    few = few_of(len(films), _FRAMES)
     return filled(
         PointFilmTimeRecord,
         point_march_figures(films),

@@ -3,30 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
-from bem.scenes import build
+from bem.scenes import build, sticking
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, GridRecord, Series, filled
+from bem.scenes.records import Figure, Series, filled, grid_map
 from bem.scenes.resolutions import CELLS, DEPTHS
-from bem.scenes.sticking import (
-    Coarse,
-    Found,
-    Site,
-    bars,
-    plan_around,
-    pressed_together,
-    stress_figures,
-    stresses_under,
-    tell_coupled,
-)
+from bem.scenes.sticking import Coarse, Found, Site, StickRecord
 from bem.scenes.tables.tangential import RolledScene
 
 if TYPE_CHECKING:
@@ -62,19 +51,14 @@ def plan(scene: RollingContactScene) -> Plan:
             ),
         )
 
-    return plan_around(scene, steps, 0.5)
-
-
-_map = partial(Series, ("x", "y"))
+    return sticking.plan_around(scene, steps, 0.5)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class RollingRecord(GridRecord):
+class RollingRecord(StickRecord):
     """A contact that rolls steadily."""
 
     x: Annotated[FloatArray, Series(("x",), "m", "x, along rolling")]
-    load: Annotated[float, Figure("N", "load")]
-    contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid")]
     force: Annotated[float, Figure("N", "force on the lower body along x", headline=True)]
     force_across: Annotated[float, Figure("N", "force on the lower body along y", headline=True)]
     traction_coefficient: Annotated[float, Figure("", "size of the force over load", headline=True)]
@@ -87,30 +71,23 @@ class RollingRecord(GridRecord):
         None
     )
     max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)] = None
-    contact_residual: Annotated[float, Figure("", "relative residual of the contact", unjudged=True)]
     slip_residual: Annotated[float, Figure("", "relative residual of slip and stick", unjudged=True)]
     convolutions: Annotated[float, Figure("", "convolutions of the rolling", unjudged=True)]
-    pressure: Annotated[FloatArray, _map("Pa", "contact pressure")]
-    traction_x: Annotated[FloatArray, _map("Pa", "traction on the lower body along x")]
-    traction_y: Annotated[FloatArray, _map("Pa", "traction on the lower body along y")]
-    slip: Annotated[FloatArray, _map("1", "sliding over rolling velocity")]
-    friction_energy: Annotated[FloatArray, _map("J/m^3", "energy of friction over area and distance rolled")]
-    stick_state: Annotated[FloatArray, _map("1", "0 open, 1 sticks, 2 slips")]
-    depth: Annotated[FloatArray | None, Series(("depth",), "m", "depth below the surface")] = None
-    von_mises: Annotated[FloatArray | None, Series(("depth", "x", "y"), "Pa", "von Mises stress")] = None
+    slip: Annotated[FloatArray, grid_map("1", "sliding over rolling velocity")]
+    friction_energy: Annotated[FloatArray, grid_map("J/m^3", "energy of friction over area and distance rolled")]
 
 
 def run(scene: RollingContactScene, context: Context) -> RollingRecord:
     """Solve the contact, then what sticks while it rolls."""
-    site = pressed_together(scene, context)
+    site = sticking.pressed_together(scene, context)
     with context.timer("rolling"):
         found = _rolled(scene, site)
     tell(context, found.notes)
-    tell_coupled(scene, context)
-    below = stresses_under(scene, site.grid, site.contact.pressure, found.traction, context)
+    sticking.tell_coupled(scene, context)
+    below = sticking.stresses_under(scene, site.grid, site.contact.pressure, found.traction, context)
     wanted = scene.outputs.errors and Status.CONVERGED is site.contact.status is found.status
     errors = error_bars(context, wanted, lambda: _bars(scene, site, found, below))
-    return _record(site, found, _figures(site, found, scene.roll.spin) | stress_figures(below), errors)
+    return _record(site, found, _figures(site, found, scene.roll.spin) | sticking.stress_figures(below), errors)
 
 
 def _rolled(scene: RollingContactScene, site: Site) -> TangentialSolution:
@@ -153,7 +130,7 @@ def _bars(scene: RollingContactScene, site: Site, found: TangentialSolution, bel
     residual = max(site.contact.residual, found.residual)
     limit = scene.roll.friction * site.contact.load
     figures = _figures(site, found, scene.roll.spin)
-    return bars(scene, site, Found(figures, site.contact, ROLL_RULES, given, residual, limit, below), again)
+    return sticking.bars(scene, site, Found(figures, site.contact, ROLL_RULES, given, residual, limit, below), again)
 
 
 def _record(site: Site, found: TangentialSolution, extra: dict[str, Any], errors: dict[str, Any]) -> RollingRecord:
@@ -165,19 +142,13 @@ def _record(site: Site, found: TangentialSolution, extra: dict[str, Any], errors
     return filled(
         RollingRecord,
         grid,
+        sticking.stuck(grid, contact, found),
         extra,
-        load=contact.load,
-        contact_area_fraction=contact.contact_area / grid.area,
         resolved_work=float(energy.sum()) * grid.cell_area / work if work > 0 else 1.0,
-        contact_residual=contact.residual,
         slip_residual=found.residual,
         convolutions=found.convolutions,
-        pressure=contact.pressure,
-        traction_x=found.traction[0],
-        traction_y=found.traction[1],
         slip=np.hypot(*slid),
         friction_energy=energy,
-        stick_state=np.where(contact.pressure > 0, np.where(found.slip.any(axis=0), 2.0, 1.0), 0.0),
         **errors,
         status=status,
         where=f"contact: {contact.status.message}; rolling: {found.status.message}, residual {found.residual:.1e}",
