@@ -58,6 +58,15 @@ settled = 4
 """
 
 
+def oiled_ball(kind, ball, oil, **tables):
+    """A steel ball on a steel flat with oil between them, as the kinds of point films take it."""
+    steel = {"material": "steel-52100"}
+    return {"kind": kind, "lower": steel, "upper": steel, "ball": ball, "oil": oil | _COMPRESSED, **tables}
+
+
+_COMPRESSED = {"density_law": "dowson_higginson"}
+
+
 def pressed_ball(kind, cells):
     """A steel ball on a steel flat under 20 N, as kinds with stick and slip take it."""
     return {

@@ -7,12 +7,15 @@ test_point_film_time_kind.py.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
+from bem.grid import FloatArray
 from bem.scenes.context import Context
 from bem.scenes.packing import keep, kept
+from bem.scenes.records import Figure, Record, Series
 
 if TYPE_CHECKING:
     from bem.accuracy.march import MarchCase, PointMarchCase
@@ -20,6 +23,18 @@ if TYPE_CHECKING:
 _CHECKPOINTS = 20  # of a march
 JUMPS = "a film is often nearly as thin at several times, and other steps may pick another of them"
 """Why the time of the thinnest film has no error bar."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MarchedRecord(Record):
+    """A film in time: its minimum and its centre."""
+
+    thinnest_film: Annotated[float, Figure("nm", "thinnest film of all times", headline=True)]
+    film_at_end: Annotated[float, Figure("nm", "minimum film at the end", headline=True)]
+    newton_steps: Annotated[int, Figure("", "Newton steps", unjudged=True)]
+    time: Annotated[FloatArray, Series(("time",), "s", "time")]
+    minimum_film: Annotated[FloatArray, Series(("time",), "m", "minimum film thickness")]
+    central_film: Annotated[FloatArray, Series(("time",), "m", "film thickness at the centre")]
 
 
 def marched(case: MarchCase | PointMarchCase, mesh: Any, context: Context) -> list[Any]:

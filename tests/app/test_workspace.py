@@ -11,17 +11,9 @@ from bem.app.downloads import WHAT, download, overlay
 from bem.app.planning import shown_plan
 from bem.app.workspace import OWN, PID, Workspace
 from bem.results.directory import LOCK
+from tests.small_scenes import CONTACT
 
-SMALL = {
-    "kind": "contact",
-    "grid": {"shape": 16, "spacing": "0.5 um", "periodic": True},
-    "lower": {
-        "material": "steel-disk",
-        "surface": {"kind": "generated", "rms_height": "100 nm", "correlation_length": "2 um"},
-    },
-    "contact": {"mean_pressure": "80 MPa", "behaviour": "capped"},
-    "outputs": {"errors": False},
-}
+SMALL = {key: CONTACT[key] for key in ("kind", "grid", "lower", "contact")} | {"outputs": {"errors": False}}
 
 
 @pytest.fixture

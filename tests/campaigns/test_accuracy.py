@@ -31,11 +31,10 @@ from tests.campaigns.test_inside_a_case import ARRAY, GROWTH, TRIBOFILM
 from tests.small_scenes import FILM, WEAR
 from tests.small_scenes import PATCH as PATCH_OF_A_LINE
 
-BALL = {
+STEEL = {"lower": {"material": "steel-52100"}, "upper": {"material": "steel-52100"}}
+BALL = STEEL | {
     "kind": "contact",
     "name": "ball",
-    "lower": {"material": "steel-52100"},
-    "upper": {"material": "steel-52100"},
     "shape": {"kind": "sphere", "radius": "10 mm"},
     "contact": {"load": "10 N"},
     "accuracy": "1 %",
@@ -304,11 +303,9 @@ MARCH = FILM | {
 }
 TIP = TRIBOFILM | {"name": "tip", "film": GROWTH}
 del TIP["grid"]
-RUBBED = {
+RUBBED = STEEL | {
     "kind": "surface-temperature",
     "name": "rubbed",
-    "lower": {"material": "steel-52100"},
-    "upper": {"material": "steel-52100"},
     "shape": {"kind": "sphere", "radius": "5 mm"},
     "contact": {"load": "20 N", "friction": 0.1},
     "heat": {"lower_speed": "2 m/s"},

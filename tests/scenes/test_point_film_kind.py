@@ -8,18 +8,17 @@ import pytest
 from bem import InputError, load_scene, solve_point_film
 from bem.plots.figures.point_film import colours_of
 from bem.runs import run_scene
+from tests.small_scenes import oiled_ball
 
 
 def scene(**changes):
-    table = {
-        "kind": "point-film",
-        "lower": {"material": "steel-52100"},
-        "upper": {"material": "steel-52100"},
-        "ball": {"radius": "10 mm", "hertz_pressure": "0.7 GPa"},
-        "oil": {"viscosity": "0.05 Pa s", "pressure_viscosity": "20 1/GPa", "density_law": "dowson_higginson"},
-        "rolling": {"mean_speed": "0.5 m/s", "slide_roll_ratio": 0.1},
-        "film": {"cells": 64},
-    }
+    table = oiled_ball(
+        "point-film",
+        {"radius": "10 mm", "hertz_pressure": "0.7 GPa"},
+        {"viscosity": "0.05 Pa s", "pressure_viscosity": "20 1/GPa"},
+        rolling={"mean_speed": "0.5 m/s", "slide_roll_ratio": 0.1},
+        film={"cells": 64},
+    )
     return {**table, **changes}
 
 

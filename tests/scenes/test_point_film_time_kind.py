@@ -5,20 +5,19 @@ import pytest
 
 from bem import InputError, load_scene
 from bem.runs import run_scene
+from tests.small_scenes import oiled_ball
 
 
 def scene(**changes):
-    table = {
-        "kind": "point-film-time",
-        "lower": {"material": "steel-52100"},
-        "upper": {"material": "steel-52100"},
-        "ball": {"radius": "12.5 mm", "load": "15 N"},
-        "oil": {"viscosity": "0.25 Pa s", "pressure_viscosity": "22 1/GPa", "density_law": "dowson_higginson"},
-        "rolling": {"mean_speed": "0.09 m/s"},
-        "film": {"cells": 36, "extent": ["-260 um", "160 um", "-210 um", "210 um"]},
-        "march": {"duration": "1.2 ms", "steps": 8},
-        "outputs": {"errors": False},
-    }
+    table = oiled_ball(
+        "point-film-time",
+        {"radius": "12.5 mm", "load": "15 N"},
+        {"viscosity": "0.25 Pa s", "pressure_viscosity": "22 1/GPa"},
+        rolling={"mean_speed": "0.09 m/s"},
+        film={"cells": 36, "extent": ["-260 um", "160 um", "-210 um", "210 um"]},
+        march={"duration": "1.2 ms", "steps": 8},
+        outputs={"errors": False},
+    )
     return {**table, **changes}
 
 

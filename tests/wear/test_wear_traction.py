@@ -15,6 +15,7 @@ from bem.wear.criterion import Archard, AveragedVonMises, EnergyWear
 from bem.wear.loads import LOWER, UPPER, SurfaceLoad
 from bem.wear.traction import OscillatingForce, OscillatingShift
 from bem.wear.traction.oscillating import ALL_SLIPS, AT_ONCE
+from tests.wear_loops import goes_on
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 RADIUS, LOAD, FRICTION, RATE = 5e-3, 5.0, 0.3, 1e-17
@@ -125,12 +126,7 @@ def test_a_stopped_run_in_partial_slip_goes_on_to_the_same_bits(criterion):
     arguments = ARGUMENTS | {"model": model, "friction": 0.3}
     whole = run_in(lower, upper, cycles=4, **arguments)
     assert whole.particles.size > 0
-    states = []
-    run_in(lower, upper, cycles=2, callback=states.append, **arguments)
-    rest = run_in(lower, upper, cycles=4, state=unpack_state(pack_state(states[-1])), **arguments)
-    assert np.array_equal(whole.lower_heights, rest.lower_heights)
-    assert np.array_equal(whole.upper_heights, rest.upper_heights)
-    assert np.array_equal(whole.cycles, rest.cycles)
+    goes_on(whole, (lower, upper), arguments, cycles=4, stopped=2)
     again = run_in(lower, upper, cycles=4, state=unpack_state(pack_state(whole.state)), **arguments)
     assert np.array_equal(again.state.rubbing.slid, whole.state.rubbing.slid)
     assert again.state.rubbing.status is whole.state.rubbing.status

@@ -17,10 +17,10 @@ from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene, problem
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
-from bem.scenes.marching import JUMPS, few_of, marched
+from bem.scenes.marching import JUMPS, MarchedRecord, few_of, marched
 from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Record, Series, columns, filled
+from bem.scenes.records import Figure, Series, columns, filled
 from bem.scenes.resolutions import counted
 from bem.scenes.tables.motion import FilmCylinderScene, MarchScene, MotionScene
 from bem.scenes.tables.supply import SupplyScene
@@ -75,27 +75,21 @@ def plan(scene: FilmScene) -> Plan:
 _BY_TIME = "the thinnest one and the last one have theirs"
 
 
-@dataclass(frozen=True, eq=False)
-class FilmTimeRecord(Record):
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FilmTimeRecord(MarchedRecord):
     """A film in time."""
 
     times_reported: Annotated[FloatArray, Figure("s", "time", ("reported",), name="time", unjudged=True)]
     minimum_film_reported: Annotated[
         FloatArray, Figure("nm", "minimum film", ("reported",), name="minimum_film", no_bar=_BY_TIME)
     ]
-    thinnest_film: Annotated[float, Figure("nm", "thinnest film of all times", headline=True)]
     thinnest_film_time: Annotated[float, Figure("s", "when it is that thin", headline=True, no_bar=JUMPS)]
-    film_at_end: Annotated[float, Figure("nm", "minimum film at the end", headline=True)]
     largest_friction_force: Annotated[float, Figure("N", "largest friction force")]
     volume_imbalance: Annotated[
         float, Figure("", "volume that appears or goes, over that in the film", headline=True, unjudged=True)
     ]
-    newton_steps: Annotated[int, Figure("", "Newton steps", unjudged=True)]
-    time: Annotated[FloatArray, Series(("time",), "s", "time")]
     film_x: Annotated[FloatArray, Series(("film_x",), "m", "x, along sliding")]
     speed: Annotated[FloatArray, Series(("time",), "m/s", "speed of the flat")]
-    minimum_film: Annotated[FloatArray, Series(("time",), "m", "minimum film thickness")]
-    central_film: Annotated[FloatArray, Series(("time",), "m", "film thickness at the centre")]
     friction: Annotated[
         FloatArray, Series(("time",), "1", "coefficient of friction, positive along +x on the cylinder")
     ]

@@ -16,10 +16,10 @@ from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, problem
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
-from bem.scenes.marching import JUMPS, few_of, marched
+from bem.scenes.marching import JUMPS, MarchedRecord, few_of, marched
 from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Record, Series, columns, filled
+from bem.scenes.records import Figure, Series, columns, filled
 from bem.scenes.tables.ball import BallRollingScene, BallScene
 from bem.scenes.tables.passing import (
     BallMarchScene,
@@ -101,12 +101,10 @@ _FIT = "a fit to published films, with the scatter of these"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class PointFilmTimeRecord(Record):
+class PointFilmTimeRecord(MarchedRecord):
     """A film in time."""
 
-    thinnest_film: Annotated[float, Figure("nm", "thinnest film of all times", headline=True)]
     thinnest_film_time: Annotated[float, Figure("s", "when it is that thin", no_bar=JUMPS)]
-    film_at_end: Annotated[float, Figure("nm", "minimum film at the end", headline=True)]
     central_film_at_end: Annotated[float, Figure("nm", "film at the centre at the end", headline=True)]
     thickest_central_film: Annotated[float, Figure("nm", "thickest film at the centre", headline=True)]
     highest_pressure: Annotated[float, Figure("Pa", "highest pressure of all times", headline=True, no_bar=_SPIKE)]
@@ -125,11 +123,7 @@ class PointFilmTimeRecord(Record):
     ] = None
     mass_imbalance: Annotated[float, Figure("", "oil that appears or goes in a step, over what moves", unjudged=True)]
     load_missed: Annotated[float, Figure("", "largest share by which the load is missed", unjudged=True)]
-    newton_steps: Annotated[int, Figure("", "Newton steps", unjudged=True)]
-    time: Annotated[FloatArray, Series(("time",), "s", "time")]
     speed: Annotated[FloatArray, Series(("time",), "m/s", "mean speed along x")]
-    minimum_film: Annotated[FloatArray, Series(("time",), "m", "minimum film thickness")]
-    central_film: Annotated[FloatArray, Series(("time",), "m", "film thickness at the centre")]
     friction: Annotated[FloatArray, Series(("time",), "1", "sliding force over load")]
     film_x: Annotated[FloatArray, Series(("film_x",), "m", "x through the middle")]
     film_y: Annotated[FloatArray, Series(("film_y",), "m", "y")]
