@@ -101,8 +101,13 @@ def rooms(kind: str) -> str:
     return ", ".join(sorted({path.relative_to(CODE).parts[0].removesuffix(".py") for path in modules(kind)}))
 
 
-def _imports(path: Path) -> Iterator[list[str]]:
-    """Dotted names below `bem` that a module imports anywhere."""
+@cache
+def _imports(path: Path) -> tuple[list[str], ...]:
+    """Dotted names below `bem` that a module imports anywhere; every kind asks for the same rooms."""
+    return tuple(_names_imported(path))
+
+
+def _names_imported(path: Path) -> Iterator[list[str]]:
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "bem":
             below = (node.module or "").split(".")[1:]
@@ -152,11 +157,13 @@ def changed_since_stored(path: Path, kinds: Sequence[str]) -> str:
         if _git("rev-parse", "--is-shallow-repository") == "true" or _git("status", "--porcelain", "--", str(path)):
             return ""
         stored = _git("log", "-1", "--format=%h", "--", str(path))
-        lines = [line.split("\t") for line in _git("diff", "--name-status", stored, "--", "bem").splitlines()]
+        lines = _git("diff", "--raw", "--abbrev=40", stored, "--", "bem").splitlines()
+        # ":mode mode before after kind<tab>name", with the name before a move between them
+        rows = sorted((name, head.split()) for head, *_, name in (line.split("\t") for line in lines))
         changed = [
             name
-            for kind, *_, name in sorted(lines, key=lambda line: line[-1])
-            if name in known and (kind != "M" or _bare(_git("show", f"{stored}:{name}")) != _bare_once(known[name]))
+            for name, (*_, before, _, kind) in rows
+            if name in known and (kind != "M" or _bare_blob(before) != _bare_once(known[name]))
         ]
     except (OSError, subprocess.CalledProcessError):
         return ""
@@ -164,6 +171,12 @@ def changed_since_stored(path: Path, kinds: Sequence[str]) -> str:
         return ""
     more = f" and {len(changed) - 3} more" if len(changed) > 3 else ""
     return f"stale: since it was stored at {stored}, code changed in {', '.join(changed[:3])}{more}"
+
+
+@cache
+def _bare_blob(blob: str) -> str:
+    """`_bare` of a file as the history has it, by its content's name: many commits have the same."""
+    return _bare(_git("cat-file", "blob", blob))
 
 
 def _git(*words: str) -> str:
