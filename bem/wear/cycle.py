@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from bem.arguments import named
 from bem.contact import ContactSolution, solve_contact
 from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
@@ -200,16 +201,8 @@ def dry_contact(setup: WearSetup, *, tolerance: float = 1e-6, compliance: float 
 
 def outcome_of(solution: ContactSolution, setup: WearSetup) -> ContactOutcome:
     """What a cycle needs to know of a dry contact."""
-    return ContactOutcome(
-        pressure=solution.pressure,
-        contact_area=solution.contact_area,
-        plastic_area=solution.plastic_area,
-        load=solution.load,
-        friction=setup.friction,
-        residual=solution.residual,
-        convolutions=solution.convolutions,
-        status=solution.status,
-    )
+    told = named(solution, "pressure contact_area plastic_area load residual convolutions status")
+    return ContactOutcome(**told, friction=setup.friction)
 
 
 def wear_cycle(
