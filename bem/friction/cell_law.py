@@ -37,7 +37,6 @@ class SolvedCell:
     displacement: FloatArray
     opening_error: float
     status: Status
-    convolutions: float
 
 
 @dataclass(frozen=True, eq=False)

@@ -37,6 +37,8 @@ MOST_YIELDED = 0.97
 NEWTON_STEPS, LINEAR_STEPS = 60, 400
 LARGEST_STEP = 1.5
 """In ln p."""
+_LEAST_SPOT = 1e-3
+"""Of a cell of the grid: real area of a contact whose edge is drawn within one."""
 COUNTS = 1e-3
 """Of the highest pressure: places below carry nothing to speak of."""
 FEWEST_CELLS_ACROSS = 4.0
@@ -150,12 +152,11 @@ class RepeatedCell:
             mean_pressure=pressure,
             separation=float(found.gap.mean()),
             opening=float(np.maximum(found.gap, 0.0).mean()),
-            share=found.contact_area / grid.area,
+            share=max(found.contact_area, _LEAST_SPOT * grid.cell_area) / grid.area,
             pressure=found.pressure,
             displacement=found.displacement,
             opening_error=self.tolerance * float(rough.std()),
             status=found.status,
-            convolutions=found.convolutions,
         )
 
     def _hertz(self) -> FloatArray:

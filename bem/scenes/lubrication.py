@@ -278,13 +278,7 @@ class MixedScene(SceneModel):
         """
         grid, load, hardness = build.grid_of(self.grid), self.load, self.contact.hardness
         half_axes = self.contact.half_axes(load, self.modulus)
-        if not self.cell_repeats:
-            _check_patch(grid, film or FilmMeshScene(), half_axes)
-        elif max(grid.lengths) > min(half_axes):
-            raise InputError(
-                f"grid: the cell that repeats is {max(grid.lengths):.3g} m long; allowed: at most the contact's "
-                f"half-axis, {min(half_axes):.3g} m"
-            )
+        _check_patch(grid, film or FilmMeshScene(), half_axes, repeats=self.cell_repeats)
         supply = build_supply(self.supply)
         if isinstance(supply, InletDistance) and supply.distance <= half_axes[0]:
             raise InputError(inside_hertz(supply, half_axes[0]))
@@ -312,11 +306,17 @@ class MixedScene(SceneModel):
         )
 
 
-def _check_patch(grid: Grid, film: FilmMeshScene, half_axes: tuple[float, float]) -> None:
-    """Whether the rough patch fits the contact and the film's grid; InputError if not."""
+def _check_patch(grid: Grid, film: FilmMeshScene, half_axes: tuple[float, float], *, repeats: bool) -> None:
+    """Whether the rough patch, or a cell that repeats, fits the contact and the film's grid; InputError if not."""
     messages = []
     point = math.isfinite(half_axes[1])
-    if point and any(grid.periodic):
+    if repeats:
+        if max(grid.lengths) > min(half_axes):
+            messages.append(
+                f"grid: the cell that repeats is {max(grid.lengths):.3g} m long; allowed: at most the contact's "
+                f"half-axis, {min(half_axes):.3g} m"
+            )
+    elif point and any(grid.periodic):
         messages.append(
             "grid.periodic: the patch holds the contact of a ball; allowed: [false, false], or in kind friction "
             "[true, true], a cell of the roughness that repeats all over the contact"
@@ -324,7 +324,7 @@ def _check_patch(grid: Grid, film: FilmMeshScene, half_axes: tuple[float, float]
     elif grid.periodic[0]:
         messages.append("grid.periodic: the patch lies under a cylinder; allowed: [false, true] or [false, false]")
     for axis, length, half in zip("xy", grid.lengths, half_axes, strict=True):
-        if math.isfinite(half) and 0.5 * length < half:
+        if math.isfinite(half) and 0.5 * length < half and not repeats:
             name, there = (f"half-axis along {axis}", f" along {axis}") if point else ("half-width", "")
             messages.append(
                 f"grid: the rough patch reaches {0.5 * length:.3g} m to either side{there}, less than the contact's "

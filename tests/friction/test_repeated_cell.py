@@ -140,20 +140,12 @@ def test_soft_cells_are_a_foundation_beside_hertz():
 
 def logarithmic(length):
     """Cells whose planes come closer by so much wherever the pressure grows by a factor e."""
-    cells = tuple(
-        SolvedCell(
-            p,
-            length * math.log(1e11 / p),
-            length * math.log(1e11 / p),
-            p / 1e11,
-            *[None] * 2,
-            0.0,
-            Status.CONVERGED,
-            0.0,
-        )
-        for p in np.geomspace(1e4, 1e10, 12)
-    )
-    return CellLaw(CELL, cells)
+    empty = np.zeros(CELL.shape)
+    cells = []
+    for p in np.geomspace(1e4, 1e10, 12):
+        apart = length * math.log(1e11 / p)
+        cells.append(SolvedCell(p, apart, apart, p / 1e11, empty, empty, 0.0, Status.CONVERGED))
+    return CellLaw(CELL, tuple(cells))
 
 
 def test_smooth_enough_or_fast_enough_is_a_full_film():

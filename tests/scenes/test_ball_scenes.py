@@ -81,3 +81,31 @@ def test_the_patch_of_a_ball_goes_on_nowhere():
     scene, _ = plan_scene(scene_with(ball="10 mm"), [])
     assert scene.grid.periodic == (False, False)
     assert math.isfinite(scene.contact.half_axes(20.0, 1e11)[1])
+
+
+CELL = {"shape": 32, "lengths": "40 um", "periodic": True}
+
+
+def test_a_cell_of_the_roughness_may_repeat_under_a_ball():
+    scene, _ = plan_scene(scene_with(ball="10 mm") | {"grid": CELL}, [])
+    assert scene.cell_repeats
+    assert setup_of(scene_with(ball="10 mm") | {"grid": CELL}).repeated_cell
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"sharing": {"oil_volume": "patch"}}, "oil_volume"),
+        ({"sharing": {"oil_volume": "loaded", "models": ["capped", "uncoupled"]}}, "uncoupled asperities"),
+        ({"grid": CELL | {"lengths": "150 um"}}, "cell that repeats is 0.00015 m long"),
+        ({"film": {"start": "-1 mm", "end": "1 mm"}}, "film.start"),
+    ],
+)
+def test_what_a_cell_that_repeats_has_not_is_said(changes, said):
+    with pytest.raises(InputError, match=said):
+        plan_scene(scene_with(ball="10 mm") | {"grid": CELL} | changes, [])
+
+
+def test_nothing_wears_on_a_cell_that_repeats():
+    with pytest.raises(InputError, match=r"grid\.periodic"):
+        plan_scene(dict(library()["running-in-ball"]) | {"grid": CELL}, [])
