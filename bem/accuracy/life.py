@@ -24,7 +24,7 @@ from bem.life.passes import Pass
 from bem.life.surfaces import LifeCase, round_of
 
 JUMPS, POSITIONS = "cycle jumps", "positions"
-ORIGINS = (JUMPS, POSITIONS, GRID, POINTS)
+"""The origins of errors of a life, beside `GRID` and `POINTS`."""
 END = {
     "friction_final": "friction",
     "Sq_final": "lower_rms",
@@ -53,10 +53,7 @@ _SAMPLED = {
     "lambda_ratio": ("lambda_ratio",),
 }
 """Columns that are means over positions, and what of a pass they are the means of."""
-_POSITIONS = {
-    **dict.fromkeys(("friction_final", "friction_initial"), 2.0),
-    **dict.fromkeys(("upper_Sq_final", "contact_share_final"), 2.0),
-}
+_POSITIONS = dict.fromkeys(("friction_final", "friction_initial", "upper_Sq_final", "contact_share_final"), 2.0)
 """Factors on what half the positions change; 1 elsewhere, and on what cells and points of films change."""
 _NONE = (
     "no error bars: a life on the grid of twice the cell needs even numbers of cells, 24 at least, and contacts that "

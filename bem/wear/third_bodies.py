@@ -7,7 +7,7 @@ either body as the bodies slide; of the groove a share is cut off, the rest is p
 as it was. New ones come as others leave: how many there are does not change.
 
 Left out: elastic indentation (up to (3 pi H / 2 E*)^2 of the radius the force is less than here), how the surfaces bend
-under single particles, what particles do to the stresses below, and those in a film of oil. Verified in
+under single particles, stresses below them, that damage comes up with what they cut off, and films of oil. Verified in
 tests/wear/test_third_bodies.py: closed forms of one particle and of many between flats, shares of the load, limits.
 """
 

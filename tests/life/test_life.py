@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, InputError, Material, generate_surface
+from bem.accuracy.life import POSITIONS, OtherLives, fewer_positions, life_bars, two_rounds
 from bem.life.bars import bars_of_jumps
 from bem.life.march import LifeState, advance, run_life
 from bem.life.passes import DryPasses, Passing
@@ -89,6 +90,30 @@ def test_bars_hold_what_much_shorter_jumps_change():
     # under load control the depth is exact, and nothing else is left to scale a bar by: the surface's own error
     missed = abs(coarse.over("lower_rms")[-1] - fine.over("lower_rms")[-1])
     assert missed < 0.05 * (fine.over("lower_rms")[0] - fine.over("lower_rms")[-1])
+
+
+def test_bars_add_up_what_jumps_positions_cells_and_films_leave_open():
+    lower, upper = surfaces(7)
+    one = case(300.0, tolerance=0.3)
+    end = run_life(one, lower, upper)
+    rounds = two_rounds(one, end)
+    same = life_bars(end, OtherLives(end, end, rounds, rounds))
+    # nothing differs: what jumps leave open, and what the positions scatter
+    assert same.values["wear_volume"] == pytest.approx(end.over("depth_error")[-1] * GRID.area, rel=1e-9)
+    share = [found.area_share for found in end.passes]
+    assert same.parts[POSITIONS]["contact_area_fraction"] == pytest.approx(np.std(share, ddof=1) / 2, rel=1e-12)
+    assert not any(same.parts["grid"].values())
+    assert not any(same.parts["film points"].values())
+    other = run_life(case(300.0, tolerance=0.3, positions=2), lower, upper)
+    halved = tuple({**each, "contact_share": 0.9 * each["contact_share"]} for each in rounds)
+    apart = life_bars(end, OtherLives(end, other, rounds, halved)).parts
+    missed = abs(end.over("lower_rms")[-1] - other.over("lower_rms")[-1])
+    assert apart[POSITIONS]["Sq_final"] == pytest.approx(missed, rel=1e-12)
+    # a tenth less of the load in contact is a tenth less of what wears
+    assert apart["film points"]["worn_depth"] == pytest.approx(0.1 * end.over("lower_depth")[-1], rel=1e-9)
+    assert fewer_positions(8) == 4
+    assert fewer_positions(1) == 2
+    assert set(life_bars(end, None).values.values()) == {None}
 
 
 def film(**changes):

@@ -249,7 +249,7 @@ def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contac
     wear, (speeds,) = scene.wear, scene.speeds.build()
     context.note(
         f"figures over a life are means over {wear.positions} positions that pair each other's roughness; error bars "
-        + ("hold cycle jumps, positions and cells" if scene.life.coarser_lives else _JUMPS_ALONE)
+        + ("hold cycle jumps, positions, cells and points of the films" if scene.life.coarser_lives else _JUMPS_ALONE)
     )
     mean, slide = 0.5 * abs(sum(speeds)), abs(speeds[0] - speeds[1])
     passing = wear.passes == "both" and mean > 0
