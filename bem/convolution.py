@@ -71,7 +71,7 @@ EVEN, ODD_IN_X = (1, 1), (-1, 1)
 
 
 @dataclass(frozen=True)
-class _Spectra:
+class Spectra:
     """Kernel spectra of a pair of bodies on a grid, divided by `unit`."""
 
     even: FloatArray
@@ -80,6 +80,7 @@ class _Spectra:
 
     @property
     def nbytes(self) -> int:
+        """Memory [bytes]."""
         return self.even.nbytes + (0 if self.odd is None else self.odd.nbytes)
 
 
@@ -168,10 +169,10 @@ def _padded(grid: Grid) -> tuple[int, int]:
     return padded_length(nx, grid.periodic[0]), padded_length(ny, grid.periodic[1])
 
 
-def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float, compliance: float) -> _Spectra:
+def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float, compliance: float) -> Spectra:
     coupled = friction != 0 and couples(bodies)
 
-    def make() -> _Spectra:
+    def make() -> Spectra:
         even = _kernel(grid, bodies, Load.NORMAL)
         if compliance > 0:
             # every wave gives way alike; the mean of a doubly periodic grid is no displacement
@@ -180,7 +181,7 @@ def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float, compliance: 
         unit = 2.0 ** round(math.log2(largest)) if largest > 0 else 1.0
         even /= unit
         odd = _kernel(grid, bodies, Load.TANGENTIAL) * (friction / unit) if coupled else None
-        return _Spectra(even, odd, unit)
+        return Spectra(even, odd, unit)
 
     return shared((grid, tuple(elastic(body) for body in bodies), friction if coupled else 0.0, compliance), make)
 
@@ -229,7 +230,7 @@ class DisplacementOperator:
     weight: float = field(default=1.0, compare=False, repr=False)
 
     @cached_property
-    def _spectra(self) -> _Spectra:
+    def _spectra(self) -> Spectra:
         return _spectra(self.grid, self.bodies, self.friction, self.compliance)
 
     @property

@@ -17,7 +17,7 @@ from bem.wear.traction import TractionLaw
 if TYPE_CHECKING:
     from bem.wear import RunningIn
 
-_TRANSFORMS = 3 * 6.0 * 60
+_TRANSFORMS = 3 * 6.0 * 22
 """Of a cycle: three steps as those of kind partial-slip."""
 FRICTION_SLIDES = (
     "the bodies slide at the speeds given, and friction and film are those of gross sliding; partial slip is in the "

@@ -38,7 +38,7 @@ class TangentialSolution:
         where the surfaces stick, and of the slip against the traction, over the largest displacement (or imposed
         movement); what is missed of a given force relative to friction x load, where that is more.
     convolutions : applications of the operator on all grids, each weighed by its share of the cells; each is worth two
-        of the normal contact's.
+        of the normal contact's, one direction's alone counts as half.
     iterations : rounds of the active set on all grids.
     status : outcome; `residual` is at most the tolerance if it is converged.
     notes : sentences on what this should not be believed in.

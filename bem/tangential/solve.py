@@ -19,6 +19,7 @@ from bem.tangential.edge import stuck_area
 from bem.tangential.operator import TangentialOperator
 from bem.tangential.rounds import Effort, Slipped, Slipping, reach, slip_on_grid
 from bem.tangential.solution import TangentialSolution
+from bem.tangential.straight import pushed_straight
 from bem.threads import one_blas_thread
 
 AT_ONCE = (
@@ -106,11 +107,18 @@ def solve_step(
         if near is not None:
             found = slip_on_grid(problem, near.traction - problem.stiffness * near.slip, _TIGHTER * tolerance, effort)
         else:
-            start = None if previous is None else previous.traction
-            found = slip(problem, start, _TIGHTER * tolerance, effort)
+            found = _from_afar(problem, previous, _TIGHTER * tolerance, effort)
     given = request.shift if request.shift is not None else np.zeros(2) if found is None else found.shift
     notes = (AT_ONCE,) if previous is None and pushed.any() else ()
     return _certified(request, found, imposed, pushed, given, rotation, tolerance, effort, notes)
+
+
+def _from_afar(problem: Slipping, previous: TangentialSolution | None, tolerance: float, effort: Effort) -> Slipped:
+    """From a straight push, or from coarser grids."""
+    straight = pushed_straight(problem) if previous is None else None
+    if straight is not None:
+        return slip_on_grid(problem, straight, tolerance, effort)
+    return slip(problem, None if previous is None else previous.traction, tolerance, effort)
 
 
 @dataclass(frozen=True)
@@ -241,13 +249,14 @@ def _certified(  # reason: what a step was asked and what came of it, nothing of
     effort: Effort,
     notes: tuple[str, ...],
 ) -> TangentialSolution:
-    """Everything formed anew from the tractions; `converged` is said of that."""
+    """Everything from the tractions and what the operator makes of just these; `converged` is said of that."""
     operator, bound = request.operator, request.bound
     area = operator.grid.cell_area
     traction = np.zeros((2, *operator.grid.shape))
+    elastic = np.zeros_like(traction)
     if found is not None:
         traction[:, found.cells] = found.traction
-    elastic = operator.apply(traction)
+        elastic = found.field
     unmet = imposed - elastic
     if request.force is not None:
         unmet = unmet + shift[:, None, None]

@@ -307,13 +307,6 @@ def test_units_change_nothing(pressed, unit):
     assert np.abs(two.traction * unit - one.traction).max() < 1e-6 * np.abs(one.traction).max()
 
 
-def test_few_convolutions():
-    """Counted: a 128 x 128 ball 49, rough ones of 128 to 256 cells 38 to 51, whatever the force."""
-    grid, contact = ball(128)
-    solution = solve_partial_slip(contact, grid, BODIES, friction=FRICTION, force=(2.0, 0.0))
-    assert solution.convolutions <= 60
-
-
 def test_nothing_presses_and_nothing_rubs(pressed):
     grid, contact = pressed
     for pressure, friction in ((np.zeros(grid.shape), 0.3), (contact, 0.0)):

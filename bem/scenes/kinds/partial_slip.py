@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
     from bem.stress import StressBelow
 
-_TRANSFORMS = 6.0 * 60
-"""Of a step: 40 to 60 convolutions were counted on 256 to 1024 cells a side, in every step of a history alike, each of
+_TRANSFORMS = 6.0 * 22
+"""Of a step: 15 to 23 convolutions were counted on 128 to 512 cells a side, first steps and later ones alike, each of
 four transforms and vector passes worth two more."""
-_ANSWERED = 3.0
+_ANSWERED = 4.0
 """Times as much where the pressure follows the tractions: six to nine rounds, each from the one before."""
 
 

@@ -1,0 +1,183 @@
+"""The preconditioner of a round: along the push and across it apart, on the cells that may move that way.
+
+What sticks may move both ways, what slips along the tangent of its disc only, where the disc's curvature adds to the
+stiffness. Along the push the inverse is that of the cells that stick; across it that of all cells, with the curvature
+on the diagonal. Each is the sparse inverse and the long waves of the normal contact (`bem.contact`) for the kernel of
+that direction alone. Counted on balls and rough contacts of 256 cells: 7 to 11 iterations for five digits, where one
+sparse inverse for both directions, damped by the curvature, took 12 to 29.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from bem.contact.long_waves import LongWaves, LongWavesOnCells, long_waves
+from bem.contact.preconditioner import Rows, SparseInverse, SparseInverseOnCells, sparse_inverse
+from bem.grid import FloatArray
+from bem.tangential.along import AlongOperator
+from bem.tangential.operator import TangentialOperator
+
+_fast: Any = njit(cache=True, nogil=True, error_model="numpy")
+
+_SQUARED_RADIUS = 5
+"""Of the sparse inverse's stencil in cells; 2 takes a twentieth more convolutions (counted), 8 as many."""
+
+
+@dataclass(frozen=True)
+class _Kernel:
+    """One direction's on a grid: the sparse inverse's table and the long waves, both over `unit` [m/Pa]."""
+
+    unit: float
+    sparse: SparseInverse
+    waves: LongWaves | None
+
+    @classmethod
+    def of(cls, operator: AlongOperator) -> _Kernel:
+        """For this direction."""
+        grid, near = operator.grid, operator.near_field(2 * math.isqrt(_SQUARED_RADIUS))
+        sparse = sparse_inverse(grid.shape, grid.periodic, near, _SQUARED_RADIUS)
+        return cls(operator.unit, sparse, long_waves(operator, sparse.near))
+
+    def on(self, numbers: NDArray[np.int64], diagonal: FloatArray | None = None) -> _Part:
+        """On cells of these flat indices, with a diagonal (n,) added to the kernel [m/Pa]."""
+        near = self.sparse.on(numbers, None)
+        self.sparse.position[numbers] = -1
+        if diagonal is not None:
+            near = _with_diagonal(near, self.sparse, diagonal / self.unit)
+        return _Part(near, None if self.waves is None else self.waves.on(numbers, near.row_sums()), self.unit)
+
+
+@dataclass(frozen=True)
+class _Part:
+    """One direction's inverse on given cells."""
+
+    near: SparseInverseOnCells
+    far: LongWavesOnCells | None
+    unit: float
+
+    def apply(self, values: FloatArray) -> FloatArray:
+        """(n,) [m] to (n,) [Pa]."""
+        spread, out = np.empty_like(values), np.empty_like(values)
+        self.near.spread(values, spread)
+        if self.far is not None:
+            self.far.apply(spread)
+        self.near.collect(spread, out)
+        return out / self.unit
+
+
+@dataclass(frozen=True)
+class Inverses:
+    """What the rounds of a grid share: the direction (2,) of the push, the kernels along it and across it."""
+
+    push: FloatArray
+    along: _Kernel
+    across: _Kernel
+
+    @classmethod
+    def of(cls, operator: TangentialOperator, push: FloatArray) -> Inverses:
+        """For tractions that are mostly along the unit vector `push`."""
+        across = (-float(push[1]), float(push[0]))
+        one, two = (AlongOperator.of(operator, way) for way in ((float(push[0]), float(push[1])), across))
+        return cls(push, _Kernel.of(one), _Kernel.of(two))
+
+    def on(
+        self, numbers: NDArray[np.int64], slips: NDArray[np.bool_], normal: FloatArray, curvature: FloatArray
+    ) -> InverseOnCells:
+        """On cells of these flat indices.
+
+        Parameters
+        ----------
+        numbers : (n,). slips : (n,), which of them slip. normal : (2, n), of their discs where they do.
+        curvature : (n,), what their discs add to the stiffness there [m/Pa], 0 where cells stick.
+        """
+        sticks = ~slips
+        normal = np.where(slips, normal, self.push[:, None])
+        tangent = np.stack([-normal[1], normal[0]])
+        tangent *= np.where(self.push[0] * tangent[1] < self.push[1] * tangent[0], -1.0, 1.0)
+        stuck = self.along.on(numbers[sticks]) if sticks.any() else None
+        return InverseOnCells(
+            sticks, self.push, tangent, stuck, self.across.on(numbers, curvature if slips.any() else None)
+        )
+
+
+@dataclass(frozen=True)
+class InverseOnCells:
+    """On given cells: along the push on those that stick, along `tangent` (2, n) on all."""
+
+    sticks: NDArray[np.bool_]
+    push: FloatArray
+    tangent: FloatArray
+    stuck: _Part | None
+    every: _Part
+
+    def apply(self, values: FloatArray) -> FloatArray:
+        """Displacements (2, n) [m] to tractions (2, n) [Pa]; symmetric and positive where cells may move."""
+        out = np.asarray(self.tangent * self.every.apply((self.tangent * values).sum(0)))
+        if self.stuck is not None:
+            stuck = self.stuck.apply((self.push @ values)[self.sticks])
+            out[:, self.sticks] += self.push[:, None] * stuck
+        return out
+
+
+def _with_diagonal(on: SparseInverseOnCells, inverse: SparseInverse, diagonal: FloatArray) -> SparseInverseOnCells:
+    """The sparse inverse of the kernel with a diagonal (n,) added: rows of their own where it is not zero around."""
+    patterns = inverse.patterns
+    table = _rows_with_diagonal(on.rows, patterns.offsets, patterns.near_field, diagonal)
+    own = np.arange(diagonal.size, dtype=np.int32)
+    return SparseInverseOnCells(Rows(on.rows.columns, own, table), on.outside)
+
+
+@_fast
+def _rows_with_diagonal(rows: Rows, offsets: Any, near_field: FloatArray, diagonal: FloatArray) -> FloatArray:
+    """Rows (n, m + 1) of G, one for each cell; as `bem.contact.preconditioner` makes those of a pattern."""
+    columns, pattern, table = rows
+    n, m = columns.shape
+    middle = near_field.shape[0] // 2
+    out = np.zeros((n, m + 1))
+    factor = np.empty((m + 1, m + 1))
+    active = np.empty(m + 1, np.int64)
+    row = np.empty(m + 1)
+    for k in range(n):
+        bits = pattern[k]
+        added = diagonal[k]
+        count = 0
+        for a in range(m):
+            if bits >> a & 1:
+                active[count] = a
+                count += 1
+                added = max(added, diagonal[columns[k, a]])
+        if not added > 0:
+            out[k] = table[bits]
+            continue
+        active[count] = m
+        count += 1
+        for a in range(count):
+            one = active[a]
+            for b in range(a + 1):
+                two = active[b]
+                di = (offsets[one, 0] if one < m else 0) - (offsets[two, 0] if two < m else 0)
+                dj = (offsets[one, 1] if one < m else 0) - (offsets[two, 1] if two < m else 0)
+                s = near_field[middle + di, middle + dj]
+                for c in range(b):
+                    s -= factor[a, c] * factor[b, c]
+                if a == b:
+                    s += diagonal[columns[k, one]] if one < m else diagonal[k]
+                    factor[a, a] = np.sqrt(max(s, 1e-12 * near_field[middle, middle]))
+                else:
+                    factor[a, b] = s / factor[b, b]
+        row[count - 1] = 1 / factor[count - 1, count - 1] ** 2
+        for a in range(count - 2, -1, -1):
+            s = 0.0
+            for c in range(a + 1, count):
+                s -= factor[c, a] * row[c]
+            row[a] = s / factor[a, a]
+        scale = 1 / np.sqrt(row[count - 1])
+        for a in range(count):
+            out[k, active[a]] = row[a] * scale
+    return out
