@@ -15,6 +15,10 @@ REUSE, INLET = "reused contacts", "inlet"
 """Where errors come from, in the words of summary, dataset and report: what discretisation leaves, and the residual of
 solvers. Over repetitions there is `bem.scenes.records.SCATTER` besides."""
 
+TWICE = 2.5
+"""Where another solution has twice the points or cells, its difference counts as that of half of them so many times:
+order two would make four, but the difference is the error itself but for a quarter."""
+
 
 @dataclass(frozen=True)
 class ErrorBars:

@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bem.accuracy.bars import POINTS, RESIDUAL, ErrorBars
+from bem.accuracy.bars import POINTS, RESIDUAL, TWICE, ErrorBars
 from bem.arguments import named
 from bem.errors import Status
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
@@ -53,9 +53,6 @@ FILM_RULES: dict[str, FilmRule] = {
 }
 """Figures of a film that have bars; set by `reports/experiments/film_error_bars.py` with seeds that it does not store.
 """
-_TWICE = 2.5
-"""Where the other mesh has twice the points its difference counts as that of half of them so many times: order two
-would make four, but the difference is the error itself but for a quarter."""
 _ALGEBRAIC = 10.0
 """Relative change of a figure over the residual of the equations, relative to the film."""
 
@@ -116,7 +113,7 @@ def film_bars(case: FilmCase, other: OtherFilm) -> ErrorBars:
         return ErrorBars.unknown(found, _UNSOLVED)
     there = film_figures(other.solution)
     # what the difference would be to half the points, by order two
-    halved = _TWICE if other.ratio > 1 else 3 / (1 / other.ratio**2 - 1)
+    halved = TWICE if other.ratio > 1 else 3 / (1 / other.ratio**2 - 1)
     changed = max(_relative(found[name], there[name]) for name in ("central_thickness", "minimum_thickness"))
     rise = _rise_above_highest_node(case.solution)
     points, residual = {}, {}

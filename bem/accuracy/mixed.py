@@ -57,7 +57,7 @@ RULES: dict[str, Rule] = {
     "film_load": Rule(1.0, 0.8, edge=0.001, rough_edge=0.0005),
     "minimum_film": Rule(0.5, 0.4, edge=0.0005),
     "lambda_ratio": Rule(1.0, 1.0),
-    "contact_area_fraction": Rule(0.8, 0.8, edge=0.006, rough_edge=0.004),
+    "contact_area_fraction": Rule(0.8, 1.4, edge=0.006, rough_edge=0.004),
 }
 """Of the difference between the grids; set by `reports/experiments/mixed_error_bars.py` with seeds that it does not
 store."""

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.accuracy.bars import GRID, INLET, RESIDUAL, ErrorBars
+from bem.accuracy.bars import GRID, INLET, RESIDUAL, TWICE, ErrorBars
 from bem.accuracy.film import FilmRule
 from bem.arguments import named
 from bem.errors import Status
@@ -85,8 +85,7 @@ def point_bars(case: PointCase, film: PointFilmSolution) -> ErrorBars:
     if other.status is not Status.CONVERGED:
         return ErrorBars.unknown(figures, _UNSOLVED)
     there = point_figures(case, other)
-    # on twice as many cells the difference is the error itself but for a quarter
-    share = 1.0 if halved else 2.5
+    share = 1.0 if halved else TWICE
     films = ("central_thickness", "minimum_thickness")
     changed = max(abs(there[name] / figures[name] - 1) for name in films)
     assert film.state is not None

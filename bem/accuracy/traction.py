@@ -158,7 +158,7 @@ def traction_bars(case: TractionCase, found: Found) -> ErrorBars:
     """Bars of the figures of a solution on all points."""
     figures = {name: value for name, value in traction_figures(case, found).items() if name not in _BARE}
     film = film_of(found)
-    other = case.on(max(case.points // 2, FEWEST) if case.points > FEWEST else 2 * case.points, coarseness=2)
+    other = case.on(case.points // 2 if case.points >= 2 * FEWEST else 2 * case.points, coarseness=2)
     if other.status is not Status.CONVERGED:
         return ErrorBars.unknown(figures, _UNSOLVED)
     there = figures | traction_figures(case, other)  # nearly flooded, one mesh may have no meniscus

@@ -81,7 +81,7 @@ def rows_of(words: str, case: MarchCase) -> list[dict[str, Any]]:
 
 def main() -> None:
     """Judge the bars of so many."""
-    judge(lambda rng: rows_of(*draw(rng)), RESULT, cases=30)
+    judge(lambda rng: rows_of(*draw(rng)), RESULT, cases=30, seed=2613)
 
 
 if __name__ == "__main__":

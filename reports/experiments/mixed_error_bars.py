@@ -121,7 +121,7 @@ def rows_of(problem: Problem) -> list[dict[str, Any]]:
 
 def main() -> None:
     """Judge the bars of so many."""
-    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=60)
+    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=60, seed=2613)
 
 
 if __name__ == "__main__":
