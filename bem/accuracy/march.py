@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.accuracy.bars import POINTS, RESIDUAL, STEPS, TWICE, ErrorBars
+from bem.accuracy.bars import POINTS, RESIDUAL, STEPS, ErrorBars
 from bem.arguments import named
 from bem.errors import Status
 from bem.grid import FloatArray
@@ -158,7 +158,7 @@ def _together(
         return ErrorBars.unknown(tuple(found), _UNSOLVED)
     from_here = mesh if finer > 1 else found
     # the difference to half the points, by order two
-    halved = 3 / (finer**2 - 1) if finer > 1 else TWICE
+    halved = 3 / abs(finer**2 - 1)
     return ErrorBars.together(
         {
             POINTS: {name: _MESH * halved * abs(found[name] - mesh[name]) for name in found},
