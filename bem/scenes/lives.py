@@ -114,7 +114,7 @@ def end_of(scene: Any, heights: tuple[FloatArray, FloatArray]) -> LifeState:
 
 def bars(scene: Any, initial: tuple[FloatArray, FloatArray], end: LifeState) -> ErrorBars:
     """Of a life from these heights (lower, upper) [m] to its end."""
-    from bem.accuracy.life import OtherLives, fewer_positions, life_bars, two_rounds
+    from bem.life.error_bars import OtherLives, fewer_positions, life_bars, two_rounds
 
     def half(positions: int) -> LifeState | None:
         keys = {"wear.positions": positions, "particles": None, "fatigue": None}

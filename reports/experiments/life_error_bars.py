@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from bem.accuracy.life import life_figures
 from bem.errors import BemError
+from bem.life.error_bars import life_figures
 from bem.scenes import build, lives, wearing
 from bem.scenes.axes import with_keys
 from bem.scenes.context import PlainContext

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, InputError, Material, generate_surface
-from bem.accuracy.life import POSITIONS, OtherLives, fewer_positions, life_bars, two_rounds
 from bem.life.bars import bars_of_jumps
+from bem.life.error_bars import POSITIONS, OtherLives, fewer_positions, life_bars, two_rounds
 from bem.life.march import LifeState, advance, run_life
 from bem.life.passes import DryPasses, Passing
 from bem.life.surfaces import GrowingFilm, LifeCase, round_of

@@ -215,7 +215,7 @@ class RunningInLifeRecord(GridRecord):
 
 def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
     """One life."""
-    from bem.accuracy.life import jump_bars
+    from bem.life.error_bars import jump_bars
     from bem.life.march import begun, run_life
 
     setup = scene.setup(**scene.sharing.model_dump())
@@ -266,7 +266,7 @@ def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contac
 
 def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, beside: Beside) -> RunningInLifeRecord:
     """The figures of a life."""
-    from bem.accuracy.life import life_figures
+    from bem.life.error_bars import life_figures
 
     cycle, at = scene.life.reported(), end.over("cycles")
     over = {name: np.interp(cycle, at, end.over(column)) for name, column in _COLUMNS.items()}
