@@ -43,6 +43,13 @@ def test_line_films_are_shown_with_orders_and_fits(page):
     assert "Dowson" in body
 
 
+def test_waves_that_roll_through_are_shown_with_fits(page):
+    (body,) = [section.body for section in page.sections if section.title == "Waves that roll through a film"]
+    assert "data:image/png" in body
+    assert body.count("<tr>") == 6 + 7 + 1  # in line contacts, under balls, the head
+    assert "Venner" in body
+
+
 def test_rows_that_fail_are_said_first(few_gates, monkeypatch):
     import dataclasses
 

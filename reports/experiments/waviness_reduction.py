@@ -1,0 +1,390 @@
+"""Waves that roll through a film: what is left of them in the centre, linear and exact in time, beside published fits.
+
+    python -m reports.experiments.waviness_reduction
+
+Ten minutes. A wave of small amplitude changes pressure and film by exp(i omega t) times what one complex linear system
+gives: no steps in time, no amplitude. For point contacts the system is that of `bem.lubrication.point` around its
+steady film, on two grids. For line contacts everything is written anew here (other differences, dense matrices), and
+a long ellipse must come to the same. The result is stored in `reports/results/waviness_reduction.json`.
+
+Venner, Couhier, Lubrecht and Greenwood (Tribology Series 32 (1997) 103) found A_d/A_i of line contacts to be one
+function of (wavelength/b) M^(3/4)/L^(1/2), which is the wavelength over the length of the inlet, as is
+(wavelength/a) (M/L)^(1/2) of point contacts.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem import (
+    Lubricant,
+    MovingSurface,
+    PointFilmSolution,
+    Waves,
+    march_point_film,
+    solve_line_film,
+    solve_point_film,
+)
+from bem.grid import FloatArray
+from bem.lubrication.line_scales import line_scales, scaled_problem
+from bem.lubrication.point import loops
+from bem.lubrication.point.kept import KeptPoint, central_film
+from bem.lubrication.point.linear import Linear
+from bem.lubrication.point.newton import balance
+from bem.lubrication.point.waviness import amplitude_in_centre, amplitude_reduction
+from reports.experiments.kept import keep
+
+RESULT = Path(__file__).resolve().parents[1] / "results" / "waviness_reduction.json"
+MODULUS, RADIUS, ALPHA, VISCOSITY = 1.15e11, 0.01, 22e-9, 0.04
+OIL = Lubricant(VISCOSITY, pressure_viscosity=ALPHA, density_law="dowson_higginson")
+SHAPES = ((112, 32), (160, 32))
+"""Cells along and across: waves vary along the flow alone."""
+POINTS = (600, 1200)
+POINT_CASES = (
+    (64.0, 5.8, (1.0, 2.0)),
+    (200.0, 10.0, (0.5, 1.0, 1.5)),
+    (1000.0, 10.0, (0.5, 0.66)),
+)
+LINE_CASES = ((10.0, 5.0, (1.0, 2.0)), (50.0, 10.0, (0.5, 1.0)), (200.0, 10.0, (0.2, 0.4)))
+"""Moes' M and L, and wavelengths over Hertz' half-axis."""
+LONG, LONG_CASE = 0.02, (1000.0, 10.0, (1.0, 2.0))
+"""Rx/Ry of a long ellipse, its M and L, and wavelengths over its half-axis along the flow."""
+MARCHED, MARCH_SHAPE, AMPLITUDE = (64.0, 5.8, 1.0), (56, 32), 0.01
+STEPS = 32
+"""A wave, whose amplitude is that share of the central film."""
+
+
+def line_reduction(waves: float) -> float:
+    """A_d/A_i of line contacts for (wavelength/b) M^(3/4)/L^(1/2): 1/(1 + 0.125 n + 0.04 n^2) (Venner and Lubrecht,
+    *Multilevel methods in lubrication*, 2000; from memory)."""
+    return 1 / (1 + 0.125 * waves + 0.04 * waves**2)
+
+
+# ---- line contacts, written anew
+
+
+@dataclass(frozen=True)
+class Line:
+    """A steady line film in Moes' units on a uniform grid: pressures and films (n,), H0, load M, half-width of Hertz'
+    contact, the oil as (ln m, its slope, rho, its slope) of pressures, and deflection (n, n)."""
+
+    x: FloatArray
+    pressure: FloatArray
+    datum: float
+    load: float
+    half: float
+    oil: Any
+    bending: FloatArray
+
+    @property
+    def film(self) -> FloatArray:
+        """Of the pressures."""
+        return self.datum + 0.5 * self.x**2 + self.bending @ self.pressure
+
+
+def _bending(x: FloatArray) -> FloatArray:
+    """Films under pressures of cells: -(4/pi) integral ln|x - s| ds over each."""
+    dx = x[1] - x[0]
+    edge = np.subtract.outer(x, x)[:, :, None] + 0.5 * dx * np.array([1.0, -1.0])
+    part = edge * (np.log(np.abs(edge)) - 1)
+    return -4 / np.pi * (part[:, :, 0] - part[:, :, 1])
+
+
+def _line_matrices(line: Line) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Balances of cells (n,), their derivatives with pressures and with films (n, n), and rho h."""
+    p, h, x = line.pressure, line.film, line.x
+    n, dx = len(x), x[1] - x[0]
+    log, slope, rho, rho_slope = line.oil(p)
+    fluid = rho * h**3 * np.exp(-log)
+    by_p, by_h = fluid * (rho_slope / rho - slope), 3 * fluid / h
+    flow_p, flow_h, flow = np.zeros((n + 1, n)), np.zeros((n + 1, n)), np.zeros(n + 1)
+    for f in range(1, n):
+        a, b = f - 1, f
+        mean, gradient = 0.5 * (fluid[a] + fluid[b]), (p[b] - p[a]) / dx
+        flow[f] = -mean * gradient
+        flow_p[f, a] = mean / dx - 0.5 * by_p[a] * gradient
+        flow_p[f, b] = -mean / dx - 0.5 * by_p[b] * gradient
+        flow_h[f, a], flow_h[f, b] = -0.5 * by_h[a] * gradient, -0.5 * by_h[b] * gradient
+        # two cells upstream: second order
+        for cell, share in ((a, 1.5), (a - 1, -0.5)) if a > 0 else ((a, 1.0),):
+            flow[f] += 6 * share * rho[cell] * h[cell]
+            flow_p[f, cell] += 6 * share * rho_slope[cell] * h[cell]
+            flow_h[f, cell] += 6 * share * rho[cell]
+    return np.diff(flow) / dx, np.diff(flow_p, axis=0) / dx, np.diff(flow_h, axis=0) / dx, rho * h
+
+
+def line_film(load: float, material: float, points: int) -> Line:
+    """The steady film by Newton's method, begun from `solve_line_film`."""
+    reduced = 2 * MODULUS
+    number = (material / (ALPHA * reduced)) ** 4
+    total = number * reduced * RADIUS / VISCOSITY
+    physical = load * math.sqrt(number) * reduced * RADIUS
+    known = solve_line_film(
+        load=physical, radius=RADIUS, contact_modulus=MODULUS, speeds=(0.5 * total, 0.5 * total), lubricant=OIL
+    )
+    scales = line_scales(physical, RADIUS, MODULUS, total, VISCOSITY)
+    problem = scaled_problem(scales, load, OIL)
+    half = math.sqrt(8 * load / math.pi)
+
+    def oil(pressure: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        return *problem.log_viscosity(pressure), *problem.density(pressure)
+
+    x = np.linspace(-4.5 * half, 1.6 * half, points)
+    pressure = np.interp(x, known.position / scales.length, known.pressure / scales.pressure)
+    pressure[0] = pressure[-1] = 0.0
+    line = Line(x, pressure, 0.0, load, half, oil, _bending(x))
+    middle = int(np.argmin(np.abs(x)))
+    datum = known.central_thickness / scales.film - float(line.film[middle])
+    line = Line(x, pressure, datum, load, half, oil, line.bending)
+    for _ in range(30):
+        right, by_p, by_h, _ = _line_matrices(line)
+        held = (line.pressure <= 0) & (right > 0)
+        held[[0, -1]] = True
+        matrix, rest = _bordered(by_p + by_h @ line.bending, by_h.sum(axis=1), held, x[1] - x[0])
+        missing = load - float(line.pressure.sum()) * (x[1] - x[0])
+        step = np.linalg.solve(matrix, np.append(np.where(held, -line.pressure, -right), missing) / rest)
+        share = 1.0
+        while share > 1e-3:
+            trial = Line(
+                x, np.maximum(line.pressure + share * step[:-1], 0), line.datum + share * step[-1], load, half, oil,
+                line.bending,
+            )  # fmt: skip
+            if trial.film.min() > 0.3 * line.film.min():
+                break
+            share *= 0.5
+        done = float(np.abs(trial.pressure - line.pressure).max()) < 1e-9 * float(trial.pressure.max())
+        line = trial
+        if done:
+            return line
+    raise RuntimeError(f"no line film at M {load:g}, L {material:g}")
+
+
+def _bordered(matrix: Any, by_datum: Any, held: Any, cell: float) -> tuple[Any, Any]:
+    """With the load below and H0 beside, held cells out of it, rows of one size; and these sizes."""
+    n = len(matrix)
+    whole = np.zeros((n + 1, n + 1), dtype=matrix.dtype)
+    whole[:n, :n], whole[:n, n], whole[n, :n] = matrix, by_datum, cell
+    index = np.flatnonzero(held)
+    whole[index] = 0.0
+    whole[index, index] = 1.0
+    size = np.abs(whole).max(axis=1)
+    return whole / size[:, None], size
+
+
+def line_response(line: Line, wavelength: float) -> float:
+    """Amplitude in the centre over that of the body, of waves [unit of length] in pure rolling."""
+    matrices: Any = _line_matrices(line)
+    _, by_p, by_h, _ = matrices
+    _, _, rho, rho_slope = line.oil(line.pressure)
+    number = 2 * np.pi / wavelength
+    by_p = by_p + 6j * number * np.diag(rho_slope * line.film)
+    by_h = by_h + 6j * number * np.diag(rho)
+    wave: Any = -np.exp(-1j * number * line.x)
+    held = line.pressure <= 0
+    matrix, size = _bordered(by_p + by_h @ line.bending, by_h.sum(axis=1), held, line.x[1] - line.x[0])
+    right = np.append(np.where(held, 0.0, -by_h @ wave), 0.0) / size
+    found = np.linalg.solve(matrix, right)
+    film = line.bending @ found[:-1] + found[-1] + wave
+    return float(np.hypot(np.interp(0, line.x, film.real), np.interp(0, line.x, film.imag)))
+
+
+# ---- point contacts: the equations of a Newton step, complex in time
+
+
+def _symmetric(values: Any, shape: tuple[int, int]) -> Any:
+    """Columns (.., n) of cells and of those mirrored at y = 0 together, of the upper half."""
+    nx, ny = shape
+    field = values.reshape(-1, nx, ny)
+    return (field[:, :, ny // 2 :] + field[:, :, ny // 2 - 1 :: -1]).reshape(len(field), -1)
+
+
+def point_response(kept: KeptPoint, wavelength: float, ratio: float = 0.0) -> float:
+    """Amplitude in the centre over that of the body, of waves [unit of length] across the flow, in pure rolling; of
+    bumps cos(k x) cos(ratio k y) where there is a ratio."""
+    level, state = kept.level, kept.state
+    linear: Linear = balance(level, state, np.zeros(level.shape)).linear
+    shape, n = level.shape, level.shape[0] * level.shape[1]
+    rows, by_film = np.zeros((n, n)), np.zeros((n, n))
+    loops.fill_rows(linear.stencil, level.spacing, level.problem.drag, 0.0, rows, by_film)
+    border = level.border.ravel()
+    index, inner = np.flatnonzero(border), np.flatnonzero(~border)
+    rows[border], by_film[border] = 0.0, 0.0
+    rows[index, index], by_film[index, index] = 1.0, linear.far_slope.ravel()[index]
+    upper = np.flatnonzero(np.broadcast_to(np.arange(shape[1]) >= shape[1] // 2, shape).ravel())
+    deflection = level.dense_deflection
+    assert deflection is not None
+    number = 2 * np.pi / wavelength
+    stored_film, stored = np.zeros(n, dtype=complex), np.zeros(n, dtype=complex)
+    stored_film[inner] = 6j * number * linear.stencil[6].ravel()[inner]
+    stored[inner] = 6j * number * linear.stencil[7].ravel()[inner]
+    rows, by_film = rows[upper], by_film[upper]
+    folded = _symmetric(deflection, shape)
+    matrix = (_symmetric(rows, shape) + by_film @ folded).astype(complex)
+    matrix += stored_film[upper][:, None] * folded[upper]
+    matrix[np.arange(len(upper)), np.arange(len(upper))] += stored[upper]
+    wave = -(np.exp(-1j * number * level.x)[:, None] * np.cos(ratio * number * level.y)).ravel()
+    right = -(by_film @ wave + stored_film[upper] * wave[upper])
+    right[border[upper]] = 0.0  # far pressure is that of smooth bodies
+    squeezed = np.zeros(n, dtype=complex)
+    squeezed[border] = -1j * number * -3 / sum(level.problem.curvatures) / state.film.ravel()[border] ** 2
+    squeezed[linear.far.ravel() <= 0] = 0.0
+    whole, size = _bordered(
+        matrix,
+        by_film.sum(axis=1) + stored_film[upper] + squeezed[upper],
+        linear.held.ravel()[upper],
+        2 * level.cell,
+    )
+    whole[-1, -1] = linear.tail_slope / size[-1]
+    found = np.linalg.solve(whole, np.append(np.where(linear.held.ravel()[upper], 0, right), 0) / size)
+    film = (folded @ found[:-1] + found[-1] + wave).reshape(shape)
+    return math.hypot(*(central_film(level, np.ascontiguousarray(part)) for part in (film.real, film.imag)))
+
+
+def point_arguments(load: float, material: float, ratio: float = 1.0) -> dict[str, Any]:
+    """Of `solve_point_film` for Moes' M and L, in pure rolling."""
+    reduced = 2 * MODULUS
+    number = (material / (ALPHA * reduced)) ** 4
+    half = 0.5 * number * reduced * RADIUS / VISCOSITY
+    return {
+        "load": load * reduced * RADIUS**2 * number**0.75,
+        "radii": (RADIUS, RADIUS / ratio),
+        "contact_modulus": MODULUS,
+        "speeds": (half, half),
+        "lubricant": OIL,
+    }
+
+
+SAME_INLET = (1.31 * math.pi / 8 / (2 * math.sqrt(2) / 3)) ** (2 / 3) / (
+    1.70 / 1.5 ** (2 / 3) / (8 * math.sqrt(2) / (3 * math.pi))
+) ** (2 / 3)
+"""(wavelength/b) M^(3/4)/L^(1/2) of a line contact over (wavelength/a) (M/L)^(1/2) of a circular one whose inlets are
+as long: the distance s from Hertz' edge at which the dry gap has opened to the central film, (2 sqrt 2/3)(b^2/R)
+(s/b)^(3/2) = 1.31 R U^(1/2) M^(-1/8) L^(3/4) of a line, (8 sqrt 2/3 pi)(a^2/R)(s/a)^(3/2) = 1.70 R U^(1/2) M^(-1/12)
+L^(3/4) of a circle (Moes)."""
+
+
+def of_point(load: float, material: float, waves: tuple[float, ...]) -> list[dict[str, Any]]:
+    """Rows of a circular contact, on all grids."""
+    films = [solve_point_film(**point_arguments(load, material), shape=shape) for shape in SHAPES]
+    found = [[point_response(_kept(film), share * _half(film)) for share in waves] for film in films]
+    rows = []
+    for share, amplitudes in zip(waves, zip(*found, strict=True), strict=True):
+        scaled = share * math.sqrt(load / material)
+        rows.append(
+            _row(load, material, share, scaled, list(amplitudes), SHAPES[-1][0] / SHAPES[-2][0])
+            | {
+                "fit": round(amplitude_reduction(scaled), 4),
+                "line_fit_of_an_inlet_as_long": round(line_reduction(scaled * SAME_INLET), 4),
+            }
+        )
+    return rows
+
+
+def of_line(load: float, material: float, waves: tuple[float, ...]) -> list[dict[str, Any]]:
+    """Rows of a line contact, on all grids."""
+    lines = [line_film(load, material, points) for points in POINTS]
+    rows = []
+    for share in waves:
+        scaled = share * load**0.75 / math.sqrt(material)
+        amplitudes = [line_response(line, share * line.half) for line in lines]
+        row = _row(load, material, share, scaled, amplitudes, POINTS[-1] / POINTS[-2])
+        rows.append(row | {"fit": round(line_reduction(scaled), 4)})
+    return rows
+
+
+def of_long_ellipse(load: float, material: float, waves: tuple[float, ...]) -> list[dict[str, Any]]:
+    """Amplitudes in a long ellipse, and in the line contact of the load per length in its middle."""
+    films = [solve_point_film(**point_arguments(load, material, LONG), shape=shape) for shape in SHAPES[:2]]
+    hertz = _kept(films[-1]).setting.hertz
+    assert hertz is not None
+    across = 0.5 * math.pi * hertz.maximum_pressure * hertz.semi_axes[0]
+    lines = [line_film(across, material, points) for points in POINTS]
+    rows = []
+    for share in waves:
+        here = [point_response(_kept(film), share * _half(film)) for film in films]
+        there = [line_response(line, share * _half(films[0])) for line in lines]
+        row = _row(load, material, share, share * across**0.75 / math.sqrt(material), here, SHAPES[1][0] / SHAPES[0][0])
+        rows.append(row | {"load_per_length": round(across, 4), "line_amplitudes": [round(one, 5) for one in there]})
+    return rows
+
+
+def marched(load: float, material: float, share: float) -> dict[str, Any]:
+    """The amplitude of a march in time, and what the linear system says on the same grid."""
+    arguments = point_arguments(load, material)
+    steady = solve_point_film(**arguments, shape=MARCH_SHAPE)
+    unit = _kept(steady).setting.scales.length
+    x0, x1, y0, y1 = (edge * unit for edge in _kept(steady).setting.problem.rectangle)
+    half, speed = _half(steady) * unit, arguments["speeds"][0]
+    wave, amplitude, begin = share * half, AMPLITUDE * steady.central_thickness, -1.5 * half
+    far = 1.5 * half + 2.6 * wave
+    films = march_point_film(
+        np.linspace(0, far / speed, math.ceil(STEPS * far / wave) + 1),
+        load=lambda time: arguments["load"],
+        speeds=lambda time: arguments["speeds"],
+        radii=arguments["radii"],
+        contact_modulus=MODULUS,
+        lubricant=OIL,
+        roughness=MovingSurface(Waves(amplitude, wave, begin=begin)),
+        shape=MARCH_SHAPE,
+        extent=(x0, x1, y0, y1),
+    )
+    found = amplitude_in_centre(films, wave, begin)
+    return {
+        "load": load,
+        "oil": material,
+        "wavelength_over_half_axis": share,
+        "shape": MARCH_SHAPE,
+        "steps_a_wave": STEPS,
+        "status": films[-1].status.value,
+        "marched": None if found is None else round(found / amplitude, 4),
+        "linear": round(point_response(_kept(steady), share * _half(steady)), 4),
+    }
+
+
+def _kept(film: PointFilmSolution) -> KeptPoint:
+    assert film.state is not None
+    return film.state
+
+
+def _half(film: PointFilmSolution) -> float:
+    """Half-axis along the flow, in the unit of length."""
+    hertz = _kept(film).setting.hertz
+    assert hertz is not None
+    return hertz.semi_axes[0]
+
+
+def _row(
+    load: float, material: float, share: float, scaled: float, amplitudes: list[float], finer: float
+) -> dict[str, Any]:
+    """With what is left of second order; waves between too few cells are damped by the third power, less than that."""
+    last, before = amplitudes[-1], amplitudes[-2]
+    row = {
+        "load": load,
+        "oil": material,
+        "wavelength_over_half_axis": share,
+        "scaled_wavelength": round(scaled, 4),
+        "amplitudes": [round(one, 5) for one in amplitudes],
+        "settled": round(last + (last - before) / (finer**2 - 1), 4),
+    }
+    print(row, flush=True)
+    return row
+
+
+def main() -> None:
+    """All of them, stored."""
+    found = {
+        "lines": [row for case in LINE_CASES for row in of_line(*case)],
+        "long_ellipse": of_long_ellipse(*LONG_CASE),
+        "points": [row for case in POINT_CASES for row in of_point(*case)],
+        "march": marched(*MARCHED),
+    }
+    keep(RESULT, found)
+
+
+if __name__ == "__main__":
+    main()
