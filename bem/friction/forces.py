@@ -2,7 +2,7 @@
 
 Friction is (boundary part + film part) / load, positive where it resists the sliding. The boundary part is the boundary
 shear stress summed over the contact, zero without sliding; the film part the shear force of the film on the flat
-outside the cells in contact. The lambda ratio is the minimum of the smooth film under the *whole* load over the rms
+outside the real contact. The lambda ratio is the minimum of the smooth film under the *whole* load over the rms
 height of both surfaces together: of the conditions, not of how the load came to be shared.
 """
 

@@ -125,7 +125,7 @@ class RepeatedCell:
             separation=np.full(setup.grid.shape[:1], float(law.separation(np.array(float(logarithm.max())))[0])),
             notes=self._notes(spread.pressure),
             opening_error=tolerance * scale + max(cell.opening_error for cell in law.cells),
-            film_left_out=share,
+            covered=share,
             cells=law,
         )
 

@@ -30,11 +30,11 @@ from bem.friction.asperities import (
     shift_for_load,
     uncoupled_contact,
 )
-from bem.friction.boundary import reference_pressure
+from bem.friction.boundary import filled_part, reference_pressure
 from bem.friction.film import PatchFilm, middle_line
 from bem.friction.oil_volume import OilVolume, mean_where_counted
 from bem.friction.setup import MixedSetup
-from bem.grid import FloatArray
+from bem.grid import FloatArray, Grid
 
 if TYPE_CHECKING:
     from bem.friction.cell_law import CellLaw
@@ -49,9 +49,8 @@ class Pressed:
     [m]. pressure : (nx, ny) [Pa], of cells that repeat their means at the film's places. approach : by how much the
     mean planes are closer than the film is thick [m]. area : real, on the whole contact [m^2]. convolutions : spent.
     status : outcome. solution : of the patch. notes : what the solution says of itself. separation : (nx,) of the
-    undeformed mean planes, on the middle line [m]. opening_error : how well the opening is known [m]. film_left_out :
-    share of the film's places that is in contact; the cells with pressure if None. cells : how cells that repeat give
-    way, None of a patch.
+    undeformed mean planes, on the middle line [m]. opening_error : how well the opening is known [m]. covered : share
+    of each of the film's places that is in contact. cells : how cells that repeat give way, None of a patch.
     """
 
     load: float
@@ -63,15 +62,10 @@ class Pressed:
     status: Status
     solution: ContactSolution | AsperityContact | SpreadContact
     separation: FloatArray
+    covered: FloatArray
     notes: tuple[str, ...] = ()
     opening_error: float = 0.0
-    film_left_out: FloatArray | None = None
     cells: CellLaw | None = None
-
-    @property
-    def covered(self) -> FloatArray:
-        """Share of each of the film's places that is in contact."""
-        return (self.pressure > 0).astype(np.float64) if self.film_left_out is None else self.film_left_out
 
 
 class RoughContact(Protocol):
@@ -195,6 +189,7 @@ class CoupledContact:
             status=solution.status,
             solution=solution,
             separation=middle_line(film.gap) - solution.approach,
+            covered=_covered(solution, self.setup.grid),
             notes=solution.notes,
             opening_error=tolerance * float(gap.std()),
         )
@@ -266,4 +261,12 @@ class UncoupledAsperities:
             status=Status.CONVERGED,
             solution=solution,
             separation=middle_line(film.thickness) - shift,
+            covered=_covered(solution, self.setup.grid),
         )
+
+
+def _covered(solution: ContactSolution | AsperityContact, grid: Grid) -> FloatArray:
+    """Share of each cell (nx, ny) in contact: of those with pressure what the real area is of theirs, since a film that
+    is left out of whole cells at edges lacks by first order."""
+    filled = filled_part(solution.pressure, solution.contact_area, grid)
+    return np.where(solution.pressure > 0, filled, 0.0)
