@@ -33,15 +33,17 @@ from bem.benchmarks.show import (
 )
 from reports import work_precision
 from reports.builder import Page, Section, figure, table, text
+from reports.experiments.kept import found, result_of
 from reports.validation_origin import changed_since_stored
 
 RESULTS = Path(__file__).resolve().parent / "results" / "performance.json"
+SLIP = "slip_beside_aspher"
 FEM_RESULTS = Path(__file__).resolve().parents[1] / "bem" / "verification" / "fem_results"
 
 GROUPS = (
     (
         "Dry contact of rough surfaces",
-        ("contact-periodic", "contact-free", "contact-semi-periodic", "contact-tolerance"),
+        ("contact-periodic", "contact-free", "contact-semi-periodic", "contact-tolerance", "partial-slip"),
     ),
     ("Capped and coated contact", ("contact-capped", "contact-layered")),
     ("Contact with a closed form", ("hertz-sphere", "hertz-cylinder", "sinusoid")),
@@ -301,11 +303,35 @@ def _peer_sections(run: Run) -> Iterator[Section]:
             "pressure is at least as good."
         )
         yield Section("Beside other codes", words + table(PEER_HEADERS, peer_rows(run)))
+    if result_of(SLIP).exists():
+        yield Section("Partial slip beside ASPHER", _slip())
     notes = [(name, *(times.get(n) for n in (512, 1024, 2048))) for name, times in NOTES_TIMES.items()]
     mine = [_find(run, "contact-periodic", n) for n in (512, 1024, 2048)]
     notes.append(("bem, this run, to 1e-8", *(None if p is None else p.cpu_median for p in mine)))
     headers, caption = ("code, s", "512", "1024", "2048"), "On a quiet machine, to a residual near 1e-6."
     yield Section("Earlier measurement of the peers", table(headers, notes, caption=caption))
+
+
+def _slip() -> str:
+    """Both friction solvers on one ball, from the stored experiment."""
+    kept = found(SLIP)
+    body = text(
+        f"A ball pushed by 0.6 of what friction carries, from nothing, on one thread in one run: ASPHER "
+        f"{kept[0]['aspher']['version']}'s friction solver stops by its own criterion, at the residual that it states; "
+        "bem's is formed anew from its tractions. `python -m reports.experiments.slip_beside_aspher` repeats it."
+    )
+    headers = ("cells a side", "ASPHER, s", "iterations", "residual", "sticks")
+    headers += ("bem, s", "convolutions", "residual", "sticks", "times faster")
+    rows = [
+        (
+            row["cells"],
+            *(row["aspher"][key] for key in ("cpu", "iterations", "residual", "sticks")),
+            *(row["bem"][key] for key in ("cpu", "convolutions", "residual", "sticks")),
+            row["ratio"],
+        )
+        for row in kept
+    ]
+    return body + table(headers, rows)
 
 
 def _split(run: Run) -> str:

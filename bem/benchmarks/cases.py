@@ -2,7 +2,7 @@
 
 To add a case, write a function of the size that returns `Timed` and enter it in `CASES`; tables, figures, the history
 and the command line follow. The functions are in `contact_cases`, `lubricated_cases`, `surface_change_cases`,
-`campaign_cases` and `checkpoint_cases`.
+`tangential_cases`, `campaign_cases` and `checkpoint_cases`.
 Verified in tests/benchmarks/test_benchmarks.py: every case runs at its smallest size.
 """
 
@@ -30,6 +30,7 @@ from bem.benchmarks.lubricated_cases import line_film, load_sharing, stribeck
 from bem.benchmarks.measure import Timed
 from bem.benchmarks.physical_cases import PHYSICAL
 from bem.benchmarks.surface_change_cases import one_wear_cycle, stress_of_sphere, tribofilm
+from bem.benchmarks.tangential_cases import partial_slip
 
 
 @dataclass(frozen=True)
@@ -90,6 +91,13 @@ CASES = {
             quick=(2, 6),
             warm_size=1,
             size_name="digits asked for",
+        ),
+        _cells(
+            "partial-slip",
+            "Partial slip of the dry rough contact, first push",
+            partial_slip,
+            sizes=(128, 256, 512, 1024),
+            error_name="residual of Coulomb's conditions",
         ),
         _cells("hertz-sphere", "Sphere on a half-space, free", sphere, **_MESH),
         _cells("hertz-cylinder", "Cylinder, periodic along its axis", cylinder, **_MESH),

@@ -3,7 +3,7 @@
     python -m reports.experiments.asperity_error_bars [CASES]
 
 Spheres of 2 to 100 um, pressed in by 2 to 50 nm, two to seven cells in Hertz' radius at the deepest, heights of two to
-six depths, spacings of 8 to 16 of that radius. The result is stored in
+six depths, spacings of 9 to 16 of that radius. The result is stored in
 `reports/results/asperities_error_bars.json`.
 """
 
@@ -55,7 +55,7 @@ def draw(rng: np.random.Generator) -> ArrayDrawn:
     radius, depth = 10 ** rng.uniform(-5.7, -4), 10 ** rng.uniform(-8.7, -7.3)
     height = depth * rng.uniform(2, 6)
     # nearer neighbours lift each other so that the loads of a curve do not reach the depth
-    spacing = max(2.05 * math.sqrt(2 * radius * height), math.sqrt(radius * depth) * rng.uniform(8, 16))
+    spacing = max(2.05 * math.sqrt(2 * radius * height), math.sqrt(radius * depth) * rng.uniform(9, 16))
     cells = round(spacing / math.sqrt(radius * depth) * rng.uniform(2, 7))
     return ArrayDrawn(radius, height, depth, spacing, max(16, cells))
 

@@ -35,7 +35,8 @@ def point(**change):
 
 
 @pytest.mark.parametrize(
-    "name", ["contact-periodic", "hertz-sphere", "hertz-cylinder", "sinusoid", "stress", "von-mises-warm"]
+    "name",
+    ["contact-periodic", "hertz-sphere", "hertz-cylinder", "sinusoid", "stress", "von-mises-warm", "partial-slip"],
 )
 def test_a_point_of_a_case(name):
     case = CASES[name]
@@ -190,5 +191,5 @@ def test_the_report_is_built_from_a_history(tmp_path, monkeypatch):
     titles = [section.title for section in page.sections]
     assert "Goals and what was measured" in titles
     assert "Where each part holds" in titles
-    assert "Dry contact of rough surfaces" in titles
+    assert {"Dry contact of rough surfaces", "Partial slip beside ASPHER"} <= set(titles)
     assert len(report.finite_elements()) >= 1
