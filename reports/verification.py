@@ -18,7 +18,7 @@ from bem.stress import set_stress_memory
 from bem.verification import registry, stored
 from bem.verification.rows import DISPLACEMENT_LIMIT, STRESS_LIMIT, Curve, Gate, Row, judge
 from fem_reference import results as fem_results
-from reports import line_film, rolling_waves, sketches
+from reports import line_film, point_film, rolling_waves, sketches
 from reports.builder import COLOURS, Page, Section, picture, table, text
 from reports.prose import prose
 
@@ -51,6 +51,7 @@ def build() -> Page:
         sections.append(Section(title, (text(introduction) if introduction else "") + f"<p>{links}</p>"))
         sections += [Section(d.gate.name, _case(d), level=3) for d in members]
     sections.append(Section("Line-contact film", line_film.body()))
+    sections.append(Section("Point-contact film", point_film.body()))
     sections.append(Section("Waves that roll through a film", rolling_waves.body()))
     sections.append(Section("Elastic-plastic indentation (reported, not gated)", _plasticity()))
     versions = next((c.document["versions"] for c in stored.cases()), {})

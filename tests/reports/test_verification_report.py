@@ -1,13 +1,16 @@
 """The verification report: every case is there, every picture shows."""
 
+import itertools
 import re
 import shutil
 import subprocess
 
+import numpy as np
 import pytest
 
 from bem.verification import registry
-from reports import builder, verification
+from reports import builder, point_film, verification
+from reports.experiments import kept, point_table
 from reports.prose import prose
 
 FEW = ("disc-hertz-soft", "harmonic-antiplane-soft", "contact-row-plain", "oblique-wave", "refinement-strip-normal")
@@ -41,6 +44,40 @@ def test_line_films_are_shown_with_orders_and_fits(page):
     assert body.count("<tr>") == 51  # ten loads, five piezoviscous parameters, the head
     assert "Moes" in body
     assert "Dowson" in body
+
+
+def test_point_films_are_shown_with_orders_and_fits(page):
+    (body,) = [section.body for section in page.sections if section.title == "Point-contact film"]
+    rows = kept.found("point_table")["contacts"]
+    assert "data:image/png" in body
+    assert body.count("<tr>") == len(rows) + 1 == 19  # three loads, two oils, three ellipses, the head
+    assert {(row["ratio"], row["load"], row["oil"]) for row in rows} == set(
+        itertools.product(point_table.RATIOS, point_table.LOADS, point_table.OILS)
+    )
+    assert "Hamrock and Dowson" in body
+    assert "Nijenbanning" in body
+
+
+def test_a_point_film_that_stalled_is_shown_as_none():
+    rows = kept.found("point_table")["contacts"]
+    stalled = [row for row in rows if row["status"][-1] != "converged"]
+    assert point_film.body().count(">stalled<") == 2 * len(stalled) > 0  # its central and its minimum film
+    assert all(row["central_bar"] is None for row in stalled)
+
+
+def test_an_order_of_point_films_is_of_three_converged_grids():
+    row = {"status": ["stalled", "converged", "converged"], "central_order": 2.0}
+    assert point_film._order(row, "central") is None
+    assert point_film._order(row | {"status": ["converged"] * 3}, "central") == 2.0
+
+
+def test_observed_orders_and_limits_are_those_of_errors_that_fall_by_a_law():
+    exact, rate = 2.0, 1.7
+    found = point_table._converged(np.array([exact * (1 - 0.01 * 2 ** (-rate * level)) for level in range(3)]))
+    assert found[""] == pytest.approx(exact, rel=1e-12)  # only rounding
+    assert found["_order"] == pytest.approx(rate, rel=1e-9)  # rounding over differences of 1e-3
+    assert found["_errors"] == pytest.approx([-(2 ** (-rate * level)) for level in range(3)], rel=1e-8)
+    assert point_table._converged(np.array([1.0, 1.2, 1.1]))["_order"] is None
 
 
 def test_waves_that_roll_through_are_shown_with_fits(page):
