@@ -2,30 +2,21 @@
 
 from __future__ import annotations
 
-import io
 from typing import TYPE_CHECKING, Any
 
-from reports.builder import picture, table, text
+from reports.builder import figure, table, text
 from reports.experiments.kept import found
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FILMS = ("central", "minimum")
-HEADERS = (
-    "Rx/Ry",
-    "M",
-    "L",
-    *(f"{name}{head}" for name in FILMS for head in ("", ": order", ": error 96", ": error 192", ": bar")),
-    "fit NVM",
-    "off by",
-    "fit HD",
-    "off by",
-    "fit HD minimum",
-    "off by",
-)
-FITS = (("nijenbanning", "central"), ("hamrock_dowson_central", "central"), ("hamrock_dowson_minimum", "minimum"))
-"""Fits of the stored rows, each with the film that it is of."""
+HEADERS = ("Rx/Ry", "M", "L", "film", "order", "error 96", "error 192", "bar")
+FITS = {
+    "central": (("nijenbanning", "fit NVM"), ("hamrock_dowson_central", "fit HD")),
+    "minimum": (("hamrock_dowson_minimum", "fit HD"),),
+}
+"""Of each film the fits: keys of the stored rows, and names."""
 SHOWN = (1.5, 2.5)
 """Observed orders that say that differences fall by about a quarter where cells are halved."""
 ASKED = 0.5
@@ -48,19 +39,14 @@ def body() -> str:
             "same on all grids, what lies beyond it is in no error. The table is made again by python -m "
             "reports.experiments.point_table."
         )
-        + picture(
-            _png(drawing(good)),
+        + figure(
+            drawing(good),
             "Central films over the load; below, what the fits are off by: of Nijenbanning, Venner and Moes (lines), "
             "and of Hamrock and Dowson (dotted), who fitted ellipses across the flow, stiff bodies and piezoviscous "
             "oils: Rx/Ry = 5 and M = 5 are not theirs, and L = 0 is left out. Contacts that stalled are left out; what "
             "is off by more than 80 % leaves the picture.",
         )
-        + table(
-            HEADERS,
-            [_line(row) for row in rows],
-            caption="Point-contact films: errors, bars and what fits are off by in per cent; fit NVM: Nijenbanning, "
-            "Venner and Moes (1994), of central films; fit HD: Hamrock and Dowson (1977).",
-        )
+        + "".join(_table(rows, name) for name in FILMS)
         + "".join(text(words) for words in _verdict(stored["asked"], rows, good))
     )
 
@@ -112,10 +98,15 @@ def _fits(good: list[dict[str, Any]]) -> str:
     meant = [row for row in good if row["oil"] > 0 and row["ratio"] <= 1 and row["load"] > 5]
     spans = [
         f"{words} by {_span([_off(row, key, name) for row in of])} %"
-        for words, of, (key, name) in (
-            ("Nijenbanning, Venner and Moes' fit is off the central film", good, FITS[0]),
-            ("Hamrock and Dowson's, where it is meant for (Rx/Ry up to 1, L = 10, M from 200), off it", meant, FITS[1]),
-            ("and off the minimum film", meant, FITS[2]),
+        for words, of, key, name in (
+            ("Nijenbanning, Venner and Moes' fit is off the central film", good, "nijenbanning", "central"),
+            (
+                "Hamrock and Dowson's, where it is meant for (Rx/Ry up to 1, L = 10, M from 200), off it",
+                meant,
+                "hamrock_dowson_central",
+                "central",
+            ),
+            ("and off the minimum film", meant, "hamrock_dowson_minimum", "minimum"),
         )
     ]
     return f"{spans[0]}; {spans[1]}, {spans[2]}. Fits are figures beside the films and judge nothing."
@@ -136,24 +127,32 @@ def _order(row: dict[str, Any], name: str) -> float | None:
     return order if set(row["status"]) == {"converged"} else None
 
 
-def _line(row: dict[str, Any]) -> tuple[Any, ...]:
-    cells: list[Any] = [f"{row['ratio']:g}", f"{row['load']:g}", f"{row['oil']:g}"]
+def _table(rows: list[dict[str, Any]], name: str) -> str:
+    return table(
+        (*HEADERS, *(head for _, fit in FITS[name] for head in (fit, "off by"))),
+        [_line(row, name) for row in rows],
+        caption=f"Point contacts, {name} film: errors, bars and what fits are off by in per cent; "
+        + ("NVM: Nijenbanning, Venner and Moes (1994), " if name == "central" else "")
+        + "HD: Hamrock and Dowson (1977).",
+    )
+
+
+def _line(row: dict[str, Any], name: str) -> tuple[Any, ...]:
     done = row["status"][-1] == "converged"
-    for name in FILMS:
-        order = _order(row, name)
-        coarse, fine = (
-            f"{error:.2g}" if done and status == "converged" else ""
-            for error, status in list(zip(row[f"{name}_errors"], row["status"], strict=True))[1:]
-        )
-        bar = row[f"{name}_bar"]
-        cells += [
-            f"{row[name]:.4g}" if done else "stalled",
-            "" if order is None else f"{order:.2f}",
-            coarse,
-            fine,
-            f"{bar:.2g}" if done and bar is not None else "",
-        ]
-    for key, name in FITS:
+    order, bar = _order(row, name), row[f"{name}_bar"]
+    coarse, fine = (
+        f"{error:.2g}" if done and status == "converged" else ""
+        for error, status in list(zip(row[f"{name}_errors"], row["status"], strict=True))[1:]
+    )
+    cells = [
+        *(f"{row[key]:g}" for key in ("ratio", "load", "oil")),
+        f"{row[name]:.4g}" if done else "stalled",
+        "" if order is None else f"{order:.2f}",
+        coarse,
+        fine,
+        f"{bar:.2g}" if done and bar is not None else "",
+    ]
+    for key, _ in FITS[name]:
         cells += [
             f"{row[key]:.4g}" if key in row else "",
             f"{_off(row, key, name):+.1f}" if key in row and done else "",
@@ -169,15 +168,15 @@ def drawing(rows: list[dict[str, Any]]) -> Figure:
 
     ratios = sorted({row["ratio"] for row in rows})
     oils = sorted({row["oil"] for row in rows})
-    figure = Figure(figsize=(9.0, 5.2), layout="constrained")
-    axes = figure.subplots(2, len(ratios), sharex=True, sharey="row", squeeze=False, height_ratios=(2, 1))
+    drawn = Figure(figsize=(9.0, 5.2), layout="constrained")
+    axes = drawn.subplots(2, len(ratios), sharex=True, sharey="row", squeeze=False, height_ratios=(2, 1))
     for (upper, lower), ratio in zip(axes.T, ratios, strict=True):
         for oil, colour in zip(oils, COLOURS, strict=False):
             line = [row for row in rows if (row["ratio"], row["oil"]) == (ratio, oil)]
             loads = [row["load"] for row in line]
             upper.loglog(loads, [row["central"] for row in line], "o-", color=colour, label=f"L = {oil:g}")
-            for (key, name), style in zip(FITS[:2], ("-", ":"), strict=True):
-                off = [_off(row, key, name) for row in line if key in row]
+            for (key, _), style in zip(FITS["central"], ("-", ":"), strict=True):
+                off = [_off(row, key, "central") for row in line if key in row]
                 lower.semilogx(loads[: len(off)], off, style, marker=".", color=colour)
         upper.set_title(f"Rx/Ry = {ratio:g}", fontsize=9)
         lower.set_xlabel("M")
@@ -186,13 +185,7 @@ def drawing(rows: list[dict[str, Any]]) -> Figure:
     axes[0, 0].set_ylabel("central film / (Rx U^(1/2))")
     axes[1, 0].set_ylabel("fit - film [%]")
     axes[0, -1].legend(fontsize=8)
-    return figure
-
-
-def _png(figure: Figure) -> bytes:
-    png = io.BytesIO()
-    figure.savefig(png, format="png", dpi=100)
-    return png.getvalue()
+    return drawn
 
 
 __all__ = ["body"]
