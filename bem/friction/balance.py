@@ -11,14 +11,16 @@ hold over the film's oil rises with its load. The ends are looked at by one rule
   ends before the oil fits, the film there being thinner than a few molecules: it is none.
 
 Between them a secant within a bracket, in ln(film load / rest): next to either end one of them changes by its own size.
-A contact under a load is one solve; pressing surfaces together until they hold a volume, and looking for the film load
-at which both carry the load, took four to five times its convolutions. Nothing here knows what a film or a contact is
-made of.
+Where the opening jumps with the load (cells at the hardness) the surfaces are pressed to an approach in between. A
+contact under a load is one solve; pressing surfaces together until they hold a volume, and looking for the film load at
+which both carry the load, took four to five times its convolutions. Nothing here knows what a film or a contact is made
+of.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -31,7 +33,9 @@ from bem.grid import FloatArray
 from bem.lubrication.validity import THINNEST_FILM
 
 MAX_TRIALS = 60
-COARSE_TRIALS, FINEST_CONTACT = 15, 1e-9
+ONE_LOAD = 0.1
+"""Of the tolerance: how far apart film loads are one."""
+COARSE_TRIALS, FINEST_CONTACT = 20, 1e-9
 """Films after which a contact is solved more finely, down to that tolerance: openings that jump with its own tolerance
 keep film and contact from their balance."""
 NEGLIGIBLE = 0.1
@@ -158,17 +162,24 @@ class _Search:
         yielded = math.log(beyond) + 1e-9 if beyond > 0 else -math.inf
         ends = self.odds(max(self.bottom, yielded)), self.odds(self.top)
         last: list[tuple[_Trial, bool]] = []
+        sides: dict[bool, _Trial] = {}
 
         def evaluate(place: float) -> tuple[float, bool]:
             trial = self.under_the_rest(math.log(self.load) - math.log1p(math.exp(-place)))
-            last[:] = [(trial, _holds_oil(trial, self.rough, self.goal))]
-            return self.mismatch(trial), last[0][1]
+            value, met = self.mismatch(trial), _holds_oil(trial, self.rough, self.goal)
+            last[:], sides[value > 0] = [(trial, met)], trial
+            return value, met or self.one_load(sides)
 
         while True:
             coarse = self.effort.contact_tolerance > FINEST_CONTACT
             rest = -math.expm1(at - math.log(self.load))
             found = falling_zero(evaluate, self.odds(at), slope * rest, ends, COARSE_TRIALS if coarse else MAX_TRIALS)
             ((trial, met),) = last
+            if not met and self.one_load(sides):
+                pressed = self.between(sides[True], sides[False])
+                if _holds_oil(pressed, self.rough, self.goal) or not coarse:
+                    return pressed, slope, Regime.MIXED
+                sides.clear()
             at, inside = trial.logarithm, ends[0] < self.odds(trial.logarithm) < ends[1]
             if met or not (coarse and inside):
                 break
@@ -178,6 +189,35 @@ class _Search:
             return self.trial(trial.logarithm, trial.film, None), slope, Regime.FULL_FILM
         at_bottom = trial.logarithm <= self.bottom + _SAME and self.is_boundary(trial)
         return trial, slope, Regime.BOUNDARY if at_bottom else Regime.MIXED
+
+    def one_load(self, sides: Mapping[bool, _Trial]) -> bool:
+        """Whether trials with films that are too thick (True) and too thin are under loads as good as one: the opening
+        jumps there, cells that yield sinking under one load until the next ones touch."""
+        if len(sides) < 2 or not self.rough.by_approach:
+            return False
+        one, other = sides[True].film.load, sides[False].film.load
+        return abs(one - other) <= ONE_LOAD * self.goal * min(one, other)
+
+    def between(self, thick: _Trial, thin: _Trial) -> _Trial:
+        """The film of one of two trials under one load, and the surfaces as near as they hold its oil."""
+        assert thick.contact is not None
+        assert thin.contact is not None
+        nearest, farthest = thick.contact.approach, thin.contact.approach
+        last = [thick]
+
+        def evaluate(place: float) -> tuple[float, bool]:
+            contact = self.rough.at_approach(
+                thick.film,
+                nearest + place * (farthest - nearest),
+                self.effort.contact_tolerance,
+                self.effort.pressure,
+            )
+            self.effort.count(contact)
+            last[:] = [self.trial(thick.logarithm, thick.film, contact)]
+            return self.mismatch(last[0]), _holds_oil(last[0], self.rough, self.goal)
+
+        falling_zero(evaluate, 0.5, self.mismatch(thick) - self.mismatch(thin), (0.0, 1.0), COARSE_TRIALS)
+        return last[0]
 
     def odds(self, logarithm: float) -> float:
         """ln(film load / rest) of a film load, by its logarithm."""

@@ -129,6 +129,12 @@ class RepeatedCell:
             cells=law,
         )
 
+    by_approach = False  # cells' means over a table do not jump
+
+    def at_approach(self, film: PatchFilm, approach: float, tolerance: float, start: FloatArray | None) -> Pressed:
+        """Not there."""
+        raise NotImplementedError("cells that repeat are pressed by loads")
+
     @cached_property
     def _pressures(self) -> FloatArray:
         mean = self.setup.smooth.mean_pressure(self.setup.load)

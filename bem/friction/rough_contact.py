@@ -90,8 +90,15 @@ class RoughContact(Protocol):
     def clears(self, film: PatchFilm) -> bool:
         """Whether undeformed surfaces that hold the film's oil do not touch."""
 
+    @property
+    def by_approach(self) -> bool:
+        """Whether `at_approach` is there."""
+
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """Pressed together by a load [N] on the whole contact."""
+        """Pressed together by a load [N] on the whole contact; `start` is a pressure nearby."""
+
+    def at_approach(self, film: PatchFilm, approach: float, tolerance: float, start: FloatArray | None) -> Pressed:
+        """The same, to an approach [m] as `Pressed` has it."""
 
 
 def shift_apart(film: PatchFilm, rough: FloatArray, counted: OilVolume) -> float:
@@ -167,13 +174,31 @@ class CoupledContact:
         """As `RoughContact`."""
         return bool((film.thickness - self.rough).min() >= shift_apart(film, self.rough, self.counted))
 
+    by_approach = True
+
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """As `RoughContact`."""
+        return self._solve(film, tolerance, start, load=load / self.setup.slices)
+
+    def at_approach(self, film: PatchFilm, approach: float, tolerance: float, start: FloatArray | None) -> Pressed:
+        """As `RoughContact`."""
+        return self._solve(film, tolerance, start, approach=approach)
+
+    def _solve(
+        self,
+        film: PatchFilm,
+        tolerance: float,
+        start: FloatArray | None,
+        *,
+        load: float | None = None,
+        approach: float | None = None,
+    ) -> Pressed:
         gap = film.gap - self.rough
         solution = solve_contact(
             gap,
             self.operator,
-            load=load / self.setup.slices,
+            load=load,
+            approach=approach,
             hardness=self.setup.hardness,
             tolerance=tolerance,
             initial_pressure=start if start is not None and start.any() else None,
@@ -205,6 +230,8 @@ class UncoupledAsperities:
     tolerance: float = 0.0
     largest_load: float = math.inf
 
+    by_approach = True
+
     @property
     def counted(self) -> OilVolume:
         """As `RoughContact`."""
@@ -234,6 +261,10 @@ class UncoupledAsperities:
             hardness=self.setup.hardness,
         )
         return self._shifted(film, shift)
+
+    def at_approach(self, film: PatchFilm, approach: float, tolerance: float, start: FloatArray | None) -> Pressed:
+        """As `RoughContact`."""
+        return self._shifted(film, approach)
 
     def _separation(self, film: PatchFilm) -> FloatArray:
         return np.broadcast_to(film.thickness, self.rough.shape)[self._summits.index]

@@ -206,6 +206,20 @@ def test_uncoupled_summits_carry_nothing_where_their_film_begins():
         assert rough._shifted(film, shift).load < (0 if clear else 1e-6) + 1e-300
 
 
+@pytest.mark.parametrize("share", [0.9, 0.93, 0.96, 0.98, 0.99])
+def test_openings_that_jump_with_the_load(share):
+    """Next to full film a few cells carry the rest, at the hardness: they sink under one load until others touch. No
+    film load was found there at which the surfaces, under the rest, hold the oil."""
+    film = FlatFilm(share * HEIGHT.max() * 5.5)
+    rough = rough_contact(MixedSetup(**CASE), HEIGHT, (0.1, 0.0))
+    balance = share_load(film, rough, 5.5, 5e-4, film.under(5.5, 0, None), BalanceStart(2.0))
+    assert balance.status is Status.CONVERGED
+    assert balance.regime is Regime.MIXED
+    assert abs(balance.imbalance) <= 5e-4
+    assert abs(balance.oil_imbalance) <= 5e-4
+    assert balance.contacts <= 25
+
+
 def test_steep_balances_take_few_evaluations():
     """Rough surfaces under a small load: contact loads change a thousand times faster than the film's. It took 78."""
     for load, speed in ((1e-3, 1e-5), (1e-2, 1e-4)):
