@@ -125,12 +125,14 @@ def _round(rng: np.random.Generator) -> Parameters:
 
 
 def _row(rng: np.random.Generator) -> Parameters:
-    """Loads up to nine tenths of what flattens the row if all of the body were as soft as its softest part."""
+    """Loads up to nine tenths of what flattens the row if all of the body were as soft as its softest part, and from
+    what makes contacts wide enough for the reference: of a stiff layer 0.0043 of its modulus was found."""
     body = _layer(rng, most=1)
     if body:  # the reference takes no thicker ones: two wavelengths are all layer
         body["layer"][2] = min(body["layer"][2], 2.0)
     softest = min(1.0, *body["layer"][::3]) if body else 1.0
-    loads = sorted({float(f"{softest * rng.uniform(0.05, 0.9):.3g}") for _ in range(3)})
+    least = max(0.05, 0.008 * body["layer"][0] / softest) if body else 0.05
+    loads = sorted({float(f"{softest * rng.uniform(least, 0.9):.3g}") for _ in range(3)})
     return body | _indenter(rng) | {"loads": loads}
 
 

@@ -46,6 +46,15 @@ def test_draws_cover_every_family_and_the_ranges():
     assert any("indenter" in item.parameters for item in drawn)
 
 
+def test_rows_press_wide_enough_for_the_reference():
+    """A stiff layer's contacts were too narrow for its mesh at loads that a bare body's were not."""
+    rows = [one.parameters for seed in range(60) for one in fresh.draw(5, seed) if one.problem == "contact-row"]
+    layered = [row for row in rows if row.get("layer") and row["layer"][0] > 10]
+    assert len(layered) > 3
+    assert all(row["loads"][0] > 0.0043 * row["layer"][0] for row in layered)
+    assert all(0.05 < row["loads"][0] < 0.9 for row in rows if not row.get("layer"))
+
+
 def test_options_are_what_the_reference_takes():
     (item,) = [fresh.Drawn("x", "harmonic", {"nu": 0.3, "layer": [0.1, 0.4, 1.0], "load": "normal"})]
     assert item.options == ["--nu", "0.3", "--layer", "0.1", "0.4", "1", "--load", "normal"]
