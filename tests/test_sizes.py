@@ -59,3 +59,9 @@ def test_no_file_is_long():
 )
 def test_the_measure_itself(source, found):
     assert list(large_functions(source)) == found
+
+
+def test_no_two_test_files_share_a_name():
+    """Two of one name cannot be collected together; run alone, neither says so."""
+    names = [path.name for path in (ROOT / "tests").rglob("test_*.py")]
+    assert len(names) == len(set(names))
