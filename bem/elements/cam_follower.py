@@ -84,10 +84,8 @@ class CamModel(ElementModel):
                     length=self.width,
                 )
             )  # fmt: skip
-        turns = self.speed / (2 * math.pi)
-        return Contacts(
-            tuple(found), "angle", "rad", self._notes(found, lost), self.half_angle / math.pi, (turns, None)
-        )
+        turns, pressed = self.speed / (2 * math.pi), self.half_angle / math.pi * len(found) / self.points
+        return Contacts(tuple(found), "angle", "rad", self._notes(found, lost), pressed, (turns, None))
 
     def _notes(self, found: list[ElementContact], lost: int) -> tuple[str, ...]:
         said = []
