@@ -33,6 +33,8 @@ Teeth = Annotated[int, Field(strict=True, ge=6, le=2000)]
 
 _ACROSS = 1024
 """Places over the face at which the lines' length is taken, which is piecewise linear: to 1e-6 of the mean."""
+_MOST_OVERLAP = 100
+"""Lines of contact at a time on the mean, ten times those of the widest herringbones: all are held in memory."""
 
 
 class GearModel(ElementModel):
@@ -60,8 +62,15 @@ class GearModel(ElementModel):
             path = path_of_contact(self)
         except InputError as error:
             raise problem(error.messages[0], "teeth, shifts and pressure angle of gears that mesh") from None
-        if path.contact_ratio < 1:
-            raise problem(f"contact ratio {path.contact_ratio:.3g}: below 1 the teeth lose each other", "1 and more")
+        leaning = path.overlap / path.base_pitch
+        if leaning > _MOST_OVERLAP:
+            raise problem(
+                f"overlap ratio {leaning:.3g}: the face is too wide for its teeth", f"{_MOST_OVERLAP} at most"
+            )
+        ratio = path.contact_ratio + leaning
+        if path.contact_ratio <= 0 or ratio < 1:
+            said = f"contact ratio {path.contact_ratio:.3g}" + (f" and overlap ratio {leaning:.3g}" if leaning else "")
+            raise problem(f"{said}: below 1 the teeth lose each other", "1 and more, both together")
         return self
 
     def contacts(self) -> Contacts:

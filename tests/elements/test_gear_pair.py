@@ -117,6 +117,8 @@ def test_load_along_the_path():
         ({"teeth": [8, 40]}, "undercut"),
         ({"profile_shifts": [-1.0, -1.0]}, r"undercut|working pressure angle"),
         ({"tip_diameters": ["40.2 mm", "80.2 mm"]}, "lose each other"),
+        ({"helix_angle": "15 deg", "tip_diameters": ["30 mm", "60 mm"]}, "lose each other"),
+        ({"helix_angle": "15 deg", "face_width": "20 km"}, r"overlap ratio 8.24e\+05.*100 at most"),
         ({"torque": "50 N"}, "is not a torque"),
     ],
 )
@@ -217,3 +219,15 @@ def test_load_of_helical_gears():
     nearly = path_of_contact(made(helix_angle="1e-4 deg").model)
     assert set(np.round(nearly.lines(nearly.start + nearly.base_pitch * np.array([0.3, 0.9])), 3)) == {1.0, 2.0}
     assert "helix 11.2" in " ".join(element.notes())
+
+
+def test_helical_teeth_whose_transverse_sections_alone_lose_each_other_mesh():
+    """Short teeth, contact ratio 0.77: one line comes as another goes, which carry all; their length by hand."""
+    element = made(helix_angle="30 deg", face_width="9 mm", tip_diameters=["48.34 mm", "94.55 mm"], points=9)
+    model = element.model
+    assert isinstance(model, GearModel)
+    path = path_of_contact(model)
+    leaning = path.overlap / path.base_pitch
+    assert path.contact_ratio < 1
+    shortest = path.lines(path.base_pitch * np.arange(64) / 64).min()
+    assert shortest == pytest.approx((path.contact_ratio + leaning - 1) / leaning)
