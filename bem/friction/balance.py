@@ -193,7 +193,7 @@ class _Search:
     def one_load(self, sides: Mapping[bool, _Trial]) -> bool:
         """Whether trials with films that are too thick (True) and too thin are under loads as good as one: the opening
         jumps there, cells that yield sinking under one load until the next ones touch."""
-        if len(sides) < 2 or not self.rough.by_approach:
+        if len(sides) < 2:
             return False
         one, other = sides[True].film.load, sides[False].film.load
         return abs(one - other) <= ONE_LOAD * self.goal * min(one, other)

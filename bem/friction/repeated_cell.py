@@ -103,37 +103,46 @@ class RepeatedCell:
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """As `RoughContact`; the pressures are the cells' means on the film's grid."""
+        return self._pressed(film, tolerance, start, load=load)
+
+    def at_approach(self, film: PatchFilm, approach: float, tolerance: float, start: FloatArray | None) -> Pressed:
+        """As `RoughContact`."""
+        return self._pressed(film, tolerance, start, approach=approach)
+
+    def _pressed(
+        self,
+        film: PatchFilm,
+        tolerance: float,
+        start: FloatArray | None,
+        *,
+        load: float | None = None,
+        approach: float | None = None,
+    ) -> Pressed:
         setup, law = self.setup, self.law
         grid = setup.film_grid
         first = start if start is not None and start.shape == grid.shape and start.any() else self._hertz()
-        scale = float(self.cell.rough.std())
-        spread = spread_pressure(film.gap, law, self.operator, grid, load, first, tolerance * scale)
+        goal = tolerance * float(self.cell.rough.std())
+        spread = spread_pressure(film.gap, law, self.operator, grid, first, goal, load=load, approach=approach)
         logarithm = np.log(spread.pressure)
         share = law.share(logarithm)
         area = float(share.sum()) * grid.cell_area
         cell_pressure, displacement = law.shown(float(spread.pressure.max()))
         n = setup.slices
         return Pressed(
-            load=load * (1 + spread.load_missed),
+            load=spread.load,
             opening=mean_where_counted(spread.separation + law.overlap(logarithm), film, self.counted),
             pressure=spread.pressure,
             approach=spread.approach,
             area=area,
             convolutions=spread.convolutions,
             status=spread.status if law.status is Status.CONVERGED else law.status,
-            solution=SpreadContact(cell_pressure, displacement, spread.pressure, load / n, area / n),
+            solution=SpreadContact(cell_pressure, displacement, spread.pressure, spread.load / n, area / n),
             separation=np.full(setup.grid.shape[:1], float(law.separation(np.array(float(logarithm.max())))[0])),
             notes=self._notes(spread.pressure),
-            opening_error=tolerance * scale + max(cell.opening_error for cell in law.cells),
+            opening_error=goal + max(cell.opening_error for cell in law.cells),
             covered=share,
             cells=law,
         )
-
-    by_approach = False  # cells' means over a table do not jump
-
-    def at_approach(self, film: PatchFilm, approach: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """Not there."""
-        raise NotImplementedError("cells that repeat are pressed by loads")
 
     @cached_property
     def _pressures(self) -> FloatArray:
@@ -166,10 +175,11 @@ class RepeatedCell:
         )
 
     def _hertz(self) -> FloatArray:
-        """A pressure to begin with."""
-        grid, (a, b) = self.setup.film_grid, self.setup.smooth.half_axes(self.setup.load)
+        """A pressure [Pa] to begin with."""
+        grid, load = self.setup.film_grid, self.setup.load
+        a, b = self.setup.smooth.half_axes(load)
         inside = 1 - (grid.x[:, None] / a) ** 2 - (grid.y[None, :] / b) ** 2
-        return np.sqrt(np.maximum(inside, 1e-4))
+        return np.sqrt(np.maximum(inside, 1e-4)) * 1.5 * self.setup.smooth.mean_pressure(load)
 
     def _notes(self, pressure: FloatArray) -> tuple[str, ...]:
         """What to say of cells that are long against the contact, and of pressures beyond the table."""
@@ -188,12 +198,12 @@ class RepeatedCell:
 @dataclass(frozen=True, eq=False)
 class Spread:
     """Mean pressures (n, m) [Pa] of cells over a contact, distance (n, m) of the deflected mean planes and approach of
-    the bodies [m], what is missed of the load, relative to it, applications of the operator, outcome."""
+    the bodies [m], load of these pressures [N], applications of the operator, outcome."""
 
     pressure: FloatArray
     separation: FloatArray
     approach: float
-    load_missed: float
+    load: float
     convolutions: float
     status: Status
 
@@ -203,35 +213,43 @@ def spread_pressure(
     law: CellLaw,
     operator: DisplacementOperator,
     grid: Grid,
-    load: float,
     start: FloatArray,
     goal: float,
+    *,
+    load: float | None = None,
+    approach: float | None = None,
 ) -> Spread:
-    """Pressures whose separations are the gap (n, m) [m], deflected and less the approach, to a goal [m] wherever they
-    are above a thousandth of the highest, under a load [N]."""
-    sum_of = load / grid.cell_area
-    logarithm = np.log(start * (sum_of / start.sum()))
-    spent, status, approach = 0, Status.STALLED, 0.0
+    """Pressures (n, m) from those to start with [Pa] whose separations are the gap (n, m) [m], deflected and less the
+    approach, to a goal [m] wherever they are above a thousandth of the highest: under a load [N], or at an approach [m]
+    where no load is given."""
+    sum_of = None if load is None else load / grid.cell_area
+    logarithm = np.log(start if sum_of is None else start * (sum_of / start.sum()))
+    spent, status, pressed = 0, Status.STALLED, 0.0 if approach is None else approach
     for _ in range(NEWTON_STEPS):
         pressure = np.exp(logarithm)
         separation, slope = law.separation(logarithm)
         opened = gap + operator(pressure) - separation
-        weight = np.minimum(pressure, pressure.max() * 0.1)
-        approach = float((opened * weight).sum() / weight.sum())
-        missed, too_little = opened - approach, sum_of - float(pressure.sum())
         spent += 1
-        if float(np.abs(missed[pressure > COUNTS * pressure.max()]).max()) <= goal and abs(too_little) <= 1e-9 * sum_of:
+        too_little = 0.0
+        if sum_of is not None:
+            weight = np.minimum(pressure, pressure.max() * 0.1)
+            pressed = float((opened * weight).sum() / weight.sum())
+            too_little = sum_of - float(pressure.sum())
+        missed = opened - pressed
+        counts = pressure > COUNTS * pressure.max()
+        if float(np.abs(missed[counts]).max()) <= goal and (sum_of is None or abs(too_little) <= 1e-9 * sum_of):
             status = Status.CONVERGED
             break
         winkler = -slope / pressure
-        by_gap, first = _conjugate_gradients(operator, winkler, -missed)
-        by_approach, second = _conjugate_gradients(operator, winkler, np.ones_like(gap))
-        spent += first + second
-        deeper = (too_little - float(by_gap.sum())) / float(by_approach.sum())
-        change = (by_gap + deeper * by_approach) / pressure
-        logarithm = logarithm + np.clip(change, -LARGEST_STEP, LARGEST_STEP)
-    apart = np.maximum(opened + separation - approach, 0.0)
-    return Spread(pressure, apart, approach, -too_little / sum_of, float(spent), status)
+        change, first = _conjugate_gradients(operator, winkler, -missed)
+        spent += first
+        if sum_of is not None:
+            deeper, second = _conjugate_gradients(operator, winkler, np.ones_like(gap))
+            spent += second
+            change = change + (too_little - float(change.sum())) / float(deeper.sum()) * deeper
+        logarithm = logarithm + np.clip(change / pressure, -LARGEST_STEP, LARGEST_STEP)
+    apart = np.maximum(opened + separation - pressed, 0.0)
+    return Spread(pressure, apart, pressed, float(pressure.sum()) * grid.cell_area, float(spent), status)
 
 
 def _conjugate_gradients(

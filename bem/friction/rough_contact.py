@@ -90,10 +90,6 @@ class RoughContact(Protocol):
     def clears(self, film: PatchFilm) -> bool:
         """Whether undeformed surfaces that hold the film's oil do not touch."""
 
-    @property
-    def by_approach(self) -> bool:
-        """Whether `at_approach` is there."""
-
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """Pressed together by a load [N] on the whole contact; `start` is a pressure nearby."""
 
@@ -174,8 +170,6 @@ class CoupledContact:
         """As `RoughContact`."""
         return bool((film.thickness - self.rough).min() >= shift_apart(film, self.rough, self.counted))
 
-    by_approach = True
-
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """As `RoughContact`."""
         return self._solve(film, tolerance, start, load=load / self.setup.slices)
@@ -229,8 +223,6 @@ class UncoupledAsperities:
     traction: float = 0.0
     tolerance: float = 0.0
     largest_load: float = math.inf
-
-    by_approach = True
 
     @property
     def counted(self) -> OilVolume:

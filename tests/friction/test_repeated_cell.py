@@ -70,6 +70,19 @@ def test_cells_are_pressed_as_a_patch_that_holds_the_contact(both):
     np.testing.assert_allclose(np.interp(centres, grid.y, middle)[inside], means[inside], rtol=0.02)
 
 
+def test_cells_at_the_approach_of_a_load_carry_it(both):
+    (_, cells, film), _ = both
+    by_load = cells.at_load(film, 2.0, 1e-9, None)
+    for start in (None, by_load.pressure * 3):
+        found = cells.at_approach(film, by_load.approach, 1e-9, start)
+        assert found.status is Status.CONVERGED
+        assert found.load == pytest.approx(2.0, rel=1e-7)  # 1e-9 of the roughness, some tens of which the load lifts
+        assert found.opening == pytest.approx(by_load.opening, rel=1e-7)
+    closer = cells.at_approach(film, by_load.approach + 5e-9, 1e-9, by_load.pressure)
+    assert closer.load > 1.02 * by_load.load
+    assert closer.opening < by_load.opening
+
+
 def test_friction_is_that_of_the_load_shared(both):
     (setup, cells, film), _ = both
     pressed = cells.at_load(film, 2.0, 1e-6, None)
@@ -127,9 +140,9 @@ def test_soft_cells_are_a_foundation_beside_hertz():
     highest = []
     for length in (1e-9, 100e-9):
         law = logarithmic(length)
-        found = spread_pressure(gap, law, operator, grid, 20.0, np.ones(grid.shape), 1e-13)
+        found = spread_pressure(gap, law, operator, grid, np.ones(grid.shape), 1e-13, load=20.0)
         assert found.status is Status.CONVERGED
-        assert abs(found.load_missed) < 1e-9
+        assert found.pressure.sum() * grid.cell_area == pytest.approx(20.0, rel=1e-9)
         highest.append(found.pressure.max() / dry.maximum_pressure)
         kept = found.pressure > 1e-3 * found.pressure.max()
         by_law, _ = law.separation(np.log(found.pressure))

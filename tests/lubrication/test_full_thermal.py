@@ -71,7 +71,10 @@ def test_layers_are_dowsons_integrals():
     """Flow driven and dragged through an uneven film against quadrature of du/dz, of second order in the layers."""
     hot, cold = unit_oil(oil())
     pressure, slide = np.array([3e8]), 0.6
-    profile = lambda s: 333.15 + 30 * (1 - s**2) + 12 * s  # noqa: E731
+
+    def profile(s):
+        return 333.15 + 30 * (1 - s**2) + 12 * s
+
     s = np.linspace(-1, 1, 20001)
     fluid = hot.lubricant.viscosity / hot.viscosity(np.full(len(s), 3e8), profile(s))[0]
     mean = cumulative_trapezoid(fluid, s)[-1]
@@ -93,7 +96,11 @@ def test_slopes_of_layers_are_differences():
     """With pressure, at temperatures that stay: of the drag it is that of the densities, too, which had been those of
     the round before. In any unit of pressure."""
     hot, pressure, unit = Oil.of(oil()), np.array([1e8, 8e8]), 1e7
-    cold = lambda p: [value * by for value, by in zip(unit_oil(oil())[1](p * unit), (1, unit), strict=True)]  # noqa: E731
+
+    def cold(p):
+        logarithm, slope = unit_oil(oil())[1](p * unit)
+        return logarithm, slope * unit
+
     uneven = 333.15 + 25 * np.linspace(0, 1, 12)[None] ** 2 * np.ones((2, 1))
     found, at, step = HotFilm.of(hot, uneven, cold, 0.9, unit), pressure / unit, 1e-3
     for values in (found.log_viscosity, found.drag, found.log_sliding_viscosity):
