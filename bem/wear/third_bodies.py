@@ -14,7 +14,6 @@ tests/wear/test_third_bodies.py: closed forms of one particle and of many betwee
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,10 +22,6 @@ from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.materials import Body
 from bem.wear.loads import LOWER, UPPER
-
-BALANCE = 1e-6
-"""Of the load: what contact and particles may miss it by."""
-_TRIALS = 60
 
 
 @dataclass(frozen=True)
@@ -125,41 +120,3 @@ class ThirdBodyLoad:
 
     load: float
     cut: tuple[FloatArray, FloatArray]
-
-
-def share(
-    load: float, carried: Callable[[float], float], touching: float, apart: Callable[[float], float], diameter: float
-) -> tuple[float, float]:
-    """Load [N] of the contact, and, where it is zero, how far the surfaces stay apart [m], such that contact and
-    particles carry a load [N].
-
-    carried : load of the contact [N] -> of the particles [N]; rises. touching : what they carry when the surfaces just
-    touch. apart : distance beyond that [m] -> the same; falls to zero at their diameter.
-    """
-    if touching > load:
-        return 0.0, _rising_zero(lambda away: load - apart(away), (0.0, load - touching), (diameter, load), load)
-    beyond = carried(load)
-    if beyond <= 0:
-        return load, 0.0
-    return _rising_zero(lambda own: own + carried(own) - load, (0.0, touching - load), (load, beyond), load), 0.0
-
-
-def _rising_zero(
-    function: Callable[[float], float], left: tuple[float, float], right: tuple[float, float], load: float
-) -> float:
-    """Zero between two places with their values, one below and one above zero, to the balance's tolerance: regula falsi
-    that halves the value of an end that stays (Illinois)."""
-    (a, below), (b, above) = left, right
-    at, kept = a, 0
-    for _ in range(_TRIALS):
-        at = b - above * (b - a) / (above - below)
-        value = function(at)
-        if abs(value) <= 0.3 * BALANCE * load:
-            break
-        if value < 0:
-            a, below, above = at, value, above * (0.5 if kept < 0 else 1.0)
-            kept = -1
-        else:
-            b, above, below = at, value, below * (0.5 if kept > 0 else 1.0)
-            kept = 1
-    return at

@@ -106,6 +106,16 @@ def test_rough_surfaces_share_the_load_with_them_and_none_is_as_it_was():
     assert third_body_contact(setup(), few, 0.0)(heights, None).third_bodies.load == pytest.approx(expected, rel=1e-3)
 
 
+def test_a_cell_that_sinks_at_the_hardness_does_not_keep_them_from_their_share():
+    # it sinks under one load until the next one touches, and the gap jumps with the load
+    found = third_body_contact(setup(), ThirdBodies(D, 8.25e11), 0.0)(rough(), None)
+    assert found.status == "converged"
+    assert found.load == pytest.approx(SOFT * GRID.cell_area, rel=1e-6)
+    assert found.load + found.third_bodies.load == pytest.approx(LOAD, rel=1e-6)
+    # of all contacts tried, not of the last
+    assert found.convolutions > 20
+
+
 def test_a_groove_is_a_segment_of_the_sphere_along_half_the_slide():
     particles = ThirdBodies(D, 1e10, removed=0.25)
     whole = particles.cut(np.array([D / 2, 0.0]), SOFT, 2e-6)
