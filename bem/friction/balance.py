@@ -225,10 +225,11 @@ class _Search:
         return math.log(share / max(1 - share, LEAST_REST))
 
     def under_the_rest(self, logarithm: float | None = None) -> _Trial:
-        """A film, by default one with a negligible load, and the surfaces under what it leaves them."""
+        """A film, by default one with a negligible load, and the surfaces under what it leaves them, or as much of that
+        as they can carry."""
         logarithm = self.bottom if logarithm is None else logarithm
         film = self.film_at(logarithm)
-        rest = self.load - film.load
+        rest = min(self.load - film.load, self.rough.largest_load)
         contact = self.rough.at_load(film, rest, self.effort.contact_tolerance, self.effort.pressure)
         self.effort.count(contact)
         return self.trial(logarithm, film, contact)

@@ -179,6 +179,18 @@ def test_the_balance_takes_another_film_model(constant, model):
     assert balance.contacts <= 14
 
 
+@pytest.mark.parametrize("constant", [1e-9, 1e-3])
+def test_beyond_film_and_yielded_surfaces_together_is_infeasible(constant):
+    """It raised, of a load on a slice, and a whole Stribeck curve with it."""
+    film = FlatFilm(constant, largest_load=20.0)
+    rough = rough_contact(MixedSetup(**CASE), HEIGHT, (0.1, 0.0))
+    balance = share_load(film, rough, 400.0, 5e-4, film.under(20.0, 0, None), BalanceStart(2.0))
+    assert balance.status is Status.INFEASIBLE
+    assert balance.contact.load == pytest.approx(rough.largest_load, rel=1e-9)
+    assert balance.imbalance == pytest.approx((20 + rough.largest_load) / 400 - 1, rel=1e-9)
+    assert any("film's model ends at a load of 20 N" in note for note in balance.notes)
+
+
 def test_boundary_where_the_films_model_ends_in_a_film_thinner_than_molecules():
     """A creeping roller of 1.3 kN in thin oil: no film is known under more than 0.5 kN, and that one is no film."""
     grid = Grid((64, 16), (9e-6, 9e-6), periodic=(False, True))
