@@ -48,7 +48,7 @@ class WearModel:
         `TractionLaw`. "gross_sliding" is the source's, friction x pressure everywhere; "oscillating_force" and
         "oscillating_shift" give stresses, pieces and local wear the tractions and the slip of a loop in partial slip.
     third_bodies : particles that stay between the surfaces, `bem.wear.third_bodies.ThirdBodies` or a table of its
-        fields; None for none. Of dry contacts.
+        fields; None for none. Of dry contacts that slide; they roll half as far as a cycle of the criterion stands for.
     """
 
     criterion: str | Mapping[str, Any] | Detachment = "von_mises"
@@ -87,7 +87,11 @@ class WearModel:
             object.__setattr__(self, key, law)
         if isinstance(self.third_bodies, Mapping):
             object.__setattr__(self, "third_bodies", ThirdBodies(**self.third_bodies))
-        misfits = self.tractions.misfits(self.law, self.stress_range)
+        misfits = list(self.tractions.misfits(self.law, self.stress_range))
+        if self.particles is not None and not self.tractions.slides:
+            misfits.append(
+                f"third bodies roll where surfaces slide; allowed: no traction {self.tractions.name}, or none"
+            )
         if misfits:
             raise InputError([f"WearModel: {text}" for text in misfits])
 

@@ -54,7 +54,8 @@ def hertz_area(grid: Grid, half_axes: tuple[float, float]) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class SettledMeans:
-    """Means over cycles: contact area over that of the grid, pressure over the contact [Pa], volume worn [m^3]."""
+    """Means over cycles: contact area over that of the grid, pressure over the contact [Pa], volume worn [m^3]; the
+    pressure over cycles with contact, nan without any."""
 
     contact_area_fraction: float
     mean_contact_pressure: float
@@ -63,9 +64,11 @@ class SettledMeans:
 
 def settled_means(cycles: NDArray[np.void], area: float) -> SettledMeans:
     """Of rows of `CYCLE_FIELDS`, on a grid of an area [m^2]."""
+    touching = cycles[cycles["contact_area"] > 0]
+    pressure = (touching["contact_load"] / touching["contact_area"]).mean() if touching.size else np.nan
     return SettledMeans(
         float(cycles["contact_area"].mean() / area),
-        float((cycles["contact_load"] / cycles["contact_area"]).mean()),
+        float(pressure),
         float(cycles["volume"].mean()),
     )
 

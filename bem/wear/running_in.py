@@ -161,7 +161,7 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
             "third bodies share the load of dry contacts alone; allowed: no contact_step, or no third bodies"
         )
     if particles is not None:
-        slide = abs(choices.shift) * grid.spacing[0]
+        slide = choices.law.distance_per_cycle(abs(choices.shift) * grid.spacing[0])
         step = third_body_contact(setup, particles, slide, compliance=give)
     else:
         step = contact_step if contact_step is not None else dry_contact(setup, compliance=give)

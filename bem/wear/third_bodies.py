@@ -7,8 +7,9 @@ either body as the bodies slide; of the groove a share is cut off, the rest is p
 as it was. New ones come as others leave: how many there are does not change.
 
 Left out: elastic indentation (up to (3 pi H / 2 E*)^2 of the radius the force is less than here), how the surfaces bend
-under single particles, stresses below them, that damage comes up with what they cut off, and films of oil. Verified in
-tests/wear/test_third_bodies.py: closed forms of one particle and of many between flats, shares of the load, limits.
+under what the particles carry, singly or together, stresses below them, that damage comes up with what they cut off,
+partial slip and films of oil. Verified in tests/wear/test_third_bodies.py: closed forms of one particle and of many
+between flats, shares of the load, limits.
 """
 
 from __future__ import annotations
@@ -78,6 +79,16 @@ class ThirdBodies:
         if lower is None or upper is None:
             raise InputError("third bodies: each surface needs a hardness to be indented: give both materials one")
         return lower, upper
+
+    def check_slide(self, slide: float, hardnesses: tuple[float, float]) -> None:
+        """Raises InputError where what bodies of those hardnesses [Pa] lose in one slide [m] grows faster than the
+        depth of the particles does, by which the next cycle would find them out of their grooves."""
+        most = 2 / (self.removed * self.number_per_area * self.diameter) if self.removed * self.number_per_area else 0.0
+        if most and slide > most and min(hardnesses) <= self.hardness:
+            raise InputError(
+                f"third bodies: a cycle of {slide:g} m lets them cut deeper than they lie; allowed: {most:.3g} m at "
+                "most, in more cycles"
+            )
 
     def indented(self, gap: FloatArray, hardnesses: tuple[float, float]) -> tuple[FloatArray, tuple[FloatArray, ...]]:
         """Force [N] of a particle in each gap [m], and how deep [m] it is in the (lower, upper) body of those

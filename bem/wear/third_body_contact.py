@@ -33,9 +33,10 @@ def third_body_contact(
 
     Raises
     ------
-    InputError : a surface without hardness.
+    InputError : a surface without hardness; a slide in which particles cut deeper than they lie.
     """
     hardnesses = particles.hardnesses(setup.bodies)
+    particles.check_slide(slide, hardnesses)
     if particles.number_per_area == 0:
         return dry_contact(setup, tolerance=tolerance, compliance=compliance)
     operator = displacement_operator(setup.grid, setup.bodies, friction=setup.friction, compliance=compliance)

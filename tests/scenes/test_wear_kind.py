@@ -234,6 +234,11 @@ def test_particles_that_stay_bear_load_and_are_told(scene_file, tmp_path):
     assert coverage == pytest.approx(np.pi / 4 * 300e-9**2 * 1e11)
     own = load_scene(given).cylinder.friction
     assert outcome.summary["third_body_friction"] == pytest.approx((1 - share) * own + share * 0.05)
+    apart = run(scene_file(WEAR + STAY + "number_per_area = 1e13\n"))
+    # they hold the surfaces apart: no contact has no pressure, and no friction is less than none
+    assert apart.summary["third_body_load_share"] == pytest.approx(1, abs=1e-12)
+    assert apart.summary["third_body_friction"] >= 0
+    assert np.isnan(apart.summary["mean_contact_pressure_Pa"])
     none, plain = (run(scene_file(WEAR + more)) for more in (STAY + "number_per_area = 0.0\n", ""))
     assert np.array_equal(none.variables["height_after"].values, plain.variables["height_after"].values)
     assert "third_body_load_share" not in plain.summary
@@ -251,6 +256,7 @@ def test_as_many_particles_lie_there_as_wear_makes_within_their_residence(scene_
     [
         ("", "number_per_area alone nor"),
         ('number_per_area = 1e11\nresidence = "1 mm"\n', "specific_wear_rate with residence"),
+        ("number_per_area = 1e13\nremoved = 1.0\n[wear]\nshift = 30\n", "cut deeper than they lie"),
         ("number_per_area = 1e15\n", "covers 70.7 times the area"),
     ],
 )

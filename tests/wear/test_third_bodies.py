@@ -127,7 +127,7 @@ def test_a_groove_is_a_segment_of_the_sphere_along_half_the_slide():
     assert particles.cut(np.array([0.1 * D]), SOFT, 2e-6)[0] == pytest.approx(0.25e10 * 1e-6 * segment, rel=1e-6)
 
 
-def loop(**model):
+def loop(distance=1e-6, **model):
     lower, upper = rough(), np.zeros(GRID.shape)
     return run_in(
         *(lower, upper),
@@ -137,7 +137,7 @@ def loop(**model):
         depths=np.array([0.0, 1e-7, 2e-7]),
         friction=0.1,
         cycles=2,
-        model=WearModel(criterion={"kind": "archard", "specific_wear_rate": 0.0, "distance": 1e-6}, **model),
+        model=WearModel(criterion={"kind": "archard", "specific_wear_rate": 0.0, "distance": distance}, **model),
     )
 
 
@@ -153,6 +153,19 @@ def test_a_loop_loses_what_they_cut_off_and_without_them_keeps_its_bits():
     assert np.array_equal(plain.lower_heights, none.lower_heights)
     pushed = loop(third_bodies=table | {"removed": 0.0})
     assert np.array_equal(pushed.lower_heights, plain.lower_heights)
+
+
+def test_they_roll_as_far_as_a_cycle_stands_for_and_not_out_of_their_grooves():
+    table = {"diameter": D, "number_per_area": 1e10, "removed": 0.1}
+    near, far = (loop(distance, third_bodies=table).cycles["volume"][0] for distance in (1e-8, 2e-8))
+    assert far == pytest.approx(2 * near, rel=1e-9)
+    with pytest.raises(InputError, match=r"cut deeper than they lie; allowed: 0\.005 m"):
+        loop(6e-3, third_bodies=table)
+
+
+def test_partial_slip_has_none():
+    with pytest.raises(InputError, match="third bodies roll where surfaces slide"):
+        WearModel(third_bodies=ThirdBodies(D, 1e10), traction={"kind": "oscillating_force", "share": 0.5})
 
 
 @pytest.mark.parametrize(

@@ -94,7 +94,8 @@ def plan(scene: WearScene) -> Plan:
         )
     particles = _third_bodies(scene)
     if particles is not None:
-        particles.hardnesses((scene.lower.build(), scene.upper.build()))
+        slide = scene.wear.criterion.distance_per_cycle(abs(scene.wear.shift) * grid.spacing[0])
+        particles.check_slide(slide, particles.hardnesses((scene.lower.build(), scene.upper.build())))
     solves = 1 if particles is None else _SHARING
     cycles = {"convolutions": solves * _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": _DEPTHS_AT_FIRST}
     return Plan.of(
@@ -275,7 +276,7 @@ def _of_third_bodies(scene: WearScene, cycles: NDArray[np.void], load: float) ->
     particles = _third_bodies(scene)
     if particles is None:
         return {}
-    share = float(cycles["third_body_load"].mean()) / load
+    share = min(float(cycles["third_body_load"].mean()) / load, 1.0)
     friction = (1 - share) * scene.cylinder.friction + share * particles.friction
     return {"third_body_load_share": share, "third_body_friction": friction, "third_body_coverage": particles.coverage}
 
