@@ -244,6 +244,17 @@ def test_particles_that_stay_bear_load_and_are_told(scene_file, tmp_path):
     assert "third_body_load_share" not in plain.summary
 
 
+@pytest.mark.filterwarnings("error")
+def test_particles_that_bear_all_of_the_load_are_told(scene_file):
+    """Nothing touches: no mean pressure of it, and a note; the terminal shows the share."""
+    result = compute(campaign(scene_file(WEAR + '\n[wear.third_bodies]\ndiameter = "20 um"\nnumber_per_area = 2e9\n')))
+    outcome = result.outcome
+    assert outcome.summary["contact_area_fraction"] == 0
+    assert np.isnan(outcome.summary["mean_contact_pressure_Pa"])
+    assert outcome.summary["third_body_load_share"] == pytest.approx(1, abs=1e-5)  # BALANCE, and a little
+    assert any("third_bodies bear 100 % of the load" in note for note in result.notes)
+
+
 def test_as_many_particles_lie_there_as_wear_makes_within_their_residence(scene_file):
     found = STAY + 'specific_wear_rate = "1e-6 mm^3/(N*m)"\nresidence = "1 mm"\nkept = 0.5\n'
     table = load_scene(scene_file(WEAR + found)).wear.third_bodies

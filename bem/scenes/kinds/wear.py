@@ -168,7 +168,8 @@ class WearRecord(wearing.MeanSizes, wearing.ParticleTable, RubbedRecord):
         float | None, Figure("", "particles per mm and N", optional=True, no_bar=wearing.FOLLOWS_CELL)
     ] = None
     third_body_load_share: Annotated[
-        float | None, Figure("", "share of the load on particles that stay", optional=True, no_bar=_PARTICLES)
+        float | None,
+        Figure("", "share of the load on particles that stay", headline=True, optional=True, no_bar=_PARTICLES),
     ] = None
     third_body_friction: Annotated[
         float | None, Figure("", "friction of surfaces and rolling particles", optional=True, no_bar=_PARTICLES)
@@ -199,6 +200,12 @@ def run(scene: WearScene, context: Context) -> WearRecord:
     """One wear loop, and where its errors are asked for the same on a coarser grid."""
     initial = build.both_heights(scene, _slice(scene)[0], context)
     found = wear_down(scene, initial, context)
+    borne = found.third_body_load_share or 0.0
+    if borne > 0.5:
+        context.note(
+            f"wear.third_bodies bear {100 * borne:.3g} % of the load: little of the surfaces "
+            "touches, and wear is mostly what particles cut; each is pressed in by itself, bodies do not bend under it"
+        )
     made = error_bars(context, scene.cycles.coarser_grid, lambda: bars(scene, initial, found))
     return replace(found, errors={**found.errors, **made.get("errors", {})}, error_parts=made.get("error_parts", {}))
 
