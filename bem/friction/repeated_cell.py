@@ -34,9 +34,12 @@ LEAST, MOST, STEPS = 1e-4, 4.0, 28
 """Mean pressures of the cells that are tabulated: from and to that many times Hertz' mean, in so many equal ratios."""
 MOST_YIELDED = 0.97
 """Of the hardness: cells above yield nearly everywhere."""
-NEWTON_STEPS, LINEAR_STEPS = 60, 400
+NEWTON_STEPS, LINEAR_STEPS = 120, 400
 LARGEST_STEP = 1.5
 """In ln p."""
+PAST, SHORTENED = 0.5, 8
+"""Slope of the energy at a step's end, over that at its beginning, from which it went well past the least; how often it
+is shortened at most."""
 _LEAST_SPOT = 1e-3
 """Of a cell of the grid: real area of a contact whose edge is drawn within one."""
 COUNTS = 1e-3
@@ -220,36 +223,67 @@ def spread_pressure(
     approach: float | None = None,
 ) -> Spread:
     """Pressures (n, m) from those to start with [Pa] whose separations are the gap (n, m) [m], deflected and less the
-    approach, to a goal [m] wherever they are above a thousandth of the highest: under a load [N], or at an approach [m]
-    where no load is given."""
-    sum_of = None if load is None else load / grid.cell_area
-    logarithm = np.log(start if sum_of is None else start * (sum_of / start.sum()))
-    spent, status, pressed = 0, Status.STALLED, 0.0 if approach is None else approach
+    approach, to a goal [m] wherever they are above a thousandth of the highest: under a load [N], or else at an
+    approach [m].
+
+    They are where an energy is least whose slope is what separations miss; steps are shortened where they go well past
+    the least of it, else two steps take turns where the cells' separation is steep at some pressures and flat at
+    others.
+    """
+
+    def spread(pressure: FloatArray) -> _Spreading:
+        if load is not None:
+            pressure = pressure * (load / (grid.cell_area * pressure.sum()))
+        separation, slope = law.separation(np.log(pressure))
+        opened, weight = gap + operator(pressure) - separation, np.minimum(pressure, pressure.max() * 0.1)
+        pressed = float((opened * weight).sum() / weight.sum()) if approach is None else approach
+        return _Spreading(pressure, separation, slope, pressed, opened - pressed)
+
+    at, spent, status = spread(start), 1, Status.STALLED
     for _ in range(NEWTON_STEPS):
-        pressure = np.exp(logarithm)
-        separation, slope = law.separation(logarithm)
-        opened = gap + operator(pressure) - separation
-        spent += 1
-        too_little = 0.0
-        if sum_of is not None:
-            weight = np.minimum(pressure, pressure.max() * 0.1)
-            pressed = float((opened * weight).sum() / weight.sum())
-            too_little = sum_of - float(pressure.sum())
-        missed = opened - pressed
-        counts = pressure > COUNTS * pressure.max()
-        if float(np.abs(missed[counts]).max()) <= goal and (sum_of is None or abs(too_little) <= 1e-9 * sum_of):
+        if float(np.abs(at.missed[at.pressure > COUNTS * at.pressure.max()]).max()) <= goal:
             status = Status.CONVERGED
             break
-        winkler = -slope / pressure
-        change, first = _conjugate_gradients(operator, winkler, -missed)
-        spent += first
-        if sum_of is not None:
-            deeper, second = _conjugate_gradients(operator, winkler, np.ones_like(gap))
-            spent += second
-            change = change + (too_little - float(change.sum())) / float(deeper.sum()) * deeper
-        logarithm = logarithm + np.clip(change / pressure, -LARGEST_STEP, LARGEST_STEP)
-    apart = np.maximum(opened + separation - pressed, 0.0)
-    return Spread(pressure, apart, pressed, float(pressure.sum()) * grid.cell_area, float(spent), status)
+        winkler = -at.slope / at.pressure
+        change, applied = _conjugate_gradients(operator, winkler, -at.missed)
+        spent += applied
+        if load is not None:
+            deeper, applied = _conjugate_gradients(operator, winkler, np.ones_like(gap))
+            spent += applied
+            change = change - float(change.sum()) / float(deeper.sum()) * deeper
+        step = np.clip(change / at.pressure, -LARGEST_STEP, LARGEST_STEP)
+        downhill, share, before = at.along(step, fixed=load is not None), 1.0, at
+        if downhill >= 0:  # what was cut off turned it: each place by itself
+            step = np.clip(at.missed / at.slope, -LARGEST_STEP, LARGEST_STEP)
+            downhill = at.along(step, fixed=load is not None)
+        for _ in range(SHORTENED):
+            at = spread(before.pressure * np.exp(share * step))
+            spent += 1
+            uphill = at.along(step, fixed=load is not None)
+            if uphill <= PAST * abs(downhill):
+                break
+            share *= min(max(abs(downhill) / (abs(downhill) + uphill), 0.1), 0.5)
+    apart = np.maximum(at.missed + at.separation, 0.0)
+    carried = float(at.pressure.sum()) * grid.cell_area
+    return Spread(at.pressure, apart, at.approach, carried, float(spent), status)
+
+
+@dataclass(frozen=True, eq=False)
+class _Spreading:
+    """Pressures (n, m) [Pa], the cells' separation there and its slope over ln p [m], approach, and by how much the
+    deflected gap less the approach is more than the separation [m]."""
+
+    pressure: FloatArray
+    separation: FloatArray
+    slope: FloatArray
+    approach: float
+    missed: FloatArray
+
+    def along(self, step: FloatArray, *, fixed: bool) -> float:
+        """Slope of the energy, over a cell's area [N/m], with a share of a step (n, m) in ln p, at a `fixed` load or
+        not."""
+        mean = float((self.pressure * step).sum() / self.pressure.sum()) if fixed else 0.0
+        return float((self.missed * self.pressure * (step - mean)).sum())
 
 
 def _conjugate_gradients(

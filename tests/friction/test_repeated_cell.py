@@ -151,12 +151,27 @@ def test_soft_cells_are_a_foundation_beside_hertz():
     assert highest[1] < 0.95
 
 
-def logarithmic(length):
-    """Cells whose planes come closer by so much wherever the pressure grows by a factor e."""
+@pytest.mark.parametrize("pressure", [1e7, 1e8, 3e8])
+def test_cells_that_sink_under_one_pressure_are_spread(pressure):
+    """As with few summits at the hardness: Newton's steps took turns between the flat and the steep part of their law,
+    and the load sharing stalled."""
+    grid = Grid((48, 48), (7e-6, 7e-6))
+    gap = (grid.x[:, None] ** 2 + grid.y[None, :] ** 2) / 0.02
+    law = logarithmic(1e-9, sinks=500e-9, at=pressure)
+    operator = displacement_operator(grid, BALL["bodies"])
+    found = spread_pressure(gap, law, operator, grid, np.ones(grid.shape), 1e-13, load=20.0)
+    assert found.status is Status.CONVERGED
+    assert found.pressure.sum() * grid.cell_area == pytest.approx(20.0, rel=1e-9)
+    missed = gap + operator(found.pressure) - found.approach - law.separation(np.log(found.pressure))[0]
+    assert np.abs(missed[found.pressure > 1e-3 * found.pressure.max()]).max() <= 1e-13
+
+
+def logarithmic(length, sinks=0.0, at=1e8):
+    """Cells whose planes come closer by so much wherever the pressure grows by a factor e, and sink at a pressure."""
     empty = np.zeros(CELL.shape)
     cells = []
-    for p in np.geomspace(1e4, 1e10, 12):
-        apart = length * math.log(1e11 / p)
+    for p in np.geomspace(1e4, 1e10, 24):
+        apart = length * math.log(1e11 / p) - sinks * math.tanh(3 * math.log(p / at))
         cells.append(SolvedCell(p, apart, apart, p / 1e11, empty, empty, 0.0, Status.CONVERGED))
     return CellLaw(CELL, tuple(cells))
 
