@@ -325,7 +325,8 @@ def _shortened(
     for _ in range(trials):
         moved, _ = on.inside(traction + share * step)
         there = on.field(moved)
-        if on.energy(moved, on.here(there)) <= before + 1e-11 * abs(before):
+        # as good as the same is enough of a whole step only: shortened ones would creep on uphill
+        if on.energy(moved, on.here(there)) <= before + (1e-11 * abs(before) if share == 1 else 0.0):
             return moved, there
         share *= 0.5
     return None

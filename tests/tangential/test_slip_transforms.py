@@ -64,3 +64,19 @@ def test_steps_of_a_history_and_rotations_cost_about_as_much():
     turned = solve_partial_slip(contact, grid, BODIES, friction=0.4, shift=(0.0, 0.0), rotation=3e-5)
     assert turned.status == "converged"
     assert turned.convolutions <= 45
+
+
+def test_a_step_that_the_energy_shortens_does_not_creep_uphill():
+    """One cell on the verge of slipping: steps halved until they hardly moved took 726 convolutions, each of them to a
+    little more energy."""
+    soft = Body(Material("soft", youngs_modulus=10e9, poissons_ratio=0.3))
+    grid, periodic = (Grid((128, 128), (SIDE / 128,) * 2, periodic=(repeats,) * 2) for repeats in (False, True))
+    waves = {"rolloff_wavelength": SIDE / 4, "cutoff_wavelength": SIDE / 16}
+    height = generate_surface(periodic, rms_height=1e-7, seed=3, hurst=0.8, **waves)
+    contact = solve_contact(height.max() - height, displacement_operator(grid, (soft, STEEL)), load=10.0)
+    pressed = solve_partial_slip(contact, grid, (soft, STEEL), friction=0.4, force=(0.0, 0.0))
+    pushed = solve_partial_slip(
+        contact, grid, (soft, STEEL), friction=0.4, force=(0.12 * contact.load, 0.0), previous=pressed
+    )
+    assert pushed.status == "converged"
+    assert pushed.convolutions <= 120  # 82 counted
