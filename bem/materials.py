@@ -115,6 +115,14 @@ class Material:
         return self.thermal_conductivity / (self.density * self.heat_capacity)
 
     @property
+    def indentation_hardness(self) -> float | None:
+        """What a contact of it carries at most [Pa]: its hardness, or 2.8 times the yield stress (Tabor 1951) where it
+        has that alone; None for purely elastic."""
+        if self.hardness is not None or self.yield_stress is None:
+            return self.hardness
+        return HARDNESS_TO_YIELD * self.yield_stress
+
+    @property
     def shear_modulus(self) -> float:
         """G = E / 2(1 + nu) [Pa]."""
         return self.youngs_modulus / (2 * (1 + self.poissons_ratio))
@@ -229,6 +237,13 @@ class Body:
     def medium_at(self, depth: float) -> int:
         """Number of the material at a depth [m], 0 outermost; an interface belongs to the layer above it."""
         return bisect.bisect_left(self.interfaces, depth)
+
+
+def softer_hardness(*bodies: Body | None) -> float | None:
+    """The smaller hardness of surfaces that touch [Pa], as `Material.indentation_hardness`; None where neither has one.
+    A rigid body is None."""
+    found = (body.surface_material.indentation_hardness for body in bodies if body is not None)
+    return min((value for value in found if value is not None), default=None)
 
 
 def contact_modulus(a: Material, b: Material | None = None) -> float:

@@ -3,6 +3,7 @@
 import pytest
 
 from bem import CATALOGUE, Body, Grid, InputError, Layer, Material, contact_modulus, dundurs_beta
+from bem.materials import softer_hardness
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 
@@ -77,3 +78,15 @@ def test_thermal_constants_of_the_catalogue_are_those_of_solids(name):
     assert "heat: " in entry.source
     assert 1e6 < solid.density * solid.heat_capacity < 4e6
     assert 0.1 < solid.thermal_conductivity < 500
+
+
+def test_what_touches_carries_its_hardness_or_that_of_its_yield_stress():
+    """Tabor's 2.8, in which a yield stress alone says what a contact carries; without either a solid is elastic."""
+    constants = {"youngs_modulus": 4e9, "poissons_ratio": 0.4}
+    polymer, given = Material("a", yield_stress=100e6, **constants), Material("b", hardness=3e8, **constants)
+    elastic = Material("c", **constants)
+    assert [solid.indentation_hardness for solid in (polymer, given, elastic)] == [280e6, 3e8, None]
+    assert softer_hardness(Body(polymer), Body(given)) == 280e6
+    assert softer_hardness(Body(elastic), None) is None
+    coated = Body(given, layer=Layer(polymer, 1e-6))
+    assert softer_hardness(coated, Body(given)) == 280e6

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from bem.errors import InputError
 from bem.grid import Grid
 from bem.laws import Law
-from bem.materials import Body, contact_modulus
+from bem.materials import Body, contact_modulus, softer_hardness
 from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, SceneModel, SmoothSurface
 from bem.scenes.tables.shape import ShapeScene
 
@@ -148,12 +148,6 @@ def with_grid(scene: Scene) -> Scene:
     return scene.model_copy(update={"grid": resolved_grid(table.grid, table.lower.surface, table.upper.surface)})
 
 
-def softer_hardness(lower: Body, upper: Body | None) -> float | None:
-    """The smaller hardness of the two touching materials [Pa]; None where neither has one."""
-    found = [body.surface_material.hardness for body in (lower, upper) if body is not None]
-    return min((value for value in found if value is not None), default=None)
-
-
 def with_hardness(scene: Scene, table: str = "contact", *, needed: bool) -> Scene:
     """The scene with the softer body's hardness where its table of the contact gives none.
 
@@ -167,8 +161,8 @@ def with_hardness(scene: Scene, table: str = "contact", *, needed: bool) -> Scen
     hardness = softer_hardness(scene.lower.build(), scene.upper.build())  # type: ignore[attr-defined]
     if hardness is None and needed:
         raise InputError(
-            f"{table}.hardness: missing for a capped contact, and neither material has a hardness; "
-            f"allowed: {table}.hardness, or hardness in a material"
+            f"{table}.hardness: missing for a capped contact, and neither material has a hardness or a "
+            f"yield stress; allowed: {table}.hardness, or one of them in a material"
         )
     return scene.model_copy(update={table: given.model_copy(update={"hardness": hardness})})
 

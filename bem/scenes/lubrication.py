@@ -203,8 +203,8 @@ class MixedScene(SceneModel):
     def _patch_of_a_ball(cls, data: Any) -> Any:
         """Under a ball the patch goes on nowhere where the scene does not say."""
         contact, grid = (data.get(key) for key in ("contact", "grid")) if isinstance(data, dict) else (None, None)
-        if isinstance(contact, dict) and isinstance(grid, dict) and {"ball", "radii"} & set(contact):
-            return {**data, "grid": {"periodic": (False, False), **grid}}
+        if isinstance(contact, dict) and {"ball", "radii"} & set(contact) and isinstance(grid, dict | None):
+            return {**data, "grid": {"periodic": (False, False), **(grid or {})}}
         return data
 
     @model_validator(mode="after")
@@ -250,10 +250,19 @@ class MixedScene(SceneModel):
         load = min(self.contact.forces(self.modulus)) / self.contact.length
         return smooth_contact(*self.bodies, self.contact.curvature, load=load)
 
+    def plastic_spread(self, smooth: SmoothContact) -> float:
+        """By how much the contact under the largest load is larger than the smooth elastic one under the smallest, at
+        least: what is at the hardness carries it without film."""
+        forces, along = self.contact.forces(self.modulus), 2 if smooth.line else 3
+        more = (max(forces) / min(forces)) ** (1 / along)
+        mean = more * smooth.maximum_pressure * (math.pi / 4 if smooth.line else 2 / 3)
+        hardness = self.contact.hardness or math.inf
+        return more * max(1.0, mean / hardness) ** (1.0 if smooth.line else 0.5)
+
     def with_hardness(self, hardness: float) -> Self:
         """With that hardness of the lower body [Pa]; its yield stress follows it, and so does the cap."""
         material = self.lower.material.model_copy(update={"hardness": hardness, "yield_stress": None})
-        upper = self.upper.build().surface_material.hardness
+        upper = self.upper.build().surface_material.indentation_hardness
         cap = hardness if upper is None else min(hardness, upper)
         return changed(changed(self, "lower.material", material), "contact.hardness", cap)
 

@@ -30,6 +30,8 @@ _LEAST_TOLERANCE = 1e-8
 _MARGIN, _HIGH = 1.25, 3.0
 """Half the grid over the radius in which bodies may touch: where the smooth contact, pressed apart by so many times the
 rms height, is closed."""
+_PER_LENGTH, _WAVES = 8, 4
+"""Correlation lengths that make a longest wave, and how many of these a slice of a line contact holds along it."""
 _DEEP, _DEPTHS, _MOST_DEPTHS = 1.5, 24, 1024
 """Deepest depth over the radius of the smooth contact, how many there are, and can be."""
 
@@ -166,22 +168,37 @@ def _drawn_on(scene: Any, shape: tuple[int, int]) -> Any:
 
 
 def _lengths(scene: Any) -> tuple[float, float]:
-    """Sides of a grid that holds the contact of round bodies."""
-    smooth = scene.smooth_contact()
-    if smooth is None or smooth.line or any(scene.grid.periodic):
+    """Sides of a grid that holds the contact of round bodies; of a slice of a line contact, along it as many of its
+    surfaces' longest waves as its length has."""
+    smooth, slices = scene.smooth_contact(), tuple(scene.grid.periodic) == (False, True)
+    if smooth is None or smooth.line != slices or (any(scene.grid.periodic) and not slices):
         raise InputError(
             "grid.lengths: missing; allowed: the sides of the patch. An accuracy that is asked for chooses the cells, "
-            "and the size only of a round contact under a known load on a free grid"
+            "and the size only where the smooth contact's is known: of round bodies on a free grid under a known load, "
+            "of a slice of a cylinder with its width and oil"
         )
     surfaces = [s for s in _surfaces(scene) if isinstance(s, GeneratedSurface)]
     height = _HIGH * math.hypot(*(surface.rms_height for surface in surfaces))
-    longest = max((8 * (surface.correlation_length or 0.0) for surface in surfaces), default=0.0)
+    longest = max((max(_longest(surface)) for surface in surfaces), default=0.0)
     spread = scene.plastic_spread(smooth)
     x, y = (
         max(longest, 2 * _MARGIN * math.hypot(spread * a, math.sqrt(2 * r) * math.sqrt(height)))
         for a, r in zip(smooth.semi_axes, smooth.radii, strict=True)
     )
+    if slices:
+        if not all(any(_longest(surface)) for surface in surfaces):
+            raise InputError(
+                "grid.lengths: missing, and the surfaces have no longest wave that would say how much of them a patch "
+                "must hold; allowed: the sides of the patch, or a surface with correlation_length or rolloff_wavelength"
+            )
+        y = min(_WAVES * longest or x, scene.contact.length)
     return float(f"{x:.2g}"), float(f"{y:.2g}")
+
+
+def _longest(surface: GeneratedSurface) -> tuple[float, float]:
+    """What holds the long waves of a generated surface, by its correlation length and by its roll-off [m]; 0 where it
+    has none."""
+    return _PER_LENGTH * (surface.correlation_length or 0.0), surface.rolloff_wavelength or 0.0
 
 
 def _fewest_cells(scene: Any, lengths: tuple[float, float]) -> Iterator[tuple[float, float]]:

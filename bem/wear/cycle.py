@@ -17,7 +17,7 @@ from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.laws import make_laws
-from bem.materials import Body
+from bem.materials import Body, softer_hardness
 from bem.wear.criterion import Detachment
 from bem.wear.loads import LOWER, UPPER, BodyCycle, Removal, SurfaceLoad, half_the_change, wearing_bodies
 from bem.wear.removal import RemovalLaw
@@ -138,8 +138,7 @@ class WearSetup:
         object.__setattr__(self, "depths", depths)
         object.__setattr__(self, "gap", self.grid.check_field(self.gap, "gap"))
         if self.hardness is None:
-            known = [b.surface_material.hardness for b in self.bodies if b.surface_material.hardness is not None]
-            object.__setattr__(self, "hardness", min(known) if known else None)
+            object.__setattr__(self, "hardness", softer_hardness(*self.bodies))
 
     def yield_stress(self, body: int) -> float:
         """Yield stress of a body's surface material [Pa]; infinite where none is given: it does not wear."""

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import math
 import tomllib
 from typing import Annotated, Literal
 
@@ -18,6 +19,7 @@ from bem.runs import plan_scene, run_scene, run_sweep
 from bem.scenes import load_scene
 from bem.scenes.asked import figures_that_may_be_asked, shortfall, wanted
 from bem.scenes.axes import changed
+from bem.scenes.build import grid_of
 from bem.scenes.common import SceneModel
 from bem.scenes.context import PlainContext
 from bem.scenes.kind import Kind, get_kind
@@ -232,6 +234,42 @@ def test_what_cannot_be_asked_for_is_refused_before_any_work(settings, message):
 def test_kinds_without_bars_to_refine_by_refuse_it():
     with pytest.raises(InputError, match="kind particles has no error bars"):
         plan_scene("particles-afm-map", ["accuracy=1%"])
+
+
+OILED = STEEL | {
+    "kind": "friction",
+    "contact": {"radius": "10 mm", "width": "12 mm", "loads": ["100 N", "400 N"], "boundary_friction": 0.1},
+    "oil": {"grade": "ISO VG 68", "temperature": "60 degC"},
+    "speeds": {"values": ["0.1 m/s"]},
+    "accuracy": "5 %",
+}
+
+
+def planned_grid(scene):
+    return grid_of(plan_scene(scene)[0].grid)
+
+
+def test_the_patch_under_oil_holds_the_contact_and_the_longest_waves():
+    """Of a cylinder a slice, that the heaviest load's Hertz width and closed roughness fit in (here within a quarter),
+    and four longest waves along it; of a ball all of its contact."""
+    waves = {"kind": "generated", "rms_height": "0.2 um", "correlation_length": "5 um"}
+    rough = OILED | {"lower": {"material": "steel-52100", "surface": waves}}
+    grid = planned_grid(rough)
+    heaviest = rough["contact"] | {"loads": ["400 N"]}
+    half = load_scene(rough | {"contact": heaviest, "grid": {"shape": 8, "spacing": "1 um"}}).smooth_contact()
+    assert grid.periodic == (False, True)
+    assert 2 * half.semi_axes[0] < grid.lengths[0] < 2.5 * math.hypot(half.semi_axes[0], (6 * 10e-3 * 0.2e-6) ** 0.5)
+    assert grid.lengths[1] == pytest.approx(4 * 8 * 5e-6)
+    assert len(set(planned_grid(OILED).lengths)) == 1  # smooth: as long as wide
+    thin = rough["contact"] | {"width": "0.1 mm", "loads": ["2 N"]}
+    assert planned_grid(rough | {"contact": thin}).lengths[1] == pytest.approx(1e-4)
+    ball = {"ball": "10 mm", "loads": ["10 N"], "boundary_friction": 0.1}
+    free = planned_grid(rough | {"contact": ball})
+    assert free.periodic == (False, False)
+    assert len(set(free.lengths)) == 1
+    affine = {"kind": "generated", "rms_height": "0.2 um", "hurst": 0.8, "cutoff_wavelength": "2 um"}
+    with pytest.raises(InputError, match=r"no longest wave .* rolloff_wavelength"):
+        plan_scene(rough | {"lower": {"material": "steel-52100", "surface": affine}})
 
 
 def test_grid_lengths_without_shape_need_an_accuracy():

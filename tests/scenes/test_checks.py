@@ -64,6 +64,10 @@ def material(modulus, nu=0.3, **constants):
     return {"youngs_modulus": modulus, "poissons_ratio": nu, **constants}
 
 
+def capped_by_steel(softer):
+    return {"lower__material": softer, "upper__material": "steel-52100", "contact__behaviour": "capped"}
+
+
 def self_affine(**more):
     return {"kind": "generated", "rms_height": "50 nm", "hurst": 0.8, **more}
 
@@ -92,6 +96,10 @@ CASES = {
     "hardness_against_modulus": (
         (with_(BALL, lower__material=material("200 GPa", hardness="70 GPa")), "perfect solid"),
         with_(BALL, lower__material=material("200 GPa", hardness="20 GPa")),
+    ),
+    "softer_body_without_hardness": (
+        (with_(BALL, **capped_by_steel("pom")), "give pom a hardness"),
+        with_(BALL, **capped_by_steel("peek")),
     ),
     "yield_against_hardness": (
         (with_(BALL, lower__material=material("200 GPa", hardness="7 GPa", yield_stress="5 GPa")), "hardness / 1.4"),

@@ -10,7 +10,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from bem.grid import Grid
-from bem.materials import Body, Material, contact_modulus
+from bem.materials import Body, Material, contact_modulus, softer_hardness
 from bem.scenes import build
 from bem.scenes.axes import Axis
 from bem.scenes.checks.hertz import SmoothContact, smooth_contact
@@ -92,8 +92,7 @@ class Case:
     @property
     def softest(self) -> float | None:
         """The smaller hardness of the touching materials [Pa]."""
-        known = [body.surface_material.hardness for body in self.bodies.values()]
-        return min((value for value in known if value is not None), default=None)
+        return softer_hardness(self.lower, self.upper)
 
 
 @dataclass(frozen=True)

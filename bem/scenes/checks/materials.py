@@ -114,6 +114,23 @@ def hardness_against_modulus(facts: Facts) -> Iterator[str]:
 
 
 @scene_check
+def softer_body_without_hardness(facts: Facts) -> Iterator[str]:
+    """The hardness of a stiff body caps no contact with a compliant one that gives way long before."""
+    told: dict[str, str] = {}
+    for case in facts.cases:
+        if case.upper is None or case.cap is None or case.cap != case.softest:
+            continue
+        for name, body, other in (("lower", case.lower, case.upper), ("upper", case.upper, case.lower)):
+            own, stiff = body.surface_material, other.surface_material
+            if own.indentation_hardness is None and own.youngs_modulus < stiff.youngs_modulus:
+                told[name] = (
+                    f"{name}.material: {own.name} has neither hardness nor yield stress, so that contact is capped at "
+                    f"the {si(case.cap, 'Pa')} of {stiff.name}, which is the stiffer; give {own.name} a hardness"
+                )
+    yield from told.values()
+
+
+@scene_check
 def yield_against_hardness(facts: Facts) -> Iterator[str]:
     """Hardness over yield stress is 2.6 to 3 for metals and 1.5 to 2 for glass and polymers.
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError
+from bem.materials import softer_hardness
 from bem.scenes import build
 from bem.scenes.axes import changed
 from bem.scenes.common import (
@@ -120,7 +121,7 @@ class PressedScene(SceneModel):
 
     def plastic_spread(self, smooth: SmoothContact) -> float:
         """By how much a capped contact is larger than the smooth elastic one, at least."""
-        hardness = self.contact.hardness or build.softer_hardness(self.lower.build(), self.upper.build())
+        hardness = self.contact.hardness or softer_hardness(self.lower.build(), self.upper.build())
         if self.contact.behaviour == "elastic" or hardness is None:
             return 1.0
         return math.sqrt(max(1.0, smooth.maximum_pressure * 2 / 3 / hardness))
