@@ -2,6 +2,7 @@
 
 import hashlib
 import importlib
+import itertools
 import subprocess
 import sys
 from pathlib import Path
@@ -241,3 +242,50 @@ assert ours is theirs
 assert numpy.allclose(scipy.fft.ifft(scipy.fft.fft([1.0, 2.0, 4.0])), [1.0, 2.0, 4.0])
 """
     subprocess.run([sys.executable, "-c", code], timeout=60, check=True)
+
+
+WAVES = 40  # along a periodic y
+
+
+def falling(nx, decay, parity):
+    """(nx, WAVES): a kernel whose waves along y fall as a half-space's do, with their powers; none of wave zero."""
+    waves = np.arange(1, WAVES // 2 + 1)
+    reach = decay * np.outer(np.abs(np.arange(nx)), waves)
+    along_x = np.exp(-reach) * (reach if parity[0] == -1 else 1 + reach)
+    along_y = 2 * np.pi / WAVES * np.outer(waves, np.arange(WAVES))
+    return along_x @ (np.sin(along_y) if parity[1] == -1 else np.cos(along_y))
+
+
+@pytest.mark.parametrize("parity", PARITIES)
+@pytest.mark.parametrize("decay", [0.03, 0.15, 2.0])
+def test_short_waves_are_padded_by_their_reach_alone_and_lose_nothing(decay, parity):
+    nx = 61
+    padded = (transforms.padded_length(nx, False), WAVES)
+    lengths = transforms.narrowed_lengths(nx, padded, decay)
+    assert lengths[0] == padded[0]
+    assert all(a >= b >= nx for a, b in itertools.pairwise(lengths))
+    for wave, length in enumerate(lengths[1:], 1):
+        assert length == padded[0] or np.exp(-decay * wave * (length - nx)) < 2.0**-53
+    kernel = falling(nx, decay, parity)
+    field = np.random.default_rng(4).standard_normal((nx, WAVES))
+    found, numbers = [], []
+    for own in (None, lengths):
+        transform = transforms.PaddedTransform((nx, WAVES), padded, lengths=own)
+        factor = transforms.multiplier([(transforms.kernel_spectrum(kernel, padded, parity, own), parity, 1.0)])
+        transforms.COUNT.reset()
+        found.append(transform.convolve(field, factor))
+        again = transform.inverse(transform.forward(field), factor)
+        assert np.abs(again - found[-1]).max() <= 1e-14 * np.abs(again).max()  # as ROUND_OFF
+        numbers.append(transforms.COUNT.numbers)
+    assert np.abs(found[1] - found[0]).max() <= 1e-14 * np.abs(found[0]).max()
+    # waves of small decay need all of it, others a little more than the field
+    assert numbers[1] == 4 * sum(lengths)
+    assert numbers[0] == 4 * padded[0] * len(lengths)
+    assert numbers[1] <= {0.03: 1.0, 0.15: 0.85, 2.0: 0.7}[decay] * numbers[0]
+
+
+def test_lengths_that_hold_no_field_are_refused():
+    with pytest.raises(InputError, match="must be 5, from 6 to 12"):
+        transforms.transform_of((6, 8), (12, 8), lengths=(12, 12, 8, 5, 6))
+    with pytest.raises(InputError, match="must be 5, from 6 to 12"):
+        transforms.transform_of((6, 8), (12, 8), lengths=(12, 12, 8))

@@ -30,7 +30,7 @@ from bem.kernels.coefficients import STRESS_PARITY, Load, stress_coefficients
 from bem.kernels.spectral import stress_response
 from bem.materials import Body
 from bem.stress.packed import Packed, pack
-from bem.transforms import Multiplier, kernel_spectrum, multiplier, padded_length
+from bem.transforms import Multiplier, kernel_spectrum, multiplier, narrowed_lengths, padded_length
 
 
 @dataclass
@@ -166,6 +166,15 @@ def padded_lengths(grid: Grid) -> tuple[int, int]:
     return padded_length(grid.shape[0], grid.periodic[0]), padded_length(grid.shape[1], grid.periodic[1])
 
 
+def column_lengths(grid: Grid, body: Body) -> tuple[int, ...] | None:
+    """Lengths of the transforms along x for each wavenumber along y, where they may be shorter: the waves of a periodic
+    y under a homogeneous body (those of layers may fall more slowly along a free x)."""
+    if grid.periodic != (False, True) or not body.homogeneous:
+        return None
+    decay = 2 * math.pi * grid.spacing[0] / (grid.shape[1] * grid.spacing[1])
+    return narrowed_lengths(grid.shape[0], padded_lengths(grid), decay)
+
+
 Loads = tuple[tuple[Load, float], ...]
 """The loads that act, each with its factor of one field."""
 
@@ -250,7 +259,7 @@ _WORTH_PACKING = 1 << 16
 def factors_of(grid: Grid, body: Body, depth: float, acting: Loads) -> Factors:
     """Spectra of t, d, e, yz, xz, xy at a depth, computed now."""
     COUNT.spectra += 1
-    padded = padded_lengths(grid)
+    padded, lengths = padded_lengths(grid), column_lengths(grid, body)
     wraps, packed = all(grid.periodic), packs(grid)
     shared = packed and body.homogeneous and len(acting) == 2
     parts: list[list[tuple[FloatArray, tuple[int, int], float]]] = [[] for _ in range(6)]
@@ -265,7 +274,7 @@ def factors_of(grid: Grid, body: Body, depth: float, acting: Loads) -> Factors:
             elif shared and load is Load.TANGENTIAL and component == _E:
                 continue
             else:
-                quarter = kernel_spectrum(kernels[component], padded, parity)
+                quarter = kernel_spectrum(kernels[component], padded, parity, lengths)
             parts[component].append((quarter, parity, factor))
     whole = [multiplier(part) for part in parts]
 

@@ -26,6 +26,7 @@ from bem.stress.spectra import (
     Factors,
     Loads,
     check_request,
+    column_lengths,
     elastic,
     factors_of,
     loads,
@@ -242,7 +243,7 @@ class _Part:
             field = np.ascontiguousarray(field.T)
             grid = Grid(grid.shape[::-1], grid.spacing[::-1], periodic=grid.periodic[::-1])
         padded = padded_lengths(grid)
-        transform = transform_of(grid.shape, padded)
+        transform = transform_of(grid.shape, padded, lengths=column_lengths(grid, body))
         workspace = np.empty((3 if packs(grid) else 0, padded[1] // 2 + 1, padded[0] // 2 + 1))
         spectrum = transform.forward(field)
         return cls(grid, body, acting, transform, spectrum, workspace, SPECTRA.begin(), turned)

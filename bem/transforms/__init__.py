@@ -11,14 +11,15 @@ Plans are made without timing (FFTW_ESTIMATE), so a result does not depend on th
 layout with row lengths off the powers of two makes up for it (measured against FFTW_MEASURE in two dimensions, one
 thread: equal to 10 % faster from 512 to 4096 cells a side). Blocks are split over threads, never inside a transform.
 
-Knows arrays and threads; no grid, no body, no contact. `kernel` makes spectra of kernels, `products` sums and applies
-them, `padded` does the passes, `cache` keeps plans, `count` counts. Verified in tests/test_transforms.py against
-numpy's and scipy's transforms.
+Knows arrays and threads; no grid, no body, no contact. `kernel` makes spectra of kernels, `narrow` shortens those of
+short waves, `products` sums and applies them, `padded` does the passes, `cache` keeps plans, `count` counts. Verified
+in tests/test_transforms.py against numpy's and scipy's transforms.
 """
 
 from bem.transforms.cache import set_transform_memory, transform_memory, transform_of
 from bem.transforms.count import COUNT, TransformCount
 from bem.transforms.kernel import kernel_spectrum, offset_cosines, padded_length
+from bem.transforms.narrow import narrowed_lengths
 from bem.transforms.padded import PaddedTransform
 from bem.transforms.products import Multiplier, multiplier
 
@@ -29,6 +30,7 @@ __all__ = [
     "TransformCount",
     "kernel_spectrum",
     "multiplier",
+    "narrowed_lengths",
     "offset_cosines",
     "padded_length",
     "set_transform_memory",

@@ -12,8 +12,15 @@ from bem.transforms.padded import COMPLEX, PaddedTransform
 _CACHE = KeptValues(least=1)
 
 
-def transform_of(shape: tuple[int, int], padded: tuple[int, int], dtype: DTypeLike = np.float64) -> PaddedTransform:
+def transform_of(
+    shape: tuple[int, int],
+    padded: tuple[int, int],
+    dtype: DTypeLike = np.float64,
+    lengths: tuple[int, ...] | None = None,
+) -> PaddedTransform:
     """The cached transform of fields of `shape` padded to `padded`, in float64 or float32.
+
+    lengths : (py // 2 + 1,), of the transforms along x for each wavenumber along y; px for all by default.
 
     Raises
     ------
@@ -24,8 +31,11 @@ def transform_of(shape: tuple[int, int], padded: tuple[int, int], dtype: DTypeLi
         raise InputError(f"transform_of: dtype {kind} must be float64 or float32")
     if min(shape) < 1 or padded[0] < shape[0] or padded[1] < shape[1]:
         raise InputError(f"transform_of: padded lengths {padded!r} must not be below the field's shape {shape!r} >= 1")
-    lengths = (int(shape[0]), int(shape[1])), (int(padded[0]), int(padded[1]))
-    return _CACHE.of((*lengths, kind.char), lambda: PaddedTransform(*lengths, kind))
+    waves = padded[1] // 2 + 1
+    if lengths is not None and not (len(lengths) == waves and shape[0] <= min(lengths) <= max(lengths) <= padded[0]):
+        raise InputError(f"transform_of: lengths {lengths!r} must be {waves}, from {shape[0]} to {padded[0]}")
+    shapes = (int(shape[0]), int(shape[1])), (int(padded[0]), int(padded[1]))
+    return _CACHE.of((*shapes, kind.char, lengths), lambda: PaddedTransform(*shapes, kind, lengths))
 
 
 def set_transform_memory(limit: int) -> None:

@@ -27,7 +27,12 @@ def padded_length(cells: int, periodic: bool) -> int:
     return power if power >= 512 and power <= (1.1 if power == 512 else 1.03) * fast else fast
 
 
-def kernel_spectrum(coefficients: FloatArray, padded: tuple[int, int], parity: tuple[int, int]) -> FloatArray:
+def kernel_spectrum(
+    coefficients: FloatArray,
+    padded: tuple[int, int],
+    parity: tuple[int, int],
+    lengths: tuple[int, ...] | None = None,
+) -> FloatArray:
     """Spectrum of a kernel that is even (+1) or odd (-1) along each axis, from its non-negative offsets only.
 
     Parameters
@@ -36,15 +41,22 @@ def kernel_spectrum(coefficients: FloatArray, padded: tuple[int, int], parity: t
         half the padded length are ignored (a periodic axis repeats them), missing ones are zero.
     padded : (px, py), lengths of the transform.
     parity : (+-1, +-1).
+    lengths : (py // 2 + 1,), of the transforms along x for each wavenumber along y; px for all by default.
 
     Returns
     -------
-    (py // 2 + 1, px // 2 + 1), real, in double precision. The true spectrum is this times i for each odd axis (a factor
-    -1 if both are), and at px - k it is parity_x times that at k.
+    (py // 2 + 1, px // 2 + 1), real, in double precision; zero beyond half of a shorter length. The true spectrum is
+    this times i for each odd axis (a factor -1 if both are), and at px - k it is parity_x times that at k.
     """
     result = np.ascontiguousarray(_half_spectrum(coefficients, padded[1], parity[1]).T)
     COUNT.kernels += 1
-    return np.ascontiguousarray(_half_spectrum(result, padded[0], parity[0]))
+    if lengths is None:
+        return np.ascontiguousarray(_half_spectrum(result, padded[0], parity[0]))
+    narrow = np.zeros((len(lengths), padded[0] // 2 + 1))
+    for length in set(lengths):
+        rows = np.array(lengths) == length
+        narrow[rows, : length // 2 + 1] = _half_spectrum(result[rows], length, parity[0])
+    return narrow
 
 
 def offset_cosines(length: int, offsets: NDArray[np.int64]) -> FloatArray:

@@ -25,24 +25,27 @@ ONE = 2
 class Room(NamedTuple):
     """What all threads share: lengths, blocks, plans, and the half-way array (py // 2 + 1, stride).
 
-    `executors` : addresses of FFTW's functions, real to complex, complex, complex to real. `plans` : (4, 2), addresses
-    for rows forward, rows back, columns forward, columns back; for a whole block and for the last one. `fits` : rows of
-    a field are rows of scratch. `transposes` : rows go out by a pass of their own instead of FFTW's scattered writes.
+    `executors` : addresses of FFTW's functions, real to complex, complex, complex to real. `row_plans` : (2, 2),
+    addresses for rows forward and back; for a whole block and for the last one. `columns` : (blocks + 1,), where blocks
+    of columns begin. `column_plans` : (2, blocks), addresses for columns forward and back. `lengths`, `scales` :
+    (blocks,), of the columns' transforms, and one over what a field's transforms multiply it by. `fits` : rows of a
+    field are rows of scratch. `transposes` : rows go out by a pass of their own instead of FFTW's scattered writes.
     `whole` : columns are not padded, so they need no copy either.
     """
 
     nx: int
     ny: int
-    px: int
     row_block: int
-    column_block: int
     spectra: int
     fits: bool
     transposes: bool
     whole: bool
-    scale: Any
     executors: NDArray[Any]
-    plans: NDArray[Any]
+    row_plans: NDArray[Any]
+    columns: NDArray[Any]
+    column_plans: NDArray[Any]
+    lengths: NDArray[Any]
+    scales: NDArray[Any]
     half: NDArray[Any]
 
 
@@ -70,7 +73,7 @@ def convolve(room, scratch, factor, values, out):  # type: ignore[no-untyped-def
     """A field padded, transformed, times the factor and back, by one thread; `out` may be `values`."""
     row_blocks = -(-room.nx // room.row_block)
     rows_forward(room, scratch, values, 0, row_blocks)
-    columns_through(room, scratch, factor, 0, -(-room.spectra // room.column_block))
+    columns_through(room, scratch, factor, 0, room.lengths.size)
     rows_back(room, scratch, out, 0, row_blocks)
 
 
@@ -82,7 +85,7 @@ def rows_forward(room, scratch, values, first, last):  # type: ignore[no-untyped
     for block in range(first, last):
         start = block * room.row_block
         count = min(room.nx, start + room.row_block) - start
-        plan = room.plans[0, 0 if count == room.row_block else 1]
+        plan = room.row_plans[0, 0 if count == room.row_block else 1]
         if direct:
             source = values[start:].ctypes.data
         else:
@@ -113,7 +116,7 @@ def rows_back(room, scratch, out, first, last):  # type: ignore[no-untyped-def]
     for block in range(first, last):
         start = block * room.row_block
         count = min(room.nx, start + room.row_block) - start
-        plan = room.plans[1, 0 if count == room.row_block else 1]
+        plan = room.row_plans[1, 0 if count == room.row_block else 1]
         source = room.half[0, start:].ctypes.data
         if direct:
             execute(room.executors[2], plan, source, out[start:].ctypes.data)
@@ -128,22 +131,19 @@ def rows_back(room, scratch, out, first, last):  # type: ignore[no-untyped-def]
 def columns_through(room, scratch, factor, first, last):  # type: ignore[no-untyped-def]
     """Blocks of columns: along x, times the factor, and back."""
     for block in range(first, last):
-        start = block * room.column_block
-        count = min(room.spectra, start + room.column_block) - start
-        _columns_forward(room, scratch, start, count)
-        multiply(room, factor, scratch.columns_out, scratch.columns, start, 0, count)
-        _columns_back(room, scratch, start, count)
+        _columns_forward(room, scratch, block)
+        multiply(room, factor, scratch.columns_out, scratch.columns, block, 0)
+        _columns_back(room, scratch, block)
 
 
 @_plain
 def columns_out(room, scratch, spectrum, first, last):  # type: ignore[no-untyped-def]
     """Blocks of columns into a spectrum."""
     for block in range(first, last):
-        start = block * room.column_block
-        count = min(room.spectra, start + room.column_block) - start
-        _columns_forward(room, scratch, start, count)
-        for i in range(count):
-            for j in range(room.px):
+        start = room.columns[block]
+        _columns_forward(room, scratch, block)
+        for i in range(room.columns[block + 1] - start):
+            for j in range(room.lengths[block]):
                 spectrum[start + i, j] = scratch.columns_out[i, j]
 
 
@@ -151,46 +151,45 @@ def columns_out(room, scratch, spectrum, first, last):  # type: ignore[no-untype
 def columns_in(room, scratch, factor, spectrum, first, last):  # type: ignore[no-untyped-def]
     """Blocks of columns from a spectrum times the factor."""
     for block in range(first, last):
-        start = block * room.column_block
-        count = min(room.spectra, start + room.column_block) - start
-        multiply(room, factor, spectrum, scratch.columns, start, start, count)
-        _columns_back(room, scratch, start, count)
+        multiply(room, factor, spectrum, scratch.columns, block, room.columns[block])
+        _columns_back(room, scratch, block)
 
 
 @_plain
-def _columns_forward(room, scratch, start, count):  # type: ignore[no-untyped-def]
+def _columns_forward(room, scratch, block):  # type: ignore[no-untyped-def]
     """From the half-way array to `columns_out`."""
-    plan = room.plans[2, 0 if count == room.column_block else 1]
+    start, plan = room.columns[block], room.column_plans[0, block]
     if room.whole:
         source = room.half[start:].ctypes.data
     else:
         columns = scratch.columns
-        for i in range(count):
+        for i in range(room.columns[block + 1] - start):
             for j in range(room.nx):
                 columns[i, j] = room.half[start + i, j]
-            for j in range(room.nx, room.px):
+            for j in range(room.nx, room.lengths[block]):
                 columns[i, j] = 0
         source = columns.ctypes.data
     execute(room.executors[1], plan, source, scratch.columns_out.ctypes.data)
 
 
 @_plain
-def _columns_back(room, scratch, start, count):  # type: ignore[no-untyped-def]
+def _columns_back(room, scratch, block):  # type: ignore[no-untyped-def]
     """From `columns` to the half-way array."""
-    plan = room.plans[3, 0 if count == room.column_block else 1]
+    start, plan = room.columns[block], room.column_plans[1, block]
     if room.whole:
         execute(room.executors[1], plan, scratch.columns.ctypes.data, room.half[start:].ctypes.data)
         return
     execute(room.executors[1], plan, scratch.columns.ctypes.data, scratch.columns_out.ctypes.data)
-    for i in range(count):
+    for i in range(room.columns[block + 1] - start):
         for j in range(room.nx):
             room.half[start + i, j] = scratch.columns_out[i, j]
 
 
 @_contracted
-def multiply(room, factor, given, target, start, offset, count):  # type: ignore[no-untyped-def]
-    """Columns `start`... times the factor and the inverse transform's own scale; `given` begins at `offset`."""
-    real, imaginary, scale, length = factor.real, factor.imaginary, room.scale, room.px
+def multiply(room, factor, given, target, block, offset):  # type: ignore[no-untyped-def]
+    """A block of columns times the factor and the inverse transform's own scale; they begin in `given` at `offset`."""
+    start, count = room.columns[block], room.columns[block + 1] - room.columns[block]
+    real, imaginary, scale, length = factor.real, factor.imaginary, room.scales[block], room.lengths[block]
     half = length // 2 + 1
     if factor.real_parity == ONE:
         for i in range(count):

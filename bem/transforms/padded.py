@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import weakref
+from collections.abc import Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -43,10 +44,28 @@ def _block(rows: int, row_bytes: int, granule: int) -> int:
     return min(rows, max(granule, wanted // granule * granule))
 
 
-class PaddedTransform:
-    """Transforms of fields of one shape, padded with zeros to another, in one precision. Get it from `transform_of`."""
+def _blocks_of_columns(lengths: Sequence[int], largest: int) -> NDArray[np.int64]:
+    """Where blocks of columns begin, and where the last one ends: none larger than that, each of one length."""
+    edges = [0]
+    for end in [*(k for k in range(1, len(lengths)) if lengths[k] != lengths[k - 1]), len(lengths)]:
+        edges += [*range(edges[-1] + largest, end, largest), end]
+    return np.array(edges, np.int64)
 
-    def __init__(self, shape: tuple[int, int], padded: tuple[int, int], dtype: DTypeLike = np.float64) -> None:
+
+class PaddedTransform:
+    """Transforms of fields of one shape, padded with zeros to another, in one precision. Get it from `transform_of`.
+
+    lengths : of the transforms along x, for each wavenumber along y, where not all are padded alike (`narrow`). Of a
+        spectrum's row (px,) only the first so many numbers mean something then, and of a multiplier's half of them.
+    """
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        padded: tuple[int, int],
+        dtype: DTypeLike = np.float64,
+        lengths: tuple[int, ...] | None = None,
+    ) -> None:
         self.shape = shape
         self.padded = padded
         self.dtype: np.dtype[Any] = np.dtype(dtype)
@@ -59,29 +78,32 @@ class PaddedTransform:
         self._row_block = _block(shape[0], self._real_stride * self.dtype.itemsize, line)
         self._column_block = _block(self.spectrum_shape[0], self._spectrum_stride * self.complex_dtype.itemsize, 1)
         self._row_blocks = -(-shape[0] // self._row_block)
-        self._column_blocks = -(-self.spectrum_shape[0] // self._column_block)
+        given = (padded[0],) * self.spectrum_shape[0] if lengths is None else lengths
+        columns = _blocks_of_columns(given, self._column_block)
+        self._column_blocks = len(columns) - 1
         self.lock = threading.RLock()
         self._unit = unit_factor(self.dtype)
         self._scratch: list[Scratch] = []
         self._prepared = 0
         half = pyfftw.empty_aligned((self.spectrum_shape[0], self._half_stride), self.complex_dtype, n=ALIGNMENT)
-        plans = np.zeros((4, 2), np.int64)
+        block_lengths = np.array([given[start] for start in columns[:-1]], np.int64)
         self.nbytes = int(half.nbytes)
         """Memory of buffers."""
         self.room = Room(
             nx=shape[0],
             ny=shape[1],
-            px=padded[0],
             row_block=self._row_block,
-            column_block=self._column_block,
             spectra=self.spectrum_shape[0],
             fits=padded[1] == shape[1] == self._real_stride,
             # in single precision FFTW's own scattered writes are slower than a transposition in whole cache lines
             transposes=bool(self.dtype == np.float32),
             whole=padded[0] == shape[0],
-            scale=np.full((), 1.0 / (padded[0] * padded[1]), self.dtype)[()],
             executors=library(self.dtype).executors(),
-            plans=plans,
+            row_plans=np.zeros((2, 2), np.int64),
+            columns=columns,
+            column_plans=np.zeros((2, self._column_blocks), np.int64),
+            lengths=block_lengths,
+            scales=(1.0 / (block_lengths * padded[1])).astype(self.dtype),
             half=half,
         )
 
@@ -105,7 +127,7 @@ class PaddedTransform:
             self.ready(get_threads())
             self._each(loops.rows_forward, self._row_blocks, self._plain(values))
             self._each(loops.columns_out, self._column_blocks, out)
-        self._count(forward=1, rows=self.shape[0], columns=self.spectrum_shape[0])
+        self._count(forward=1, blocks=self._column_blocks)
         return out
 
     def inverse(
@@ -125,12 +147,13 @@ class PaddedTransform:
         parts = self._unit if factor is None else factor.factor(self.dtype)
         with self.lock:
             self.ready(get_threads())
-            blocks = self._column_blocks if columns is None else -(-columns // self._column_block)
+            wanted = self.spectrum_shape[0] if columns is None else columns
+            blocks = int(np.searchsorted(self.room.columns, wanted))
             self._each(loops.columns_in, blocks, parts, spectrum)
-            done = min(blocks * self._column_block, self.spectrum_shape[0])
+            done = int(self.room.columns[blocks])
             self.room.half[done:] = 0
             self._each(loops.rows_back, self._row_blocks, plain)
-        self._count(inverse=1, rows=self.shape[0], columns=done)
+        self._count(inverse=1, blocks=blocks)
         if plain is not out:
             out[...] = plain
         return out
@@ -157,10 +180,7 @@ class PaddedTransform:
 
     def counted(self, convolutions: int) -> None:
         """Add convolutions to this process's count: here, or by a compiled loop that called `loops.convolve`."""
-        COUNT.forward += convolutions
-        COUNT.inverse += convolutions
-        COUNT.rows += 2 * convolutions * self.shape[0]
-        COUNT.columns += 2 * convolutions * self.spectrum_shape[0]
+        self._count(forward=convolutions, inverse=convolutions, blocks=self._column_blocks)
 
     def ready(self, threads: int) -> Scratch:
         """Plans, and scratch for every thread; returns the first one's. The caller holds `lock`."""
@@ -189,29 +209,28 @@ class PaddedTransform:
     def _plan(self, scratch: Scratch) -> None:
         """Plans for whole blocks and for the last one; they go when this transform does."""
         fftw, room = library(self.dtype), self.room
-        plans, half, columns = room.plans, room.half.ctypes.data, scratch.columns.ctypes.data
+        half, columns = room.half.ctypes.data, scratch.columns.ctypes.data
         rows_in, rows_out = scratch.rows.ctypes.data, scratch.rows_out.ctypes.data
         real, spectra, stride = self._real_stride, scratch.rows_spectrum.shape[1], self._half_stride
         for last in range(2):
-            rows, lines = self._row_block, self._column_block
-            if last:
-                rows, lines = (
-                    self.shape[0] - (self._row_blocks - 1) * rows,
-                    room.spectra - (self._column_blocks - 1) * lines,
-                )
+            rows = self.shape[0] - (self._row_blocks - 1) * self._row_block if last else self._row_block
             across, out = (
                 ((1, 1, real, spectra), scratch.rows_spectrum.ctypes.data)
                 if room.transposes
                 else ((1, stride, real, 1), half)
             )
-            plans[0, last] = fftw.real_to_complex(self.padded[1], rows, across, (rows_in, out))
-            plans[1, last] = fftw.complex_to_real(self.padded[1], rows, (stride, 1, 1, real), (half, rows_out))
-            # from one array into another: plans made without timing are a quarter faster so than in place
-            along = (1, 1, self._spectrum_stride, self._spectrum_stride)
-            done = (columns, scratch.columns_out.ctypes.data)
-            plans[2, last] = fftw.complex(room.px, lines, along, done, back=False)
-            plans[3, last] = fftw.complex(room.px, lines, along, done, back=True)
-        weakref.finalize(self, _destroy, fftw.destroy, plans.ravel().tolist())
+            room.row_plans[0, last] = fftw.real_to_complex(self.padded[1], rows, across, (rows_in, out))
+            room.row_plans[1, last] = fftw.complex_to_real(self.padded[1], rows, (stride, 1, 1, real), (half, rows_out))
+        # from one array into another: plans made without timing are a quarter faster so than in place
+        along = (1, 1, self._spectrum_stride, self._spectrum_stride)
+        done = (columns, scratch.columns_out.ctypes.data)
+        made: dict[tuple[int, int], list[int]] = {}
+        for block, own in enumerate(zip(room.lengths.tolist(), np.diff(room.columns).tolist(), strict=True)):
+            if own not in made:
+                made[own] = [fftw.complex(*own, along, done, back=back) for back in (False, True)]
+            room.column_plans[:, block] = made[own]
+        plans = [*room.row_plans.ravel().tolist(), *(plan for pair in made.values() for plan in pair)]
+        weakref.finalize(self, _destroy, fftw.destroy, plans)
 
     def _each(self, loop: Any, blocks: int, *arguments: Any) -> None:
         """A compiled pass over blocks that the threads share."""
@@ -231,11 +250,14 @@ class PaddedTransform:
         """Contiguous and in this precision, as the compiled passes take it."""
         return values if self._is_plain(values) else np.array(values, self.dtype, order="C")
 
-    def _count(self, *, forward: int = 0, inverse: int = 0, rows: int = 0, columns: int = 0) -> None:
+    def _count(self, *, blocks: int, forward: int = 0, inverse: int = 0) -> None:
+        """Add transforms whose columns are those of the first so many blocks."""
+        times, room = forward + inverse, self.room
         COUNT.forward += forward
         COUNT.inverse += inverse
-        COUNT.rows += rows
-        COUNT.columns += columns
+        COUNT.rows += times * room.nx
+        COUNT.columns += times * int(room.columns[blocks])
+        COUNT.numbers += times * int(np.diff(room.columns[: blocks + 1]) @ room.lengths[:blocks])
 
 
 def _destroy(destroy: Any, plans: list[int]) -> None:

@@ -11,6 +11,7 @@ import bem.convolution as convolution
 import bem.kernels.coefficients as coefficients
 import bem.stress as stress
 import bem.stress.spectra as stress_spectra
+import bem.stress.sweeps as stress_sweeps
 import bem.transforms as transforms
 from bem import (
     Body,
@@ -310,6 +311,35 @@ def test_waves_that_do_not_reach_a_depth_are_not_transformed(monkeypatch):
     for k in range(len(depths)):
         # the transforms round off as much
         np.testing.assert_allclose(found[k], expected[k], rtol=0, atol=1e-14 * np.abs(expected[k]).max())
+
+
+@pytest.mark.parametrize("stretch", [0.3, 1.0])
+def test_waves_along_a_periodic_axis_are_padded_by_their_reach_alone(monkeypatch, stretch):
+    """A wave falls like exp(-q x) along a free axis, too: fewer numbers are transformed, for the same bits but the
+    last."""
+    grid = Grid((120, 120), (100e-9, stretch * 100e-9), periodic=(False, True))
+    pressure = np.random.default_rng(5).random(grid.shape) * 1e9
+    pressure[30:90] = 0
+    depths = np.array([0.0, 0.3e-6, 2e-6])
+    coated = Body(SOFT.material, layer=Layer(DLC, 0.2e-6))
+
+    def stresses(body):
+        set_stress_memory(0)
+        set_stress_memory(1 << 29)
+        transforms.COUNT.reset()
+        found = subsurface_stress(pressure, grid, body, depths, friction=0.2)
+        return found, transforms.COUNT.numbers
+
+    found, numbers = stresses(SOFT)
+    layered, under_layers = stresses(coated)
+    for room in (stress_spectra, stress_sweeps):
+        monkeypatch.setattr(room, "column_lengths", lambda grid, body: None)
+    whole, most = stresses(SOFT)
+    assert numbers < {0.3: 0.64, 1.0: 0.75}[stretch] * most
+    # of the largest of a depth, as the transforms round off
+    assert np.abs(found - whole).max(axis=(0, 2, 3)) == pytest.approx(0, abs=4e-15 * np.abs(whole).max())
+    np.testing.assert_array_equal(stresses(coated)[0], layered)  # may fall more slowly: padded as ever
+    assert under_layers > numbers
 
 
 def test_tractions_at_many_depths_take_one_field_each_to_be_added_from(monkeypatch):
