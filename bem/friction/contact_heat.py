@@ -21,6 +21,7 @@ from bem.friction.film import PatchFilm
 from bem.friction.rough_contact import Pressed
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import FilmHeat
+from bem.grid import FloatArray
 from bem.heat.bodies import conductors_of
 from bem.heat.solution import TemperatureSolution
 from bem.heat.steady import surface_temperature
@@ -35,12 +36,13 @@ _HALF = 0.5
 class ContactHeat:
     """Temperatures of the surfaces in contact.
 
-    mean, maximum : over the cells in contact, by pressure, and the highest [K]. law : of boundary friction, told the
-    mean. coefficient : of it. status : of the heat conduction. notes : sentences.
+    mean, maximum : over the cells in contact, by pressure, and the highest [K]; temperature : (nx, ny) [K]. law : of
+    boundary friction, told the mean. coefficient : of it. status : of the heat conduction. notes : sentences.
     """
 
     mean: float
     maximum: float
+    temperature: FloatArray
     law: BoundaryFriction
     coefficient: float
     status: Status
@@ -83,6 +85,7 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
     return ContactHeat(
         mean=mean(found),
         maximum=float(found.temperature[touching].max()),
+        temperature=found.temperature,
         law=law,
         coefficient=coefficient,
         status=found.status,

@@ -52,6 +52,12 @@ def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup,
     return Forces(boundary, sliding_sign(speeds) * (film.shear_force - covered), coefficient, heat)
 
 
+def unrubbed(setup: MixedSetup) -> float:
+    """Temperature of surfaces that do not rub [K]: the oil's; not-a-number where no heat was asked for."""
+    oil = setup.lubricant.temperature
+    return math.nan if setup.thermal == "off" or oil is None else oil
+
+
 def _boundary_coefficient(contact: Pressed | None, setup: MixedSetup, sliding_speed: float) -> float:
     law = setup.boundary_law
     if law.constant is not None:

@@ -23,9 +23,10 @@ from bem.wear.loads import LOWER, UPPER
 ROW = (
     *("cycles", "step", "friction", "boundary_friction", "film_friction", "contact_share", "area_share"),
     *("minimum_film", "lambda_ratio", "lower_rms", "upper_rms", "lower_depth", "upper_depth", "film_thickness"),
-    *("step_error", "depth_error"),
+    *("contact_temperature", "flash_temperature", "step_error", "depth_error"),
 )
-"""A step's end as a row of numbers: SI units; means over the positions of its last round and over whole surfaces."""
+"""A step's end as a row of numbers: SI units; means over the positions of its last round and over whole surfaces;
+the flash temperature is the highest of any position."""
 
 _THIN = 1e-10
 """Films thinner than this [m] are held to an absolute instead of a relative tolerance."""
@@ -169,12 +170,13 @@ def _row(
     lower, upper = surfaces.heights
     film = np.zeros(lower.shape) if surfaces.film is None else surfaces.film
     boundary, oil, *others = (mean_over(passes, name) for name in _OF_PASSES)
+    warm, hottest = mean_over(passes, "contact_temperature"), max(one.flash_temperature for one in passes)
     return np.array(
         [
             *(cycles, step, boundary + oil, boundary, oil, *others),
             *(float((lower + film).std()), float(upper.std())),
             *(float((first[body] - surfaces.heights[body]).mean()) for body in (LOWER, UPPER)),
-            *(float(film.mean()), *errors),
+            *(float(film.mean()), warm, hottest, *errors),
         ]
     )
 

@@ -5,6 +5,7 @@ Verified in tests/life/test_life.py.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
@@ -17,7 +18,7 @@ from bem.errors import ConvergenceError, Status
 from bem.friction.balance import BalanceStart, share_load
 from bem.friction.film import PatchFilm
 from bem.friction.film_table import FilmTable
-from bem.friction.forces import friction_forces, lambda_ratio
+from bem.friction.forces import friction_forces, lambda_ratio, unrubbed
 from bem.friction.rough_contact import CoupledContact, rough_contact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
@@ -74,7 +75,8 @@ class PassStart:
 class Pass:
     """A contact that was solved: pressure (nx, ny) [Pa]; friction over the load, and of it the boundary part; shares of
     the load and of the grid's area in contact; minimum film [m] and that of the whole load over the rms height;
-    film_pressure (nx, 1) [Pa] of the oil."""
+    film_pressure (nx, 1) [Pa] of the oil; temperature (nx, ny) [K] of the surfaces where rubbing heats them, else None,
+    and its mean by pressure and maximum in contact, not-a-number where no heat was asked for."""
 
     pressure: FloatArray
     boundary_friction: float
@@ -86,6 +88,9 @@ class Pass:
     convolutions: float
     start: PassStart
     film_pressure: FloatArray
+    temperature: FloatArray | None = None
+    contact_temperature: float = math.nan
+    flash_temperature: float = math.nan
 
 
 PassContact = Callable[[FloatArray, PassStart, float], Pass]
@@ -173,6 +178,9 @@ class MixedPasses:
         forces = friction_forces(film, contact, setup, speeds)
         pressure = np.zeros(setup.grid.shape) if contact is None else contact.pressure
         again = start if contact is None else PassStart(pressure, film.load, balance.slope)
+        heat = forces.heat
+        if heat is not None:
+            _check(heat.status, math.nan)
         return Pass(
             pressure=pressure,
             boundary_friction=forces.boundary / setup.load,
@@ -184,6 +192,9 @@ class MixedPasses:
             convolutions=balance.convolutions,
             start=again,
             film_pressure=film.pressure[:, :1],
+            temperature=None if heat is None else heat.temperature,
+            contact_temperature=unrubbed(setup) if heat is None else heat.mean,
+            flash_temperature=unrubbed(setup) if heat is None else heat.maximum,
         )
 
 

@@ -17,6 +17,7 @@ from bem.grid import FloatArray, Grid
 from bem.life.passes import Pass, PassContact, Passing, PassStart, facing
 from bem.tribofilm.balance import FilmBalance
 from bem.tribofilm.growth import GrowthLaw
+from bem.wear.film_defect import FilmDefect
 from bem.wear.loads import LOWER, UPPER
 
 Temperature = Callable[[FloatArray], float | FloatArray]
@@ -80,6 +81,7 @@ class LifeCase:
     load and distance [m^2/N] of (lower, upper), zero for one that does not wear. distance : slid by a place of either
     in a cycle, while its body passes or stays under the patch [m]. cycles : in all. tolerance : of a step, relative to
     what wears in it. film : on the lower body; None for none. first_step : tried first, longest : allowed, in cycles.
+    defect : of a boundary film, the share of the rates that is left where the surfaces are as warm as they are.
     """
 
     grid: Grid
@@ -92,6 +94,7 @@ class LifeCase:
     film: GrowingFilm | None = None
     first_step: float = 1.0
     longest: float = math.inf
+    defect: FilmDefect | None = None
 
     def __post_init__(self) -> None:
         messages = []
@@ -156,8 +159,7 @@ def _passed(
     film = np.zeros(case.grid.shape) if surfaces.film is None else surfaces.film[here[LOWER]]
     bare = np.ones(case.grid.shape) if law is None else law.bare(film)
     slid = case.distance * cycles
-    found = case.contact(lower + upper + film, surfaces.starts[number], slid * sum(case.rates))
-    depths = [slid * rate * found.pressure for rate in case.rates]
+    found, depths = _rubbed(case, lower + upper + film, surfaces.starts[number], slid)
     films = surfaces.film
     if law is not None and films is not None:
         rubbed = np.minimum((1 - bare) * depths[LOWER], film)
@@ -173,6 +175,23 @@ def _passed(
         volume[body] += float(depths[body].sum()) * case.grid.cell_area
     starts = (*surfaces.starts[:number], found.start, *surfaces.starts[number + 1 :])
     return Surfaces((heights[LOWER], heights[UPPER]), films, starts, (volume[LOWER], volume[UPPER])), found
+
+
+def _rubbed(case: LifeCase, heights: FloatArray, start: PassStart, slid: float) -> tuple[Pass, list[FloatArray]]:
+    """The pass of heights (nx, ny) [m] at the end of its step of so far a slide [m], and what wears of both bodies.
+
+    With a boundary film the largest share of any place makes the step's compliance, so that none wears beyond what
+    would carry it no more; it is known from the contact before the step.
+    """
+    give = slid * sum(case.rates)
+    if case.defect is None:
+        found = case.contact(heights, start, give)
+        return found, [slid * rate * found.pressure for rate in case.rates]
+    before = case.contact(heights, start, 0.0)
+    most = float(np.where(before.pressure > 0, case.defect.share(before.temperature), 0.0).max())
+    found = case.contact(heights, before.start, give * most)
+    found = replace(found, convolutions=found.convolutions + before.convolutions)
+    return found, [slid * rate * case.defect.share(found.temperature) * found.pressure for rate in case.rates]
 
 
 def _with_friction_on_film(found: Pass, law: GrowingFilm, bare: FloatArray) -> Pass:

@@ -15,6 +15,7 @@ from bem.errors import ConvergenceError, Status
 from bem.grid import FloatArray
 from bem.scenes import build, wearing
 from bem.scenes.axes import with_keys
+from bem.scenes.tables.film_defect import film_defect
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
@@ -72,6 +73,7 @@ def case_of(scene: Any, setup: MixedSetup) -> tuple[LifeCase, MixedPasses]:
         film,
         life.first_step,
         longest=np.inf if scene.fatigue is None else life.count / _JUMPS_OF_FATIGUE,
+        defect=film_defect(scene),
     ), contact
 
 

@@ -22,19 +22,16 @@ from bem.grid import FloatArray, Grid
 from bem.scenes import plans
 from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.context import Context, tell
-from bem.scenes.laws import LawKey
 from bem.scenes.planner import Step, padded_points, stress_kernel_seconds
 from bem.scenes.records import Figure, Record, Series, without_bars
 from bem.scenes.rubbing import rubbing_step
-from bem.scenes.tables.third_bodies import ThirdBodiesScene
 from bem.scenes.units import Length, WearCoefficient
-from bem.wear.criterion import Detachment, VonMises, WearCriterion
+from bem.wear.criterion import WearCriterion
 from bem.wear.loads import wearing_bodies
-from bem.wear.removal import Cap, RemovalLaw
-from bem.wear.traction import GrossSliding, TractionLaw
 
 if TYPE_CHECKING:
     from bem.wear import RunningIn, RunningInState
+    from bem.wear.film_defect import FilmDefect
     from bem.wear.third_bodies import ThirdBodies
 
 Found = TypeVar("Found")
@@ -58,29 +55,6 @@ class WearDepthsScene(Table):
                 f"depths.spacing = {self.spacing:g} m: the deepest lies beyond numbers; give a smaller one"
             )
         return self.first + self.spacing * np.arange(self.count, dtype=np.float64)
-
-
-class WearScenePart(Table):
-    """The replaceable parts of the wear model; see `bem.wear.WearModel`."""
-
-    criterion: Annotated[Detachment, LawKey("criterion")] = VonMises()
-    stress_range: bool = Field(default=False, strict=True)
-    refine: Annotated[int, Field(strict=True, ge=1, le=100)] = 10
-    refinement: Literal["monotone_cubic", "linear", "exact"] = "monotone_cubic"
-    connectivity: Literal[6, 18, 26] = 6
-    removal: Annotated[RemovalLaw, LawKey("removal")] = Cap()
-    wears: Literal["softer", "lower", "upper", "both"] = "softer"
-    shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] = 3
-    within_layer: bool = Field(default=True, strict=True)
-    traction: Annotated[TractionLaw, LawKey("traction")] = GrossSliding()
-    third_bodies: ThirdBodiesScene | None = None
-
-    @model_validator(mode="after")
-    def _goes_together(self) -> Self:
-        for text in self.traction.misfits(self.criterion, self.stress_range):
-            found, allowed = text.rsplit("; allowed: ", 1)
-            raise problem(found, allowed)
-        return self
 
 
 class LastCycles(Table):
@@ -222,13 +196,15 @@ def wear_loop(
     watch: Callable[[RunningInState], Mapping[str, float]],
     keep: Callable[[], Mapping[str, Any]] = dict,
     third_bodies: ThirdBodies | None = None,
+    film_defect: FilmDefect | None = None,
     **contact: Any,
 ) -> RunningIn:
     """The wear loop of a case, from its checkpoint where there is one.
 
     heights : of both bodies at the start [m]. watch : called after every cycle; gives the figures beside the progress.
     keep : what the checkpoint holds then besides the loop's own state, under names other than "wear".
-    third_bodies : particles between the surfaces. contact : further arguments of `bem.wear.run_in`.
+    third_bodies : particles between the surfaces. film_defect : of a boundary film. contact : further arguments of
+    `bem.wear.run_in`.
     """
     from bem.wear import WearModel, pack_state, run_in, unpack_state
 
@@ -246,7 +222,11 @@ def wear_loop(
             bodies=(scene.lower.build(), scene.upper.build()),
             depths=scene.depths.build(),
             cycles=count,
-            model=WearModel(**scene.wear.model_dump(exclude={"third_bodies"}), third_bodies=third_bodies),
+            model=WearModel(
+                **scene.wear.model_dump(exclude={"third_bodies", "film_defect"}),
+                third_bodies=third_bodies,
+                film_defect=film_defect,
+            ),
             state=None if saved is None else unpack_state(saved["wear"]),
             callback=after,
             **contact,

@@ -19,6 +19,7 @@ from bem.grid import FloatArray, Grid
 from bem.laws import make_laws
 from bem.materials import Body, softer_hardness
 from bem.wear.criterion import Detachment
+from bem.wear.film_defect import FilmDefect, boundary_film_misfits
 from bem.wear.loads import LOWER, UPPER, BodyCycle, Removal, SurfaceLoad, half_the_change, wearing_bodies
 from bem.wear.removal import RemovalLaw
 from bem.wear.segmentation import CONNECTIVITIES, REFINEMENTS
@@ -49,6 +50,8 @@ class WearModel:
         "oscillating_shift" give stresses, pieces and local wear the tractions and the slip of a loop in partial slip.
     third_bodies : particles that stay between the surfaces, `bem.wear.third_bodies.ThirdBodies` or a table of its
         fields; None for none. Of dry contacts that slide; they roll half as far as a cycle of the criterion stands for.
+    film_defect : of a boundary film that protects what wears locally, `bem.wear.film_defect.FilmDefect` or a table of
+        its fields; None for surfaces that wear as the criterion says.
     """
 
     criterion: str | Mapping[str, Any] | Detachment = "von_mises"
@@ -62,6 +65,7 @@ class WearModel:
     within_layer: bool = True
     traction: str | Mapping[str, Any] | TractionLaw = "gross_sliding"
     third_bodies: ThirdBodies | Mapping[str, Any] | None = None
+    film_defect: FilmDefect | Mapping[str, Any] | None = None
 
     def __post_init__(self) -> None:
         messages = []
@@ -87,11 +91,15 @@ class WearModel:
             object.__setattr__(self, key, law)
         if isinstance(self.third_bodies, Mapping):
             object.__setattr__(self, "third_bodies", ThirdBodies(**self.third_bodies))
+        if isinstance(self.film_defect, Mapping):
+            object.__setattr__(self, "film_defect", FilmDefect(**self.film_defect))
         misfits = list(self.tractions.misfits(self.law, self.stress_range))
         if self.particles is not None and not self.tractions.slides:
             misfits.append(
                 f"third bodies roll where surfaces slide; allowed: no traction {self.tractions.name}, or none"
             )
+        if self.boundary_film is not None:
+            misfits += boundary_film_misfits(self.law, self.tractions)
         if misfits:
             raise InputError([f"WearModel: {text}" for text in misfits])
 
@@ -106,6 +114,12 @@ class WearModel:
         """The third bodies, also where they were a table."""
         assert self.third_bodies is None or isinstance(self.third_bodies, ThirdBodies)
         return self.third_bodies
+
+    @property
+    def boundary_film(self) -> FilmDefect | None:
+        """The film's defect, also where it was a table."""
+        assert self.film_defect is None or isinstance(self.film_defect, FilmDefect)
+        return self.film_defect
 
     @property
     def tractions(self) -> TractionLaw:
@@ -160,7 +174,8 @@ class ContactOutcome:
     """What a cycle needs to know of a contact, dry or mixed.
 
     rubbing : of a cycle in partial slip, which `wear_cycle` adds; None where all slides. third_bodies : what particles
-    between the surfaces do; None where there are none.
+    between the surfaces do; None where there are none. temperature : (nx, ny) [K] of surfaces that rubbing heats; None
+    where no heat was asked for.
     """
 
     pressure: FloatArray
@@ -174,6 +189,7 @@ class ContactOutcome:
     minimum_film: float = 0.0
     rubbing: Rubbing | None = None
     third_bodies: ThirdBodyLoad | None = None
+    temperature: FloatArray | None = None
 
 
 ContactStep = Callable[[FloatArray, FloatArray | None], ContactOutcome]
@@ -234,6 +250,6 @@ def wear_cycle(
     removals = []
     for body in setup.wearing(model):
         loads = half_the_change(acting, last_loads[body]) if model.stress_range else (acting,)
-        cycle = BodyCycle(contact.pressure, loads, setup, model, body, slide, memories[body], slid)
+        cycle = BodyCycle(contact.pressure, loads, setup, model, body, slide, memories[body], slid, contact.temperature)
         removals.append(model.law.detach(cycle))
     return contact if rubbing is None else replace(contact, rubbing=rubbing), removals

@@ -66,7 +66,7 @@ class BodyCycle:
     counterface slides from one cycle to the next. memory : what the criterion keeps of the body's material on the grid,
     (planes, nx, ny), as it was given back in the last cycle and moved with the material; None before the first.
     slid : (nx, ny) [m], what the surfaces slide at each place in the computed cycle; None where they do so everywhere
-    as far as the bodies move.
+    as far as the bodies move. temperature : (nx, ny) [K] of the surfaces; None where it is not known place by place.
     """
 
     pressure: FloatArray
@@ -77,6 +77,7 @@ class BodyCycle:
     slide: float
     memory: FloatArray | None = None
     slid: FloatArray | None = None
+    temperature: FloatArray | None = None
 
     @property
     def solid(self) -> Body:

@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.errors import InputError
+from bem.errors import InputError, Status
 from bem.friction.balance import NEGLIGIBLE, Balance, BalanceStart, Regime, boundary_note, share_load
 from bem.friction.film import PatchFilm, middle_line
 from bem.friction.film_table import FilmTable
 from bem.friction.films import films_of
-from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, validity_notes
+from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, unrubbed, validity_notes
 from bem.friction.oil_beside import OilBeside, oil_notes
 from bem.friction.oil_sensitivity import oil_beside
 from bem.friction.rough_contact import RoughContact, boundary_traction, rough_contact
@@ -40,11 +40,15 @@ MIXED_FIELDS = np.dtype(
         ("contact_area", np.float64),
         ("shift", np.float64),
         ("imbalance", np.float64),
+        ("contact_temperature", np.float64),
+        ("flash_temperature", np.float64),
         ("evaluations", np.int32),
         ("regime", np.int8),
     ]
 )
-"""A cycle's load sharing as a row of a table: SI units, forces and area on the whole width; regime is an index."""
+"""A cycle's load sharing as a row of a table: SI units, forces and area on the whole width; regime is an index.
+Temperatures are those of the surfaces in contact, mean by pressure and highest; the oil's without contact,
+not-a-number where no heat was asked for."""
 
 REGIMES = tuple(Regime)
 
@@ -145,6 +149,7 @@ class MixedContact:
     def _outcome(self, balance: Balance, rough: RoughContact, whole: PatchFilm, heights: FloatArray) -> ContactOutcome:
         setup, film, contact = self.setup, balance.film, balance.contact
         forces = friction_forces(film, contact, setup, self.speeds)
+        heat = forces.heat
         self._forces, self._coupling = forces, coupling_notes(forces, rough.traction, setup)
         shift = 0.0 if contact is None else contact.approach
         new = np.zeros(1, MIXED_FIELDS)
@@ -159,6 +164,7 @@ class MixedContact:
             0.0 if contact is None else contact.area,
             shift,
             balance.imbalance,
+            *((unrubbed(setup),) * 2 if heat is None else (heat.mean, heat.maximum)),
             max(balance.films, 1),
             REGIMES.index(balance.regime),
         )
@@ -175,8 +181,9 @@ class MixedContact:
             friction=boundary_traction(self.speeds, forces.coefficient),
             residual=getattr(solution, "residual", 0.0),
             convolutions=balance.convolutions,
-            status=balance.status,
+            status=balance.status if heat is None or balance.status is not Status.CONVERGED else heat.status,
             minimum_film=film.minimum_thickness,
+            temperature=None if heat is None else heat.temperature,
         )
 
 

@@ -20,8 +20,9 @@ from bem.wear.mixed import MixedContact
 class RunIn:
     """Initial: of the first cycle; the others are means of the last cycles. Forces on the whole width [N].
 
-    friction and its boundary and film parts; contact_share (cycles,) of the load; over the patch (nx,) in the last
-    cycle: film thickness [m], film pressure [Pa], separation of the mean planes [m].
+    friction and its boundary and film parts; temperatures of the surfaces in contact [K], not-a-number without heat;
+    contact_share (cycles,) of the load; over the patch (nx,) in the last cycle: film thickness [m], film pressure [Pa],
+    separation of the mean planes [m].
     """
 
     friction_initial: float
@@ -34,6 +35,8 @@ class RunIn:
     minimum_film: float
     lambda_ratio: float
     contact_area_fraction: float
+    contact_temperature: float
+    flash_temperature: float
     evaluations_per_cycle: float
     contact_share: FloatArray
     film_thickness_patch: FloatArray
@@ -61,7 +64,10 @@ def run_in(step: MixedContact, cycles: NDArray[np.void], averaged: int) -> RunIn
     )
 
 
-_MEANS = ("friction", "boundary_force", "film_force", "contact_load", "film_load", "minimum_film", "lambda_ratio")
+_MEANS = (
+    *("friction", "boundary_force", "film_force", "contact_load", "film_load", "minimum_film", "lambda_ratio"),
+    *("contact_temperature", "flash_temperature"),
+)
 """Columns of `MIXED_FIELDS` whose means over the last cycles are figures."""
 
 

@@ -155,6 +155,8 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
         state = initial_state(lower_heights, upper_heights)
     _check_heights(state, grid, counterface)
     give = sum(choices.law.compliance(setup, body) for body in wearing)
+    if choices.boundary_film is not None:
+        give *= float(choices.boundary_film.share())
     particles = choices.particles
     if particles is not None and contact_step is not None:
         raise InputError(

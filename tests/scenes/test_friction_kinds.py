@@ -271,6 +271,27 @@ def test_running_in_resumes_to_the_same_bits(tmp_path):
         assert np.array_equal(variable.values, resumed.variables[name].values), name
 
 
+def test_running_in_with_heat_wears_where_a_boundary_film_is_hot():
+    steel = {"catalogue": "steel-52100", "hardness": "1.08 GPa"}
+    law = {"kind": "archard", "specific_wear_rate": "1e-6 mm^3/(N*m)", "distance": "1 cm"}
+    scene = RUNNING_IN | {
+        "lower": {"material": steel, "surface": PATCH["lower"]["surface"]},
+        "upper": {"material": steel},
+        "oil": {"grade": "ISO VG 10", "temperature": "100 degC"},
+        "speeds": ["2 m/s"],
+        "wear": {"criterion": law, "film_defect": {"adsorption_energy": "0.6 eV"}},
+        "cycles": {"count": 2, "averaged": 1, "settled": 1},
+    }
+    hot, off = (run(scene | {"thermal": thermal})[1].summary for thermal in ("lumped", "off"))
+    assert hot["flash_temperature_C"][0] > hot["contact_temperature_C"][0] > 101
+    assert "flash_temperature_C" not in off
+    assert hot["worn_depth_nm"][0] > 1.1 * off["worn_depth_nm"][0] > 0
+    with pytest.raises(InputError, match=r"film_defect\.temperature: missing"):
+        run(scene | {"oil": PATCH["oil"]})
+    with pytest.raises(InputError, match="film_defect of criterion von_mises"):
+        run(scene | {"wear": {"film_defect": {"adsorption_energy": "0.6 eV"}}})
+
+
 def test_hardness_moves_the_cap_and_the_yield_stress():
     data = scene_with(RUNNING_IN, hardnesses=["1 GPa", "20 GPa"], speeds=["0.003 m/s"])
     data["cycles"] = {"count": 3, "averaged": 1, "settled": 3}

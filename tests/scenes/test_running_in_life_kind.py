@@ -5,7 +5,8 @@ import pytest
 from small_scenes import PATCH
 
 from bem import InputError
-from bem.scenes import PlainContext, get_kind, load_scene
+from bem.friction.load_sharing import solve_setup
+from bem.scenes import PlainContext, build, get_kind, load_scene
 
 LIFE = PATCH | {
     "kind": "running-in-life",
@@ -80,6 +81,50 @@ def test_heat_makes_a_film_grow_faster():
     assert warm > 1.1 * run(given | life | {"tribofilm": FILM})[0].tribofilm_thickness
 
 
+STEEL = {"catalogue": "steel-52100", "hardness": "2 GPa"}
+HOT = LIFE | {
+    "lower": {"material": STEEL, "surface": PATCH["lower"]["surface"]},
+    "upper": {"material": STEEL},
+    "oil": {"grade": "ISO VG 10", "temperature": "100 degC"},
+    "speeds": {"values": ["2 m/s"], "cylinder": 0.1},
+    "life": SHORT | {"count": 100, "first_step": 100.0},
+}
+
+
+def test_a_life_with_heat_begins_as_load_sharing_with_heat_and_goes_on_to_the_same_bits():
+    scene = HOT | {"thermal": "lumped"}
+    record, context = run(scene)
+    kind = get_kind("running-in-life")
+    resolved = kind.resolve(load_scene(scene))
+    setup = resolved.setup(**resolved.sharing.model_dump())
+    heights = build.both_heights(resolved, setup.grid, PlainContext(3))
+    found = solve_setup(setup, heights[0] + heights[1], resolved.speeds.build()[0])
+    assert record.friction_initial == pytest.approx(found.friction, rel=0.05)  # two positions, films from a table
+    assert found.contact_temperature > 373.15 + 1
+    rise = found.contact_temperature - 373.15
+    assert record.contact_temperature - 373.15 == pytest.approx(rise, rel=0.3)  # worn a little, of other positions
+    assert record.flash_temperature > record.contact_temperature
+    assert record.flash_temperature_over_cycles[-1] == record.flash_temperature
+    cold, _ = run(HOT)
+    assert cold.contact_temperature is cold.flash_temperature_over_cycles is None
+    # hot oil is thinner
+    assert record.lambda_ratio < cold.lambda_ratio
+    again, _ = run(scene, PlainContext(3, resumed=True, state=context.state))
+    assert again.flash_temperature == record.flash_temperature
+
+
+def test_a_boundary_film_lets_hot_places_wear_and_a_stronger_one_lets_less():
+    def worn(energy, thermal):
+        film = {"adsorption_energy": energy}
+        return run(HOT | {"thermal": thermal, "wear": HOT["wear"] | {"film_defect": film}})[0].worn_depth
+
+    bare = run(HOT | {"thermal": "lumped"})[0].worn_depth
+    assert worn("0.01 eV", "lumped") == pytest.approx(bare, rel=1e-6)
+    weak, strong = worn("0.6 eV", "lumped"), worn("0.7 eV", "lumped")
+    assert bare > 100 * weak > 1000 * strong > 0
+    assert weak > 1.1 * worn("0.6 eV", "off")
+
+
 def test_fatigue_counts_pits_of_either_body_and_goes_on():
     depths = {"count": 4, "first": "0.2 um", "spacing": "0.4 um"}
     scene = LIFE | {
@@ -127,6 +172,7 @@ def test_a_distance_that_the_speeds_do_not_make_is_said():
         ({"tribofilm": FILM | {"heat": True}, "upper": {"material": COLD}}, r"tribofilm\.heat: heat of the upper"),
         ({"contact": PATCH["contact"] | {"loads": ["1 N", "2 N"]}}, "one load"),
         ({"life": {"tolerance": 0.9}}, r"life\.tolerance"),
+        ({"thermal": "lumped"}, "heat of an oil without"),
     ],
 )
 def test_messages(change, message):

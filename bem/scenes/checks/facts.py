@@ -20,7 +20,7 @@ from bem.scenes.common import SceneModel, SmoothSurface
 from bem.scenes.kind import get_kind
 
 if TYPE_CHECKING:
-    from bem.scenes.wearing import WearScenePart
+    from bem.scenes.tables.wear_model import WearScenePart
 
 _MOST_SURFACES = 24
 """Surfaces that are looked at; a sweep of variants beyond that shows no more."""

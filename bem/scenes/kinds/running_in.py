@@ -20,12 +20,14 @@ from bem.scenes.axes import Axis, changed, with_keys
 from bem.scenes.common import PositivePressure, Repetitions, problem
 from bem.scenes.context import Context, PlainContext, error_bars
 from bem.scenes.kind import Kind
-from bem.scenes.lubrication import MixedScene, tell_of_film
+from bem.scenes.lubrication import tell_of_film
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled, without_bars
 from bem.scenes.resolutions import CELLS, of_loop
 from bem.scenes.rubbing import FRICTION_SLIDES, RubbedRecord, rubbed
-from bem.scenes.tables.sharing import RunningInCycles, RunningInSharing
+from bem.scenes.tables.film_defect import film_defect
+from bem.scenes.tables.sharing import TEMPERATURES, HotMixedScene, RunningInCycles, RunningInSharing
+from bem.scenes.tables.wear_model import WearScenePart
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
@@ -37,12 +39,12 @@ _CONTACTS = "two or three contacts each, from the last pressure; none in full fi
 _DEPTHS_NEEDED = 6
 
 
-class RunningInScene(MixedScene):
+class RunningInScene(HotMixedScene):
     """A rough cylinder, ball or ellipsoid slides on a rough flat in oil; what yields and reaches the surface leaves."""
 
     kind: Literal["running-in"] = "running-in"
     depths: wearing.WearDepthsScene
-    wear: wearing.WearScenePart = wearing.WearScenePart()
+    wear: WearScenePart = WearScenePart()
     cycles: RunningInCycles = RunningInCycles()
     sharing: RunningInSharing = RunningInSharing()
     sizes: wearing.SizesScene = wearing.SizesScene()
@@ -84,6 +86,7 @@ def plan(scene: RunningInScene) -> Plan:
     InputError : a patch that does not fit, a wearing body without yield stress. InfeasibleError : too much load.
     """
     grid = scene.check()
+    film_defect(scene)  # what it lacks is said before any work
     cycles = {"convolutions": _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": 4 * _DEPTHS_NEEDED}
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
@@ -104,6 +107,7 @@ def plan(scene: RunningInScene) -> Plan:
 
 
 _over, _shown, _line = (partial(Series, ("cycle",)), partial(Series, ("x", "y"), of="first"), partial(Series, ("x",)))
+_heated = partial(Figure, "C", optional=True, no_bar="friction, whose heat it is, has one")
 _FOLLOWS_CELL = f"{wearing.FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
 
 
@@ -144,6 +148,8 @@ class RunningInRecord(GridRecord, RubbedRecord):
     particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle", no_bar=wearing.FOLLOWS_CELL)]
     particles_last_cycles: Annotated[float, Figure("", "particles of the last cycles", no_bar=wearing.FOLLOWS_CELL)]
     film_table_error: Annotated[float, Figure("", "error of the film that is interpolated in the table", unjudged=True)]
+    contact_temperature: Annotated[float | None, _heated("surfaces in contact, mean by pressure, run in")]
+    flash_temperature: Annotated[float | None, _heated("surfaces in contact, highest, run in")]
     evaluations_per_cycle: Annotated[float, Figure("", "films per cycle", unjudged=True)]
     convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle", unjudged=True)]
     number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number", no_bar=wearing.FOLLOWS_CELL)]
@@ -223,6 +229,7 @@ def wear_down(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], con
         ),
         hardness=scene.contact.hardness,
         contact_step=step,
+        film_defect=film_defect(scene),
     )
     tell_of_film(context, step.notes, step.film_notes)
     if not scene.wear.traction.slides:
@@ -269,6 +276,7 @@ def _record(
         particles_first_cycle=float((worn.particles["cycle"] == 1).sum()),
         particles_last_cycles=float((worn.particles["cycle"] > len(cycles) - averaged).sum()),
         frame=np.array(_frame_cycles(scene.cycles.count)[: len(own["pressure_frames"])]),
+        **dict.fromkeys(TEMPERATURES if scene.thermal == "off" else ()),
         **own,
     )
 

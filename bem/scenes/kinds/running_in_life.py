@@ -20,12 +20,12 @@ from bem.scenes.axes import Axis
 from bem.scenes.common import Repetitions, problem
 from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
-from bem.scenes.lubrication import MixedScene
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, filled, grid_map
+from bem.scenes.tables.film_defect import film_defect
 from bem.scenes.tables.life import LifeCycles, LifeFatigue, LifeFilm, LifeParticles, LifeWear
-from bem.scenes.tables.sharing import RunningInSharing
+from bem.scenes.tables.sharing import TEMPERATURES, HotMixedScene, RunningInSharing
 
 if TYPE_CHECKING:
     from bem.friction.setup import MixedSetup
@@ -37,7 +37,7 @@ _CONVOLUTIONS = 60  # of the two or three contacts of a pass
 _JUMPS = 40  # steps of a life of a million cycles, each of three rounds
 
 
-class RunningInLifeScene(MixedScene):
+class RunningInLifeScene(HotMixedScene):
     """A rough cylinder and a rough flat that wear each other in oil over a life."""
 
     kind: Literal["running-in-life"] = "running-in-life"
@@ -93,6 +93,7 @@ def plan(scene: RunningInLifeScene) -> Plan:
     """
     grid, life = scene.check(), scene.life
     scene.wear.rates(scene.bodies, scene.friction)
+    film_defect(scene)
     if scene.fatigue is not None:
         scene.fatigue.build(scene.bodies, scene.friction)
     if scene.particles is not None:
@@ -142,6 +143,7 @@ def plan(scene: RunningInLifeScene) -> Plan:
 _JUMPS_ALONE = "hold what the cycle jumps leave open alone: life.coarser_lives is false"
 _over, _shown = partial(Series, ("cycle",)), partial(grid_map, of="first")
 _step = partial(Series, ("step",), rows=True)
+_heated = partial(Figure, "C", optional=True, no_bar="friction, whose heat it is, has one")
 _PITS = "it follows the stresses of single cells, the positions that sample a pass, and the surfaces drawn"
 _COUNTS = "pieces follow the mesh under most criteria; see kind wear"
 
@@ -165,6 +167,8 @@ class RunningInLifeRecord(GridRecord):
     contact_area_fraction: Annotated[float, Figure("", "real contact area over the patch, at the end")]
     minimum_film: Annotated[float, Figure("nm", "minimum film thickness at the end")]
     wear_volume: Annotated[float, Figure("um3", "volume worn of both surfaces of the patch")]
+    contact_temperature: Annotated[float | None, _heated("surfaces in contact, mean by pressure, at the end")]
+    flash_temperature: Annotated[float | None, _heated("surfaces in contact, highest, at the end")]
     tribofilm_thickness: Annotated[float | None, Figure("nm", "mean thickness of the tribofilm", optional=True)]
     particles: Annotated[float | None, Figure("", "pieces that carry away what wore", optional=True, no_bar=_COUNTS)]
     particle_equivalent_radius: Annotated[
@@ -200,6 +204,7 @@ class RunningInLifeRecord(GridRecord):
     lower_depth_over_cycles: Annotated[FloatArray, _over("m", "mean depth worn of the lower surface")]
     upper_depth_over_cycles: Annotated[FloatArray, _over("m", "mean depth worn of the upper surface")]
     depth_error_over_cycles: Annotated[FloatArray, _over("m", "what the jumps leave open of the mean depths worn")]
+    flash_temperature_over_cycles: Annotated[FloatArray | None, _over("K", "highest temperature of the contact")]
     tribofilm_over_cycles: Annotated[FloatArray | None, _over("m", "mean thickness of the tribofilm")]
     particles_over_cycles: Annotated[FloatArray | None, _over("1", "pieces so far")]
     micropitted_over_cycles: Annotated[FloatArray | None, _over("1", "micropitted share of the surface")]
@@ -278,6 +283,7 @@ def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, beside
         over,
         beside.figures(cycle, end),
         cycle=cycle,
+        **_temperatures(scene, cycle, end),
         tribofilm_over_cycles=None if film is None else np.interp(cycle, at, end.over("film_thickness")),
         film_map=film,
         jump_error=missed,
@@ -292,6 +298,14 @@ def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, beside
         pressure=end.passes[0].pressure,
         **({} if film is not None else {"tribofilm_thickness": None}),
     )
+
+
+def _temperatures(scene: RunningInLifeScene, cycle: FloatArray, end: LifeState) -> dict[str, Any]:
+    """Of the contact, where its heat was asked for."""
+    if scene.thermal == "off":
+        return dict.fromkeys((*TEMPERATURES, "flash_temperature_over_cycles"))
+    flash = np.interp(cycle, end.over("cycles"), end.over("flash_temperature"))
+    return {name: float(end.over(name)[-1]) for name in TEMPERATURES} | {"flash_temperature_over_cycles": flash}
 
 
 _COLUMNS = {

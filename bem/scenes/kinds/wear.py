@@ -25,6 +25,7 @@ from bem.scenes.resolutions import first_domain, of_loop
 from bem.scenes.rubbing import RubbedRecord, rubbed
 from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
+from bem.scenes.tables.wear_model import WearScenePart
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -49,7 +50,7 @@ class WearScene(SceneModel):
     cylinder: CylinderScene
     domain: DomainScene
     depths: wearing.WearDepthsScene
-    wear: wearing.WearScenePart = wearing.WearScenePart()
+    wear: WearScenePart = WearScenePart()
     cycles: CyclesScene = CyclesScene()
     sizes: wearing.SizesScene = wearing.SizesScene()
     archard: wearing.WearRateScene | None = None
@@ -267,6 +268,7 @@ def wear_down(scene: WearScene, initial: tuple[FloatArray, FloatArray], context:
         friction=scene.cylinder.friction,
         hardness=scene.cylinder.hardness,
         third_bodies=_third_bodies(scene),
+        film_defect=None if scene.wear.film_defect is None else scene.wear.film_defect.build(),
         stop=Settled(tolerance=scene.cycles.tolerance) if scene.cycles.stop_when_settled else None,
     )
     return _record(scene, grid, load, initial, result)

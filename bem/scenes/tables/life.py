@@ -11,6 +11,7 @@ from pydantic import Field, field_validator
 from bem.grid import FloatArray, Grid
 from bem.scenes.common import Table, problem
 from bem.scenes.laws import LawKey
+from bem.scenes.tables.film_defect import FilmDefectScene
 from bem.scenes.tables.tribofilm import KineticsScene
 from bem.scenes.units import Pressure, Ratio, Temperature, Time
 from bem.scenes.wearing import WearDepthsScene
@@ -57,6 +58,7 @@ class LifeWear(Table):
     wears: Bodies = "both"
     passes: Bodies = "both"
     positions: Annotated[int, Field(strict=True, ge=1, le=256)] = 8
+    film_defect: FilmDefectScene | None = None
 
     @field_validator("law")
     @classmethod

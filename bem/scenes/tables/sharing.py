@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal, Self, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
 
 from pydantic import Field, model_validator
 
@@ -49,35 +49,56 @@ class SharingScene(Table):
         return self
 
 
-class CurveScene(MixedScene):
-    """A rough cylinder, ball or ellipsoid on a rough flat with oil between them, at many speeds; in a case there is one
-    model."""
+TEMPERATURES = ("contact_temperature", "flash_temperature")
+"""Figures of a contact whose heat was asked for."""
 
-    film: FilmMeshScene = FilmMeshScene()
-    sharing: SharingScene = SharingScene()
+
+class HotMixedScene(MixedScene):
+    """A `MixedScene` whose film and surfaces may have their heat: lumped over the film, conducted from the contact."""
+
     thermal: Literal["off", "lumped"] = "off"
-
-    cell_may_repeat = True
 
     @model_validator(mode="after")
     def _heat(self) -> Self:
         if self.thermal == "off":
             return self
         check_film_heat(self.oil, self.lower, self.upper)
+        if self.contact.point_radii is not None:
+            raise problem(_of_a_ball('thermal = "lumped"'), _NOT_OF_A_BALL)
         return self
 
+    def setup(self, **accuracy: Any) -> MixedSetup:
+        """As `MixedScene.setup`, with the heat."""
+        return super().setup(thermal=self.thermal, **accuracy)
+
+
+_NOT_OF_A_BALL = "a cylinder, or without: of a point film there is none yet"
+
+
+def _of_a_ball(key: str) -> str:
+    return f"{key} of a ball's film"
+
+
+class CurveScene(HotMixedScene):
+    """A rough cylinder, ball or ellipsoid on a rough flat with oil between them, at many speeds; in a case there is one
+    model."""
+
+    film: FilmMeshScene = FilmMeshScene()
+    sharing: SharingScene = SharingScene()
+
+    cell_may_repeat = True
+
     @model_validator(mode="after")
-    def _of_a_ball(self) -> Self:
+    def _point_film(self) -> Self:
         if self.contact.point_radii is None:
             return self
         asked = {
             'sharing.flow_factors = "surfaces"': self.sharing.flow_factors != "off",
             "sharing.striated_exit": self.sharing.striated_exit,
-            'thermal = "lumped"': self.thermal != "off",
         }
         for key, given in asked.items():
             if given:
-                raise problem(f"{key} of a ball's film", "a cylinder, or without: of a point film there is none yet")
+                raise problem(_of_a_ball(key), _NOT_OF_A_BALL)
         return self
 
     @model_validator(mode="after")
@@ -119,7 +140,6 @@ class CurveScene(MixedScene):
             film_position=self.film.positions(),
             contact_model="coupled" if self.coupled else "uncoupled",
             flow_factors=factors,
-            thermal=self.thermal,
         )
 
 

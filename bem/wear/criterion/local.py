@@ -80,10 +80,11 @@ class LocalWear(Detachment):
         from bem.wear.yielding import no_pieces
 
         began = time.perf_counter()
-        rate = self._rate_of(cycle.setup, cycle.body, cycle.loads[0].friction)
+        rate, defect = self._rate_of(cycle.setup, cycle.body, cycle.loads[0].friction), cycle.model.boundary_film
+        bare = 1.0 if defect is None else defect.share(cycle.temperature)
         if cycle.slid is not None:
             self._check_step(rate * float(cycle.slid.max()), cycle.setup)
-        worn = rate * (self.distance if cycle.slid is None else cycle.slid) * cycle.pressure
+        worn = bare * rate * (self.distance if cycle.slid is None else cycle.slid) * cycle.pressure
         before = np.zeros_like(worn) if cycle.memory is None else cycle.memory[1]
         pieces, memory = no_pieces(cycle.setup.grid.shape), np.stack([before, worn])
         return Removal(cycle.body, pieces, 0, 0.0, time.perf_counter() - began, memory, worn)

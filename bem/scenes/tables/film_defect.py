@@ -1,0 +1,52 @@
+"""A boundary film that protects what wears by pressure and distance: a table of the kinds with wear."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pydantic import Field
+
+from bem.errors import InputError
+from bem.scenes.common import PositiveLength, Table
+from bem.scenes.units import Energy, Speed, Temperature, Time
+
+if TYPE_CHECKING:
+    from bem.wear.film_defect import FilmDefect
+
+
+class FilmDefectScene(Table):
+    """Molecules on the surfaces that keep them from wearing where they stay; the law's rate is then that of bare ones.
+
+    `sliding_speed` and `temperature` are those of speeds and oil where there are some; with `thermal = "lumped"` each
+    place has its flash temperature. See `bem.wear.film_defect`.
+    """
+
+    adsorption_energy: Annotated[Energy, Field(gt=0)]
+    molecule_length: PositiveLength = 5e-10
+    vibration_time: Annotated[Time, Field(gt=0)] = 3e-12
+    sliding_speed: Annotated[Speed, Field(ge=0)] | None = None
+    temperature: Annotated[Temperature, Field(gt=0)] | None = None
+
+    def build(self, speeds: tuple[float, float] | None = None, temperature: float | None = None) -> FilmDefect:
+        """Of surfaces at speeds (u1, u2) [m/s] and a temperature [K], where the table has none of its own.
+
+        Raises
+        ------
+        InputError : no sliding speed or no temperature.
+        """
+        from bem.wear.film_defect import FilmDefect
+
+        slide = abs(speeds[0] - speeds[1]) if self.sliding_speed is None and speeds is not None else self.sliding_speed
+        warm = temperature if self.temperature is None else self.temperature
+        for name, value in (("sliding_speed", slide), ("temperature", warm)):
+            if value is None:
+                raise InputError(f"wear.film_defect.{name}: missing; allowed: a value, which nothing else here gives")
+        assert slide is not None
+        assert warm is not None
+        return FilmDefect(self.adsorption_energy, slide, warm, self.molecule_length, self.vibration_time)
+
+
+def film_defect(scene: Any) -> FilmDefect | None:
+    """Of the boundary film of a case in oil, at its speeds and the oil's temperature; InputError for what it lacks."""
+    table, (speeds,) = scene.wear.film_defect, scene.speeds.build()
+    return None if table is None else table.build(speeds, scene.oil.temperature)
