@@ -3,7 +3,7 @@
 Molecules leave the surface thermally and come back in no time: one stays t0 exp(E / kB T), and is missing where an
 asperity passes over its place, which takes x / U, if it leaves meanwhile. The share of places without one, Kingsbury's
 fractional film defect, is that of unprotected wear which is left (Kingsbury 1958, J. Appl. Phys. 29, 888; Rowe 1966,
-ASLE Trans. 9, 101): it rises with the temperature of each place, flash temperature included.
+ASLE Trans. 9, 101; both from memory): it rises with the temperature of each place, flash temperature included.
 
 Verified in tests/wear/test_film_defect.py.
 """
