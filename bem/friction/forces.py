@@ -53,9 +53,9 @@ def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup,
 
 
 def unrubbed(setup: MixedSetup) -> float:
-    """Temperature of surfaces that do not rub [K]: the oil's; not-a-number where no heat was asked for."""
+    """Temperature of surfaces that do not rub [K]: the oil's; 0 where no heat was asked for."""
     oil = setup.lubricant.temperature
-    return math.nan if setup.thermal == "off" or oil is None else oil
+    return 0.0 if setup.thermal == "off" or oil is None else oil
 
 
 def _boundary_coefficient(contact: Pressed | None, setup: MixedSetup, sliding_speed: float) -> float:

@@ -76,7 +76,7 @@ class Pass:
     """A contact that was solved: pressure (nx, ny) [Pa]; friction over the load, and of it the boundary part; shares of
     the load and of the grid's area in contact; minimum film [m] and that of the whole load over the rms height;
     film_pressure (nx, 1) [Pa] of the oil; temperature (nx, ny) [K] of the surfaces where rubbing heats them, else None,
-    and its mean by pressure and maximum in contact, not-a-number where no heat was asked for."""
+    and its mean by pressure and maximum in contact, 0 where no heat was asked for."""
 
     pressure: FloatArray
     boundary_friction: float
@@ -89,8 +89,8 @@ class Pass:
     start: PassStart
     film_pressure: FloatArray
     temperature: FloatArray | None = None
-    contact_temperature: float = math.nan
-    flash_temperature: float = math.nan
+    contact_temperature: float = 0.0
+    flash_temperature: float = 0.0
 
 
 PassContact = Callable[[FloatArray, PassStart, float], Pass]

@@ -48,7 +48,7 @@ MIXED_FIELDS = np.dtype(
 )
 """A cycle's load sharing as a row of a table: SI units, forces and area on the whole width; regime is an index.
 Temperatures are those of the surfaces in contact, mean by pressure and highest; the oil's without contact,
-not-a-number where no heat was asked for."""
+0 where no heat was asked for."""
 
 REGIMES = tuple(Regime)
 

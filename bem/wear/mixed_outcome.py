@@ -20,7 +20,7 @@ from bem.wear.mixed import MixedContact
 class RunIn:
     """Initial: of the first cycle; the others are means of the last cycles. Forces on the whole width [N].
 
-    friction and its boundary and film parts; temperatures of the surfaces in contact [K], not-a-number without heat;
+    friction and its boundary and film parts; temperatures of the surfaces in contact [K], 0 without heat;
     contact_share (cycles,) of the load; over the patch (nx,) in the last cycle: film thickness [m], film pressure [Pa],
     separation of the mean planes [m].
     """
