@@ -39,4 +39,4 @@ def register(app: typer.Typer) -> None:
         labels = ("Sq", "usual", "length across the lay", "length along the lay", "Ssk", "Sku")
         rows = list(zip(labels, one.shown(), strict=True))
         words = (("source", one.source), ("chosen here", one.chosen), ("not drawn", one.left_out))
-        table(("", ""), [*rows, *words], title=f"{name}: {one.title}")
+        table(("", ""), [*rows, *one.marks(), *words], title=f"{name}: {one.title}")

@@ -199,6 +199,10 @@ def check_surfaces(grid: Grid, **surfaces: AnySurface) -> None:
             except InputError as error:
                 hint = f" (of process {surface.process}, beside which keys of your own win)" if surface.process else ""
                 messages += [f"{name}.surface: {m.removeprefix('generate_surface: ')}{hint}" for m in error.messages]
+            try:
+                marks_of(surface, grid, 0)
+            except InputError as error:
+                messages += [f"{name}.surface.{m}" for m in error.messages]
     if messages:
         raise InputError(messages)
 
@@ -224,7 +228,34 @@ def _generated(surface: GeneratedSurface, grid: Grid, seed: int) -> FloatArray:
     from bem.surfaces.waves import on_cells
 
     seed = seed if surface.seed is None else surface.seed
-    return on_cells(generate_surface(_drawn_on(surface, grid), seed=seed, **_statistics(surface)), grid.shape)
+    drawn = on_cells(generate_surface(_drawn_on(surface, grid), seed=seed, **_statistics(surface)), grid.shape)
+    marks = marks_of(surface, grid, seed)
+    return drawn if marks is None else drawn + (marks - marks.mean())
+
+
+def marks_of(surface: GeneratedSurface, grid: Grid, seed: int) -> FloatArray | None:
+    """Marks of a tool on the grid's own cells, which resolve them or refuse: they are no waves to be carried.
+
+    Raises
+    ------
+    InputError : as `bem.surfaces.feed_marks` and `cross_hatch`.
+    """
+    from bem.surfaces.marks import cross_hatch, feed_marks
+
+    lay = surface.lay or "y"
+    if surface.feed_marks is not None:
+        return feed_marks(grid, seed=seed, lay=lay, **surface.feed_marks.model_dump())
+    if surface.cross_hatch is not None:
+        return cross_hatch(grid, seed=seed, lay=lay, **surface.cross_hatch.model_dump())
+    return None
+
+
+def drawn_hatch_angle(surface: GeneratedSurface, grid: Grid) -> float:
+    """Angle between the grooves of a surface's cross-hatch as it closes on the grid [rad]."""
+    from bem.surfaces.marks import hatch_angle
+
+    assert surface.cross_hatch is not None
+    return hatch_angle(grid, surface.cross_hatch.angle, surface.cross_hatch.spacing, surface.lay or "y")
 
 
 def _drawn_on(surface: GeneratedSurface, grid: Grid) -> Grid:

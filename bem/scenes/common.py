@@ -7,15 +7,17 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, field_validator, model_validator
+from pydantic import Field, PrivateAttr, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
 from bem.materials import CATALOGUE, Body, Layer, Material
 from bem.scenes.asked import AskedAccuracy
 from bem.scenes.paths import checksum_of, what_is_wrong_with
 from bem.scenes.ranges import values_of_keys
+from bem.scenes.table import Table, exactly_one, one_for_both, problem
+from bem.scenes.tables.marks import CrossHatchScene, FeedMarksScene
 from bem.scenes.units import Density, Force, HeatCapacity, Length, Pressure, Ratio, ThermalConductivity
-from bem.surfaces.processes import PROCESSES, Lay, ProcessName
+from bem.surfaces.processes import PROCESSES, Lay, ProcessName, statistics_beside
 
 PositiveLength = Annotated[Length, Field(gt=0)]
 PositivePressure = Annotated[Pressure, Field(gt=0)]
@@ -23,30 +25,6 @@ Cells = Annotated[int, Field(strict=True, ge=1, le=65536)]
 Loads = Annotated[list[Annotated[Force, Field(gt=0)]], Field(min_length=1, max_length=64)]
 Repetitions = Annotated[int, Field(strict=True, ge=1, le=1000)]
 Axis = Literal["none", "x", "y", "both"]
-
-
-class Table(BaseModel):
-    """A table of a scene: unknown keys are refused, values never change."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, protected_namespaces=(), validate_default=True)
-
-
-def problem(text: str, allowed: str) -> PydanticCustomError:
-    """A mistake, said as the messages of scenes say it: what is wrong, what is allowed."""
-    return PydanticCustomError("scene", "{problem}; allowed: {allowed}", {"problem": text, "allowed": allowed})
-
-
-def exactly_one(table: BaseModel, *names: str) -> None:
-    """Refuse a table that gives none or several of `names`."""
-    given = [name for name in names if getattr(table, name) is not None]
-    if len(given) != 1:
-        found = "none is given" if not given else f"{' and '.join(given)} are given"
-        raise problem(found, f"exactly one of {', '.join(names)}")
-
-
-def one_for_both(value: Any) -> Any:
-    """One value as that of both axes."""
-    return (value, value) if isinstance(value, int | float | str) else value
 
 
 class Variant(Table):
@@ -130,21 +108,14 @@ class SmoothSurface(Table):
     kind: Literal["smooth"] = "smooth"
 
 
-_NO_STATISTIC = ("kind", "process", "lay", "seed", "drawn_on", "source")
-_EXCLUDED = {
-    "correlation_length": ("hurst", "rolloff_wavelength"),
-    "hurst": ("correlation_length", "elongation"),
-}
-"""What of a process does not go with a key that is given beside it."""
-
-
 class GeneratedSurface(Table):
     """A random surface of prescribed statistics; see `bem.generate_surface`.
 
     `elongation` is the ratio of the correlation lengths along x and y, of which `correlation_length` is then the
     geometric mean. `drawn_on` draws the surface on so many cells whatever the grid has, and carries its waves to the
     grid: the same surface on all grids that are as fine. `process` gives every statistic that is not given beside it;
-    `lay` is the direction of its ridges.
+    `lay` is the direction of its ridges. `feed_marks` or `cross_hatch` are added, and the statistics are then those of
+    what lies between them.
     """
 
     kind: Literal["generated"] = "generated"
@@ -158,6 +129,8 @@ class GeneratedSurface(Table):
     cutoff_wavelength: PositiveLength | None = None
     skewness: Ratio = 0.0
     kurtosis: Annotated[Ratio, Field(gt=1)] = 3.0
+    feed_marks: FeedMarksScene | None = None
+    cross_hatch: CrossHatchScene | None = None
     seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] | None = None
     drawn_on: tuple[Cells, Cells] | None = None
     source: str = ""
@@ -176,20 +149,20 @@ class GeneratedSurface(Table):
             raise problem(
                 f"process {data['process']} beside statistics of {other}", "process without them, or without source"
             )
-        known = process.keys("x" if data.get("lay") == "x" else "y")
-        own = [key for key in data if key in cls.model_fields and key not in _NO_STATISTIC]
-        for key, others in _EXCLUDED.items():
-            if key in own:
-                known = {name: value for name, value in known.items() if name not in others}
-        changed = f"; changed in the scene: {', '.join(sorted(own))}" if own else ""
-        return {**known, "source": f"{process.title}. {process.source}{changed}", **data}
+        wrong = process.wrong_marks(data)
+        if wrong is not None:
+            raise problem(*wrong)
+        return statistics_beside(process, data)
 
     @model_validator(mode="after")
     def _one_lay(self) -> GeneratedSurface:
-        if self.lay is None:
+        marked = self.feed_marks is not None or self.cross_hatch is not None
+        if self.feed_marks is not None and self.cross_hatch is not None:
+            raise problem("feed_marks and cross_hatch are both given", "one of them")
+        if self.lay is None or (marked and self.elongation is None):
             return self
-        if self.process is None:
-            raise problem("lay without process", "process with lay; elongation where there is none")
+        if self.process is None and not marked:
+            raise problem("lay without process or marks", "one of them with lay; elongation where there is none")
         if self.elongation is None:
             directional = [name for name, one in PROCESSES.items() if one.directional]
             raise problem(f"{self.process} has no lay", f"none, or one of {', '.join(directional)}")
@@ -260,7 +233,7 @@ class _LayeredScene(Table):
     """What both bodies share: a stack of layers and a surface."""
 
     layer: LayerScene | None = None
-    layers: list[LayerScene] = []
+    layers: list[LayerScene] = Field(default=[])
     surface: SurfaceScene = SmoothSurface()
 
     @field_validator("surface", mode="before")

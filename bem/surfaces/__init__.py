@@ -1,7 +1,8 @@
 """Rough surfaces: generate, read measured ones, filter, describe.
 
 `generate` makes heights of a `spectrum` (`request` checks what is asked, `moments` imposes skewness and kurtosis),
-`processes` are statistics by how a surface is made, `read` opens an instrument's file by its `formats`, `filter`
+`processes` are statistics by how a surface is made, `marks` what a
+tool leaves, `read` opens an instrument's file by its `formats`, `filter`
 levels, despikes, fills, cuts and resamples, `seams` makes a map periodic, `describe` measures; `examples` are two maps
 of our own.
 Names are loaded when first used: planning a contact of smooth bodies costs no transforms and no splines.
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     )
     from bem.surfaces.formats import SurfaceFormat
     from bem.surfaces.generate import generate_surface
+    from bem.surfaces.marks import cross_hatch, feed_marks, hatch_angle
     from bem.surfaces.processes import PROCESSES, Process
     from bem.surfaces.read import read_surface, write_surface
     from bem.surfaces.seams import close_seams
@@ -52,11 +54,14 @@ __all__ = [
     "autocorrelation",
     "close_seams",
     "crop",
+    "cross_hatch",
     "describe_surface",
     "despike",
     "detrend",
+    "feed_marks",
     "fill_missing",
     "generate_surface",
+    "hatch_angle",
     "high_pass",
     "low_pass",
     "mirror_to_periodic",
@@ -85,6 +90,7 @@ __getattr__ = loader(
         ],
         "formats": ["SurfaceFormat"],
         "generate": ["generate_surface"],
+        "marks": ["cross_hatch", "feed_marks", "hatch_angle"],
         "processes": ["PROCESSES", "Process"],
         "read": ["read_surface", "write_surface"],
         "seams": ["close_seams"],

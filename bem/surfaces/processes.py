@@ -2,7 +2,8 @@
 
 Roughness of a process scatters by a factor of three and more; the figures, in `processes.toml`, are starting points
 for who has no measured map. Each has its source, or is said to be chosen here. No process of these is only random: feed
-marks, cross-hatch and scratches have a phase that waves of random phase do not have, which `left_out` says.
+marks, cross-hatch and scratches have a phase that waves of random phase do not have, which `left_out` says. Marks of
+two of them can be asked for (`marks`); the random surface is then what lies between them.
 
 Sees only errors. Verified in tests/surfaces/test_surface_processes.py: what is drawn has the statistics stated.
 """
@@ -11,7 +12,8 @@ from __future__ import annotations
 
 import math
 import tomllib
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from importlib.resources import files
 from typing import Any, Literal
 
@@ -19,6 +21,16 @@ from bem.errors import InputError
 
 ProcessName = Literal["ball", "blasted", "eroded", "ground", "honed", "lapped", "polished", "superfinished", "turned"]
 Lay = Literal["x", "y"]
+MARKS = ("feed_marks", "cross_hatch")
+_STATISTICS = (
+    *("rms_height", "correlation_length", "elongation", "hurst", "rolloff_wavelength", "cutoff_wavelength"),
+    *("skewness", "kurtosis"),
+)
+_EXCLUDED = {
+    "correlation_length": ("hurst", "rolloff_wavelength"),
+    "hurst": ("correlation_length", "elongation"),
+}
+"""What of a process does not go with a key that is given beside it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,6 +43,8 @@ class Process:
         None of a self-affine surface.
     hurst, rolloff_wavelength : of a self-affine surface: exponent, and the wavelength above which it is flat [m].
     skewness, kurtosis : of the heights.
+    feed_marks, cross_hatch : arguments of what draws the tool's marks, besides grid, seed and lay; None without them.
+    between : statistics of what lies between those marks, in place of the others.
     source : of the figures; chosen : which of them are not from there; left_out : what of the process is not drawn.
     """
 
@@ -43,6 +57,9 @@ class Process:
     rolloff_wavelength: float | None = None
     skewness: float = 0.0
     kurtosis: float = 3.0
+    feed_marks: Mapping[str, float] | None = None
+    cross_hatch: Mapping[str, float] | None = None
+    between: Mapping[str, float] | None = None
     source: str
     chosen: str
     left_out: str
@@ -87,6 +104,18 @@ class Process:
                 found["elongation"] = pair[0] / pair[1]
         return found
 
+    def between_marks(self) -> Process:
+        """Itself without the marks of its tool: what is added to them."""
+        return replace(self, skewness=0.0, kurtosis=3.0, feed_marks=None, cross_hatch=None, **(self.between or {}))
+
+    def wrong_marks(self, data: Mapping[str, Any]) -> tuple[str, str] | None:
+        """What is wrong with marks that are asked for of it, and what is allowed."""
+        for marks in MARKS:
+            if data.get(marks) is not None and getattr(self, marks) is None:
+                known = [name for name, one in PROCESSES.items() if getattr(one, marks) is not None]
+                return f"{marks} of a surface that is {self.title}", f"process {', '.join(known)}, or none"
+        return None
+
     def shown(self) -> tuple[str, ...]:
         """Sq, its usual range, lengths across and along the lay, skewness, kurtosis, in words."""
         usual = " to ".join(map(_length, self.usual))
@@ -95,6 +124,38 @@ class Process:
         else:
             lengths = (f"H {self.hurst:g}", f"flat above {_length(self.rolloff_wavelength or 0.0)}")
         return _length(self.rms_height), usual, *lengths, f"{self.skewness:g}", f"{self.kurtosis:g}"
+
+    def marks(self) -> tuple[tuple[str, str], ...]:
+        """Of each marks that a scene can ask for, its key and what they are without a word of their own."""
+        found = []
+        for name in MARKS:
+            values = getattr(self, name) or {}
+            words = [
+                f"{key} {math.degrees(value):.4g} deg"
+                if key == "angle"
+                else f"{key.replace('_', ' ')} {_length(value)}"
+                for key, value in values.items()
+            ]
+            if words:
+                words.append(f"between them Sq {_length(self.between_marks().rms_height)}")
+                found.append((f"{name} = {{}}", ", ".join(words)))
+        return tuple(found)
+
+
+def statistics_beside(process: Process, data: Mapping[str, Any]) -> dict[str, Any]:
+    """The table of a generated surface with what its process says beside the keys that are given, and its source."""
+    asked = [marks for marks in MARKS if isinstance(data.get(marks), Mapping)]
+    known = (process.between_marks() if asked else process).keys("x" if data.get("lay") == "x" else "y")
+    own = [key for key in data if key in _STATISTICS]
+    for key, others in _EXCLUDED.items():
+        if key in own:
+            known = {name: value for name, value in known.items() if name not in others}
+    found = dict(data)
+    for marks in asked:
+        own += [f"{marks}.{key}" for key in data[marks]]
+        found[marks] = {**getattr(process, marks), **data[marks]}
+    changed = f"; changed in the scene: {', '.join(sorted(own))}" if own else ""
+    return {**known, "source": f"{process.title}. {process.source}{changed}", **found}
 
 
 def _length(value: float) -> str:

@@ -98,14 +98,33 @@ def _generated(body: str, table: GeneratedSurface, grid: Grid, seed: int) -> Rou
         made = f"generated with correlation length {si(table.correlation_length, 'm')}"
     if (table.skewness, table.kurtosis) != (0.0, 3.0):
         made += f", skewness {table.skewness:g}, kurtosis {table.kurtosis:g}"
+    made += _marks_said(table, grid)
     patch = _patch(grid)
     plain = table.model_copy(update={"skewness": 0.0, "kurtosis": 3.0})
     if patch != grid and table.correlation_length is not None:
         # the patch may be too small for it; exp(-(r/l)^2) has the slope 2 Sq / l
         length = table.correlation_length
-        return RoughSurface(body, table, grid, (made,), table.rms_height, 2 * table.rms_height / length, length)
+        marks = build.marks_of(table, Grid(patch.shape, patch.spacing), derive_seed(seed, body))
+        height, slope, _ = (0.0, 0.0, 0.0) if marks is None else _described(marks, Grid(patch.shape, patch.spacing))
+        both = math.hypot(table.rms_height, height), math.hypot(2 * table.rms_height / length, slope)
+        return RoughSurface(body, table, grid, (made,), *both, length)
     heights = build.heights_of(plain, patch, derive_seed(seed, body))
     return RoughSurface(body, table, grid, (made,), *_described(heights, patch))
+
+
+def _marks_said(table: GeneratedSurface, grid: Grid) -> str:
+    """Marks of a tool, in words; of grooves the angle that closes on the grid."""
+    if table.feed_marks is not None:
+        return f", between feed marks {si(table.feed_marks.feed, 'm')} apart"
+    if table.cross_hatch is not None:
+        hatch = table.cross_hatch
+        drawn = build.drawn_hatch_angle(table, grid)
+        asked = "" if abs(drawn - hatch.angle) < 1e-3 else f" (asked for: {math.degrees(hatch.angle):.4g})"
+        return (
+            f", between grooves {si(hatch.depth, 'm')} deep, {si(hatch.spacing, 'm')} apart, of directions "
+            f"{math.degrees(drawn):.4g} deg{asked} from each other"
+        )
+    return ""
 
 
 def _measured(body: str, table: MeasuredSurface, grid: Grid) -> RoughSurface:

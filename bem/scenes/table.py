@@ -1,0 +1,32 @@
+"""What the tables of scenes are made of: a model that refuses unknown keys, and how it says what is wrong."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict
+from pydantic_core import PydanticCustomError
+
+
+class Table(BaseModel):
+    """A table of a scene: unknown keys are refused, values never change."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, protected_namespaces=(), validate_default=True)
+
+
+def problem(text: str, allowed: str) -> PydanticCustomError:
+    """A mistake, said as the messages of scenes say it: what is wrong, what is allowed."""
+    return PydanticCustomError("scene", "{problem}; allowed: {allowed}", {"problem": text, "allowed": allowed})
+
+
+def exactly_one(table: BaseModel, *names: str) -> None:
+    """Refuse a table that gives none or several of `names`."""
+    given = [name for name in names if getattr(table, name) is not None]
+    if len(given) != 1:
+        found = "none is given" if not given else f"{' and '.join(given)} are given"
+        raise problem(found, f"exactly one of {', '.join(names)}")
+
+
+def one_for_both(value: Any) -> Any:
+    """One value as that of both axes."""
+    return (value, value) if isinstance(value, int | float | str) else value
