@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    app.command(short_help="Bearing, gear pair, cam: all contacts, and scenes of them.")(element)
+    app.command(short_help="Bearing, gear pair, cam, piston ring: contacts, and scenes of them.")(element)
 
 
 def element(  # reason: the arguments are the options

@@ -25,7 +25,7 @@ def register(app: typer.Typer) -> None:
             typer.Argument(
                 metavar="KIND",
                 help="Kind of scene, such as contact (or what it is called elsewhere, such as stribeck), a built-in "
-                "scene, or a machine element: rolling-bearing, gear-pair, cam-follower.",
+                "scene, or a machine element: rolling-bearing, gear-pair, cam-follower, piston-ring.",
                 autocompletion=complete_kind,
             ),
         ],
@@ -74,7 +74,18 @@ def element_text(name: str) -> str:
 
 
 _ELEMENTS = (
-    *("rolling-bearing", "bearing", "gear-pair", "gear", "gears", "helical-gear", "cam-follower", "cam"),
-    *("journal-bearing", "plain-bearing", "piston-ring"),
+    *(
+        "rolling-bearing",
+        "bearing",
+        "gear-pair",
+        "gear",
+        "gears",
+        "helical-gear",
+        "cam-follower",
+        "cam",
+        "piston-ring",
+        "ring",
+    ),
+    *("journal-bearing", "plain-bearing"),
 )
 """Known without loading them."""

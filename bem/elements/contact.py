@@ -10,6 +10,7 @@ from bem.reference_solutions.hertz import LineContact, PointContact, cylinder_co
 
 if TYPE_CHECKING:
     from bem.lubrication import Lubricant
+    from bem.reference_solutions.line_film import InletFilm
 
 CONFORMING = 0.3
 """Contact half-length a over the smallest radius R of a body from which on its roundness is said: the gap of two nearly
@@ -29,6 +30,7 @@ class ElementContact:
     across : radius of relative curvature across the motion [m]; infinite for a line.
     length : of a line [m]; None for a point.
     speeds : of both surfaces over the contact, along the motion [m/s].
+    inlet : how far before the axis the gap begins to be full of oil [m]; infinite where it is flooded.
     """
 
     name: str
@@ -38,6 +40,7 @@ class ElementContact:
     speeds: tuple[float, float]
     across: float = math.inf
     length: float | None = None
+    inlet: float = math.inf
 
     @property
     def radius(self) -> float:
@@ -75,7 +78,9 @@ class ElementContact:
 
     def minimum_film(self, modulus: float, oil: Lubricant) -> float:
         """Dowson's fit of the minimum film of a line [m], isothermal and flooded, to tell places apart; scenes compute
-        it. Zero where nothing is entrained."""
+        it. Zero where nothing is entrained. Of a bounded inlet the rigid film of the oil as it comes."""
+        if math.isfinite(self.inlet) and self.mean_speed:
+            return self.rigid_film(oil.viscosity).minimum_thickness
         from bem.reference_solutions.line_film import dowson_higginson_minimum
 
         if self.mean_speed == 0:
@@ -88,6 +93,13 @@ class ElementContact:
             viscosity=oil.viscosity,
             pressure_viscosity=oil.pressure_viscosity,
         )
+
+    def rigid_film(self, viscosity: float) -> InletFilm:
+        """Of a line whose bodies stay rigid, in oil of a viscosity [Pa s] up to its inlet; something is entrained."""
+        from bem.reference_solutions.line_film import InletFilm
+
+        assert self.length is not None
+        return InletFilm(self.load / self.length, self.radius, viscosity, abs(self.mean_speed), self.inlet)
 
     def conforming(self, modulus: float) -> bool:
         """Whether the contact is as long as the bodies are round, across or along."""

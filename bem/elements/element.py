@@ -19,6 +19,7 @@ from bem.elements.cam_follower import CamModel
 from bem.elements.contact import CONFORMING, ElementContact
 from bem.elements.gear_pair import GearModel
 from bem.elements.model import Contacts, ElementModel
+from bem.elements.piston_ring import PistonRingModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.errors import InputError
 from bem.materials import contact_modulus
@@ -28,20 +29,22 @@ from bem.small_files import read_small
 MODELS: dict[str, type[ElementModel]] = {
     "cam-follower": CamModel,
     "gear-pair": GearModel,
+    "piston-ring": PistonRingModel,
     "rolling-bearing": BearingModel,
 }
-NOT_HERE = {
-    "journal-bearing": "bush and shaft conform: neither half-space nor a film between parabolas carries there",
-    "plain-bearing": "bush and shaft conform: neither half-space nor a film between parabolas carries there",
-    "piston-ring": "its film is that of a rigid profile whose flooding changes over the stroke; kind film takes a "
-    "cylinder of the ring's radius over a motion in time, flooded",
-}
+_CONFORM = (
+    "bush and shaft conform, and their film reaches around the shaft: neither half-space nor a film between parabolas "
+    "carries there. A small flat patch of both under its mean pressure is a scene of kind contact, wear or running-in: "
+    "what roughness does at start and stop; an edge that a tilted shaft presses into is none of them"
+)
+NOT_HERE = {"journal-bearing": _CONFORM, "plain-bearing": _CONFORM}
 _SHORT = {
     "bearing": "rolling-bearing",
     "gear": "gear-pair",
     "gears": "gear-pair",
     "helical-gear": "gear-pair",
     "cam": "cam-follower",
+    "ring": "piston-ring",
 }
 KINDS = ("traction", "contact", "point-film")
 """Kinds of scene that are made of a contact."""
@@ -65,7 +68,14 @@ class Element:
         return contact_modulus(self.model.first.build(), self.model.second.build())
 
     def worst(self) -> ElementContact:
-        """That with the highest pressure."""
+        """That with the highest pressure.
+
+        Raises
+        ------
+        InputError : nowhere do the bodies touch.
+        """
+        if not self.found.contacts:
+            raise InputError(f"{self.model.name}: no contact is left: {'; '.join(self.found.notes[:1])}")
         return max(self.found.contacts, key=lambda one: one.hertz(self.modulus).maximum_pressure)
 
     def thinnest(self) -> ElementContact:
@@ -187,6 +197,7 @@ class Element:
             "oil": dict(self.table["oil"]),
             **({} if self.model.rms_roughness is None else {"roughness": self.model.rms_roughness}),
             "rolling": {"mean_speed": abs(contact.mean_speed), "slide_roll_ratio": ratio},
+            **({"supply": {"distance": contact.inlet}} if math.isfinite(contact.inlet) else {}),
         }
         if kind == "point-film":
             if contact.length is not None:

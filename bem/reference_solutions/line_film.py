@@ -1,9 +1,10 @@
-"""Films of a cylinder on a flat: Martin's rigid solution, the squeeze film, and the fits in common use."""
+"""Films of a cylinder on a flat: Martin's rigid one, of a short inlet too, the squeeze film, fits in common use."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -52,6 +53,62 @@ class MartinFilm:
         angle = np.arctan(position / scale)
         value = 12 * self.viscosity * self.mean_speed * scale / lowest**2 * _primitive(angle, EXIT_ANGLE)
         return np.where(angle < EXIT_ANGLE, value, 0.0)
+
+
+@dataclass(frozen=True)
+class InletFilm:
+    """Rigid cylinder on a flat, isoviscous oil that begins `inlet` before the axis, Swift-Stieber exit.
+
+    Martin's integrals from the inlet's angle instead of -pi/2: with x = sqrt(2 R h) tan a, the pressure is zero at both
+    ends where the primitive's difference is, and the load is 24 mu u R / h times -[sin^2 a / 2 + cos^4 a / (4 cos^2 e)]
+    between them, e the exit. The film of an infinite inlet is Martin's.
+
+    load : by length [N/m]; radius, inlet [m]; viscosity [Pa s]; mean_speed : of both surfaces [m/s], positive.
+    """
+
+    load: float
+    radius: float
+    viscosity: float
+    mean_speed: float
+    inlet: float
+
+    @cached_property
+    def minimum_thickness(self) -> float:
+        """[m], at x = 0."""
+        from scipy.optimize import brentq
+
+        martin = MartinFilm(self.load, self.radius, self.viscosity, self.mean_speed).minimum_thickness
+        # the shorter the inlet the less is carried: the film lies below Martin's
+        low = martin
+        while self._carried(low) < self.load:
+            low *= 0.25
+        return low if low == martin else float(brentq(lambda h: self._carried(h) / self.load - 1, low, martin))
+
+    @property
+    def exit_position(self) -> float:
+        """[m]; at most half the inlet, which it is of a film much thicker than the gap grows."""
+        lowest = self.minimum_thickness
+        return math.sqrt(2 * self.radius * lowest) * math.tan(self._ends(lowest)[1])
+
+    def _ends(self, thickness: float) -> tuple[float, float]:
+        """Angles of inlet and exit."""
+        from scipy.optimize import brentq
+
+        begin = -math.atan(self.inlet / math.sqrt(2 * self.radius * thickness))
+
+        def left(exit_angle: float) -> float:
+            return float(_primitive(exit_angle, exit_angle) - _primitive(begin, exit_angle))
+
+        return begin, float(brentq(left, 1e-9 * -begin, min(-begin, 1.0)))
+
+    def _carried(self, thickness: float) -> float:
+        """Load [N/m]."""
+        begin, end = self._ends(thickness)
+
+        def inner(angle: float) -> float:
+            return 0.5 * math.sin(angle) ** 2 + math.cos(angle) ** 4 / (4 * math.cos(end) ** 2)
+
+        return 24 * self.viscosity * self.mean_speed * self.radius / thickness * (inner(begin) - inner(end))
 
 
 def squeeze_load(thickness: float, approach_speed: float, radius: float, viscosity: float) -> float:

@@ -39,6 +39,7 @@ def feed_marks(grid: Grid, *, feed: float, nose_radius: float, seed: int, lay: L
     grid : where; along an axis that repeats it holds whole feeds.
     feed, nose_radius : [m].
     seed : integer >= 0.
+    lay : axis that the ridges run along.
 
     Raises
     ------
@@ -83,6 +84,7 @@ def cross_hatch(
     spacing : of one direction's grooves on average, across them [m].
     width, depth : of a groove [m].
     seed : integer >= 0.
+    lay : axis that halves the angle.
 
     Raises
     ------

@@ -124,6 +124,6 @@ def test_the_command_writes_scene_and_table(tmp_path):
     assert again.returncode == 2
     assert "a number from 1 to 41" in again.stderr
     assert not (tmp_path / "other.toml").exists()
-    refused = bem("new", "piston-ring")
+    refused = bem("new", "journal-bearing")
     assert refused.returncode == 2
     assert "not here" in refused.stderr

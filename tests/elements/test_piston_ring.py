@@ -1,0 +1,169 @@
+"""A piston ring from its engine: motion by differences, forces by their balance, films against Reynolds' equation."""
+
+import math
+import tomllib
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from bem import InputError, load_scene, run_scene
+from bem.elements.element import element_template, load_element
+from bem.elements.running import run_contact, summary
+from bem.reference_solutions.line_film import InletFilm, MartinFilm, squeeze_thickness
+
+TABLE = tomllib.loads(element_template("piston-ring")) | {"points": 12}
+GAS = TABLE["gas"]
+
+
+def ring(**changes):
+    return load_element({key: value for key, value in (TABLE | changes).items() if value is not None})
+
+
+def test_the_piston_moves_as_the_crank_turns():
+    model = ring().model
+
+    def below(angle):
+        crank = np.array([0.5 * model.stroke * math.cos(angle), 0.5 * model.stroke * math.sin(angle)])
+        pin = crank[0] + math.sqrt(model.rod**2 - crank[1] ** 2)  # the rod has its length
+        return 0.5 * model.stroke + model.rod - pin
+
+    for angle in np.linspace(0, 4 * math.pi, 23):
+        step = 1e-5
+        speed = (below(angle + step) - below(angle - step)) / (2 * step) * model.speed
+        # second differences of 0.1 m over 1e-5 rad: 1e-9 of the largest speed, and round-off
+        assert model.piston_speed(angle) == pytest.approx(speed, abs=1e-7 * model.speed * model.stroke)
+    assert below(math.pi) == pytest.approx(model.stroke)
+
+
+def test_what_presses_the_ring_is_in_balance():
+    """Tension at both ends of a half ring holds the pressure on its diameter; gas acts on back and upper face."""
+    model = ring(gas=None).model
+    angle = np.linspace(0, math.pi, 20001)
+    pushed = np.trapezoid(model.line_load(0.3) * np.sin(angle), angle) * 0.5 * model.bore
+    assert pushed == pytest.approx(2 * model.tension, rel=1e-8)
+    gas = 3e6
+    for crown in (0.2, 0.5, 0.9):
+        pressed = ring(crown=crown, gas={"crank_angle": [0.0, 2 * math.pi], "pressure": [gas, gas]}).model
+        back, face = gas * pressed.height, gas * (1 - crown) * pressed.height
+        assert pressed.line_load(1.0) - model.line_load(1.0) == pytest.approx(back - face, rel=1e-12)
+    assert ring().model.line_load(math.radians(27.5)) == pytest.approx(2 * 12 / 0.08 + 0.5 * 4e6 * 1.5e-3)
+
+
+@pytest.mark.parametrize("inlet", [2e-4, 7.5e-4, 3e-3, 0.5])
+def test_the_rigid_film_solves_reynolds(inlet):
+    """Pressure by quadrature of its gradient from the exit: zero at the inlet, and the load is its integral."""
+    film = InletFilm(load=400.0, radius=0.06, viscosity=0.012, mean_speed=3.0, inlet=inlet)
+    lowest, end = film.minimum_thickness, film.exit_position
+
+    def gap(x):
+        return lowest + x * x / (2 * film.radius)
+
+    def gradient(x):
+        return 12 * film.viscosity * film.mean_speed * (gap(x) - gap(end)) / gap(x) ** 3
+
+    scale = math.sqrt(2 * film.radius * lowest)
+    begin = -inlet
+    edges = sorted({begin, end, *(x for x in (-10 * scale, -scale, 0.0) if x > begin)})
+    fall = sum(quad(gradient, a, b, epsabs=0, epsrel=1e-11)[0] for a, b in pairwise(edges))
+    highest = max(abs(gradient(x)) for x in np.linspace(max(begin, -3 * scale), end, 200)) * scale
+    assert abs(fall) < 1e-8 * highest
+    # integral of p = - integral of x p' where p is zero at both ends
+    load = -sum(quad(lambda x: x * gradient(x), a, b, epsabs=0, epsrel=1e-11)[0] for a, b in pairwise(edges))
+    assert load == pytest.approx(film.load, rel=1e-7)
+    assert end <= 0.5 * inlet
+
+
+def test_a_long_inlet_is_martins_and_a_short_one_less():
+    keys = {"load": 400.0, "radius": 0.06, "viscosity": 0.012, "mean_speed": 3.0}
+    martin = MartinFilm(**keys)
+    # what an inlet leaves out of the load goes like 2 R h over its square, 3e-6 of 1 m
+    assert InletFilm(**keys, inlet=1.0).minimum_thickness == pytest.approx(martin.minimum_thickness, rel=2e-5)
+    assert InletFilm(**keys, inlet=1.0).exit_position == pytest.approx(martin.exit_position, rel=2e-5)
+    films = [InletFilm(**keys, inlet=one).minimum_thickness for one in (1e-4, 5e-4, 2e-3, 1e-2)]
+    assert films == sorted(films)
+    assert films[-1] < martin.minimum_thickness
+
+
+def test_the_film_of_a_place_is_the_scenes(tmp_path):
+    """Where hardly anything bends, the rigid film is the solver's on the same inlet; both strokes differ."""
+    element = ring(crown=0.4)
+    down, up = element.found.contacts[7], element.found.contacts[4]
+    assert down.speeds[0] > 0 > up.speeds[0]
+    assert (down.inlet, up.inlet) == (pytest.approx(0.4 * 1.5e-3), pytest.approx(0.6 * 1.5e-3))
+    for place in (down, up):
+        scene = load_scene(element.scene(place, "traction"))
+        assert scene.supply.distance == place.inlet
+        found = run_contact(element, place)
+        # 12 MPa lift the film by 0.25 % and by the pressure in the viscosity
+        assert found.minimum_film == pytest.approx(place.minimum_film(element.modulus, scene.oil.build()), rel=5e-3)
+    done = run_scene(
+        element.scene(down, "traction") | {"outputs": {"errors": False}}, tmp_path / "run", figures=False
+    ).summary
+    assert 1e-9 * done["minimum_thickness_nm"] == pytest.approx(run_contact(element, down).minimum_film, rel=1e-6)
+
+
+def test_over_the_cycle():
+    element = ring(specific_wear_rate="1e-9 mm^3/(N*m)", mean_particle_volume="0.1 um^3")
+    assert element.model.cycle == pytest.approx(4 * math.pi)
+    assert len(element.found.contacts) == 12
+    runs = [run_contact(element, one) for one in element.found.contacts[:3]]
+    said = dict(summary(element, runs))
+    assert "body 2 not known" in said["wear by hour"]
+    assert "of 0.1 um^3 each" in said["particles by hour"]
+    notes = element.notes()
+    assert any("it lives from squeeze" in note for note in notes)
+    assert any("less oil on the liner" in note for note in notes)
+    assert not any("behind the trailing edge" in note for note in notes)
+    assert any("behind the trailing edge" in note for note in ring(crown=0.95).notes())
+    dry = ring(oil=None)
+    assert not any("squeeze" in note for note in dry.notes())
+    lifted = ring(gas={"crank_angle": ["0 deg", "360 deg"], "pressure": ["-1 MPa", "-1 MPa"]}, tension="1 N")
+    with pytest.raises(InputError, match="no contact"):
+        lifted.worst()
+
+
+def test_the_note_on_squeeze_is_where_the_film_cannot_follow():
+    """By the squeeze film's own law: named are places where the steady film of a thousandth of a turn later is thinner
+    than what the film of now has sunk to by then; in the middle of a stroke there are none."""
+    element = ring(points=72)
+    oil, model = element.model.oil.build(), element.model
+    for one in element.found.contacts:
+        start = one.rigid_film(oil.viscosity).minimum_thickness
+        step = 2e-3 * math.pi
+        load = one.load / one.length
+        sunk = squeeze_thickness(np.array(step / model.speed), start, load, one.radius, oil.viscosity)
+        slower = min(abs(model.piston_speed(one.place + side * step) / one.speeds[0]) for side in (1, -1))
+        # both to first order in the step: near equality they may differ
+        if abs(sunk / start / slower - 1) > 1e-3:
+            assert model._lags(one, start) == (slower < sunk / start)
+    middle = [one for one in element.found.contacts if abs(math.degrees(one.place) % 180 - 80) < 20]
+    assert not any(model._lags(one, one.rigid_film(oil.viscosity).minimum_thickness) for one in middle)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"rod": "40 mm"}, "a longer rod"),
+        ({"height": "90 mm"}, "height < bore"),
+        ({"face_radius": "0.5 mm"}, "round over its height"),
+        ({"crown": 1.0}, r"crown"),
+        ({"gas": {"crank_angle": ["0 deg", "300 deg"], "pressure": [0.0, 0.0]}}, "from 0 to 360 deg, or to 720 deg"),
+        ({"gas": {"crank_angle": ["0 deg", "360 deg"], "pressure": [0.0, 0.0, 0.0]}}, "as many of each"),
+        ({"gas": {"crank_angle": ["0 deg", "0 deg"], "pressure": [0.0, 0.0]}}, "none twice"),
+        ({"gas": {"path": "nowhere.csv"}}, "cannot be read"),
+        ({"gas": {**GAS, "path": "x.csv"}}, "one of them"),
+    ],
+)
+def test_mistakes_are_said(change, message):
+    with pytest.raises(InputError, match=message):
+        ring(**change)
+
+
+def test_gas_from_a_table_with_units(tmp_path):
+    file = tmp_path / "gas.csv"
+    file.write_text("crank_angle [deg], pressure [bar]\n0, 20\n90, 5\n360, 20\n")
+    model = ring(gas={"path": str(file)}).model
+    assert model.cycle == pytest.approx(2 * math.pi)
+    assert model.line_load(math.pi / 4) == pytest.approx(2 * 12 / 0.08 + 0.5 * 12.5e5 * 1.5e-3)
