@@ -9,7 +9,6 @@ behind the whole height b and on the face above the line of contact, which lies 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from itertools import pairwise
 from typing import Annotated, Any, Literal, Self
 
@@ -20,7 +19,7 @@ from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.reference_solutions.line_film import InletFilm
 from bem.scenes.common import PositiveLength, Table, problem
-from bem.scenes.tables.along import columns_of
+from bem.scenes.tables.along import columns_or_file
 from bem.scenes.units import Angle, Force, Pressure, Rate, Ratio
 
 
@@ -34,12 +33,7 @@ class GasScene(Table):
     @model_validator(mode="before")
     @classmethod
     def _from_file(cls, data: Any) -> Any:
-        if not isinstance(data, Mapping) or "path" not in data:
-            return data
-        if len(data) > 1:
-            raise problem("path and columns are given", "one of them")
-        names = ("crank_angle", "pressure")
-        return columns_of(str(data["path"]), names, names)
+        return columns_or_file(data, ("crank_angle", "pressure"))
 
     @model_validator(mode="after")
     def _turns(self) -> Self:

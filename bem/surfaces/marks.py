@@ -129,7 +129,7 @@ def hatch_angle(grid: Grid, angle: float, spacing: float, lay: Lay = "y") -> flo
 
 def _places(grid: Grid, axis: int) -> FloatArray:
     """Middles of the cells from the grid's edge [m]."""
-    return (np.arange(grid.shape[axis]) + 0.5) * grid.spacing[axis]
+    return np.asarray((np.arange(grid.shape[axis]) + 0.5) * grid.spacing[axis], dtype=np.float64)
 
 
 def _normal(grid: Grid, half: float, spacing: float, lay: Lay) -> tuple[tuple[float, float], float | None]:

@@ -106,7 +106,8 @@ class Process:
 
     def between_marks(self) -> Process:
         """Itself without the marks of its tool: what is added to them."""
-        return replace(self, skewness=0.0, kurtosis=3.0, feed_marks=None, cross_hatch=None, **(self.between or {}))
+        plain: dict[str, Any] = {"skewness": 0.0, "kurtosis": 3.0, "feed_marks": None, "cross_hatch": None}
+        return replace(self, **plain | dict(self.between or {}))
 
     def wrong_marks(self, data: Mapping[str, Any]) -> tuple[str, str] | None:
         """What is wrong with marks that are asked for of it, and what is allowed."""

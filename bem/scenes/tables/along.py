@@ -44,11 +44,7 @@ class AlongScene(Table):
     @model_validator(mode="before")
     @classmethod
     def _from_file(cls, data: Any) -> Any:
-        if not isinstance(data, Mapping) or "path" not in data:
-            return data
-        if len(data) > 1:
-            raise problem("path and columns are given", "one of them")
-        return columns_of(str(data["path"]))
+        return columns_or_file(data, COLUMNS)
 
     @model_validator(mode="after")
     def _rows(self) -> AlongScene:
@@ -66,6 +62,20 @@ class AlongScene(Table):
         first, second = self.lower_speed[index], self.upper_speed[index]
         mean = 0.5 * (first + second)
         return self.radius[index], self.load[index], mean, (first - second) / mean
+
+
+def columns_or_file(data: Any, names: Sequence[str]) -> Any:
+    """A table of columns as it is given, or what the file at its `path` has.
+
+    Raises
+    ------
+    PydanticCustomError : both are given, or as `columns_of`.
+    """
+    if not isinstance(data, Mapping) or "path" not in data:
+        return data
+    if len(data) > 1:
+        raise problem("path and columns are given", "one of them")
+    return columns_of(str(data["path"]), names, names)
 
 
 def columns_of(path: str, known: Sequence[str] = COLUMNS, required: Sequence[str] = COLUMNS) -> dict[str, list[str]]:
