@@ -165,10 +165,10 @@ def _heated(coupling: Coupling, outcome: Outcome, given: FloatArray, before: Hea
     solved_with = Given(layered.log_viscosity(pressure)[0], layered.centre(pressure))
     duct = coupling.duct(strip, None if before is None else before.duct)
     made = Made.of(coupling.oil, strip, solved_with)
+    warm = before is not None and before.field.residual <= LOST
     guess = np.full((duct.columns, coupling.layers + 2), duct.supply)
-    warm = before is not None and before.field.temperature.shape == guess.shape
     if before is not None and warm:
-        guess = before.field.temperature
+        guess = _moved(before.duct.middles, before.field.temperature, duct.middles)
     wanted = max(TOLERANCE, min(EXACTNESS * residual, COARSE))
     field = temperature_field(duct, made, guess, wanted, held=0.0 if warm else 1.0)
     warm_layers = _smoothed(field.oil)

@@ -28,16 +28,19 @@ from bem.heat.bodies import Conductor
 from bem.heat.krylov import gmres
 from bem.heat.line import band_temperatures
 
-MAX_STEPS = 80
+MAX_STEPS = 200
 WILD = 150.0
 """Step [K] that is not taken but anew with the growth held back."""
+NEAR = 1e-2
+"""Of a step, over the largest rise, from which no wild step is waited for."""
 LONGEST_STEP = 60.0
 """Of a temperature in one step [K]."""
 TOLERANCE = 1e-10
 """Of the last step, over the largest rise."""
 HELD_LESS = 0.3
 LEAST_HELD = 0.01
-SHORTEST = 0.125
+SHORTEST, LONGEST = 0.125, 3.0
+"""Shares of a step that are taken."""
 LEAST_RISE = 1e-7
 """From which on rounding is what is left [K]."""
 SURFACE_TOLERANCE = 1e-3
@@ -71,6 +74,11 @@ class Duct:
     def width(self) -> FloatArray:
         """Of the columns [m]."""
         return np.diff(self.edges)
+
+    @property
+    def middles(self) -> FloatArray:
+        """Of the columns [m]."""
+        return np.asarray(0.5 * (self.edges[1:] + self.edges[:-1]))
 
     @cached_property
     def across(self) -> FloatArray:
@@ -154,15 +162,15 @@ def temperature_field(
 
     Far from the solution a layer that gets warmer takes more of the sliding and gets warmer still: Newton's equations
     are indefinite there. That growth is held back with a share of itself on the temperatures before, and so is what
-    temperatures do to the flow: `held` at first, all of it where steps grow or are wild, none in the end.
+    temperatures do to the flow: `held` at first, none in the end, see `_Pace`.
     """
     temperature = start - duct.supply
     rest = np.stack([one - np.diag(np.diag(one)) for one in duct.warming])
     distant = _distant(rest, duct.into_walls(temperature))
-    residual, last, steps, rise, length = np.inf, np.inf, 0, 1.0, 1.0
+    residual, steps, rise, pace = np.inf, 0, 1.0, _Pace(held, np.zeros_like(temperature))
     while True:
         sources = heat(duct.supply + temperature[:, 1:-1])
-        blocks = _blocks(duct, sources, temperature, held)
+        blocks = _blocks(duct, sources, temperature, pace.held)
         goal = SURFACE_TOLERANCE * min(residual, 1.0) * rise
         known = _known(sources, blocks, temperature)
         found, distant = _with_surfaces(duct, _Banded.of(duct, sources, blocks), rest, known, distant, goal)
@@ -170,18 +178,54 @@ def temperature_field(
         rise = max(float(np.ptp(found)), LEAST_RISE)
         residual = float(np.abs(change).max()) / rise
         steps += 1
-        if (held == 0 and residual <= tolerance) or steps == MAX_STEPS or not np.isfinite(residual):
+        if (pace.held == 0 and residual <= tolerance) or steps == MAX_STEPS or not np.isfinite(residual):
             break
-        if held < 1 and residual * rise > WILD:
-            held, length = 1.0, 1.0
-            continue
-        if residual < last:
-            held, length = held * HELD_LESS if held > LEAST_HELD else 0.0, min(2 * length, 1.0)
-        else:
-            held, length = min(max(held, LEAST_HELD) / HELD_LESS**2, 1.0), max(0.5 * length, SHORTEST)
-        last = residual
-        temperature = temperature + length * np.clip(change, -LONGEST_STEP, LONGEST_STEP)
+        if not pace.is_wild(residual * rise):
+            pace.follow(change, residual, tolerance)
+            temperature = temperature + pace.length * np.clip(change, -LONGEST_STEP, LONGEST_STEP)
     return Field(found, duct.supply, heat(duct.supply + found[:, 1:-1]).flux, steps, residual)
+
+
+@dataclass
+class _Pace:
+    """How much growth a step of `temperature_field` holds back and which share of it is taken, after those before.
+
+    Oil that warms from cold takes many steps of one direction with all growth held back: they are taken further than
+    they go, and less is held back the later, the more often that was wild.
+
+    before : the last step's change [K], last : its residual. wait : steps until less is held back; patience : that
+    after the next wild step.
+    """
+
+    held: float
+    before: FloatArray
+    last: float = np.inf
+    length: float = 1.0
+    wait: int = 0
+    patience: int = 1
+
+    def is_wild(self, longest: float) -> bool:
+        """Whether a step of at most so many K is not to be taken, but anew with all growth held back."""
+        if self.held == 1 or longest <= WILD:
+            return False
+        self.held, self.length, self.wait, self.patience = 1.0, 1.0, self.patience, 2 * self.patience
+        return True
+
+    def follow(self, change: FloatArray, residual: float, tolerance: float) -> None:
+        """Say how far to take this step, and how much the next one holds back."""
+        onward = self.held == 1 and float(np.vdot(change, self.before)) > 0
+        self.wait -= 1
+        if residual <= tolerance:
+            self.held, self.length = 0.0, 1.0
+        elif self.held == 1 and self.wait > 0 and residual > NEAR:
+            self.length = min(1.5 * self.length, LONGEST) if onward else max(0.5 * self.length, SHORTEST)
+        elif residual < self.last or onward:
+            self.held = self.held * HELD_LESS if self.held > LEAST_HELD else 0.0
+            self.length = min(2 * self.length, 1.0)
+        else:
+            self.held = min(max(self.held, LEAST_HELD) / HELD_LESS**2, 1.0)
+            self.length = max(0.5 * self.length, SHORTEST)
+        self.before, self.last = change, residual
 
 
 def carried(duct: Duct, flux: FloatArray, oil: FloatArray) -> float:
