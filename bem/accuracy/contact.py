@@ -42,7 +42,7 @@ _TOLERANCE = 1e-6
 _RESOLVED = 0.7
 """Surfaces whose curvature changes from cell to cell by less than this share of itself (rms) are resolved by a grid of
 twice the cell: 2 sin(pi / n) of waves of n cells, about 9 cells to a wave, 5 on the coarser grid."""
-_SPOT = 6.0
+SPOT = 6.0
 """Fewest cells across the mean spot (4 area / perimeter) for contact areas to be of second order."""
 _TOUCH = 2.0
 """Factor on the height by which a parabola rises above first touch."""
@@ -188,7 +188,7 @@ def is_resolved(case: ContactCase) -> bool:
     """Whether figures converge with their order from the grid of twice the cell on: surface and spots are resolved."""
     solution = case.solution
     across = 4 * solution.contact_area / solution.contact_perimeter if solution.contact_perimeter > 0 else math.inf
-    return surface_is_resolved(case.undeformed, case.grid) and across > _SPOT * math.sqrt(case.grid.cell_area)
+    return surface_is_resolved(case.undeformed, case.grid) and across > SPOT * math.sqrt(case.grid.cell_area)
 
 
 def surface_is_resolved(gap: FloatArray, grid: Grid) -> bool:

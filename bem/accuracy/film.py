@@ -33,26 +33,32 @@ class FilmRule:
 
     factor : on the difference; 1/3 is that of order two, which thicknesses have closely.
     film : on the relative change of the film, times the figure: what stays where a difference happens to pass zero.
-    peak : on the height by which a parabola rises above the highest node.
+    peak : on how far the highest pressure may lie above the highest node.
+    rolling : on the relative change of the film, times the rolling force: shear holds that as one of two shares, whose
+        changes were up to forty times their sum's.
     """
 
     factor: float
     film: float
     peak: float = 0.0
+    rolling: float = 0.0
 
 
-_FRICTION = FilmRule(0.8, 0.003)
+_FRICTION = FilmRule(0.8, 0.004, rolling=0.3)
 FILM_RULES: dict[str, FilmRule] = {
     "central_thickness": FilmRule(0.6, 0.02),
     "minimum_thickness": FilmRule(0.6, 0.02),
     "load": FilmRule(0.6, 0.0),
     "shear_force": _FRICTION,
     "striated_shear_force": _FRICTION,
-    "rolling_force": FilmRule(0.8, 0.3),
+    "rolling_force": FilmRule(0.8, 0.4),
     "maximum_pressure": FilmRule(1.0, 0.02, peak=1.0),
 }
 """Figures of a film that have bars; set by `reports/experiments/film_error_bars.py` with seeds that it does not store.
 """
+_SHARP, _SPIKE = 0.02, 0.5
+"""Pressure falls by more than this share from the highest node where that is a spike; of the fall, how much higher its
+top may be: 0.2 to 0.6 in those that half the points did not tell."""
 _ALGEBRAIC = 10.0
 """Relative change of a figure over the residual of the equations, relative to the film."""
 
@@ -115,11 +121,12 @@ def film_bars(case: FilmCase, other: OtherFilm) -> ErrorBars:
     # what the difference would be to half the points, by order two
     halved = TWICE if other.ratio > 1 else 3 / (1 / other.ratio**2 - 1)
     changed = max(_relative(found[name], there[name]) for name in ("central_thickness", "minimum_thickness"))
-    rise = _rise_above_highest_node(case.solution)
+    rise = _above_highest_node(case.solution)
     points, residual = {}, {}
     for name, rule in FILM_RULES.items():
         figure = abs(found[name])
-        discretisation = halved * (rule.factor * abs(found[name] - there[name]) + rule.film * changed * figure)
+        follows = rule.film * figure + rule.rolling * abs(found["rolling_force"])
+        discretisation = halved * (rule.factor * abs(found[name] - there[name]) + changed * follows)
         points[name] = discretisation + rule.peak * rise
         residual[name] = _ALGEBRAIC * case.solution.residual * figure
     residual["load"] += abs(case.solution.load - case.load)
@@ -148,9 +155,13 @@ def _relative(one: float, other: float) -> float:
     return abs(one - other) / abs(one) if one else math.inf
 
 
-def _rise_above_highest_node(solution: FilmSolution) -> float:
-    """By how much a parabola through the highest pressure and its neighbours rises above it [Pa]."""
+def _above_highest_node(solution: FilmSolution) -> float:
+    """How far the highest pressure may lie above the highest node [Pa]: as a parabola through it and its neighbours
+    does, and half-way again as far as it falls to the lower of them where that is a spike, to which no parabola fits.
+    """
     x, pressure = solution.position, solution.pressure
     i = int(np.clip(pressure.argmax(), 1, len(x) - 2))
     bend, slope = np.polyfit(x[i - 1 : i + 2] - x[i], pressure[i - 1 : i + 2] - pressure[i], 2)[:2]
-    return float(-slope * slope / (4 * bend)) if bend < 0 else 0.0
+    rise = float(-slope * slope / (4 * bend)) if bend < 0 else 0.0
+    falls = float(pressure[i] - min(pressure[i - 1], pressure[i + 1]))
+    return max(rise, _SPIKE * falls) if falls > _SHARP * pressure[i] else rise

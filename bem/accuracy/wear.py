@@ -49,13 +49,16 @@ MIXED_RULES: dict[str, LoopRule] = {
     **dict.fromkeys(("friction_initial", "contact_load_initial", "Sq_initial"), LoopRule(1.2, share=0.0005)),
     **dict.fromkeys(("friction_run_in", "friction"), LoopRule(1.2, wear=0.1, share=0.001)),
     **dict.fromkeys(("boundary_friction_part", "contact_load", "contact_area_fraction"), _LOAD),
-    **dict.fromkeys(("film_load", "film_friction_part", "minimum_film"), LoopRule(1.0)),
+    **dict.fromkeys(("film_load", "minimum_film"), LoopRule(1.0)),
+    "film_friction_part": LoopRule(1.0, share=0.001),
     "lambda_ratio": LoopRule(0.8, wear=0.2),
     "Sq_final": LoopRule(1.5, wear=0.6, share=0.005),
     "worn_depth": LoopRule(1.5, wear=0.6),
     "criterion_wear_rate": RULES["worn_volume_per_cycle"],
 }
 """The same in mixed lubrication; `_of_film` adds to those of the film. There is no wear rate where nothing slides."""
+_FILM_TWICE = 1.5
+"""On what twice the points of a film change: order two leaves 4/3 of it, as in load sharing."""
 _WEARS = ("Sq_final", "worn_volume_per_cycle", "worn_depth")
 """Figures that say how much differently the coarser loop wears."""
 FROM_START = ("friction_initial", "contact_load_initial", "Sq_initial")
@@ -65,8 +68,8 @@ _MIXED_NOTHING = (
     "whether anything does on finer cells is not known"
 )
 _ODD = (
-    f"no error bars from a coarser loop: it needs even numbers of cells, {FEWEST} at least, and contacts that converge "
-    "on the grid of twice the cell"
+    f"no error bars from a coarser loop: it needs even numbers of cells, {FEWEST} at least (or, along y, surfaces that "
+    "do not change), and contacts that converge on the grid of twice the cell"
 )
 _NOTHING = "no error bars from a coarser loop: nothing wears on the grid of twice the cell, or here"
 
@@ -80,11 +83,19 @@ def wear_bars(found: Mapping[str, float], coarser: Mapping[str, float] | None) -
     return ErrorBars.together({GRID: _bars(found, coarser, RULES)})
 
 
-def running_in_bars(found: Mapping[str, float], coarser: Mapping[str, float] | None) -> ErrorBars:
-    """The same of a loop in mixed lubrication, and of one in full film, where nothing can wear."""
+def running_in_bars(
+    found: Mapping[str, float],
+    coarser: Mapping[str, float] | None,
+    finer_film: Mapping[str, float] | None = None,
+) -> ErrorBars:
+    """The same of a loop in mixed lubrication, and of one in full film, where nothing can wear; `finer_film` : the
+    coarser loop with twice the points of its film, which it has as many of as `found` where half are too few."""
     if coarser is None:
         return ErrorBars.unknown(MIXED_RULES, _ODD)
-    bars = ErrorBars.together({GRID: _of_film(found, _bars(found, coarser, MIXED_RULES))})
+    of_loop = _of_film(found, _bars(found, coarser, MIXED_RULES))
+    if finer_film is not None:
+        of_loop = {name: bar + _FILM_TWICE * abs(coarser[name] - finer_film[name]) for name, bar in of_loop.items()}
+    bars = ErrorBars.together({GRID: of_loop})
     wear, contact = (tuple(each[name] > 0 for each in (found, coarser)) for name in ("worn_depth", "contact_load"))
     if all(wear) or not any(contact):
         return bars

@@ -56,8 +56,8 @@ _SAMPLED = {
 _POSITIONS = dict.fromkeys(("friction_final", "friction_initial", "upper_Sq_final", "contact_share_final"), 2.0)
 """Factors on what half the positions change; 1 elsewhere, and on what cells and points of films change."""
 _NONE = (
-    "no error bars: a life on the grid of twice the cell needs even numbers of cells, 24 at least, and contacts that "
-    "converge there"
+    "no error bars: a life on the grid of twice the cell needs even numbers of cells, 24 at least (or, along y, "
+    "surfaces that do not change), and contacts that converge there"
 )
 
 

@@ -6,7 +6,6 @@ Verified in tests/scenes/test_running_in_life_kind.py.
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -120,8 +119,13 @@ def bars(scene: Any, initial: tuple[FloatArray, FloatArray], end: LifeState) -> 
 
     def half(positions: int) -> LifeState | None:
         keys = {"wear.positions": positions, "particles": None, "fatigue": None}
-        cells = {name: value for name, value in wearing.grid_keys(scene, 0.5).items() if name.startswith("grid.")}
-        return wearing.on_every_second_cell(initial, grid, partial(end_of, with_keys(scene, cells | keys)))
+
+        def end(heights: tuple[FloatArray, FloatArray], across: float) -> LifeState:
+            cells = wearing.grid_keys(scene, 0.5, across)
+            own = {name: value for name, value in cells.items() if name.startswith("grid.")}
+            return end_of(with_keys(scene, own | keys), heights)
+
+        return wearing.on_every_second_cell(initial, grid, end)
 
     grid, positions = build.grid_of(scene.grid), scene.wear.positions
     coarser, fewer = half(positions), half(fewer_positions(positions))

@@ -149,16 +149,36 @@ def bars_step(scene: Any, grid: Grid, convolutions: int) -> Step:
 _SCATTER_ALONE = "cycles.coarser_grid is false: what repetitions scatter is all that is told of errors"
 
 
-def grid_keys(scene: Any, factor: float) -> dict[str, Any]:
-    """Keys of a scene in mixed lubrication with so many times the cells and points of the film."""
-    grid, sharing = scene.grid, scene.sharing
+def grid_keys(scene: Any, factor: float, across: float | None = None) -> dict[str, Any]:
+    """Keys of a scene in mixed lubrication with so many times the cells and points of the film; `across` : times the
+    cells along y, where that is another number."""
+    grid, factors = scene.grid, (factor, factor if across is None else across)
     assert grid.shape is not None
-    keys: dict[str, Any] = {
-        "grid.shape": tuple(round(factor * n) for n in grid.shape),
-        "sharing.film_points": min(max(round(factor * sharing.film_points), 100), 2000),
-        "sharing.film_cells": min(max(round(factor * sharing.film_cells), 32), 256),
+    shape = tuple(round(times * n) for times, n in zip(factors, grid.shape, strict=True))
+    keys: dict[str, Any] = {"grid.shape": shape} | film_keys(scene, factor)
+    if grid.spacing is None:
+        return keys
+    return keys | {"grid.spacing": tuple(h / times for times, h in zip(factors, grid.spacing, strict=True))}
+
+
+_FEWEST_POINTS, _FEWEST_FILM_CELLS = 100, 32
+"""That a film is solved on."""
+
+
+def film_keys(scene: Any, factor: float) -> dict[str, Any]:
+    """Keys of a scene in mixed lubrication with so many times the points of the film, as far as that can be."""
+    sharing = scene.sharing
+    return {
+        "sharing.film_points": min(max(round(factor * sharing.film_points), _FEWEST_POINTS), 2000),
+        "sharing.film_cells": min(max(round(factor * sharing.film_cells), _FEWEST_FILM_CELLS), 256),
     }
-    return keys if grid.spacing is None else keys | {"grid.spacing": tuple(h / factor for h in grid.spacing)}
+
+
+def film_is_halved(scene: Any) -> bool:
+    """Whether the film of a scene is still solved on half its points."""
+    if scene.contact.point_radii is None:
+        return bool(scene.sharing.film_points >= 2 * _FEWEST_POINTS)
+    return bool(scene.sharing.film_cells >= 2 * _FEWEST_FILM_CELLS)
 
 
 def resolution_keys(scene: Any, factor: float) -> dict[str, Any]:
@@ -172,18 +192,22 @@ def resolution_keys(scene: Any, factor: float) -> dict[str, Any]:
 
 
 def on_every_second_cell(
-    heights: tuple[FloatArray, FloatArray], grid: Grid, loop: Callable[[tuple[FloatArray, FloatArray]], Found]
+    heights: tuple[FloatArray, FloatArray], grid: Grid, loop: Callable[[tuple[FloatArray, FloatArray], float], Found]
 ) -> Found | None:
-    """What a loop finds from the heights of both bodies on the grid of twice the cell; None where cells are odd or too
-    few for one, or a contact there does not converge."""
+    """What a loop finds from the heights of both bodies on the grid of twice the cell, told how many times the cells
+    along y that has: half, or as many in a strip of fewer than a coarser grid needs along which nothing changes. None
+    where cells are odd or too few for one, or a contact there does not converge."""
     from bem.accuracy.wear import FEWEST
     from bem.contact.cascade import sample
 
-    if not all(n % 2 == 0 and n >= FEWEST for n in grid.shape):
+    (nx, ny), enough = grid.shape, [n % 2 == 0 and n >= FEWEST for n in grid.shape]
+    strip = ny < FEWEST and all(bool((each == each[:, :1]).all()) for each in heights)
+    if not (enough[0] and (enough[1] or strip)):
         return None
-    lower, upper = (np.array(sample(each, grid.coarsened().shape, grid.periodic)) for each in heights)
+    shape = (nx // 2, ny if strip else ny // 2)
+    lower, upper = (np.array(sample(each, shape, grid.periodic)) for each in heights)
     try:
-        return loop((lower, upper))
+        return loop((lower, upper), shape[1] / ny)
     except ConvergenceError:
         return None
 

@@ -68,6 +68,21 @@ def test_the_coarser_loop_has_half_of_all_and_slides_as_far():
     assert build.grid_of(at_resolution(half, 2).grid) == one
 
 
+def test_a_film_that_cannot_be_halved_is_doubled(tmp_path):
+    """On 100 points, the fewest of a film, the coarser loop had as many, and bars no part of the film."""
+    full = {"speeds": ["0.5 m/s"], "contact": PATCH["contact"]}
+    found = summary_of(tmp_path, **full, sharing={"film_points": 100})
+    alone = SCENE["cycles"] | {"coarser_grid": False}
+    fine = summary_of(tmp_path / "fine", **full, sharing={"film_points": 400}, cycles=alone)
+    for key in ("friction_run_in", "film_friction_part", "minimum_film_nm", "lambda_ratio"):
+        missed = abs(found[key][0] - fine[key][0])
+        assert missed < found[f"{key}_error"][0], key
+        if not key.startswith(("friction", "film")):
+            assert missed > 0.001 * found[key][0], key
+            # 1.5 of the difference to twice the points, where order two would leave 4/3 of it
+            assert found[f"{key}_error"][0] < 4 * missed, key
+
+
 def test_where_nothing_wears_only_what_was_before_any_wear_has_a_bar():
     worn = dict.fromkeys(MIXED_RULES, 1.0)
     for found, coarser in ((worn, worn | {"worn_depth": 0.0}), (worn | {"worn_depth": 0.0},) * 2):
@@ -98,12 +113,12 @@ def test_a_coarser_loop_that_does_not_converge_leaves_the_case_as_it_is():
     grid = Grid((32, 24), (1e-6, 1e-6), periodic=(False, True))
     flat = np.zeros(grid.shape)
 
-    def stalls(heights):
+    def stalls(heights, across):
         assert heights[0].shape == (16, 12)
         raise ConvergenceError("cycle 1: the contact stalled")
 
     assert on_every_second_cell((flat, flat), grid, stalls) is None
-    assert on_every_second_cell((flat, flat), grid, lambda heights: 7.0) == 7.0
+    assert on_every_second_cell((flat, flat), grid, lambda heights, across: 7.0) == 7.0
     told = running_in_bars(dict.fromkeys(MIXED_RULES, 1.0), None)
     assert set(told.values.values()) == {None}
     assert "contacts that converge" in told.notes[0]

@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 from small_scenes import WEAR
 
+from bem import Grid
 from bem.accuracy import wear_bars
 from bem.accuracy.wear import RULES
 from bem.runs import plan_scene, run_scene
 from bem.scenes import load_scene
 from bem.scenes.kinds.wear import at_resolution
+from bem.scenes.wearing import on_every_second_cell
 from reports.experiments.wear_error_bars import RESULT, draw, rows_of
 
 SCENE = tomllib.loads(WEAR)
@@ -56,6 +58,27 @@ def test_odd_grids_and_loops_that_wear_nothing_have_none_and_say_so(tmp_path):
     assert any("it needs even numbers of cells" in note for note in done["notes"])
     nothing = dict.fromkeys(RULES, 0.0)
     assert set(wear_bars(nothing, nothing).values.values()) == {None}
+
+
+def test_a_thin_strip_of_surfaces_that_do_not_change_along_it_is_coarsened_along_x_alone(tmp_path):
+    """Two cells along y were too few for any bar, so that an accuracy ended as inaccurate at once."""
+    asked = (
+        "cycles.count=8",
+        'wear.criterion.distance="2675 mm"',
+        "cycles.settled=2",
+        "domain.cells=[100, 2]",
+        "accuracy={contact_area_fraction=0.1, criterion_wear_rate=0.01}",
+    )
+    summary = run_scene("wear-cylinder-scar", tmp_path / "run", settings=asked, figures=False).summary
+    assert summary["status"] == "converged"
+    assert 0 < summary["contact_area_fraction_error"] < 0.1 * summary["contact_area_fraction"]
+    # the flat of Archard's law: 400 of 600 um
+    assert abs(summary["contact_area_fraction"] - 2 / 3) < summary["contact_area_fraction_error"]
+    grid = Grid((48, 2), (1e-6, 1e-6), periodic=(False, True))
+    even, rough = np.zeros(grid.shape), np.random.default_rng(1).normal(size=grid.shape)
+    seen = on_every_second_cell((even, even), grid, lambda heights, across: (heights[0].shape, across))
+    assert seen == ((24, 2), 1.0)
+    assert on_every_second_cell((even, rough), grid, lambda heights, across: 1.0) is None
 
 
 def test_bars_of_what_converges_shrink_with_the_differences_and_those_of_sizes_do_not():

@@ -182,22 +182,30 @@ def run(scene: RunningInScene, context: Context) -> RunningInRecord:
 
 
 def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: RunningInRecord) -> ErrorBars:
-    """Of the loop on every second cell and half the points of the film."""
+    """Of the loop on every second cell and half the points of the film; where half are too few for a film, of that
+    loop with twice the points besides."""
     from bem.accuracy import running_in_bars
     from bem.accuracy.wear import MIXED_RULES
 
-    def loop(heights: tuple[FloatArray, FloatArray]) -> RunningInRecord:
-        return wear_down(at_resolution(scene, 0.5), heights, PlainContext(scene.seed))
+    def loop(heights: tuple[FloatArray, FloatArray], across: float, points: float = 1.0) -> RunningInRecord:
+        coarser = at_resolution(scene, 0.5, across)
+        coarser = with_keys(coarser, wearing.film_keys(coarser, points))
+        return wear_down(coarser, heights, PlainContext(scene.seed))
 
-    there = wearing.on_every_second_cell(initial, build.grid_of(scene.grid), loop)
+    grid = build.grid_of(scene.grid)
+    there, finer_film = wearing.on_every_second_cell(initial, grid, loop), None
+    if there is not None and not wearing.film_is_halved(scene):
+        finer_film = wearing.on_every_second_cell(initial, grid, partial(loop, points=2.0))
+        there = None if finer_film is None else there
     known = [name for name in MIXED_RULES if getattr(found, name) is not None]
-    figures = (None if one is None else {name: getattr(one, name) for name in known} for one in (found, there))
+    figures = (None if one is None else {n: getattr(one, n) for n in known} for one in (found, there, finer_film))
     return running_in_bars(*figures)  # type: ignore[arg-type]
 
 
-def at_resolution(scene: RunningInScene, factor: float) -> RunningInScene:
-    """The scene with so many times the cells, depths and points of the film, that slides as far in a cycle."""
-    return with_keys(scene, wearing.grid_keys(scene, factor) | wearing.resolution_keys(scene, factor))
+def at_resolution(scene: RunningInScene, factor: float, across: float | None = None) -> RunningInScene:
+    """The scene with so many times the cells, depths and points of the film, that slides as far in a cycle; `across` :
+    times the cells along y, where that is another number."""
+    return with_keys(scene, wearing.grid_keys(scene, factor, across) | wearing.resolution_keys(scene, factor))
 
 
 def wear_down(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], context: Context) -> RunningInRecord:

@@ -216,8 +216,8 @@ def bars(scene: WearScene, initial: tuple[FloatArray, FloatArray], found: WearRe
     from bem.accuracy import wear_bars
     from bem.accuracy.wear import RULES
 
-    def loop(heights: tuple[FloatArray, FloatArray]) -> WearRecord:
-        return wear_down(at_resolution(scene, 0.5), heights, PlainContext(scene.seed))
+    def loop(heights: tuple[FloatArray, FloatArray], across: float) -> WearRecord:
+        return wear_down(at_resolution(scene, 0.5, across), heights, PlainContext(scene.seed))
 
     there = wearing.on_every_second_cell(initial, _slice(scene)[0], loop)
     figures = (None if one is None else {name: getattr(one, name) for name in RULES} for one in (found, there))
@@ -235,10 +235,11 @@ def _slice(scene: WearScene) -> tuple[Grid, float]:
     return scene.domain.at(scene.cylinder, build.modulus_of(scene))
 
 
-def at_resolution(scene: WearScene, factor: float) -> WearScene:
-    """The scene with so many times the cells and depths, that slides as far in a cycle."""
+def at_resolution(scene: WearScene, factor: float, across: float | None = None) -> WearScene:
+    """The scene with so many times the cells and depths, that slides as far in a cycle; `across` : times the cells
+    along y, where that is another number."""
     nx, ny = scene.domain.cells
-    cells = {"domain.cells": (round(factor * nx), round(factor * ny))}
+    cells = {"domain.cells": (round(factor * nx), round((factor if across is None else across) * ny))}
     return with_keys(scene, cells | wearing.resolution_keys(scene, factor))
 
 
