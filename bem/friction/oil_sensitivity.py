@@ -51,7 +51,7 @@ def oil_beside(
     )
     few = BALANCE_POINTS if setup.radii is None else BALANCE_CELLS
     film = films_of(counted, speeds, resolution=min(setup.film_resolution, few))
-    start = BalanceStart(_first_load(found.film.load, setup.load, before), 1.0, found.contact.pressure)
+    start = BalanceStart(_first_load(found.film.load, setup.load, before), found.slope, found.contact.pressure)
     other = share_load(
         film, rough_contact(counted, height, speeds), setup.load, max(setup.tolerance, TOLERANCE), whole, start
     )

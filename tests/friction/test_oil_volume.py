@@ -9,9 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_surface, solve_mixed, stribeck_curve
+from bem.benchmarks.lubricated_cases import mixed_case
 from bem.friction import load_sharing, oil_sensitivity
 from bem.friction.balance import BalanceStart, Regime, share_load
-from bem.friction.falling_zero import falling_zero
+from bem.friction.falling_zero import _parabola, falling_zero
 from bem.friction.film import PatchFilm
 from bem.friction.oil_beside import OilBeside, oil_notes
 from bem.friction.oil_volume import OilVolume, mean_where_counted
@@ -282,6 +283,30 @@ def test_zero_of_a_falling_function(zero, start, steepness, slope):
     falling_zero(evaluate, start, slope, (-10.0, 10.0), 60)
     assert tried[-1][0] == pytest.approx(zero, abs=1e-8)
     assert len(tried) < 30
+
+
+@pytest.mark.parametrize("place", [-1.0, 0.4, 2.0])
+def test_a_parabola_of_the_value_is_met_at_once_and_a_jump_between_two_places_as_before(place):
+    def root(value):
+        return place - value - 0.1 * value**2
+
+    points = [(root(value), value) for value in (0.7, -0.4, 0.2)]
+    assert _parabola(points, points[1][0]) == pytest.approx(place, abs=1e-12)
+    # three places of which two have one side's value: the parabola would lie anywhere
+    assert _parabola([(0.0, 1.0), (1.0, -0.2), (0.9, 1.0)], 1.0) is None
+    assert _parabola([(0.0, 1.01), (1.0, -0.2), (0.9, 1.0)], 1.0) is None
+    assert _parabola(points[:2], points[0][0]) is None
+
+
+def test_the_balance_compared_with_begins_with_the_slope_found(monkeypatch):
+    """Three films and contacts instead of four: by the found balance's slope the second try is near the zero."""
+    tried = []
+    inner = oil_sensitivity.share_load
+    monkeypatch.setattr(oil_sensitivity, "share_load", lambda *given: tried.append(inner(*given)) or tried[-1])
+    for speed in (0.01, 0.03, 0.05, 0.1):
+        solve_mixed(**mixed_case(60, 400, 1e-4), speeds=(speed, 0.0))
+    assert [balance.contacts for balance in tried] == [balance.films for balance in tried]
+    assert max(balance.contacts for balance in tried) <= 3
 
 
 @pytest.mark.parametrize(("zero", "end"), [(-20, -10.0), (20, 10.0)])
