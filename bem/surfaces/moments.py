@@ -13,6 +13,7 @@ import math
 
 import numpy as np
 import scipy.fft as fft
+from numpy.typing import NDArray
 
 from bem.errors import InputError
 from bem.grid import FloatArray
@@ -32,13 +33,15 @@ def standardise(heights: FloatArray) -> FloatArray:
     """Heights of zero mean and unit rms."""
     deviation = heights - heights.mean()
     rms = float(np.sqrt(np.mean(deviation**2)))
-    deviation = deviation / rms
-    return deviation - deviation.mean()
+    deviation /= rms
+    deviation -= deviation.mean()
+    return deviation
 
 
 def _moments(z: FloatArray) -> tuple[float, float]:
     square = z * z
-    return float(np.mean(square * z)), float(np.mean(square * square))
+    third = float(np.mean(square * z))
+    return third, float(np.mean(np.multiply(square, square, out=square)))
 
 
 def impose_moments(heights: FloatArray, amplitude: FloatArray, skewness: float, kurtosis: float) -> FloatArray:
@@ -69,8 +72,7 @@ def _rank_and_spectrum(heights: FloatArray, amplitude: FloatArray, skewness: flo
     target, heights = standard_quantiles(heights.size, skewness, kurtosis), heights.copy()
     for _ in range(_ITERATIONS):
         spectrum = fft.rfft2(in_order_of(heights, target))
-        size = np.abs(spectrum)
-        spectrum *= np.divide(amplitude, size, out=np.zeros_like(size), where=size > 0)
+        spectrum *= _over_size(amplitude, spectrum)
         heights = standardise(fft.irfft2(spectrum, heights.shape))
     return heights
 
@@ -86,24 +88,41 @@ def _polish(
     power = float((amplitude**2 * multiplicity((heights.shape[0], heights.shape[1]))).sum())
     envelope = amplitude * (slack * heights.size / math.sqrt(power))
 
-    def in_band(field: FloatArray) -> FloatArray:
-        spectrum = fft.rfft2(field)
-        size = np.abs(spectrum)
-        spectrum *= np.minimum(1.0, np.divide(envelope, size, out=np.zeros_like(size), where=size > 0))
-        return np.asarray(fft.irfft2(spectrum, field.shape))
+    def in_band(exponent: int) -> FloatArray:
+        spectrum = fft.rfft2(heights**exponent)  # the power goes as soon as it is transformed
+        share = _over_size(envelope, spectrum)
+        spectrum *= np.minimum(1.0, share, out=share)
+        del share
+        return np.asarray(fft.irfft2(spectrum, heights.shape))
 
     wanted = np.array([skewness, kurtosis])
     for _ in range(40):
         missed = wanted - _moments(heights)
         if np.abs(missed).max() <= 0.01 * STATISTICS_TOLERANCE:
             return heights
-        square = in_band(heights * heights)
-        cube = in_band(heights**3)
+        square, cube = in_band(2), in_band(3)
         coefficients = _newton(heights, square, cube, missed)
         if coefficients is None:
             return None
-        heights = standardise(heights + coefficients[0] * square + coefficients[1] * cube)
+        # in place of a sum of five fields, with its bits
+        square *= coefficients[0]
+        cube *= coefficients[1]
+        square += heights
+        square += cube
+        heights = standardise(square)
+        del square, cube
     return heights if np.abs(wanted - _moments(heights)).max() <= STATISTICS_TOLERANCE else None
+
+
+def _over_size(wanted: FloatArray, spectrum: NDArray[np.complex128]) -> FloatArray:
+    """Wanted sizes over those of a spectrum, 0 where it has none."""
+    size = np.abs(spectrum)
+    return np.divide(wanted, size, out=size, where=size > 0)
+
+
+def _magnitude(field: FloatArray) -> float:
+    """The largest, without a field of its own."""
+    return float(max(field.max(), -field.min()))
 
 
 def _newton(z: FloatArray, square: FloatArray, cube: FloatArray, missed: FloatArray) -> FloatArray | None:
@@ -124,7 +143,9 @@ def _newton(z: FloatArray, square: FloatArray, cube: FloatArray, missed: FloatAr
         return None
     step: FloatArray = np.linalg.solve(jacobian, missed)
     # small enough steps keep the map monotone over most of the heights
-    largest = float(np.abs(step[0] * square + step[1] * cube).max() / max(1.0, np.abs(z).max()))
+    change = step[0] * square
+    change += step[1] * cube
+    largest = _magnitude(change) / max(1.0, _magnitude(z))
     if not math.isfinite(largest):
         return None
     return step * min(1.0, 0.1 / largest) if largest > 0 else step

@@ -5,7 +5,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from bem import Body, Grid, Material, displacement_operator, solve_contact
+from bem import Body, Grid, Material, displacement_operator, generate_surface, solve_contact
 from bem.stress import set_stress_memory, stress_memory, subsurface_stress, von_mises_planes
 
 STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
@@ -28,6 +28,14 @@ def test_a_convolution_allocates_no_field(periodic):
     field = np.random.default_rng(0).random(grid.shape)
     out = np.empty(grid.shape)
     assert peak_of(lambda: scaled.apply(field, out)) < 0.05 * field.nbytes
+
+
+@pytest.mark.parametrize(("moments", "fields"), [({}, 7.0), ({"skewness": -0.5, "kurtosis": 3.6}, 8.0)])
+def test_a_surface_holds_a_bounded_number_of_fields(moments, fields):
+    """Half-way spectra of the transforms, which are not traced, come on top of it."""
+    grid = Grid((256, 256), (1e-7, 1e-7), periodic=(True, True))
+    given = {"rms_height": 1e-7, "correlation_length": 1e-6, "seed": 1} | moments
+    assert peak_of(lambda: generate_surface(grid, **given)) < 1.03 * fields * 8 * grid.cells
 
 
 def test_von_mises_of_many_depths_holds_one_plane_and_one_scratch():
