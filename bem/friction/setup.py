@@ -16,6 +16,7 @@ from bem.grid import FloatArray, Grid
 from bem.heat.bodies import conductors_of
 from bem.lubrication import Lubricant
 from bem.lubrication.rough_walls import WallFactors
+from bem.lubrication.steady import HEAT
 from bem.lubrication.supply import InletDistance, Supply, checked_supply, inside_hertz
 from bem.materials import Body, contact_modulus
 
@@ -167,9 +168,11 @@ class MixedSetup:
     def _heat(self) -> list[str]:
         if self.thermal == "off":
             return []
-        allowed = ("off", "lumped")
+        allowed = ("off", *HEAT)
         if self.thermal not in allowed:
             return [f"thermal: {self.thermal!r} is unknown; choose from {', '.join(allowed)}"]
+        if self.thermal == "full" and self.supply is not None:
+            return ['supply: not there with thermal "full"; take "lumped" or "off" with it, or no supply']
         if isinstance(self.bodies, Body) or len(self.bodies) != 2:
             return ["thermal: heat enters both bodies; give a pair"]
         missing = [name for name in HEAT_NEEDS if getattr(self.lubricant, name, None) is None]

@@ -290,7 +290,10 @@ def is_start(state: State) -> bool:
     arrays = (state.pressure, state.film, np.array([state.exit, state.datum]))
     if not all(np.isfinite(array).all() for array in arrays):
         return False
-    return bool(state.pressure.max() > 0 and state.film.min() > 0 and _with_inlet(state).offset.size >= FEWEST_NODES)
+    if state.film.min() <= 0:
+        return False
+    kept = _with_inlet(state)
+    return bool(kept.offset.size >= FEWEST_NODES and kept.pressure.max() > 0)
 
 
 def _with_inlet(state: State) -> State:

@@ -59,18 +59,19 @@ def test_a_law_over_temperature_is_told_that_of_the_contact():
     assert solve_mixed(**CASE | {"boundary_friction": FALLING}, speeds=ROLLING).boundary_force > found.boundary_force
 
 
-def test_the_film_is_the_one_with_heat():
-    found = hot(speeds=(12.0, 6.0))
+@pytest.mark.parametrize(("model", "left"), [("lumped", 0.9), ("full", 0.96)])  # full heat takes 4.7 %
+def test_the_film_is_the_one_with_heat(model, left):
+    found = hot(speeds=(12.0, 6.0), thermal=model)
     assert found.regime is Regime.FULL_FILM
     assert found.contact_temperature is None
     film = solve_line_film(
         load=5.5 / 6e-3, radius=2e-3, contact_modulus=210e9 / (2 * 0.91), speeds=(12.0, 6.0), lubricant=OIL,
-        bodies=(STEEL, STEEL), thermal="lumped", points=250,
+        bodies=(STEEL, STEEL), thermal=model, points=250,
     )  # fmt: skip
     assert found.friction == pytest.approx(film.shear_force / film.load, rel=1e-9)
     assert found.film.mean_temperature == pytest.approx(film.mean_temperature, abs=1e-6)
     cold = solve_mixed(**CASE, speeds=(12.0, 6.0))
-    assert found.minimum_film < 0.9 * cold.minimum_film
+    assert found.minimum_film < left * cold.minimum_film
     assert found.friction < cold.friction
 
 
@@ -102,6 +103,20 @@ def test_a_curve_with_heat_costs_little_more():
     assert temperatures == sorted(temperatures)
 
 
+def test_full_heat_in_mixed_lubrication():
+    """Mild heat is that of the lumped model; the film that is returned is the full one under its own load, whose energy
+    closes, and film and contact carry the load together."""
+    full, lumped, cold = hot(thermal="full"), hot(), solve_mixed(**CASE, speeds=ROLLING)
+    assert {full.status, lumped.status} == {Status.CONVERGED}
+    assert full.regime is Regime.MIXED
+    assert full.film.heat.energy_imbalance < 1e-6
+    assert full.film.load * 6e-3 + full.contact_load == pytest.approx(5.5, rel=1e-4)  # the balance's own
+    # the lumped model's inlet factor takes 0.25 % of this film, full heat 0.03 %
+    assert full.film.mean_temperature - 333.15 == pytest.approx(lumped.film.mean_temperature - 333.15, rel=0.2)
+    assert cold.minimum_film > full.minimum_film > lumped.minimum_film
+    assert full.contact_temperature - 333.15 == pytest.approx(lumped.contact_temperature - 333.15, rel=0.02)
+
+
 def test_heat_of_a_starved_contact():
     """More surfaces touch and more heat is made; plenty of oil is the flooded one."""
     flooded, plenty, starved = (hot(supply=supply) for supply in (None, 1e-3, 1e-7))
@@ -118,7 +133,8 @@ def test_what_heat_needs_is_said():
         ({"lubricant": Lubricant(0.03)}, "the lubricant lacks temperature, density"),
         ({"bodies": (bare, STEEL)}, "needs thermal_conductivity"),
         ({"bodies": STEEL}, "heat enters both bodies; give a pair"),
-        ({"thermal": "warm"}, "'warm' is unknown; choose from off, lumped"),
+        ({"thermal": "warm"}, "'warm' is unknown; choose from off, lumped, full"),
+        ({"thermal": "full", "supply": 1e-7}, 'supply: not there with thermal "full"'),
     ):
         with pytest.raises(InputError, match=words):
             hot(**changes)
@@ -141,6 +157,11 @@ def test_a_scene_with_heat_reports_its_temperatures(tmp_path):
     means, highest = found["contact_temperature_C"], found["flash_temperature_C"]
     assert 60 < means[0] < means[1] < highest[1] < 80
     assert all(oil > 60 for oil in found["oil_temperature_C"])
+    full = run_scene(scene | {"thermal": "full"}, tmp_path / "full", figures=False).summary
+    assert full["status"] == "converged"
+    np.testing.assert_allclose(full["contact_temperature_C"], means, atol=0.05 * (means[1] - 60))
+    with pytest.raises(InputError, match=r"a supply of oil with thermal = \"full\""):
+        load_scene(scene | {"thermal": "full", "supply": {"layer": "100 nm"}})
     off = run_scene(scene | {"thermal": "off"}, tmp_path / "off", figures=False).summary
     assert not [key for key in off if "temperature" in key]
     with pytest.raises(InputError, match="heat of an oil without temperature"):

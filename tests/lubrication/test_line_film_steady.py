@@ -473,6 +473,16 @@ def test_what_did_not_converge_is_no_start(spoilt):
     assert np.array_equal(again.pressure, good.pressure)
 
 
+def test_pressure_upstream_of_a_mesh_alone_makes_none():
+    """A film without pressure where the next mesh would be: a Stribeck curve with lumped heat at 0.9 GPa ended in an
+    error of arithmetic on its way to a hundredth of the load."""
+    state = solve_line_film(**THESIS, speeds=(0.1, 0.0), points=400).state.state
+    pressure = np.where(state.offset < 0.5 * state.offset[0], 1.0, 0.0)
+    bad = replace(state, exit=0.01 * state.exit, film=1e-4 * state.film, pressure=pressure)
+    assert line_newton.is_start(state)
+    assert not line_newton.is_start(bad)
+
+
 @pytest.mark.parametrize("speeds", [(1.0, 0.9), (-1.0, -0.9)])
 @pytest.mark.parametrize("supply", [None, 1e-7])
 def test_rolling_force_is_the_moment_of_the_pressure(speeds, supply):

@@ -61,6 +61,16 @@ def axes(scene: FrictionScene) -> tuple[Axis, ...]:
     )
 
 
+_IN_CONTACT = "; that of the surfaces in contact at each speed"
+_HEAT = {
+    "off": 'thermal is "off"',
+    "lumped": "inlet heating of each film and its oil's temperature" + _IN_CONTACT,
+    "full": "temperature along and across each film" + _IN_CONTACT,
+}
+_HEAT_SECONDS = {"off": 0.0, "lumped": 1.0, "full": 4.0}
+"""At a speed, whatever the grid."""
+
+
 def plan(scene: FrictionScene) -> Plan:
     """What will be computed for one curve.
 
@@ -74,11 +84,9 @@ def plan(scene: FrictionScene) -> Plan:
         _films(scene, speeds),
         Step(
             "heat",
-            'thermal is "off"'
-            if scene.thermal == "off"
-            else "inlet heating of each film and its oil's temperature; that of the surfaces in contact at each speed",
+            _HEAT[scene.thermal],
             skipped=scene.thermal == "off",
-            seconds=speeds * (1.0 + 3e-6 * grid.cells),
+            seconds=speeds * (_HEAT_SECONDS[scene.thermal] + 3e-6 * grid.cells),
             memory=2e7 + 300.0 * grid.cells,
         ),
         plans.contacts(

@@ -24,7 +24,7 @@ from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.resolutions import counted
 from bem.scenes.tables.along import AlongScene, with_first_row
-from bem.scenes.tables.heat import check_film_heat
+from bem.scenes.tables.heat import check_film_heat, check_supply_of_heat
 from bem.scenes.tables.rolling import FilmPointsScene, RollerScene, RollingScene
 from bem.scenes.tables.supply import SupplyScene, build_supply
 
@@ -68,8 +68,7 @@ class TractionScene(SceneModel):
             raise problem("a rough surface", 'smooth surfaces, or kind = "friction"')
         if self.thermal == "off":
             return self
-        if self.supply is not None and self.thermal == "full":
-            raise problem('a supply of oil with thermal = "full"', 'thermal = "lumped" or "off" with it, or no supply')
+        check_supply_of_heat(self.thermal, self.supply)
         check_film_heat(self.oil, self.lower, self.upper)
         return self
 

@@ -12,6 +12,7 @@ from bem.scenes import build
 from bem.scenes.common import BodyScene, Table, problem
 from bem.scenes.oil import OilScene
 from bem.scenes.tables.pressing import PressedScene
+from bem.scenes.tables.supply import SupplyScene
 from bem.scenes.units import Speed, Temperature
 
 if TYPE_CHECKING:
@@ -46,6 +47,12 @@ def check_film_heat(oil: OilScene, lower: BodyScene, upper: BodyScene) -> None:
                 f"heat of {name}, which has layers or a material without thermal constants",
                 'materials with thermal_conductivity, density and heat_capacity, or thermal = "off"',
             )
+
+
+def check_supply_of_heat(thermal: str, supply: SupplyScene | None) -> None:
+    """Refuse a supply where heat is found along and across the film, which is flooded."""
+    if supply is not None and thermal == "full":
+        raise problem('a supply of oil with thermal = "full"', 'thermal = "lumped" or "off" with it, or no supply')
 
 
 class RubbingScene(PressedScene):

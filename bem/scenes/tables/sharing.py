@@ -10,7 +10,7 @@ from bem.errors import InputError
 from bem.scenes.axes import with_keys
 from bem.scenes.common import PositiveLength, Table, Variant, problem
 from bem.scenes.lubrication import FilmCells, FilmMeshScene, MixedScene
-from bem.scenes.tables.heat import check_film_heat
+from bem.scenes.tables.heat import check_film_heat, check_supply_of_heat
 from bem.scenes.units import Ratio
 from bem.scenes.wearing import Count, LastCycles
 
@@ -54,9 +54,9 @@ TEMPERATURES = ("contact_temperature", "flash_temperature")
 
 
 class HotMixedScene(MixedScene):
-    """A `MixedScene` whose film and surfaces may have their heat: lumped over the film, conducted from the contact."""
+    """A `MixedScene` whose film (lumped, or along and across it) and surfaces (conducted) may have their heat."""
 
-    thermal: Literal["off", "lumped"] = "off"
+    thermal: Literal["off", "lumped", "full"] = "off"
 
     @model_validator(mode="after")
     def _heat(self) -> Self:
@@ -64,7 +64,8 @@ class HotMixedScene(MixedScene):
             return self
         check_film_heat(self.oil, self.lower, self.upper)
         if self.contact.point_radii is not None:
-            raise problem(_of_a_ball('thermal = "lumped"'), _NOT_OF_A_BALL)
+            raise problem(_of_a_ball(f'thermal = "{self.thermal}"'), _NOT_OF_A_BALL)
+        check_supply_of_heat(self.thermal, self.supply)
         return self
 
     def setup(self, **accuracy: Any) -> MixedSetup:
