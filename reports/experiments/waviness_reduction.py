@@ -4,8 +4,8 @@
 
 Ten minutes. A wave of small amplitude changes pressure and film by exp(i omega t) times what one complex linear system
 gives: no steps in time, no amplitude. For point contacts the system is that of `bem.lubrication.point` around its
-steady film, on two grids. For line contacts everything is written anew here (other differences, dense matrices), and
-a long ellipse must come to the same. The result is stored in `reports/results/waviness_reduction.json`.
+steady film, on two grids. For line contacts everything is written anew (`line_films`: other differences, dense
+matrices), and a long ellipse must come to the same. The result is stored in `reports/results/waviness_reduction.json`.
 
 Venner, Couhier, Lubrecht and Greenwood (Tribology Series 32 (1997) 103) found A_d/A_i of line contacts to be one
 function of (wavelength/b) M^(3/4)/L^(1/2), which is the wavelength over the length of the inlet, as is
@@ -15,7 +15,6 @@ function of (wavelength/b) M^(3/4)/L^(1/2), which is the wavelength over the len
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -27,17 +26,15 @@ from bem import (
     PointFilmSolution,
     Waves,
     march_point_film,
-    solve_line_film,
     solve_point_film,
 )
-from bem.grid import FloatArray
-from bem.lubrication.line_scales import line_scales, scaled_problem
 from bem.lubrication.point import loops
 from bem.lubrication.point.kept import KeptPoint, central_film
 from bem.lubrication.point.linear import Linear
 from bem.lubrication.point.newton import balance
 from bem.lubrication.point.waviness import amplitude_in_centre, amplitude_reduction
 from reports.experiments.kept import keep
+from reports.experiments.line_films import Line, bordered, line_film, line_matrices
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "waviness_reduction.json"
 MODULUS, RADIUS, ALPHA, VISCOSITY = 1.15e11, 0.01, 22e-9, 0.04
@@ -65,120 +62,27 @@ def line_reduction(waves: float) -> float:
     return 1 / (1 + 0.125 * waves + 0.04 * waves**2)
 
 
-# ---- line contacts, written anew
+# ---- line contacts
 
 
-@dataclass(frozen=True)
-class Line:
-    """A steady line film in Moes' units on a uniform grid: pressures and films (n,), H0, load M, half-width of Hertz'
-    contact, the oil as (ln m, its slope, rho, its slope) of pressures, and deflection (n, n)."""
-
-    x: FloatArray
-    pressure: FloatArray
-    datum: float
-    load: float
-    half: float
-    oil: Any
-    bending: FloatArray
-
-    @property
-    def film(self) -> FloatArray:
-        """Of the pressures."""
-        return self.datum + 0.5 * self.x**2 + self.bending @ self.pressure
-
-
-def _bending(x: FloatArray) -> FloatArray:
-    """Films under pressures of cells: -(4/pi) integral ln|x - s| ds over each."""
-    dx = x[1] - x[0]
-    edge = np.subtract.outer(x, x)[:, :, None] + 0.5 * dx * np.array([1.0, -1.0])
-    part = edge * (np.log(np.abs(edge)) - 1)
-    return -4 / np.pi * (part[:, :, 0] - part[:, :, 1])
-
-
-def _line_matrices(line: Line) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Balances of cells (n,), their derivatives with pressures and with films (n, n), and rho h."""
-    p, h, x = line.pressure, line.film, line.x
-    n, dx = len(x), x[1] - x[0]
-    log, slope, rho, rho_slope = line.oil(p)
-    fluid = rho * h**3 * np.exp(-log)
-    by_p, by_h = fluid * (rho_slope / rho - slope), 3 * fluid / h
-    flow_p, flow_h, flow = np.zeros((n + 1, n)), np.zeros((n + 1, n)), np.zeros(n + 1)
-    for f in range(1, n):
-        a, b = f - 1, f
-        mean, gradient = 0.5 * (fluid[a] + fluid[b]), (p[b] - p[a]) / dx
-        flow[f] = -mean * gradient
-        flow_p[f, a] = mean / dx - 0.5 * by_p[a] * gradient
-        flow_p[f, b] = -mean / dx - 0.5 * by_p[b] * gradient
-        flow_h[f, a], flow_h[f, b] = -0.5 * by_h[a] * gradient, -0.5 * by_h[b] * gradient
-        # two cells upstream: second order
-        for cell, share in ((a, 1.5), (a - 1, -0.5)) if a > 0 else ((a, 1.0),):
-            flow[f] += 6 * share * rho[cell] * h[cell]
-            flow_p[f, cell] += 6 * share * rho_slope[cell] * h[cell]
-            flow_h[f, cell] += 6 * share * rho[cell]
-    return np.diff(flow) / dx, np.diff(flow_p, axis=0) / dx, np.diff(flow_h, axis=0) / dx, rho * h
-
-
-def line_film(load: float, material: float, points: int) -> Line:
-    """The steady film by Newton's method, begun from `solve_line_film`."""
+def moes_line(load: float, material: float, points: int) -> Line:
+    """The steady film at Moes' M and L."""
     reduced = 2 * MODULUS
     number = (material / (ALPHA * reduced)) ** 4
-    total = number * reduced * RADIUS / VISCOSITY
-    physical = load * math.sqrt(number) * reduced * RADIUS
-    known = solve_line_film(
-        load=physical, radius=RADIUS, contact_modulus=MODULUS, speeds=(0.5 * total, 0.5 * total), lubricant=OIL
+    line, _ = line_film(
+        load=load * math.sqrt(number) * reduced * RADIUS,
+        radius=RADIUS,
+        contact_modulus=MODULUS,
+        entrainment=number * reduced * RADIUS / VISCOSITY,
+        lubricant=OIL,
+        points=points,
     )
-    scales = line_scales(physical, RADIUS, MODULUS, total, VISCOSITY)
-    problem = scaled_problem(scales, load, OIL)
-    half = math.sqrt(8 * load / math.pi)
-
-    def oil(pressure: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        return *problem.log_viscosity(pressure), *problem.density(pressure)
-
-    x = np.linspace(-4.5 * half, 1.6 * half, points)
-    pressure = np.interp(x, known.position / scales.length, known.pressure / scales.pressure)
-    pressure[0] = pressure[-1] = 0.0
-    line = Line(x, pressure, 0.0, load, half, oil, _bending(x))
-    middle = int(np.argmin(np.abs(x)))
-    datum = known.central_thickness / scales.film - float(line.film[middle])
-    line = Line(x, pressure, datum, load, half, oil, line.bending)
-    for _ in range(30):
-        right, by_p, by_h, _ = _line_matrices(line)
-        held = (line.pressure <= 0) & (right > 0)
-        held[[0, -1]] = True
-        matrix, rest = _bordered(by_p + by_h @ line.bending, by_h.sum(axis=1), held, x[1] - x[0])
-        missing = load - float(line.pressure.sum()) * (x[1] - x[0])
-        step = np.linalg.solve(matrix, np.append(np.where(held, -line.pressure, -right), missing) / rest)
-        share = 1.0
-        while share > 1e-3:
-            trial = Line(
-                x, np.maximum(line.pressure + share * step[:-1], 0), line.datum + share * step[-1], load, half, oil,
-                line.bending,
-            )  # fmt: skip
-            if trial.film.min() > 0.3 * line.film.min():
-                break
-            share *= 0.5
-        done = float(np.abs(trial.pressure - line.pressure).max()) < 1e-9 * float(trial.pressure.max())
-        line = trial
-        if done:
-            return line
-    raise RuntimeError(f"no line film at M {load:g}, L {material:g}")
-
-
-def _bordered(matrix: Any, by_datum: Any, held: Any, cell: float) -> tuple[Any, Any]:
-    """With the load below and H0 beside, held cells out of it, rows of one size; and these sizes."""
-    n = len(matrix)
-    whole = np.zeros((n + 1, n + 1), dtype=matrix.dtype)
-    whole[:n, :n], whole[:n, n], whole[n, :n] = matrix, by_datum, cell
-    index = np.flatnonzero(held)
-    whole[index] = 0.0
-    whole[index, index] = 1.0
-    size = np.abs(whole).max(axis=1)
-    return whole / size[:, None], size
+    return line
 
 
 def line_response(line: Line, wavelength: float) -> float:
     """Amplitude in the centre over that of the body, of waves [unit of length] in pure rolling."""
-    matrices: Any = _line_matrices(line)
+    matrices: Any = line_matrices(line)
     _, by_p, by_h, _ = matrices
     _, _, rho, rho_slope = line.oil(line.pressure)
     number = 2 * np.pi / wavelength
@@ -186,7 +90,7 @@ def line_response(line: Line, wavelength: float) -> float:
     by_h = by_h + 6j * number * np.diag(rho)
     wave: Any = -np.exp(-1j * number * line.x)
     held = line.pressure <= 0
-    matrix, size = _bordered(by_p + by_h @ line.bending, by_h.sum(axis=1), held, line.x[1] - line.x[0])
+    matrix, size = bordered(by_p + by_h @ line.bending, by_h.sum(axis=1), held, line.cell)
     right = np.append(np.where(held, 0.0, -by_h @ wave), 0.0) / size
     found = np.linalg.solve(matrix, right)
     film = line.bending @ found[:-1] + found[-1] + wave
@@ -233,7 +137,7 @@ def point_response(kept: KeptPoint, wavelength: float, ratio: float = 0.0) -> fl
     squeezed = np.zeros(n, dtype=complex)
     squeezed[border] = -1j * number * -3 / sum(level.problem.curvatures) / state.film.ravel()[border] ** 2
     squeezed[linear.far.ravel() <= 0] = 0.0
-    whole, size = _bordered(
+    whole, size = bordered(
         matrix,
         by_film.sum(axis=1) + stored_film[upper] + squeezed[upper],
         linear.held.ravel()[upper],
@@ -287,7 +191,7 @@ def of_point(load: float, material: float, waves: tuple[float, ...]) -> list[dic
 
 def of_line(load: float, material: float, waves: tuple[float, ...]) -> list[dict[str, Any]]:
     """Rows of a line contact, on all grids."""
-    lines = [line_film(load, material, points) for points in POINTS]
+    lines = [moes_line(load, material, points) for points in POINTS]
     rows = []
     for share in waves:
         scaled = share * load**0.75 / math.sqrt(material)
@@ -303,7 +207,7 @@ def of_long_ellipse(load: float, material: float, waves: tuple[float, ...]) -> l
     hertz = _kept(films[-1]).setting.hertz
     assert hertz is not None
     across = 0.5 * math.pi * hertz.maximum_pressure * hertz.semi_axes[0]
-    lines = [line_film(across, material, points) for points in POINTS]
+    lines = [moes_line(across, material, points) for points in POINTS]
     rows = []
     for share in waves:
         here = [point_response(_kept(film), share * _half(film)) for film in films]

@@ -1,0 +1,239 @@
+"""Films between rough surfaces, the roughness in Reynolds' equation itself, beside load sharing of the same surfaces.
+
+    nice python -m reports.experiments.rough_films
+
+Half an hour on two cores. The rough surface is at rest and a smooth one moves over it, so the film is steady. Under a
+cylinder the roughness is ridges across the flow, solved by `line_films`; under a ball ridges across and along the flow
+and bumps, by `march_point_film` with steps in time so long that nothing is stored. Each surface on three grids, higher
+and higher, until the largest amplitude or until no film is found. Nothing touches in such a film: what a reader may
+call contact is the load on films thinner than `CUT_OFF`, where no oil is a continuum. The result is stored in
+`reports/results/rough_films.json`.
+
+To try a surface of your own: `of_ball(..., surface=function of (x, y))`, or `march_point_film` as in `_ball_films`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem import Body, Grid, Lubricant, Material, march_point_film, solve_line_film, solve_mixed, solve_point_film
+from bem.errors import Status
+from bem.grid import FloatArray
+from bem.materials import contact_modulus
+from reports.experiments.kept import keep
+from reports.experiments.line_films import Line, line_film, roughened
+
+RESULT = Path(__file__).resolve().parents[1] / "results" / "rough_films.json"
+STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
+MODULUS = contact_modulus(STEEL, STEEL)
+OIL = Lubricant(0.03, pressure_viscosity=18e-9, shear_law="eyring", shear_stress_limit=5e6)
+RADIUS, BOUNDARY, CUT_OFF = 10e-3, 0.12, 1e-9
+"""[m], coefficient of friction where surfaces touch, and film [m] below which they are said to."""
+LAMBDAS = (3.0, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125, 0.1)
+"""Central film between smooth surfaces over the rms height."""
+LINE_PRESSURE, BALL_LOAD, BALL_SPEED = 0.8e9, 20.0, 0.05
+"""Hertz' highest pressure under the cylinder [Pa]; load [N] (0.86 GPa), and speed [m/s] of the ball."""
+LINE_CASES = ((0.25, 0.05), (0.5, 0.05), (1.0, 0.05), (0.5, 0.005))
+"""Wavelength over Hertz' half-width, speed [m/s]."""
+LINE_POINTS = (600, 850, 1200)
+REACH = (2.5, 1.5)
+"""Of the line's grid before and behind the centre, over Hertz' half-width."""
+BALL_CASES = (("bumps", 0.37), ("along", 0.37), ("across", 0.37), ("bumps", 0.74), ("along", 0.74))
+"""Surface, wavelength over Hertz' radius."""
+BALL_SHAPES = ((150, 120), (212, 170), (300, 240))
+EXTENT = (-3.3, 2.2, -2.2, 2.2)
+"""Edges over Hertz' radius."""
+LONG = 1e4
+"""Time of a step over that of the oil through the grid."""
+PATCH, LINE_CELLS, BALL_CELLS = 1.5, (512, 8), (128, 128)
+"""Rough patch of load sharing: half its length over Hertz' half-axis, and its cells."""
+GROWTH, LEAST_GROWTH = 1.3, 1.01
+"""Largest factor from one amplitude of a surface to the next, and the one where none is looked for any more."""
+Surface = Callable[[FloatArray, FloatArray], FloatArray]
+
+
+def ridges_across(wavelength: float) -> Surface:
+    """Of rms height 1; surfaces are functions of x (n, 1) and y (1, m)."""
+    return lambda x, y: math.sqrt(2) * np.cos(2 * math.pi * x / wavelength) + 0 * y
+
+
+def ridges_along(wavelength: float) -> Surface:
+    """Of rms height 1."""
+    return lambda x, y: math.sqrt(2) * np.cos(2 * math.pi * y / wavelength) + 0 * x
+
+
+def bumps(wavelength: float) -> Surface:
+    """Of rms height 1."""
+    wave = 2 * math.pi / wavelength
+    return lambda x, y: 2 * np.cos(wave * x) * np.cos(wave * y)
+
+
+SURFACES: dict[str, Callable[[float], Surface]] = {"across": ridges_across, "along": ridges_along, "bumps": bumps}
+
+
+def film_figures(pressure: FloatArray, thickness: FloatArray, speed: float) -> dict[str, float]:
+    """Of a film on equal cells: thinnest place and mean by pressure [m], share of the load on films below `CUT_OFF`,
+    and friction, that of boundary layers there."""
+    loaded = pressure > 0
+    carried, film = pressure[loaded], thickness[loaded]
+    thin, load = film < CUT_OFF, float(carried.sum())
+    stress = OIL.shear_stress(OIL.viscosity_at(carried) * speed / film, carried)
+    return {
+        "minimum": float(film.min()),
+        "mean": float((film * carried).sum()) / load,
+        "share": float(carried[thin].sum()) / load,
+        "friction": float(np.where(thin, BOUNDARY * carried, stress).sum()) / load,
+    }
+
+
+def thinner_carry(pressure: FloatArray, thickness: FloatArray, share: float) -> float:
+    """The film [m] than which those are thinner that carry a share of the load."""
+    order = np.argsort(thickness, axis=None)
+    carried = np.cumsum(pressure.ravel()[order])
+    return float(thickness.ravel()[order[min(np.searchsorted(carried, share * carried[-1]), len(order) - 1)]])
+
+
+def _line_films(points: int, load: float, speed: float, wavelength: float, central: float) -> list[Any]:
+    """Pressures and films at `LAMBDAS` of ridges under the cylinder; None from where none is found."""
+    line, scales = line_film(
+        load=load,
+        radius=RADIUS,
+        contact_modulus=MODULUS,
+        entrainment=speed,
+        lubricant=OIL,
+        points=points,
+        reach=REACH,
+    )
+    ridges = ridges_across(wavelength)(line.x[:, None] * scales.length, np.zeros((1, 1)))[:, 0] * central / scales.film
+    found: list[Any] = []
+    at, factor = 0.5 / max(LAMBDAS), GROWTH
+    now: Line | None = roughened(line, ridges, at)
+    for wanted in LAMBDAS:
+        while now is not None and at < 1 / wanted:
+            height = min(at * factor, 1 / wanted)
+            trial = roughened(now, ridges, height)
+            if trial is not None:
+                now, at, factor = trial, height, min(factor**1.3, GROWTH)
+                continue
+            factor = math.sqrt(factor)
+            if factor < LEAST_GROWTH:
+                now = None
+        found.append(None if now is None else (now.pressure * scales.pressure, now.film * scales.film))
+    return found
+
+
+def of_line(share: float, speed: float) -> dict[str, Any]:
+    """Ridges under the cylinder, of a wavelength over Hertz' half-width, at a speed [m/s]."""
+    half = 2 * LINE_PRESSURE * RADIUS / MODULUS
+    load = 0.5 * math.pi * LINE_PRESSURE * half
+    central = solve_line_film(
+        load=load, radius=RADIUS, contact_modulus=MODULUS, speeds=(0.0, speed), lubricant=OIL
+    ).central_thickness
+    spacing = 2 * PATCH * half / LINE_CELLS[0]
+    grid = Grid(LINE_CELLS, (spacing, spacing), periodic=(False, True))
+    width = grid.lengths[1]
+    surface = ridges_across(share * half)
+    films = [_line_films(points, load, speed, share * half, central) for points in LINE_POINTS]
+    shared = {"grid": grid, "radius": RADIUS, "width": width, "load": load * width, "film_points": 800}
+    rows = _rows(films, speed, central, surface, shared)
+    named = {"contact": "line", "surface": "across", "grids": LINE_POINTS}
+    return named | {"wavelength": share, "speed": speed, "smooth": central, "rows": rows}
+
+
+def _ball_films(shape: tuple[int, int], edges: Sequence[float], surface: Surface, central: float) -> list[Any]:
+    """Pressures and films at `LAMBDAS` under the ball; None from where none is found."""
+    x, y = (
+        low + (high - low) / cells * (np.arange(cells) + 0.5)
+        for low, high, cells in zip(edges[::2], edges[1::2], shape, strict=True)
+    )
+    heights = surface(x[:, None], y[None, :])
+    times = np.arange(len(LAMBDAS) + 1) * LONG * (edges[1] - edges[0]) / BALL_SPEED
+    rms = [0.0, *(central / one for one in LAMBDAS)]
+    films = march_point_film(
+        times,
+        load=lambda time: BALL_LOAD,
+        speeds=lambda time: (0.0, BALL_SPEED),
+        radii=(RADIUS, RADIUS),
+        contact_modulus=MODULUS,
+        lubricant=OIL,
+        roughness=lambda time: float(np.interp(time, times, rms)) * heights,
+        shape=shape,
+        extent=edges,
+    )[1:]
+    good = [(film.pressure, film.thickness) for film in films if film.status is Status.CONVERGED]
+    return [*good, *[None] * (len(LAMBDAS) - len(good))]
+
+
+def of_ball(name: str, share: float, surface: Surface | None = None) -> dict[str, Any]:
+    """A named surface under the ball, of a wavelength over Hertz' radius; or another one, of rms height 1."""
+    half = (0.75 * BALL_LOAD * RADIUS / MODULUS) ** (1 / 3)
+    surface = SURFACES[name](share * half) if surface is None else surface
+    edges = [edge * half for edge in EXTENT]
+    ball = {"load": BALL_LOAD, "radii": (RADIUS, RADIUS)}
+    central = solve_point_film(
+        contact_modulus=MODULUS, speeds=(0.0, BALL_SPEED), lubricant=OIL, shape=BALL_SHAPES[-1], extent=edges, **ball
+    ).central_thickness
+    films = [_ball_films(shape, edges, surface, central) for shape in BALL_SHAPES]
+    spacing = 2 * PATCH * half / BALL_CELLS[0]
+    rows = _rows(films, BALL_SPEED, central, surface, ball | {"grid": Grid(BALL_CELLS, (spacing, spacing))})
+    named = {"contact": "ball", "surface": name, "grids": BALL_SHAPES}
+    return named | {"wavelength": share, "speed": BALL_SPEED, "smooth": central, "rows": rows}
+
+
+def _rows(
+    films: list[list[Any]], speed: float, central: float, surface: Surface, shared: dict[str, Any]
+) -> list[dict[str, Any]]:
+    """A row for each of `LAMBDAS`: figures of films on all grids, shares and friction of load sharing with oil counted
+    where the film is loaded and on the patch, and the film than which those are thinner that carry its share."""
+    grid = shared["grid"]
+    heights = np.broadcast_to(surface(grid.x[:, None], grid.y[None, :]), grid.shape)
+    rows = []
+    for k, ratio in enumerate(LAMBDAS):
+        one = [None if of[k] is None else film_figures(*of[k], speed) for of in films]
+        row: dict[str, Any] = {"lambda": ratio, "films": one}
+        for where in ("loaded", "patch"):
+            found = solve_mixed(
+                bodies=(Body(STEEL),) * 2,
+                lubricant=OIL,
+                boundary_friction=BOUNDARY,
+                oil_volume=where,
+                height=central / ratio * heights,
+                speeds=(0.0, speed),
+                **shared,
+            )
+            carried = found.contact_load / (found.contact_load + found.film_load)
+            row[where] = {"status": found.status.value, "share": carried, "friction": found.friction}
+        last = films[-1][k]
+        row["carried_by"] = None if last is None else thinner_carry(*last, row["loaded"]["share"])
+        rows.append(_rounded(row))
+        print(rows[-1], flush=True)
+    return rows
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _rounded(one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [_rounded(one) for one in value]
+    return float(f"{value:.4g}") if isinstance(value, float) else value
+
+
+def main() -> None:
+    """All of them, two at a time, stored."""
+    with ProcessPoolExecutor(2) as pool:
+        balls = [pool.submit(of_ball, *case) for case in BALL_CASES]
+        lines = [pool.submit(of_line, *case) for case in LINE_CASES]
+        cases = []
+        for one in (*lines, *balls):
+            cases.append(_rounded(one.result()))
+            keep(RESULT, {"asked": len(lines) + len(balls), "cases": cases})
+
+
+if __name__ == "__main__":
+    main()
