@@ -41,12 +41,12 @@ LINE_PRESSURE, BALL_LOAD, BALL_SPEED = 0.8e9, 20.0, 0.05
 """Hertz' highest pressure under the cylinder [Pa]; load [N] (0.86 GPa), and speed [m/s] of the ball."""
 LINE_CASES = ((0.25, 0.05), (0.5, 0.05), (1.0, 0.05), (0.5, 0.005))
 """Wavelength over Hertz' half-width, speed [m/s]."""
-LINE_POINTS = (600, 850, 1200)
+LINE_POINTS = (500, 707, 1000)
 REACH = (2.5, 1.5)
 """Of the line's grid before and behind the centre, over Hertz' half-width."""
-BALL_CASES = (("bumps", 0.37), ("along", 0.37), ("across", 0.37), ("bumps", 0.74), ("along", 0.74))
+BALL_CASES = (("bumps", 0.37), ("along", 0.37), ("across", 0.37), ("bumps", 0.74))
 """Surface, wavelength over Hertz' radius."""
-BALL_SHAPES = ((150, 120), (212, 170), (300, 240))
+BALL_SHAPES = ((106, 85), (150, 120), (212, 170))
 EXTENT = (-3.3, 2.2, -2.2, 2.2)
 """Edges over Hertz' radius."""
 LONG = 1e4
@@ -227,8 +227,8 @@ def _rounded(value: Any) -> Any:
 def main() -> None:
     """All of them, two at a time, stored."""
     with ProcessPoolExecutor(2) as pool:
-        balls = [pool.submit(of_ball, *case) for case in BALL_CASES]
         lines = [pool.submit(of_line, *case) for case in LINE_CASES]
+        balls = [pool.submit(of_ball, *case) for case in BALL_CASES]
         cases = []
         for one in (*lines, *balls):
             cases.append(_rounded(one.result()))
