@@ -5,7 +5,8 @@
 Half an hour on two cores. The rough surface is at rest and a smooth one moves over it, so the film is steady. Under a
 cylinder the roughness is ridges across the flow, solved by `line_films`; under a ball ridges across and along the flow
 and bumps, by `march_point_film` with steps in time so long that nothing is stored. Each surface on three grids, higher
-and higher, until the largest amplitude or until no film is found. Nothing touches in such a film: what a reader may
+and higher, until no film is found, or one that ruptures inside the contact and forms again: Swift and Stieber's
+condition has oil from nowhere then (films grow with the roughness). Nothing touches in such a film: what a reader may
 call contact is the load on films thinner than `CUT_OFF`, where no oil is a continuum. The result is stored in
 `reports/results/rough_films.json`.
 
@@ -16,7 +17,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -39,12 +41,12 @@ LAMBDAS = (3.0, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125, 0.1)
 """Central film between smooth surfaces over the rms height."""
 LINE_PRESSURE, BALL_LOAD, BALL_SPEED = 0.8e9, 20.0, 0.05
 """Hertz' highest pressure under the cylinder [Pa]; load [N] (0.86 GPa), and speed [m/s] of the ball."""
-LINE_CASES = ((0.25, 0.05), (0.5, 0.05), (1.0, 0.05), (0.5, 0.005))
+LINE_CASES = ((0.5, 0.05), (0.25, 0.05), (1.0, 0.05), (0.5, 0.005))
 """Wavelength over Hertz' half-width, speed [m/s]."""
-LINE_POINTS = (500, 707, 1000)
+LINE_POINTS = (354, 500, 707)
 REACH = (2.5, 1.5)
 """Of the line's grid before and behind the centre, over Hertz' half-width."""
-BALL_CASES = (("bumps", 0.37), ("along", 0.37), ("across", 0.37), ("bumps", 0.74))
+BALL_CASES = (("bumps", 0.37), ("along", 0.37), ("bumps", 0.74), ("across", 0.37))
 """Surface, wavelength over Hertz' radius."""
 BALL_SHAPES = ((106, 85), (150, 120), (212, 170))
 EXTENT = (-3.3, 2.2, -2.2, 2.2)
@@ -53,8 +55,13 @@ LONG = 1e4
 """Time of a step over that of the oil through the grid."""
 PATCH, LINE_CELLS, BALL_CELLS = 1.5, (512, 8), (128, 128)
 """Rough patch of load sharing: half its length over Hertz' half-axis, and its cells."""
+INSIDE = 0.9
+"""Of Hertz' half-axis: where a film that ruptures forms again."""
+STALLED, RUPTURED = "stalled", "ruptured"
 GROWTH, LEAST_GROWTH = 1.3, 1.01
 """Largest factor from one amplitude of a surface to the next, and the one where none is looked for any more."""
+Fields = tuple[FloatArray, FloatArray]
+"""Pressures [Pa] and films [m]."""
 Surface = Callable[[FloatArray, FloatArray], FloatArray]
 
 
@@ -99,8 +106,18 @@ def thinner_carry(pressure: FloatArray, thickness: FloatArray, share: float) -> 
     return float(thickness.ravel()[order[min(np.searchsorted(carried, share * carried[-1]), len(order) - 1)]])
 
 
-def _line_films(points: int, load: float, speed: float, wavelength: float, central: float) -> list[Any]:
-    """Pressures and films at `LAMBDAS` of ridges under the cylinder; None from where none is found."""
+def whole(films: list[Fields], inside: Any) -> list[Fields | str]:
+    """Films at `LAMBDAS` up to the first that ruptures inside the contact, then why there is none."""
+    good: list[Fields | str] = []
+    for film in films:
+        if not (film[0][inside] > 0).all():
+            return good + [RUPTURED] * (len(LAMBDAS) - len(good))
+        good.append(film)
+    return good + [STALLED] * (len(LAMBDAS) - len(good))
+
+
+def _line_films(points: int, load: float, speed: float, wavelength: float, central: float) -> list[Fields | str]:
+    """At `LAMBDAS` of ridges under the cylinder."""
     line, scales = line_film(
         load=load,
         radius=RADIUS,
@@ -111,7 +128,8 @@ def _line_films(points: int, load: float, speed: float, wavelength: float, centr
         reach=REACH,
     )
     ridges = ridges_across(wavelength)(line.x[:, None] * scales.length, np.zeros((1, 1)))[:, 0] * central / scales.film
-    found: list[Any] = []
+    inside = np.abs(line.x) < INSIDE * line.half
+    found: list[Fields] = []
     at, factor = 0.5 / max(LAMBDAS), GROWTH
     now: Line | None = roughened(line, ridges, at)
     for wanted in LAMBDAS:
@@ -124,8 +142,12 @@ def _line_films(points: int, load: float, speed: float, wavelength: float, centr
             factor = math.sqrt(factor)
             if factor < LEAST_GROWTH:
                 now = None
-        found.append(None if now is None else (now.pressure * scales.pressure, now.film * scales.film))
-    return found
+        if now is None:
+            break
+        found.append((now.pressure * scales.pressure, now.film * scales.film))
+        if not (now.pressure[inside] > 0).all():
+            break
+    return whole(found, inside)
 
 
 def of_line(share: float, speed: float) -> dict[str, Any]:
@@ -146,8 +168,10 @@ def of_line(share: float, speed: float) -> dict[str, Any]:
     return named | {"wavelength": share, "speed": speed, "smooth": central, "rows": rows}
 
 
-def _ball_films(shape: tuple[int, int], edges: Sequence[float], surface: Surface, central: float) -> list[Any]:
-    """Pressures and films at `LAMBDAS` under the ball; None from where none is found."""
+def _ball_films(
+    shape: tuple[int, int], half: float, edges: Sequence[float], surface: Surface, central: float
+) -> list[Fields | str]:
+    """At `LAMBDAS` under the ball, whose contact has a radius of `half`."""
     x, y = (
         low + (high - low) / cells * (np.arange(cells) + 0.5)
         for low, high, cells in zip(edges[::2], edges[1::2], shape, strict=True)
@@ -167,7 +191,7 @@ def _ball_films(shape: tuple[int, int], edges: Sequence[float], surface: Surface
         extent=edges,
     )[1:]
     good = [(film.pressure, film.thickness) for film in films if film.status is Status.CONVERGED]
-    return [*good, *[None] * (len(LAMBDAS) - len(good))]
+    return whole(good, np.hypot(x[:, None], y[None, :]) < INSIDE * half)
 
 
 def of_ball(name: str, share: float, surface: Surface | None = None) -> dict[str, Any]:
@@ -179,7 +203,7 @@ def of_ball(name: str, share: float, surface: Surface | None = None) -> dict[str
     central = solve_point_film(
         contact_modulus=MODULUS, speeds=(0.0, BALL_SPEED), lubricant=OIL, shape=BALL_SHAPES[-1], extent=edges, **ball
     ).central_thickness
-    films = [_ball_films(shape, edges, surface, central) for shape in BALL_SHAPES]
+    films = [_ball_films(shape, half, edges, surface, central) for shape in BALL_SHAPES]
     spacing = 2 * PATCH * half / BALL_CELLS[0]
     rows = _rows(films, BALL_SPEED, central, surface, ball | {"grid": Grid(BALL_CELLS, (spacing, spacing))})
     named = {"contact": "ball", "surface": name, "grids": BALL_SHAPES}
@@ -187,7 +211,7 @@ def of_ball(name: str, share: float, surface: Surface | None = None) -> dict[str
 
 
 def _rows(
-    films: list[list[Any]], speed: float, central: float, surface: Surface, shared: dict[str, Any]
+    films: list[list[Fields | str]], speed: float, central: float, surface: Surface, shared: dict[str, Any]
 ) -> list[dict[str, Any]]:
     """A row for each of `LAMBDAS`: figures of films on all grids, shares and friction of load sharing with oil counted
     where the film is loaded and on the patch, and the film than which those are thinner that carry its share."""
@@ -195,8 +219,9 @@ def _rows(
     heights = np.broadcast_to(surface(grid.x[:, None], grid.y[None, :]), grid.shape)
     rows = []
     for k, ratio in enumerate(LAMBDAS):
-        one = [None if of[k] is None else film_figures(*of[k], speed) for of in films]
-        row: dict[str, Any] = {"lambda": ratio, "films": one}
+        here = [of[k] for of in films]
+        figures = [film if isinstance(film, str) else film_figures(*film, speed) for film in here]
+        row: dict[str, Any] = {"lambda": ratio, "films": figures}
         for where in ("loaded", "patch"):
             found = solve_mixed(
                 bodies=(Body(STEEL),) * 2,
@@ -209,8 +234,8 @@ def _rows(
             )
             carried = found.contact_load / (found.contact_load + found.film_load)
             row[where] = {"status": found.status.value, "share": carried, "friction": found.friction}
-        last = films[-1][k]
-        row["carried_by"] = None if last is None else thinner_carry(*last, row["loaded"]["share"])
+        last = here[-1]
+        row["carried_by"] = None if isinstance(last, str) else thinner_carry(*last, row["loaded"]["share"])
         rows.append(_rounded(row))
         print(rows[-1], flush=True)
     return rows
@@ -225,14 +250,21 @@ def _rounded(value: Any) -> Any:
 
 
 def main() -> None:
-    """All of them, two at a time, stored."""
+    """All of them, two at a time, stored after each, so that what was cut short says so."""
     with ProcessPoolExecutor(2) as pool:
-        lines = [pool.submit(of_line, *case) for case in LINE_CASES]
-        balls = [pool.submit(of_ball, *case) for case in BALL_CASES]
+        asked = [
+            pool.submit(one, *case)
+            for pair in zip_longest(LINE_CASES, BALL_CASES)
+            for one, case in zip((of_line, of_ball), pair, strict=True)
+            if case is not None
+        ]
         cases = []
-        for one in (*lines, *balls):
-            cases.append(_rounded(one.result()))
-            keep(RESULT, {"asked": len(lines) + len(balls), "cases": cases})
+        for done in as_completed(asked):
+            cases.append(_rounded(done.result()))
+            cases.sort(
+                key=lambda case: (case["contact"] == "ball", case["surface"], case["wavelength"], -case["speed"])
+            )
+            keep(RESULT, {"asked": len(asked), "cases": cases})
 
 
 if __name__ == "__main__":

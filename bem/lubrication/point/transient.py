@@ -87,7 +87,9 @@ def march_point_film(  # reason: the signature is a promise to users' scripts; f
     Notes
     -----
     At the edges the pressure is that of rigid paraboloids of the time's entrainment and approach (`far`); surfaces and
-    their squeeze are smooth beyond.
+    their squeeze are smooth beyond. A rough surface at rest under a smooth one that moves has a steady film: steps in
+    time far longer than the oil's way through the contact (ten thousand times) lead to it at once, from one height of
+    the surface to the next (`reports/experiments/rough_films.py`).
     """
     schedule = schedule_of(times, load, speeds)
     at_times = radii if callable(radii) else partial(_constant, tuple(radii) if _listed(radii) else radii)
