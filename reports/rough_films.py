@@ -55,12 +55,16 @@ def _verdict(cases: list[dict[str, Any]]) -> str:
     most, film = max(rows, key=lambda pair: abs(pair[0]["loaded"]["share"] - pair[1]["share"]))
     share = _same_down_to(rows, lambda row, last: abs(row["loaded"]["share"] - last["share"]) / SHARE)
     loaded, patch = (_same_down_to(rows, partial(_off, where=where)) for where in ("loaded", "patch"))
+    low = min(row["loaded"]["friction"] / last["friction"] - 1 for row, last in rows)
+    idle = max(row["loaded"]["film_on_contact"] for row, _ in rows)
     return (
         f"On the finest grids load sharing and rough films agree about the share of the load within {SHARE:g} down to "
         f"a smooth film of {share} times the rms height, and about friction within {100 * FRICTION:g} % down to "
         f"{loaded} (oil where the film is loaded) and {patch} (on the patch). Below, load sharing gives surfaces load "
         f"that a film still carries: at worst {100 * most['loaded']['share']:.0f} % at {most['lambda']:g}, where "
-        f"{100 * film['share']:.2g} % lies on films below 1 nm, the thinnest {1e9 * film['minimum']:.2g} nm."
+        f"{100 * film['share']:.2g} % lies on films below 1 nm, the thinnest {1e9 * film['minimum']:.2g} nm. "
+        f"Load sharing's friction is up to {-100 * low:.0f} % below that of the film: on cells in contact the film's "
+        f"load counts and its shear stress does not, up to {100 * idle:.0f} % of the load."
     )
 
 
@@ -88,7 +92,7 @@ def _order(films: list[Any]) -> str:
 
 
 def _name(case: dict[str, Any]) -> str:
-    body = {"line": "cylinder", "ball": "ball"}[case["contact"]]
+    body = {"line": "Cylinder", "ball": "Ball"}[case["contact"]]
     half = {"line": "half-width", "ball": "radius"}[case["contact"]]
     return (
         f"{body}, {NAMES[case['surface']]}, wavelength {case['wavelength']:g} of Hertz' {half}, "
@@ -97,7 +101,7 @@ def _name(case: dict[str, Any]) -> str:
 
 
 def _table(case: dict[str, Any]) -> str:
-    return table(HEADERS, [_line(row) for row in case["rows"]], caption=_name(case).capitalize())
+    return table(HEADERS, [_line(row) for row in case["rows"]], caption=_name(case))
 
 
 def _line(row: dict[str, Any]) -> tuple[Any, ...]:
@@ -134,7 +138,8 @@ def _drawn(cases: list[dict[str, Any]]) -> Figure:
                 one.semilogx(ratios, [row["loaded"][name] for row in case["rows"]], "-", color=colour)
                 one.semilogx([at for at, _ in films], [last[name] for _, last in films], "o", color=colour, label=label)
         column[0].set_title({"line": "cylinder", "ball": "ball"}[contact], fontsize=9)
-        column[0].legend(fontsize=7)
+        if of:
+            column[0].legend(fontsize=7)
         column[1].set_xlabel("smooth film over rms height")
     axes[0, 0].set_ylabel("share of the load")
     axes[1, 0].set_ylabel("friction")

@@ -213,8 +213,8 @@ def of_ball(name: str, share: float, surface: Surface | None = None) -> dict[str
 def _rows(
     films: list[list[Fields | str]], speed: float, central: float, surface: Surface, shared: dict[str, Any]
 ) -> list[dict[str, Any]]:
-    """A row for each of `LAMBDAS`: figures of films on all grids, shares and friction of load sharing with oil counted
-    where the film is loaded and on the patch, and the film than which those are thinner that carry its share."""
+    """A row for each of `LAMBDAS`: figures of films on all grids, those of load sharing with oil counted where the film
+    is loaded and on the patch, and the film than which those are thinner that carry its share."""
     grid = shared["grid"]
     heights = np.broadcast_to(surface(grid.x[:, None], grid.y[None, :]), grid.shape)
     rows = []
@@ -223,22 +223,35 @@ def _rows(
         figures = [film if isinstance(film, str) else film_figures(*film, speed) for film in here]
         row: dict[str, Any] = {"lambda": ratio, "films": figures}
         for where in ("loaded", "patch"):
-            found = solve_mixed(
-                bodies=(Body(STEEL),) * 2,
-                lubricant=OIL,
-                boundary_friction=BOUNDARY,
-                oil_volume=where,
-                height=central / ratio * heights,
-                speeds=(0.0, speed),
-                **shared,
-            )
-            carried = found.contact_load / (found.contact_load + found.film_load)
-            row[where] = {"status": found.status.value, "share": carried, "friction": found.friction}
+            row[where] = load_shared(central / ratio * heights, speed, where, shared)
         last = here[-1]
         row["carried_by"] = None if isinstance(last, str) else thinner_carry(*last, row["loaded"]["share"])
         rows.append(_rounded(row))
         print(rows[-1], flush=True)
     return rows
+
+
+def load_shared(height: FloatArray, speed: float, oil_volume: str, shared: dict[str, Any]) -> dict[str, Any]:
+    """Of load sharing of heights (nx, ny) [m]: share of the load on the surfaces, friction, and the share that the film
+    carries on cells in contact, where its load counts and its shear stress does not."""
+    found = solve_mixed(
+        bodies=(Body(STEEL),) * 2,
+        lubricant=OIL,
+        boundary_friction=BOUNDARY,
+        oil_volume=oil_volume,
+        height=height,
+        speeds=(0.0, speed),
+        **shared,
+    )
+    load = found.contact_load + found.film_load
+    film = np.broadcast_to(found.patch_film.pressure, height.shape)
+    covered = float(film[found.contact_pressure > 0].sum() / film.sum())
+    return {
+        "status": found.status.value,
+        "share": found.contact_load / load,
+        "friction": found.friction,
+        "film_on_contact": covered * found.film_load / load,
+    }
 
 
 def _rounded(value: Any) -> Any:
