@@ -73,8 +73,8 @@ class Beside:
         if self.fatigue is not None:
             notes.append(
                 "micropitting: one cycle of stress a pass, sampled in the positions; pits stay in the surface, cracks "
-                "do not grow, and no residual stress is known; at most and at least bracket jumps and what meets in a "
-                "pass, not cells"
+                f"do not grow, and the residual stress is the {1e-6 * self.fatigue.limit.residual:g} MPa given, not that "
+                "of first passes; at most and at least bracket jumps and what meets in a pass, not cells"
             )
         return tuple(notes)
 

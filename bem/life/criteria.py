@@ -29,7 +29,9 @@ class FatigueLimit:
 
     criterion : "dang_van" or "crossland". bending : B of one cycle [Pa]; slope : A [Pa], negative. The limit in
     reversed torsion is sigma / sqrt(3). hydrostatic : how much of it counts; of Dang Van 3/sqrt(3) - 3/2 = 0.232
-    follows from both limits, of Crossland 0.
+    follows from both limits, of Crossland 0. residual : stress that stays in the plane of the surface, along x and y
+    alike [Pa], negative where it is compressive (of first passes, peening, hardening): a path shakes down around it, so
+    that its hydrostatic part alone counts.
 
     The paper's constants of hardened 52100 are B 1220 MPa, A -43 MPa (Morales-Espejel and Brizmer 2011, after Shimizu;
     the sign of A is lost in print). A is taken per decade here: 833 MPa at 1e9 cycles, where rotating bending of
@@ -40,6 +42,7 @@ class FatigueLimit:
     bending: float = 1220e6
     slope: float = -43e6 / math.log(10)
     hydrostatic: float | None = None
+    residual: float = 0.0
 
     def __post_init__(self) -> None:
         messages = []
@@ -49,6 +52,8 @@ class FatigueLimit:
             messages.append(f"bending {self.bending!r} must be positive and finite [Pa]")
         if not (math.isfinite(self.slope) and self.slope < 0):
             messages.append(f"slope {self.slope!r} must be negative and finite [Pa]")
+        if not math.isfinite(self.residual):
+            messages.append(f"residual {self.residual!r} must be finite [Pa]")
         if messages:
             raise InputError(messages)
 
@@ -65,7 +70,7 @@ class FatigueLimit:
         points = np.moveaxis(np.asarray(path, dtype=np.float64), (0, 1), (-1, -2))
         flat = np.ascontiguousarray(points.reshape(-1, *points.shape[-2:]))
         found = _dang_van(flat, self.factor) if self.criterion == "dang_van" else _crossland(flat, self.factor)
-        return np.asarray(found.reshape(points.shape[:-2]))
+        return np.asarray(found.reshape(points.shape[:-2]) + self.factor * 2 / 3 * self.residual)
 
     def damage(self, equivalent: FloatArray) -> FloatArray:
         """Share of a life that a cycle takes (Miner), 1/N; at most one."""

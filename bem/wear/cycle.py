@@ -49,7 +49,8 @@ class WearModel:
         `TractionLaw`. "gross_sliding" is the source's, friction x pressure everywhere; "oscillating_force" and
         "oscillating_shift" give stresses, pieces and local wear the tractions and the slip of a loop in partial slip.
     third_bodies : particles that stay between the surfaces, `bem.wear.third_bodies.ThirdBodies` or a table of its
-        fields; None for none. Of dry contacts that slide; they roll half as far as a cycle of the criterion stands for.
+        fields; None for none. Of dry contacts and of `MixedContact`, where these slide; they roll half as far as a
+        cycle of the criterion stands for.
     film_defect : of a boundary film that protects what wears locally, `bem.wear.film_defect.FilmDefect` or a table of
         its fields; None for surfaces that wear as the criterion says.
     """

@@ -22,11 +22,14 @@ from bem.friction.films import films_of
 from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, unrubbed, validity_notes
 from bem.friction.oil_beside import OilBeside, oil_notes
 from bem.friction.oil_sensitivity import oil_beside
-from bem.friction.rough_contact import RoughContact, boundary_traction, rough_contact
+from bem.friction.rough_contact import CoupledContact, RoughContact, boundary_traction, rough_contact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
+from bem.materials import Body
 from bem.wear.cycle import ContactOutcome
 from bem.wear.state import pack_table, unpack_table
+from bem.wear.third_bodies import ThirdBodies
+from bem.wear.third_body_mixed import ContactWithBodies
 
 MIXED_FIELDS = np.dtype(
     [
@@ -105,13 +108,38 @@ class MixedContact:
         self._forces: Forces | None = None
         self._coupling: tuple[str, ...] = ()
         self._last: tuple[Balance, FloatArray] | None = None
+        self._particles: ThirdBodies | None = None
+        self._slide = 0.0
+
+    def bearing(self, particles: ThirdBodies, slide: float) -> MixedContact:
+        """This contact with particles between its surfaces, while the bodies slide so far in a cycle [m].
+
+        Raises
+        ------
+        InputError : a surface without hardness; a slide in which particles cut deeper than they lie.
+        """
+        particles.check_slide(slide, self._hardnesses(particles))
+        self._particles, self._slide = particles, slide
+        return self
+
+    def _hardnesses(self, particles: ThirdBodies) -> tuple[float, float]:
+        bodies = self.setup.bodies
+        return particles.hardnesses((bodies, bodies) if isinstance(bodies, Body) else (bodies[0], bodies[-1]))
+
+    def _rough(self, heights: FloatArray) -> RoughContact:
+        rough, particles = rough_contact(self.setup, heights, self.speeds), self._particles
+        if particles is None or particles.number_per_area == 0:
+            return rough
+        if not isinstance(rough, CoupledContact):
+            raise InputError('third bodies share the load of a contact_model "coupled"')
+        return ContactWithBodies(rough, particles, self._hardnesses(particles))
 
     def __call__(self, heights: FloatArray, last_pressure: FloatArray | None) -> ContactOutcome:
         """The contact of one cycle; see `bem.wear.ContactStep`."""
         setup = self.setup
         if self._whole is None:
             self._whole = self.table.under(self.table.largest_load)
-        rough = rough_contact(setup, heights, self.speeds)
+        rough = self._rough(heights)
         start = BalanceStart(self.state.film_load, self.state.slope, last_pressure)
         balance = share_load(self.table, rough, setup.load, setup.tolerance, self._whole, start)
         if balance.contact is not None:
@@ -141,15 +169,18 @@ class MixedContact:
 
     def oil(self) -> OilBeside | None:
         """How far the last cycle's load sharing hangs on the oil beside Hertz' contact; one more balance."""
-        if self._last is None or self._whole is None:
-            return None
+        if self._last is None or self._whole is None or self._particles is not None:
+            return None  # with particles it would be another contact's
         (balance, heights), friction = self._last, float(self.rows["friction"][-1])
         return oil_beside(self.setup, heights, balance, self._whole, speeds=self.speeds, friction=friction)
 
     def _outcome(self, balance: Balance, rough: RoughContact, whole: PatchFilm, heights: FloatArray) -> ContactOutcome:
         setup, film, contact = self.setup, balance.film, balance.contact
         forces = friction_forces(film, contact, setup, self.speeds)
-        heat = forces.heat
+        heat, bodies, slides = forces.heat, None, self.speeds[0] != self.speeds[1]
+        if isinstance(rough, ContactWithBodies):
+            forces = rough.rolling(forces, contact, slides)
+            bodies = rough.told(contact, self._slide)
         self._forces, self._coupling = forces, coupling_notes(forces, rough.traction, setup)
         shift = 0.0 if contact is None else contact.approach
         new = np.zeros(1, MIXED_FIELDS)
@@ -157,7 +188,7 @@ class MixedContact:
             (forces.boundary + forces.film) / setup.load,
             forces.boundary,
             forces.film,
-            0.0 if contact is None else contact.load,
+            0.0 if contact is None else contact.load - (0.0 if bodies is None else bodies.load * setup.slices),
             film.load,
             film.minimum_thickness,
             lambda_ratio(whole, heights),
@@ -183,6 +214,7 @@ class MixedContact:
             convolutions=balance.convolutions,
             status=balance.status if heat is None or balance.status is not Status.CONVERGED else heat.status,
             minimum_film=film.minimum_thickness,
+            third_bodies=bodies,
             temperature=None if heat is None else heat.temperature,
         )
 

@@ -26,7 +26,8 @@ from bem.wear.loads import LOWER, UPPER, Removal, SurfaceLoad
 from bem.wear.outcome import contact_strip
 from bem.wear.segmentation import describe_pieces
 from bem.wear.state import CYCLE_FIELDS, PARTICLE_FIELDS, TIME_FIELDS, RunningInState, initial_state
-from bem.wear.third_body_contact import third_body_contact
+from bem.wear.third_bodies import ThirdBodies
+from bem.wear.third_body_contact import steps_with_bodies
 
 
 @dataclass(frozen=True)
@@ -158,17 +159,15 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
     if choices.boundary_film is not None:
         give *= float(choices.boundary_film.share())
     particles = choices.particles
-    if particles is not None and contact_step is not None:
-        raise InputError(
-            "third bodies share the load of dry contacts alone; allowed: no contact_step, or no third bodies"
-        )
-    if particles is not None:
-        slide = choices.law.distance_per_cycle(abs(choices.shift) * grid.spacing[0])
-        step = third_body_contact(setup, particles, slide, compliance=give)
-    else:
+    if particles is None:
         step = contact_step if contact_step is not None else dry_contact(setup, compliance=give)
+    else:
+        slide = choices.law.distance_per_cycle(abs(choices.shift) * grid.spacing[0])
+        bearing = steps_with_bodies(setup, slide, contact_step, give)
     settled = False
     while state.cycle < cycles and not settled:
+        if particles is not None:
+            step = bearing(_there_now(particles, state, grid))
         state = advance(state, setup, choices, step, counterface)
         if callback is not None:
             callback(state)
@@ -184,7 +183,29 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
         state=state,
         status=Status.CONVERGED,
         wearing=wearing,
-        notes=() if state.rubbing is None else state.rubbing.notes,
+        notes=(() if state.rubbing is None else state.rubbing.notes) + _crowded(particles, state),
+    )
+
+
+def _there_now(particles: ThirdBodies, state: RunningInState, grid: Grid) -> ThirdBodies:
+    """As many of the particles as there are after the cycles so far."""
+    if not len(state.cycles) or particles.shed == particles.leaving == 0:
+        return particles
+    last = state.cycles[-1]
+    number = particles.after_cycle(float(last["third_bodies_per_area"]), float(last["volume"]), grid.area)
+    return replace(particles, number_per_area=number)
+
+
+def _crowded(particles: ThirdBodies | None, state: RunningInState) -> tuple[str, ...]:
+    """What to say of particles as many as there is room for."""
+    if particles is None or particles.shed == 0:
+        return ()
+    full = int((state.cycles["third_bodies_per_area"] >= particles.most_per_area * (1 - 1e-9)).sum())
+    if not full:
+        return ()
+    return (
+        f"third bodies cover the area once in {full} of {len(state.cycles)} cycles, and no more are counted: fewer "
+        "stay (shed), or more leave",
     )
 
 
@@ -379,7 +400,7 @@ def _cycle_row(
                 sum(removal.depths_computed for removal in removals),
                 contact.status == Status.CONVERGED,
                 *((0.0, 0.0, 0.0) if rubbing is None else (rubbing.stick_share, rubbing.energy, rubbing.way)),
-                0.0 if third is None else third.load,
+                *((0.0, 0.0) if third is None else (third.load, third.number_per_area)),
             )
         ],
         dtype=CYCLE_FIELDS,

@@ -51,6 +51,7 @@ CYCLE_FIELDS = np.dtype(
         ("loop_energy", np.float64),
         ("loop_way", np.float64),
         ("third_body_load", np.float64),
+        ("third_bodies_per_area", np.float64),
     ]
 )
 """A cycle as a row of a table: SI units; `rms_height` is Sq of the wearing surface inside the contact strip.

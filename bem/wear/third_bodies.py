@@ -4,12 +4,13 @@ Equal spheres lie spread evenly in the gap, so many on each area. One that is la
 pressed into both surfaces, with the same force on either side: hardness times the area of the cap that has gone in. It
 yields itself where it is the softer one. Contact and particles carry the load together. They roll, half as far on
 either body as the bodies slide; of the groove a share is cut off, the rest is pushed aside and leaves the mean height
-as it was. New ones come as others leave: how many there are does not change.
+as it was. How many there are stays, or changes from cycle to cycle: of what wears a share becomes such particles, and
+of those that are there a share leaves.
 
 Left out: elastic indentation (up to (3 pi H / 2 E*)^2 of the radius the force is less than here), how the surfaces bend
 under what the particles carry, singly or together, stresses below them, that damage comes up with what they cut off,
-partial slip and films of oil. Verified in tests/wear/test_third_bodies.py: closed forms of one particle and of many
-between flats, shares of the load, limits.
+and partial slip. Verified in tests/wear/test_third_bodies.py and test_third_bodies_in_oil.py: closed forms of one
+particle and of many between flats, shares of the load, limits, how many there are.
 """
 
 from __future__ import annotations
@@ -29,8 +30,9 @@ from bem.wear.loads import LOWER, UPPER
 class ThirdBodies:
     """Particles between two surfaces.
 
-    diameter : of the spheres [m]. number_per_area : how many on an area [1/m^2]. hardness : theirs [Pa]. friction :
-    force over load while they roll. removed : share of a groove that is cut off.
+    diameter : of the spheres [m]. number_per_area : how many on an area [1/m^2], at first. hardness : theirs [Pa].
+    friction : force over load while they roll. removed : share of a groove that is cut off. shed : share of the worn
+    volume that stays as such particles. leaving : share of those there that leaves in a cycle.
     """
 
     diameter: float
@@ -38,6 +40,8 @@ class ThirdBodies:
     hardness: float = math.inf
     friction: float = 0.0
     removed: float = 0.0
+    shed: float = 0.0
+    leaving: float = 0.0
 
     def __post_init__(self) -> None:
         messages = []
@@ -47,6 +51,8 @@ class ThirdBodies:
             ("hardness", 0.0, math.inf),
             ("friction", -1.0, 2.0),
             ("removed", -1.0, 1.0),
+            ("shed", -1.0, 1.0),
+            ("leaving", -1.0, 1.0),
         ):
             value = getattr(self, name)
             least = "more than 0" if above == 0 else "at least 0"
@@ -55,7 +61,7 @@ class ThirdBodies:
         for name in ("diameter", "number_per_area"):
             if math.isinf(getattr(self, name)):
                 messages.append(f"third bodies: {name} must be finite")
-        if not messages and self.coverage > 1:
+        if not messages and self.coverage > 1 + 1e-12:
             messages.append(
                 f"third bodies: number_per_area {self.number_per_area:g} /m^2 of {self.diameter:g} m covers "
                 f"{self.coverage:.3g} times the area; allowed: once at most"
@@ -67,6 +73,17 @@ class ThirdBodies:
     def coverage(self) -> float:
         """Share of the area below the particles."""
         return math.pi / 4 * self.diameter**2 * self.number_per_area
+
+    @property
+    def most_per_area(self) -> float:
+        """How many cover an area once [1/m^2]."""
+        return 4 / (math.pi * self.diameter**2)
+
+    def after_cycle(self, number_per_area: float, worn: float, area: float) -> float:
+        """How many there are on an area [m^2] after a cycle that began with so many and wore a volume [m^3]: those that
+        did not leave and those that were shed, spread evenly; no more than cover it once. All in 1/m^2."""
+        fed = self.shed * worn / (area * math.pi / 6 * self.diameter**3)
+        return min((1 - self.leaving) * number_per_area + fed, self.most_per_area)
 
     def hardnesses(self, bodies: tuple[Body, Body]) -> tuple[float, float]:
         """Of the surfaces of (lower, upper) [Pa].
@@ -114,6 +131,11 @@ class ThirdBodies:
         depths = {soft: deeper, other: approach - deeper}
         return force, (depths[LOWER], depths[UPPER])
 
+    def carried(self, gap: FloatArray, hardnesses: tuple[float, float], cell_area: float) -> float:
+        """Load [N] of all of them in gaps (nx, ny) [m] of cells of that area [m^2]."""
+        force, _ = self.indented(gap, hardnesses)
+        return self.number_per_area * float(force.sum()) * cell_area
+
     def cut(self, depth: FloatArray, hardness: float, slide: float) -> FloatArray:
         """Mean depth [m] that they cut off a body of that hardness [Pa], in which they are `depth` deep [m], while the
         bodies slide so far [m]; nothing of one that is harder than they."""
@@ -127,7 +149,8 @@ class ThirdBodies:
 
 @dataclass(frozen=True, eq=False)
 class ThirdBodyLoad:
-    """What particles carry [N], and what they cut off the (lower, upper) body (nx, ny) [m]."""
+    """What particles carry [N], what they cut off the (lower, upper) body (nx, ny) [m], and how many there are."""
 
     load: float
     cut: tuple[FloatArray, FloatArray]
+    number_per_area: float

@@ -49,6 +49,16 @@ def test_a_mean_stress_shakes_down_but_for_its_hydrostatic_part():
     assert CROSSLAND.equivalent_shear(resting) == pytest.approx(0.2 * 5e8 / 3, rel=1e-12)
 
 
+@pytest.mark.parametrize("criterion", ["dang_van", "crossland"])
+def test_a_residual_stress_is_one_that_stays_all_along_the_path(criterion):
+    path = np.random.default_rng(5).normal(0, 300e6, (6, 5, 3))
+    shifted = path + np.array([-200e6, -200e6, 0, 0, 0, 0])[:, None, None]
+    given = {"criterion": criterion, "hydrostatic": 0.3}
+    found = FatigueLimit(**given, residual=-200e6).equivalent_shear(path)
+    assert found == pytest.approx(FatigueLimit(**given).equivalent_shear(shifted), rel=1e-5)  # the ball's gap
+    assert found == pytest.approx(FatigueLimit(**given).equivalent_shear(path) - 0.3 * 2 / 3 * 200e6, rel=1e-12)
+
+
 def test_paths_do_not_know_their_axes():
     rng = np.random.default_rng(5)
     tensors = rng.normal(size=(9, 3, 3))

@@ -292,6 +292,27 @@ def test_running_in_with_heat_wears_where_a_boundary_film_is_hot():
         run(scene | {"wear": {"film_defect": {"adsorption_energy": "0.6 eV"}}})
 
 
+def test_particles_that_stay_in_oil_bear_load_roll_and_are_fed(tmp_path):
+    stay = {"diameter": "400 nm", "number_per_area": 1e9, "friction": 0.02, "shed": 1e-3, "leaving": 0.2}
+    scene = scene_with(RUNNING_IN, speeds=["0.003 m/s"], cycles={"count": 11, "averaged": 3, "settled": 4})
+    with_them = scene | {"wear": {"third_bodies": stay}}
+    plain, outcome = (run(each)[1] for each in (scene, with_them))
+    share, coverage = (outcome.summary[f"third_body_{name}"][0] for name in ("load_share", "coverage"))
+    assert 0 < share < 1
+    contact, film = outcome.summary["contact_load_N"][0], outcome.summary["film_load_N"][0]
+    assert contact + film + share * 5.5 == pytest.approx(5.5, rel=1e-2)  # means over 3 and 4 cycles
+    assert contact < plain.summary["contact_load_N"][0]
+    over = np.squeeze(outcome.variables["third_body_coverage_over_cycles"].values)
+    assert over[0] == pytest.approx(np.pi / 4 * 400e-9**2 * 1e9)
+    assert coverage == pytest.approx(over[-4:].mean())
+    assert len(np.unique(over)) == 11
+    assert "third_body_load_share" not in plain.summary
+    # stopped after ten cycles and gone on with: the same bits
+    with pytest.raises(StopHereError):
+        compute(campaign_of(plan_scene(with_them, [])[0]), tmp_path, watcher=Interrupting())
+    assert compute(campaign_of(plan_scene(with_them, [])[0]), tmp_path).outcome.summary == outcome.summary
+
+
 def test_hardness_moves_the_cap_and_the_yield_stress():
     data = scene_with(RUNNING_IN, hardnesses=["1 GPa", "20 GPa"], speeds=["0.003 m/s"])
     data["cycles"] = {"count": 3, "averaged": 1, "settled": 3}

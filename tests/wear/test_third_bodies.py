@@ -188,7 +188,7 @@ def test_surfaces_without_hardness_and_films_are_refused():
     plain = setup()
     with pytest.raises(InputError, match="each surface needs a hardness"):
         third_body_contact(WearSetup(GRID, soft, plain.gap, LOAD, 0.1, plain.depths), ThirdBodies(D, 1e10), 0.0)
-    with pytest.raises(InputError, match="dry contacts alone"):
+    with pytest.raises(InputError, match="share the load of dry contacts and of a MixedContact"):
         run_in(
             *(rough(), np.zeros(GRID.shape)),
             grid=GRID,

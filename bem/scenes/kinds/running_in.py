@@ -28,6 +28,7 @@ from bem.scenes.rubbing import FRICTION_SLIDES, RubbedRecord, rubbed
 from bem.scenes.tables.film_defect import film_defect
 from bem.scenes.tables.sharing import TEMPERATURES, HotMixedScene, RunningInCycles, RunningInSharing
 from bem.scenes.tables.wear_model import WearScenePart
+from bem.scenes.third_bodies import ThirdBodyRecord, tell_of_third_bodies, third_body_figures
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
@@ -56,8 +57,6 @@ class RunningInScene(HotMixedScene):
         given = self.contact.loads or self.contact.hertz_pressures or []
         if len(given) != 1:
             raise problem(f"{len(given)} loads", "one load; run the scene again for others")
-        if self.wear.third_bodies is not None:
-            raise problem("wear.third_bodies in a film of oil", "none; kind wear has them between dry surfaces")
         return self
 
 
@@ -112,7 +111,7 @@ _FOLLOWS_CELL = f"{wearing.FOLLOWS_CELL}; in mixed lubrication the mean by volum
 
 
 @dataclass(frozen=True, eq=False)
-class RunningInRecord(GridRecord, RubbedRecord):
+class RunningInRecord(GridRecord, RubbedRecord, ThirdBodyRecord):
     """A lubricated wear loop: friction before and after, particles, histories, the last film and surface."""
 
     scatters: ClassVar[tuple[str, ...]] = (
@@ -216,6 +215,7 @@ def wear_down(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], con
     setup = scene.setup(**sharing.model_dump())
     frames = [] if saved is None else [np.asarray(frame) for frame in saved["frames"]]
     balance = {} if saved is None else unpack_balance(saved)
+    third, load = scene.wear.third_bodies, scene.contact.on_patch(setup.load, setup.grid.lengths)
     step = MixedContact(setup, speeds, table=shared_film_table(setup, speeds), **balance)
 
     def watch(now: RunningInState) -> dict[str, float]:
@@ -231,20 +231,23 @@ def wear_down(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], con
         watch=watch,
         keep=lambda: {"frames": list(frames), **pack_balance(step)},
         grid=setup.grid,
-        load=scene.contact.on_patch(setup.load, setup.grid.lengths),
+        load=load,
         friction=scene.contact.nominal_friction(
             setup.load, setup.smooth.contact_modulus, speeds, scene.oil.temperature
         ),
         hardness=scene.contact.hardness,
         contact_step=step,
+        third_bodies=None if third is None else third.build(load / setup.grid.area),
         film_defect=film_defect(scene),
     )
+    found = third_body_figures(third, result.cycles, scene.cycles.settled, load)
+    tell_of_third_bodies(context, found.get("third_body_load_share"))
     tell_of_film(context, step.notes, step.film_notes)
     if not scene.wear.traction.slides:
         context.note(FRICTION_SLIDES)
     with context.timer("films"):
         film_error = step.table.error(float(step.rows["film_load"][-1]))
-    return _record(scene, initial, result, step, film_table_error=film_error, pressure_frames=np.array(frames))
+    return _record(scene, initial, result, step, film_table_error=film_error, pressure_frames=np.array(frames), **found)
 
 
 def _frame_cycles(count: int) -> list[int]:

@@ -26,6 +26,7 @@ from bem.scenes.rubbing import RubbedRecord, rubbed
 from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 from bem.scenes.tables.wear_model import WearScenePart
+from bem.scenes.third_bodies import THIRD_BODIES, ThirdBodyRecord, tell_of_third_bodies, third_body_figures
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -113,12 +114,11 @@ def plan(scene: WearScene) -> Plan:
 
 _KERNELS = "not kept on disk: made once for all cycles, in a few per cent of the run's time"
 _DEEPER = "no piece that reaches the surface gets past a depth at which nothing yields"
-_PARTICLES = "it follows the gap between rough surfaces, and how many particles there are is given, not computed"
 _over, _map = partial(Series, ("cycle",)), partial(grid_map, of="last")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class WearRecord(wearing.MeanSizes, wearing.ParticleTable, RubbedRecord):
+class WearRecord(wearing.MeanSizes, wearing.ParticleTable, RubbedRecord, ThirdBodyRecord):
     """What a wear loop gives: means over its settled cycles, tables over cycles and particles, the worn surface."""
 
     scatters: ClassVar[tuple[str, ...]] = (
@@ -168,15 +168,8 @@ class WearRecord(wearing.MeanSizes, wearing.ParticleTable, RubbedRecord):
     particles_per_mm_and_N: Annotated[
         float | None, Figure("", "particles per mm and N", optional=True, no_bar=wearing.FOLLOWS_CELL)
     ] = None
-    third_body_load_share: Annotated[
-        float | None,
-        Figure("", "share of the load on particles that stay", headline=True, optional=True, no_bar=_PARTICLES),
-    ] = None
     third_body_friction: Annotated[
-        float | None, Figure("", "friction of surfaces and rolling particles", optional=True, no_bar=_PARTICLES)
-    ] = None
-    third_body_coverage: Annotated[
-        float | None, Figure("", "share of the area below particles that stay", optional=True, unjudged=True)
+        float | None, Figure("", "friction of surfaces and rolling particles", optional=True, no_bar=THIRD_BODIES)
     ] = None
     cycle: Annotated[wearing.IntArray, _over("1", "cycle")]
     radius: Annotated[FloatArray, _over("m", "volume-mean equivalent radius of the particles")]
@@ -201,12 +194,7 @@ def run(scene: WearScene, context: Context) -> WearRecord:
     """One wear loop, and where its errors are asked for the same on a coarser grid."""
     initial = build.both_heights(scene, _slice(scene)[0], context)
     found = wear_down(scene, initial, context)
-    borne = found.third_body_load_share or 0.0
-    if borne > 0.5:
-        context.note(
-            f"wear.third_bodies bear {100 * borne:.3g} % of the load: little of the surfaces "
-            "touches, and wear is mostly what particles cut; each is pressed in by itself, bodies do not bend under it"
-        )
+    tell_of_third_bodies(context, found.third_body_load_share)
     made = error_bars(context, scene.cycles.coarser_grid, lambda: bars(scene, initial, found))
     return replace(found, errors={**found.errors, **made.get("errors", {})}, error_parts=made.get("error_parts", {}))
 
@@ -281,14 +269,14 @@ def _third_bodies(scene: WearScene) -> ThirdBodies | None:
     return None if table is None else table.build(load / grid.area)
 
 
-def _of_third_bodies(scene: WearScene, cycles: NDArray[np.void], load: float) -> dict[str, float]:
-    """What the particles between the surfaces carry of a load [N], over the settled cycles, and the friction of all."""
-    particles = _third_bodies(scene)
-    if particles is None:
+def _of_third_bodies(scene: WearScene, cycles: NDArray[np.void], load: float) -> dict[str, Any]:
+    """What the particles between the surfaces carry of a load [N] on the grid, and the friction of all."""
+    table = scene.wear.third_bodies
+    if table is None:
         return {}
-    share = min(float(cycles["third_body_load"].mean()) / load, 1.0)
-    friction = (1 - share) * scene.cylinder.friction + share * particles.friction
-    return {"third_body_load_share": share, "third_body_friction": friction, "third_body_coverage": particles.coverage}
+    found = third_body_figures(table, cycles, scene.cycles.settled, load)
+    share = found["third_body_load_share"]
+    return found | {"third_body_friction": (1 - share) * scene.cylinder.friction + share * table.friction}
 
 
 def _record(
@@ -312,7 +300,7 @@ def _record(
         rubbed(result, scene.cycles.settled),
         worn.strip(contact_strip(worn.pressure)),
         settled_means(cycles[-scene.cycles.settled :], grid.area),
-        _of_third_bodies(scene, cycles[-scene.cycles.settled :], share),
+        _of_third_bodies(scene, cycles, share),
         wearing.mean_sizes(late, scene.sizes),
         scene.archard.figures(load, float(late["volume"].mean())) if scene.archard and late.size else {},
         {name: cycles[name].astype(np.float64) for name in _PER_CYCLE},

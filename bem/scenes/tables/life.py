@@ -136,7 +136,7 @@ class LifeFatigue(Table):
     """Damage of one body by the stresses of passing roughness, while it wears; see `bem.life.criteria.FatigueLimit`.
 
     `bending` and `slope` are of the limit in reversed bending over ln of the cycles; the default is hardened 52100,
-    which loses 43 MPa a decade.
+    which loses 43 MPa a decade. `residual_stress` stays along x and y, negative where it is compressive.
     """
 
     body: Literal["lower", "upper"] = "lower"
@@ -144,6 +144,7 @@ class LifeFatigue(Table):
     bending: Annotated[Pressure, Field(gt=0)] = 1220e6
     slope: Annotated[Pressure, Field(lt=0)] = -43e6 / math.log(10)
     hydrostatic: Annotated[Ratio, Field(ge=0, le=3)] | None = None
+    residual_stress: Pressure = 0.0
     depths: WearDepthsScene
 
     def build(self, bodies: tuple[Body, Body], friction: float, hardness: float | None = None) -> RollingFatigue:
@@ -153,6 +154,6 @@ class LifeFatigue(Table):
         from bem.life.fatigue import RollingFatigue
 
         (body,) = INDICES[self.body]
-        limit = FatigueLimit(self.criterion, self.bending, self.slope, self.hydrostatic)
+        limit = FatigueLimit(self.criterion, self.bending, self.slope, self.hydrostatic, self.residual_stress)
         cap = math.inf if hardness is None else hardness
         return RollingFatigue(body, bodies[body], self.depths.build(), limit, friction, cap)

@@ -1,4 +1,4 @@
-"""Particles that stay between surfaces that wear: a table of the kind wear."""
+"""Particles that stay between surfaces that wear: a table of the kinds wear and running-in."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ class ThirdBodiesScene(Table):
     """Particles that stay between the surfaces, `number_per_area` of them [1/m^2]; see `bem.wear.third_bodies`.
 
     The number is given, or found: the share `kept` of what Archard's wear rate makes within a sliding length of
-    `residence`. Without `hardness` they are harder than the surfaces.
+    `residence`. Without `hardness` they are harder than the surfaces. From cycle to cycle the share `shed` of what
+    wears joins them, and the share `leaving` of those there leaves; with neither their number stays.
     """
 
     diameter: PositiveLength
@@ -29,6 +30,8 @@ class ThirdBodiesScene(Table):
     hardness: PositivePressure | None = None
     friction: Annotated[Ratio, Field(ge=0, le=2)] = 0.0
     removed: Annotated[Ratio, Field(ge=0, le=1)] = 0.0
+    shed: Annotated[Ratio, Field(ge=0, le=1)] = 0.0
+    leaving: Annotated[Ratio, Field(ge=0, le=1)] = 0.0
 
     @model_validator(mode="after")
     def _one_way(self) -> Self:
@@ -51,4 +54,6 @@ class ThirdBodiesScene(Table):
             worn = self.kept * self.specific_wear_rate * pressure * self.residence
             number_per_area = worn / (math.pi / 6 * self.diameter**3)
         hardness = math.inf if self.hardness is None else self.hardness
-        return ThirdBodies(self.diameter, number_per_area, hardness, self.friction, self.removed)
+        return ThirdBodies(
+            self.diameter, number_per_area, hardness, self.friction, self.removed, self.shed, self.leaving
+        )

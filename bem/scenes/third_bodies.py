@@ -1,0 +1,63 @@
+"""Figures of particles that stay between surfaces that wear, dry or in oil.
+
+Knows records; the particles are `bem.wear.third_bodies`. Verified in tests/scenes/test_wear_kind.py and
+test_friction_kinds.py.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import partial
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.grid import FloatArray
+from bem.scenes.context import Context
+from bem.scenes.records import Figure, Record, Series
+from bem.scenes.tables.third_bodies import ThirdBodiesScene
+
+THIRD_BODIES = "it follows the gap between rough surfaces, and how many particles there are is given, not computed"
+_told = partial(Figure, "", optional=True)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ThirdBodyRecord(Record):
+    """Means over the settled cycles; nothing without such particles."""
+
+    third_body_load_share: Annotated[
+        float | None, _told("share of the load on particles that stay", headline=True, no_bar=THIRD_BODIES)
+    ] = None
+    third_body_coverage: Annotated[
+        float | None, _told("share of the area below particles that stay", unjudged=True)
+    ] = None
+    third_body_coverage_over_cycles: Annotated[
+        FloatArray | None, Series(("cycle",), "1", "share of the area below particles that stay")
+    ] = None
+
+
+def third_body_figures(
+    table: ThirdBodiesScene | None, cycles: NDArray[np.void], settled: int, load: float
+) -> dict[str, Any]:
+    """The fields of `ThirdBodyRecord` of rows of `CYCLE_FIELDS`, means over so many of the last; load : [N] on the
+    grid."""
+    if table is None:
+        return {}
+    late = cycles[-settled:]
+    coverage = math.pi / 4 * table.diameter**2 * cycles["third_bodies_per_area"]
+    return {
+        "third_body_load_share": min(float(late["third_body_load"].mean()) / load, 1.0),
+        "third_body_coverage": float(coverage[-settled:].mean()),
+        "third_body_coverage_over_cycles": coverage,
+    }
+
+
+def tell_of_third_bodies(context: Context, share: float | None) -> None:
+    """What the reader must know of particles that bear most of the load."""
+    if share is not None and share > 0.5:
+        context.note(
+            f"wear.third_bodies bear {100 * share:.3g} % of the load: little of the surfaces "
+            "touches, and wear is mostly what particles cut; each is pressed in by itself, bodies do not bend under it"
+        )

@@ -1,0 +1,114 @@
+"""Particles between surfaces in oil, and a number of them that changes: flats, sums, limits, recursions, resuming."""
+
+import numpy as np
+import pytest
+from mixed_case import mixed_case
+
+from bem import Body, InputError, Lubricant, Material, run_in
+from bem.friction.setup import MixedSetup
+from bem.wear import WearModel
+from bem.wear.mixed import MixedContact
+from bem.wear.third_bodies import ThirdBodies
+
+ELASTIC = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+SOFT, HARD = (Body(Material(str(h), **ELASTIC, hardness=h)) for h in (2e9, 6e9))
+OIL = Lubricant(0.36, pressure_viscosity=25e-9)
+CASE = mixed_case(64, 0.8e-6, 3e-6, lubricant=OIL, boundary_friction=0.1, bodies=(SOFT, HARD), hardness=2e9)
+ROUGH = CASE.pop("height")
+D = 600e-9
+
+
+def step(speeds=(0.01, 0.0), **changes):
+    return MixedContact(MixedSetup(**CASE | {"tolerance": 1e-4} | changes), speeds)
+
+
+def shared(heights, number, speeds=(0.01, 0.0), **particle):
+    contact = step(speeds)
+    found = contact.bearing(ThirdBodies(D, number, **particle), 1e-6)(heights, None)
+    return found, contact
+
+
+def test_between_flats_film_and_particles_carry_the_load_in_the_film_s_own_gap():
+    flat = np.zeros_like(ROUGH)
+    found, contact = shared(flat, 1e10, friction=0.03)
+    row, setup = contact.rows[-1], contact.setup
+    assert found.status == "converged"
+    assert found.load == 0
+    borne = found.third_bodies.load * setup.slices
+    assert row["film_load"] + borne == pytest.approx(setup.load, rel=2e-4)
+    assert 0.05 < borne / setup.load < 0.95
+    gap = np.broadcast_to(contact.film.thickness, flat.shape)
+    each, _ = ThirdBodies(D, 1e10).indented(gap, (2e9, 6e9))
+    # the surfaces hold the film's oil to the tolerance of the balance
+    assert found.third_bodies.load == pytest.approx(1e10 * each.sum() * setup.grid.cell_area, rel=2e-3)
+    assert row["boundary_force"] == pytest.approx(0.03 * borne, rel=1e-9)
+
+
+def test_rough_surfaces_share_with_both_and_few_or_small_ones_change_nothing():
+    alone, plain = step(), ROUGH
+    before = alone(plain, None)
+    none = shared(plain, 0.0)[0]
+    assert np.array_equal(none.pressure, before.pressure)
+    small = step().bearing(ThirdBodies(1e-9, 1e12), 1e-6)(plain, None)
+    assert small.load == pytest.approx(before.load, rel=2e-3)
+    last = 0.0
+    for number in (1e8, 1e9, 1e10):
+        found, contact = shared(plain, number)
+        row, setup = contact.rows[-1], contact.setup
+        assert found.status == "converged"
+        total = row["film_load"] + row["contact_load"] + found.third_bodies.load * setup.slices
+        assert total == pytest.approx(setup.load, rel=2e-4)
+        assert row["contact_load"] == pytest.approx(found.load * setup.slices, rel=1e-12)
+        assert found.third_bodies.load > last
+        last = found.third_bodies.load
+    assert found.load < 0.7 * before.load
+
+
+def loop(cycles, state=None, callback=None, contact=True, **particle):
+    law = {"kind": "archard", "specific_wear_rate": 1e-15, "distance": 1e-3}
+    table = {"diameter": D, "number_per_area": 1e8, "shed": 0.5, "leaving": 0.25} | particle
+    given = step() if contact else None
+    setup = step().setup
+    return run_in(
+        *(ROUGH, np.zeros_like(ROUGH)),
+        grid=setup.grid,
+        bodies=(SOFT, HARD),
+        load=setup.load / setup.slices,
+        depths=np.array([0.0, 1e-7]),
+        gap=np.broadcast_to(setup.grid.x[:, None] ** 2 / 4e-3, setup.grid.shape),
+        friction=0.1,
+        hardness=2e9,
+        cycles=cycles,
+        model=WearModel(criterion=law, third_bodies=table),
+        contact_step=given,
+        state=state,
+        callback=callback,
+    )
+
+
+@pytest.mark.parametrize("contact", [True, False], ids=["in oil", "dry"])
+def test_what_wears_feeds_them_and_some_leave_every_cycle(contact):
+    kept = []
+    found = loop(4, callback=kept.append, contact=contact, removed=0.01)
+    number, worn = found.cycles["third_bodies_per_area"], found.cycles["volume"]
+    area, each = step().setup.grid.area, np.pi / 6 * D**3
+    assert number[0] == 1e8
+    assert number[1:] == pytest.approx(0.75 * number[:-1] + 0.5 * worn[:-1] / (area * each), rel=1e-12)
+    assert number[-1] > number[0]
+    if not contact:  # a loop in oil goes on with its balance, too, which kinds keep
+        again = loop(4, state=kept[1], contact=contact, removed=0.01)
+        assert np.array_equal(again.lower_heights, found.lower_heights)
+        assert np.array_equal(again.cycles["third_bodies_per_area"], number)
+
+
+def test_they_cover_the_area_once_at_most_and_that_is_said():
+    found = loop(3, contact=False, removed=1e-4, shed=1.0, leaving=0.0, number_per_area=(1 - 1e-9) * 4 / (np.pi * D**2))
+    assert found.cycles["third_bodies_per_area"][-1] == pytest.approx(4 / (np.pi * D**2), rel=1e-12)
+    assert any("cover the area once" in note for note in found.notes)
+
+
+@pytest.mark.parametrize("changes", [{"shed": 1.5}, {"leaving": -0.1}])
+def test_shares_lie_between_nothing_and_all(changes):
+    (name,) = changes
+    with pytest.raises(InputError, match=name):
+        ThirdBodies(D, 1e8, **changes)
