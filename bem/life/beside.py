@@ -71,10 +71,11 @@ class Beside:
         if self.sizes is not None and not (self.pieces[:, 1] > 0).any():
             notes.append("particles: the criterion finds no piece in any pass that was looked at")
         if self.fatigue is not None:
+            given = 1e-6 * self.fatigue.limit.residual
             notes.append(
                 "micropitting: one cycle of stress a pass, sampled in the positions; pits stay in the surface, cracks "
-                f"do not grow, and the residual stress is the {1e-6 * self.fatigue.limit.residual:g} MPa given, not that "
-                "of first passes; at most and at least bracket jumps and what meets in a pass, not cells"
+                f"do not grow, and the residual stress is the {given:g} MPa given, not that of first passes; at most "
+                "and at least bracket jumps and what meets in a pass, not cells"
             )
         return tuple(notes)
 
