@@ -58,6 +58,6 @@ def tell_of_third_bodies(context: Context, share: float | None) -> None:
     """What the reader must know of particles that bear most of the load."""
     if share is not None and share > 0.5:
         context.note(
-            f"wear.third_bodies bear {100 * share:.3g} % of the load: little of the surfaces "
-            "touches, and wear is mostly what particles cut; each is pressed in by itself, bodies do not bend under it"
+            f"wear.third_bodies bear {100 * share:.3g} % of the load: little of the surfaces touches, and what wears "
+            "is mostly what particles cut, if they do; each is pressed in by itself, bodies do not bend under it"
         )

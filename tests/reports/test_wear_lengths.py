@@ -68,6 +68,22 @@ def test_junctions_know_no_depths_and_are_larger_than_what_was_measured():
     assert average("junction", "cells", "51 nm", "volume_equivalent_radius") > 2 * 358e-9
 
 
+def test_a_film_too_thin_for_the_sphere_has_no_pieces_and_no_sizes():
+    assert average("sphere", "material", "brass film", "particles_per_cycle") == 0
+    assert by_seed("sphere", "material", "brass film", "number_equivalent_radius") == {}
+    assert by_seed("sphere", "material", "steel", "number_equivalent_radius")  # the contact that all groups share
+
+
+def test_bare_brass_has_larger_pieces_than_its_film_under_junctions_alone():
+    def volume(criterion, value):
+        return average(criterion, "material", value, "volume_equivalent_radius")
+
+    larger = [name for name in wear_lengths.criteria() if name != "sphere"]
+    assert [name for name in larger if volume(name, "brass") > volume(name, "brass film")] == ["junction"]
+    assert volume("averaged_von_mises", "brass") == pytest.approx(194e-9, rel=0.01)
+    assert volume("averaged_von_mises", "brass film") == pytest.approx(353e-9, rel=0.01)
+
+
 def test_the_chapter_is_drawn():
     first, *others = wear_lengths.chapter()
     assert "data:image/png" in first.body
