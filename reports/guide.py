@@ -113,7 +113,9 @@ def _processes() -> Section:
         for name, one in PROCESSES.items()
     ]
     head = ("process", "what", "Sq", "usual", "length across / along", "Ssk / Sku", "source")
-    return Section("Surfaces by process", text(_WORDS["processes"]) + table(head, rows))
+    marks = [(name, *pair) for name, one in PROCESSES.items() for pair in one.marks()]
+    drawn = table(("process", "asked for by", "and then, without words of your own"), marks)
+    return Section("Surfaces by process", text(_WORDS["processes"]) + table(head, rows) + drawn)
 
 
 def _sweeps() -> Section:

@@ -131,7 +131,10 @@ def curve_picture(arrays: Arrays, name: str) -> Picture:
         for i, (words, row) in enumerate(zip(names, rows, strict=True))
     ]
     head = label(str(axis.attrs.get("long_name", item.dims[-1])), under)
-    return _curves(data, str(item.attrs.get("long_name", name)), head, shown, along)
+    picture = _curves(data, str(item.attrs.get("long_name", name)), head, shown, along)
+    if name.startswith("residual"):  # from one down to a part in a thousand million
+        picture["layout"]["yaxis"]["type"] = "log"
+    return picture
 
 
 def figure_picture(summary: Mapping[str, Any], name: str, along: str) -> Picture:

@@ -83,6 +83,7 @@ class ScenePage:
                         self._start.props["data-action"] = "run"
                         ui.button("TOML", icon="download", on_click=self._download).props("no-caps flat")
                     self._plan = ui.column().classes("w-full gap-1")
+            self._waiting = ui.element()
             self._read()
             ui.timer(2.0, self._look)
 
@@ -133,7 +134,8 @@ class ScenePage:
 
     def _again(self) -> None:
         self._round += 1
-        ui.timer(_PAUSE, lambda round_=self._round: self._make_plan(round_), once=True)
+        with self._waiting:  # where it was typed would be drawn anew, and what waits there with it
+            ui.timer(_PAUSE, lambda round_=self._round: self._make_plan(round_), once=True)
 
     async def _make_plan(self, round_: int) -> None:
         if round_ != self._round:

@@ -39,13 +39,17 @@ _TREATMENTS = (
 
 @dataclasses.dataclass(frozen=True)
 class Treated:
-    """A surface after its treatment: picture, statistics, what was done, the line of a scene that says all this."""
+    """A surface after its treatment: picture, statistics, what was done, and the tables of a scene that say all this.
+
+    `grid` is that of the cells that were asked for, None where the scene's own decides.
+    """
 
     picture: Picture
     solid: Picture
     figures: tuple[tuple[str, str], ...]
     notes: tuple[str, ...]
-    line: str
+    surface: dict[str, Any]
+    grid: dict[str, Any] | None
 
 
 def treated(path: str, asked: dict[str, Any]) -> Treated:
@@ -73,10 +77,11 @@ def treated(path: str, asked: dict[str, Any]) -> Treated:
     for name, value in dataclasses.asdict(described).items():
         unit = "" if name in ("Ssk", "Sku", "Sdq", "slope_x", "slope_y") else "_m"
         figures.append((name.replace("_", " "), "-" if math.isnan(value) else spelled(name + unit, value)[1]))
-    line = dumped({"kind": "measured", "path": path, **keys})
+    surface = {"kind": "measured", "path": path, **keys}
+    own = {"shape": list(grid.shape), "lengths": [_length(side) for side in lengths]} if asked.get("cells") else None
     sides = (np.asarray(grid.x), np.asarray(grid.y))
     pictures = [map_picture(heights, sides, Path(path).name, "m", solid=solid) for solid in (False, True)]
-    return Treated(pictures[0], pictures[1], tuple(figures), tuple(notes), line)
+    return Treated(pictures[0], pictures[1], tuple(figures), tuple(notes), surface, own)
 
 
 class SurfacePage:
@@ -168,23 +173,37 @@ class SurfacePage:
         for text in found.notes:
             ui.label(text).classes("text-body2")
         ui.label("In a scene:").classes("text-subtitle2")
-        ui.code(f"surface = {found.line}", language="toml").classes("w-full")
+        lines = [f"surface = {_inline(found.surface)}"]
+        if found.grid is not None:
+            lines.insert(0, f"grid = {_inline(found.grid)}")
+        ui.code("\n".join(lines), language="toml").classes("w-full")
 
     def _put(self, scene: str, body: str) -> None:
-        """Write the surface into a scene's file; other keys stay."""
-        import tomllib
-
+        """Write the surface, and the grid of the cells that are asked for, into a scene's file; other keys stay."""
         try:
             if self._done is None or scene == "None":
                 raise InputError("a scene and a surface without mistakes are needed")
             table = self._workspace.scene_table(scene)
-            own = dict(table.get(body) or {})
-            own["surface"] = tomllib.loads(f"v = {self._done.line}")["v"]
-            self._workspace.save_scene(scene, {**table, body: own})
+            changed = {**table, body: {**(table.get(body) or {}), "surface": self._done.surface}}
+            if self._done.grid is not None:
+                kept = {key: value for key, value in (table.get("grid") or {}).items() if key != "spacing"}
+                changed["grid"] = {**kept, **self._done.grid}
+            self._workspace.save_scene(scene, changed)
         except BemError as error:
             say(error)
             return
-        ui.notify(f"{scene}: {body}.surface is this one", type="positive")
+        also = "" if self._done.grid is None else f", the grid has its {self._done.figures[0][1]} cells"
+        ui.notify(f"{scene}: {body}.surface is this one{also}", type="positive")
+
+
+def _inline(table: dict[str, Any]) -> str:
+    """A table in a line, its keys without quotes."""
+    return "{ " + ", ".join(f"{key} = {dumped(value)}" for key, value in table.items()) + " }"
+
+
+def _length(value: float) -> str:
+    """A length [m] as scenes are written by hand."""
+    return f"{1e6 * value:.10g} um"
 
 
 def _once(place: Any, picture: Picture) -> None:

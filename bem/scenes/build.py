@@ -291,7 +291,6 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
         high_pass,
         low_pass,
         mirror_to_periodic,
-        resample,
         scale_to_rms,
     )
 
@@ -314,7 +313,7 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
     same = found.shape == part.shape and np.allclose(found.spacing, part.spacing, rtol=1e-9, atol=0)
     if not same:
         centre = (0.0, 0.0) if surface.crop is not None else surface.centre
-        resampled = resample(found, part, centre=centre)
+        resampled = _resampled(found, part, centre, name)
         note(
             f"{name}: {found.shape[0]} x {found.shape[1]} points at {_nm(found.spacing)} taken as "
             f"{part.shape[0]} x {part.shape[1]} cells at {_nm(part.spacing)}"
@@ -336,6 +335,19 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
     if surface.rms_height is not None:
         found = scale_to_rms(found, surface.rms_height)
     return np.ascontiguousarray(found.heights - found.heights.mean())
+
+
+def _resampled(found: Surface, grid: Grid, centre: tuple[float, float], name: str) -> Surface:
+    """A map on the cells of a grid; one that is too small is said of its file, in keys of scenes."""
+    from bem.surfaces import resample
+
+    try:
+        return resample(found, grid, centre=centre)
+    except InputError as error:
+        said = [
+            text.removeprefix("resample: ").replace("mirror_to_periodic first", "mirror") for text in error.messages
+        ]
+        raise InputError([f"{name}: {text}" for text in said]) from None
 
 
 def _nm(spacing: tuple[float, float]) -> str:

@@ -119,6 +119,19 @@ class Tab:
             for kind in ("keyDown", "keyUp"):
                 self._do("Input.dispatchKeyEvent", type=kind, key="Delete", code="Delete", windowsVirtualKeyCode=46)
 
+    def choose(self, key, name):
+        """A name from a list that can be typed in; again until it is taken, since a list shuts when focus moves."""
+        field = f"document.querySelector('input[data-key={json.dumps(key)}]').value"
+        items = "[...document.querySelectorAll('.q-menu .q-item')]"
+        end = time.monotonic() + PATIENCE
+        self._do("Page.bringToFront")
+        while self.look(field) != name:
+            assert time.monotonic() < end, f"{name} is not taken for {key}\n{self.text()[:3000]}"
+            self.type(key, name[:5])
+            time.sleep(1)
+            self.look(f"{items}.filter(one => one.innerText.trim() === {json.dumps(name)}).forEach(one => one.click())")
+            time.sleep(1)
+
     def drop(self, path):
         """A file into the page's field for files."""
         self.wait("document.querySelector('input[type=file]') !== null")

@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 from small_scenes import WEAR
 
-from bem import open_run, run_scene
+from bem import crop, describe_surface, open_run, read_surface, run_scene
 from bem.surfaces.examples import FOLDER
 
 pytest.importorskip("nicegui")
@@ -102,19 +102,41 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
     tab.wait_text("mine.al3d: 40 points were missing")
     tab.type("despike", "6")
     tab.wait_text("spikes were taken out")
+    tab.type("crop", "60 um")
+    tab.wait_text("75 x 75")
+    for detrend in ("none", "curvature"):  # levelled anew, and the statistics are those of the same from Python
+        tab.type("detrend", detrend)
+        direct = crop(read_surface(own, despike=6, detrend=detrend), (60e-6, 60e-6))
+        tab.wait(f"/Sq\\s+{describe_surface(direct).Sq * 1e9:.4g} nm/.test(document.body.innerText)")
+    tab.type("detrend", "curved")
+    tab.wait("document.querySelector('[data-mistake]').innerText.includes('allowed: \"plane\", \"curvature\"')")
+    tab.type("detrend", "curvature")
+    tab.wait("!document.querySelector('[data-mistake]')")
+    put = "[...document.querySelectorAll('button')].find(b => b.innerText.includes('as lower')).click()"
+    tab.look(put)
+    tab.wait_text("lower.surface is this one")
+    file = tmp_path / "work" / "contact.toml"
+    surface = tomllib.loads(file.read_text())["lower"]["surface"]
+    assert (surface["despike"], surface["crop"], surface["detrend"]) == (6, "60 um", "curvature")
+
+    scene = chrome.tab()
+    scene.go(f"{server.base}/scene/contact")
+    scene.wait_text("the map only")  # the plan says so at once: the grid is larger
+    scene.close()
     tab.type("cells", "32")
     tab.wait_text("32 x 32")
-    tab.look("[...document.querySelectorAll('button')].find(b => b.innerText.includes('as lower')).click()")
-    tab.wait_text("lower.surface is this one")
-    text = (tmp_path / "work" / "contact.toml").read_text()
-    assert tomllib.loads(text)["lower"]["surface"]["despike"] == 6
+    tab.look(put)
+    tab.wait_text("the grid has its 32 x 32 cells")
+    assert tomllib.loads(file.read_text())["grid"] == {"shape": [32, 32], "lengths": ["60 um", "60 um"]}
 
     tab.go(f"{server.base}/scene/contact")
-    tab.wait_text("the map only")  # the plan says so at once: the grid is larger
-    for key, words in (("grid.shape", "32"), ("grid.lengths", "90 um"), ("contact.load", "0.3 N")):
-        tab.type(key, words)
-        tab.wait(f"document.querySelector('input[data-key=\"{key}\"]').value === '{words}'")
-    tab.wait_text("32 x 32")
+    tab.click("[data-table='lower.layer'] .q-item")  # another coating
+    tab.type("lower.layer.thickness", "1 um")
+    tab.wait_text("1 um of dlc")
+    tab.choose("lower.layer.material", "tungsten-carbide")
+    tab.wait_text("1 um of tungsten-carbide")  # in the plan
+    layer = tomllib.loads(file.read_text())["lower"]["layer"]
+    assert layer == {"material": "tungsten-carbide", "thickness": "1 um"}
     tab.type("contact.load", "2 M")
     tab.wait("document.querySelector('[data-mistake]').innerText.startsWith('contact.load')")
     tab.type("contact.load", "0.3 N")
@@ -140,6 +162,8 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
         tab.wait("document.querySelectorAll('.main-svg').length > 2")
     summary = (tmp_path / "work" / "runs" / "contact-001" / "summary.json").read_text()
     assert '"converged"' in summary
+    asked = tomllib.loads((tmp_path / "work" / "runs" / "contact-001" / "scene.toml").read_text())
+    assert asked["lower"]["layer"]["material"]["youngs_modulus"] == 620e9
 
     tab.go(f"{server.base}/run/contact-001")  # a reload: the same
     tab.wait_text("contact area fraction")
