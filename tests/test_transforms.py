@@ -284,6 +284,12 @@ def test_short_waves_are_padded_by_their_reach_alone_and_lose_nothing(decay, par
     assert numbers[1] <= {0.03: 1.0, 0.15: 0.85, 2.0: 0.7}[decay] * numbers[0]
 
 
+@pytest.mark.parametrize("decay", [1e-2, 1e-6, 1e-300])
+def test_waves_that_hardly_fall_are_padded_as_ever(decay):
+    """Cells far shorter along x than along y: the reach is beyond any length on the list."""
+    assert transforms.narrowed_lengths(61, (128, WAVES), decay) == (128,) * (WAVES // 2 + 1)
+
+
 def test_lengths_that_hold_no_field_are_refused():
     with pytest.raises(InputError, match="must be 5, from 6 to 12"):
         transforms.transform_of((6, 8), (12, 8), lengths=(12, 12, 8, 5, 6))

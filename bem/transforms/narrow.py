@@ -7,7 +7,6 @@ field then, only by the distance at which its kernel is lost beside the largest 
 
 from __future__ import annotations
 
-import math
 from functools import lru_cache
 
 _LOST = 40.0
@@ -32,6 +31,6 @@ def narrowed_lengths(cells: int, padded: tuple[int, int], decay: float) -> tuple
     """
     lengths = [padded[0]]
     for wave in range(1, padded[1] // 2 + 1):
-        needed = cells + math.ceil(_LOST / (wave * decay)) + 1
-        lengths.append(min(lengths[-1], *(fast for fast in _FAST if fast >= needed)))
+        needed = cells + _LOST / (wave * decay) + 1
+        lengths.append(min([lengths[-1], *(fast for fast in _FAST if fast >= needed)]))
     return tuple(lengths)

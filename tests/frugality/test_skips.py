@@ -336,7 +336,7 @@ def test_waves_along_a_periodic_axis_are_padded_by_their_reach_alone(monkeypatch
         monkeypatch.setattr(room, "column_lengths", lambda grid, body: None)
     whole, most = stresses(SOFT)
     assert numbers < {0.3: 0.64, 1.0: 0.75}[stretch] * most
-    # of the largest of a depth, as the transforms round off
+    # of the largest stress, as the transforms round off
     assert np.abs(found - whole).max(axis=(0, 2, 3)) == pytest.approx(0, abs=4e-15 * np.abs(whole).max())
     np.testing.assert_array_equal(stresses(coated)[0], layered)  # may fall more slowly: padded as ever
     assert under_layers > numbers
