@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
+from bem.particles import particle_coefficient
 from reports.validation_values import (
     READING,
     SCATTER,
@@ -95,6 +97,21 @@ def _sizes_there(summary: Summary) -> str:
     return f"{sizes(lambda _: 0)(summary)} nm"
 
 
+def _widths_in_cells(summary: Summary) -> str:
+    """Mean widths by number over the cell, in all runs."""
+    widths, cells = summary["number_mean_width_nm"], summary["cell_nm"]
+    return ", ".join(f"{width / cell:.2g}" for width, cell in zip(widths, cells, strict=True)) + " cells"
+
+
+def _of_spheres(summary: Summary) -> str:
+    """How many spheres of the radii measured by light scattering come off, and those of our mean volume."""
+    volumes = [4 / 3 * math.pi * (1e-9 * nm) ** 3 for nm in (175, 110)]
+    few, many = (1e-3 * particle_coefficient(1e-9 * 350e-7, volume) for volume in volumes)
+    ours = (particles_per_mm_and_newton(summary, newtons, 350e-7) for newtons in (2.5, 5.0, 10.0))
+    own = ", ".join(f"{110 * (many / count) ** (1 / 3):.0f}" for count in ours)
+    return f"{few:.0f} to {many:.0f} are spheres of 175 and 110 nm; a sphere of our mean volume has {own} nm"
+
+
 def _sizes_at(
     newtons: float, wanted: tuple[float, float, float], quote: Callable[[Summary], str] = lambda summary: ""
 ) -> Rule:
@@ -177,6 +194,7 @@ RULES: dict[str, Rule] = {
     "mesh_mean_radius_by_number_80_to_320_cells": Rule(
         mesh_means("number"),
         settled_by_mesh("number"),
+        _widths_in_cells,
     ),
     "mesh_mean_radius_by_volume_the_same_meshes_nm": Rule(
         mesh_means("volume"),
@@ -191,6 +209,7 @@ RULES: dict[str, Rule] = {
     "the_same_against_a_rigid_flat_by_volume_nm": Rule(
         mesh_means("volume"),
         settled_by_mesh("volume"),
+        _widths_in_cells,
     ),
     "bare_brass_disk_radius_at_10_n_nm": Rule(
         radius(10),
@@ -198,7 +217,7 @@ RULES: dict[str, Rule] = {
         quoted(_radius_there, CYLINDERS),
     ),
     "brass_film_10_n_length_width_thickness_nm": _sizes_at(10, (635, 262, 95), quoted(_sizes_there, FILMS)),
-    "brass_film_2_5_n_length_width_thickness_nm": _sizes_at(2.5, (300, 195, 89)),
+    "brass_film_2_5_n_length_width_thickness_nm": _sizes_at(2.5, (300, 195, 89), _widths_in_cells),
     "brass_film_radius_at_2_5_5_10_n_nm": Rule(
         lambda s: listed(radii(s)),
         lambda s: all(within(v, 110, 175) for v in radii(s)),
@@ -236,9 +255,11 @@ RULES: dict[str, Rule] = {
     "particles_per_mm_and_n_at_2_5_5_10_n_steel": Rule(
         lambda s: ", ".join(f"{particles_per_mm_and_newton(s, f, 350e-7):.0f}" for f in (2.5, 5.0, 10.0)),
         lambda s: all(1200 <= particles_per_mm_and_newton(s, f, 350e-7) <= 6000 for f in (2.5, 5.0, 10.0)),
+        _of_spheres,
     ),
     "particles_per_mm_and_n_at_2_5_5_10_n_brass": Rule(
         lambda s: ", ".join(f"{particles_per_mm_and_newton(s, f, 800e-7):.0f}" for f in (2.5, 5.0, 10.0)),
         lambda s: all(12800 <= particles_per_mm_and_newton(s, f, 800e-7) <= 15200 for f in (2.5, 5.0, 10.0)),
+        _widths_in_cells,
     ),
 }
