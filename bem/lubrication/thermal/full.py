@@ -217,7 +217,7 @@ def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool
     return FullThermalFilm(
         film=film,
         isothermal=cold,
-        position=sign * (0.5 * (strip.edges[1:] + strip.edges[:-1]))[order],
+        position=sign * duct.middles[order],
         width=width[order],
         height=0.5 * (1 + middles(duct.layers)),
         temperature=oil[order],
