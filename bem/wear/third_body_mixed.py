@@ -17,7 +17,7 @@ from bem.contact import ContactSolution
 from bem.friction.film import PatchFilm
 from bem.friction.forces import Forces
 from bem.friction.oil_volume import OilVolume
-from bem.friction.rough_contact import CoupledContact, Pressed
+from bem.friction.rough_contact import CoupledContact, Pressed, shift_apart
 from bem.grid import FloatArray
 from bem.wear.loads import LOWER, UPPER
 from bem.wear.third_bodies import ThirdBodies, ThirdBodyLoad
@@ -58,7 +58,9 @@ class ContactWithBodies:
 
     def clears(self, film: PatchFilm) -> bool:
         """As `RoughContact`; neither do particles touch both surfaces."""
-        return self.patch.clears(film) and self.carried(film.thickness - self.patch.rough) == 0
+        rough = self.patch.rough
+        apart = film.thickness - rough - shift_apart(film, rough, self.counted)
+        return self.patch.clears(film) and self.carried(apart) == 0
 
     def carried(self, gap: FloatArray) -> float:
         """Load [N] of the particles on the patch in gaps (nx, ny) [m]."""

@@ -1,5 +1,6 @@
 """What the chapter on wear criteria says, against the stored experiment."""
 
+import json
 from statistics import mean
 
 import pytest
@@ -82,6 +83,24 @@ def test_bare_brass_has_larger_pieces_than_its_film_under_junctions_alone():
     assert [name for name in larger if volume(name, "brass") > volume(name, "brass film")] == ["junction"]
     assert volume("averaged_von_mises", "brass") == pytest.approx(194e-9, rel=0.01)
     assert volume("averaged_von_mises", "brass film") == pytest.approx(353e-9, rel=0.01)
+
+
+def test_a_cycle_of_any_criterion_costs_little_more_than_the_source_s_on_the_same_surfaces():
+    """What the guide says of the stored run."""
+    stored = json.loads((wear_lengths.RESULT.parent / "wear_cycle_times.json").read_text("utf-8"))["rows"]
+
+    def ratios(surfaces, *criteria):
+        chosen = [row for row in stored if row["surfaces"] == surfaces and row["criterion"] in criteria]
+        return [row["ratio"] for row in chosen]
+
+    names = wear_lengths.criteria()
+    assert 0.645 < min(ratios("same", *names)) <= max(ratios("same", *names)) < 1.075
+    assert 0.9 < min(ratios("own", "averaged_von_mises", "sphere")) <= max(ratios("own", "averaged_von_mises")) < 1.1
+    assert 1.5 < min(ratios("own", "low_cycle_fatigue")) <= max(ratios("own", "averaged_fatigue")) < 2.45
+    depths = {(r["criterion"], r["seed"]): r["depths_computed"] for r in stored if r["surfaces"] == "own"}
+    for seed in (1, 2):
+        assert 2.5 < depths["low_cycle_fatigue", seed] / depths["von_mises", seed] < 4.5
+        assert depths["averaged_fatigue", seed] < 5.5 * depths["von_mises", seed]
 
 
 def test_the_chapter_is_drawn():

@@ -64,6 +64,16 @@ def test_rough_surfaces_share_with_both_and_few_or_small_ones_change_nothing():
     assert found.load < 0.7 * before.load
 
 
+@pytest.mark.parametrize("counted", ["patch", "loaded"])
+def test_a_film_that_clears_the_roughness_by_less_than_a_particle_is_no_full_film(counted):
+    fast = step((2.0, 0.0), oil_volume=counted)
+    assert fast(ROUGH, None).load == 0  # without them it is
+    gap = float((fast.film.thickness - ROUGH).min())
+    found = step((2.0, 0.0), oil_volume=counted).bearing(ThirdBodies(gap + 300e-9, 1e10), 1e-6)(ROUGH, None)
+    assert found.status == "converged"
+    assert found.third_bodies.load > 0
+
+
 def loop(cycles, state=None, callback=None, contact=True, **particle):
     law = {"kind": "archard", "specific_wear_rate": 1e-15, "distance": 1e-3}
     table = {"diameter": D, "number_per_area": 1e8, "shed": 0.5, "leaving": 0.25} | particle
