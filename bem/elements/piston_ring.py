@@ -17,10 +17,14 @@ from pydantic import Field, model_validator
 
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
+from bem.materials import contact_modulus
 from bem.reference_solutions.line_film import InletFilm
 from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.tables.along import columns_or_file
 from bem.scenes.units import Angle, Force, Pressure, Rate, Ratio
+
+_LEAST_CROWN = 1e-9
+"""How far the middle of a face stands out over its edges at least [m]: the film of a flat one is not this one."""
 
 
 class GasScene(Table):
@@ -77,6 +81,8 @@ class PistonRingModel(ElementModel):
             raise problem("height is not below the bore", "height < bore")
         if not self.height < 2 * self.face_radius:
             raise problem("face_radius is below half the height", "a face that is round over its height")
+        if self.height**2 < 8 * self.face_radius * _LEAST_CROWN:
+            raise problem("face_radius leaves less than 1 nm of a crown: a flat face has no wedge", "a smaller one")
         return self
 
     @property
@@ -124,13 +130,20 @@ class PistonRingModel(ElementModel):
                 f"gas lifts the ring at {lost} of {self.points} angles: the pressure below exceeds that above by "
                 "more than tension holds; those are left out"
             )
+        modulus = contact_modulus(self.first.build(), self.second.build())
+        wide = [one for one in found if one.half_width(modulus) >= min(one.inlet, self.height - one.inlet)]
+        if wide:
+            said.append(
+                f"at {len(wide)} of {self.points} angles, such as {wide[0].name}, Hertz' contact reaches an edge of "
+                "the face: neither it nor a film of it is that of a parabola there"
+            )
         films = [] if self.oil is None else [self._film(one) for one in found]
         sinking = [one for one, film in zip(found, films, strict=False) if self._lags(one, film.minimum_thickness)]
         if sinking:
             said.append(
                 f"at {len(sinking)} of {self.points} angles, such as {sinking[0].name}, the speed changes faster than "
-                "the film sinks under its load: it lives from squeeze there and is thicker than the steady one that is "
-                "given; scenes of kind film march in time, with a flooded face"
+                "the film sinks under its load: it lives from squeeze there, thicker than the steady one that is given "
+                "while the speed falls and thinner while it rises; scenes of kind film march in time, of a flooded face"
             )
         beyond = [one for one, film in zip(found, films, strict=False) if film.exit_position > self.height - one.inlet]
         if beyond:

@@ -117,6 +117,9 @@ def test_over_the_cycle():
     assert any("less oil on the liner" in note for note in notes)
     assert not any("behind the trailing edge" in note for note in notes)
     assert any("behind the trailing edge" in note for note in ring(crown=0.95).notes())
+    assert not any("reaches an edge" in note for note in notes)
+    flat = ring(face_radius="20 m", gas={"crank_angle": [0.0, 2 * math.pi], "pressure": ["20 MPa", "20 MPa"]})
+    assert any("at 12 of 12 angles, such as 15 deg, Hertz' contact reaches an edge" in note for note in flat.notes())
     dry = ring(oil=None)
     assert not any("squeeze" in note for note in dry.notes())
     lifted = ring(gas={"crank_angle": ["0 deg", "360 deg"], "pressure": ["-1 MPa", "-1 MPa"]}, tension="1 N")
@@ -148,6 +151,7 @@ def test_the_note_on_squeeze_is_where_the_film_cannot_follow():
         ({"rod": "40 mm"}, "a longer rod"),
         ({"height": "90 mm"}, "height < bore"),
         ({"face_radius": "0.5 mm"}, "round over its height"),
+        ({"face_radius": "1 km"}, "less than 1 nm of a crown"),
         ({"crown": 1.0}, r"crown"),
         ({"gas": {"crank_angle": ["0 deg", "300 deg"], "pressure": [0.0, 0.0]}}, "from 0 to 360 deg, or to 720 deg"),
         ({"gas": {"crank_angle": ["0 deg", "360 deg"], "pressure": [0.0, 0.0, 0.0]}}, "as many of each"),
