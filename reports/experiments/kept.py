@@ -35,6 +35,15 @@ def keep(path: Path, found: Any) -> None:
     path.write_text(json.dumps({"origin": origin, "found": found}, indent=1) + "\n", encoding="utf-8")
 
 
+def rounded(value: Any) -> Any:
+    """Of dictionaries and lists of figures: floats to four digits."""
+    if isinstance(value, dict):
+        return {key: rounded(one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [rounded(one) for one in value]
+    return float(f"{value:.4g}") if isinstance(value, float) else value
+
+
 def found(name: str) -> Any:
     """What an experiment found.
 

@@ -17,7 +17,7 @@ import numpy as np
 from bem import PointFilmSolution
 from bem.lubrication.point.kept import KeptPoint
 from bem.lubrication.point.scales import hamrock_dowson_films, nijenbanning_film
-from reports.experiments.kept import keep
+from reports.experiments.kept import keep, rounded
 from reports.experiments.point_films import ALPHA, MODULUS, film
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "point_table.json"
@@ -52,7 +52,7 @@ def contact(load: float, oil: float, ratio: float) -> dict[str, Any]:
         row |= {f"{name}{key}": value for key, value in _converged(values).items()}
         row[name] = row[name] / unit
         row[f"{name}_bar"] = None if bar is None else 100 * bar / values[-1]
-    return _rounded(row | _fits(last, load, oil, ratio, unit))
+    return rounded(row | _fits(last, load, oil, ratio, unit))
 
 
 def _converged(values: Any) -> dict[str, Any]:
@@ -86,14 +86,6 @@ def _fits(found: PointFilmSolution, load: float, oil: float, ratio: float, unit:
 def _kept(found: PointFilmSolution) -> KeptPoint:
     assert found.state is not None
     return found.state
-
-
-def _rounded(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _rounded(one) for key, one in value.items()}
-    if isinstance(value, list):
-        return [_rounded(one) for one in value]
-    return float(f"{value:.4g}") if isinstance(value, float) else value
 
 
 def main() -> None:

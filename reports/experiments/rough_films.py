@@ -2,7 +2,7 @@
 
     nice python -m reports.experiments.rough_films
 
-Half an hour on two cores. The rough surface is at rest and a smooth one moves over it, so the film is steady. Under a
+Five minutes on two cores. The rough surface is at rest and a smooth one moves over it, so the film is steady. Under a
 cylinder the roughness is ridges across the flow, solved by `line_films`; under a ball ridges across and along the flow
 and bumps, by `march_point_film` with steps in time so long that nothing is stored. Each surface on three grids, higher
 and higher, until no film is found, or one that ruptures inside the contact and forms again: Swift and Stieber's
@@ -28,7 +28,7 @@ from bem import Body, Grid, Lubricant, Material, march_point_film, solve_line_fi
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.materials import contact_modulus
-from reports.experiments.kept import keep
+from reports.experiments.kept import keep, rounded
 from reports.experiments.line_films import Line, line_film, roughened
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "rough_films.json"
@@ -97,13 +97,6 @@ def film_figures(pressure: FloatArray, thickness: FloatArray, speed: float) -> d
         "share": float(carried[thin].sum()) / load,
         "friction": float(np.where(thin, BOUNDARY * carried, stress).sum()) / load,
     }
-
-
-def thinner_carry(pressure: FloatArray, thickness: FloatArray, share: float) -> float:
-    """The film [m] than which those are thinner that carry a share of the load."""
-    order = np.argsort(thickness, axis=None)
-    carried = np.cumsum(pressure.ravel()[order])
-    return float(thickness.ravel()[order[min(np.searchsorted(carried, share * carried[-1]), len(order) - 1)]])
 
 
 def whole(films: list[Fields], inside: Any) -> list[Fields | str]:
@@ -213,20 +206,18 @@ def of_ball(name: str, share: float, surface: Surface | None = None) -> dict[str
 def _rows(
     films: list[list[Fields | str]], speed: float, central: float, surface: Surface, shared: dict[str, Any]
 ) -> list[dict[str, Any]]:
-    """A row for each of `LAMBDAS`: figures of films on all grids, those of load sharing with oil counted where the film
-    is loaded and on the patch, and the film than which those are thinner that carry its share."""
+    """A row for each of `LAMBDAS`: figures of films on all grids, and those of load sharing with oil counted where the
+    film is loaded and on the patch."""
     grid = shared["grid"]
     heights = np.broadcast_to(surface(grid.x[:, None], grid.y[None, :]), grid.shape)
     rows = []
     for k, ratio in enumerate(LAMBDAS):
-        here = [of[k] for of in films]
+        here = (of[k] for of in films)
         figures = [film if isinstance(film, str) else film_figures(*film, speed) for film in here]
         row: dict[str, Any] = {"lambda": ratio, "films": figures}
         for where in ("loaded", "patch"):
             row[where] = load_shared(central / ratio * heights, speed, where, shared)
-        last = here[-1]
-        row["carried_by"] = None if isinstance(last, str) else thinner_carry(*last, row["loaded"]["share"])
-        rows.append(_rounded(row))
+        rows.append(rounded(row))
         print(rows[-1], flush=True)
     return rows
 
@@ -254,14 +245,6 @@ def load_shared(height: FloatArray, speed: float, oil_volume: str, shared: dict[
     }
 
 
-def _rounded(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _rounded(one) for key, one in value.items()}
-    if isinstance(value, list):
-        return [_rounded(one) for one in value]
-    return float(f"{value:.4g}") if isinstance(value, float) else value
-
-
 def main() -> None:
     """All of them, two at a time, stored after each, so that what was cut short says so."""
     with ProcessPoolExecutor(2) as pool:
@@ -273,7 +256,7 @@ def main() -> None:
         ]
         cases = []
         for done in as_completed(asked):
-            cases.append(_rounded(done.result()))
+            cases.append(rounded(done.result()))
             cases.sort(
                 key=lambda case: (case["contact"] == "ball", case["surface"], case["wavelength"], -case["speed"])
             )
