@@ -59,10 +59,10 @@ def _converged(values: Any) -> dict[str, Any]:
     """The limit of values on grids of half the cells each, the order observed, and errors in per cent."""
     before, after = np.diff(values)
     order = math.log2(abs(before / after)) if before and after else math.nan
-    rate = float(np.clip(2.0 if math.isnan(order) else order, *RATES))
-    limit = values[-1] + after / (2**rate - 1)
-    # differences of either sign pass zero: there is no order then
+    # differences of either sign pass zero: there is no order then, and the second that is expected is taken
     known = math.isfinite(order) and before * after > 0
+    rate = float(np.clip(order if known else 2.0, *RATES))
+    limit = values[-1] + after / (2**rate - 1)
     return {
         "": float(limit),
         "_order": order if known else None,

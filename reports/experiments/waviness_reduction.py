@@ -124,8 +124,8 @@ def point_response(kept: KeptPoint, wavelength: float, ratio: float = 0.0) -> fl
     assert deflection is not None
     number = 2 * np.pi / wavelength
     stored_film, stored = np.zeros(n, dtype=complex), np.zeros(n, dtype=complex)
-    stored_film[inner] = 6j * number * linear.stencil[6].ravel()[inner]
-    stored[inner] = 6j * number * linear.stencil[7].ravel()[inner]
+    stored_film[inner] = 6j * number * (linear.stencil[8] * linear.stencil[9]).ravel()[inner]
+    stored[inner] = 6j * number * (linear.stencil[8] * linear.stencil[10]).ravel()[inner]
     rows, by_film = rows[upper], by_film[upper]
     folded = _symmetric(deflection, shape)
     matrix = (_symmetric(rows, shape) + by_film @ folded).astype(complex)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -19,6 +20,9 @@ ON_THE_WAY = 1e-6
 """Largest relative error on the grids before the last: their films are compared with the last one's."""
 DRY = 1e-4
 """Tolerance of the dry contact."""
+LIFTS = (1.0, 1.5, 3.0)
+"""Films to start with over those expected, in the order in which they are tried: from thinner ones than there are the
+first step may lead nowhere, from thicker ones it takes longer."""
 RUPTURE = 0.5
 """x over |y| up to which a start has pressure: the true edge is found faster from outside."""
 
@@ -38,10 +42,11 @@ class Reached:
     convolutions: float
 
 
-def from_dry(level: Level) -> State:
-    """The dry contact with a film in it, and the far pressure around."""
+def from_dry(level: Level, lift: float = 1.0) -> State:
+    """The dry contact with a film in it, so many times as thick as expected, and the far pressure around."""
     problem = level.problem
-    film = level.gap + problem.typical_film
+    expected = lift * problem.typical_film
+    film = level.gap + expected
     dry = np.zeros(level.shape)
     size = 0.0
     if level.kernel is not None:
@@ -49,7 +54,7 @@ def from_dry(level: Level) -> State:
         load = problem.load * operator.grid.cell_area / level.cell
         contact = solve_contact(level.gap / factor, operator, load=load, tolerance=DRY)
         dry = contact.pressure
-        film = np.maximum(contact.gap, 0.0) * factor + problem.typical_film
+        film = np.maximum(contact.gap, 0.0) * factor + expected
         size = 2 * float(contact.approach) * factor
     # between bodies that are pressed flat it would be far too much
     far = level.far_source(0.0) / (film + size) ** 2
@@ -107,6 +112,5 @@ def solved(problem: PointProblem, shape: tuple[int, int], tolerance: float, most
 
 def _starts(level: Level, before: tuple[Level, State] | None) -> list[Callable[[], State]]:
     """In the order in which they are tried."""
-    if before is None:
-        return [lambda: from_dry(level)]
-    return [lambda: interpolated(level, *before), lambda: from_dry(level)]
+    starts: list[Callable[[], State]] = [partial(from_dry, level, lift) for lift in LIFTS]
+    return starts if before is None else [partial(interpolated, level, *before), *starts]

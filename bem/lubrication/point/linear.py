@@ -71,7 +71,9 @@ class Linear:
         loops.own_flow(self.stencil, self.level.spacing, driven)
         problem, (dx, dy) = self.level.problem, self.level.spacing
         drag, storing = problem.drag, problem.storing
-        wedge = 6 * (drag[0] / dx + drag[1] / dy + storing) * self.stencil[6] * self.level.near[0, 0, 0]
+        wedge = (
+            6 * (drag[0] / dx + drag[1] / dy + storing) * self.stencil[8] * self.stencil[9] * self.level.near[0, 0, 0]
+        )
         spread = inside & (driven < SPREADING * wedge)
         return np.where(free, np.where(spread, 2, 1), 0).astype(np.int8)
 
@@ -110,7 +112,7 @@ class Linear:
     @cached_property
     def _crossed(self) -> FloatArray:
         """The stencil with the axes exchanged."""
-        return np.ascontiguousarray(self.stencil[[3, 4, 5, 0, 1, 2, 6, 7]].transpose(0, 2, 1))
+        return np.ascontiguousarray(self.stencil[[4, 5, 6, 7, 0, 1, 2, 3, 8, 9, 10, 12, 11]].transpose(0, 2, 1))
 
     @cached_property
     def coarser(self) -> Linear | None:
@@ -183,8 +185,8 @@ class Linear:
 
 
 def flows(level: Level, pressure: FloatArray, film: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Flow through the faces (2, nx, ny) and its stencil (8, nx, ny), see `loops`."""
-    flow, stencil = np.zeros((2, *level.shape)), np.zeros((8, *level.shape))
+    """Flow through the faces (2, nx, ny) and its stencil (13, nx, ny), see `loops`."""
+    flow, stencil = np.zeros((2, *level.shape)), np.zeros((13, *level.shape))
     oil = level.problem.oil(pressure)
     loops.flows(pressure, film, oil, level.spacing, level.problem.drag, flow, stencil)
     return flow, stencil

@@ -5,15 +5,20 @@ In similarity units (`scales`), with the flow between neighbouring cells
     F = -rho h^3/m dP/dx + 6 c rho h
 
 the balance of a cell is div F, in time div F + 6 d(rho h)/dT with d(rho h)/dT = `storing` rho h + what was there
-(`InTime`). Fluidity 1/m is its mean between the two pressures. What is dragged is interpolated from
-two cells upstream and one downstream (third order; Leonard 1979): films were ten times as accurate as with the two
-upstream ones, and there still is no wave of pressure that the oil does not feel where it is too viscous to flow.
+(`InTime`). Fluidity 1/m is its mean between the two pressures; h^3 is that of a film which is linear between both
+cells, 1/(mean of 1/h^3) = 2 a^2 b^2/(a + b): where one cell is thin, nothing flows past it. With ((a + b)/2)^3 oil went
+through constrictions as narrow as a cell, light films were off three times as much, and heavy ellipses had none.
+What is dragged is interpolated from two cells upstream and one downstream by logarithms, (a^3 b^6/c)^(1/8) of the
+cells ahead, here and behind (third order; Leonard 1979 without logarithms): films were ten times as accurate as with
+the two upstream ones, and there still is no wave of pressure that the oil does not feel where it is too viscous to
+flow. Without logarithms oil went backwards through faces behind which the film is more than six times as thick, and of
+150 random contacts 18 had no film on 48 cells a side (1 with them).
 Entrainment c points to larger indices along both axes. Outermost cells hold no balance.
 
 Arrays are [ix, iy]; a face [i, j] lies between cell [i, j] and the next one along its axis. `oil` (4, nx, ny): ln m and
-its slope with pressure, rho and its slope. `stencil` (8, nx, ny): derivatives of the pressure flow through the faces
-along x with the pressure on the left, on the right, and with either film; the same along y; derivatives of rho h with
-film and pressure.
+its slope with pressure, rho and its slope. `stencil` (13, nx, ny): derivatives of the pressure flow through the faces
+along x with the pressure on the left, on the right, and with both films; the same along y; rho h, and its relative
+derivatives with film and pressure; what is dragged through the faces along x, and along y.
 """
 
 from __future__ import annotations
@@ -51,42 +56,57 @@ def _mean_fluidity(first: float, second: float) -> tuple[float, float, float]:
 def _pressure_flow(
     p: FloatArray, h: FloatArray, oil: FloatArray, step: float, along_y: int, flow: FloatArray, stencil: FloatArray
 ) -> None:
-    """Pressure flow through the faces along one axis, and its derivatives (3, nx, ny)."""
+    """Pressure flow through the faces along one axis, and its derivatives (4, nx, ny)."""
     nx, ny = p.shape
     di, dj = 1 - along_y, along_y
     for i in range(nx - di):
         for j in range(ny - dj):
             k, n = i + di, j + dj
             phi, phi_left, phi_right = _mean_fluidity(oil[0, i, j], oil[0, k, n])
-            thick = 0.5 * (h[i, j] + h[k, n])
+            left, right = h[i, j], h[k, n]
+            total = left + right
+            cube = 2.0 * (left * right) ** 2 / total
             dense = 0.5 * (oil[2, i, j] + oil[2, k, n])
-            cube = thick * thick * thick
             gradient = (p[k, n] - p[i, j]) / step
             flow[i, j] = -dense * cube * phi * gradient
-            a = dense * cube * phi / step
+            easy = dense * cube * phi / step
             steep = gradient * cube
-            stencil[0, i, j] = a - steep * (dense * phi_left * oil[1, i, j] + 0.5 * phi * oil[3, i, j])
-            stencil[1, i, j] = -a - steep * (dense * phi_right * oil[1, k, n] + 0.5 * phi * oil[3, k, n])
-            stencil[2, i, j] = -1.5 * dense * thick * thick * phi * gradient
+            stencil[0, i, j] = easy - steep * (dense * phi_left * oil[1, i, j] + 0.5 * phi * oil[3, i, j])
+            stencil[1, i, j] = -easy - steep * (dense * phi_right * oil[1, k, n] + 0.5 * phi * oil[3, k, n])
+            thin = -2.0 * left * right * dense * phi * gradient / (total * total)
+            stencil[2, i, j] = thin * right * (left + 2.0 * right)
+            stencil[3, i, j] = thin * left * (2.0 * left + right)
 
 
 @nb.njit(**COMPILE)
-def _drag(m: FloatArray, share: float, along_y: int, flow: FloatArray) -> None:
-    """Add what is dragged through the faces along one axis."""
-    if share == 0.0:
-        return
+def _drag(m: FloatArray, share: float, along_y: int, dragged: FloatArray) -> None:
+    """What is dragged through the faces along one axis (nx, ny), of oil m > 0 in the cells."""
     nx, ny = m.shape
-    if along_y:
-        for i in range(nx):
-            flow[i, 0] += 3.0 * share * (m[i, 0] + m[i, 1])
-            for j in range(1, ny - 1):
-                flow[i, j] += 6.0 * share * (AHEAD * m[i, j + 1] + HERE * m[i, j] - BEHIND * m[i, j - 1])
-        return
-    for j in range(ny):
-        flow[0, j] += 3.0 * share * (m[0, j] + m[1, j])
-    for i in range(1, nx - 1):
-        for j in range(ny):
-            flow[i, j] += 6.0 * share * (AHEAD * m[i + 1, j] + HERE * m[i, j] - BEHIND * m[i - 1, j])
+    di, dj = 1 - along_y, along_y
+    root = np.sqrt(np.sqrt(np.sqrt(m)))  # shares are eighths
+    for i in range(nx - di):
+        for j in range(ny - dj):
+            k, n = i + di, j + dj
+            if i < di or j < dj:
+                dragged[i, j] = 6.0 * share * np.sqrt(m[i, j] * m[k, n])
+                continue
+            here, ahead = root[i, j], root[k, n]
+            cube = here * here * ahead
+            dragged[i, j] = 6.0 * share * cube * cube * ahead * here * here / root[i - di, j - dj]
+
+
+@nb.njit(**COMPILE)
+def _drag_change(dragged: FloatArray, g: FloatArray, along_y: int, flow: FloatArray) -> None:
+    """Add its change under relative changes g of the oil in the cells."""
+    nx, ny = g.shape
+    di, dj = 1 - along_y, along_y
+    for i in range(nx - di):
+        for j in range(ny - dj):
+            ahead, here = g[i + di, j + dj], g[i, j]
+            if i < di or j < dj:
+                flow[i, j] += 0.5 * dragged[i, j] * (here + ahead)
+            else:
+                flow[i, j] += dragged[i, j] * (AHEAD * ahead + HERE * here - BEHIND * g[i - di, j - dj])
 
 
 @nb.njit(**COMPILE)
@@ -110,13 +130,15 @@ def flows(
     stencil: FloatArray,
 ) -> None:
     """Flow (2, nx, ny) through all faces, and the stencil of its derivatives."""
-    _pressure_flow(p, h, oil, spacing[0], 0, flow[0], stencil[0:3])
-    _pressure_flow(p, h, oil, spacing[1], 1, flow[1], stencil[3:6])
-    m = oil[2] * h
-    _drag(m, drag[0], 0, flow[0])
-    _drag(m, drag[1], 1, flow[1])
-    stencil[6] = oil[2]
-    stencil[7] = oil[3] * h
+    _pressure_flow(p, h, oil, spacing[0], 0, flow[0], stencil[0:4])
+    _pressure_flow(p, h, oil, spacing[1], 1, flow[1], stencil[4:8])
+    stencil[8] = oil[2] * h
+    stencil[9] = 1.0 / h
+    stencil[10] = oil[3] / oil[2]
+    for axis in range(2):
+        if drag[axis] != 0.0:
+            _drag(stencil[8], drag[axis], axis, stencil[11 + axis])
+            flow[axis] += stencil[11 + axis]
 
 
 @nb.njit(**COMPILE)
@@ -136,43 +158,52 @@ def applied(
     for i in range(nx):
         for j in range(ny):
             if i < nx - 1:
-                films = dh[i, j] + dh[i + 1, j]
-                flow[0, i, j] = s[0, i, j] * dp[i, j] + s[1, i, j] * dp[i + 1, j] + s[2, i, j] * films
+                films = s[2, i, j] * dh[i, j] + s[3, i, j] * dh[i + 1, j]
+                flow[0, i, j] = s[0, i, j] * dp[i, j] + s[1, i, j] * dp[i + 1, j] + films
             if j < ny - 1:
-                films = dh[i, j] + dh[i, j + 1]
-                flow[1, i, j] = s[3, i, j] * dp[i, j] + s[4, i, j] * dp[i, j + 1] + s[5, i, j] * films
-    m = s[6] * dh + s[7] * dp
-    _drag(m, drag[0], 0, flow[0])
-    _drag(m, drag[1], 1, flow[1])
+                films = s[6, i, j] * dh[i, j] + s[7, i, j] * dh[i, j + 1]
+                flow[1, i, j] = s[4, i, j] * dp[i, j] + s[5, i, j] * dp[i, j + 1] + films
+    g = s[9] * dh + s[10] * dp
+    for axis in range(2):
+        if drag[axis] != 0.0:
+            _drag_change(s[11 + axis], g, axis, flow[axis])
     divergence(flow, spacing, out)
     if storing != 0.0:
         for i in range(1, nx - 1):
             for j in range(1, ny - 1):
-                out[i, j] += 6.0 * storing * m[i, j]
+                out[i, j] += 6.0 * storing * s[8, i, j] * g[i, j]
 
 
 @nb.njit(**COMPILE)
-def _dragged_row(m: FloatArray, i: int, j: int, wedge: float, across: float, row: FloatArray) -> None:
-    """Add derivatives of what is dragged, rho h = m times an unknown, to a row: unknowns at [i - 2 .. i + 1, j], then
-    at [i, j - 2], [i, j - 1], [i, j + 1]."""
-    row[3] += AHEAD * wedge * m[i + 1, j]
+def _dragged_row(
+    s: FloatArray, m: FloatArray, i: int, j: int, spacing: tuple[float, float], oblique: bool, row: FloatArray
+) -> None:
+    """Add derivatives of what is dragged with unknowns, m the relative change of the oil with them, to a row: unknowns
+    at [i - 2 .. i + 1, j], then at [i, j - 2], [i, j - 1], [i, j + 1]."""
+    comes, leaves = s[11, i - 1, j] / spacing[0], s[11, i, j] / spacing[0]
+    row[3] += AHEAD * leaves * m[i + 1, j]
+    row[2] += HERE * leaves * m[i, j]
+    row[1] -= BEHIND * leaves * m[i - 1, j]
     if i == 1:
-        row[1] -= (BEHIND + 0.5) * wedge * m[0, j]
-        row[2] += (HERE - 0.5) * wedge * m[1, j]
+        row[2] -= 0.5 * comes * m[1, j]
+        row[1] -= 0.5 * comes * m[0, j]
     else:
-        row[0] += BEHIND * wedge * m[i - 2, j]
-        row[1] -= (HERE + BEHIND) * wedge * m[i - 1, j]
-        row[2] += (HERE - AHEAD) * wedge * m[i, j]
-    if across == 0.0:
+        row[2] -= AHEAD * comes * m[i, j]
+        row[1] -= HERE * comes * m[i - 1, j]
+        row[0] += BEHIND * comes * m[i - 2, j]
+    if not oblique:
         return
-    row[6] += AHEAD * across * m[i, j + 1]
+    comes, leaves = s[12, i, j - 1] / spacing[1], s[12, i, j] / spacing[1]
+    row[6] += AHEAD * leaves * m[i, j + 1]
+    row[2] += HERE * leaves * m[i, j]
+    row[5] -= BEHIND * leaves * m[i, j - 1]
     if j == 1:
-        row[5] -= (BEHIND + 0.5) * across * m[i, 0]
-        row[2] += (HERE - 0.5) * across * m[i, 1]
+        row[2] -= 0.5 * comes * m[i, 1]
+        row[5] -= 0.5 * comes * m[i, 0]
     else:
-        row[4] += BEHIND * across * m[i, j - 2]
-        row[5] -= (HERE + BEHIND) * across * m[i, j - 1]
-        row[2] += (HERE - AHEAD) * across * m[i, j]
+        row[2] -= AHEAD * comes * m[i, j]
+        row[5] -= HERE * comes * m[i, j - 1]
+        row[4] += BEHIND * comes * m[i, j - 2]
 
 
 @nb.njit(**COMPILE)
@@ -190,20 +221,19 @@ def _rows(
     dx, dy = spacing
     rows[:, :] = 0.0
     rows[0, 1] = -s[0, i - 1, j] / dx
-    rows[0, 2] = (s[0, i, j] - s[1, i - 1, j]) / dx + (s[3, i, j] - s[4, i, j - 1]) / dy
+    rows[0, 2] = (s[0, i, j] - s[1, i - 1, j]) / dx + (s[4, i, j] - s[5, i, j - 1]) / dy
     rows[0, 3] = s[1, i, j] / dx
-    rows[0, 5] = -s[3, i, j - 1] / dy
-    rows[0, 6] = s[4, i, j] / dy
+    rows[0, 5] = -s[4, i, j - 1] / dy
+    rows[0, 6] = s[5, i, j] / dy
     rows[1, 1] = -s[2, i - 1, j] / dx
-    rows[1, 2] = (s[2, i, j] - s[2, i - 1, j]) / dx + (s[5, i, j] - s[5, i, j - 1]) / dy
-    rows[1, 3] = s[2, i, j] / dx
-    rows[1, 5] = -s[5, i, j - 1] / dy
-    rows[1, 6] = s[5, i, j] / dy
-    wedge, across = 6.0 * drag[0] / dx, 6.0 * drag[1] / dy
-    _dragged_row(s[7], i, j, wedge, across, rows[0])
-    _dragged_row(s[6], i, j, wedge, across, rows[1])
-    rows[0, 2] += 6.0 * storing * s[7, i, j]
-    rows[1, 2] += 6.0 * storing * s[6, i, j]
+    rows[1, 2] = (s[2, i, j] - s[3, i - 1, j]) / dx + (s[6, i, j] - s[7, i, j - 1]) / dy
+    rows[1, 3] = s[3, i, j] / dx
+    rows[1, 5] = -s[6, i, j - 1] / dy
+    rows[1, 6] = s[7, i, j] / dy
+    _dragged_row(s, s[10], i, j, spacing, drag[1] != 0.0, rows[0])
+    _dragged_row(s, s[9], i, j, spacing, drag[1] != 0.0, rows[1])
+    rows[0, 2] += 6.0 * storing * s[8, i, j] * s[10, i, j]
+    rows[1, 2] += 6.0 * storing * s[8, i, j] * s[9, i, j]
 
 
 @nb.njit(**COMPILE)
@@ -213,7 +243,7 @@ def own_flow(s: FloatArray, spacing: tuple[float, float], out: FloatArray) -> No
     dx, dy = spacing
     for i in range(1, nx - 1):
         for j in range(1, ny - 1):
-            out[i, j] = (s[0, i, j] - s[1, i - 1, j]) / dx + (s[3, i, j] - s[4, i, j - 1]) / dy
+            out[i, j] = (s[0, i, j] - s[1, i - 1, j]) / dx + (s[4, i, j] - s[5, i, j - 1]) / dy
 
 
 @nb.njit(**COMPILE)

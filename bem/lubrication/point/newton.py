@@ -75,11 +75,11 @@ class Balance:
     @cached_property
     def weight(self) -> FloatArray:
         """From balances to shares of what is dragged along locally."""
-        level, film = self.linear.level, self.state.film
+        level = self.linear.level
         drag, (dx, dy) = level.problem.drag, level.spacing
         # of bodies at rest, whose film is only looked at, nothing is carried along: shares of the film as it is
         carried = drag[0] / dx + drag[1] / dy + level.problem.storing or 1.0
-        weight = 1 / (6 * self.linear.stencil[6] * film * carried)
+        weight = 1 / (6 * self.linear.stencil[8] * carried)
         x0, x1, y0, y1 = level.problem.rectangle
         mean = level.problem.load / ((x1 - x0) * (y1 - y0))  # where there is no pressure yet
         weight[level.border] = 1 / max(float(self.state.pressure.max()), mean)
@@ -112,7 +112,7 @@ def balance(level: Level, state: State, mismatch: FloatArray) -> Balance:
     loops.divergence(flow, level.spacing, out)
     far, stored = level.far_source(state.datum), 0.0
     if problem.in_time is not None:
-        gained = 6 * (problem.storing * stencil[6] * film + problem.in_time.history)
+        gained = 6 * (problem.storing * stencil[8] + problem.in_time.history)
         out += gained
         stored = float(np.abs(gained[1:-1, 1:-1]).sum()) * level.cell
     np.copyto(out, pressure - far / film**2, where=level.border)

@@ -14,7 +14,7 @@ from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.cascade import Reached, solved
 from bem.lubrication.point.film import PointFilmSolution
-from bem.lubrication.point.kept import KeptPoint, central_film, certificate, film_fraction, least_film, order_missed
+from bem.lubrication.point.kept import KeptPoint, central_film, certificate, film_errors, film_fraction, least_film
 from bem.lubrication.point.setting import Rectangle, Setting, setting_of
 from bem.lubrication.point.validity import notes_on_point
 from bem.materials import Body
@@ -123,14 +123,11 @@ def result_of(setting: Setting, reached: Reached, asked: Request) -> PointFilmSo
     sound = np.isfinite(proof.mass)
     film = proof.film if sound else state.film
     central, least = central_film(level, film), least_film(film)
-    errors: list[float | None] = [None, None]
+    errors: tuple[float | None, float | None] = (None, None)
     if reached.coarse is not None and status is Status.CONVERGED:
         coarse = reached.coarse
         rough = central_film(coarse[0], coarse[1].film), least_film(coarse[1].film)
-        # of second order a third of the difference is left
-        errors = [
-            abs(a - b) / 3 * order_missed(a - b, a) * scales.film for a, b in zip((central, least), rough, strict=True)
-        ]
+        errors = film_errors((central, least), rough, film)
     share = setting.problem.outside(state.datum)[0] / setting.problem.load
     full = None
     if asked.cavitation is Cavitation.MASS_CONSERVING:
@@ -146,8 +143,8 @@ def result_of(setting: Setting, reached: Reached, asked: Request) -> PointFilmSo
         **fields,
         central_thickness=central * scales.film,
         minimum_thickness=least * scales.film,
-        central_thickness_error=errors[0],
-        minimum_thickness_error=errors[1],
+        central_thickness_error=None if errors[0] is None else errors[0] * scales.film,
+        minimum_thickness_error=None if errors[1] is None else errors[1] * scales.film,
         load=proof.load * setting.problem.load * scales.pressure * scales.length**2,
         inlet_load_fraction=share,
         shear_force=np.zeros((2, 2)),

@@ -1,6 +1,7 @@
 """The film of circular and elliptical contacts: its equations written anew, its limits, its certificate."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
 
 from bem import Body, InputError, Layer, Lubricant, Material, solve_line_film, solve_point_film
+from bem.lubrication.point import cascade
 from bem.lubrication.point.kept import certificate, least_film
 from bem.lubrication.point.validity import inlet_shear
 from bem.reference_solutions.hertz import ellipse_contact
@@ -75,9 +77,11 @@ def test_pressure_and_film_satisfy_the_equations_written_anew(ratio, angle):
         nodes, weights = np.polynomial.legendre.leggauss(20)
         share = 0.5 * (nodes + 1)[:, None, None]
         fluid = np.tensordot(0.5 * weights, m[1:] ** -share * m[:-1] ** (share - 1), 1)
-        driven = -0.5 * (d[1:] + d[:-1]) * (0.5 * (f[1:] + f[:-1])) ** 3 * fluid / 12 * np.diff(q, axis=0) / step
+        # and of 1/h^3 with h linear; what is dragged by logarithms
+        cube = 1 / np.tensordot(0.5 * weights, (share * f[1:] + (1 - share) * f[:-1]) ** -3.0, 1)
+        driven = -0.5 * (d[1:] + d[:-1]) * cube * fluid / 12 * np.diff(q, axis=0) / step
         mass = d * f
-        dragged = 0.375 * mass[2:] + 0.75 * mass[1:-1] - 0.125 * mass[:-2]
+        dragged = mass[2:] ** 0.375 * mass[1:-1] ** 0.75 / mass[:-2] ** 0.125
         return np.moveaxis(driven[1:] + mean[axis] * dragged, 0, axis)
 
     flow_x, flow_y = through(0), through(1)
@@ -143,7 +147,8 @@ def test_a_rigid_ball_carries_what_reynolds_equation_on_rays_does():
     assert number == pytest.approx(fine + (fine - coarse) / 3, rel=3e-3)
     # half-Sommerfeld, closed: 12 pi / 5 / sqrt 2
     assert number > 12 * math.pi / 5 / math.sqrt(2)
-    assert film.minimum_thickness == pytest.approx(film.central_thickness, rel=1e-9)
+    # of a parabola, by its logarithms: fourth order in the cell, 2e-6 here
+    assert film.minimum_thickness == pytest.approx(film.central_thickness, rel=1e-5)
 
 
 def test_far_pressure_of_a_sphere_ruptures_where_the_closed_form_does():
@@ -178,9 +183,10 @@ def test_a_heavily_loaded_contact_has_hertz_pressure():
 
 @pytest.mark.slow
 def test_a_long_ellipse_has_the_film_of_a_line_contact():
+    """On a grid that begins half as far again as by itself: from there films are 0.35 % too thick."""
     ratio = 0.01
     case = moes(200 * ratio**-0.8, 8, ratio)
-    film = solve_point_film(**case, shape=(320, 112))
+    film = solve_point_film(**case, shape=(200, 56), extent=(-480e-6, 197e-6, -3.38e-3, 3.38e-3))
     assert film.status == "converged"
     per_length = float(np.interp(0.0, film.y, film.pressure.sum(axis=0))) * (film.x[1] - film.x[0])
     line = solve_line_film(
@@ -195,11 +201,41 @@ def test_films_converge_with_second_order_and_their_errors_cover_them():
     case = moes(200, 6)
     films = [solve_point_film(**case, shape=(n, n)) for n in (64, 128, 256)]
     assert all(film.status == "converged" for film in films)
-    for name in ("central_thickness", "minimum_thickness"):
-        a, b, c = (getattr(film, name) for film in films)
-        assert abs(b - c) < 0.4 * abs(a - b)
-        best = c + (c - b) / 3
-        assert abs(b - best) < 2 * getattr(films[1], f"{name}_error") < 0.02 * best
+    a, b, c = (film.central_thickness for film in films)
+    # a quarter is what second order leaves
+    assert abs(b - c) < 0.3 * abs(a - b)
+    best = c + (c - b) / 3
+    assert abs(b - best) < films[1].central_thickness_error < 5e-3 * best
+    # the minimum's errors go up and down by where cells lie: 1.2901 are those of 384 and 512 a side
+    least = RADIUS * (6 / (ALPHA * 2 * MODULUS)) ** 2 * 1.2901
+    for film in films:
+        assert film.minimum_thickness == pytest.approx(least, rel=2e-3)
+    assert abs(films[1].minimum_thickness - least) < films[1].minimum_thickness_error < 1e-2 * least
+
+
+@pytest.mark.parametrize(
+    "contact",
+    [
+        # oil slipped through constrictions of a cell and sides ran dry, or faces took it backwards; 48 cells stalled
+        (9416.4, 21.43, 3.665),
+        (4820.7, 2.7096, 12.42),
+        (7684.4, 0.5023, 2.331),
+        # the first step from the film expected leads nowhere, that from a thicker one does
+        (963.7, 0.5297, 10.73, 1.9584),
+    ],
+)
+def test_heavy_and_narrow_ellipses_have_films_on_coarse_grids(contact):
+    film = solve_point_film(**moes(*contact), shape=(48, 48))
+    assert film.status == "converged"
+
+
+def test_a_film_does_not_depend_on_oil_that_slips_through_a_constriction_of_a_cell():
+    """Between cells a thin one is a barrier. With the cube of the mean film these were off by 1.1 and 1.7 %."""
+    film = solve_point_film(**moes(200, 5), shape=(64, 64))
+    # 2.578 and 1.180 are the limits of 64, 128 and 256 cells with that rule
+    unit = RADIUS * (5 / (ALPHA * 2 * MODULUS)) ** 2
+    assert film.central_thickness / unit == pytest.approx(2.578, rel=7e-3)
+    assert film.minimum_thickness / unit == pytest.approx(1.180, rel=7e-3)
 
 
 def test_entrainment_across_is_the_same_as_axes_exchanged_and_backwards_the_same_mirrored():
@@ -242,15 +278,22 @@ def test_what_is_not_met_is_not_called_converged():
 def test_no_constriction_is_so_narrow_that_a_film_is_negative():
     """The paraboloid through its lowest cell went below zero, and that was shown."""
     x, y = np.arange(-5.0, 6.0)[:, None], np.arange(-5.0, 6.0)[None, :]
-    wide = 1 + 0.05 * ((x - 0.3) ** 2 + (y + 0.2) ** 2 + 0.5 * (x - 0.3) * (y + 0.2))
+    wide = np.exp(0.05 * ((x - 0.3) ** 2 + (y + 0.2) ** 2 + 0.5 * (x - 0.3) * (y + 0.2)))
     assert least_film(wide) == pytest.approx(1.0, rel=1e-12)
     # a constriction of one cell
     narrow = 1 + np.where(x > 0, 100 * x, -10 * x) + 0.1 * y**2
-    assert least_film(narrow) == 1.0
+    assert 0.8 < least_film(narrow) < 1.0
 
 
-def test_an_error_that_no_coarser_grid_gives_is_said_to_be_unknown():
-    """A ball at 4 mm/s in thin oil: on half as many cells there is no film."""
+def test_an_error_that_no_coarser_grid_gives_is_said_to_be_unknown(monkeypatch):
+    """As where half as many cells have no film."""
+    newton = cascade.newton
+
+    def without(level, *given):
+        found = newton(level, *given)
+        return found if level.shape == (112, 112) else replace(found, converged=False)
+
+    monkeypatch.setattr(cascade, "newton", without)
     film = solve_point_film(
         load=20.0, radii=(12.7e-3, 12.7e-3), contact_modulus=115e9, speeds=(0.004, 0.004),
         lubricant=Lubricant(0.02, pressure_viscosity=20e-9), shape=(112, 112),
@@ -262,12 +305,12 @@ def test_an_error_that_no_coarser_grid_gives_is_said_to_be_unknown():
 
 
 def test_errors_cover_films_that_are_far_from_second_order():
-    """A third of the difference to half as many cells, 0.22 nm, was said to be left of 0.62 nm."""
+    """A third of the difference to half as many cells, 0.05 nm, was said to be left of 0.23 nm."""
     case = {"load": 20.0, "radii": (12.7e-3,) * 2, "contact_modulus": 115e9, "speeds": (0.006, 0.006)}
     film = solve_point_film(**case, lubricant=Lubricant(0.02, pressure_viscosity=20e-9), shape=(128, 128))
     assert film.status == "converged"
-    # of 256 x 256 cells
-    assert abs(film.minimum_thickness - 1.301e-9) < film.minimum_thickness_error
+    # of 512 x 512 cells
+    assert abs(film.minimum_thickness - 1.368e-9) < film.minimum_thickness_error
 
 
 def test_friction_of_a_light_contact_says_what_the_inlet_adds():
