@@ -35,9 +35,9 @@ def body() -> str:
             "unit Rx U^(1/2) with U = mu (u1 + u2)/(2 E* Rx). Each is solved from nothing on three grids, of 48, 96 "
             "and 192 cells a side. From these come the observed order, where all three converged and both differences "
             "have one sign (two is expected), and the film extrapolated by the ratio of the differences, as of an "
-            "order held within 0.5 and 3, of two where none shows. Errors and error bars are in per cent of that film; the rectangle is the "
-            "same on all grids, what lies beyond it is in no error. The table is made again by python -m "
-            "reports.experiments.point_table."
+            "order held within 0.5 and 3, of two where none shows. Errors and error bars are in per cent of "
+            "that film; the rectangle is the same on all grids, what lies beyond it is in no error. The table is made "
+            "again by python -m reports.experiments.point_table."
         )
         + figure(
             drawing(good),

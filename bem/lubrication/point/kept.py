@@ -109,7 +109,7 @@ def least_film(film: FloatArray) -> float:
     films themselves overshot narrow constrictions, below zero even (three times the error of the lowest cell's own)."""
     nx, ny = film.shape
     i, j = np.unravel_index(int(film.argmin()), film.shape)
-    if not (0 < i < nx - 1 and 0 < j < ny - 1):
+    if not (0 < i < nx - 1 and 0 < j < ny - 1 and film[i, j] > 0):
         return float(film[i, j])
     f = np.log(film[i - 1 : i + 2, j - 1 : j + 2] / film[i, j])
     slope = 0.5 * np.array([f[2, 1] - f[0, 1], f[1, 2] - f[1, 0]])
