@@ -22,6 +22,7 @@ from bem.friction.films import films_of
 from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, unrubbed, validity_notes
 from bem.friction.oil_beside import OilBeside, oil_notes
 from bem.friction.oil_sensitivity import oil_beside
+from bem.friction.oil_volume import OilVolume
 from bem.friction.rough_contact import CoupledContact, RoughContact, boundary_traction, rough_contact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
@@ -54,6 +55,12 @@ Temperatures are those of the surfaces in contact, mean by pressure and highest;
 0 where no heat was asked for."""
 
 REGIMES = tuple(Regime)
+FEW = 0.01
+"""Share of the load on particles up to which the oil beside the contact is judged without them."""
+_OIL_UNKNOWN = (
+    "how far the load sharing hangs on the oil beside Hertz' contact is not known with particles that bear load: "
+    'compare sharing.oil_volume = "loaded"'
+)
 
 
 @dataclass(frozen=True)
@@ -109,7 +116,7 @@ class MixedContact:
         self._coupling: tuple[str, ...] = ()
         self._last: tuple[Balance, FloatArray] | None = None
         self._particles: ThirdBodies | None = None
-        self._slide = 0.0
+        self._slide, self._borne = 0.0, 0.0
 
     def bearing(self, particles: ThirdBodies, slide: float) -> MixedContact:
         """This contact with particles between its surfaces, while the bodies slide so far in a cycle [m].
@@ -165,11 +172,13 @@ class MixedContact:
         notes += [*self.film_notes, *validity_notes(friction, self._forces, self.film, self._whole, self.setup)]
         oil = self.oil()
         hanging = () if oil is None else tuple(f"last cycle: {note}" for note in oil_notes([oil]))
+        if self._borne > FEW and self.setup.counted is OilVolume.PATCH:
+            hanging = (_OIL_UNKNOWN,)
         return (*notes, *self._coupling, *hanging)
 
     def oil(self) -> OilBeside | None:
         """How far the last cycle's load sharing hangs on the oil beside Hertz' contact; one more balance."""
-        if self._last is None or self._whole is None or self._particles is not None:
+        if self._last is None or self._whole is None or self._borne > FEW:
             return None  # with particles it would be another contact's
         (balance, heights), friction = self._last, float(self.rows["friction"][-1])
         return oil_beside(self.setup, heights, balance, self._whole, speeds=self.speeds, friction=friction)
@@ -181,6 +190,7 @@ class MixedContact:
         if isinstance(rough, ContactWithBodies):
             forces = rough.rolling(forces, contact, slides)
             bodies = rough.told(contact, self._slide)
+        self._borne = 0.0 if bodies is None else bodies.load * setup.slices / setup.load
         self._forces, self._coupling = forces, coupling_notes(forces, rough.traction, setup)
         shift = 0.0 if contact is None else contact.approach
         new = np.zeros(1, MIXED_FIELDS)

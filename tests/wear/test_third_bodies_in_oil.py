@@ -64,6 +64,16 @@ def test_rough_surfaces_share_with_both_and_few_or_small_ones_change_nothing():
     assert found.load < 0.7 * before.load
 
 
+def test_what_hangs_on_the_oil_beside_the_contact_is_said_with_particles_too():
+    few, many = (shared(ROUGH, number)[1] for number in (1e5, 1e11))
+    alone = step()
+    alone(ROUGH, None)
+    # so few that they count for nothing: judged as without them
+    assert few.oil().contact_share == pytest.approx(alone.oil().contact_share, rel=1e-2)
+    assert many.oil() is None
+    assert any("is not known with particles that bear load" in note for note in many.notes)
+
+
 @pytest.mark.parametrize("counted", ["patch", "loaded"])
 def test_a_film_that_clears_the_roughness_by_less_than_a_particle_is_no_full_film(counted):
     fast = step((2.0, 0.0), oil_volume=counted)
