@@ -90,7 +90,8 @@ def mistakes_of(table: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def with_value(table: Mapping[str, Any], key: str, text: str) -> dict[str, Any]:
-    """A copy of a scene's table with what was typed at a key; empty text takes the key out.
+    """A copy of a scene's table with what was typed at a key; empty text takes the key out, and with the last one of an
+    inner table that table: a coating whose thickness and material are gone is none.
 
     Raises
     ------
@@ -101,7 +102,12 @@ def with_value(table: Mapping[str, Any], key: str, text: str) -> dict[str, Any]:
     parsed = parse_key(key)
     if not text.strip() and (parsed is None or value_at(table, parsed) is None):
         return dict(table)
-    return read_table(table, [f"{key}={text}"])
+    changed = read_table(table, [f"{key}={text}"])
+    above = key.rpartition(".")[0]
+    while not text.strip() and "." in above and value_at(changed, parse_key(above) or ()) == {}:
+        changed = read_table(changed, [f"{above}="])
+        above = above.rpartition(".")[0]
+    return changed
 
 
 def with_kind(table: Mapping[str, Any], entry: Entry, kind: str) -> dict[str, Any]:

@@ -65,6 +65,17 @@ def test_what_is_typed_goes_into_the_table_and_nothing_takes_it_out():
     assert mistake.startswith("contact.laod: unknown key - did you mean")
 
 
+def test_a_coating_is_taken_off_with_its_last_key():
+    """Its empty table would ask for both keys again."""
+    table = start_of("contact")
+    assert "layer" in table["lower"]
+    without = with_value(with_value(table, "lower.layer.thickness", ""), "lower.layer.material", "")
+    assert "layer" not in without["lower"]
+    assert load_scene(without).lower.stack == []
+    assert load_scene(with_value(with_value(without, "lower.layer.thickness", "1 um"), "lower.layer.material", "dlc"))
+    assert with_value({"kind": "contact", "contact": {"load": "1 N"}}, "contact.load", "")["contact"] == {}
+
+
 def test_another_table_keeps_what_both_have():
     table = start_of("contact")
     form = form_of("contact")
