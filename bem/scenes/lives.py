@@ -120,12 +120,12 @@ def bars(scene: Any, initial: tuple[FloatArray, FloatArray], end: LifeState) -> 
     def half(positions: int) -> LifeState | None:
         keys = {"wear.positions": positions, "particles": None, "fatigue": None}
 
-        def end(heights: tuple[FloatArray, FloatArray], across: float) -> LifeState:
+        def life(heights: tuple[FloatArray, FloatArray], across: float) -> LifeState:
             cells = wearing.grid_keys(scene, 0.5, across)
             own = {name: value for name, value in cells.items() if name.startswith("grid.")}
             return end_of(with_keys(scene, own | keys), heights)
 
-        return wearing.on_every_second_cell(initial, grid, end)
+        return wearing.on_every_second_cell(initial, grid, life)
 
     grid, positions = build.grid_of(scene.grid), scene.wear.positions
     coarser, fewer = half(positions), half(fewer_positions(positions))

@@ -100,7 +100,8 @@ def plan(scene: RunningInScene) -> Plan:
         *wearing.cycle_steps(
             scene, grid, contacts=_CONTACTS, friction=float(scene.contact.boundary_friction != 0), **cycles
         ),
-        wearing.bars_step(scene, grid, _CONVOLUTIONS),
+        # a film that cannot be halved takes a second loop
+        wearing.bars_step(scene, grid, _CONVOLUTIONS * (1 if wearing.film_is_halved(scene) else 2)),
         plans.figures(grid.cells),
     )
 
