@@ -48,6 +48,23 @@ def body() -> str:
         )
         + "".join(_table(rows, name) for name in FILMS)
         + "".join(text(words) for words in _verdict(stored["asked"], rows, good))
+        + text(_survey(found("point_films")))
+    )
+
+
+def _survey(stored: dict[str, Any]) -> str:
+    """How many of random contacts have a film, from nothing."""
+    rows = stored["contacts"]
+    statuses = [row["status"] for row in rows]
+    shares = [(cells, share) for cells, share in stored["shares"].items() if cells != "refused"]
+    return (
+        f"{len(rows)} random contacts from nothing (M 1 to 20,000, L 0 to 25, Rx/Ry 0.05 to 20, half of them with oil "
+        f"from any direction, either cavitation in turn): {statuses.count('converged')} converge, "
+        f"{statuses.count('stalled')} stall and say so, {statuses.count('refused')} are refused because across their "
+        "narrow ellipse the load is beyond those that a film is looked for under. Of the others "
+        + ", ".join(f"{100 * share:.3g} % have a film on {cells} cells a side" for cells, share in shares)
+        + ". Whether it is accurate there is another question, which its error bars answer. The survey is made again "
+        "by python -m reports.experiments.point_films."
     )
 
 

@@ -58,6 +58,8 @@ def test_point_films_are_shown_with_orders_and_fits(page):
     )
     assert "Hamrock and Dowson" in body
     assert "Nijenbanning" in body
+    surveyed = [row["status"] for row in kept.found("point_films")["contacts"]]
+    assert f"{surveyed.count('converged')} converge, {surveyed.count('stalled')} stall" in body
 
 
 def test_a_point_film_that_stalled_is_shown_as_none(monkeypatch):
@@ -67,7 +69,8 @@ def test_a_point_film_that_stalled_is_shown_as_none(monkeypatch):
     stored["contacts"][0] |= {"status": ["converged", "converged", "stalled"], "central_bar": None, "minimum_bar": None}
     for row in stored["contacts"][1:]:  # stored ones that stalled have none
         row |= {f"{name}_bar": row[f"{name}_bar"] or 1.0 for name in ("central", "minimum")}
-    monkeypatch.setattr(point_film, "found", lambda _: stored)
+    both = {"point_table": stored, "point_films": kept.found("point_films")}
+    monkeypatch.setattr(point_film, "found", both.__getitem__)
     assert point_film.body().count(">stalled<") == 2  # its central and its minimum film
 
 
