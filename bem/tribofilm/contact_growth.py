@@ -68,7 +68,7 @@ class FilmContact:
     def hardness_at(self, thickness: float) -> float:
         """That of a film of some thickness [m], or of the counterface where that is softer [Pa]."""
         hardness = self.hardness(thickness, self.temperature)
-        other = None if self.counterface is None else self.counterface.hardness
+        other = None if self.counterface is None else self.counterface.indentation_hardness
         return hardness if other is None else min(hardness, other)
 
 

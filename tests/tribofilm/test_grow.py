@@ -100,6 +100,15 @@ STEEL = Material(
 )
 
 
+def test_no_film_carries_more_than_a_counterface_that_yields():
+    """A polymer with a yield stress alone: 2.8 times that, as in any capped contact."""
+    polymer = Material("polymer", youngs_modulus=4e9, poissons_ratio=0.4, yield_stress=100e6)
+    film = contact(counterface=polymer, load=2e-7)
+    assert film.hardness_at(0.0) == 280e6
+    # rounding of 2.8 times the yield stress
+    assert solve_film_contact(film, 2e-9).pressure.max() == pytest.approx(280e6, rel=1e-12)
+
+
 def test_spots_grow_as_warm_as_rubbing_makes_them():
     """Growth of each cell is the law's at the temperature that its heat conducts to, and no rubbing is no heat."""
     ball = {"gap": (GRID.x[:, None] ** 2 + GRID.y[None, :] ** 2) / 2 / 53e-9, "substrate": STEEL, "counterface": STEEL}

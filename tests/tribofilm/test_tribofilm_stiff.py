@@ -90,5 +90,13 @@ def test_a_load_beyond_the_softest_film_is_refused_by_the_plan():
         plan_scene(film_scene("1 uN", SOFTENING))
 
 
+def test_a_counter_body_with_a_yield_stress_alone_limits_the_load():
+    """2.8 x 100 MPa on 1.6e-15 m2 are 0.45 uN; it had counted as infinitely hard."""
+    polymer = {"name": "polymer", "youngs_modulus": "4 GPa", "poissons_ratio": 0.4, "yield_stress": "100 MPa"}
+    plan_scene(film_scene("0.4 uN", SOFTENING) | {"upper": {"material": polymer}})
+    with pytest.raises(InfeasibleError, match=r"rubbing\.loads: 5e-07 N is beyond .* 4\.48e-07 N"):
+        plan_scene(film_scene("0.5 uN", SOFTENING) | {"upper": {"material": polymer}})
+
+
 def test_a_film_that_stays_thin_is_not_refused_for_what_it_never_becomes():
     plan_scene(film_scene("1 uN", SOFTENING, wear_coefficient="1e6 1/s"))

@@ -11,6 +11,7 @@ from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError
 from bem.grid import FloatArray, Grid
+from bem.materials import softer_hardness
 from bem.reference_solutions.hertz import sphere_contact
 from bem.scenes import build
 from bem.scenes.axes import Model, with_keys
@@ -186,7 +187,7 @@ class RubbedScene(SceneModel):
 
         film, rubbing = self.film, self.rubbing
         laws = film.hardness, film.kinetics(), film.balance()
-        other = math.inf if self.upper.material is None else self.upper.material.hardness or math.inf
+        other = softer_hardness(self.upper.build()) or math.inf
         return min(
             other,
             *(
