@@ -111,7 +111,10 @@ def cross_hatch(
     nearest = np.full(grid.shape, np.inf)
     for sign in (1.0, -1.0):
         along = normal[0] * places[0][:, None] + sign * normal[1] * places[1][None, :]
-        np.minimum(nearest, _to_the_nearest(along, period, width, spacing, random), out=nearest)
+        sides = normal[0] * grid.lengths[0], sign * normal[1] * grid.lengths[1]
+        # ends of the rectangle, not of its cells' middles, with which grooves would move
+        ends = min(0.0, sides[1]) - width, sides[0] + max(0.0, sides[1]) + width
+        np.minimum(nearest, _to_the_nearest(along, ends, period, spacing, random), out=nearest)
     return np.asarray(-depth * np.maximum(1 - (2 * nearest / width) ** 2, 0.0))
 
 
@@ -175,10 +178,11 @@ def _closing(across: float, along: float, half: float, spacing: float, lay: Lay)
 
 
 def _to_the_nearest(
-    along: FloatArray, period: float | None, width: float, spacing: float, random: np.random.Generator
+    along: FloatArray, ends: tuple[float, float], period: float | None, spacing: float, random: np.random.Generator
 ) -> FloatArray:
-    """How far each cell is from the middle of the nearest groove of one direction [m], across it."""
-    low, high = float(along.min()) - width, float(along.max()) + width
+    """How far each cell is from the middle of the nearest groove of one direction [m], across it; middles lie between
+    both ends, or anywhere in a period."""
+    low, high = ends
     room = high - low if period is None else period
     middles = np.sort(random.random(max(1, round(room / spacing)))) * room
     at = along - low if period is None else along % room

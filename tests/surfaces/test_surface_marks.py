@@ -42,14 +42,15 @@ def test_cusps_have_their_moments_and_autocorrelation(lay):
     np.testing.assert_allclose(found, 1 - 30 * t**2 * (1 - t) ** 2, atol=1e-4)
 
 
-def test_marks_are_the_same_on_every_grid():
+@pytest.mark.parametrize("periodic", [PERIODIC, (False, False)])
+def test_marks_are_the_same_on_every_grid(periodic):
     """Middles of 3 k cells of a side fall on every third of k's, so both grids see the same places."""
     for marks, keys in (
         (feed_marks, {"feed": FEED, "nose_radius": NOSE}),
         (cross_hatch, HATCH | {"angle": math.pi / 2}),
     ):
         coarse, fine = (
-            marks(Grid((n, n), (5e-4 / n, 5e-4 / n), periodic=PERIODIC), seed=7, **keys) for n in (180, 540)
+            marks(Grid((n, n), (5e-4 / n, 5e-4 / n), periodic=periodic), seed=7, **keys) for n in (180, 540)
         )
         np.testing.assert_allclose(fine[1::3, 1::3], coarse, rtol=0, atol=1e-9 * np.ptp(coarse))
 
