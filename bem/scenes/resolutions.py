@@ -179,26 +179,36 @@ def _lengths(scene: Any) -> tuple[float, float]:
         )
     surfaces = [s for s in _surfaces(scene) if isinstance(s, GeneratedSurface)]
     height = _HIGH * math.hypot(*(surface.rms_height for surface in surfaces))
-    longest = max((max(_longest(surface)) for surface in surfaces), default=0.0)
+    waves = [_longest(surface) for surface in surfaces]
+    longest = [max(along, default=0.0) for along in (zip(*waves, strict=True) if waves else ((), ()))]
     spread = scene.plastic_spread(smooth)
     x, y = (
-        max(longest, 2 * _MARGIN * math.hypot(spread * a, math.sqrt(2 * r) * math.sqrt(height)))
-        for a, r in zip(smooth.semi_axes, smooth.radii, strict=True)
+        max(wave, 2 * _MARGIN * math.hypot(spread * a, math.sqrt(2 * r) * math.sqrt(height)))
+        for wave, a, r in zip(longest, smooth.semi_axes, smooth.radii, strict=True)
     )
     if slices:
-        if not all(any(_longest(surface)) for surface in surfaces):
+        if not all(any(wave) for wave in waves):
             raise InputError(
                 "grid.lengths: missing, and the surfaces have no longest wave that would say how much of them a patch "
                 "must hold; allowed: the sides of the patch, or a surface with correlation_length or rolloff_wavelength"
             )
-        y = min(_WAVES * longest or x, scene.contact.length)
+        y = min(_WAVES * longest[1] or x, scene.contact.length)
     return float(f"{x:.2g}"), float(f"{y:.2g}")
 
 
 def _longest(surface: GeneratedSurface) -> tuple[float, float]:
-    """What holds the long waves of a generated surface, by its correlation length and by its roll-off [m]; 0 where it
-    has none."""
-    return _PER_LENGTH * (surface.correlation_length or 0.0), surface.rolloff_wavelength or 0.0
+    """What holds the long waves of a generated surface along x and y [m]; 0 where it has none."""
+    x, y = _correlation_lengths(surface) or (0.0, 0.0)
+    rolloff = surface.rolloff_wavelength or 0.0
+    return max(_PER_LENGTH * x, rolloff), max(_PER_LENGTH * y, rolloff)
+
+
+def _correlation_lengths(surface: GeneratedSurface) -> tuple[float, float] | None:
+    """Along x and y [m]; None where there are none."""
+    if surface.correlation_length is None:
+        return None
+    root = math.sqrt(surface.elongation or 1.0)
+    return surface.correlation_length * root, surface.correlation_length / root
 
 
 def _fewest_cells(scene: Any, lengths: tuple[float, float]) -> Iterator[tuple[float, float]]:
@@ -225,9 +235,8 @@ def _finest(body: str, surface: GeneratedSurface) -> Iterator[tuple[float, float
     """The shortest wave or the correlation lengths along x and y [m]."""
     if surface.cutoff_wavelength is not None:
         yield surface.cutoff_wavelength, surface.cutoff_wavelength
-    elif surface.correlation_length is not None:
-        root = math.sqrt(surface.elongation or 1.0)
-        yield surface.correlation_length * root, surface.correlation_length / root
+    elif (lengths := _correlation_lengths(surface)) is not None:
+        yield lengths
     elif surface.drawn_on is None:
         raise InputError(
             f"{body}.surface.cutoff_wavelength: missing where an accuracy is asked for: without it a finer grid has "

@@ -261,6 +261,10 @@ def test_the_patch_under_oil_holds_the_contact_and_the_longest_waves():
     assert 2 * half.semi_axes[0] < grid.lengths[0] < 2.5 * math.hypot(half.semi_axes[0], (6 * 10e-3 * 0.2e-6) ** 0.5)
     assert grid.lengths[1] == pytest.approx(4 * 8 * 5e-6)
     assert len(set(planned_grid(OILED).lengths)) == 1  # smooth: as long as wide
+    # ridges along the cylinder are longer by the root of 9 along it, and the contact is wider than they are
+    ridges = rough | {"lower": {"material": "steel-52100", "surface": waves | {"elongation": 1 / 9}}}
+    assert planned_grid(ridges).lengths[1] == pytest.approx(3 * grid.lengths[1])
+    assert planned_grid(ridges).lengths[0] == grid.lengths[0]
     thin = rough["contact"] | {"width": "0.1 mm", "loads": ["2 N"]}
     assert planned_grid(rough | {"contact": thin}).lengths[1] == pytest.approx(1e-4)
     ball = {"ball": "10 mm", "loads": ["10 N"], "boundary_friction": 0.1}
