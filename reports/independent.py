@@ -44,8 +44,7 @@ def _kept(name: str, drawn: Callable[[Any], str]) -> str:
         found = kept.found(name)
     except FileNotFoundError:
         return text(f"Not run: python -m reports.experiments.{name}")
-    state = kept.stale(name)
-    return drawn(found) + (text(f"Result of {name}: {state}.") if state else "")
+    return drawn(found) + kept.age(name)
 
 
 def _verdict(agrees: bool) -> str:

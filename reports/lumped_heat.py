@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from reports.builder import Section, table, text
+from reports.experiments.kept import age
 from reports.prose import prose
 
 RESULT = Path(__file__).parent / "results" / "lumped_heat.json"
@@ -33,7 +34,9 @@ def rows() -> tuple[dict[str, Any], ...]:
 
 def chapter() -> Section:
     """The table."""
-    return Section("What lumped heat misses", text(prose("guide")["lumped_heat"]) + table(HEADERS, _cells()))
+    return Section(
+        "What lumped heat misses", text(prose("guide")["lumped_heat"]) + table(HEADERS, _cells()) + age("lumped_heat")
+    )
 
 
 def _cells() -> Iterator[tuple[str, ...]]:

@@ -25,7 +25,6 @@ def body() -> str:
         found = kept.found(NAME)
     except FileNotFoundError:
         return text(f"Not run: python -m reports.experiments.{NAME}")
-    state = kept.stale(NAME)
     lines = [line for contact, one in found.items() for line in _lines(contact, **one)]
     return (
         text(
@@ -35,7 +34,7 @@ def body() -> str:
         )
         + table(HEADERS, lines, caption="Effects on Stribeck curves of paper A.")
         + figure(_drawn(found), "Friction over speed; as in the source where that stays below 1.")
-        + (text(f"Result of {NAME}: {state}.") if state else "")
+        + kept.age(NAME)
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from reports.builder import figure, table, text
-from reports.experiments.kept import found
+from reports.experiments.kept import age, found
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -48,7 +48,9 @@ def body() -> str:
         )
         + "".join(_table(rows, name) for name in FILMS)
         + "".join(text(words) for words in _verdict(stored["asked"], rows, good))
+        + age("point_table")
         + text(_survey(found("point_films")))
+        + age("point_films")
     )
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from bem.lubrication.point.waviness import amplitude_reduction
 from reports.builder import picture, table, text
-from reports.experiments.kept import found
+from reports.experiments.kept import age, found
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -41,6 +41,7 @@ def body() -> str:
         )
         + table(WAVES, lines, caption="Amplitudes of waves in the centre over those of the surface, and fits.")
         + text(_verdict(stored["points"], stored["lines"]))
+        + age("waviness_reduction")
     )
 
 

@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from reports.builder import COLOURS, figure, table, text
-from reports.experiments.kept import found
+from reports.experiments.kept import age, found
 from reports.prose import prose
 
 if TYPE_CHECKING:
@@ -46,6 +46,7 @@ def body() -> str:
         )
         + "".join(_table(case) for case in cases)
         + text(words["reading"])
+        + age("rough_films")
     )
 
 

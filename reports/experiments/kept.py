@@ -10,6 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from reports.builder import text
 from reports.validation_origin import bare_digest, commit, modules
 
 RESULTS = Path(__file__).resolve().parents[1] / "results"
@@ -64,3 +65,9 @@ def stale(name: str) -> str:
     if origin is None:
         return "stale: kept without its code's hash"
     return "" if origin["code_hash"] == code_hash(name) else "stale: code changed since"
+
+
+def age(name: str) -> str:
+    """A paragraph, as HTML, below an experiment's result that no longer stands; empty where it does."""
+    state = stale(name)
+    return text(f"Result of {name}: {state}.") if state else ""

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from bem.verification import registry
-from reports import builder, point_film, verification
+from reports import builder, lumped_heat, point_film, rolling_waves, rough_films, verification
 from reports.experiments import kept, point_table
 from reports.prose import prose
 
@@ -72,6 +72,14 @@ def test_a_point_film_that_stalled_is_shown_as_none(monkeypatch):
     both = {"point_table": stored, "point_films": kept.found("point_films")}
     monkeypatch.setattr(point_film, "found", both.__getitem__)
     assert point_film.body().count(">stalled<") == 2  # its central and its minimum film
+
+
+@pytest.mark.parametrize("state", ["", "stale: code changed since"])
+def test_results_of_older_code_say_so(monkeypatch, state):
+    monkeypatch.setattr(kept, "stale", lambda name: state)
+    shown = point_film.body() + rolling_waves.body() + rough_films.body() + lumped_heat.chapter().body
+    for name in ("point_table", "point_films", "waviness_reduction", "rough_films", "lumped_heat"):
+        assert (f"Result of {name}: {state}." in shown) is bool(state), name
 
 
 def test_an_order_of_point_films_is_of_three_converged_grids():
