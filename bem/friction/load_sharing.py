@@ -92,7 +92,8 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
         the surfaces, cut where they overlap; "film" is the film thickness itself.
     contact_tolerance : of the rough contact.
     film_position : ascending abscissae [m] on which `film` is returned; the film's own mesh by default.
-    striated_exit : whether the oil behind the exit adds to the friction (`FilmSolution.striated_shear_force`).
+    striated_exit : whether the oil behind the exit adds to the friction (`FilmSolution.striated_shear_force`); not with
+        heat.
     initial : solution of a similar case to start from.
     flow_factors : "off", or a table of `bem.flow_factors`: roughness then changes the film too, see `solve_line_film`;
         `lambda_ratio` is that of the film between rough walls.

@@ -173,6 +173,8 @@ class MixedSetup:
             return [f"thermal: {self.thermal!r} is unknown; choose from {', '.join(allowed)}"]
         if self.thermal == "full" and self.supply is not None:
             return ['supply: not there with thermal "full"; take "lumped" or "off" with it, or no supply']
+        if self.striated_exit:
+            return ['striated_exit: not there with heat; leave it out, or take thermal "off"']
         if isinstance(self.bodies, Body) or len(self.bodies) != 2:
             return ["thermal: heat enters both bodies; give a pair"]
         missing = [name for name in HEAT_NEEDS if getattr(self.lubricant, name, None) is None]

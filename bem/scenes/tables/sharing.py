@@ -90,6 +90,15 @@ class CurveScene(HotMixedScene):
     cell_may_repeat = True
 
     @model_validator(mode="after")
+    def _cold_exit(self) -> Self:
+        if self.sharing.striated_exit and self.thermal != "off":
+            raise problem(
+                f'sharing.striated_exit with thermal = "{self.thermal}", whose films know no oil behind the exit',
+                "one without the other",
+            )
+        return self
+
+    @model_validator(mode="after")
     def _point_film(self) -> Self:
         if self.contact.point_radii is None:
             return self
