@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
@@ -181,6 +182,14 @@ class GeneratedSurface(Table):
                 "kurtosis >= 1 + skewness^2",
             )
         return self
+
+    @property
+    def correlation_lengths(self) -> tuple[float, float] | None:
+        """Along x and y [m]; None of a self-affine surface."""
+        if self.correlation_length is None:
+            return None
+        root = math.sqrt(self.elongation or 1.0)
+        return self.correlation_length * root, self.correlation_length / root
 
 
 class MeasuredSurface(Table):

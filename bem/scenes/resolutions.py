@@ -198,17 +198,9 @@ def _lengths(scene: Any) -> tuple[float, float]:
 
 def _longest(surface: GeneratedSurface) -> tuple[float, float]:
     """What holds the long waves of a generated surface along x and y [m]; 0 where it has none."""
-    x, y = _correlation_lengths(surface) or (0.0, 0.0)
+    x, y = surface.correlation_lengths or (0.0, 0.0)
     rolloff = surface.rolloff_wavelength or 0.0
     return max(_PER_LENGTH * x, rolloff), max(_PER_LENGTH * y, rolloff)
-
-
-def _correlation_lengths(surface: GeneratedSurface) -> tuple[float, float] | None:
-    """Along x and y [m]; None where there are none."""
-    if surface.correlation_length is None:
-        return None
-    root = math.sqrt(surface.elongation or 1.0)
-    return surface.correlation_length * root, surface.correlation_length / root
 
 
 def _fewest_cells(scene: Any, lengths: tuple[float, float]) -> Iterator[tuple[float, float]]:
@@ -235,7 +227,7 @@ def _finest(body: str, surface: GeneratedSurface) -> Iterator[tuple[float, float
     """The shortest wave or the correlation lengths along x and y [m]."""
     if surface.cutoff_wavelength is not None:
         yield surface.cutoff_wavelength, surface.cutoff_wavelength
-    elif (lengths := _correlation_lengths(surface)) is not None:
+    elif (lengths := surface.correlation_lengths) is not None:
         yield lengths
     elif surface.drawn_on is None:
         raise InputError(

@@ -236,6 +236,16 @@ def test_a_check_of_scenes_fires_where_it_should_and_not_next_to_it(name):
     assert fired(name, good) == []
 
 
+def test_cells_of_an_elongated_surface_are_looked_at_along_each_axis():
+    """Ridges along y, 36 um by 4 um, on cells of 2 um: of their geometric mean there had been six, and nothing was
+    said; on long cells along them all is well."""
+    ridges = {"lower__surface__correlation_length": "12 um", "lower__surface__elongation": 1 / 9}
+    name, lengths = "few_cells_per_correlation_length", ["120 um", "960 um"]
+    (told,) = fired(name, with_(ROUGH, **ridges, grid__shape=[60, 160], grid__lengths=lengths))
+    assert "surface, 4 um, is 2 cells" in told
+    assert fired(name, with_(ROUGH, **ridges, grid__shape=[120, 160], grid__lengths=lengths)) == []
+
+
 @pytest.fixture
 def maps(tmp_path):
     """Maps of few points, with missing points, with nothing but form, and one as it should be."""

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.registry import scene_check
+from bem.scenes.checks.surfaces_of import RoughSurface
 from bem.scenes.checks.words import si
 from bem.scenes.common import GeneratedSurface
 
@@ -62,14 +63,18 @@ def few_cells_per_wave(facts: Facts) -> Iterator[str]:
 def few_cells_per_correlation_length(facts: Facts) -> Iterator[str]:
     """Between samples further apart than a third of the correlation length a surface is noise: its slope on the grid is
     that of the grid, and asperities are single cells."""
-    for inverse, case, surface in facts.worst_surfaces(lambda s: max(s.grid.spacing) / s.correlation_length):
-        cells = 1 / inverse
+
+    def of_lengths(surface: RoughSurface) -> list[float]:
+        return [d / length for d, length in zip(surface.grid.spacing, surface.correlation_lengths, strict=True)]
+
+    for inverse, case, surface in facts.worst_surfaces(lambda s: max(of_lengths(s))):
+        cells, length = 1 / inverse, surface.correlation_lengths[of_lengths(surface).index(inverse)]
         wave = surface.shortest_wave
         if cells < _CELLS_PER_WAVE and (wave is None or wave >= _CELLS_PER_WAVE * max(surface.grid.spacing)):
             yield (
-                f"grid: the correlation length of the {surface.body} surface, {si(surface.correlation_length, 'm')}, "
+                f"grid: the correlation length of the {surface.body} surface, {si(length, 'm')}, "
                 f"is {cells:.2g} cells{case.at}: asperities are hardly resolved; take a spacing of "
-                f"{si(surface.correlation_length / 6, 'm')} or less"
+                f"{si(length / 6, 'm')} or less"
             )
 
 

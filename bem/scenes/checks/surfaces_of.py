@@ -53,6 +53,15 @@ class RoughSurface:
         """The shortest wave that the scene asks of a generated surface [m]; None where it leaves it to the mesh."""
         return self.table.cutoff_wavelength if isinstance(self.table, GeneratedSurface) else None
 
+    @property
+    def correlation_lengths(self) -> tuple[float, float]:
+        """Along x and y [m]: what the scene asks of an elongated surface, else that of the heights along both."""
+        if isinstance(self.table, GeneratedSurface) and self.table.elongation is not None:
+            asked = self.table.correlation_lengths
+            assert asked is not None
+            return asked
+        return self.correlation_length, self.correlation_length
+
     def describe(self) -> str:
         """Rms height, slope and correlation length in words."""
         length = self.correlation_length
