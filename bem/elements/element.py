@@ -22,7 +22,7 @@ from bem.elements.model import Contacts, ElementModel
 from bem.elements.piston_ring import PistonRingModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.errors import InputError
-from bem.materials import contact_modulus
+from bem.materials import Material, contact_modulus
 from bem.scenes.validate import nearest, show, validate
 from bem.small_files import read_small
 
@@ -65,7 +65,7 @@ class Element:
     @cached_property
     def modulus(self) -> float:
         """Contact modulus of both materials [Pa]."""
-        return contact_modulus(self.model.first.build(), self.model.second.build())
+        return contact_modulus(*self._bodies())
 
     def worst(self) -> ElementContact:
         """That with the highest pressure.
@@ -75,13 +75,18 @@ class Element:
         InputError : nowhere do the bodies touch.
         """
         if not self.found.contacts:
-            raise InputError(f"{self.model.name}: no contact is left: {'; '.join(self.found.notes[:1])}")
+            raise self._no_contact()
         return max(self.found.contacts, key=lambda one: one.hertz(self.modulus).maximum_pressure)
 
+    def _no_contact(self) -> InputError:
+        return InputError(f"{self.model.name}: no contact is left: {'; '.join(self.found.notes[:1])}")
+
     def thinnest(self) -> ElementContact:
-        """That with the thinnest film; InputError without an oil."""
+        """That with the thinnest film; InputError without an oil, or where the bodies touch nowhere."""
         if self.model.oil is None:
             raise InputError(f"{self.model.name}: no oil is given, so no film is the thinnest; allowed: a table [oil]")
+        if not self.found.contacts:
+            raise self._no_contact()
         oil = self.model.oil.build()
         return min(self.found.contacts, key=lambda one: one.minimum_film(self.modulus, oil))
 
@@ -161,7 +166,23 @@ class Element:
                 f"({conforming[0]}, ...): there the gap of conforming bodies is up to 7 % and more over the parabola "
                 "of Hertz and of scenes, on a half-space that such bodies are not"
             )
+        cold = [one.name for one in self._bodies() if not one.thermal_diffusivity]
+        if self.model.oil is not None and cold:
+            said.append(
+                f"films have no heat, here or in scenes: {' and '.join(dict.fromkeys(cold))} without "
+                "thermal_conductivity, heat_capacity and density"
+            )
+        ratios = self.columns().get("film_over_roughness", [])
+        touching = sum(ratio < 1 for ratio in ratios)
+        if touching:
+            said.append(
+                f"at {touching} of {len(ratios)} places the film is thinner than the roughness is high (rms): surfaces "
+                "touch there, which films here and in kind traction leave out; kind friction shares the load"
+            )
         return tuple(said)
+
+    def _bodies(self) -> tuple[Material, Material]:
+        return self.model.first.build(), self.model.second.build()
 
     def scene(self, contact: ElementContact, kind: str) -> dict[str, Any]:
         """The table of a scene of one contact: body 1 the lower one.
@@ -205,7 +226,7 @@ class Element:
             return {**shared, "ball": {"radius": contact.radius, "radius_y": contact.across, "load": contact.load}}
         line_load = contact.line_load(self.modulus)
         width = contact.load / line_load
-        known = all(table.build().thermal_diffusivity for table in (self.model.first, self.model.second))
+        known = all(one.thermal_diffusivity for one in self._bodies())
         return {
             **({} if known else {"thermal": "off"}),  # heat needs the constants of both materials
             **shared,

@@ -1,10 +1,9 @@
 """Rough surfaces: generate, read measured ones, filter, describe.
 
 `generate` makes heights of a `spectrum` (`request` checks what is asked, `moments` imposes skewness and kurtosis),
-`processes` are statistics by how a surface is made, `marks` what a
-tool leaves, `read` opens an instrument's file by its `formats`, `filter`
-levels, despikes, fills, cuts and resamples, `seams` makes a map periodic, `describe` measures; `examples` are two maps
-of our own.
+`processes` are statistics by how a surface is made, `marks` what a tool leaves, `read` opens an instrument's file by
+its `formats`, `filter` levels, despikes, fills, cuts and resamples, `seams` makes a map periodic, `describe` measures;
+`examples` are two maps of our own.
 Names are loaded when first used: planning a contact of smooth bodies costs no transforms and no splines.
 
 Sees grids and no contact. Verified in tests/surfaces: what is asked for is what `describe` finds, the same seed gives

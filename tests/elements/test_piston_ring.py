@@ -125,6 +125,8 @@ def test_over_the_cycle():
     lifted = ring(gas={"crank_angle": ["0 deg", "360 deg"], "pressure": ["-1 MPa", "-1 MPa"]}, tension="1 N")
     with pytest.raises(InputError, match="no contact"):
         lifted.worst()
+    with pytest.raises(InputError, match="no contact is left"):
+        lifted.thinnest()
 
 
 def test_the_note_on_squeeze_is_where_the_film_cannot_follow():
@@ -171,3 +173,14 @@ def test_gas_from_a_table_with_units(tmp_path):
     model = ring(gas={"path": str(file)}).model
     assert model.cycle == pytest.approx(2 * math.pi)
     assert model.line_load(math.pi / 4) == pytest.approx(2 * 12 / 0.08 + 0.5 * 12.5e5 * 1.5e-3)
+
+
+def test_films_without_heat_and_below_the_roughness_are_said():
+    """Grey cast iron has no thermal constants in the catalogue; at one turn a minute a ring has no film."""
+    assert any("no heat" in text and "grey-cast-iron without" in text for text in ring().notes())
+    warm = ring(first="case-hardened-steel")
+    assert not any("no heat" in text for text in warm.notes())
+    said = [text for text in ring(speed="1 rpm").notes() if "thinner than the roughness" in text]
+    assert said
+    assert said[0].startswith("at 12 of 12 places")
+    assert not any("thinner than the roughness" in text for text in warm.notes())
