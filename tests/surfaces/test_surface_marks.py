@@ -7,6 +7,7 @@ import pytest
 
 from bem import Grid, InputError, describe_surface, load_scene, plan_scene, run_scene
 from bem.scenes.build import heights_of, marks_of
+from bem.scenes.checks.facts import examine
 from bem.surfaces import PROCESSES, cross_hatch, feed_marks, generate_surface, hatch_angle
 
 FEED, NOSE = 1e-4, 8e-4
@@ -219,6 +220,18 @@ def test_both_marks_are_one_too_many():
     }
     with pytest.raises(InputError, match="both given"):
         scene_of(kind="generated", rms_height="9 nm", correlation_length="9 um", **marks)
+
+
+def test_a_large_grid_is_described_by_a_part_of_it_that_holds_no_whole_feeds():
+    """Twenty-five feeds on the grid, twelve and a half on the quarter that a plan looks at."""
+    surface = {"kind": "generated", "rms_height": "100 nm", "hurst": 0.8, "rolloff_wavelength": "20 um"}
+    surface |= {"cutoff_wavelength": "4 um", "feed_marks": {"feed": "40 um", "nose_radius": "0.8 mm"}}
+    grid = {"shape": 1024, "lengths": ["1 mm", "1 mm"], "periodic": True}
+    scene = load_scene({**SCENE, "grid": grid, "lower": {"material": "steel-52100", "surface": surface}})
+    assert plan_scene(scene)
+    ((_, found),) = examine(scene).surfaces
+    # waves and cusps know nothing of each other; a part of a surface has a few per cent more or less
+    assert found.rms_height == pytest.approx(math.hypot(1e-7, (40e-6) ** 2 / (12 * math.sqrt(5) * 8e-4)), rel=0.05)
 
 
 def test_a_scene_is_refused_before_any_work_and_runs_where_it_fits(tmp_path):

@@ -108,17 +108,20 @@ def _generated(body: str, table: GeneratedSurface, grid: Grid, seed: int) -> Rou
     if (table.skewness, table.kurtosis) != (0.0, 3.0):
         made += f", skewness {table.skewness:g}, kurtosis {table.kurtosis:g}"
     made += _marks_said(table, grid)
-    patch = _patch(grid)
-    plain = table.model_copy(update={"skewness": 0.0, "kurtosis": 3.0})
+    patch, seed = _patch(grid), derive_seed(seed, body) if table.seed is None else table.seed
+    # marks of a part of a grid do not repeat with it, so that no whole feeds need lie on it
+    marked = grid if patch == grid else Grid(patch.shape, patch.spacing)
+    marks = build.marks_of(table, marked, seed)
     if patch != grid and table.correlation_length is not None:
         # the patch may be too small for it; exp(-(r/l)^2) has the slope 2 Sq / l
         length = table.correlation_length
-        marks = build.marks_of(table, Grid(patch.shape, patch.spacing), derive_seed(seed, body))
-        height, slope, _ = (0.0, 0.0, 0.0) if marks is None else _described(marks, Grid(patch.shape, patch.spacing))
+        height, slope, _ = (0.0, 0.0, 0.0) if marks is None else _described(marks, marked)
         both = math.hypot(table.rms_height, height), math.hypot(2 * table.rms_height / length, slope)
         return RoughSurface(body, table, grid, (made,), *both, length)
-    heights = build.heights_of(plain, patch, derive_seed(seed, body))
-    return RoughSurface(body, table, grid, (made,), *_described(heights, patch))
+    plain = {"skewness": 0.0, "kurtosis": 3.0, "feed_marks": None, "cross_hatch": None}
+    heights = build.heights_of(table.model_copy(update=plain), patch, seed)
+    found = _described(heights, patch) if marks is None else _described(heights + (marks - marks.mean()), marked)
+    return RoughSurface(body, table, grid, (made,), *found)
 
 
 def _marks_said(table: GeneratedSurface, grid: Grid) -> str:

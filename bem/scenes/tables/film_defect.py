@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 class FilmDefectScene(Table):
     """Molecules on the surfaces that keep them from wearing where they stay; the law's rate is then that of bare ones.
 
-    `sliding_speed` and `temperature` are those of speeds and oil where there are some; where `thermal` is not "off" each
-    place has its flash temperature. See `bem.wear.film_defect`.
+    `sliding_speed` and `temperature` are those of speeds and oil where there are some; with `thermal` lumped or full
+    each place has its flash temperature. See `bem.wear.film_defect`.
     """
 
     adsorption_energy: Annotated[Energy, Field(gt=0)]
