@@ -9,15 +9,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import partial
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.grid import FloatArray
+from bem.grid import FloatArray, Grid
 from bem.scenes.context import Context
 from bem.scenes.records import Figure, Record, Series
 from bem.scenes.tables.third_bodies import ThirdBodiesScene
+
+if TYPE_CHECKING:
+    from bem.wear.third_bodies import ThirdBodies
 
 THIRD_BODIES = "it follows the gap between rough surfaces, and how many particles there are is given, not computed"
 _told = partial(Figure, "", optional=True)
@@ -36,6 +39,22 @@ class ThirdBodyRecord(Record):
     third_body_coverage_over_cycles: Annotated[
         FloatArray | None, Series(("cycle",), "1", "share of the area below particles that stay")
     ] = None
+
+
+def third_bodies(scene: Any, grid: Grid, load: float) -> ThirdBodies | None:
+    """Particles between the surfaces of a case that press with a load [N] on its grid; None where there are none.
+
+    Raises
+    ------
+    InputError : a surface without hardness; a cycle in which they cut deeper than they lie.
+    """
+    table = scene.wear.third_bodies
+    if table is None:
+        return None
+    particles: ThirdBodies = table.build(load / grid.area)
+    slide = scene.wear.criterion.distance_per_cycle(abs(scene.wear.shift) * grid.spacing[0])
+    particles.check_slide(slide, particles.hardnesses((scene.lower.build(), scene.upper.build())))
+    return particles
 
 
 def third_body_figures(

@@ -316,6 +316,13 @@ def test_particles_that_stay_in_oil_bear_load_roll_and_are_fed(tmp_path):
     assert compute(campaign_of(plan_scene(with_them, [])[0]), tmp_path).outcome.summary == outcome.summary
 
 
+def test_particles_in_oil_that_cut_deeper_than_they_lie_are_refused_before_any_work():
+    """As between dry surfaces; it was said after the films."""
+    stay = {"diameter": "400 nm", "number_per_area": 6e12, "removed": 1.0}
+    with pytest.raises(InputError, match="cut deeper than they lie"):
+        plan_scene(scene_with(RUNNING_IN, wear={"shift": 60, "third_bodies": stay}), [])
+
+
 def test_hardness_moves_the_cap_and_the_yield_stress():
     data = scene_with(RUNNING_IN, hardnesses=["1 GPa", "20 GPa"], speeds=["0.003 m/s"])
     data["cycles"] = {"count": 3, "averaged": 1, "settled": 3}

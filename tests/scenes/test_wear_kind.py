@@ -274,3 +274,13 @@ def test_as_many_particles_lie_there_as_wear_makes_within_their_residence(scene_
 def test_particles_that_cannot_be_are_refused_before_any_work(scene_file, more, message):
     with pytest.raises(InputError, match=message):
         plan(campaign_of(load_scene(scene_file(WEAR + STAY + more))))
+
+
+@pytest.mark.parametrize(
+    ("given", "lacks"), [('temperature = "90 C"', "sliding_speed"), ('sliding_speed = "0.5 m/s"', "temperature")]
+)
+def test_what_a_boundary_film_between_dry_surfaces_lacks_is_said_before_any_work(scene_file, given, lacks):
+    film = f"\n[wear.film_defect]\nadsorption_energy = 1e-19\n{given}\n[wear.criterion]\nkind = 'archard'\n"
+    law = "specific_wear_rate = 1e-15\ndistance = '1 mm'\n"
+    with pytest.raises(InputError, match=rf"wear\.film_defect\.{lacks}: missing"):
+        plan(campaign_of(load_scene(scene_file(WEAR + film + law))))

@@ -28,7 +28,7 @@ from bem.scenes.rubbing import FRICTION_SLIDES, RubbedRecord, rubbed
 from bem.scenes.tables.film_defect import film_defect
 from bem.scenes.tables.sharing import TEMPERATURES, HotMixedScene, RunningInCycles, RunningInSharing
 from bem.scenes.tables.wear_model import WearScenePart
-from bem.scenes.third_bodies import ThirdBodyRecord, tell_of_third_bodies, third_body_figures
+from bem.scenes.third_bodies import ThirdBodyRecord, tell_of_third_bodies, third_bodies, third_body_figures
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
@@ -85,7 +85,9 @@ def plan(scene: RunningInScene) -> Plan:
     InputError : a patch that does not fit, a wearing body without yield stress. InfeasibleError : too much load.
     """
     grid = scene.check()
-    film_defect(scene)  # what it lacks is said before any work
+    # what these lack is said before any work
+    film_defect(scene)
+    third_bodies(scene, grid, scene.contact.on_patch(scene.load, grid.lengths))
     cycles = {"convolutions": _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": 4 * _DEPTHS_NEEDED}
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
@@ -238,7 +240,7 @@ def wear_down(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], con
         ),
         hardness=scene.contact.hardness,
         contact_step=step,
-        third_bodies=None if third is None else third.build(load / setup.grid.area),
+        third_bodies=third_bodies(scene, setup.grid, load),
         film_defect=film_defect(scene),
     )
     found = third_body_figures(third, result.cycles, scene.cycles.settled, load)

@@ -26,7 +26,13 @@ from bem.scenes.rubbing import RubbedRecord, rubbed
 from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 from bem.scenes.tables.wear_model import WearScenePart
-from bem.scenes.third_bodies import THIRD_BODIES, ThirdBodyRecord, tell_of_third_bodies, third_body_figures
+from bem.scenes.third_bodies import (
+    THIRD_BODIES,
+    ThirdBodyRecord,
+    tell_of_third_bodies,
+    third_bodies,
+    third_body_figures,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -34,7 +40,7 @@ if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
     from bem.scenes.checks.hertz import SmoothContact
     from bem.wear import RunningIn
-    from bem.wear.third_bodies import ThirdBodies
+    from bem.wear.film_defect import FilmDefect
 
 _CONVOLUTIONS = 10  # of one warm-started contact solve, coarse levels included
 _SHARING = 7  # contacts until particles that stay have their share of the load
@@ -94,10 +100,9 @@ def plan(scene: WearScene) -> Plan:
             f"cylinder.loads: {scene.cylinder.loads[0]:g} N is beyond hardness x area of the domain; allowed: a "
             "smaller load, a larger domain or a higher hardness"
         )
-    particles = _third_bodies(scene)
-    if particles is not None:
-        slide = scene.wear.criterion.distance_per_cycle(abs(scene.wear.shift) * grid.spacing[0])
-        particles.check_slide(slide, particles.hardnesses((scene.lower.build(), scene.upper.build())))
+    # what these lack is said before any work
+    _film_defect(scene)
+    particles = third_bodies(scene, *_slice(scene))
     solves = 1 if particles is None else _SHARING
     cycles = {"convolutions": solves * _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": _DEPTHS_AT_FIRST}
     return Plan.of(
@@ -256,17 +261,16 @@ def wear_down(scene: WearScene, initial: tuple[FloatArray, FloatArray], context:
         gap=build.shape_of(cylinder, grid),
         friction=scene.cylinder.friction,
         hardness=scene.cylinder.hardness,
-        third_bodies=_third_bodies(scene),
-        film_defect=None if scene.wear.film_defect is None else scene.wear.film_defect.build(),
+        third_bodies=third_bodies(scene, grid, load),
+        film_defect=_film_defect(scene),
         stop=Settled(tolerance=scene.cycles.tolerance) if scene.cycles.stop_when_settled else None,
     )
     return _record(scene, grid, load, initial, result)
 
 
-def _third_bodies(scene: WearScene) -> ThirdBodies | None:
-    """Particles between the surfaces of a case."""
-    (grid, load), table = _slice(scene), scene.wear.third_bodies
-    return None if table is None else table.build(load / grid.area)
+def _film_defect(scene: WearScene) -> FilmDefect | None:
+    """Of the boundary film of a case; InputError for what it lacks."""
+    return None if scene.wear.film_defect is None else scene.wear.film_defect.build()
 
 
 def _of_third_bodies(scene: WearScene, cycles: NDArray[np.void], load: float) -> dict[str, Any]:
