@@ -439,7 +439,8 @@ def _check_reach(at: FloatArray, state: State, scales: Scales, load: float) -> f
 
 
 def lowest_film(x: FloatArray, film: FloatArray) -> float:
-    """Minimum of the parabola through the lowest node and its neighbours."""
+    """Minimum of the parabola through the lowest node and its neighbours; that node where no such film is left (of one
+    that stalled)."""
     i = int(np.clip(film.argmin(), 1, len(film) - 2))
     left, right = (film[i] - film[i - 1]) / (x[i] - x[i - 1]), (film[i + 1] - film[i]) / (x[i + 1] - x[i])
     curvature = (right - left) / (x[i + 1] - x[i - 1])
@@ -447,4 +448,5 @@ def lowest_film(x: FloatArray, film: FloatArray) -> float:
         return float(film.min())
     slope = left + curvature * (x[i] - x[i - 1])
     at = np.clip(-0.5 * slope / curvature, x[i - 1] - x[i], x[i + 1] - x[i])
-    return float(film[i] + slope * at + curvature * at * at)
+    lowest = float(film[i] + slope * at + curvature * at * at)
+    return lowest if lowest > 0 else float(film.min())

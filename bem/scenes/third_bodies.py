@@ -22,7 +22,9 @@ from bem.scenes.tables.third_bodies import ThirdBodiesScene
 if TYPE_CHECKING:
     from bem.wear.third_bodies import ThirdBodies
 
-THIRD_BODIES = "it follows the gap between rough surfaces, and how many particles there are is given, not computed"
+THIRD_BODIES = (
+    "it follows the gap between rough surfaces, and how many particles there are hangs on numbers that are given"
+)
 _told = partial(Figure, "", optional=True)
 
 

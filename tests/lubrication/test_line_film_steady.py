@@ -15,6 +15,7 @@ import bem.lubrication.line_newton as line_newton
 from bem import InputError, Lubricant, Status, solve_line_film
 from bem.benchmarks.line_film import LOADS, PIEZO, film_row, read_table
 from bem.lubrication.line_newton import newton
+from bem.lubrication.steady import lowest_film
 from bem.reference_solutions import line_film
 from bem.reference_solutions.line_film import MartinFilm, dowson_higginson_minimum, moes_central
 
@@ -348,6 +349,13 @@ def test_a_sharp_spike_that_moves_costs_few_steps(monkeypatch, load, piezo):
         assert eased < sum(spent)
         # the same equations on the same mesh, solved to 1e-8
         np.testing.assert_allclose(film.thickness, plain.thickness, rtol=1e-6)
+
+
+def test_no_minimum_film_is_below_zero():
+    x = np.array([0.0, 1.0, 2.0])
+    assert lowest_film(x, (x - 1.2) ** 2 + 0.1) == pytest.approx(0.1, rel=1e-12)  # a parabola; rounding
+    # a film that stalled, as one at M 9999 on 100 points: its parabola is at -0.11, whose logarithm ended a case
+    assert lowest_film(x, np.array([1.0, 0.01, 0.02])) == 0.01
 
 
 def test_requested_positions():

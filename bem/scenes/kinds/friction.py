@@ -25,7 +25,7 @@ from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, columns, filled, mean, spread
 from bem.scenes.resolutions import CELLS, Resolution, counted
-from bem.scenes.tables.sharing import BASELINE, CurveScene, SurfaceVariant
+from bem.scenes.tables.sharing import BAR_OF_HEAT, BASELINE, CurveScene, SurfaceVariant
 
 if TYPE_CHECKING:
     from bem.flow import FlowFactors
@@ -131,7 +131,7 @@ _LOADS = ("contact_load", "film_load")
 _OTHER = "they are to compare with, to a thousandth of the oil"
 _other_oil = partial(_curve, no_bar=_OTHER)
 _supplied = partial(_curve, optional=True, no_bar="the minimum film, which goes with it, has one")
-_heated = partial(_curve, "C", optional=True, no_bar="friction, whose heat it is, has one")
+_heated = partial(_curve, "C", optional=True, no_bar=BAR_OF_HEAT)
 _OF_SUPPLY = ("film_reduction", "meniscus_position")
 _OF_HEAT = ("oil_temperature", "contact_temperature", "flash_temperature")
 

@@ -26,7 +26,7 @@ from bem.scenes.records import Figure, GridRecord, Series, filled, without_bars
 from bem.scenes.resolutions import CELLS, of_loop
 from bem.scenes.rubbing import FRICTION_SLIDES, RubbedRecord, rubbed
 from bem.scenes.tables.film_defect import film_defect
-from bem.scenes.tables.sharing import TEMPERATURES, HotMixedScene, RunningInCycles, RunningInSharing
+from bem.scenes.tables.sharing import TEMPERATURES, HotMixedScene, RunningInCycles, RunningInSharing, heated
 from bem.scenes.tables.wear_model import WearScenePart
 from bem.scenes.third_bodies import ThirdBodyRecord, tell_of_third_bodies, third_bodies, third_body_figures
 
@@ -109,7 +109,6 @@ def plan(scene: RunningInScene) -> Plan:
 
 
 _over, _shown, _line = (partial(Series, ("cycle",)), partial(Series, ("x", "y"), of="first"), partial(Series, ("x",)))
-_heated = partial(Figure, "C", optional=True, no_bar="friction, whose heat it is, has one")
 _FOLLOWS_CELL = f"{wearing.FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
 
 
@@ -150,8 +149,8 @@ class RunningInRecord(GridRecord, RubbedRecord, ThirdBodyRecord):
     particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle", no_bar=wearing.FOLLOWS_CELL)]
     particles_last_cycles: Annotated[float, Figure("", "particles of the last cycles", no_bar=wearing.FOLLOWS_CELL)]
     film_table_error: Annotated[float, Figure("", "error of the film that is interpolated in the table", unjudged=True)]
-    contact_temperature: Annotated[float | None, _heated("surfaces in contact, mean by pressure, run in")]
-    flash_temperature: Annotated[float | None, _heated("surfaces in contact, highest, run in")]
+    contact_temperature: Annotated[float | None, heated("surfaces in contact, mean by pressure, run in")]
+    flash_temperature: Annotated[float | None, heated("surfaces in contact, highest, run in")]
     evaluations_per_cycle: Annotated[float, Figure("", "films per cycle", unjudged=True)]
     convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle", unjudged=True)]
     number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number", no_bar=wearing.FOLLOWS_CELL)]

@@ -25,7 +25,7 @@ from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, filled, grid_map
 from bem.scenes.tables.film_defect import film_defect
 from bem.scenes.tables.life import LifeCycles, LifeFatigue, LifeFilm, LifeParticles, LifeWear
-from bem.scenes.tables.sharing import TEMPERATURES, HotMixedScene, RunningInSharing
+from bem.scenes.tables.sharing import TEMPERATURES, HotMixedScene, RunningInSharing, heated
 
 if TYPE_CHECKING:
     from bem.friction.setup import MixedSetup
@@ -143,7 +143,6 @@ def plan(scene: RunningInLifeScene) -> Plan:
 _JUMPS_ALONE = "hold what the cycle jumps leave open alone: life.coarser_lives is false"
 _over, _shown = partial(Series, ("cycle",)), partial(grid_map, of="first")
 _step = partial(Series, ("step",), rows=True)
-_heated = partial(Figure, "C", optional=True, no_bar="friction, whose heat it is, has one")
 _PITS = "it follows the stresses of single cells, the positions that sample a pass, and the surfaces drawn"
 _COUNTS = "pieces follow the mesh under most criteria; see kind wear"
 
@@ -167,8 +166,8 @@ class RunningInLifeRecord(GridRecord):
     contact_area_fraction: Annotated[float, Figure("", "real contact area over the patch, at the end")]
     minimum_film: Annotated[float, Figure("nm", "minimum film thickness at the end")]
     wear_volume: Annotated[float, Figure("um3", "volume worn of both surfaces of the patch")]
-    contact_temperature: Annotated[float | None, _heated("surfaces in contact, mean by pressure, at the end")]
-    flash_temperature: Annotated[float | None, _heated("surfaces in contact, highest, at the end")]
+    contact_temperature: Annotated[float | None, heated("surfaces in contact, mean by pressure, at the end")]
+    flash_temperature: Annotated[float | None, heated("surfaces in contact, highest, at the end")]
     tribofilm_thickness: Annotated[float | None, Figure("nm", "mean thickness of the tribofilm", optional=True)]
     particles: Annotated[float | None, Figure("", "pieces that carry away what wore", optional=True, no_bar=_COUNTS)]
     particle_equivalent_radius: Annotated[

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
 
 from pydantic import Field, model_validator
@@ -10,6 +11,7 @@ from bem.errors import InputError
 from bem.scenes.axes import with_keys
 from bem.scenes.common import PositiveLength, Table, Variant, problem
 from bem.scenes.lubrication import FilmCells, FilmMeshScene, MixedScene
+from bem.scenes.records import Figure
 from bem.scenes.tables.heat import check_film_heat, check_supply_of_heat
 from bem.scenes.units import Ratio
 from bem.scenes.wearing import Count, LastCycles
@@ -51,6 +53,10 @@ class SharingScene(Table):
 
 TEMPERATURES = ("contact_temperature", "flash_temperature")
 """Figures of a contact whose heat was asked for."""
+BAR_OF_HEAT = "friction, whose heat it is, has one"
+"""Why they have no error bar."""
+heated = partial(Figure, "C", optional=True, no_bar=BAR_OF_HEAT)
+"""One of them, in words."""
 
 
 class HotMixedScene(MixedScene):
