@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bem import Body, Grid, InputError, Material
+from bem import Body, Grid, InputError, Material, plan_scene
 from bem.life.march import begun, run_life
 from bem.life.passes import DryPasses, Passing
 from bem.life.surfaces import LifeCase, round_of
@@ -93,3 +93,13 @@ def test_a_life_wears_each_place_by_its_own_temperature():
     end = run_life(replace(life(warm, 1e8), first_step=1e6, tolerance=0.1), wavy, flat)
     rate = FILM.share(warm) * end.passes[0].pressure
     assert np.ptp(rate) < 0.15 * rate.mean()
+
+
+def test_a_dry_boundary_film_without_speed_or_temperature_is_refused_by_the_plan():
+    settings = ['wear.film_defect={adsorption_energy="0.6 eV"}']
+    with pytest.raises(InputError) as refused:
+        plan_scene("wear-cylinder-scar", settings=settings)
+    assert [text.split(":")[0] for text in refused.value.messages] == [
+        "wear.film_defect.sliding_speed",
+        "wear.film_defect.temperature",
+    ]

@@ -38,9 +38,14 @@ class FilmDefectScene(Table):
 
         slide = abs(speeds[0] - speeds[1]) if self.sliding_speed is None and speeds is not None else self.sliding_speed
         warm = temperature if self.temperature is None else self.temperature
-        for name, value in (("sliding_speed", slide), ("temperature", warm)):
-            if value is None:
-                raise InputError(f"wear.film_defect.{name}: missing; allowed: a value, which nothing else here gives")
+        missing = [name for name, value in (("sliding_speed", slide), ("temperature", warm)) if value is None]
+        if missing:
+            raise InputError(
+                [
+                    f"wear.film_defect.{name}: missing; allowed: a value, which nothing else here gives"
+                    for name in missing
+                ]
+            )
         assert slide is not None
         assert warm is not None
         return FilmDefect(self.adsorption_energy, slide, warm, self.molecule_length, self.vibration_time)
