@@ -28,6 +28,8 @@ ROW = (
 """A step's end as a row of numbers: SI units; means over the positions of its last round and over whole surfaces;
 the flash temperature is the highest of any position."""
 
+_ROUND_OFF = float(np.finfo(np.float64).eps)
+"""Of the largest height: one subtraction against two, each rounded by half of it at most."""
 _THIN = 1e-10
 """Films thinner than this [m] are held to an absolute instead of a relative tolerance."""
 _SMALLEST = 2.0**-30
@@ -150,8 +152,10 @@ def _error(before: Surfaces, whole: Surfaces, halves: Surfaces) -> tuple[float, 
         difference = whole.heights[body] - halves.heights[body]
         worn = float(np.sqrt(np.mean((before.heights[body] - halves.heights[body]) ** 2)))
         missed += abs(float(difference.mean()))
-        if worn > 0:
-            worst = max(worst, float(np.sqrt(np.mean(difference**2))) / worn)
+        apart, heights = float(np.sqrt(np.mean(difference**2))), before.heights[body]
+        # heights tell no less than their round-off: steps that wear less grow, however they differ
+        if worn > 0 and apart > _ROUND_OFF * float(np.abs(heights).max()):
+            worst = max(worst, apart / worn)
     if whole.film is not None and halves.film is not None:
         apart = float(np.abs(whole.film - halves.film).mean())
         worst = max(worst, apart / max(float(halves.film.mean()), _THIN))

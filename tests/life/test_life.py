@@ -176,6 +176,13 @@ def test_a_step_that_misses_is_made_shorter_and_used():
     assert state.over("step_error")[-1] <= 0.05
 
 
+def test_steps_that_wear_less_than_the_heights_round_off_grow_until_they_wear():
+    """Cycles of 1e-12 wear 1e-24 m of heights known to 1e-22 m: it took 644 shorter steps, or ended the life."""
+    end = run_life(case(1e-11, first_step=1e-12), *surfaces())
+    assert end.rejected == 0
+    assert len(end.rows) == 5  # 1 + 2 + 4 + 3 of the first step
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
