@@ -2,7 +2,8 @@
 
 What the film leaves is carried by the rough patch and the particles in its deformed gap together, at every film load
 that the balance tries; particles thinner than the gap carry nothing and swim. Friction is that of film and contact, and
-of the particles that roll. The oil that particles push aside is not counted.
+of the particles that roll. Neither the oil that particles push aside nor the heat of their rolling
+is counted.
 
 Verified in tests/wear/test_third_bodies_in_oil.py: flats between which only film and particles carry, sums, limits.
 """
