@@ -59,6 +59,12 @@ MIXED_RULES: dict[str, LoopRule] = {
 """The same in mixed lubrication; `_of_film` adds to those of the film. There is no wear rate where nothing slides."""
 _FILM_TWICE = 1.5
 """On what twice the points of a film change: order two leaves 4/3 of it, as in load sharing."""
+OF_FILM = ("friction_initial", "friction_run_in", "friction", "film_friction_part", "minimum_film", "lambda_ratio")
+"""Figures that follow the film."""
+FULL_HEAT = (
+    "no error bars of friction and film: not known yet of what the columns and layers of full heat leave; kind "
+    "traction has them"
+)
 _WEARS = ("Sq_final", "worn_volume_per_cycle", "worn_depth")
 """Figures that say how much differently the coarser loop wears."""
 FROM_START = ("friction_initial", "contact_load_initial", "Sq_initial")

@@ -280,7 +280,7 @@ def test_running_in_with_heat_wears_where_a_boundary_film_is_hot():
         "oil": {"grade": "ISO VG 10", "temperature": "100 degC"},
         "speeds": ["2 m/s"],
         "wear": {"criterion": law, "film_defect": {"adsorption_energy": "0.6 eV"}},
-        "cycles": {"count": 2, "averaged": 1, "settled": 1},
+        "cycles": {"count": 2, "averaged": 1, "settled": 1, "coarser_grid": True},
     }
     hot, full, off = (run(scene | {"thermal": thermal})[1].summary for thermal in ("lumped", "full", "off"))
     # the film's heat is mild: the contact's, which wears, hardly knows its model
@@ -288,6 +288,10 @@ def test_running_in_with_heat_wears_where_a_boundary_film_is_hot():
     assert full["flash_temperature_C"][0] - 100 == pytest.approx(hot["flash_temperature_C"][0] - 100, rel=0.01)
     assert hot["flash_temperature_C"][0] > hot["contact_temperature_C"][0] > 101
     assert "flash_temperature_C" not in off
+    # columns and layers of full heat are in no bar yet
+    assert full["minimum_film_nm_error"] == [None]
+    assert full["worn_depth_nm_error"][0] > 0
+    assert hot["minimum_film_nm_error"][0] > 0
     assert hot["worn_depth_nm"][0] > 1.1 * off["worn_depth_nm"][0] > 0
     with pytest.raises(InputError, match=r"film_defect\.temperature: missing"):
         run(scene | {"oil": PATCH["oil"]})

@@ -185,8 +185,8 @@ def run(scene: RunningInScene, context: Context) -> RunningInRecord:
 def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: RunningInRecord) -> ErrorBars:
     """Of the loop on every second cell and half the points of the film; where half are too few for a film, of that
     loop with twice the points besides."""
-    from bem.accuracy import running_in_bars
-    from bem.accuracy.wear import MIXED_RULES
+    from bem.accuracy import ErrorBars, running_in_bars
+    from bem.accuracy.wear import FULL_HEAT, MIXED_RULES, OF_FILM
 
     def loop(heights: tuple[FloatArray, FloatArray], across: float, points: float = 1.0) -> RunningInRecord:
         coarser = at_resolution(scene, 0.5, across)
@@ -200,7 +200,8 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
         there = None if finer_film is None else there
     known = [name for name in MIXED_RULES if getattr(found, name) is not None]
     figures = (None if one is None else {n: getattr(one, n) for n in known} for one in (found, there, finer_film))
-    return running_in_bars(*figures)  # type: ignore[arg-type]
+    told = running_in_bars(*figures)  # type: ignore[arg-type]
+    return told | ErrorBars.unknown(OF_FILM, FULL_HEAT) if scene.thermal == "full" else told
 
 
 def at_resolution(scene: RunningInScene, factor: float, across: float | None = None) -> RunningInScene:
