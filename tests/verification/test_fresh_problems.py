@@ -154,6 +154,8 @@ def test_points_of_a_drawn_rectangle_are_middles_of_the_cells_of_its_gate():
     from bem.verification.rectangle import STEP
 
     for seed in range(50):
-        width = _rectangle(np.random.default_rng(seed))["width"]
+        drawn = _rectangle(np.random.default_rng(seed))
+        assert max(drawn["nu"], *drawn.get("layer", [0.0] * 3)[1::3]) <= 0.4
+        width = drawn["width"]
         steps = width * np.array([0.4, 0.8, 1.2, 3.0, 4.0, 6.0, 10.0]) / STEP  # where fem_reference.rectangle asks
         assert np.abs(steps - np.round(steps)).max() < 1e-9
