@@ -5,7 +5,18 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 from bem.errors import InputError
+
+
+def is_finite(value: object) -> bool:
+    """Whether an argument is a finite real number: no bool, no string."""
+    return (
+        isinstance(value, (int, float, np.integer, np.floating))
+        and not isinstance(value, bool)
+        and math.isfinite(value)
+    )
 
 
 def not_positive(prefix: str = "", /, **values: float) -> list[str]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.friction.boundary import BoundaryFriction, BoundaryFrictionGiven, boundary_law
 from bem.friction.oil_volume import OilVolume
@@ -78,7 +79,7 @@ class MixedSetup:
         friction = self.boundary_friction
         made = (
             float(friction)  # type: ignore[arg-type]
-            if _real(friction)
+            if is_finite(friction)
             else boundary_law(friction).at_temperature(self.lubricant.temperature)
         )
         object.__setattr__(self, "boundary_friction", made)
@@ -132,11 +133,11 @@ class MixedSetup:
     def _numbers(self) -> list[str]:
         messages = _not_positive({"load": self.load})
         messages += [*self._boundary_friction(), *self._supply(), *self._heat()]
-        if self.hardness is not None and not (_real(self.hardness) and self.hardness > 0):
+        if self.hardness is not None and not (is_finite(self.hardness) and self.hardness > 0):
             messages.append(f"hardness: {self.hardness!r} must be positive [Pa], or None for elastic contact")
-        if not (_real(self.tolerance) and 1e-9 <= self.tolerance <= 0.1):
+        if not (is_finite(self.tolerance) and 1e-9 <= self.tolerance <= 0.1):
             messages.append(f"tolerance: {self.tolerance!r} must lie between 1e-9 and 0.1")
-        if not (_real(self.contact_tolerance) and 0 < self.contact_tolerance < 1):
+        if not (is_finite(self.contact_tolerance) and 0 < self.contact_tolerance < 1):
             messages.append(f"contact_tolerance: {self.contact_tolerance!r} must lie between 0 and 1")
         if not (isinstance(self.film_points, (int, np.integer)) and 100 <= self.film_points <= 20000):
             messages.append(f"film_points: {self.film_points!r} must be an integer from 100 to 20000")
@@ -146,7 +147,7 @@ class MixedSetup:
 
     def _boundary_friction(self) -> list[str]:
         value = self.boundary_friction
-        if _real(value) and value >= 0:  # type: ignore[operator]
+        if is_finite(value) and value >= 0:  # type: ignore[operator]
             return []
         if not isinstance(value, (str, Mapping, BoundaryFriction)):
             return [f"boundary_friction: {value!r} must be zero or positive, or a law"]
@@ -292,13 +293,5 @@ def _not_positive(values: Mapping[str, object]) -> list[str]:
     return [
         f"{name}: {value!r} must be positive and finite"
         for name, value in values.items()
-        if not (_real(value) and value > 0)  # type: ignore[operator]
+        if not (is_finite(value) and value > 0)  # type: ignore[operator]
     ]
-
-
-def _real(value: object) -> bool:
-    return (
-        isinstance(value, (int, float, np.integer, np.floating))
-        and not isinstance(value, bool)
-        and math.isfinite(value)
-    )

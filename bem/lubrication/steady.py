@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from bem.arguments import is_finite
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation, cavitation_of
@@ -264,16 +265,17 @@ def checked_case(
     """
     messages = []
     for name, value, unit in (("load", load, "N/m"), ("radius", radius, "m")):
-        if not (_real(value) and math.isfinite(value) and value > 0):
+        if not (is_finite(value) and value > 0):
             messages.append(f"{name}: {value!r} must be positive and finite [{unit}]")
-    if not (_real(contact_modulus) and contact_modulus > 0):
+    rigid = isinstance(contact_modulus, float) and contact_modulus == math.inf
+    if not (rigid or (is_finite(contact_modulus) and contact_modulus > 0)):
         messages.append(f"contact_modulus: {contact_modulus!r} must be positive [Pa]; math.inf is rigid")
     messages += check_speeds(speeds)
     if not isinstance(lubricant, Lubricant):
         messages.append(f"lubricant: {type(lubricant).__name__} is not a Lubricant")
     if not (isinstance(points, (int, np.integer)) and 100 <= points <= 20000):
         messages.append(f"points: {points!r} must be an integer from 100 to 20000")
-    if not (_real(tolerance) and 1e-11 <= tolerance <= 1e-2):
+    if not (is_finite(tolerance) and 1e-11 <= tolerance <= 1e-2):
         messages.append(f"tolerance: {tolerance!r} must lie between 1e-11 and 1e-2")
     if position is not None:
         array = np.asarray(position, dtype=np.float64)
@@ -339,10 +341,6 @@ def check_speeds(speeds: Sequence[float]) -> list[str]:
     except (TypeError, ValueError):
         pass
     return [f"speeds: {speeds!r} must be a pair (u1, u2) of finite speeds [m/s]"]
-
-
-def _real(value: object) -> bool:
-    return isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool) and value == value
 
 
 def solution_of(
