@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import weakref
+from bisect import bisect_left
 from collections.abc import Sequence
 from typing import Any, cast
 
@@ -81,6 +82,9 @@ class PaddedTransform:
         given = (padded[0],) * self.spectrum_shape[0] if lengths is None else lengths
         columns = _blocks_of_columns(given, self._column_block)
         self._column_blocks = len(columns) - 1
+        self._ends: list[int] = columns.tolist()
+        """Columns in the first so many blocks, none first; and below how many numbers they are together."""
+        self._numbers = [0, *np.cumsum(np.diff(columns) * [given[start] for start in columns[:-1]]).tolist()]
         self.lock = threading.RLock()
         self._unit = unit_factor(self.dtype)
         self._scratch: list[Scratch] = []
@@ -148,10 +152,9 @@ class PaddedTransform:
         with self.lock:
             self.ready(get_threads())
             wanted = self.spectrum_shape[0] if columns is None else columns
-            blocks = int(np.searchsorted(self.room.columns, wanted))
+            blocks = bisect_left(self._ends, wanted)
             self._each(loops.columns_in, blocks, parts, spectrum)
-            done = int(self.room.columns[blocks])
-            self.room.half[done:] = 0
+            self.room.half[self._ends[blocks] :] = 0
             self._each(loops.rows_back, self._row_blocks, plain)
         self._count(inverse=1, blocks=blocks)
         if plain is not out:
@@ -252,12 +255,12 @@ class PaddedTransform:
 
     def _count(self, *, blocks: int, forward: int = 0, inverse: int = 0) -> None:
         """Add transforms whose columns are those of the first so many blocks."""
-        times, room = forward + inverse, self.room
+        times = forward + inverse
         COUNT.forward += forward
         COUNT.inverse += inverse
-        COUNT.rows += times * room.nx
-        COUNT.columns += times * int(room.columns[blocks])
-        COUNT.numbers += times * int(np.diff(room.columns[: blocks + 1]) @ room.lengths[:blocks])
+        COUNT.rows += times * self.shape[0]
+        COUNT.columns += times * self._ends[blocks]
+        COUNT.numbers += times * self._numbers[blocks]
 
 
 def _destroy(destroy: Any, plans: list[int]) -> None:

@@ -96,7 +96,8 @@ def test_bars_cover_nine_errors_in_ten_and_are_not_far_too_large():
 
 def test_bars_of_a_ball_hold_how_far_its_film_goes_on():
     """A film at six times the load that it is solved under, against the film solved under all of it: the film's part of
-    friction's bar fell short, and the minimum, of half the thickness, had a bar of a tenth."""
+    friction's bar fell short, and the minimum, of half the thickness, had a bar of a tenth. Since thin cells hold the
+    pressure flow back it is 16 % off (112 cells; 8 % of 160), as lambda is, still without a bar."""
     grid = Grid((40, 40), (14e-6, 20e-6))
     ball = {"radii": (0.01, 0.025), "load": 110.0, "lubricant": Lubricant(0.03, pressure_viscosity=8e-9)}
     ball |= {"boundary_friction": 0.12, "film_cells": 32, "oil_volume": "loaded"}
@@ -109,7 +110,7 @@ def test_bars_of_a_ball_hold_how_far_its_film_goes_on():
     found = mixed_figures(case.solution)
     assert bars.parts["film points"]["friction"] > abs(found["friction"] - there["friction"])
     for name in ("minimum_film", "lambda_ratio"):
-        assert found[name] < 0.6 * there[name]
+        assert found[name] == pytest.approx(there[name], rel=0.2)
         assert bars.values[name] is None
     assert any("thinner than their cells can show" in note for note in bars.notes)
     for name in ("friction", "contact_load", "film_load", "film_part", "contact_area_fraction"):

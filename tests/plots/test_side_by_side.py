@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 
 import pytest
@@ -78,8 +79,8 @@ def test_an_interrupt_leaves_no_copy_and_one_right_after_a_start_waits(copies, m
 
     def fork():
         process = real()
-        if process:
-            os.kill(here, signal.SIGINT)
+        if process:  # to this thread: others of the test runner's would take it, which no caller of copies has
+            signal.pthread_kill(threading.get_ident(), signal.SIGINT)
         return process
 
     def work(i):
