@@ -210,7 +210,8 @@ class PaddedTransform:
         self._prepared = len(self._scratch)
 
     def _plan(self, scratch: Scratch) -> None:
-        """Plans for whole blocks and for the last one; they go when this transform does."""
+        """Plans for whole blocks of rows, for the last one, and for each kind of blocks of columns; they go when this
+        transform does."""
         fftw, room = library(self.dtype), self.room
         half, columns = room.half.ctypes.data, scratch.columns.ctypes.data
         rows_in, rows_out = scratch.rows.ctypes.data, scratch.rows_out.ctypes.data

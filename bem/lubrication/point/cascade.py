@@ -25,8 +25,6 @@ LIFTS = (1.0, 1.5, 3.0)
 first step may lead nowhere, from thicker ones it takes longer."""
 RUPTURE = 0.5
 """x over |y| up to which a start has pressure: the true edge is found faster from outside."""
-
-
 LEAST_PRESSURE = 1e-12
 """Of the largest, where there is to be some."""
 

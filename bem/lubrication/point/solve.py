@@ -67,7 +67,7 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
     bodies : one Body or a pair, with their layers, in place of the half-spaces of E*, which then sets the units only.
     cavitation : a `Cavitation` or its name; MASS_CONSERVING also says how full the gap is behind the rupture. Pressure
         and film are the same: a flooded film of smooth surfaces does not form again.
-    max_iterations : Newton steps on one grid.
+    max_iterations : Newton steps from one start on one grid; up to four starts are tried.
 
     Returns
     -------

@@ -134,9 +134,8 @@ Heat = Callable[[FloatArray], Sources]
 @dataclass(frozen=True)
 class Field:
     """Temperatures over that of the supply [K] (m, K + 2), those of the surfaces first and last; of their heat: flow
-    through the edges (m+1, K)
-    [m^2/s]. steps : of Newton's method. residual : the largest last change, or by how much surfaces are not as warm as
-    their heat makes them, over the largest rise."""
+    through the edges (m+1, K) [m^2/s]. steps : of Newton's method. residual : largest change of the last one, over the
+    largest rise."""
 
     rise: FloatArray
     supply: float
