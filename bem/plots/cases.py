@@ -5,6 +5,7 @@ A dataset's attribute `axes` names the dimensions along which the cases lie (loa
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from typing import Any
@@ -76,12 +77,21 @@ def rows_of(run: Any, name: str) -> list[tuple[str, Array]]:
 
 
 def along(run: Any, name: str, axis: str) -> tuple[Array, Array, Array, Array]:
-    """Values of an axis in rising order, and mean, least and largest of a figure at each, over everything else."""
+    """Values of an axis in rising order, and mean, least and largest of a figure at each, over everything else; not a
+    number where nothing is known, as of a speed that failed."""
     order = np.argsort(run.dataset[axis].values)
     values = np.moveaxis(run.dataset[name].values, list(run.dataset[name].dims).index(axis), 0)
     rows = values.reshape(len(values), -1)[order]
     each = run.dataset[axis].values[order]
-    return each, np.nanmean(rows, axis=1), np.nanmin(rows, axis=1), np.nanmax(rows, axis=1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # of rows without a number
+        return each, np.nanmean(rows, axis=1), np.nanmin(rows, axis=1), np.nanmax(rows, axis=1)
+
+
+def redoes(run: Any, source: str) -> bool:
+    """Whether the scene redoes a part of a source, such as "paper C": what was measured there says nothing of other
+    contacts."""
+    return source in run.scene.get("redoes", "")
 
 
 def label_of(dataset: Any, axes: Sequence[str], place: Sequence[int]) -> str:

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from bem.plots.cases import along, grouped
+from bem.plots.cases import along, grouped, redoes
 from bem.plots.figures import FigureKind
 from bem.plots.style import BLUE, OPEN, SEQUENTIAL, VERMILION, speed_axis
 
@@ -71,11 +71,12 @@ def _radius_over_speed(run: Any, figure: Figure) -> None:
     speed, mean, low, high = along(run, "particle_equivalent_radius", "speed")
     axes.plot(speed, mean * 1e9, "o-", color=BLUE, markersize=4, label="computed; 0: no particles")
     _fill(axes, speed, low * 1e9, high * 1e9, BLUE)
-    middle = 0.5e9 * sum(_MEASURED_RADIUS)
-    axes.errorbar(
-        [0.01], [middle], yerr=[0.5e9 * (_MEASURED_RADIUS[1] - _MEASURED_RADIUS[0])], fmt="s", color=VERMILION,
-        markersize=4, capsize=3, label="light scattering (thesis, paper D)",
-    )  # fmt: skip
+    if redoes(run, "paper D"):
+        middle = 0.5e9 * sum(_MEASURED_RADIUS)
+        axes.errorbar(
+            [0.01], [middle], yerr=[0.5e9 * (_MEASURED_RADIUS[1] - _MEASURED_RADIUS[0])], fmt="s", color=VERMILION,
+            markersize=4, capsize=3, label="light scattering (thesis, paper D)",
+        )  # fmt: skip
     axes.set_ylabel("equivalent radius (nm)")
     speed_axis(axes, speed)
     axes.legend()
@@ -195,7 +196,8 @@ FIGURES = (
     ),
     FigureKind(
         "particle-radius-over-speed",
-        "Settled radius of the particles over speed, beside what dynamic light scattering found (thesis, paper D).",
+        "Settled radius of the particles over speed; a square is what dynamic light scattering found of this contact "
+        "(thesis, paper D).",
         ("speed", "particle_equivalent_radius"),
         _radius_over_speed,
         _WIDE,

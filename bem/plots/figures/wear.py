@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from bem.plots.cases import Array, grouped
+from bem.plots.cases import Array, grouped, redoes
 from bem.plots.figures import FigureKind
 from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, map_of, prefix
 
@@ -94,16 +94,17 @@ def _distribution(run: Any, figure: Figure) -> None:
 
 
 def _over_load(run: Any, figure: Figure) -> None:
-    """Settled volume-mean radius of every run over its load, beside what dynamic light scattering saw."""
+    """Settled volume-mean radius of every run over its load; of the source's contacts beside what dynamic light
+    scattering saw."""
     settled = run.scene.get("cycles", {}).get("settled", 50)
     with np.errstate(invalid="ignore"):
         radius = np.nanmean(run.dataset["radius"].values[..., -settled:], axis=-1)
     load = np.broadcast_to(run.dataset["load"].values.reshape(-1, *[1] * (radius.ndim - 1)), radius.shape)
     factor, unit = prefix(radius, "m")
     axes = figure.add_subplot()
-    axes.axhspan(
-        _DLS_STEEL[0] * factor, _DLS_STEEL[1] * factor, color=SKY, alpha=0.3, linewidth=0, label="light scattering"
-    )
+    if redoes(run, "paper C"):
+        low, high = (factor * each for each in _DLS_STEEL)
+        axes.axhspan(low, high, color=SKY, alpha=0.3, linewidth=0, label="light scattering")
     axes.plot(load.ravel(), radius.ravel() * factor, "o", color=BLUE, markersize=4, label="each repetition")
     means = [radius[load == each].mean() * factor for each in np.unique(load)]
     axes.plot(np.unique(load), means, color=BLUE, linewidth=1.0)
@@ -117,14 +118,23 @@ def _over_load(run: Any, figure: Figure) -> None:
 def _worn_surface(run: Any, figure: Figure) -> None:
     x, y = run.dataset["x"].values, run.dataset["y"].values
     before, after = run.dataset["height_before"].values, run.dataset["height_after"].values
-    low, high = np.percentile(before, [0.5, 99.5])
-    factor, _ = prefix(before, "m")
+    both = np.stack([before, after])
+    low, high = np.percentile(both, [0.5, 99.5])  # of the worn one too: a scar deeper than the roughness is seen
+    factor, _ = prefix(both, "m")
     for axes, values, title in zip(
         figure.subplots(1, 2), (before, after), ("before", "after the last cycle"), strict=True
     ):
-        clipped = np.clip(values, low, high)
         map_of(
-            figure, axes, x, y, clipped, "height", "m", cmap="cividis", vmin=low * factor, vmax=high * factor
+            figure,
+            axes,
+            x,
+            y,
+            np.clip(values, low, high),
+            "height",
+            "m",
+            cmap="cividis",
+            vmin=low * factor,
+            vmax=high * factor,
         )  # one scale for both: the difference is what matters
         axes.set_title(title)
 
@@ -170,8 +180,12 @@ def _something_left(run: Any) -> bool:
     return bool((run.dataset["removed"].values > 0).any())
 
 
+def _any_piece(run: Any) -> bool:
+    return bool(np.isfinite(run.dataset["radius"].values).any())
+
+
 def _many_runs(run: Any) -> bool:
-    return np.unique(run.dataset["load"].values).size > 1
+    return _any_piece(run) and np.unique(run.dataset["load"].values).size > 1
 
 
 ALL_CASES = True
@@ -182,6 +196,7 @@ FIGURES = (
         ("radius", "cycle", "load"),
         _radius,
         (5.0, 3.4),
+        _any_piece,
     ),
     FigureKind(
         "wear-volume-over-cycles",
@@ -214,7 +229,7 @@ FIGURES = (
     ),
     FigureKind(
         "radius-over-load",
-        "Settled radius over load; the band is what dynamic light scattering found (thesis, paper C).",
+        "Settled radius over load; a band is what dynamic light scattering found of this pair (thesis, paper C).",
         ("radius", "load"),
         _over_load,
         (5.0, 3.4),

@@ -1,0 +1,75 @@
+"""Pictures of contacts that are not the source's, or of which something failed: nothing measured elsewhere beside them,
+no empty axes, no warnings."""
+
+import warnings
+from types import SimpleNamespace
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from bem.plots.cases import along
+from bem.plots.figures import running_in, wear
+
+CYCLES = {"cycles": {"settled": 2}}
+
+
+def run_of(scene=None, **variables):
+    return SimpleNamespace(dataset=xr.Dataset(variables, attrs={"axes": "load"}), scene=scene or CYCLES)
+
+
+def drawn(draw, run):
+    figure = Figure()
+    draw(run, figure)
+    return figure
+
+
+def over_load(radius, **scene):
+    return run_of(
+        CYCLES | scene, radius=(("load", "cycle"), np.asarray(radius)), load=("load", [1.0, 2.0]), cycle=[1.0, 2.0]
+    )
+
+
+def over_speed(**scene):
+    return run_of(CYCLES | scene, speed=[0.01, 1.0], particle_equivalent_radius=("speed", [2e-7, 1e-7]))
+
+
+def words_of(figure):
+    return [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+
+
+def test_measurements_of_the_source_stand_beside_its_own_contacts_alone():
+    radius = [[2e-7, 1e-7], [2e-7, 3e-7]]
+    for draw, run, paper in (
+        (wear._over_load, over_load, "paper C, figure 7a"),
+        (running_in._radius_over_speed, lambda _, **scene: over_speed(**scene), "paper D, figure 9"),
+    ):
+        assert any("light scattering" in text for text in words_of(drawn(draw, run(radius, redoes=paper))))
+        assert not any("light scattering" in text for text in words_of(drawn(draw, run(radius))))
+
+
+def test_sizes_of_particles_are_not_drawn_where_none_came_off():
+    sized = {kind.name: kind for kind in wear.FIGURES if "radius" in kind.needs}
+    assert len(sized) == 2
+    none, some = over_load(np.full((2, 2), np.nan)), over_load([[np.nan, 1e-7], [np.nan, np.nan]])
+    for kind in sized.values():
+        assert not kind.applies(none)
+        assert kind.applies(some)
+
+
+def test_a_speed_that_failed_is_not_a_number_and_warns_of_nothing():
+    run = run_of(speed=[1.0, 0.1], friction=("speed", [np.nan, 0.1]))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        speed, mean, _, _ = along(run, "friction", "speed")
+    np.testing.assert_array_equal(speed, [0.1, 1.0])
+    np.testing.assert_array_equal(mean, [0.1, np.nan])
+
+
+def test_a_scar_deeper_than_the_roughness_is_told_apart():
+    x = 1e-6 * np.arange(8)
+    before = 1e-8 * np.sin(np.add.outer(np.arange(8), np.arange(8)))
+    run = run_of(x=x, y=x, height_before=(("x", "y"), before), height_after=(("x", "y"), before - 1e-6))
+    after = drawn(wear._worn_surface, run).axes[1].images[0]
+    shown = np.clip(after.get_array(), *after.get_clim())
+    assert np.unique(np.round(shown, 6)).size > 10  # 15 different heights, a few cut off at the ends of the scale
