@@ -11,7 +11,7 @@ _Class = TypeVar("_Class", bound=type)
 
 def readable(cls: _Class) -> _Class:
     """Class decorator for dataclasses: a `__repr__` without array dumps and a table for notebooks."""
-    cls.__repr__ = _text  # type: ignore[assignment,misc]
+    cls.__repr__ = _text  # type: ignore[assignment]
     return tabled(cls)
 
 

@@ -151,7 +151,7 @@ def _show(rows: Sequence[Row], gates: int) -> None:
 KEYS = ("case", "quantity", "bem", "reference", "error_bar", "difference", "tolerance", "passed")
 
 
-def _write(path: Path, rows: list) -> None:  # type: ignore[type-arg]
+def _write(path: Path, rows: list[Row]) -> None:
     """A list of objects with exactly these keys; whole or not at all. A figure that is not finite becomes null."""
     import json
     import math

@@ -96,7 +96,7 @@ def _edge_scale(pressure: FloatArray, displacement: FloatArray, gap: FloatArray,
     return float(squares / opening)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
+@njit(cache=True, nogil=True, error_model="numpy")
 def _edge_means(pressure, displacement, gap, approach, cap):  # type: ignore[no-untyped-def]
     nx, ny = pressure.shape
     squares = 0.0
@@ -124,7 +124,7 @@ def _edge_means(pressure, displacement, gap, approach, cap):  # type: ignore[no-
     return squares, opening, edges
 
 
-@njit(cache=True, nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
+@njit(cache=True, nogil=True, error_model="numpy")
 def _make_phi(pressure, displacement, gap, approach, cap, scale, phi):  # type: ignore[no-untyped-def]
     nx, ny = pressure.shape
     for i in range(nx):
@@ -137,7 +137,7 @@ def _make_phi(pressure, displacement, gap, approach, cap, scale, phi):  # type: 
                 phi[i, j] = -scale * g ** (2.0 / 3.0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
+@njit(cache=True, nogil=True, error_model="numpy")
 def _prolong_phi(phi, rows, row_weights, columns, column_weights, cap, fine):  # type: ignore[no-untyped-def]
     nx, ny = fine.shape
     width = phi.shape[1]

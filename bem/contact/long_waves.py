@@ -118,7 +118,7 @@ def long_waves(operator: DisplacementOperator, near: float) -> LongWaves | None:
     )
 
 
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@njit(cache=True, nogil=True)
 def _assign(cells, rows, columns, width, weights, size):  # type: ignore[no-untyped-def]
     """The coarse cell of each cell, the root of the sum of squared weights in each coarse cell, and its inverse."""
     ny = columns.size
@@ -137,7 +137,7 @@ def _assign(cells, rows, columns, width, weights, size):  # type: ignore[no-unty
     return blocks, root, inverse
 
 
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@njit(cache=True, nogil=True)
 def _apply(values, cells, diagonal, workspace, transform, reduction, limit):  # type: ignore[no-untyped-def]
     """The middle factor; returns how many convolutions it took."""
     blocks, weights = cells
@@ -155,7 +155,7 @@ def _apply(values, cells, diagonal, workspace, transform, reduction, limit):  # 
     return applications
 
 
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@njit(cache=True, nogil=True)
 def _solve(workspace, root, transform, reduction, limit):  # type: ignore[no-untyped-def]
     """Conjugate gradients for (1 + D^1/2 F D^1/2) solution = given, on the whole coarse grid."""
     given, solution, residual, direction, response, field = workspace

@@ -171,13 +171,13 @@ def _patterns(squared_radius: int, short_x: bool, short_y: bool, width: int, nea
     return found
 
 
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@njit(cache=True, nogil=True)
 def _mark(position, cells, numbered):  # type: ignore[no-untyped-def]
     for k in range(cells.size):
         position[cells[k]] = k if numbered else -1
 
 
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@njit(cache=True, nogil=True)
 def _connect(start, stop, result, cells, position, grid, offsets, columns, pattern):  # type: ignore[no-untyped-def]
     nx, ny, wrap_x, wrap_y = grid
     m = offsets.shape[0]
@@ -227,7 +227,7 @@ def _connect(start, stop, result, cells, position, grid, offsets, columns, patte
     result[1] = inner
 
 
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@njit(cache=True, nogil=True)
 def _solve_patterns(pattern, offsets, near_field, table, solved):  # type: ignore[no-untyped-def]
     m = offsets.shape[0]
     middle = near_field.shape[0] // 2
@@ -348,7 +348,7 @@ def _collect(start, stop, result, rows, values, out, outside, block):  # type: i
     result[0] = total
 
 
-@njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@njit(cache=True, nogil=True)
 def _add(out, targets, amounts):  # type: ignore[no-untyped-def]
     total = 0.0
     for k in range(targets.size):

@@ -109,7 +109,7 @@ def _rule(
     return nodes, weights
 
 
-@nb.njit(**COMPILE)  # type: ignore[untyped-decorator]
+@nb.njit(**COMPILE)
 def _difference(high: float, low: float) -> float:
     """erf(high) - erf(low) for high > low, without cancellation where both are far out."""
     if low > 0:
@@ -119,7 +119,7 @@ def _difference(high: float, low: float) -> float:
     return math.erf(high) - math.erf(low)
 
 
-@nb.njit(**COMPILE)  # type: ignore[untyped-decorator]
+@nb.njit(**COMPILE)
 def _sum(
     nodes: FloatArray,
     weights: FloatArray,

@@ -108,7 +108,7 @@ def _legend(figure: Any, labels: Sequence[str], dashes: dict[str, str]) -> None:
     cases = {case: dash for case, dash in dashes.items() if case}
     if len(cases) < 2:
         cases = {}
-    handles = [*runs, *(Line2D([], [], color="0.35", ls=dash) for dash in cases.values())]  # type: ignore[arg-type]
+    handles = [*runs, *(Line2D([], [], color="0.35", ls=dash) for dash in cases.values())]
     words = [textwrap.shorten(item, 90, placeholder=" ...") for item in (*labels, *cases)]
     columns = 1 if max(map(len, words)) > 46 else 2
     figure.legend(handles, words, loc="outside lower center", ncols=columns)

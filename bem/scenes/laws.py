@@ -35,7 +35,7 @@ def annotation_of(about: Parameter) -> Any:
     number = Annotated[
         float, dimension, Field(allow_inf_nan=False, **{k: v for k, v in bounds.items() if v is not None})
     ]
-    return Annotated[list[number], Field(min_length=1, max_length=1000)] if about.several else number  # type: ignore[valid-type]
+    return Annotated[list[number], Field(min_length=1, max_length=1000)] if about.several else number
 
 
 def fields_of(law: type[Law]) -> dict[str, FieldInfo]:
@@ -285,7 +285,7 @@ def _errors(mistakes: list[InitErrorDetails]) -> ValidationError:
 def _json_properties(fields: Mapping[str, FieldInfo]) -> dict[str, Any]:
     made = {}
     for name, field in fields.items():
-        whole: Any = Annotated[field.annotation, *field.metadata]  # type: ignore[valid-type]
+        whole: Any = Annotated[field.annotation, *field.metadata]
         made[name] = TypeAdapter(whole).json_schema()
         if not field.is_required() and field.default is not None:
             made[name]["default"] = field.default
