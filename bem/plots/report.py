@@ -71,8 +71,8 @@ def summary_rows(summary: dict[str, Any], names: Sequence[str]) -> list[tuple[st
 
 def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     """Name and value of a figure as `spelled`, with its error where it has one: `1.2 GPa ± 0.013`, in the same unit."""
-    text, shown = spelled(name, summary[name])
-    value, error = summary[name], summary.get(f"{name}_error")
+    value, error = _only(summary[name]), _only(summary.get(f"{name}_error"))
+    text, shown = spelled(name, value)
     if not isinstance(error, float) or not isinstance(value, float) or value == 0:
         none = f"{name}_error" in summary and error is None and value is not None
         return text, f"{shown} (no error bar)" if none else shown
@@ -80,6 +80,11 @@ def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     factor = float(number.rstrip("%")) / value if float(number.rstrip("%")) else 1.0
     percent = "%" if number.endswith("%") else ""
     return text, " ".join([f"{number} ± {error * abs(factor):.2g}{percent}", *unit])
+
+
+def _only(value: Any) -> Any:
+    """The value of a list of one, as of a curve at one speed."""
+    return value[0] if isinstance(value, list) and len(value) == 1 else value
 
 
 def spelled(name: str, value: Any) -> tuple[str, str]:

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from bem.plots.cases import along
 from bem.plots.figures import running_in, wear
+from bem.plots.report import with_error
 
 CYCLES = {"cycles": {"settled": 2}}
 
@@ -73,3 +74,9 @@ def test_a_scar_deeper_than_the_roughness_is_told_apart():
     after = drawn(wear._worn_surface, run).axes[1].images[0]
     shown = np.clip(after.get_array(), *after.get_clim())
     assert np.unique(np.round(shown, 6)).size > 10  # 15 different heights, a few cut off at the ends of the scale
+
+
+def test_a_curve_at_one_speed_shows_its_error_bar():
+    summary = {"friction": [0.06765], "friction_error": [0.00119], "film_load_N": [985.0], "film_load_N_error": [None]}
+    assert with_error("friction", summary) == ("friction", "0.06765 ± 0.0012")
+    assert with_error("film_load_N", summary) == ("film load", "985 N (no error bar)")

@@ -347,6 +347,14 @@ OUTCOMES = {
         (contact_outcome(spot(7e9)), "100 % of the cells in contact, with 100 % of the load"),
         contact_outcome(spot(6.9e9)),
     ),
+    "cap_within_the_error_of_the_pressure": (
+        with_(BALL, contact__behaviour="capped"),
+        (
+            contact_outcome(spot(6e9), plastic_area_fraction=0.0, max_pressure_Pa=6e9, max_pressure_Pa_error=1.8e9),
+            "nothing is at the hardness here, 7 GPa",
+        ),
+        contact_outcome(spot(6e9), plastic_area_fraction=0.0, max_pressure_Pa=6e9, max_pressure_Pa_error=0.8e9),
+    ),
     "capped_contact_nearly_full": (
         with_(BALL, contact__behaviour="capped"),
         (contact_outcome(spot(7e9), contact_area_fraction=0.7, plastic_area_fraction=0.6), "70 % of the patch"),

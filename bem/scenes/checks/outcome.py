@@ -144,6 +144,21 @@ def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[str]:
 
 
 @outcome_check
+def cap_within_the_error_of_the_pressure(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """Two grids on which nothing reaches the hardness give its area no error, which finer cells may have."""
+    case, told = _capped(facts, outcome), outcome.summary
+    plastic = _numbers(told.get("plastic_area_fraction"))
+    highest, errors = (_numbers(told.get(f"max_pressure_Pa{end}")) for end in ("", "_error"))
+    if case is None or case.cap is None or not len(plastic) == len(highest) == len(errors):
+        return
+    if any(p == 0 and h < case.cap < h + e for p, h, e in zip(plastic, highest, errors, strict=True)):
+        yield (
+            f"nothing is at the hardness here, {si(case.cap, 'Pa')}, but it lies within the error of the highest "
+            "pressure: on finer cells a part may be"
+        )
+
+
+@outcome_check
 def capped_contact_nearly_full(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """Flow at a constant pressure needs room beside the spots; real roughness persists beyond half contact (Johnson
     13.4)."""
