@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from bem.plots.draw import Drawn
-from bem.plots.tables import accuracy_tables, figure_tables, is_error, is_list, name_and_unit, origin_table
+from bem.plots.tables import accuracy_tables, figure_tables, is_error, is_list, name_and_unit, origin_table, short
 from bem.results.atomic import write_text
 from bem.results.directory import REPORT
 
@@ -79,7 +79,7 @@ def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     number, *unit = shown.split(" ")
     factor = float(number.rstrip("%")) / value if float(number.rstrip("%")) else 1.0
     percent = "%" if number.endswith("%") else ""
-    return text, " ".join([f"{number} ± {error * abs(factor):.2g}{percent}", *unit])
+    return text, " ".join([f"{number} ± {short(error * abs(factor))}{percent}", *unit])
 
 
 def _only(value: Any) -> Any:

@@ -64,7 +64,7 @@ def origin_table(summary: Mapping[str, Any], names: Sequence[str]) -> list[Figur
         numbers = [float(v[at] if np.size(v) > 1 else np.ravel(v)[0]) for v in shown]
         factor, unit = prefix(numbers[:1], unit) if unit in _PREFIXED else (1.0, unit)
         largest = ", where the error is largest" if len(values[1]) > 1 else ""
-        cells = [_cell(numbers[0], factor), *(_short(number * factor) for number in numbers[1:])]
+        cells = [_cell(numbers[0], factor), *(short(number * factor) for number in numbers[1:])]
         rows.append((label(words, unit) + largest, *cells))
     return [FigureTable("", ("figure", "value", "error", *origins), tuple(rows))] if rows else []
 
@@ -75,8 +75,9 @@ def _parts(name: str, summary: Mapping[str, Any]) -> dict[str, Any]:
     return {" ".join(key.removeprefix(start).split("_")): v for key, v in summary.items() if key.startswith(start)}
 
 
-def _short(number: float) -> str:
-    return "–" if not np.isfinite(number) else f"{number:.2g}"
+def short(number: float) -> str:
+    """Of two digits, as an error: 110, not 1.1e+02."""
+    return "–" if not np.isfinite(number) else f"{float(f'{number:.2g}'):g}"
 
 
 def figure_tables(summary: Mapping[str, Any], names: Sequence[str], title: str = "") -> list[FigureTable]:
@@ -155,7 +156,7 @@ def _column(name: str, values: Sequence[Any], spread: Any) -> tuple[str, list[st
     cells = [_cell(value, factor) for value in values]
     if isinstance(spread, list) and len(spread) == len(values):
         cells = [
-            cell if cell == "–" or not s or s < _ROUND_OFF * abs(value) else f"{cell} ± {s * factor:.2g}"
+            cell if cell == "–" or not s or s < _ROUND_OFF * abs(value) else f"{cell} ± {short(s * factor)}"
             for cell, s, value in zip(cells, spread, values, strict=True)
         ]
     return label(words, unit), cells

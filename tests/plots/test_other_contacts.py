@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from bem.plots.cases import along
 from bem.plots.figures import running_in, wear
 from bem.plots.report import with_error
+from bem.plots.tables import figure_tables
 
 CYCLES = {"cycles": {"settled": 2}}
 
@@ -80,3 +81,15 @@ def test_a_curve_at_one_speed_shows_its_error_bar():
     summary = {"friction": [0.06765], "friction_error": [0.00119], "film_load_N": [985.0], "film_load_N_error": [None]}
     assert with_error("friction", summary) == ("friction", "0.06765 ± 0.0012")
     assert with_error("film_load_N", summary) == ("film load", "985 N (no error bar)")
+
+
+def test_errors_of_hundreds_are_written_without_a_power_of_ten():
+    summary = {
+        "load_N": [300.0, 500.0],
+        "load_N_error": [114.0, 2.5],
+        "film_load_N": 0.3145,
+        "film_load_N_error": 0.114,
+    }
+    (table,) = figure_tables(summary, ["load_N"])
+    assert [cells[-1] for cells in table.rows] == ["300 ± 110", "500 ± 2.5"]
+    assert with_error("film_load_N", summary) == ("film load", "314.5 ± 110 mN")
