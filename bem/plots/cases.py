@@ -88,6 +88,11 @@ def along(run: Any, name: str, axis: str) -> tuple[Array, Array, Array, Array]:
         return each, np.nanmean(rows, axis=1), np.nanmin(rows, axis=1), np.nanmax(rows, axis=1)
 
 
+def many_speeds(run: Any) -> bool:
+    """Whether there is a curve over speed to draw, not one point."""
+    return bool(run.dataset.sizes["speed"] > 1)
+
+
 def redoes(run: Any, source: str) -> bool:
     """Whether the scene redoes a part of a source, such as "paper C": what was measured there says nothing of other
     contacts."""

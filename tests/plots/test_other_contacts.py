@@ -9,10 +9,11 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from bem.plots.cases import along
-from bem.plots.figures import running_in, wear
+from bem.plots.figures import friction, running_in, wear
 from bem.plots.report import with_error
 from bem.plots.tables import figure_tables
 
+CURVES = ("stribeck-curve", "load-sharing", "contact-temperatures", "running-in-stribeck", "particle-radius-over-speed")
 CYCLES = {"cycles": {"settled": 2}}
 
 
@@ -68,6 +69,14 @@ def test_a_speed_that_failed_is_not_a_number_and_warns_of_nothing():
     np.testing.assert_array_equal(mean, [0.1, np.nan])
 
 
+def test_one_speed_is_no_curve():
+    curves = [kind for kind in (*friction.FIGURES, *running_in.FIGURES) if kind.name in CURVES]
+    assert len(curves) == len(CURVES)
+    for kind in curves:
+        assert not kind.applies(run_of(speed=[0.1]))
+        assert kind.applies(run_of(speed=[0.1, 1.0]))
+
+
 def test_a_scar_deeper_than_the_roughness_is_told_apart():
     x = 1e-6 * np.arange(8)
     before = 1e-8 * np.sin(np.add.outer(np.arange(8), np.arange(8)))
@@ -84,12 +93,8 @@ def test_a_curve_at_one_speed_shows_its_error_bar():
 
 
 def test_errors_of_hundreds_are_written_without_a_power_of_ten():
-    summary = {
-        "load_N": [300.0, 500.0],
-        "load_N_error": [114.0, 2.5],
-        "film_load_N": 0.3145,
-        "film_load_N_error": 0.114,
-    }
-    (table,) = figure_tables(summary, ["load_N"])
+    summary = {"speed_m_s": [1.0, 2.0], "film_load_N": [300.0, 500.0], "film_load_N_error": [114.0, 2.5]}
+    (table,) = figure_tables(summary, ["speed_m_s", "film_load_N"])
     assert [cells[-1] for cells in table.rows] == ["300 ± 110", "500 ± 2.5"]
-    assert with_error("film_load_N", summary) == ("film load", "314.5 ± 110 mN")
+    film = {"film_load_N": 0.3145, "film_load_N_error": 0.114}
+    assert with_error("film_load_N", film) == ("film load", "314.5 ± 110 mN")

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from bem.plots.cases import grouped
+from bem.plots.cases import grouped, many_speeds
 from bem.plots.figures import FigureKind
 from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, prefix, speed_axis
 
@@ -225,6 +225,7 @@ FIGURES = (
         ("speed", "friction", "boundary_part", "film_part", "model"),
         _stribeck,
         (5.4, 4.0),
+        many_speeds,
     ),
     FigureKind(
         "load-sharing",
@@ -232,6 +233,7 @@ FIGURES = (
         ("speed", "contact_load", "film_load", "minimum_film", "model"),
         _sharing,
         (5.0, 4.6),
+        many_speeds,
     ),
     FigureKind(
         "contact-temperatures",
@@ -239,6 +241,7 @@ FIGURES = (
         ("speed", "contact_temperature", "flash_temperature", "oil_temperature"),
         _temperatures,
         (5.2, 3.6),
+        many_speeds,
     ),
     FigureKind(
         "film-section",

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from bem.plots.cases import along, grouped, redoes
+from bem.plots.cases import along, grouped, many_speeds, redoes
 from bem.plots.figures import FigureKind
 from bem.plots.style import BLUE, OPEN, SEQUENTIAL, VERMILION, speed_axis
 
@@ -161,10 +161,6 @@ def _animate(run: Any, path: Path) -> None:
     animation.save(str(path), writer=PillowWriter(fps=4), dpi=110)
 
 
-def _many_speeds(run: Any) -> bool:
-    return run.dataset.sizes["speed"] > 1
-
-
 def _many_hardnesses(run: Any) -> bool:
     return run.dataset.sizes["hardness"] > 1
 
@@ -178,7 +174,7 @@ FIGURES = (
         ("speed", "friction_initial", "friction_run_in"),
         _run_in_stribeck,
         _WIDE,
-        _many_speeds,
+        many_speeds,
     ),
     FigureKind(
         "friction-over-cycles",
@@ -201,7 +197,7 @@ FIGURES = (
         ("speed", "particle_equivalent_radius"),
         _radius_over_speed,
         _WIDE,
-        _many_speeds,
+        many_speeds,
     ),
     FigureKind(
         "friction-over-hardness",
