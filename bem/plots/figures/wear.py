@@ -177,7 +177,8 @@ def _shapes(run: Any, figure: Figure) -> None:
 
 
 def _something_left(run: Any) -> bool:
-    return bool((run.dataset["removed"].values > 0).any())
+    """Of pieces: what a law of wear takes off by thickness has no shape."""
+    return _any_piece(run) and bool((run.dataset["removed"].values > 0).any())
 
 
 def _any_piece(run: Any) -> bool:
@@ -245,7 +246,7 @@ FIGURES = (
     FigureKind(
         "particle-shapes",
         "The six largest particles of the last cycle, upside down; their thickness is drawn to twice its scale.",
-        ("x", "y", "removed"),
+        ("radius", "x", "y", "removed"),
         _shapes,
         (9.0, 5.2),
         _something_left,
