@@ -6,7 +6,7 @@ The film carries the rest. Knows numbers only, no contact and no film. Verified 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -116,8 +116,9 @@ class SharedCurve(Protocol):
         """On the film."""
 
 
-def curves_load_share(curves: Sequence[SharedCurve]) -> LoadShare | None:
-    """`fit_load_share` to the points of all curves together; None of too few of them."""
+def curves_load_share(curves: Iterable[SharedCurve | None]) -> LoadShare | None:
+    """`fit_load_share` to the points of all curves together, but for those that failed; None of too few of them."""
+    curves = [one for one in curves if one is not None]
     if not curves:
         return None
     ratio, contact, film = (

@@ -14,6 +14,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import BaseModel
 
 from bem.scenes.records import Figure
@@ -78,6 +80,15 @@ def variants(
 
     names = tuple(item.name for item in found) or (unnamed,)
     return Axis("variant", names, Figure("", "variant"), pick, always=bool(found) or always)
+
+
+def over_last(count: int, axes: Sequence[Axis], each: Sequence[Any]) -> tuple[list[tuple[Any, ...]], NDArray[Any]]:
+    """The values of the last axes, so many, and what there is of each case as an array of objects over them, of the
+    first place along the others."""
+    last = axes[-count:]
+    table = np.empty(len(each), dtype=object)
+    table[:] = each
+    return [axis.values for axis in last], table.reshape(-1, *(len(axis) for axis in last))[0]
 
 
 def with_keys(table: Model, values: Mapping[str, Any]) -> Model:

@@ -79,6 +79,18 @@ def counted(key: str, what: str, first: int, most: int) -> Resolution:
     return Resolution(what, begin, finer, lambda scene: f"{number(scene)} {what}", part=what)
 
 
+def of_either(what: str, which: Callable[[Any], Resolution]) -> Resolution:
+    """One of several by which scenes are resolved: `which` says, of a scene. What there are so many of is the origin of
+    its part of error bars, too."""
+    return Resolution(
+        what,
+        lambda scene: which(scene).first(scene),
+        lambda scene: which(scene).finer(scene),
+        lambda scene: which(scene).shown(scene),
+        part=what,
+    )
+
+
 def cell_at(key: str) -> Resolution:
     """The size of the cells at a key of a table of the scene, such as "array.cell"; it begins with what is given."""
     table, name = key.split(".")

@@ -15,8 +15,8 @@ import numpy as np
 from bem.accuracy.bars import POINTS
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
-from bem.scenes import build, plans
-from bem.scenes.axes import Axis, listed, variants
+from bem.scenes import build, film_plans, plans
+from bem.scenes.axes import Axis, listed, over_last, variants
 from bem.scenes.common import OutputsScene, Repetitions
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
@@ -24,7 +24,7 @@ from bem.scenes.lubrication import in_words_of_the_scene, tell_of_film
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, columns, filled, mean, spread
-from bem.scenes.resolutions import CELLS, Resolution, counted
+from bem.scenes.resolutions import CELLS, counted, of_either
 from bem.scenes.tables.sharing import BAR_OF_HEAT, BASELINE, CurveScene, SurfaceVariant
 
 if TYPE_CHECKING:
@@ -61,16 +61,6 @@ def axes(scene: FrictionScene) -> tuple[Axis, ...]:
     )
 
 
-_IN_CONTACT = "; that of the surfaces in contact at each speed"
-_HEAT = {
-    "off": 'thermal is "off"',
-    "lumped": "inlet heating of each film and its oil's temperature" + _IN_CONTACT,
-    "full": "temperature along and across each film" + _IN_CONTACT,
-}
-_HEAT_SECONDS = {"off": 0.0, "lumped": 1.0, "full": 4.0}
-"""At a speed, whatever the grid."""
-
-
 def plan(scene: FrictionScene) -> Plan:
     """What will be computed for one curve.
 
@@ -81,14 +71,8 @@ def plan(scene: FrictionScene) -> Plan:
     grid, speeds, coupled = scene.check(scene.film), len(scene.speeds.build()), scene.coupled
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
-        _films(scene, speeds),
-        Step(
-            "heat",
-            _HEAT[scene.thermal],
-            skipped=scene.thermal == "off",
-            seconds=speeds * (_HEAT_SECONDS[scene.thermal] + 3e-6 * grid.cells),
-            memory=2e7 + 300.0 * grid.cells,
-        ),
+        film_plans.of_curve(speeds, scene.film.points, None if scene.contact.point_radii is None else scene.film.cells),
+        film_plans.heat(scene.thermal, speeds, grid.cells),
         plans.contacts(
             grid,
             _CONVOLUTIONS * speeds,
@@ -96,14 +80,7 @@ def plan(scene: FrictionScene) -> Plan:
             name="rough contacts",
             skipped=not coupled,
         ),
-        Step(
-            "balance without the oil beside the contact",
-            "it is left out anyway"
-            if scene.sharing.oil_volume == "loaded"
-            else "once more at each speed where film and contact share the load, to tell what that oil decides",
-            seconds=speeds * 0.2,
-            skipped=scene.sharing.oil_volume == "loaded",
-        ),
+        film_plans.oil_beside(scene.sharing.oil_volume, speeds),
         plans.error_bars(
             scene.outputs.errors,
             "each balance on the grid of twice the cell, and there with half the film's points",
@@ -114,16 +91,6 @@ def plan(scene: FrictionScene) -> Plan:
         plans.traction_kernels(grid, *scene.bodies, scene.contact.boundary_friction, wanted=coupled),
         plans.figures(grid.cells),
     )
-
-
-def _films(scene: FrictionScene, speeds: int) -> Step:
-    """Of a curve: a ball's films take longer, and have no start."""
-    what = f"for each of {speeds} speeds of a curve, most of them on "
-    if scene.contact.point_radii is None:
-        seconds = speeds * (0.3 + 5e-8 * scene.film.points**2)
-        return Step("films", f"about 8 {what}a coarser mesh", seconds=seconds, memory=16.0 * scene.film.points**2)
-    cells = scene.film.cells**2
-    return Step("films", f"about 10 {what}fewer cells", seconds=speeds * (2.0 + 2e-4 * cells), memory=900.0 * cells)
 
 
 _curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="first")
@@ -252,8 +219,6 @@ def _record(
     bars, parts = from_tables(errors, RULES, ORIGINS)
     shown = curve.shown
     assert shown is not None
-    film_pressure, film_thickness = shown.film_along_x
-    position, own_pressure, own_thickness = shown.film_section
     names = [item.name for item in fields(curve.points[0]) if item.name not in left_out]
     bad = [one for one in curve.points if one.status is not Status.CONVERGED]
     return filled(
@@ -266,16 +231,19 @@ def _record(
         displacement=getattr(shown.contact, "displacement", np.zeros(grid.shape)),
         pressure=shown.contact_pressure,
         separation=shown.separation,
-        film_thickness_patch=film_thickness,
-        film_pressure_patch=film_pressure,
-        film_x=position,
-        film_pressure=own_pressure,
-        film_thickness=own_thickness,
+        **dict(zip(_ON_PATCH, shown.film_along_x, strict=True)),
+        **dict(zip(_ON_ITS_MESH, shown.film_section, strict=True)),
         errors=bars,
         error_parts=parts,
         status=bad[0].status if bad else Status.CONVERGED,
         where="; ".join(f"speed {one.speed:g} m/s: {one.status.value}" for one in bad[:5]),
     )
+
+
+_ON_PATCH, _ON_ITS_MESH = (
+    ("film_pressure_patch", "film_thickness_patch"),
+    ("film_x", "film_pressure", "film_thickness"),
+)
 
 
 def summarise(
@@ -286,10 +254,7 @@ def summarise(
     from bem.friction.curves import relative_difference
     from bem.friction.load_share import curves_load_share
 
-    table = np.empty(tuple(len(axis) for axis in axes), dtype=object)
-    table.ravel()[:] = records
-    loads, names, models, _ = (axis.values for axis in axes[-4:])
-    table = table.reshape(-1, *table.shape[-4:])[0]
+    (loads, names, models, _), table = over_last(4, axes, records)
     found = []
     for i, j, k in np.ndindex(table.shape[:3]):
         load, variant, model = loads[i], names[j], models[k]
@@ -301,30 +266,15 @@ def summarise(
         percent, scatter = mean(values), spread(values)
         row = {"load_N": load, "variant": variant, "model": model, "d_percent": percent, "d_percent_spread": scatter}
         found.append(row)
-    fits = [(str(model), curves_load_share(_solved(table[:, :, k]))) for k, model in enumerate(models)]
+    fits = [(str(model), curves_load_share(table[:, :, k].ravel())) for k, model in enumerate(models)]
     shares = [{"model": model, **asdict(fit)} for model, fit in fits if fit is not None]
     made = {"largest_difference": found, "load_share": shares}
     return {name: rows for name, rows in made.items() if rows}
 
 
-def _solved(records: np.ndarray) -> list[CurveRecord]:
-    return [one for one in records.ravel() if one is not None]
-
-
 _LINE, _POINT = counted("film.points", POINTS, 400, 20000), counted("film.cells", POINTS, 64, 512)
 
-
-def _of_contact(scene: FrictionScene) -> Resolution:
-    return _LINE if scene.contact.point_radii is None else _POINT
-
-
-_FILM = Resolution(
-    POINTS,
-    lambda scene: _of_contact(scene).first(scene),
-    lambda scene: _of_contact(scene).finer(scene),
-    lambda scene: _of_contact(scene).shown(scene),
-    part=POINTS,
-)
+_FILM = of_either(POINTS, lambda scene: _LINE if scene.contact.point_radii is None else _POINT)
 KIND = Kind.of(
     vars(),
     FrictionScene,

@@ -15,8 +15,8 @@ import numpy as np
 from pydantic import model_validator
 
 from bem.grid import FloatArray
-from bem.scenes import build, plans, wearing
-from bem.scenes.axes import Axis, changed, with_keys
+from bem.scenes import build, film_plans, plans, wearing
+from bem.scenes.axes import Axis, changed, over_last, with_keys
 from bem.scenes.common import PositivePressure, Repetitions, problem
 from bem.scenes.context import Context, PlainContext, error_bars
 from bem.scenes.kind import Kind
@@ -91,13 +91,7 @@ def plan(scene: RunningInScene) -> Plan:
     cycles = {"convolutions": _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": 4 * _DEPTHS_NEEDED}
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
-        Step(
-            "film tables",
-            "about 20 films for each speed, shared by all cycles and repetitions",
-            per="grid",
-            seconds=20 * 2e-7 * scene.sharing.film_points**2,
-            memory=16.0 * scene.sharing.film_points**2,
-        ),
+        film_plans.tables(scene.sharing.film_points, "cycles and repetitions"),
         Step("a film for every balance", "films are interpolated in the tables", skipped=True),
         *wearing.cycle_steps(
             scene, grid, contacts=_CONTACTS, friction=float(scene.contact.boundary_friction != 0), **cycles
@@ -305,9 +299,8 @@ def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[Run
     summary = {"cycles": scene.cycles.count, "load_N": scene.load, "reported_mean": scene.sizes.report}
     if len(scene.hardnesses) <= 2:
         return summary
-    sizes = [len(axis) for axis in axes[-3:]]
-    friction = np.array([np.nan if r is None else r.friction_run_in for r in records]).reshape(-1, *sizes)[0]
-    best = least_friction(axes[-3].values, friction)
+    (hardnesses, _, _), friction = over_last(3, axes, [np.nan if r is None else r.friction_run_in for r in records])
+    best = least_friction(hardnesses, friction.astype(np.float64))
     inside = best not in (min(scene.hardnesses), max(scene.hardnesses))
     return summary | {"hardness_of_least_friction_Pa": best, "least_friction_inside_range": inside}
 

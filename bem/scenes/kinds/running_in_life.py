@@ -15,7 +15,7 @@ import numpy as np
 from pydantic import model_validator
 
 from bem.grid import FloatArray
-from bem.scenes import build, lives, plans
+from bem.scenes import build, film_plans, lives, plans
 from bem.scenes.axes import Axis
 from bem.scenes.common import Repetitions, problem
 from bem.scenes.context import Context, error_bars
@@ -102,13 +102,7 @@ def plan(scene: RunningInLifeScene) -> Plan:
     passes = 3 * scene.wear.positions * _JUMPS * decades * max(0.05 / life.tolerance, 0.5)
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
-        Step(
-            "film tables",
-            "about 20 films for each speed, shared by all passes",
-            per="grid",
-            seconds=20 * 2e-7 * scene.sharing.film_points**2,
-            memory=16.0 * scene.sharing.film_points**2,
-        ),
+        film_plans.tables(scene.sharing.film_points, "passes"),
         plans.contacts(
             grid,
             _CONVOLUTIONS * passes,

@@ -14,7 +14,7 @@ from pydantic import Field, model_validator
 
 from bem.accuracy.bars import REUSE, STEPS
 from bem.grid import FloatArray, Grid
-from bem.scenes import build, plans
+from bem.scenes import build, film_plans, plans
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import OutputsScene, Repetitions, problem
 from bem.scenes.context import Context, error_bars
@@ -83,15 +83,7 @@ def plan(scene: TribofilmScene) -> Plan:
             seconds=0.0 if all(grid.periodic) else 0.25 * layered_kernel_seconds(grid.cells) * _CONTACTS,
             memory=8.0 * padded_points(grid.shape, grid.periodic) / 4 + 16.0 * grid.cells * _CONTACTS,
         ),
-        Step(
-            "oil film",
-            "no oil: the surfaces carry all of the load"
-            if scene.oil is None
-            else "load shared once between oil and surfaces",
-            skipped=scene.oil is None,
-            seconds=2.0 + 2e-4 * scene.oil_cells**2,
-            memory=900.0 * scene.oil_cells**2,
-        ),
+        film_plans.of_ball(scene.oil_cells, wanted=scene.oil is not None),
         plans.contacts(grid, _CONVOLUTIONS * _CONTACTS, f"about {_CONTACTS} for each film, from the last pressure"),
         Step(
             "contacts at other times",

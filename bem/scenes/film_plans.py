@@ -1,0 +1,58 @@
+"""Steps of plans of oil films, each with what it was measured to cost.
+
+Knows what a scene says of its films and speeds; no kind of scene, no film. Verified in tests/frugality/test_plans.py.
+"""
+
+from __future__ import annotations
+
+from bem.scenes.planner import Step
+
+_IN_CONTACT = "; that of the surfaces in contact at each speed"
+_HEAT = {
+    "off": ('thermal is "off"', 0.0),
+    "lumped": ("inlet heating of each film and its oil's temperature" + _IN_CONTACT, 1.0),
+    "full": ("temperature along and across each film" + _IN_CONTACT, 4.0),
+}
+"""What is found, and seconds at a speed, whatever the grid."""
+
+
+def of_curve(speeds: int, points: int, cells: int | None) -> Step:
+    """Films of a curve of so many speeds, of a cylinder on so many points or of a ball on so many cells along an axis:
+    a ball's films take longer, and have no start."""
+    what = f"for each of {speeds} speeds of a curve, most of them on "
+    if cells is None:
+        seconds = speeds * (0.3 + 5e-8 * points**2)
+        return Step("films", f"about 8 {what}a coarser mesh", seconds=seconds, memory=16.0 * points**2)
+    seconds = speeds * (2.0 + 2e-4 * cells**2)
+    return Step("films", f"about 10 {what}fewer cells", seconds=seconds, memory=900.0 * cells**2)
+
+
+def heat(thermal: str, speeds: int, cells: int) -> Step:
+    """Of films and contacts at so many speeds, on a grid of so many cells."""
+    what, seconds = _HEAT[thermal]
+    cost = speeds * (seconds + 3e-6 * cells)
+    return Step("heat", what, skipped=thermal == "off", seconds=cost, memory=2e7 + 300.0 * cells)
+
+
+def oil_beside(oil_volume: str, speeds: int) -> Step:
+    """Of a curve: what the oil beside Hertz' contact decides."""
+    loaded = oil_volume == "loaded"
+    why = (
+        "it is left out anyway"
+        if loaded
+        else "once more at each speed where film and contact share the load, to tell what that oil decides"
+    )
+    return Step("balance without the oil beside the contact", why, seconds=speeds * 0.2, skipped=loaded)
+
+
+def tables(points: int, shared_by: str) -> Step:
+    """Films over the load they carry, tabulated once for each speed."""
+    what = f"about 20 films for each speed, shared by all {shared_by}"
+    seconds = 20 * 2e-7 * points**2
+    return Step("film tables", what, per="grid", seconds=seconds, memory=16.0 * points**2)
+
+
+def of_ball(cells: int, *, wanted: bool) -> Step:
+    """One balance of a ball's film on so many cells along an axis with the surfaces under it."""
+    what = "load shared once between oil and surfaces" if wanted else "no oil: the surfaces carry all of the load"
+    return Step("oil film", what, skipped=not wanted, seconds=2.0 + 2e-4 * cells**2, memory=900.0 * cells**2)
