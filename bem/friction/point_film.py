@@ -39,6 +39,7 @@ THIN_NOTE = (
     "its thickness by the fit of Nijenbanning, Venner and Moes, its minimum not to be trusted (its oil was found up to "
     "12 % too much at 2.5 times that load, up to 40 % at 6 times); more cells of the film put that off"
 )
+FACTORS_NOTE = "flow factors go on there as at that smaller load, where the film is thicker"
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +148,7 @@ def thin_film(
         central_thickness_error=None,
         minimum_thickness_error=None,
         load=film.load * (load / solved),
-        notes=(*film.notes, THIN_NOTE),
+        notes=(*film.notes, THIN_NOTE if contact.flow_factors == "off" else f"{THIN_NOTE}; {FACTORS_NOTE}"),
     )
     forces, rolling = made.forces()
     return replace(made, shear_force=forces, rolling_force=rolling)
@@ -172,6 +173,7 @@ def solved_point_film(contact: PointContact, speeds: Sequence[float], load: floa
         speeds=speeds,
         lubricant=contact.lubricant,
         shape=(cells, cells),
+        flow_factors=contact.flow_factors,
     )
     return replace(film, state=None)
 

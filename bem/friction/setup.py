@@ -107,7 +107,7 @@ class MixedSetup:
         if len(radii) != 2:
             return [f"radii: {self.radii!r} must be two positive, finite radii (Rx, Ry) [m]"]
         messages = _not_positive({"radii": radii[0]}) or _not_positive({"radii": radii[1]})
-        left = {"flow_factors": self.flow_factors, "supply": self.supply or "off", "thermal": self.thermal}
+        left = {"supply": self.supply or "off", "thermal": self.thermal}
         left |= {"striated_exit": self.striated_exit or "off"}
         left |= {"film_position": "off" if self.film_position is None else "given"}
         for name, value in left.items():
@@ -239,7 +239,8 @@ class MixedSetup:
         modulus = contact_modulus(*(body.material for body in bodies))
         deforming = self.load if self.counted is OilVolume.LOADED else None
         if self.radii is not None:
-            return PointContact((self.radii[0], self.radii[1]), modulus, self.lubricant, deforming)
+            radii = (self.radii[0], self.radii[1])
+            return PointContact(radii, modulus, self.lubricant, deforming, self.flow_factors)
         assert self.radius is not None
         assert self.width is not None
         supply = checked_supply(self.supply)

@@ -113,13 +113,14 @@ class LineContact:
 
 @dataclass(frozen=True)
 class PointContact:
-    """A ball or ellipsoid on a flat, and the oil: radii (Rx, Ry) [m], E* of the pair [Pa]. Its films are flooded,
-    isothermal and between smooth walls."""
+    """A ball or ellipsoid on a flat, and the oil: radii (Rx, Ry) [m], E* of the pair [Pa]; how roughness changes the
+    flow. Its films are flooded and isothermal."""
 
     radii: tuple[float, float]
     contact_modulus: float
     lubricant: Lubricant
     deforming_load: float | None = None
+    flow_factors: WallFactors | str = "off"
 
     @property
     def heat(self) -> None:

@@ -1,10 +1,12 @@
-"""Flow between rough walls in Reynolds' equation of the line contact: Patir and Cheng's factors in its units.
+"""Flow between rough walls in Reynolds' equation of line and point contacts: Patir and Cheng's factors in its units.
 
     q = -phi_x h^3/(12 mu) dp/dx + (u1 + u2)/2 (h + k s phi_s),    k = (u1 - u2)/(u1 + u2) x share,
 
 for roughness on wall 1 (share 1), wall 2 (-1) or both ((s1^2 - s2^2)/s^2): J. Lubr. Technol. 101 (1979) 220. What makes
-pressure is the change of h + k s phi_s: where phi_s falls as h grows, roughness on the faster wall thins the film.
-Knows curves and numbers; `bem.flow` makes them. Verified in tests/lubrication/test_rough_walls.py.
+pressure is the change of h + k s phi_s: where phi_s falls as h grows, roughness on the faster wall thins the film. In
+the plane phi_y has its part in what the pressure drives along y; both walls move along x.
+Knows curves and numbers; `bem.flow` makes them. Verified in tests/lubrication/test_rough_walls.py and
+tests/lubrication/point/test_rough_point.py.
 """
 
 from __future__ import annotations
@@ -49,6 +51,15 @@ class WallFactors(Protocol):
         """phi_s over separation [m]."""
 
 
+@runtime_checkable
+class PlaneWallFactors(WallFactors, Protocol):
+    """What it must offer for films in the plane besides."""
+
+    @property
+    def pressure_y_curve(self) -> Curve:
+        """phi_y over separation [m]."""
+
+
 @dataclass(frozen=True)
 class RoughWalls:
     """Factors of films in the unit `film` [m]; `drag` is k s in that unit."""
@@ -67,9 +78,7 @@ class RoughWalls:
 
     def cube(self, thickness: FloatArray) -> tuple[FloatArray, FloatArray]:
         """phi_x h^3 and half its derivative."""
-        value, slope = self.pressure_curve(thickness * self.film)
-        low = value < LEAST_FACTOR
-        value, slope = np.where(low, LEAST_FACTOR, value), np.where(low, 0.0, slope * self.film)
+        value, slope = _bounded(self.pressure_curve, thickness, self.film)
         return value * thickness**3, 0.5 * (3 * value * thickness**2 + slope * thickness**3)
 
     def dragged(self, thickness: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -78,6 +87,46 @@ class RoughWalls:
             return thickness, np.ones_like(thickness)
         value, slope = self.shear_curve(thickness * self.film)
         return thickness + self.drag * value, 1 + self.drag * self.film * slope
+
+
+@dataclass(frozen=True)
+class PlaneWalls:
+    """Factors of films in the plane: what goes along x, and the curve of what pressure drives along y."""
+
+    along: RoughWalls
+    across_curve: Curve
+
+    def on(self, thickness: FloatArray) -> FloatArray:
+        """Of films (nx, ny) in their unit (6, nx, ny): phi_x, phi_y and h + k s phi_s, each with its derivative."""
+        along = _bounded(self.along.pressure_curve, thickness, self.along.film)
+        across = _bounded(self.across_curve, thickness, self.along.film)
+        return np.stack([*along, *across, *self.along.dragged(thickness)])
+
+
+def plane_walls_of(factors: WallFactors | str, film: float, speeds: Sequence[Sequence[float]]) -> PlaneWalls | None:
+    """The walls of a film in the plane in the unit `film` [m], for speeds ((u1x, u1y), (u2x, u2y)); None where factors
+    are "off".
+
+    Raises
+    ------
+    InputError : neither "off" nor a table with both pressure factors; speeds across x, for which a table has no shear
+        flow.
+    """
+    along = walls_of(factors, film, [speed[0] for speed in speeds]) if not any(s[1] for s in speeds) else None
+    if isinstance(factors, str) and factors == "off":
+        return None
+    if not isinstance(factors, PlaneWallFactors):
+        raise InputError(f'flow_factors: {factors!r} must be "off" or a table of bem.flow_factors')
+    if along is None:
+        raise InputError("flow_factors: a table has the shear flow of walls that move along x; give speeds along x")
+    return PlaneWalls(along, factors.pressure_y_curve)
+
+
+def _bounded(curve: Curve, thickness: FloatArray, film: float) -> tuple[FloatArray, FloatArray]:
+    """A pressure flow factor, kept from below, and its derivative with the film in its unit [m]."""
+    value, slope = curve(thickness * film)
+    low = value < LEAST_FACTOR
+    return np.where(low, LEAST_FACTOR, value), np.where(low, 0.0, slope * film)
 
 
 def walls_of(factors: WallFactors | str, film: float, speeds: Sequence[float]) -> RoughWalls | None:

@@ -13,6 +13,7 @@ from bem.convolution import DisplacementOperator
 from bem.grid import FloatArray
 from bem.lubrication.point import loops
 from bem.lubrication.point.far import Far, far_load
+from bem.lubrication.rough_walls import PlaneWalls
 
 DENSE = 1100
 """Cells of a grid whose matrix is inverted as a whole."""
@@ -39,7 +40,8 @@ class PointProblem:
     oil : `loops.flows` has what it gives of pressures. rectangle : (x0, x1, y0, y1), the edges of the outermost cells.
     operator : for a shape, the displacement of both bodies and the factor to films from what it makes of pressures in
     their unit; None of rigid bodies. typical_film : what is expected in the middle. heights : (nx, ny) of both surfaces
-    out of the bodies, None of smooth ones. in_time : None of a steady film.
+    out of the bodies, None of smooth ones. in_time : None of a steady film. walls : flow factors, of steady films
+    alone; None of smooth walls, and far away walls count as smooth.
     """
 
     load: float
@@ -51,6 +53,7 @@ class PointProblem:
     typical_film: float
     heights: FloatArray | None = None
     in_time: InTime | None = None
+    walls: PlaneWalls | None = None
 
     @property
     def storing(self) -> float:

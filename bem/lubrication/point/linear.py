@@ -19,6 +19,7 @@ from scipy.sparse import csr_matrix
 from bem.grid import FloatArray
 from bem.lubrication.point import loops
 from bem.lubrication.point.levels import Level
+from bem.lubrication.point.rough_loops import rough_flows
 
 BoolArray = NDArray[np.bool_]
 
@@ -187,8 +188,13 @@ class Linear:
 def flows(level: Level, pressure: FloatArray, film: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Flow through the faces (2, nx, ny) and its stencil (13, nx, ny), see `loops`."""
     flow, stencil = np.zeros((2, *level.shape)), np.zeros((13, *level.shape))
-    oil = level.problem.oil(pressure)
-    loops.flows(pressure, film, oil, level.spacing, level.problem.drag, flow, stencil)
+    problem = level.problem
+    oil = problem.oil(pressure)
+    if problem.walls is None:
+        loops.flows(pressure, film, oil, level.spacing, problem.drag, flow, stencil)
+    else:
+        walls = problem.walls.on(film)
+        rough_flows(pressure, film, oil, walls, level.spacing, problem.drag, flow, stencil)
     return flow, stencil
 
 

@@ -54,7 +54,7 @@ def _mean_fluidity(first: float, second: float) -> tuple[float, float, float]:
 
 
 @nb.njit(**COMPILE)
-def _pressure_flow(
+def pressure_flow(
     p: FloatArray, h: FloatArray, oil: FloatArray, step: float, along_y: int, flow: FloatArray, stencil: FloatArray
 ) -> None:
     """Pressure flow through the faces along one axis, and its derivatives (4, nx, ny)."""
@@ -80,7 +80,7 @@ def _pressure_flow(
 
 
 @nb.njit(**COMPILE)
-def _drag(m: FloatArray, share: float, along_y: int, dragged: FloatArray) -> None:
+def dragged_flow(m: FloatArray, share: float, along_y: int, dragged: FloatArray) -> None:
     """What is dragged through the faces along one axis (nx, ny), of oil m > 0 in the cells."""
     nx, ny = m.shape
     di, dj = 1 - along_y, along_y
@@ -131,14 +131,14 @@ def flows(
     stencil: FloatArray,
 ) -> None:
     """Flow (2, nx, ny) through all faces, and the stencil of its derivatives."""
-    _pressure_flow(p, h, oil, spacing[0], 0, flow[0], stencil[0:4])
-    _pressure_flow(p, h, oil, spacing[1], 1, flow[1], stencil[4:8])
+    pressure_flow(p, h, oil, spacing[0], 0, flow[0], stencil[0:4])
+    pressure_flow(p, h, oil, spacing[1], 1, flow[1], stencil[4:8])
     stencil[8] = oil[2] * h
     stencil[9] = 1.0 / h
     stencil[10] = oil[3] / oil[2]
     for axis in range(2):
         if drag[axis] != 0.0:
-            _drag(stencil[8], drag[axis], axis, stencil[11 + axis])
+            dragged_flow(stencil[8], drag[axis], axis, stencil[11 + axis])
             flow[axis] += stencil[11 + axis]
 
 

@@ -14,6 +14,7 @@ from bem.grid import FloatArray, Grid
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.levels import PointProblem
 from bem.lubrication.point.scales import PointScales, nijenbanning_film, point_scales, rigid_film
+from bem.lubrication.rough_walls import LEAST_FACTOR, PlaneWalls
 from bem.materials import Body, Material
 from bem.reference_solutions.hertz import PointContact, ellipse_contact
 
@@ -94,8 +95,10 @@ def setting_of(
     lubricant: Lubricant,
     extent: Rectangle | None,
     bodies: Sequence[Body] | None,
+    walls_of: Callable[[float], PlaneWalls | None] | None = None,
 ) -> Setting:
-    """The setting of a case; `entrainment` is the sum of the speeds [m/s], `extent` edges on the user's axes [m]."""
+    """The setting of a case; `entrainment` is the sum of the speeds [m/s], `extent` edges on the user's axes [m],
+    `walls_of` gives the rough walls of films in a unit [m], None between smooth ones."""
     frame = Frame.of(entrainment)
     speed = math.hypot(*entrainment)
     along = frame.pair(radii)
@@ -103,6 +106,9 @@ def setting_of(
     flow = frame.pair(entrainment)
     drag = (abs(flow[0]) / speed, abs(flow[1]) / speed)
     film = typical_film(scales, drag, lubricant.pressure_viscosity)
+    walls = None if walls_of is None else walls_of(scales.film)
+    if walls is not None:
+        film = _film_between(walls, film)
     hertz = None
     if not scales.rigid:
         # E* = 1/2 in units in which 2/pi is 1/(pi E*)
@@ -115,7 +121,7 @@ def setting_of(
         rectangle = (a0 / unit, a1 / unit, b0 / unit, b1 / unit)
     oil = scaled_oil(lubricant, scales.pressure)
     operator = None if scales.rigid else Operators(scales, rectangle, contact_modulus, bodies)
-    problem = PointProblem(scales.load, (1.0, scales.ratio), drag, oil, rectangle, operator, film)
+    problem = PointProblem(scales.load, (1.0, scales.ratio), drag, oil, rectangle, operator, film, walls=walls)
     return Setting(frame, scales, problem, hertz)
 
 
@@ -165,6 +171,20 @@ def typical_film(scales: PointScales, drag: tuple[float, float], pressure_viscos
     # across: radii exchanged, and with them the units
     across = law(load * ratio**1.25, material * ratio**0.25, 1 / ratio) / math.sqrt(ratio)
     return drag[0] ** 2 * law(load, material, ratio) + drag[1] ** 2 * across
+
+
+def _film_between(walls: PlaneWalls, film: float) -> float:
+    """Film to be expected between rough walls where it would be `film` between smooth ones: that of an oil of the
+    viscosity over phi_x, with whose power 2/3 films go."""
+    least, most = film / 10, film * LEAST_FACTOR ** (-2 / 3)
+
+    def missing(log: float) -> float:
+        return log + 2 / 3 * math.log(float(walls.on(np.array([[math.exp(log)]]))[0, 0, 0])) - math.log(film)
+
+    ends = math.log(least), math.log(most)
+    if missing(math.log(film)) == 0 or missing(ends[0]) >= 0 or missing(ends[1]) <= 0:
+        return film
+    return math.exp(float(brentq(missing, *ends, rtol=1e-6)))
 
 
 def default_rectangle(hertz: PointContact | None, ratio: float, film: float, drag: tuple[float, float]) -> Rectangle:

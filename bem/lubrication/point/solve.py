@@ -17,6 +17,7 @@ from bem.lubrication.point.film import PointFilmSolution
 from bem.lubrication.point.kept import KeptPoint, central_film, certificate, film_errors, film_fraction, least_film
 from bem.lubrication.point.setting import Rectangle, Setting, setting_of
 from bem.lubrication.point.validity import notes_on_point
+from bem.lubrication.rough_walls import WallFactors, notes_on_factors, plane_walls_of
 from bem.materials import Body
 from bem.threads import one_blas_thread
 
@@ -45,6 +46,7 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
     bodies: Body | Sequence[Body] | None = None,
     cavitation: Cavitation | str = Cavitation.SWIFT_STIEBER,
     max_iterations: int = 40,
+    flow_factors: WallFactors | str = "off",
 ) -> PointFilmSolution:
     """Steady film between an ellipsoid and a flat: Reynolds' equation with rupture and elastic deflection.
 
@@ -68,6 +70,8 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
     cavitation : a `Cavitation` or its name; MASS_CONSERVING also says how full the gap is behind the rupture. Pressure
         and film are the same: a flooded film of smooth surfaces does not form again.
     max_iterations : Newton steps from one start on one grid; up to four starts are tried.
+    flow_factors : "off", or a table of `bem.flow_factors`: pressure flow phi_x h^3 along x and phi_y h^3 along y, and
+        shear flow (u1 - u2)/2 s phi_s along x, along which both walls must move then. Far away they count as smooth.
 
     Returns
     -------
@@ -90,13 +94,14 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
     both = (bodies,) if isinstance(bodies, Body) else bodies
     setting = setting_of(
         float(load), (float(radii[0]), float(radii[1])), float(contact_modulus), entrainment(pair), lubricant,
-        edges(extent), both,
+        edges(extent), both, lambda unit: plane_walls_of(flow_factors, unit, pair),
     )  # fmt: skip
     check_load(setting, load)
     check_extent(setting)
     along = (cells[1], cells[0]) if setting.frame.exchanged else cells
     reached = solved(setting.problem, along, tolerance, max_iterations)
-    return result_of(setting, reached, Request(pair, lubricant, tolerance, contact_modulus, model))
+    film = result_of(setting, reached, Request(pair, lubricant, tolerance, contact_modulus, model))
+    return replace(film, notes=film.notes + notes_on_factors(flow_factors, film.minimum_thickness))
 
 
 @dataclass(frozen=True)

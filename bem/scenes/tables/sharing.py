@@ -108,13 +108,8 @@ class CurveScene(HotMixedScene):
     def _point_film(self) -> Self:
         if self.contact.point_radii is None:
             return self
-        asked = {
-            'sharing.flow_factors = "surfaces"': self.sharing.flow_factors != "off",
-            "sharing.striated_exit": self.sharing.striated_exit,
-        }
-        for key, given in asked.items():
-            if given:
-                raise problem(_of_a_ball(key), _NOT_OF_A_BALL)
+        if self.sharing.striated_exit:
+            raise problem(_of_a_ball("sharing.striated_exit"), _NOT_OF_A_BALL)
         return self
 
     @model_validator(mode="after")
