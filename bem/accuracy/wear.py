@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from bem.accuracy.bars import GRID, ErrorBars
 
@@ -80,8 +80,20 @@ _ODD = (
 _NOTHING = "no error bars from a coarser loop: nothing wears on the grid of twice the cell, or here"
 
 
-def wear_bars(found: Mapping[str, float], coarser: Mapping[str, float] | None) -> ErrorBars:
-    """Bars of the figures of a wear loop from those on the grid of twice the cell, None where there is no such grid."""
+def wear_bars(
+    found: Mapping[str, Any], coarser: Mapping[str, Any] | None, reported: Mapping[str, str] | None = None
+) -> ErrorBars:
+    """Bars of the figures of a wear loop from those on the grid of twice the cell, None where there is no such grid;
+    with that of its `criterion_wear_rate`, where it has one, and those of sizes under further names, as they are
+    `reported`."""
+    bars, volume, rate = _wear_bars(found, coarser), found["worn_volume_per_cycle"], found.get("criterion_wear_rate")
+    bars |= bars.renamed(reported or {})
+    if rate is None or not volume > 0:
+        return bars
+    return bars | bars.renamed({"worn_volume_per_cycle": "criterion_wear_rate"}, lambda error: rate / volume * error)
+
+
+def _wear_bars(found: Mapping[str, Any], coarser: Mapping[str, Any] | None) -> ErrorBars:
     if coarser is None:
         return ErrorBars.unknown(RULES, _ODD)
     if not (found["worn_volume_per_cycle"] > 0 and coarser["worn_volume_per_cycle"] > 0):

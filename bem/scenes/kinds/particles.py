@@ -14,10 +14,10 @@ from bem.scenes import plans
 from bem.scenes.common import MeasuredSurface, OutputsScene, SceneModel, exactly_one
 from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
+from bem.scenes.pieces import ParticleTable, particle_rows
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, columns, filled
 from bem.scenes.tables.particles import ArchardScene, SedimentationScene, SeparationScene, SyntheticMapScene
-from bem.scenes.wearing import ParticleTable, particle_rows
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars

@@ -15,20 +15,20 @@ import numpy as np
 from pydantic import model_validator
 
 from bem.grid import FloatArray
-from bem.scenes import build, film_plans, plans, wearing
+from bem.scenes import build, film_plans, pieces, plans, wearing
 from bem.scenes.axes import Axis, changed, over_last, with_keys
 from bem.scenes.common import PositivePressure, Repetitions, problem
-from bem.scenes.context import Context, PlainContext, error_bars
+from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.lubrication import tell_of_film
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled, without_bars
 from bem.scenes.resolutions import CELLS, of_loop
-from bem.scenes.rubbing import FRICTION_SLIDES, RubbedRecord, rubbed
+from bem.scenes.rubbing import FRICTION_SLIDES
 from bem.scenes.tables.film_defect import film_defect
 from bem.scenes.tables.sharing import TEMPERATURES, HotMixedScene, RunningInCycles, RunningInSharing, heated
 from bem.scenes.tables.wear_model import WearScenePart
-from bem.scenes.third_bodies import ThirdBodyRecord, tell_of_third_bodies, third_bodies, third_body_figures
+from bem.scenes.third_bodies import tell_of_third_bodies, third_bodies
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
@@ -48,7 +48,7 @@ class RunningInScene(HotMixedScene):
     wear: WearScenePart = WearScenePart()
     cycles: RunningInCycles = RunningInCycles()
     sharing: RunningInSharing = RunningInSharing()
-    sizes: wearing.SizesScene = wearing.SizesScene()
+    sizes: pieces.SizesScene = pieces.SizesScene()
     hardnesses: list[PositivePressure] = []  # noqa: RUF012
     repetitions: Repetitions = 1
 
@@ -103,11 +103,11 @@ def plan(scene: RunningInScene) -> Plan:
 
 
 _over, _shown, _line = (partial(Series, ("cycle",)), partial(Series, ("x", "y"), of="first"), partial(Series, ("x",)))
-_FOLLOWS_CELL = f"{wearing.FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
+_FOLLOWS_CELL = f"{pieces.FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
 
 
 @dataclass(frozen=True, eq=False)
-class RunningInRecord(GridRecord, RubbedRecord, ThirdBodyRecord):
+class RunningInRecord(GridRecord, wearing.WornRecord):
     """A lubricated wear loop: friction before and after, particles, histories, the last film and surface."""
 
     scatters: ClassVar[tuple[str, ...]] = (
@@ -139,17 +139,15 @@ class RunningInRecord(GridRecord, RubbedRecord, ThirdBodyRecord):
     criterion_wear_rate: Annotated[
         float | None, Figure("mm3_Nm", "wear rate of the criterion itself, by load and distance")
     ]
-    particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled", no_bar=wearing.FOLLOWS_CELL)]
-    particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle", no_bar=wearing.FOLLOWS_CELL)]
-    particles_last_cycles: Annotated[float, Figure("", "particles of the last cycles", no_bar=wearing.FOLLOWS_CELL)]
+    particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled", no_bar=pieces.FOLLOWS_CELL)]
+    particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle", no_bar=pieces.FOLLOWS_CELL)]
+    particles_last_cycles: Annotated[float, Figure("", "particles of the last cycles", no_bar=pieces.FOLLOWS_CELL)]
     film_table_error: Annotated[float, Figure("", "error of the film that is interpolated in the table", unjudged=True)]
     contact_temperature: Annotated[float | None, heated("surfaces in contact, mean by pressure, run in")]
     flash_temperature: Annotated[float | None, heated("surfaces in contact, highest, run in")]
     evaluations_per_cycle: Annotated[float, Figure("", "films per cycle", unjudged=True)]
-    convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle", unjudged=True)]
-    number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number", no_bar=wearing.FOLLOWS_CELL)]
+    number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number", no_bar=pieces.FOLLOWS_CELL)]
     volume_mean_radius: Annotated[float, Figure("nm", "the same, mean by volume", no_bar=_FOLLOWS_CELL)]
-    cycle: Annotated[wearing.IntArray, _over("1", "cycle")]
     friction_over_cycles: Annotated[FloatArray, _over("1", "coefficient of friction")]
     film_load_over_cycles: Annotated[FloatArray, _over("N", "load carried by the film")]
     minimum_film_over_cycles: Annotated[FloatArray, _over("m", "minimum film thickness")]
@@ -182,15 +180,14 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
     from bem.accuracy import ErrorBars, running_in_bars
     from bem.accuracy.wear import FULL_HEAT, MIXED_RULES, OF_FILM
 
-    def loop(heights: tuple[FloatArray, FloatArray], across: float, points: float = 1.0) -> RunningInRecord:
-        coarser = at_resolution(scene, 0.5, across)
-        coarser = with_keys(coarser, wearing.film_keys(coarser, points))
-        return wear_down(coarser, heights, PlainContext(scene.seed))
+    def finer(scene: RunningInScene, factor: float, across: float) -> RunningInScene:
+        coarser = at_resolution(scene, factor, across)
+        return with_keys(coarser, wearing.film_keys(coarser, 2.0))
 
-    grid = build.grid_of(scene.grid)
-    there, finer_film = wearing.on_every_second_cell(initial, grid, loop), None
+    coarser = partial(wearing.on_twice_the_cell, scene, initial, build.grid_of(scene.grid), wear_down)
+    there, finer_film = coarser(at_resolution), None
     if there is not None and not wearing.film_is_halved(scene):
-        finer_film = wearing.on_every_second_cell(initial, grid, partial(loop, points=2.0))
+        finer_film = coarser(finer)
         there = None if finer_film is None else there
     known = [name for name in MIXED_RULES if getattr(found, name) is not None]
     figures = (None if one is None else {n: getattr(one, n) for n in known} for one in (found, there, finer_film))
@@ -212,7 +209,7 @@ def wear_down(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], con
     setup = scene.setup(**sharing.model_dump())
     frames = [] if saved is None else [np.asarray(frame) for frame in saved["frames"]]
     balance = {} if saved is None else unpack_balance(saved)
-    third, load = scene.wear.third_bodies, scene.contact.on_patch(setup.load, setup.grid.lengths)
+    load = scene.contact.on_patch(setup.load, setup.grid.lengths)
     step = MixedContact(setup, speeds, table=shared_film_table(setup, speeds), **balance)
 
     def watch(now: RunningInState) -> dict[str, float]:
@@ -237,14 +234,14 @@ def wear_down(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], con
         third_bodies=third_bodies(scene, setup.grid, load),
         film_defect=film_defect(scene),
     )
-    found = third_body_figures(third, result.cycles, scene.cycles.settled, load)
-    tell_of_third_bodies(context, found.get("third_body_load_share"))
+    with context.timer("films"):
+        film_error = step.table.error(float(step.rows["film_load"][-1]))
+    found = _record(scene, initial, result, step, film_table_error=film_error, pressure_frames=np.array(frames))
+    tell_of_third_bodies(context, found.third_body_load_share)
     tell_of_film(context, step.notes, step.film_notes)
     if not scene.wear.traction.slides:
         context.note(FRICTION_SLIDES)
-    with context.timer("films"):
-        film_error = step.table.error(float(step.rows["film_load"][-1]))
-    return _record(scene, initial, result, step, film_table_error=film_error, pressure_frames=np.array(frames), **found)
+    return found
 
 
 def _frame_cycles(count: int) -> list[int]:
@@ -253,19 +250,17 @@ def _frame_cycles(count: int) -> list[int]:
 
 
 def _record(
-    scene: RunningInScene,
-    initial: tuple[FloatArray, FloatArray],
-    result: RunningIn,
-    step: MixedContact,
-    **own: Any,
+    scene: RunningInScene, initial: tuple[FloatArray, FloatArray], result: RunningIn, step: MixedContact, **own: Any
 ) -> RunningInRecord:
     """The figures of a wear loop and what is kept of it."""
     from bem.wear.mixed_outcome import run_in
     from bem.wear.outcome import hertz_area
 
-    setup, cycles, rows = step.setup, result.cycles, step.rows
-    load = scene.contact.on_patch(setup.load, setup.grid.lengths)
-    worn, averaged = wearing.WornSurface.of(scene, initial, result, setup.grid, load), scene.cycles.averaged
+    setup, cycles, rows, averaged = step.setup, result.cycles, step.rows, scene.cycles.averaged
+    grid, load = setup.grid, scene.contact.on_patch(setup.load, setup.grid.lengths)
+    # the same strip before and after, at all speeds
+    strip = hertz_area(grid, setup.smooth.half_axes(setup.load))
+    worn = wearing.WornSurface.of(scene, initial, result, grid, load, lambda pressure: strip)
     figures = run_in(step, cycles, averaged)
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
     over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume", "particles")}
@@ -274,12 +269,9 @@ def _record(
         figures,
         worn,
         worn.figures,
-        rubbed(result, scene.cycles.settled),
-        # the same strip before and after, at all speeds
-        worn.strip(hertz_area(setup.grid, setup.smooth.half_axes(setup.load))),
-        wearing.mean_radii(worn.late, scene.sizes, *_RADII),
+        pieces.mean_radii(worn.late, scene.sizes, *_RADII),
         over,
-        setup.grid,
+        grid,
         friction_run_in=figures.friction,
         particles_first_cycle=float((worn.particles["cycle"] == 1).sum()),
         particles_last_cycles=float((worn.particles["cycle"] > len(cycles) - averaged).sum()),

@@ -14,29 +14,20 @@ from pydantic import model_validator
 
 from bem.errors import InfeasibleError
 from bem.grid import FloatArray, Grid
-from bem.scenes import build, plans, wearing
+from bem.scenes import build, pieces, plans, wearing
 from bem.scenes.axes import Axis, listed, variants, with_keys
 from bem.scenes.common import BodyScene, Repetitions, SceneModel, problem
-from bem.scenes.context import Context, PlainContext, error_bars
+from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, filled, grid_map
 from bem.scenes.resolutions import first_domain, of_loop
-from bem.scenes.rubbing import RubbedRecord, rubbed
 from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 from bem.scenes.tables.wear_model import WearScenePart
-from bem.scenes.third_bodies import (
-    THIRD_BODIES,
-    ThirdBodyRecord,
-    tell_of_third_bodies,
-    third_bodies,
-    third_body_figures,
-)
+from bem.scenes.third_bodies import THIRD_BODIES, tell_of_third_bodies, third_bodies
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from bem.accuracy import ErrorBars
     from bem.scenes.checks.hertz import SmoothContact
     from bem.wear import RunningIn
@@ -59,8 +50,8 @@ class WearScene(SceneModel):
     depths: wearing.WearDepthsScene
     wear: WearScenePart = WearScenePart()
     cycles: CyclesScene = CyclesScene()
-    sizes: wearing.SizesScene = wearing.SizesScene()
-    archard: wearing.WearRateScene | None = None
+    sizes: pieces.SizesScene = pieces.SizesScene()
+    archard: pieces.WearRateScene | None = None
     variants: list[WearVariantScene] = []  # noqa: RUF012
     repetitions: Repetitions = 1
 
@@ -123,16 +114,16 @@ _over, _map = partial(Series, ("cycle",)), partial(grid_map, of="last")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class WearRecord(wearing.MeanSizes, wearing.ParticleTable, RubbedRecord, ThirdBodyRecord):
+class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
     """What a wear loop gives: means over its settled cycles, tables over cycles and particles, the worn surface."""
 
     scatters: ClassVar[tuple[str, ...]] = (
-        *wearing.MeanSizes.scatters,
+        *pieces.MeanSizes.scatters,
         *("Sq_initial", "Sq_final", "contact_area_fraction", "mean_contact_pressure", "worn_volume_per_cycle"),
         *("first_cycles_radius", "criterion_wear_rate"),
     )
     particles_per_cycle: Annotated[
-        float, Figure("", "particles per cycle, settled", headline=True, no_bar=wearing.FOLLOWS_CELL)
+        float, Figure("", "particles per cycle, settled", headline=True, no_bar=pieces.FOLLOWS_CELL)
     ]
     Sq_initial: Annotated[float, Figure("nm", "Sq in the contact strip, unworn", headline=True)]
     Sq_final: Annotated[float, Figure("nm", "Sq in the contact strip, run in", headline=True)]
@@ -163,20 +154,18 @@ class WearRecord(wearing.MeanSizes, wearing.ParticleTable, RubbedRecord, ThirdBo
     depths_computed_per_cycle: Annotated[
         float, Figure("", "depths at which stress was computed, per cycle", unjudged=True)
     ]
-    convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle", unjudged=True)]
     wear_volume: Annotated[
         float | None, Figure("mm3", "worn volume by Archard's law", optional=True, unjudged=True)
     ] = None
     particle_number: Annotated[
-        float | None, Figure("", "number of particles in it", optional=True, no_bar=wearing.FOLLOWS_CELL)
+        float | None, Figure("", "number of particles in it", optional=True, no_bar=pieces.FOLLOWS_CELL)
     ] = None
     particles_per_mm_and_N: Annotated[
-        float | None, Figure("", "particles per mm and N", optional=True, no_bar=wearing.FOLLOWS_CELL)
+        float | None, Figure("", "particles per mm and N", optional=True, no_bar=pieces.FOLLOWS_CELL)
     ] = None
     third_body_friction: Annotated[
         float | None, Figure("", "friction of surfaces and rolling particles", optional=True, no_bar=THIRD_BODIES)
     ] = None
-    cycle: Annotated[wearing.IntArray, _over("1", "cycle")]
     radius: Annotated[FloatArray, _over("m", "volume-mean equivalent radius of the particles")]
     particles: Annotated[FloatArray, _over("1", "particles per cycle")]
     volume: Annotated[FloatArray, _over("m^3", "volume worn per cycle")]
@@ -186,7 +175,7 @@ class WearRecord(wearing.MeanSizes, wearing.ParticleTable, RubbedRecord, ThirdBo
     rms_height: Annotated[FloatArray, _over("m", "rms height Sq of the worn surface in the contact strip")]
     depths_computed: Annotated[FloatArray, _over("1", "depths at which stress was computed")]
     convolutions: Annotated[FloatArray, _over("1", "convolutions of the contact solve")]
-    particle_cycle: Annotated[wearing.IntArray, wearing.particle_rows("1", "cycle in which a particle came off")]
+    particle_cycle: Annotated[wearing.IntArray, pieces.particle_rows("1", "cycle in which a particle came off")]
     x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding", of="last")]
     y: Annotated[FloatArray, Series(("y",), "m", "y", of="last")]
     height_before: Annotated[FloatArray, _map("m", "height of the wearing surface, unworn")]
@@ -207,20 +196,10 @@ def run(scene: WearScene, context: Context) -> WearRecord:
 def bars(scene: WearScene, initial: tuple[FloatArray, FloatArray], found: WearRecord) -> ErrorBars:
     """Of the loop on every second cell, with the reported sizes."""
     from bem.accuracy import wear_bars
-    from bem.accuracy.wear import RULES
 
-    def loop(heights: tuple[FloatArray, FloatArray], across: float) -> WearRecord:
-        return wear_down(at_resolution(scene, 0.5, across), heights, PlainContext(scene.seed))
-
-    there = wearing.on_every_second_cell(initial, _slice(scene)[0], loop)
-    figures = (None if one is None else {name: getattr(one, name) for name in RULES} for one in (found, there))
-    told = wear_bars(*figures)  # type: ignore[arg-type]
-    reported = {f"{scene.sizes.report}_mean_{size}": f"reported_{size}" for size in wearing.QUANTITIES}
-    told = told | told.renamed(reported)
-    volume, rate = found.worn_volume_per_cycle, found.criterion_wear_rate
-    if rate is None or not volume > 0:
-        return told
-    return told | told.renamed({"worn_volume_per_cycle": "criterion_wear_rate"}, lambda error: rate / volume * error)
+    there = wearing.on_twice_the_cell(scene, initial, _slice(scene)[0], wear_down, at_resolution)
+    reported = {f"{scene.sizes.report}_mean_{size}": f"reported_{size}" for size in pieces.QUANTITIES}
+    return wear_bars(vars(found), None if there is None else vars(there), reported)
 
 
 def _slice(scene: WearScene) -> tuple[Grid, float]:
@@ -273,16 +252,6 @@ def _film_defect(scene: WearScene) -> FilmDefect | None:
     return None if scene.wear.film_defect is None else scene.wear.film_defect.build()
 
 
-def _of_third_bodies(scene: WearScene, cycles: NDArray[np.void], load: float) -> dict[str, Any]:
-    """What the particles between the surfaces carry of a load [N] on the grid, and the friction of all."""
-    table = scene.wear.third_bodies
-    if table is None:
-        return {}
-    found = third_body_figures(table, cycles, scene.cycles.settled, load)
-    share = found["third_body_load_share"]
-    return found | {"third_body_friction": (1 - share) * scene.cylinder.friction + share * table.friction}
-
-
 def _record(
     scene: WearScene, grid: Grid, share: float, initial: tuple[FloatArray, FloatArray], result: RunningIn
 ) -> WearRecord:
@@ -290,27 +259,22 @@ def _record(
     from bem.particles import volume_mean_radius
     from bem.wear.outcome import contact_strip, settled_means, sizes_over_cycles
 
-    cycles, worn, (load,) = (
-        result.cycles,
-        wearing.WornSurface.of(scene, initial, result, grid, share),
-        scene.cylinder.loads,
-    )
-    particles, late = worn.particles, worn.late
+    worn = wearing.WornSurface.of(scene, initial, result, grid, share, contact_strip)
+    cycles, particles, late, (load,) = result.cycles, worn.particles, worn.late, scene.cylinder.loads
     radius, number = sizes_over_cycles(cycles["cycle"], particles)
+    between, borne = scene.wear.third_bodies, worn.figures.get("third_body_load_share", 0.0)
     return filled(
         WearRecord,
         worn,
         worn.figures,
-        rubbed(result, scene.cycles.settled),
-        worn.strip(contact_strip(worn.pressure)),
         settled_means(cycles[-scene.cycles.settled :], grid.area),
-        _of_third_bodies(scene, cycles, share),
-        wearing.mean_sizes(late, scene.sizes),
+        pieces.mean_sizes(late, scene.sizes),
         scene.archard.figures(load, float(late["volume"].mean())) if scene.archard and late.size else {},
         {name: cycles[name].astype(np.float64) for name in _PER_CYCLE},
         {f"particle_{name}": np.ascontiguousarray(particles[name]) for name in _PER_PARTICLE},
         {f"{part}_seconds": float(result.times[part].sum()) for part in ("contact", "stress", "particles")},
         grid,
+        third_body_friction=between and (1 - borne) * scene.cylinder.friction + borne * between.friction,
         first_cycles_radius=volume_mean_radius(particles[particles["cycle"] <= 5]["volume"]),
         cycles=len(cycles),
         truncated_particles=int(late["truncated"].sum()),
@@ -319,7 +283,7 @@ def _record(
         radius=radius,
         particles=number,
         removed=result.state.removed,
-        errors=wearing.sizes_without_bars(scene, grid),
+        errors=pieces.sizes_without_bars(scene, grid),
     )
 
 
@@ -334,7 +298,7 @@ def summarise(scene: WearScene, axes: Any, records: Any) -> dict[str, Any]:
 
 def scattering(scene: WearScene) -> tuple[str, ...]:
     """Figures that follow the mesh under the source's criterion, where they converge."""
-    return wearing.scattering(WearRecord, scene, _slice(scene)[0])
+    return pieces.scattering(WearRecord, scene, _slice(scene)[0])
 
 
 KIND = Kind.of(

@@ -7,8 +7,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from bem.scenes.common import Cells, PositiveLength, Table
+from bem.scenes.pieces import WearRateScene
 from bem.scenes.units import Density, Force, Length, Ratio, Time, Viscosity
-from bem.scenes.wearing import WearRateScene
 
 
 class SyntheticMapScene(Table):

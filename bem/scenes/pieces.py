@@ -1,0 +1,187 @@
+"""Pieces that come off, or lie on a map: the record of their sizes, which mean of them is reported and which of the
+means converge, how many Archard's law makes of them.
+
+Knows tables, records and what criteria say of themselves; statistics are `bem.particles`. Verified in
+tests/scenes/test_wear_kind.py and tests/accuracy/test_wear_bars.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from bem.grid import FloatArray, Grid
+from bem.scenes.common import PositiveLength, Table
+from bem.scenes.records import Figure, Record, Series, without_bars
+from bem.scenes.units import Length, WearCoefficient
+from bem.wear.loads import wearing_bodies
+
+if TYPE_CHECKING:
+    from bem.wear import RunningIn
+
+QUANTITIES = ("equivalent_radius", "length", "width", "thickness")
+
+
+class WearRateScene(Table):
+    """Archard's law: the wear volume that the criterion cannot give, and so the number of particles."""
+
+    specific_wear_rate: Annotated[WearCoefficient, Field(gt=0)]
+    distance: PositiveLength
+
+    def figures(self, load: float, mean_particle_volume: float) -> dict[str, float]:
+        """What records hold of it, for a load [N] and particles of a mean volume [m^3]."""
+        from bem.particles import archard_wear
+
+        wear = archard_wear(self.specific_wear_rate, load, self.distance, mean_particle_volume)
+        values = (wear.volume, wear.number, 1e-3 * wear.coefficient)
+        return dict(zip(ARCHARD_FIGURES, values, strict=True))
+
+
+ARCHARD_FIGURES = ("wear_volume", "particle_number", "particles_per_mm_and_N")
+
+
+class SizesScene(Table):
+    """How particle sizes are reported.
+
+    `report` names the mean that stands as `particle_equivalent_radius_nm`; `smallest` is the equivalent radius under
+    which particles are left out of the means "above".
+    """
+
+    report: Literal["number", "area", "volume", "number_above"] = "volume"
+    smallest: Annotated[Length, Field(ge=0)] = 25e-9
+    particles_of: Literal["wearing", "lower", "upper"] = "wearing"
+
+    def particles(self, result: RunningIn) -> NDArray[np.void]:
+        """The particles that are reported of a wear loop."""
+        body = {"wearing": result.wearing[0], "lower": 0, "upper": 1}[self.particles_of]
+        return result.particles[result.particles["body"] == body]
+
+
+particle_rows = partial(Series, ("particle",), rows=True)
+"""A column of the table of particles."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ParticleTable(Record):
+    """Size and place of every particle."""
+
+    particle_volume: Annotated[FloatArray, particle_rows("m^3", "volume of a particle")]
+    particle_length: Annotated[FloatArray, particle_rows("m", "length of a particle's bounding rectangle")]
+    particle_width: Annotated[FloatArray, particle_rows("m", "width of a particle's bounding rectangle")]
+    particle_thickness: Annotated[FloatArray, particle_rows("m", "largest thickness of a particle")]
+    particle_x: Annotated[FloatArray, particle_rows("m", "x of a particle's centre")]
+    particle_y: Annotated[FloatArray, particle_rows("m", "y of a particle's centre")]
+
+
+_OF_PIECES = "which pieces leave first decides the sizes of those that follow, and repetitions narrow that, no cells"
+
+
+def _reported(quantity: str) -> Figure:
+    return Figure(
+        "nm",
+        f"{quantity} of the particles, the reported mean",
+        name=f"particle_{quantity.replace(' ', '_')}",
+        headline=True,
+        chance=_OF_PIECES,
+    )
+
+
+FOLLOWS_CELL = (
+    "it follows the mesh, or was not shown to converge with it: the source's criterion has no length but the cell, and "
+    "most of its pieces are of one cell or a few"
+)
+"""Why a mean by number, and a count, has no error bar."""
+
+
+def _by(weight: str, quantity: str) -> Figure:
+    follows = "number" in weight
+    return Figure(
+        "nm",
+        f"{quantity} of the particles, mean {weight}",
+        no_bar=FOLLOWS_CELL if follows else "",
+        chance="" if follows else _OF_PIECES,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class MeanSizes(Record):
+    """Mean sizes of the settled particles: the reported one, and by number, area, volume, and number above a size."""
+
+    scatters: ClassVar[tuple[str, ...]] = (
+        *(f"{weight}_{quantity}" for weight in ("reported", "area_mean", "volume_mean") for quantity in QUANTITIES),
+    )
+    reported_equivalent_radius: Annotated[float, _reported("equivalent radius")]
+    reported_length: Annotated[float, _reported("length")]
+    reported_width: Annotated[float, _reported("width")]
+    reported_thickness: Annotated[float, _reported("thickness")]
+    number_mean_equivalent_radius: Annotated[float, _by("by number", "equivalent radius")]
+    number_mean_length: Annotated[float, _by("by number", "length")]
+    number_mean_width: Annotated[float, _by("by number", "width")]
+    number_mean_thickness: Annotated[float, _by("by number", "thickness")]
+    area_mean_equivalent_radius: Annotated[float, _by("by area", "equivalent radius")]
+    area_mean_length: Annotated[float, _by("by area", "length")]
+    area_mean_width: Annotated[float, _by("by area", "width")]
+    area_mean_thickness: Annotated[float, _by("by area", "thickness")]
+    volume_mean_equivalent_radius: Annotated[float, _by("by volume", "equivalent radius")]
+    volume_mean_length: Annotated[float, _by("by volume", "length")]
+    volume_mean_width: Annotated[float, _by("by volume", "width")]
+    volume_mean_thickness: Annotated[float, _by("by volume", "thickness")]
+    number_above_mean_equivalent_radius: Annotated[float, _by("by number above the smallest", "equivalent radius")]
+    number_above_mean_length: Annotated[float, _by("by number above the smallest", "length")]
+    number_above_mean_width: Annotated[float, _by("by number above the smallest", "width")]
+    number_above_mean_thickness: Annotated[float, _by("by number above the smallest", "thickness")]
+
+
+def mean_sizes(particles: NDArray[np.void], sizes: SizesScene) -> dict[str, Any]:
+    """The fields of `MeanSizes` [m] of a table of particles."""
+    statistics = size_statistics(particles, sizes.smallest)
+    reported = {f"reported_{quantity}": statistics[sizes.report][quantity] for quantity in QUANTITIES}
+    return reported | {
+        f"{weight}_mean_{quantity}": value
+        for weight, values in statistics.items()
+        for quantity, value in values.items()
+    }
+
+
+def sizes_converge(scene: Any, grid: Grid) -> bool:
+    """Whether sizes by number were found to converge under the scene's criterion, on cells as small as a case's."""
+    bodies, law = (scene.lower.build(), scene.upper.build()), scene.wear.criterion
+    wearing = (bodies[body].surface_material for body in wearing_bodies(bodies, scene.wear.wears))
+    return law.sizes_converge and all(law.resolved(material, grid) for material in wearing)
+
+
+def sizes_without_bars(scene: Any, grid: Grid) -> dict[str, None]:
+    """The reported sizes, where the mean that is reported follows the mesh."""
+    follows = "number" in scene.sizes.report and not sizes_converge(scene, grid)
+    return dict.fromkeys(f"reported_{quantity}" for quantity in QUANTITIES) if follows else {}
+
+
+def scattering(record: type[Record], scene: Any, grid: Grid) -> tuple[str, ...]:
+    """Figures of a record that follow the mesh under the source's criterion, where under the scene's they converge."""
+    return tuple(without_bars(record)) if sizes_converge(scene, grid) else ()
+
+
+def mean_radii(particles: NDArray[np.void], sizes: SizesScene, *names: str) -> dict[str, float]:
+    """Mean equivalent radii [m] under three names: the reported one, by number and by volume; 0 of no particles."""
+    if not particles.size:
+        return dict.fromkeys(names, 0.0)
+    statistics = size_statistics(particles, sizes.smallest)
+    weights = (sizes.report, "number", "volume")
+    return {name: statistics[weight]["equivalent_radius"] for name, weight in zip(names, weights, strict=True)}
+
+
+def size_statistics(particles: NDArray[np.void], smallest: float) -> dict[str, dict[str, float]]:
+    """Means of radius, length, width and thickness [m] by number, area and volume, and by number above a size."""
+    from bem.particles import particle_statistics
+
+    statistics = {weight: particle_statistics(particles, weight=weight) for weight in ("number", "area", "volume")}
+    statistics["number_above"] = particle_statistics(particles, smallest_radius=smallest)
+    return {
+        name: {quantity: getattr(each, f"mean_{quantity}") for quantity in QUANTITIES}
+        for name, each in statistics.items()
+    }
