@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -71,6 +72,18 @@ class MixedState:
     slope: float = 1.0
 
 
+@dataclass(frozen=True, eq=False)
+class LastCycle:
+    """What a cycle leaves besides its row: the balance, the heights (nx, ny) [m] that it is of, forces, what to say of
+    how they couple, and the share of the load that particles bear."""
+
+    balance: Balance
+    heights: FloatArray
+    forces: Forces
+    coupling: tuple[str, ...]
+    borne: float
+
+
 class MixedContact:
     """Load sharing as the contact of a wear cycle: give it to `run_in` as `contact_step`.
 
@@ -82,10 +95,10 @@ class MixedContact:
     table : films of the same set-up and speeds, to share; a new one by default.
     state, rows : to go on from, as they were after the last cycle.
 
-    `rows` has a row of `MIXED_FIELDS` per cycle; `film` is the last cycle's film and `separation` the distance (nx,)
-    of the mean planes [m]. A cycle in which the film clears the roughness
-    solves no contact. The oil's shear stress, a hundred times smaller than the boundary traction, is left out of the
-    stresses. The oil is counted as the set-up says (`oil_volume`), in every cycle.
+    `rows` has a row of `MIXED_FIELDS` per cycle, of this contact and of all that `bearing` makes of it; `film` is the
+    last cycle's film and `separation` the distance (nx,) of the mean planes [m]. A cycle in which the film clears the
+    roughness solves no contact. The oil's shear stress, a hundred times smaller than the boundary traction, is left out
+    of the stresses. The oil is counted as the set-up says (`oil_volume`), in every cycle.
 
     Raises
     ------
@@ -108,90 +121,95 @@ class MixedContact:
         self.speeds = self.table.speeds
         self.state = state if state is not None else MixedState(0.5 * setup.load)
         self.rows = rows if rows is not None else np.zeros(0, MIXED_FIELDS)
-        self.film: PatchFilm | None = None
-        self.separation: FloatArray | None = None
         self.contact_solves = 0
-        self._whole: PatchFilm | None = None
-        self._forces: Forces | None = None
-        self._coupling: tuple[str, ...] = ()
-        self._last: tuple[Balance, FloatArray] | None = None
-        self._particles: ThirdBodies | None = None
-        self._slide, self._borne = 0.0, 0.0
+        self._last: LastCycle | None = None
 
-    def bearing(self, particles: ThirdBodies, slide: float) -> MixedContact:
-        """This contact with particles between its surfaces, while the bodies slide so far in a cycle [m].
+    @cached_property
+    def _whole(self) -> PatchFilm:
+        """The film under the whole load."""
+        return self.table.under(self.table.largest_load)
+
+    def bearing(self, particles: ThirdBodies, slide: float) -> BearingContact:
+        """This contact with particles between its surfaces, while the bodies slide so far in a cycle [m]; the contact
+        itself stays without.
 
         Raises
         ------
         InputError : a surface without hardness; a slide in which particles cut deeper than they lie.
         """
-        particles.check_slide(slide, self._hardnesses(particles))
-        self._particles, self._slide = particles, slide
-        return self
-
-    def _hardnesses(self, particles: ThirdBodies) -> tuple[float, float]:
         bodies = self.setup.bodies
-        return particles.hardnesses((bodies, bodies) if isinstance(bodies, Body) else (bodies[0], bodies[-1]))
-
-    def _rough(self, heights: FloatArray) -> RoughContact:
-        rough, particles = rough_contact(self.setup, heights, self.speeds), self._particles
-        if particles is None or particles.number_per_area == 0:
-            return rough
-        if not isinstance(rough, CoupledContact):
-            raise InputError('third bodies share the load of a contact_model "coupled"')
-        return ContactWithBodies(rough, particles, self._hardnesses(particles))
+        pair = (bodies, bodies) if isinstance(bodies, Body) else (bodies[0], bodies[-1])
+        hardnesses = particles.hardnesses(pair)
+        particles.check_slide(slide, hardnesses)
+        return BearingContact(self, particles, slide, hardnesses)
 
     def __call__(self, heights: FloatArray, last_pressure: FloatArray | None) -> ContactOutcome:
         """The contact of one cycle; see `bem.wear.ContactStep`."""
+        return self.cycle(heights, last_pressure, rough_contact(self.setup, heights, self.speeds))
+
+    def cycle(
+        self, heights: FloatArray, last_pressure: FloatArray | None, rough: RoughContact, slide: float = 0.0
+    ) -> ContactOutcome:
+        """The same with a rough contact of these heights, between whose surfaces there may be particles."""
         setup = self.setup
-        if self._whole is None:
-            self._whole = self.table.under(self.table.largest_load)
-        rough = self._rough(heights)
         start = BalanceStart(self.state.film_load, self.state.slope, last_pressure)
         balance = share_load(self.table, rough, setup.load, setup.tolerance, self._whole, start)
         if balance.contact is not None:
             self.state = MixedState(balance.film.load, balance.slope)
-        return self._outcome(balance, rough, self._whole, heights)
+        return self._outcome(balance, rough, heights, slide)
+
+    @property
+    def film(self) -> PatchFilm | None:
+        """The last cycle's."""
+        return None if self._last is None else self._last.balance.film
+
+    @property
+    def separation(self) -> FloatArray | None:
+        """Distance (nx,) of the mean planes in the last cycle [m]."""
+        if self._last is None:
+            return None
+        film, contact = self._last.balance.film, self._last.balance.contact
+        return middle_line(film.thickness) if contact is None else contact.separation
 
     @property
     def film_notes(self) -> tuple[str, ...]:
         """What the last cycle's film says of its model."""
-        return () if self.film is None else self.film.notes
+        return () if self._last is None else self._last.balance.film.notes
 
     @property
     def notes(self) -> tuple[str, ...]:
         """What to say of the cycles so far: those in boundary lubrication, and models outside their validity."""
-        if self.film is None or self._whole is None or self._forces is None:
+        last, notes = self._last, []
+        if last is None:
             return ()
-        notes = []
         boundary = int(np.sum(self.rows["regime"] == REGIMES.index(Regime.BOUNDARY)))
         if boundary:
             share = NEGLIGIBLE * self.setup.tolerance
             notes.append(f"{boundary} of {len(self.rows)} cycles: {boundary_note(share)}")
         friction = float(self.rows["friction"].max())
-        notes += [*self.film_notes, *validity_notes(friction, self._forces, self.film, self._whole, self.setup)]
+        notes += [*self.film_notes, *validity_notes(friction, last.forces, last.balance.film, self._whole, self.setup)]
         oil = self.oil()
         hanging = () if oil is None else tuple(f"last cycle: {note}" for note in oil_notes([oil]))
-        if self._borne > FEW and self.setup.counted is OilVolume.PATCH:
+        if last.borne > FEW and self.setup.counted is OilVolume.PATCH:
             hanging = (_OIL_UNKNOWN,)
-        return (*notes, *self._coupling, *hanging)
+        return (*notes, *last.coupling, *hanging)
 
     def oil(self) -> OilBeside | None:
         """How far the last cycle's load sharing hangs on the oil beside Hertz' contact; one more balance."""
-        if self._last is None or self._whole is None or self._borne > FEW:
+        last = self._last
+        if last is None or last.borne > FEW:
             return None  # with particles it would be another contact's
-        (balance, heights), friction = self._last, float(self.rows["friction"][-1])
-        return oil_beside(self.setup, heights, balance, self._whole, speeds=self.speeds, friction=friction)
+        friction = float(self.rows["friction"][-1])
+        return oil_beside(self.setup, last.heights, last.balance, self._whole, speeds=self.speeds, friction=friction)
 
-    def _outcome(self, balance: Balance, rough: RoughContact, whole: PatchFilm, heights: FloatArray) -> ContactOutcome:
+    def _outcome(self, balance: Balance, rough: RoughContact, heights: FloatArray, slide: float) -> ContactOutcome:
         setup, film, contact = self.setup, balance.film, balance.contact
         forces = friction_forces(film, contact, setup, self.speeds)
         heat, bodies, slides = forces.heat, None, self.speeds[0] != self.speeds[1]
         if isinstance(rough, ContactWithBodies):
             forces = rough.rolling(forces, contact, slides)
-            bodies = rough.told(contact, self._slide)
-        self._borne = 0.0 if bodies is None else bodies.load * setup.slices / setup.load
-        self._forces, self._coupling = forces, coupling_notes(forces, rough.traction, setup)
+            bodies = rough.told(contact, slide)
+        borne = 0.0 if bodies is None else bodies.load * setup.slices / setup.load
         shift = 0.0 if contact is None else contact.approach
         new = np.zeros(1, MIXED_FIELDS)
         new[0] = (
@@ -201,7 +219,7 @@ class MixedContact:
             0.0 if contact is None else contact.load - (0.0 if bodies is None else bodies.load * setup.slices),
             film.load,
             film.minimum_thickness,
-            lambda_ratio(whole, heights),
+            lambda_ratio(self._whole, heights),
             0.0 if contact is None else contact.area,
             shift,
             balance.imbalance,
@@ -210,8 +228,7 @@ class MixedContact:
             REGIMES.index(balance.regime),
         )
         self.rows = np.append(self.rows, new)
-        self.film, self.separation = film, middle_line(film.thickness) if contact is None else contact.separation
-        self._last = (balance, heights)
+        self._last = LastCycle(balance, heights, forces, coupling_notes(forces, rough.traction, setup), borne)
         self.contact_solves += balance.contacts
         solution = None if contact is None else contact.solution
         return ContactOutcome(
@@ -227,6 +244,31 @@ class MixedContact:
             third_bodies=bodies,
             temperature=None if heat is None else heat.temperature,
         )
+
+
+@dataclass(frozen=True, eq=False)
+class BearingContact:
+    """A `MixedContact` with particles between its surfaces, of those hardnesses (lower, upper) [Pa], which slide so far
+    in a cycle [m]: a contact step, whose cycles count as the contact's."""
+
+    contact: MixedContact
+    particles: ThirdBodies
+    slide: float
+    hardnesses: tuple[float, float]
+
+    def __call__(self, heights: FloatArray, last_pressure: FloatArray | None) -> ContactOutcome:
+        """The contact of one cycle; see `bem.wear.ContactStep`.
+
+        Raises
+        ------
+        InputError : a contact of uncoupled asperities.
+        """
+        rough: RoughContact = rough_contact(self.contact.setup, heights, self.contact.speeds)
+        if self.particles.number_per_area > 0:
+            if not isinstance(rough, CoupledContact):
+                raise InputError('third bodies share the load of a contact_model "coupled"')
+            rough = ContactWithBodies(rough, self.particles, self.hardnesses)
+        return self.contact.cycle(heights, last_pressure, rough, self.slide)
 
 
 def pack_balance(step: MixedContact) -> dict[str, Any]:
@@ -263,6 +305,7 @@ def shared_film_table(setup: MixedSetup, speeds: Sequence[float]) -> FilmTable:
 
 __all__ = [
     "MIXED_FIELDS",
+    "BearingContact",
     "MixedContact",
     "MixedState",
     "film_table",

@@ -49,6 +49,9 @@ def test_rough_surfaces_share_with_both_and_few_or_small_ones_change_nothing():
     before = alone(plain, None)
     none = shared(plain, 0.0)[0]
     assert np.array_equal(none.pressure, before.pressure)
+    kept = step()
+    kept.bearing(ThirdBodies(D, 1e10), 1e-6)
+    assert np.array_equal(kept(plain, None).pressure, before.pressure)  # what bears particles is another contact
     small = step().bearing(ThirdBodies(1e-9, 1e12), 1e-6)(plain, None)
     assert small.load == pytest.approx(before.load, rel=2e-3)
     last = 0.0
