@@ -137,6 +137,8 @@ class CurveRecord(Record):
     height: Annotated[FloatArray, _shown(("x", "y"), "m", "height of both surfaces together")]
     displacement: Annotated[FloatArray, _shown(("x", "y"), "m", "normal displacement by the contact")]
     pressure: Annotated[FloatArray, _shown(("x", "y"), "Pa", "contact pressure")]
+    boundary_stress: Annotated[FloatArray, _shown(("x", "y"), "Pa", "boundary friction, positive where it resists")]
+    oil_stress: Annotated[FloatArray, _shown(("x", "y"), "Pa", "shear stress of the oil, positive where it resists")]
     separation: Annotated[FloatArray, _shown(("x",), "m", "distance of the mean planes")]
     film_thickness_patch: Annotated[FloatArray, _shown(("x",), "m", "film thickness over the patch")]
     film_pressure_patch: Annotated[FloatArray, _shown(("x",), "Pa", "film pressure over the patch")]
@@ -215,10 +217,12 @@ def _record(
     evenly."""
     from bem.accuracy.bars import from_tables
     from bem.accuracy.mixed import ORIGINS, RULES
+    from bem.friction.solution import sliding_sign
 
     bars, parts = from_tables(errors, RULES, ORIGINS)
     shown = curve.shown
     assert shown is not None
+    resists = sliding_sign(shown.speeds)
     names = [item.name for item in fields(curve.points[0]) if item.name not in left_out]
     bad = [one for one in curve.points if one.status is not Status.CONVERGED]
     return filled(
@@ -230,6 +234,8 @@ def _record(
         height=height,
         displacement=getattr(shown.contact, "displacement", np.zeros(grid.shape)),
         pressure=shown.contact_pressure,
+        boundary_stress=resists * shown.boundary_shear_stress,
+        oil_stress=resists * shown.film_shear_stress,
         separation=shown.separation,
         **dict(zip(_ON_PATCH, shown.film_along_x, strict=True)),
         **dict(zip(_ON_ITS_MESH, shown.film_section, strict=True)),
@@ -287,6 +293,7 @@ KIND = Kind.of(
         "contact-temperatures",
         "film-section",
         "film-pressure",
+        "friction-map",
         "largest-difference",
         "pressure-map",
     ),

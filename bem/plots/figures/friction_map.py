@@ -1,0 +1,74 @@
+"""Where the friction of a mixed contact comes from: stresses of the surfaces that touch, and of the oil beside them.
+
+Knows a run's dataset; solves nothing. Verified in tests/plots/test_friction_map.py.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from bem.plots.figures import FigureKind, two_dimensional
+from bem.plots.style import map_of, prefix, thinned
+
+_BEYOND = 1.15
+"""Of the half-axes of what carries friction, what is shown."""
+_SOME = 0.02
+"""Of the largest stress, what counts as carrying friction."""
+
+
+def _shares(run: Any) -> tuple[float, float]:
+    """Of the friction at the speed shown of the first curve, what the surfaces and the oil have of it."""
+    data = run.dataset
+    at = int(np.abs(data["speed"].values - float(data["shown_speed"])).argmin())
+    curves = (data[name].values.reshape(-1, data["speed"].size)[0] for name in ("boundary_part", "film_part"))
+    boundary, oil = (float(values[at]) for values in curves)
+    return boundary / (boundary + oil), oil / (boundary + oil)
+
+
+def _middle(seen: NDArray[np.bool_], count: int) -> slice:
+    """Indices around the middle that hold all that is seen (n,)."""
+    places = np.flatnonzero(seen)
+    reach = max(abs(2 * place - (count - 1)) for place in (places[0], places[-1])) / 2 * _BEYOND
+    first = max(int(np.floor((count - 1) / 2 - reach)), 0)
+    return slice(first, count - first)
+
+
+def _friction_map(run: Any, figure: Figure) -> None:
+    x, y, boundary, oil = (run.dataset[name].values for name in ("x", "y", "boundary_stress", "oil_stress"))
+    carries = np.maximum(boundary, oil)
+    least = _SOME * carries.max()
+    seen = carries > least
+    window = tuple(_middle(seen.any(axis=1 - axis), len(at)) for axis, at in enumerate((x, y)))
+    factor, _ = prefix(carries, "Pa")
+    # a few spikes would take all colours
+    most = float(np.percentile(thinned(carries[window])[thinned(seen[window])], 99.5)) * factor
+    tall = (y[window[1]][-1] - y[window[1]][0]) > (x[window[0]][-1] - x[window[0]][0])
+    panels = figure.subplots(*((1, 2) if tall or len(x) < 2 * len(y) else (2, 1)))
+    named = (("surfaces in contact", boundary), ("oil between them", oil))
+    for axes, (text, stress), share in zip(panels, named, _shares(run), strict=True):
+        shown = stress[window]
+        shown = np.where(shown > least, shown, np.nan)
+        map_of(figure, axes, x[window[0]], y[window[1]], shown, "shear stress", "Pa", vmin=0, vmax=most)
+        axes.set_title(f"{text}: {100 * share:.1f} % of it", fontsize=8.5)
+
+
+def _some(run: Any) -> bool:
+    return two_dimensional(run) and bool((run.dataset["boundary_stress"].values > 0).any())
+
+
+FIGURES = (
+    FigureKind(
+        "friction-map",
+        "Where friction comes from, at the speed at which film and contact share the load most evenly: shear stress "
+        "that resists the sliding, of the surfaces where they touch and of the oil beside, in the same colours; blank "
+        "where there is next to none.",
+        ("x", "y", "boundary_stress", "oil_stress", "shown_speed", "boundary_part", "film_part"),
+        _friction_map,
+        (8.0, 3.6),
+        _some,
+    ),
+)
