@@ -7,17 +7,20 @@ test_point_film_time_kind.py.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
+from bem.errors import Status
 from bem.grid import FloatArray
-from bem.scenes.context import Context
+from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.packing import keep, kept
-from bem.scenes.records import Figure, Record, Series
+from bem.scenes.records import Figure, Record, Series, columns
 
 if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars
     from bem.accuracy.march import MarchCase, PointMarchCase
 
 _CHECKPOINTS = 20  # of a march
@@ -37,8 +40,43 @@ class MarchedRecord(Record):
     central_film: Annotated[FloatArray, Series(("time",), "m", "film thickness at the centre")]
 
 
-def marched(case: MarchCase | PointMarchCase, mesh: Any, context: Context) -> list[Any]:
-    """The films of a case on its mesh (points or cells), with a checkpoint at every twentieth of the way."""
+@dataclass(frozen=True, eq=False)
+class Marched:
+    """The films of a march, figures of its records by their names, and what their status and error bars are."""
+
+    films: list[Any]
+    figures: dict[str, Any]
+    ended: dict[str, Any]
+
+    @classmethod
+    def of(
+        cls,
+        case: MarchCase | PointMarchCase,
+        mesh: Any,
+        context: Context,
+        wanted: bool,
+        bars: Callable[[list[Any]], ErrorBars],
+    ) -> Marched:
+        """Of a case on its mesh (points or cells), told; `bars` of its films, where they are `wanted`."""
+        with context.timer("film"):
+            films = _films(case, mesh, context)
+        tell(context, dict.fromkeys(note for film in films for note in film.notes), "film: ")
+        last, over = films[-1], columns(films, ("time", "minimum_thickness", "central_thickness"))
+        time, minimum = over["time"], over["minimum_thickness"]
+        figures = {
+            "thinnest_film_time": float(time[minimum.argmin()]),
+            "newton_steps": int(sum(film.iterations for film in films)),
+            "time": time,
+            "minimum_film": minimum,
+            "central_film": over["central_thickness"],
+        }
+        ended = {"status": last.status, "where": f"time {last.time:g} s: {last.status.message}"}
+        solved = wanted and last.status is Status.CONVERGED
+        return cls(films, figures, ended | error_bars(context, solved, lambda: bars(films)))
+
+
+def _films(case: MarchCase | PointMarchCase, mesh: Any, context: Context) -> list[Any]:
+    """With a checkpoint at every twentieth of the way."""
     last, made_again = len(case.times) - 1, (case.lubricant,)
 
     def watch(now: Any) -> None:

@@ -5,7 +5,7 @@ A case is one spacing; `bem.friction.asperity_array` does the work.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -95,7 +95,7 @@ def run(scene: AsperitiesScene, context: Context) -> AsperityRecord:
         context.progress(done, LOADS, "contacts")
 
     with context.timer("contacts"):
-        found = _pressed(scene, grid, kept(context), after)
+        found = _pressed(scene, grid, state=kept(context), callback=after)
     wanted = scene.outputs.errors and found.status is Status.CONVERGED
     return filled(
         AsperityRecord,
@@ -113,28 +113,20 @@ def run(scene: AsperitiesScene, context: Context) -> AsperityRecord:
     )
 
 
-def _pressed(
-    scene: AsperitiesScene,
-    grid: Grid,
-    state: ArrayState | None = None,
-    callback: Callable[[ArrayState], None] | None = None,
-) -> ArrayLoads:
+def _pressed(scene: AsperitiesScene, grid: Grid, **going_on: Any) -> ArrayLoads:
+    """The array on a grid; `going_on` from a state, or calling back."""
     from bem.friction.asperity_array import press_array
 
-    array = scene.array
-    return press_array(
-        build.operator_of(scene, grid),
-        radius=array.radius,
-        height=array.height,
-        contact_modulus=build.modulus_of(scene),
-        depths=np.array(sorted(array.interferences)),
-        window=array.window,
-        state=state,
-        callback=callback,
-    )
+    depths, spheres = np.array(sorted(scene.array.interferences)), scene.array.model_dump(include=_SPHERES)
+    modulus, operator = build.modulus_of(scene), build.operator_of(scene, grid)
+    return press_array(operator, contact_modulus=modulus, depths=depths, **spheres, **going_on)
 
 
-_SHARES = ("load_over_hertz", "load_over_hertz_finite_array")
+_SPHERES = {"radius", "height", "window"}
+
+
+_SHARES = {"mean_plane": "load_over_hertz", "from_flat": "load_over_hertz_finite_array"}
+"""Of the deepest load over that of an asperity alone."""
 
 
 def _bars(scene: AsperitiesScene, grid: Grid, found: ArrayLoads) -> ErrorBars:
@@ -146,11 +138,11 @@ def _bars(scene: AsperitiesScene, grid: Grid, found: ArrayLoads) -> ErrorBars:
     except InputError:
         coarser = None
     if coarser is None or coarser.status is not Status.CONVERGED:
-        return ErrorBars.unknown(_SHARES, "no error bars: the array was not solved on the grid of twice the cell")
+        why = "no error bars: the array was not solved on the grid of twice the cell"
+        return ErrorBars.unknown(_SHARES.values(), why)
     bars = asperity_bars(found, coarser, scene.array.radius, grid.spacing[0])
-    loads = ("mean_plane", "from_flat")
-    shares = bars.renamed(dict(zip(loads, _SHARES, strict=True)), lambda bar: float(bar[-1] / found.alone[-1]))
-    return bars.renamed(dict(zip(loads, ("asperity_load", "asperity_load_window"), strict=True))) | shares
+    shares = bars.renamed(_SHARES, lambda bar: float(bar[-1] / found.alone[-1]))
+    return bars.renamed({"mean_plane": "asperity_load", "from_flat": "asperity_load_window"}) | shares
 
 
 def summarise(scene: AsperitiesScene, axes: Any, records: Sequence[AsperityRecord | None]) -> dict[str, Any]:

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from pydantic import model_validator
 
 from bem.accuracy.bars import POINTS, STEPS
-from bem.errors import Status
 from bem.grid import FloatArray
 from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene, problem
-from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.context import Context
 from bem.scenes.kind import Kind
-from bem.scenes.marching import JUMPS, MarchedRecord, few_of, marched
+from bem.scenes.marching import JUMPS, Marched, MarchedRecord, few_of
 from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, columns, filled
@@ -104,26 +102,23 @@ def run(scene: FilmScene, context: Context) -> FilmTimeRecord:
     from bem.accuracy import MarchCase
     from bem.lubrication import Cavitation
 
-    cylinder, march = scene.cylinder, scene.march
+    cylinder, asked = scene.cylinder, scene.march
     case = MarchCase(
         films=(),
-        times=np.linspace(0.0, march.duration, march.steps + 1),
-        load=lambda time: cylinder.per_length(time / march.duration),
+        times=np.linspace(0.0, asked.duration, asked.steps + 1),
+        load=lambda time: cylinder.per_length(time / asked.duration),
         speeds=lambda time: (scene.motion.at(time), 0.0),
         radius=cylinder.radius,
         contact_modulus=build.modulus_of(scene),
         lubricant=scene.oil.build(),
-        points=march.points,
-        initial_thickness=march.initial_thickness,
-        cavitation=Cavitation(march.cavitation),
+        points=asked.points,
+        initial_thickness=asked.initial_thickness,
+        cavitation=Cavitation(asked.cavitation),
         layer=None if scene.supply is None else scene.supply.layer,
     )
-    with context.timer("film"):
-        films: list[FilmSolution] = marched(case, case.points, context)
-    tell(context, dict.fromkeys(note for film in films for note in film.notes), "film: ")
-    wanted = scene.outputs.errors and films[-1].status is Status.CONVERGED
-    errors = error_bars(context, wanted, lambda: _bars(replace(case, films=films), cylinder.width))
-    return _record(films, cylinder.width, errors, starved=scene.supply is not None)
+    wanted, width = scene.outputs.errors, cylinder.width
+    march = Marched.of(case, case.points, context, wanted, lambda films: _bars(replace(case, films=films), width))
+    return _record(march, width, starved=scene.supply is not None)
 
 
 def _bars(case: MarchCase, width: float) -> ErrorBars:
@@ -134,34 +129,28 @@ def _bars(case: MarchCase, width: float) -> ErrorBars:
     return bars | bars.renamed({"largest_shear_force": "largest_friction_force"}, lambda force: force * width)
 
 
-def _record(films: Sequence[FilmSolution], width: float, errors: Mapping[str, Any], *, starved: bool) -> FilmTimeRecord:
+def _record(march: Marched, width: float, *, starved: bool) -> FilmTimeRecord:
     from bem.accuracy import march_figures
 
-    last, figures, over = films[-1], march_figures(films), columns(films, _OVER_TIME)
-    few = few_of(len(films), 21)
-    time, minimum = over["time"], over["minimum_thickness"]
+    films: list[FilmSolution] = march.films
+    last, figures, over, few = films[-1], march_figures(films), columns(films, _OVER_TIME), few_of(len(films), 21)
     return filled(
         FilmTimeRecord,
+        march.figures,
         figures,
         over,
-        times_reported=time[few],
-        minimum_film_reported=minimum[few],
-        thinnest_film_time=float(time[minimum.argmin()]),
+        times_reported=march.figures["time"][few],
+        minimum_film_reported=march.figures["minimum_film"][few],
         largest_friction_force=figures["largest_shear_force"] * width,
         volume_imbalance=float(over["volume_imbalance"].max()),
-        newton_steps=int(over["iterations"].sum()),
         film_x=last.position,
         speed=over["speeds"][:, 0],
-        minimum_film=minimum,
-        central_film=over["central_thickness"],
         # a film that begins as a gap carries nothing at first
         friction=over["shear_force"] / np.where(over["load"] > 0, over["load"], np.nan),
         film_pressure=over["pressure"],
         meniscus=np.array([_meniscus(film) for film in films]) if starved else None,
         film_fraction=None if last.film_fraction is None else over["film_fraction"],
-        **errors,
-        status=last.status,
-        where=f"time {last.time:g} s: {last.status.message}",
+        **march.ended,
     )
 
 
@@ -173,10 +162,7 @@ def _meniscus(film: FilmSolution) -> float:
     return float(full[0] if sum(film.speeds) >= 0 else full[-1])
 
 
-_OVER_TIME = (
-    *("time", "speeds", "minimum_thickness", "central_thickness", "thickness", "pressure", "film_fraction"),
-    *("shear_force", "load", "volume_imbalance", "iterations"),
-)
+_OVER_TIME = (*("speeds", "thickness", "pressure", "film_fraction", "shear_force", "load", "volume_imbalance"),)
 
 
 KIND = Kind.of(

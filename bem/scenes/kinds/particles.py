@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
@@ -146,16 +147,17 @@ def _bars(
     from bem.accuracy import particle_bars
 
     bars = particle_bars(found, heights, spacing, scene.separation.model_dump())
-    if not archard:
-        return bars
-    volume = float(np.mean([particle.volume for particle in found]))
-
-    def of_number(number: float) -> Callable[[float], float]:
-        return lambda error: number * error / volume
-
-    for name in ("particle_number", "particles_per_mm_and_N"):
-        bars |= bars.renamed({"volume": name}, of_number(archard[name]))
+    volume = float(np.mean([particle.volume for particle in found])) if archard else 0.0
+    for name in _NUMBERS if archard else ():
+        bars |= bars.renamed({"volume": name}, partial(_of_number, archard[name], volume))
     return bars
+
+
+def _of_number(number: float, volume: float, error: float) -> float:
+    return number * error / volume
+
+
+_NUMBERS = ("particle_number", "particles_per_mm_and_N")
 
 
 _COLUMNS = ("volume", "equivalent_radius", "length", "width", "thickness")

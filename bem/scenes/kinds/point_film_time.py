@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from pydantic import model_validator
 
-from bem.errors import Status
 from bem.grid import FloatArray
 from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, problem
-from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.context import Context
 from bem.scenes.kind import Kind
-from bem.scenes.marching import JUMPS, MarchedRecord, few_of, marched
+from bem.scenes.marching import JUMPS, Marched, MarchedRecord, few_of
 from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Series, columns, filled
+from bem.scenes.records import Figure, Series, filled
 from bem.scenes.tables.ball import BallRollingScene, BallScene
 from bem.scenes.tables.passing import (
     BallMarchScene,
@@ -161,12 +160,9 @@ def run(scene: PointFilmTimeScene, context: Context) -> PointFilmTimeRecord:
         context.note(
             f"{steps:.0f} steps a wave: steps damp waves, by 5 % over a wavelength with 20 steps a wave, by 1 % with 32"
         )
-    with context.timer("film"):
-        films: list[PointFilmSolution] = marched(case, case.cells, context)
-    tell(context, dict.fromkeys(note for film in films for note in film.notes), "film: ")
-    wanted = scene.outputs.errors and films[-1].status is Status.CONVERGED
-    errors = error_bars(context, wanted, lambda: point_march_bars(case.done(films)))
-    return _record(scene, films, errors)
+    wanted = scene.outputs.errors
+    march = Marched.of(case, case.cells, context, wanted, lambda films: point_march_bars(case.done(films)))
+    return _record(scene, march)
 
 
 def _steps_a_wave(scene: PointFilmTimeScene) -> float:
@@ -193,29 +189,23 @@ def _surfaces(scene: PointFilmTimeScene, context: Context) -> tuple[MovingSurfac
     return tuple(found)
 
 
-def _record(
-    scene: PointFilmTimeScene, films: Sequence[PointFilmSolution], errors: Mapping[str, Any]
-) -> PointFilmTimeRecord:
+def _record(scene: PointFilmTimeScene, march: Marched) -> PointFilmTimeRecord:
     from bem.accuracy.march import point_march_figures
 
-    last, over = films[-1], columns(films, ("time", "minimum_thickness", "central_thickness", "friction", "load"))
-    time, minimum, solved = over["time"], over["minimum_thickness"], films[1:]
+    films: list[PointFilmSolution] = march.films
+    last, solved, time = films[-1], films[1:], march.figures["time"]
     wanted = np.array([film.load for film in solved]) / [_load(scene, film.time) for film in solved]
     few = few_of(len(films), _FRAMES)
     return filled(
         PointFilmTimeRecord,
+        march.figures,
         point_march_figures(films),
-        thinnest_film_time=float(time[minimum.argmin()]),
         highest_pressure=max(film.maximum_pressure for film in films),
         **_amplitudes(scene, films),
         mass_imbalance=max((film.mass_imbalance for film in solved), default=0.0),
         load_missed=float(np.abs(wanted - 1).max(initial=0.0)),
-        newton_steps=sum(film.iterations for film in films),
-        time=time,
         speed=np.array([scene.factors(t)[0] * scene.rolling.mean_speed for t in time]),
-        minimum_film=minimum,
-        central_film=over["central_thickness"],
-        friction=over["friction"],
+        friction=np.array([film.friction for film in films]),
         film_x=last.x,
         film_y=last.y,
         thickness=np.array([_middle(film, film.thickness) for film in films]),
@@ -224,9 +214,7 @@ def _record(
         frame=time[few],
         frame_thickness=np.array([films[i].thickness for i in few]),
         frame_pressure=np.array([films[i].pressure for i in few]),
-        **errors,
-        status=last.status,
-        where=f"time {last.time:g} s: {last.status.message}",
+        **march.ended,
     )
 
 
