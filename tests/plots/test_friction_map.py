@@ -40,7 +40,7 @@ def test_the_picture_says_shares_and_shows_what_carries(run):
     kind.draw(run, figure)
     titles = [axes.get_title() for axes in figure.axes if axes.get_title()]
     share = run.summary["boundary_friction_part"][0] / run.summary["friction"][0]
-    assert titles[0] == f"surfaces in contact: {100 * share:.1f} % of it"
+    assert titles[0] == f"surfaces in contact: {100 * share:.1f} % of friction"
     images = [axes.images[0] for axes in figure.axes if axes.get_title()]
     assert images[0].get_clim() == images[1].get_clim()
     # the window is that of the contact, 109 um in radius, of a patch of 320 um

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from bem.plots.figures import FigureKind, two_dimensional
-from bem.plots.style import map_of, prefix, thinned
+from bem.plots.style import OPEN, field_axes, label, prefix, thinned
 
 _BEYOND = 1.15
 """Of the half-axes of what carries friction, what is shown."""
@@ -43,7 +43,7 @@ def _friction_map(run: Any, figure: Figure) -> None:
     least = _SOME * carries.max()
     seen = carries > least
     window = tuple(_middle(seen.any(axis=1 - axis), len(at)) for axis, at in enumerate((x, y)))
-    factor, _ = prefix(carries, "Pa")
+    factor, unit = prefix(carries, "Pa")
     # a few spikes would take all colours
     most = float(np.percentile(thinned(carries[window])[thinned(seen[window])], 99.5)) * factor
     tall = (y[window[1]][-1] - y[window[1]][0]) > (x[window[0]][-1] - x[window[0]][0])
@@ -51,9 +51,13 @@ def _friction_map(run: Any, figure: Figure) -> None:
     named = (("surfaces in contact", boundary), ("oil between them", oil))
     for axes, (text, stress), share in zip(panels, named, _shares(run), strict=True):
         shown = stress[window]
-        shown = np.where(shown > least, shown, np.nan)
-        map_of(figure, axes, x[window[0]], y[window[1]], shown, "shear stress", "Pa", vmin=0, vmax=most)
-        axes.set_title(f"{text}: {100 * share:.1f} % of it", fontsize=8.5)
+        extent = field_axes(axes, x[window[0]], y[window[1]])
+        axes.set_facecolor(OPEN)
+        values = thinned(np.where(shown > least, shown, np.nan)).T * factor
+        image = axes.imshow(values, extent=extent, origin="lower", aspect=axes.get_aspect(), vmin=0, vmax=most)
+        axes.set_title(f"{text}: {100 * share:.1f} % of friction", fontsize=8.5)
+    bar = figure.colorbar(image, ax=panels, shrink=0.9, pad=0.03)
+    bar.set_label(label("shear stress", unit))
 
 
 def _some(run: Any) -> bool:
