@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import math
+from numbers import Real
 from typing import Any
-
-import numpy as np
 
 from bem.errors import InputError
 
 
 def is_finite(value: object) -> bool:
     """Whether an argument is a finite real number: no bool, no string."""
-    return (
-        isinstance(value, (int, float, np.integer, np.floating))
-        and not isinstance(value, bool)
-        and math.isfinite(value)
-    )
+    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def is_positive(value: Any, *, finite: bool = True) -> bool:
+    """Whether it is one above zero; or infinite, where it need not be finite."""
+    return bool((is_finite(value) or (not finite and value == math.inf)) and value > 0)
 
 
 def not_positive(prefix: str = "", /, **values: float) -> list[str]:

@@ -19,6 +19,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
+from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.grid import Grid
 from bem.kept import KeptValues, Sized, bytes_of
@@ -395,9 +396,9 @@ def displacement_operator(
     pair = (bodies,) if isinstance(bodies, Body) else bodies
     if not isinstance(pair, tuple | list) or len(pair) not in (1, 2) or not all(isinstance(b, Body) for b in pair):
         messages.append(f"displacement_operator: bodies {bodies!r} must be one Body or a pair of them")
-    if not (isinstance(friction, int | float | np.floating | np.integer) and math.isfinite(friction)):
+    if not is_finite(friction):
         messages.append(f"displacement_operator: friction {friction!r} must be a finite number")
-    if not (isinstance(compliance, int | float | np.floating) and math.isfinite(compliance) and compliance >= 0):
+    if not (is_finite(compliance) and compliance >= 0):
         messages.append(f"displacement_operator: compliance {compliance!r} must be zero or positive and finite [m/Pa]")
     if messages:
         raise InputError(messages)

@@ -5,14 +5,13 @@ from __future__ import annotations
 import bisect
 import difflib
 import itertools
-import math
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
-from numbers import Real
 from typing import Any
 
+from bem.arguments import is_finite, is_positive
 from bem.errors import InputError
 from bem.representation import tabled
 
@@ -26,14 +25,6 @@ _UNITS = {
     "density": "kg/m^3",
     "heat_capacity": "J/(kg K)",
 }
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def _is_positive(value: object) -> bool:
-    return _is_number(value) and value > 0  # type: ignore[operator]
 
 
 @tabled
@@ -86,16 +77,16 @@ class Material:
             "heat_capacity": heat_capacity,
         }
         messages = []
-        if not _is_positive(youngs_modulus):
+        if not is_positive(youngs_modulus):
             messages.append(f"Material {name!r}: youngs_modulus {youngs_modulus!r} must be positive and finite [Pa]")
-        if not (_is_number(poissons_ratio) and -1 < poissons_ratio < 0.5):
+        if not (is_finite(poissons_ratio) and -1 < poissons_ratio < 0.5):
             messages.append(
                 f"Material {name!r}: poissons_ratio {poissons_ratio!r} must lie between -1 and 0.5, both excluded"
             )
         messages += [
             f"Material {name!r}: {key} {value!r} must be positive and finite [{_UNITS[key]}], or left out"
             for key, value in optional.items()
-            if value is not None and not _is_positive(value)
+            if value is not None and not is_positive(value)
         ]
         if messages:
             raise InputError(messages)
@@ -155,7 +146,7 @@ class Layer:
         object.__setattr__(self, "material", _of_the_catalogue(self.material))
         if not isinstance(self.material, Material):
             messages.append(f"Layer: material {self.material!r} must be a Material")
-        if not _is_positive(self.thickness):
+        if not is_positive(self.thickness):
             messages.append(
                 f"Layer: thickness {self.thickness!r} must be positive and finite [m]; for none, leave the layer out"
             )

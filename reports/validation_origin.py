@@ -20,7 +20,7 @@ from bem.runs import plan_scene
 from bem.scenes.load import dump_scene, library
 
 CODE = Path(bem.__file__).resolve().parent
-SCENE_MODULES = ("build", "lives", "lubrication", "wearing")
+SCENE_MODULES = ("build", "lives", "lubrication", "pieces", "wearing")
 """Of `bem.scenes`, what computes; the rest reads, checks and plans, and shows in the resolved scene."""
 NOT_HASHED = ("scenes", "campaigns", "results", "plots", "runs", "cli", "errors", "lazy", "fftw", "threads", "compiled")
 """Rooms that decide no figure: how scenes are read, work is dealt out, results are written and shown."""

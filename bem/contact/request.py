@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.arguments import is_finite, is_positive
 from bem.contact.controls import Control, scaled_control
 from bem.convolution import DisplacementOperator
 from bem.errors import InfeasibleError, InputError
@@ -119,12 +120,12 @@ def checked_request(
             f"solve_contact: give exactly one of load, approach and mean_gap, not {', '.join(given) or 'none of them'}"
         )
     for name, value in given.items():
-        if not _is_number(value) or (name != "approach" and value < 0):
+        if not is_finite(value) or (name != "approach" and value < 0):
             bound = "" if name == "approach" else " and not negative"
             messages.append(f"solve_contact: {name} {value!r} must be finite{bound}")
-    if hardness is not None and not (_is_number(hardness) and hardness > 0):
+    if hardness is not None and not is_positive(hardness):
         messages.append(f"solve_contact: hardness {hardness!r} must be positive and finite [Pa], or None")
-    if not (_is_number(tolerance) and 0 < tolerance < 1):
+    if not (is_finite(tolerance) and 0 < tolerance < 1):
         messages.append(f"solve_contact: tolerance {tolerance!r} must lie between 0 and 1")
     if isinstance(max_iterations, bool) or not isinstance(max_iterations, int) or max_iterations < 1:
         messages.append(f"solve_contact: max_iterations {max_iterations!r} must be a positive integer")
@@ -151,7 +152,3 @@ def _checked_fields(
         except InputError as error:
             messages.extend(error.messages)
     return checked
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float | np.floating | np.integer) and math.isfinite(value)

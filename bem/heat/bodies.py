@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Real
 
+from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.grid import Grid
 from bem.materials import Body
@@ -95,7 +95,7 @@ def _numbers(owner: str, key: str, given: object, count: int, unit: str, message
     values = (given,) if isinstance(given, Real) else tuple(given) if isinstance(given, Sequence) else ()
     if key == "bulk" and count == 1:
         values = values[:1]
-    numbers = [v for v in values if isinstance(v, Real) and not isinstance(v, bool) and math.isfinite(v)]
+    numbers = [v for v in values if is_finite(v)]
     if len(values) != count or len(numbers) != count:
         messages.append(
             f"{owner}: {key} {given!r} must be {count} finite number{'s'[: count - 1]} [{unit}], one a body"

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from bem.arguments import is_positive
 from bem.errors import InputError
 
 
@@ -81,6 +82,5 @@ def inside_hertz(supply: InletDistance, half_width: float) -> str:
 
 
 def _check(value: object, name: str) -> None:
-    real = isinstance(value, int | float) and not isinstance(value, bool)
-    if not (real and math.isfinite(value) and value > 0):  # type: ignore[operator,arg-type]
+    if not is_positive(value):
         raise InputError(f"{name}: {value!r} must be positive and finite [m]")

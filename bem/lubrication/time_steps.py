@@ -9,6 +9,7 @@ from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
+from bem.arguments import is_positive
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 
@@ -135,7 +136,7 @@ def load_messages(schedule: Schedule, unit: str) -> list[str]:
     return [
         f"load: {w!r} at time {t:g} s must be positive and finite [{unit}]"
         for t, w in zip(schedule.times, schedule.loads, strict=True)
-        if not (isinstance(w, (int, float, np.floating)) and math.isfinite(w) and w > 0)
+        if not is_positive(w)
     ]
 
 

@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 
+from bem.arguments import is_positive
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.lubrication import time_steps
@@ -137,7 +138,7 @@ def _messages(schedule: Schedule, contact: Contact, points: int) -> list[str]:
     for t, pair in zip(schedule.times, schedule.speeds, strict=True):
         messages += [f"{m} at time {t:g} s" for m in check_speeds(pair)]
     for name, value in (("radius", contact.radius), ("contact_modulus", contact.contact_modulus)):
-        if not (isinstance(value, (int, float, np.floating)) and value > 0):
+        if not is_positive(value, finite=False):
             messages.append(f"{name}: {value!r} must be positive")
     if not isinstance(contact.lubricant, Lubricant):
         messages.append(f"lubricant: {type(contact.lubricant).__name__} is not a Lubricant")

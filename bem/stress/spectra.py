@@ -23,6 +23,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import ArrayLike
 
+from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.kept import DEFAULT_LIMIT, bytes_of
@@ -149,7 +150,7 @@ def check_request(
         messages.append(f"{name}: grid {grid!r} must be a Grid")
     if not isinstance(body, Body):
         messages.append(f"{name}: body {body!r} must be a Body")
-    if not (isinstance(friction, int | float | np.floating | np.integer) and math.isfinite(friction)):
+    if not is_finite(friction):
         messages.append(f"{name}: friction {friction!r} must be a finite number")
     values = np.asarray(depths)
     if values.dtype.kind not in "fiu" or values.ndim != 1:

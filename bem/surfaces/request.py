@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from bem.arguments import is_positive
 from bem.errors import InputError
 from bem.grid import Grid
 
@@ -68,8 +69,7 @@ def _pair(length: Any) -> tuple[Any, ...] | list[Any]:
 
 
 def _is_positive(name: str, value: Any, unit: str, messages: list[str]) -> bool:
-    good = isinstance(value, int | float | np.number) and not isinstance(value, bool)
-    if not (good and math.isfinite(value) and value > 0):
+    if not is_positive(value):
         messages.append(f"{name} {value!r} must be positive and finite{unit}")
         return False
     return True

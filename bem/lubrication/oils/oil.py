@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.lubrication.oils.over_temperature import CELSIUS, OverTemperature
 from bem.lubrication.oils.pressure import PressureViscosity
@@ -72,7 +72,7 @@ class Oil:
         """
         low = self.freezing_point or COLDEST
         high = min(self.boiling_point or HOTTEST, HOTTEST)
-        if not (isinstance(temperature, (int, float)) and math.isfinite(temperature)):
+        if not is_finite(temperature):
             raise InputError(f"{self.name}: temperature {temperature!r} must be a finite number [K]")
         if low <= temperature <= high:
             return

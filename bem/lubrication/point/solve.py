@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from bem.arguments import is_finite, is_positive
 from bem.errors import InputError, Status
 from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.lubricant import Lubricant
@@ -225,7 +226,7 @@ def checked(
     InputError : with a message for each mistake.
     """
     messages = []
-    if not _positive(load):
+    if not is_positive(load):
         messages.append(f"load: {load!r} must be positive and finite [N]")
     pair = numbers(radii, 2)
     if pair is None or not all(r > 0 for r in pair):
@@ -235,7 +236,7 @@ def checked(
             f"radii: Rx/Ry {pair[0] / pair[1]:.3g} must lie between {RATIOS[0]:g} and {RATIOS[1]:g}; beyond, a contact "
             "is a line contact (solve_line_film)"
         )
-    if not (_number(contact_modulus) and contact_modulus > 0):
+    if not is_positive(contact_modulus, finite=False):
         messages.append(f"contact_modulus: {contact_modulus!r} must be positive [Pa]; math.inf is rigid")
     both = vectors(speeds)
     if both is None:
@@ -258,7 +259,7 @@ def checked(
     cells = SHAPE if shape is None else shape
     if numbers(cells, 2) is None or not all(float(n).is_integer() and SHORTEST <= n <= LONGEST for n in cells):
         messages.append(f"shape: {shape!r} must be two integers from {SHORTEST} to {LONGEST}")
-    if not (_number(tolerance) and 1e-11 <= tolerance <= 1e-2):
+    if not (is_finite(tolerance) and 1e-11 <= tolerance <= 1e-2):
         messages.append(f"tolerance: {tolerance!r} must lie between 1e-11 and 1e-2")
     edges = (-1, 1, -1, 1) if extent is None else numbers(extent, 4)
     if edges is None or not (edges[0] < 0 < edges[1] and edges[2] < 0 < edges[3]):
@@ -269,21 +270,13 @@ def checked(
     return both
 
 
-def _number(value: object) -> bool:
-    return isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool) and value == value
-
-
-def _positive(value: Any) -> bool:
-    return _number(value) and math.isfinite(value) and value > 0
-
-
 def numbers(values: Any, count: int) -> tuple[float, ...] | None:
     """So many finite numbers; None where they are not."""
     try:
         listed = tuple(values)
     except TypeError:
         return None
-    good = len(listed) == count and all(_number(v) and math.isfinite(v) for v in listed)
+    good = len(listed) == count and all(is_finite(v) for v in listed)
     return tuple(float(v) for v in listed) if good else None
 
 
