@@ -125,6 +125,27 @@ def _digest():
     return hashlib.sha256(transform.forward(field).tobytes()).hexdigest()
 
 
+@pytest.mark.parametrize("columns", [None, 20])
+@pytest.mark.parametrize(("shape", "padded"), [((240, 90), (480, 90)), ((300, 64), (600, 128)), ((64, 48), (64, 48))])
+def test_squares_are_those_of_the_fields_bit_for_bit(shape, padded, columns, one_thread):
+    rng = np.random.default_rng(4)
+    transform = transforms.transform_of(shape, padded)
+    spectrum = transform.forward(rng.random(shape))
+    every = [
+        transforms.Multiplier(*rng.random((2, padded[1] // 2 + 1, padded[0] // 2 + 1)), *pair)
+        for pair in ((1, -1), (-1, 1), (1, 1))
+    ]
+    weights = (0.75, 1.0, 3.0)
+    first, second, third = (transform.inverse(spectrum, one, columns=columns) for one in every)
+    wanted = np.sqrt((0.75 * first * first + second * second) + 3.0 * third * third)
+    for count in (1, 2):
+        threads.set_threads(count)
+        sums = np.empty(shape)
+        for stage, (one, weight) in enumerate(zip(every, weights, strict=True)):
+            transform.inverse_squared(spectrum, one, sums, weight=weight, stage=stage, columns=columns)
+        assert sums.tobytes() == wanted.tobytes()
+
+
 def test_another_process_gives_the_same_bits():
     here = str(Path(__file__).parent)
     code = f"import sys; sys.path.insert(0, {here!r}); import test_transforms as t; print(t._digest())"

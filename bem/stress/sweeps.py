@@ -35,6 +35,7 @@ from bem.stress.spectra import (
 )
 from bem.threads import get_threads, share
 from bem.transforms import PaddedTransform, transform_of
+from bem.transforms.loops import BEGINS, ENDS, GOES_ON
 
 
 def subsurface_stress(
@@ -199,6 +200,13 @@ _SHARES = (0.0, 0.75, 1.0, 3.0, 3.0, 3.0)  # of t, d, e, yz, xz, xy squared in v
 def planes(sweep: Sweep, outs: Sequence[FloatArray | None]) -> Iterator[FloatArray]:
     """Von Mises stress of one depth after the other, each into its own array, or a new one where that is None."""
     shape = sweep.grid.shape
+    if len(sweep.parts) == 1:
+        (part,) = sweep.parts
+        for index, out in enumerate(outs):
+            plane = np.empty(shape) if out is None else out
+            part.von_mises(part.factors(sweep.depths[index]), plane)
+            yield plane
+        return
     scratch = sweep.parts[0].transform.zeros_field()  # aligned: written by the transform itself where y is not padded
     for index, out in enumerate(outs):
         plane = np.empty(shape) if out is None else out
@@ -265,6 +273,18 @@ class _Part:
         """One of t, d, e, yz, xz, xy at the points of its own grid."""
         multiplier = factors.multiplier(component, self.workspace)
         self.transform.inverse(self.spectrum, multiplier, out, columns=factors.columns[component])
+
+    def von_mises(self, factors: Factors, out: FloatArray) -> None:
+        """Von Mises stress at the points of its own grid, into a contiguous array: no component is ever stored."""
+        for component in range(1, 6):
+            self.transform.inverse_squared(
+                self.spectrum,
+                factors.multiplier(component, self.workspace),
+                out,
+                weight=_SHARES[component],
+                stage={1: BEGINS, 5: ENDS}.get(component, GOES_ON),
+                columns=factors.columns[component],
+            )
 
     def add(self, factors: Factors, component: int, out: FloatArray) -> None:
         """The same added, in the axes of the request: turned, d changes its sign and yz is xz."""

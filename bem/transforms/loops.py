@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
@@ -17,6 +18,9 @@ _plain: Any = njit(cache=True, nogil=True)
 _contracted: Any = njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
 
 ALIGNMENT = 64
+
+BEGINS, GOES_ON, ENDS = range(3)
+"""What a field does to a sum of squares."""
 
 ONE = 2
 """In place of the real part's parity: the multiplier is one."""
@@ -128,6 +132,35 @@ def rows_back(room, scratch, out, first, last):  # type: ignore[no-untyped-def]
 
 
 @_plain
+def rows_back_squared(room, scratch, weight, stage, out, first, last):  # type: ignore[no-untyped-def]
+    """The same, of which the squares times a weight begin a sum in `out`, go on with it, or end it with its root."""
+    rows = scratch.rows_out
+    for block in range(first, last):
+        start = block * room.row_block
+        count = min(room.nx, start + room.row_block) - start
+        plan = room.row_plans[1, 0 if count == room.row_block else 1]
+        execute(room.executors[2], plan, room.half[0, start:].ctypes.data, rows.ctypes.data)
+        for i in range(count):
+            if stage == BEGINS:
+                for j in range(room.ny):
+                    out[start + i, j] = weight * rows[i, j] * rows[i, j]
+            elif stage == ENDS:
+                for j in range(room.ny):
+                    out[start + i, j] = np.sqrt(out[start + i, j] + weight * rows[i, j] * rows[i, j])
+            else:
+                for j in range(room.ny):
+                    out[start + i, j] += weight * rows[i, j] * rows[i, j]
+
+
+@_plain
+def inverse_squared(room, scratch, factor, spectrum, blocks, weight, stage, out):  # type: ignore[no-untyped-def]
+    """A spectrum times the factor, back by one thread, squares added as `rows_back_squared` does."""
+    columns_in(room, scratch, factor, spectrum, 0, blocks)
+    room.half[room.columns[blocks] :] = 0
+    rows_back_squared(room, scratch, weight, stage, out, 0, -(-room.nx // room.row_block))
+
+
+@_plain
 def columns_through(room, scratch, factor, first, last):  # type: ignore[no-untyped-def]
     """Blocks of columns: along x, times the factor, and back."""
     for block in range(first, last):
@@ -217,14 +250,19 @@ def multiply(room, factor, given, target, block, offset):  # type: ignore[no-unt
     else:
         mirrored_real = scale if factor.real_parity > 0 else -scale
         mirrored_imaginary = scale if factor.imaginary_parity > 0 else -scale
+        # as real numbers, two for each: a third less time than a loop of complex ones, same bits
+        kind = real.dtype
         for i in range(count):
+            source, result = given[offset + i].view(kind), target[i].view(kind)
             for j in range(half):
                 a = real[start + i, j] * scale
                 b = imaginary[start + i, j] * scale
-                z = given[offset + i, j]
-                target[i, j] = complex(a * z.real - b * z.imag, a * z.imag + b * z.real)
+                x, y = source[2 * j], source[2 * j + 1]
+                result[2 * j] = a * x - b * y
+                result[2 * j + 1] = a * y + b * x
             for j in range(half, length):
                 a = real[start + i, length - j] * mirrored_real
                 b = imaginary[start + i, length - j] * mirrored_imaginary
-                z = given[offset + i, j]
-                target[i, j] = complex(a * z.real - b * z.imag, a * z.imag + b * z.real)
+                x, y = source[2 * j], source[2 * j + 1]
+                result[2 * j] = a * x - b * y
+                result[2 * j + 1] = a * y + b * x

@@ -161,6 +161,30 @@ class PaddedTransform:
             out[...] = plain
         return out
 
+    def inverse_squared(  # reason: a term of a sum: what is transformed, how it counts, where it goes
+        self,
+        spectrum: ComplexArray,
+        factor: Multiplier,
+        out: FloatArray,
+        *,
+        weight: float,
+        stage: int,
+        columns: int | None,
+    ) -> None:
+        """The square of what `inverse` gives, times a weight: `stage` says whether it begins the sum in `out`, goes on
+        with it, or ends it with its root (`loops.BEGINS`, `GOES_ON`, `ENDS`). The field itself is nowhere stored."""
+        parts, threads = factor.factor(self.dtype), get_threads()
+        with self.lock:
+            scratch = self.ready(threads)
+            blocks = bisect_left(self._ends, self.spectrum_shape[0] if columns is None else columns)
+            if threads == 1:
+                loops.inverse_squared(self.room, scratch, parts, spectrum, blocks, weight, stage, out)
+            else:
+                self._each(loops.columns_in, blocks, parts, spectrum)
+                self.room.half[self._ends[blocks] :] = 0
+                self._each(loops.rows_back_squared, self._row_blocks, weight, stage, out)
+        self._count(inverse=1, blocks=blocks)
+
     def convolve(self, values: FloatArray, factor: Multiplier, out: FloatArray | None = None) -> FloatArray:
         """Forward, times `factor`, and back, without ever storing a whole padded spectrum. `out` may be `values`."""
         out = np.empty(self.shape, self.dtype) if out is None else out
