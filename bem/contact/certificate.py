@@ -26,6 +26,17 @@ _FLAT = 1e-6
 """A gap whose roughness is below this times the displacement is called flat; the residual is then of the latter."""
 
 
+def elastic_length(request: Request) -> float:
+    """By how much a cell gives way under the mean pressure asked for [m]; zero where no load is. On a doubly periodic
+    grid an even pressure displaces nothing, and yet displacements are rounded as if by this."""
+    return 0.0 if request.load is None else request.load / request.operator.grid.area * request.operator.unit
+
+
+def is_flat(roughness: float, reach: float) -> bool:
+    """Whether a gap is flat beside displacements [m] that reach so far."""
+    return roughness <= _FLAT * reach
+
+
 def certify(
     request: Request,
     units: Units,
@@ -62,7 +73,8 @@ def certify(
     elif request.load is not None:
         missed = _relative(abs(load - request.load), request.load)
     contact, plastic, doubt = _regions(request, pressure, deformed, load)
-    residual = max(_relative(largest, roughness if roughness > _FLAT * reach else reach), missed)
+    reach = max(reach, elastic_length(request))
+    residual = max(_relative(largest, reach if is_flat(roughness, reach) else roughness), missed)
     return ContactSolution(
         pressure=pressure,
         displacement=displacement,

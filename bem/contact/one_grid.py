@@ -234,12 +234,21 @@ def without_contact(control: Control, gap: FloatArray) -> LevelResult | None:
     return LevelResult(np.zeros(gap.size), np.zeros(gap.size), approach, 0.0, converged=True)
 
 
-def pressed_flat(operator: DisplacementOperator, gap: FloatArray, control: Control, cap: float) -> LevelResult | None:
-    """A uniform pressure where a doubly periodic gap is flat: it moves nothing, and iterations see rounding only."""
-    if not (isinstance(control, LoadControl) and operator.mean_free and gap.max() == 0):
+def pressed_flat(
+    operator: DisplacementOperator, gap: FloatArray, control: Control, cap: float, *, flat: bool
+) -> LevelResult | None:
+    """The pressure of full contact where a doubly periodic gap is flat, or `flat` to round-off: uniform but for what
+    closes the gap everywhere. Iterations would see rounding only. None where that leaves the bounds."""
+    if not (isinstance(control, LoadControl) and operator.mean_free and (flat or gap.max() == 0)):
         return None
-    pressure = min(control.force / gap.size, cap)
-    return LevelResult(np.full(gap.size, pressure), np.zeros(gap.size), 0.0, 0.0, converged=True)
+    mean = min(control.force / gap.size, cap)
+    if gap.max() == 0:
+        return LevelResult(np.full(gap.size, mean), np.zeros(gap.size), 0.0, 0.0, converged=True)
+    full = _full_contact(operator, gap)
+    pressure = full.pressure + (mean - full.pressure.mean())
+    if pressure.min() < 0 or pressure.max() > cap:
+        return None
+    return replace(full, pressure=pressure, fresh=False)
 
 
 def _full_contact(operator: DisplacementOperator, gap: FloatArray) -> LevelResult:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import cascade, passes
-from bem.contact.certificate import certify
+from bem.contact.certificate import certify, elastic_length, is_flat
 from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl
 from bem.contact.level import Effort, LevelResult
 from bem.contact.one_grid import (
@@ -94,7 +94,8 @@ def solve_contact(  # reason: a promise to users' scripts, each of them a choice
     passes.rescale(request.gap.reshape(-1), datum, 1 / units.length, scaled)
     problem = Problem(shared, operator, scaled, request.cap / units.pressure, _report(callback, shared, operator))
     start = None if initial_pressure is None else initial_pressure.reshape(-1) / units.pressure
-    result = _solution(problem, units.control(request), start)
+    flat = is_flat(roughness, elastic_length(request))
+    result = _solution(problem, units.control(request), start, flat=flat)
     return certify(
         request,
         units,
@@ -106,9 +107,12 @@ def solve_contact(  # reason: a promise to users' scripts, each of them a choice
     )
 
 
-def _solution(problem: Problem, control: Control, start: FloatArray | None) -> LevelResult:
-    """In the solver's units, from a pressure or from coarser grids; nothing is solved where that is not needed."""
-    known = without_contact(control, problem.gap) or pressed_flat(problem.operator, problem.gap, control, problem.cap)
+def _solution(problem: Problem, control: Control, start: FloatArray | None, *, flat: bool) -> LevelResult:
+    """In the solver's units, from a pressure or from coarser grids; nothing is solved where that is not needed.
+
+    flat : whether the gap is flat beside what the load does to a cell."""
+    known = without_contact(control, problem.gap)
+    known = known or pressed_flat(problem.operator, problem.gap, control, problem.cap, flat=flat)
     if known is not None:
         return known
     if start is None:

@@ -124,3 +124,25 @@ def test_mean_gap_below_a_film_on_a_soft_base(seed):
     assert np.abs(opening[solution.pressure > 0]).max() <= 1e-8 * gap.std()
     assert np.maximum(opening, 0).mean() == pytest.approx(4e-11, rel=1e-6)  # to the residual
     assert solution.iterations < 600  # 330 by way of the load, 1300 to 1400 on the guard of the energy
+
+
+@pytest.mark.parametrize("amplitude", [1e-22, 1e-19, 1e-16])
+@pytest.mark.parametrize("hardness", [None, 2e9])
+def test_a_plate_flat_to_round_off_is_in_full_contact(amplitude, hardness):
+    # a load pressed it to 700 iterations and stalled: displacements are rounded by more than the roughness
+    n, spacing, load = 32, 1e-6, 1.0
+    body = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
+    grid = Grid((n, n), (spacing, spacing), periodic=(True, True))
+    waves = np.repeat(np.cos(2 * np.pi * np.arange(n) / n)[:, None], n, axis=1)
+    gap = amplitude * (waves + 0.1 * np.random.default_rng(1).standard_normal((n, n)))
+    found = solve_contact(gap, displacement_operator(grid, (body, body)), load=load, hardness=hardness)
+    assert found.status.value == "converged"
+    assert found.contact_area == pytest.approx(grid.area, rel=1e-12)
+    assert found.load == pytest.approx(load, rel=1e-12)
+    mean = load / grid.area
+    # full contact (Johnson 13.2): each wave of height a and number q lowers the pressure by E* q a / 2
+    modulus = body.material.plane_strain_modulus / 2
+    change = -2 * np.mean((found.pressure - mean) * waves)
+    height = 2 * np.mean(gap * waves)
+    expected = modulus * (2 * np.pi / (n * spacing)) * height / 2
+    assert change == pytest.approx(expected, abs=1e-14 * mean, rel=1e-4)  # pressures are rounded at 1e-16 of the mean
