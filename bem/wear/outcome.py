@@ -92,6 +92,24 @@ def step_error(memory: FloatArray | None) -> float | None:
     return float(0.5 * np.abs(memory[1] - memory[0])[both if both.any() else ...].max())
 
 
+def drift(series: ArrayLike, window: int = 25, tolerance: float = 0.02) -> float | None:
+    """By how much of itself a figure still changes at the last cycle; None where it has settled, or of one cycle.
+
+    The mean over the last `window` cycles, or the last half of fewer, against that of as many before them, relative to
+    the larger: settled where that is below the tolerance, as of the rule that stops a loop (`running_in.Settled`), or
+    below two standard errors of the difference as cycles scatter.
+    """
+    values = np.asarray(series, dtype=np.float64)
+    values = values[np.isfinite(values)]
+    window = min(window, values.size // 2)
+    if window == 0:
+        return None
+    before, after = values[-2 * window : -window], values[-window:]
+    change, scale = float(after.mean() - before.mean()), max(abs(before.mean()), abs(after.mean()))
+    scatter = math.sqrt((before.var() + after.var()) / max(window - 1, 1))
+    return None if abs(change) <= max(tolerance * scale, 2 * scatter) else float(change / scale)
+
+
 def sizes_over_cycles(cycles: ArrayLike, particles: NDArray[np.void]) -> tuple[FloatArray, FloatArray]:
     """Volume-mean radius [m] (not-a-number where nothing came off) and number of the particles of each cycle."""
     volumes = [particles["volume"][particles["cycle"] == cycle] for cycle in np.asarray(cycles)]

@@ -315,6 +315,14 @@ def wear_outcome(lengths, **more):
     return Outcome(more, variables)
 
 
+def loop_outcome(sq, friction=(0.1, 0.1, 0.1, 0.1)):
+    """Two loops of four cycles with 100 nm at the start; the second is at rest."""
+    over = {"rms_height_over_cycles": np.linspace(sq, sq, 4) * 1e-9, "friction_over_cycles": np.array(friction)}
+    variables = {n: Variable(("speed", "cycle"), np.stack([v, np.full(4, v[0])]), "1", n) for n, v in over.items()}
+    sizes = {"Sq_initial_nm": [100.0, 100.0], "Sq_final_nm": [sq, 100.0], "volume_mean_radius_nm": [sq, 0.0]}
+    return Outcome(sizes, variables)
+
+
 CELL = 50.5e-9
 MIRRORED = with_(
     ROUGH,
@@ -384,6 +392,16 @@ OUTCOMES = {
         "wear-steel-steel",
         (wear_outcome([], particles_per_cycle=[2.0, 0.0, 1.0]), "came off by the criterion von_mises (5 N)"),
         wear_outcome([CELL], particles_per_cycle=[2.0, 0.1, 1.0]),
+    ),
+    "rougher_by_its_own_pieces": (
+        "running-in-stribeck",
+        (loop_outcome(480.0), "in 1 of 2 loops: Sq 100 nm before, 480 nm after"),
+        loop_outcome(140.0),
+    ),
+    "drifting_at_the_last_cycle": (
+        "running-in-stribeck",
+        (loop_outcome(100.0, (0.13, 0.12, 0.11, 0.1)), "not settled: friction by 16 % in 1 of 2 loops"),
+        loop_outcome(100.0),
     ),
     "particles_cut_by_the_depths": (
         "wear-steel-steel",
@@ -514,3 +532,13 @@ def test_numbers_in_words():
     assert times((1e-6, 2e-6), "m") == "1 um x 2 um"
     assert percent(0.004) == "0.4 %"
     assert percent(0.9999) == "100 %"
+
+
+def test_a_scar_worn_by_pressure_is_meant_to_grow():
+    facts = facts_of("wear-cylinder-scar")
+    grown = Outcome(
+        {"Sq_initial_nm": [1.0], "Sq_final_nm": [90.0]},
+        {"rms_height": Variable(("cycle",), np.linspace(1e-9, 9e-8, 20), "m", "Sq")},
+    )
+    for name in ("rougher_by_its_own_pieces", "drifting_at_the_last_cycle"):
+        assert list(OUTCOME_CHECKS[name](facts, grown)) == []

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bem.grid import Grid
-from bem.wear.outcome import contact_strip, hertz_strip, sizes_over_cycles, strip_wear
+from bem.wear.outcome import contact_strip, drift, hertz_strip, sizes_over_cycles, strip_wear
 from bem.wear.state import PARTICLE_FIELDS
 
 
@@ -46,3 +46,16 @@ def test_sizes_over_cycles_count_each_cycle_by_volume():
     assert radius[[0, 2]] == pytest.approx([17 / 9, 5.0], rel=1e-14)
     assert np.isnan(radius[1])
     assert number.tolist() == [2, 0, 1]
+
+
+def test_drift_tells_a_trend_from_scatter():
+    rng = np.random.default_rng(3)
+    scatter = rng.standard_normal(200)
+    assert drift(0.14 * (1 + 0.001 * scatter)) is None  # within the tolerance
+    assert drift(1 + 0.2 * scatter) is None  # scatters by more than the tolerance, but goes nowhere
+    # 0.2 % a cycle: means of windows that lie 25 cycles apart
+    assert drift(np.exp(0.002 * np.arange(200)) * (1 + 0.01 * scatter)) == pytest.approx(1 - np.exp(-0.05), abs=0.01)
+    assert drift(np.linspace(2.0, 1.0, 4)) < -0.3  # of fewer cycles half against half
+    assert drift([1.0, 0.9]) == pytest.approx(-0.1)
+    assert drift([1.0]) is None
+    assert drift(np.zeros(60)) is None

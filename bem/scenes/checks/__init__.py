@@ -1,7 +1,7 @@
 """What an expert would warn of, before a scene is run and after: one list of small checks.
 
 To add one, write into the file of its subject (`materials.py`, `contact.py`, `mesh.py`, `surfaces.py`, `operation.py`
-before; `outcome.py` after; or a new file, named in `_ORDER`)
+before; `outcome.py`, `cycles.py` after; or a new file, named in `_ORDER`)
 
     @scene_check
     def friction_above_one(facts: Facts) -> Iterator[str]:
@@ -25,12 +25,12 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from bem.errors import InputError
-from bem.scenes.checks import contact, materials, mesh, operation, outcome, surfaces
+from bem.scenes.checks import contact, cycles, materials, mesh, operation, outcome, surfaces
 from bem.scenes.checks.facts import Case, Facts, examine
 from bem.scenes.checks.registry import OUTCOME_CHECKS, SCENE_CHECKS
 from bem.scenes.context import Outcome
 
-_ORDER = [module.__name__ for module in (materials, operation, surfaces, contact, mesh, outcome)]
+_ORDER = [module.__name__ for module in (materials, operation, surfaces, contact, mesh, outcome, cycles)]
 """Units first: the others follow from them."""
 
 
@@ -66,6 +66,7 @@ __all__ = [
     "Case",
     "Facts",
     "contact",
+    "cycles",
     "examine",
     "materials",
     "mesh",

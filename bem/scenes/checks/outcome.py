@@ -147,8 +147,8 @@ def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[str]:
 def cap_within_the_error_of_the_pressure(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """Two grids on which nothing reaches the hardness give its area no error, which finer cells may have."""
     case, told = _capped(facts, outcome), outcome.summary
-    plastic = _numbers(told.get("plastic_area_fraction"))
-    highest, errors = (_numbers(told.get(f"max_pressure_Pa{end}")) for end in ("", "_error"))
+    plastic = numbers(told.get("plastic_area_fraction"))
+    highest, errors = (numbers(told.get(f"max_pressure_Pa{end}")) for end in ("", "_error"))
     if case is None or case.cap is None or not len(plastic) == len(highest) == len(errors):
         return
     if any(p == 0 and h < case.cap < h + e for p, h, e in zip(plastic, highest, errors, strict=True)):
@@ -165,8 +165,8 @@ def capped_contact_nearly_full(facts: Facts, outcome: Outcome) -> Iterator[str]:
     fraction = outcome.summary.get("contact_area_fraction")
     if not facts.of_kind("contact", "wear", "running-in", "friction") or fraction is None:
         return
-    largest = max(_numbers(fraction), default=0.0)
-    capped = max(_numbers(outcome.summary.get("plastic_area_fraction", 0.0)), default=0.0) > 0
+    largest = max(numbers(fraction), default=0.0)
+    capped = max(numbers(outcome.summary.get("plastic_area_fraction", 0.0)), default=0.0) > 0
     if largest > _CONTACT and (capped or not facts.of_kind("contact")) and all(case.cap for case in facts.cases):
         yield (
             f"{percent(largest)} of the patch is in contact under a capped pressure: above about half the valleys "
@@ -210,11 +210,11 @@ def particles_of_one_cell(facts: Facts, outcome: Outcome) -> Iterator[str]:
         return
     cell = 1e9 * max(facts.cases[0].grid.spacing)
     # two cells as deep as wide have an equivalent radius of 0.78 of a cell
-    small = [value for value in _numbers(radius) if 0 < value < 0.78 * cell]
+    small = [value for value in numbers(radius) if 0 < value < 0.78 * cell]
     if small:
         yield (
             f"the mean particle, by number, is smaller than two cells of {cell:.3g} nm in {len(small)} of "
-            f"{len(_numbers(radius))} runs (radius {min(small):.3g} nm): most are one cell, and their size is the "
+            f"{len(numbers(radius))} runs (radius {min(small):.3g} nm): most are one cell, and their size is the "
             "mesh's; take a finer grid, or the mean by volume"
         )
 
@@ -254,10 +254,10 @@ def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """No particles in the settled cycles of a case: what they would have to be."""
     if not facts.of_kind("wear", "running-in"):
         return
-    numbers = _numbers(outcome.summary.get("particles_per_cycle"))
-    if len(numbers) != len(facts.cases):  # cases that are alike to the checks
-        numbers = [max(numbers, default=0.0)] * len(facts.cases)
-    for number, case in zip(numbers, facts.cases, strict=True):
+    counts = numbers(outcome.summary.get("particles_per_cycle"))
+    if len(counts) != len(facts.cases):  # cases that are alike to the checks
+        counts = [max(counts, default=0.0)] * len(facts.cases)
+    for number, case in zip(counts, facts.cases, strict=True):
         if number == 0 and case.wear is not None and case.wear.criterion.needs_strength:
             yield f"nothing came off by the criterion {case.wear.criterion.name}{case.at}{_what_it_takes(case)}"
 
@@ -285,7 +285,7 @@ def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[str]
     if cut is None or number is None or not facts.of_kind("wear"):
         return
     settled = facts.scene.cycles.settled
-    shares = [c / (n * settled) for c, n in zip(_numbers(cut), _numbers(number), strict=False) if n > 0]
+    shares = [c / (n * settled) for c, n in zip(numbers(cut), numbers(number), strict=False) if n > 0]
     if shares and max(shares) > 0.02:
         yield (
             f"{percent(max(shares))} of the settled particles reach the deepest depth and go on below it: their volume "
@@ -293,8 +293,8 @@ def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[str]
         )
 
 
-def _numbers(value: Any) -> list[float]:
+def numbers(value: Any) -> list[float]:
     """A figure of the summary, or lists of them, as numbers that are finite."""
     if isinstance(value, list | tuple):
-        return [number for item in value for number in _numbers(item)]
+        return [number for item in value for number in numbers(item)]
     return [float(value)] if isinstance(value, int | float | np.number) and np.isfinite(value) else []

@@ -1,0 +1,87 @@
+"""Checks of wear loops: a surface that grows rough by its own pieces, figures that still drift at the last cycle.
+
+Read off what a run gives; the rule of drift is `bem.wear.outcome.drift`. Verified in tests/scenes/test_checks.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from bem.scenes.checks.facts import Facts
+from bem.scenes.checks.outcome import numbers
+from bem.scenes.checks.registry import outcome_check
+from bem.scenes.checks.words import joined, percent, si
+from bem.scenes.context import Outcome
+
+_GROWN = 1.5
+"""Of the roughness of both surfaces together: what touches may take over the other's, and pieces leave edges."""
+
+_SERIES = {
+    "rms_height_over_cycles": "Sq of the worn surface",
+    "rms_height": "Sq of the worn surface",
+    "friction_over_cycles": "friction",
+    "minimum_film_over_cycles": "minimum film",
+}
+
+
+def _with_pieces(facts: Facts) -> bool:
+    """Whether material leaves in pieces: a scar worn by pressure is meant to grow."""
+    return all(case.wear is None or case.wear.criterion.needs_strength for case in facts.cases)
+
+
+@outcome_check
+def rougher_by_its_own_pieces(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """Running-in takes summits off. Pieces deeper than the roughness leave holes instead, and friction, film and pieces
+    of later cycles are of those: two surfaces of 112 and 55 nm ended at 907, 630 and 469 nm on cells of 1, 0.5 and 0.25
+    um (`reports/experiments/roughening.py`), so that it is the criterion's, and the cell's."""
+    if not facts.of_kind("wear", "running-in") or not _with_pieces(facts):
+        return
+    rough = dict.fromkeys(("lower", "upper"), 0.0)
+    for _, surface in facts.surfaces:
+        rough[surface.body] = max(rough[surface.body], surface.rms_height)
+    both = 1e9 * math.hypot(*rough.values())
+    before, after = (numbers(outcome.summary.get(f"Sq_{when}_nm")) for when in ("initial", "final"))
+    radii = numbers(outcome.summary.get("volume_mean_radius_nm")) or [0.0]
+    grown = [(b, a) for b, a in zip(before, after, strict=True) if a > _GROWN * max(b, both)] if both > 0 else []
+    if not grown:
+        return
+    b, a = max(grown, key=lambda pair: pair[1] / pair[0])
+    larger = max(radii)
+    holes = f" (mean radius by volume up to {si(1e-9 * larger, 'm')})" if larger > both else ""
+    yield (
+        f"the worn surface grew rough instead of running in{_of(len(grown), len(before))}: Sq {si(1e-9 * b, 'm')} "
+        f"before, {si(1e-9 * a, 'm')} after, where both surfaces together had {si(1e-9 * both, 'm')}: pieces{holes} "
+        "leave holes deeper than the roughness, which the criterion and the cell decide; friction, film and particles "
+        "are those of such a surface: compare a finer grid, or take a criterion that wears by pressure (archard)"
+    )
+
+
+@outcome_check
+def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """Figures of a loop that has not settled are those of its number of cycles; rule: `bem.wear.outcome.drift`."""
+    if not facts.of_kind("wear", "running-in"):
+        return
+    from bem.wear.outcome import drift
+
+    told = []
+    for name, words in _SERIES.items():
+        variable = outcome.variables.get(name)
+        if variable is None or variable.dimensions[-1:] != ("cycle",):
+            continue
+        if name.startswith("rms_height") and not _with_pieces(facts):
+            continue
+        found = [drift(series) for series in variable.values.reshape(-1, variable.values.shape[-1])]
+        still = [value for value in found if value is not None]
+        if still:
+            told.append(f"{words} by {percent(max(map(abs, still)))}{_of(len(still), len(found))}")
+    if told:
+        yield (
+            f"not settled: {joined(told)}, the mean of the last cycles (25, or half of all) against that of as many "
+            "before them; what is told of the end is that of this number of cycles: take more cycles.count, or read "
+            "the curves over cycles"
+        )
+
+
+def _of(number: int, all_: int) -> str:
+    return f" in {number} of {all_} loops" if all_ > 1 else ""
