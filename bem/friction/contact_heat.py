@@ -53,8 +53,9 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
     """Of a contact that carries some load, between surfaces that slide at a pair of speeds [m/s], with heat."""
     heat, law, slide = setup.smooth.heat, setup.boundary_law, abs(speeds[0] - speeds[1])
     assert heat is not None
-    assert setup.radius is not None
-    bulk, moving = float(setup.lubricant.temperature or 0.0), _moving(heat, setup.radius, speeds)
+    radius = setup.radius if setup.radii is None else setup.radii[0]
+    assert radius is not None
+    bulk, moving = float(setup.lubricant.temperature or 0.0), _moving(heat, radius, speeds)
     pressure, touching = contact.pressure, contact.pressure > 0
     filled = filled_part(pressure, contact.area / setup.slices, setup.grid)
     of_oil = np.broadcast_to(np.abs(film.shear_stress), pressure.shape) * np.where(touching, 0.0, slide)

@@ -78,7 +78,7 @@ class CurvePoint:
             loaded_friction=solution.oil.loaded_friction,
             load=solution.load,
             status=solution.status,
-            oil_temperature=_or_nan(None if line is None else line.mean_temperature),
+            oil_temperature=_or_nan(solution.film.mean_temperature),
             contact_temperature=_or_nan(solution.contact_temperature),
             flash_temperature=_or_nan(solution.flash_temperature),
             film_reduction=1.0 if starved is None else starved.reduction,

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
@@ -18,11 +19,15 @@ from bem.errors import Status
 from bem.friction.film import BALANCE_CELLS, PatchFilm, smooth_gap
 from bem.friction.smooth import PointContact
 from bem.grid import FloatArray
-from bem.lubrication import PointFilmSolution, solve_point_film
+from bem.lubrication import Lubricant, PointFilmSolution, solve_point_film
 from bem.lubrication.point.scales import nijenbanning_film, point_scales
 from bem.lubrication.point.solve import MOES_LOADS
 from bem.lubrication.validity import THINNEST_FILM
 from bem.reference_solutions.hertz import ellipse_contact
+
+if TYPE_CHECKING:
+    from bem.lubrication.thermal.inlet import InletHeating
+    from bem.lubrication.thermal.lumped_point import Thinning
 
 COARSE_FILM = 0.03
 """Relative error of films of so many cells."""
@@ -31,6 +36,8 @@ LARGEST_MOES_LOAD, GROWTH = 2500.0, 1.25
 above stall, their constrictions narrower than a cell (tried with L 1 to 5, Rx/Ry 0.2 and 1, 64 to 128 cells)."""
 LEAST_FILM = 0.5 * THINNEST_FILM
 """Thickness [m] at the centre to which films go on: half of what counts as none."""
+THINNED = 3.0
+"""Ratio of the loads at which it is found how thin inlet heating makes the oil."""
 _TRIED = (1.0, 0.5, 0.25)
 """Shares of a load under which a film is looked for, one after the other."""
 _DECADES = 12.0
@@ -47,7 +54,7 @@ class SolvedPointFilm:
     """Films of a point contact, each solved when it is asked for, on few and on the wanted cells.
 
     x, y : (nx,), (ny,) abscissae of the patch [m]. speeds : (u1, u2) of flat and ball along x [m/s]. cells : of the
-    film's own grid, along an axis.
+    film's own grid, along an axis. thinnings : by inlet heating, at the loads where they were found (`point_film`).
     """
 
     contact: PointContact
@@ -55,6 +62,7 @@ class SolvedPointFilm:
     x: FloatArray
     y: FloatArray
     cells: int
+    thinnings: dict[int, Thinning] = field(default_factory=dict)
 
     step = 0.25
     growth = 1 / 3
@@ -85,7 +93,7 @@ class SolvedPointFilm:
     def under(self, load: float, level: int, start: PatchFilm | None) -> PatchFilm:
         """As `Film`; each film begins from the dry contact, whatever `start` is."""
         cells = self.cells if level == len(self.errors) - 1 else BALANCE_CELLS
-        return self.sampled(point_film(self.contact, self.speeds, load, cells), load)
+        return self.sampled(point_film(self.contact, self.speeds, load, cells, self.thinnings), load)
 
     @property
     def parabola(self) -> FloatArray:
@@ -94,7 +102,7 @@ class SolvedPointFilm:
 
     def solve(self, load: float, initial: PointFilmSolution | None = None) -> PointFilmSolution:
         """As `TabulatedFilms`."""
-        return point_film(self.contact, self.speeds, load, self.cells)
+        return point_film(self.contact, self.speeds, load, self.cells, self.thinnings)
 
     def sampled(self, film: PointFilmSolution, load: float, stretch: float = 1.0) -> PatchFilm:
         """As `TabulatedFilms`."""
@@ -111,8 +119,65 @@ def largest_point_load(contact: PointContact, speeds: Sequence[float], cells: in
     return largest if contact.deforming_load is None else (largest**4 / contact.deforming_load) ** (1 / 3)
 
 
-def point_film(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:
-    """The film under a load [N]: solved, or from one under a smaller load where none is found."""
+def point_film(
+    contact: PointContact,
+    speeds: Sequence[float],
+    load: float,
+    cells: int,
+    thinnings: dict[int, Thinning] | None = None,
+) -> PointFilmSolution:
+    """The film under a load [N], with its heat where that is asked for.
+
+    How much thinner the oil must be is found at the nearest of loads `THINNED` times apart; `thinnings` keeps it.
+    """
+    if contact.heat is None:
+        return cold_film(contact, speeds, load, cells)
+    from bem.lubrication.thermal.lumped_point import thinning, with_heat  # heat's modules only where there is heat
+
+    known = {} if thinnings is None else thinnings
+    place = round(math.log(load) / math.log(THINNED))
+    inlet, oil = _inlet(contact, speeds, load), contact.lubricant
+    if place not in known:
+        at = THINNED**place
+
+        def central(lubricant: Lubricant) -> float:
+            film = cold_film(_of_oil(contact, lubricant), speeds, at, min(cells, BALANCE_CELLS))
+            return film.central_thickness if film.status is Status.CONVERGED else math.nan
+
+        known[place] = thinning(oil, _inlet(contact, speeds, at), central, _fitted_exponent(contact, speeds, at))
+    film = cold_film(_of_oil(contact, known[place].oil(oil, inlet)), speeds, load, cells)
+    across = ellipse_contact(radii=contact.radii, contact_modulus=contact.film_modulus(load), load=load).semi_axes[1]
+    return with_heat(film, oil, contact.heat.bodies, across, inlet, known[place].missed)
+
+
+def _of_oil(contact: PointContact, lubricant: Lubricant) -> PointContact:
+    """With another oil, without heat."""
+    return replace(contact, lubricant=lubricant, heat=None)
+
+
+def _inlet(contact: PointContact, speeds: Sequence[float], load: float) -> InletHeating:
+    """Of line contacts, with the ellipse's Hertz pressure."""
+    from bem.lubrication.thermal.inlet import inlet_heating_factor
+
+    oil, modulus = contact.lubricant, contact.film_modulus(load)
+    assert oil.temperature_viscosity is not None
+    assert oil.thermal_conductivity is not None
+    pressure = ellipse_contact(radii=contact.radii, contact_modulus=modulus, load=load).maximum_pressure
+    both = float(speeds[0]), float(speeds[1])
+    return inlet_heating_factor(
+        oil.viscosity, oil.temperature_viscosity, oil.thermal_conductivity, both, pressure / modulus
+    )
+
+
+def _fitted_exponent(contact: PointContact, speeds: Sequence[float], load: float) -> float:
+    """Of the fitted film in the viscosity."""
+    oil, share = contact.lubricant, 0.9
+    thinner = _of_oil(contact, replace(oil, viscosity=share * oil.viscosity))
+    return math.log(_fitted_film(thinner, speeds, load) / _fitted_film(contact, speeds, load)) / math.log(share)
+
+
+def cold_film(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:
+    """The film under a load [N] without heat: solved, or from one under a smaller load where none is found."""
     largest = min(load, largest_point_load(contact, speeds, cells))
     for share in _TRIED:
         film = solved_point_film(contact, speeds, share * largest, cells)

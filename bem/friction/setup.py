@@ -107,8 +107,7 @@ class MixedSetup:
         if len(radii) != 2:
             return [f"radii: {self.radii!r} must be two positive, finite radii (Rx, Ry) [m]"]
         messages = _not_positive({"radii": radii[0]}) or _not_positive({"radii": radii[1]})
-        left = {"supply": self.supply or "off", "thermal": self.thermal}
-        left |= {"striated_exit": self.striated_exit or "off"}
+        left = {"supply": self.supply or "off", "striated_exit": self.striated_exit or "off"}
         left |= {"film_position": "off" if self.film_position is None else "given"}
         for name, value in left.items():
             if not (isinstance(value, str) and value == "off"):
@@ -172,6 +171,10 @@ class MixedSetup:
         allowed = ("off", *HEAT)
         if self.thermal not in allowed:
             return [f"thermal: {self.thermal!r} is unknown; choose from {', '.join(allowed)}"]
+        if self.thermal == "full" and self.radii is not None:
+            return ['thermal: "full" is not there for the film of a ball; take "lumped" or "off", or a cylinder']
+        if self.repeated_cell:
+            return ["thermal: a cell that repeats has no heat of its own; take a patch that holds the contact"]
         if self.thermal == "full" and self.supply is not None:
             return ['supply: not there with thermal "full"; take "lumped" or "off" with it, or no supply']
         if self.striated_exit:
@@ -240,12 +243,17 @@ class MixedSetup:
         deforming = self.load if self.counted is OilVolume.LOADED else None
         if self.radii is not None:
             radii = (self.radii[0], self.radii[1])
-            return PointContact(radii, modulus, self.lubricant, deforming, self.flow_factors)
+            return PointContact(radii, modulus, self.lubricant, deforming, self.flow_factors, self._film_heat(bodies))
         assert self.radius is not None
         assert self.width is not None
         supply = checked_supply(self.supply)
-        heat = None if self.thermal == "off" else FilmHeat(self.thermal, (bodies[0], bodies[-1]))
-        return LineContact(self.radius, self.width, modulus, self.lubricant, self.flow_factors, deforming, supply, heat)
+        return LineContact(
+            self.radius, self.width, modulus, self.lubricant, self.flow_factors, deforming, supply,
+            self._film_heat(bodies),
+        )  # fmt: skip
+
+    def _film_heat(self, bodies: tuple[Body, ...]) -> FilmHeat | None:
+        return None if self.thermal == "off" else FilmHeat(self.thermal, (bodies[0], bodies[-1]))
 
     @property
     def counted(self) -> OilVolume:

@@ -114,18 +114,14 @@ class LineContact:
 @dataclass(frozen=True)
 class PointContact:
     """A ball or ellipsoid on a flat, and the oil: radii (Rx, Ry) [m], E* of the pair [Pa]; how roughness changes the
-    flow. Its films are flooded and isothermal."""
+    flow; otherwise as `SmoothContact`. Its films are flooded."""
 
     radii: tuple[float, float]
     contact_modulus: float
     lubricant: Lubricant
     deforming_load: float | None = None
     flow_factors: WallFactors | str = "off"
-
-    @property
-    def heat(self) -> None:
-        """None: of a point film there is no heat yet."""
-        return
+    heat: FilmHeat | None = None
 
     def film_modulus(self, load: float) -> float:
         """As `SmoothContact`: Hertz' ellipse keeps its size, too, where load and modulus change alike."""

@@ -60,7 +60,7 @@ def test_slide_roll_ratio_is_that_of_both_surfaces(ratio, other):
         ({"contact": {}}, "no shape"),
         ({"grid": {"shape": 64, "lengths": "320 um", "periodic": [False, True]}}, "patch holds the contact of a ball"),
         ({"grid": {"shape": 64, "lengths": ["320 um", "150 um"]}}, "half-axis along y"),
-        ({"thermal": "lumped"}, "thermal"),
+        ({"thermal": "full", "oil": {"grade": "ISO VG 68", "temperature": "60 degC"}}, "thermal"),
         ({"sharing": {"striated_exit": True}}, "striated_exit"),
         ({"oil": {"viscosity": 0.03, "film_rheology": "shear_law"}}, "film of a point contact"),
         ({"supply": {"thickness": "1 um"}}, "supply"),

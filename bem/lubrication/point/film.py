@@ -50,6 +50,8 @@ class PointFilmSolution:
         cavitation, which keeps no account of it.
     time : [s] of a film in time (`march_point_film`), whose residual and mass_imbalance count what the film gains.
     heights : (nx, ny) of both surfaces then, out of the bodies [m]; None of smooth ones.
+    temperature : (nx, ny), mean across the film [K]; mean_temperature, maximum_temperature : of it, by pressure, and
+    the highest; middle_stress : (2, nx, ny) in the middle of the film at it [Pa]; all None of films without heat.
     notes : where the model is outside its validity, a sentence each.
     state : what a solver can start from.
     """
@@ -77,6 +79,10 @@ class PointFilmSolution:
     film_fraction: FloatArray | None = None
     time: float | None = None
     heights: FloatArray | None = None
+    temperature: FloatArray | None = None
+    mean_temperature: float | None = None
+    maximum_temperature: float | None = None
+    middle_stress: FloatArray | None = None
     notes: tuple[str, ...] = ()
     state: KeptPoint | None = field(default=None, repr=False, compare=False)
 
@@ -106,6 +112,8 @@ class PointFilmSolution:
 
     def sliding_stress(self) -> FloatArray:
         """The stress in the middle of the film (2, nx, ny) [Pa]."""
+        if self.middle_stress is not None:
+            return self.middle_stress
         slide = np.subtract(self.speeds[1], self.speeds[0])
         speed = float(np.hypot(*slide))
         if speed == 0:

@@ -62,9 +62,11 @@ Heat = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 """Heat made in the cells (m,) [W/m^2] at their temperatures (m,) [K], and its derivatives (m, m)."""
 
 
-def film_temperatures(channel: Channel, heat: Heat) -> Temperatures:
-    """Temperatures at which the heat made goes where it can."""
-    kernels = [band_temperatures(channel.edges, body) for body in channel.bodies]
+def film_temperatures(channel: Channel, heat: Heat, kernels: Sequence[FloatArray] | None = None) -> Temperatures:
+    """Temperatures at which the heat made goes where it can; `kernels` are `band_temperatures` of both bodies on the
+    edges, where they are known."""
+    if kernels is None:
+        kernels = [band_temperatures(channel.edges, body) for body in channel.bodies]
     into, oil = _responses(channel, kernels)
     base, resting = oil[:, 0], into[:, 0]
     response = oil[:, 1:]

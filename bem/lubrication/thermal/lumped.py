@@ -268,7 +268,7 @@ def _search(case: dict[str, Any], lubricant: Lubricant, initial: FilmSolution | 
         if reached != 0 and ratio != 0:
             exponent = reached / ratio
         ratio = wanted / exponent
-        thinner = _of_share(lubricant, math.exp(ratio))
+        thinner = thinned_oil(lubricant, math.exp(ratio))
         _check_load(case, thinner, inlet)
         found.add(solve_line_film(**case, lubricant=thinner, initial=found.films[-1]))
     found.missed = math.inf
@@ -299,7 +299,7 @@ def _fitted_exponent(case: dict[str, Any], lubricant: Lubricant, wanted: float) 
     return exponent
 
 
-def _of_share(lubricant: Lubricant, share: float) -> Lubricant:
+def thinned_oil(lubricant: Lubricant, share: float) -> Lubricant:
     """The oil with a share of its viscosity at every pressure."""
     law = ThinnedLaw(lubricant.viscosity_law, share)
     return replace(lubricant, viscosity=lubricant.viscosity * share, viscosity_law=law)
@@ -407,12 +407,17 @@ def _result(
 
 def _limits(found: ThermalFilm, lubricant: Lubricant) -> tuple[str, ...]:
     """Where what was left out was seen to matter."""
-    first, second = found.film.speeds
     rise = found.mean_film_temperature - float(lubricant.temperature or 0.0)
+    return heat_limits(found.inlet, found.film.speeds, rise)
+
+
+def heat_limits(inlet: InletHeating, speeds: tuple[float, float], rise: float) -> tuple[str, ...]:
+    """Of inlet heating, speeds of both walls [m/s] and the rise of the oil's mean temperature [K]."""
+    first, second = speeds
     slides = abs(first - second) > LARGEST_SLIDE * 0.5 * abs(first + second) and rise > LARGEST_RISE
     said = {
-        EXTRAPOLATED_INLET: found.inlet.extrapolated,
-        FAST_INLET: found.inlet.loading > LARGEST_LOADING,
+        EXTRAPOLATED_INLET: inlet.extrapolated,
+        FAST_INLET: inlet.loading > LARGEST_LOADING,
         SLOW_SURFACE: slides,
     }
     return tuple(note for note, holds in said.items() if holds)

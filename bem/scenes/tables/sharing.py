@@ -69,8 +69,13 @@ class HotMixedScene(MixedScene):
         if self.thermal == "off":
             return self
         check_film_heat(self.oil, self.lower, self.upper)
-        if self.contact.point_radii is not None:
-            raise problem(_of_a_ball(f'thermal = "{self.thermal}"'), _NOT_OF_A_BALL)
+        if self.contact.point_radii is not None and self.thermal == "full":
+            raise problem(_of_a_ball('thermal = "full"'), 'thermal = "lumped" or "off", or a cylinder')
+        if self.cell_repeats:
+            raise problem(
+                f'thermal = "{self.thermal}" on a cell that repeats under a ball (grid.periodic = true)',
+                "a patch that holds the contact",
+            )
         check_supply_of_heat(self.thermal, self.supply)
         return self
 

@@ -1,0 +1,180 @@
+"""Lumped heat of a point film: an oil as thin as inlet heating leaves it, and temperatures along its lines of flow.
+
+As of line contacts (`lumped`), line by line: on each line of cells along x heat goes across the film into two moving
+half-spaces, as of bands that reach far along y, or is carried on by the oil (`energy`). What flows or is conducted from
+line to line is left out; a body that hardly moves is cool at the half-axis across. Heat is made by sliding at the
+stress that the oil has at its temperature, and by the pressure's flow, h^3/(12 mu) |grad p|^2. A long ellipse is the
+line contact. Knows solved films; verified in tests/lubrication/test_thermal_point.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bem.errors import Status
+from bem.grid import FloatArray
+from bem.heat.bodies import Conductor
+from bem.heat.line import band_temperatures
+from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.point.film import PointFilmSolution
+from bem.lubrication.thermal.conductors import moving_bodies
+from bem.lubrication.thermal.energy import Channel, film_temperatures
+from bem.lubrication.thermal.hot_viscosity import HotViscosity
+from bem.lubrication.thermal.inlet import InletHeating
+from bem.lubrication.thermal.lumped import FACTOR_TOLERANCE, MOST_FILMS, heat_limits, thinned_oil
+from bem.lubrication.thermal.notes import notes_of_heat
+from bem.lubrication.validity import HEATING_NOTES
+from bem.materials import Body
+
+LEAST_PRESSURE = 1e-3
+"""Of the largest, on a line of cells that has temperatures."""
+_WARMER = 1e-3
+"""Step [K] of the derivative of stresses with temperature."""
+RESIDUAL = 1e-6
+"""Of temperatures, as of line films."""
+
+
+@dataclass(frozen=True)
+class PointHeat:
+    """Of a film on its cells. temperature : (nx, ny), mean across the film [K]. surfaces : (2, nx, ny) of flat and ball
+    [K]. stress : (nx, ny) in the middle of the film [Pa], along the slide of the ball over the flat. power, into,
+    carried : of the friction on lines with temperatures, (2,) into both bodies, carried on by the oil [W]. residual :
+    of the temperatures, largest of all lines."""
+
+    temperature: FloatArray
+    surfaces: FloatArray
+    stress: FloatArray
+    power: float
+    into: tuple[float, float]
+    carried: float
+    residual: float
+
+
+@dataclass(frozen=True)
+class Thinning:
+    """Films of a contact go with this power of the viscosity, down to those that inlet heating leaves, but for
+    `missed`, relative; infinite where there was no film."""
+
+    exponent: float
+    missed: float
+
+    def oil(self, lubricant: Lubricant, inlet: InletHeating) -> Lubricant:
+        """Whose film is as much thinner as inlet heating says."""
+        return thinned_oil(lubricant, inlet.factor ** (1 / self.exponent))
+
+
+def thinning(
+    lubricant: Lubricant, inlet: InletHeating, central: Callable[[Lubricant], float], exponent: float
+) -> Thinning:
+    """From the central films of ever better thinned oils.
+
+    central : film of an oil [m], not a number where there is none. exponent : of films in the viscosity, at first.
+    """
+    wanted, cold = math.log(inlet.factor), central(lubricant)
+    for _ in range(MOST_FILMS):
+        found = Thinning(exponent, math.inf)
+        reached = math.log(central(found.oil(lubricant, inlet)) / cold)
+        missed = abs(math.expm1(reached - wanted))
+        if not math.isfinite(missed):
+            return found
+        found = Thinning(exponent, missed)
+        if missed <= FACTOR_TOLERANCE or reached == 0:
+            return found
+        exponent *= reached / wanted
+    return found
+
+
+def with_heat(
+    film: PointFilmSolution,
+    lubricant: Lubricant,
+    bodies: Sequence[Body],
+    across: float,
+    inlet: InletHeating,
+    missed: float,
+) -> PointFilmSolution:
+    """A film of an oil thinned by inlet heating, its speeds along x, with the stresses, forces and temperatures of the
+    oil as it is; `across` : half-axis across the flow [m]."""
+    first, second = film.speeds[0][0], film.speeds[1][0]
+    conductors = moving_bodies("thermal", lubricant, bodies, (first, second), None, across)
+    heat = point_heat(film, lubricant, conductors)
+    middle = np.zeros((2, *film.pressure.shape))
+    middle[0] = heat.stress
+    weights = film.pressure / film.pressure.sum()
+    hottest = max(float(heat.temperature.max()), float(heat.surfaces.max()))
+    mean = float((weights * heat.temperature).sum())
+    rise = mean - float(lubricant.temperature or 0.0)
+    notes = tuple(note for note in film.notes if note not in HEATING_NOTES)
+    right = heat.residual <= RESIDUAL and missed <= FACTOR_TOLERANCE
+    made = replace(
+        film,
+        middle_stress=middle,
+        temperature=heat.temperature,
+        mean_temperature=mean,
+        maximum_temperature=float(heat.temperature.max()),
+        status=film.status if film.status is not Status.CONVERGED or right else Status.STALLED,
+        notes=(*notes, *heat_limits(inlet, (first, second), rise), *notes_of_heat(lubricant, hottest, (first, second))),
+    )
+    forces, rolling = made.forces()
+    return replace(made, shear_force=forces, rolling_force=rolling)
+
+
+def point_heat(film: PointFilmSolution, lubricant: Lubricant, bodies: tuple[Conductor, Conductor]) -> PointHeat:
+    """Temperatures on lines of cells along x."""
+    reverse = film.speeds[0][0] + film.speeds[1][0] < 0
+    steps = slice(None, None, -1 if reverse else 1)
+    x = -film.x[::-1] if reverse else film.x
+    pressure, thickness = film.pressure[steps], film.thickness[steps]
+    gradient = np.gradient(pressure, x, film.y)
+    driven = thickness**3 / (12 * film.lubricant.viscosity_at(pressure)) * (gradient[0] ** 2 + gradient[1] ** 2)
+    driven = np.where(pressure > 0, driven, 0.0)
+    density = film.lubricant.density_ratio(pressure)[0]
+    slide, mean = film.speeds[1][0] - film.speeds[0][0], 0.5 * abs(film.speeds[0][0] + film.speeds[1][0])
+    viscosity, supply = HotViscosity.of(lubricant), float(lubricant.temperature or 0.0)
+    capacity = (lubricant.density or 0.0) * (lubricant.heat_capacity or 0.0)
+    width = float(x[1] - x[0])
+    edges = np.append(x, x[-1] + width) - 0.5 * width
+    kernels = [band_temperatures(edges, body) for body in bodies]
+    temperature, surfaces = np.full(pressure.shape, supply), np.full((2, *pressure.shape), supply)
+    stress = np.zeros(pressure.shape)
+    into, carried, power, residual = np.zeros(2), 0.0, 0.0, 0.0
+
+    def stresses(j: int, at: FloatArray) -> FloatArray:
+        newtonian = viscosity(pressure[:, j], at)[0] * abs(slide) / thickness[:, j]
+        return np.where(pressure[:, j] > 0, lubricant.shear_stress(newtonian, pressure[:, j]), 0.0)
+
+    highest = pressure.max(axis=0)
+    for j in range(pressure.shape[1]):
+        if highest[j] <= LEAST_PRESSURE * highest.max():
+            stress[:, j] = stresses(j, temperature[:, j])
+            continue
+        top = int(pressure[:, j].argmax())
+        flow = mean * float(thickness[top, j] * density[top, j])
+
+        def heat(at: FloatArray, j: int = j) -> tuple[FloatArray, FloatArray]:
+            value = stresses(j, at)
+            slope = (stresses(j, at + _WARMER) - value) / _WARMER
+            return abs(slide) * value + driven[:, j], np.diag(abs(slide) * slope)
+
+        channel = Channel(
+            edges, thickness[:, j], lubricant.thermal_conductivity or 0.0, capacity * flow, supply, bodies
+        )
+        found = film_temperatures(channel, heat, kernels)
+        temperature[:, j], surfaces[:, :, j], stress[:, j] = found.oil, found.surfaces, stresses(j, found.oil)
+        into += found.into.sum(axis=1) * width
+        carried += channel.capacity_flow * float(found.oil[-1] - supply)
+        power += float(found.made.sum()) * width
+        residual = max(residual, found.residual)
+    line = float(film.y[1] - film.y[0])
+    return PointHeat(
+        temperature=temperature[steps],
+        surfaces=surfaces[:, steps],
+        stress=math.copysign(1.0, slide) * stress[steps],
+        power=power * line,
+        into=(float(into[0]) * line, float(into[1]) * line),
+        carried=carried * line,
+        residual=residual,
+    )

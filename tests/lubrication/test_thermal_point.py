@@ -1,0 +1,124 @@
+"""Lumped heat of a ball's film: energy, the line contact as limit, inlet heating, load sharing with it."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_surface, solve_line_film, solve_mixed
+from bem.friction.point_film import cold_film, point_film
+from bem.friction.setup import MixedSetup
+from bem.friction.smooth import FilmHeat, PointContact
+from bem.lubrication.thermal.conductors import moving_bodies
+from bem.lubrication.thermal.inlet import InletHeating
+from bem.lubrication.thermal.lumped_point import point_heat, thinning
+from bem.reference_solutions.hertz import ellipse_contact
+
+ELASTIC = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+STEEL = Body(Material("steel", **ELASTIC, thermal_conductivity=46.0, density=7800.0, heat_capacity=470.0))
+MODULUS = 210e9 / 2 / (1 - 0.3**2)
+OIL = Lubricant.of("ISO VG 68", temperature=333.15)
+HEAT = FilmHeat("lumped", (STEEL, STEEL))
+LONG = PointContact((5e-3, 0.25), MODULUS, OIL, heat=HEAT)
+
+
+@pytest.fixture(scope="module")
+def long():
+    return point_film(LONG, (1.2, 0.8), 40.0, 64)
+
+
+def test_long_ellipse_is_the_line_contact(long):
+    """Half-axes 1 : 12, on the line through the middle: film to 0.5 %, rise of the oil 6.8 and 6.9 K."""
+    peak = ellipse_contact(radii=LONG.radii, contact_modulus=MODULUS, load=40.0).maximum_pressure
+    case = {
+        "load": math.pi * 5e-3 * peak**2 / MODULUS, "radius": 5e-3, "contact_modulus": MODULUS, "speeds": (1.2, 0.8),
+        "lubricant": OIL, "points": 300,
+    }  # fmt: skip
+    line = solve_line_film(**case, thermal="lumped", bodies=(STEEL, STEEL))
+    middle = long.y.size // 2
+    pressure, rise = long.pressure[:, middle], long.temperature[:, middle] - 333.15
+    assert long.status is Status.CONVERGED
+    assert long.central_thickness == pytest.approx(line.central_thickness, rel=5e-3)
+    assert (rise * pressure).sum() / pressure.sum() == pytest.approx(line.mean_temperature - 333.15, rel=0.05)
+
+
+def test_energy_closes(long):
+    """What friction makes on the lines goes into the bodies or on with the oil; it is that of both forces."""
+    across = ellipse_contact(radii=LONG.radii, contact_modulus=MODULUS, load=40.0).semi_axes[1]
+    heat = point_heat(long, OIL, moving_bodies("test", OIL, (STEEL, STEEL), (1.2, 0.8), None, across))
+    assert heat.power == pytest.approx(sum(heat.into) + heat.carried, rel=1e-9)
+    sliding = 0.5 * abs(long.shear_force[0, 0] - long.shear_force[1, 0]) * 0.4
+    rolling = abs(long.rolling_force[0]) * 2.0
+    assert heat.power == pytest.approx(sliding + rolling, rel=0.02)  # lines far from the contact have none
+    assert heat.into[0] == pytest.approx(heat.into[1], rel=0.2)
+    assert (heat.surfaces <= heat.temperature.max()).all()
+
+
+def test_the_film_is_as_thin_as_inlet_heating_says_and_friction_falls():
+    ball, speeds = PointContact((0.01, 0.01), MODULUS, OIL, heat=HEAT), (3.0, 2.6)
+    cold = cold_film(replace(ball, heat=None), speeds, 20.0, 48)
+    hot, back = (point_film(ball, pair, 20.0, 48) for pair in (speeds, (-3.0, -2.6)))
+    assert 0.9 < hot.central_thickness / cold.central_thickness < 0.96
+    assert hot.friction < cold.friction
+    assert hot.mean_temperature > 333.15 + 5
+    # the other way round it is the same, mirrored
+    np.testing.assert_allclose(back.temperature[::-1], hot.temperature, rtol=1e-6)
+    assert back.shear_force[0, 0] == pytest.approx(-hot.shear_force[0, 0], rel=1e-6)
+
+
+def test_slow_films_have_no_heat():
+    ball, speeds = PointContact((0.01, 0.01), MODULUS, OIL, heat=HEAT), (0.02, 0.019)
+    cold, hot = cold_film(replace(ball, heat=None), speeds, 20.0, 48), point_film(ball, speeds, 20.0, 48)
+    assert hot.central_thickness == pytest.approx(cold.central_thickness, rel=5e-3)
+    assert hot.mean_temperature == pytest.approx(333.15, abs=0.2)
+    assert hot.friction == pytest.approx(cold.friction, rel=5e-3)
+
+
+def test_thinned_oil_by_a_power_law():
+    """Of films that go with the power 0.6 of the viscosity; where there is none, it is said."""
+    inlet = InletHeating(0.7, 0.1, False)
+    found = thinning(OIL, inlet, lambda one: one.viscosity**0.6, 0.7)
+    oil = found.oil(OIL, inlet)
+    assert found.exponent == pytest.approx(0.6)
+    assert (oil.viscosity / OIL.viscosity) ** 0.6 == pytest.approx(0.7)
+    assert found.missed < 5e-3
+    # it is as much stiffer under pressure as it was
+    pressure = np.array([1e9])
+    assert oil.log_viscosity_ratio(pressure)[0] == OIL.log_viscosity_ratio(pressure)[0]
+    assert thinning(OIL, inlet, lambda _: math.nan, 0.7).missed == math.inf
+
+
+GRID = Grid((48, 48), (6.5e-6, 6.5e-6))
+MIXED = {
+    "grid": GRID, "bodies": (STEEL, STEEL), "radii": (0.01, 0.01), "load": 20.0, "lubricant": OIL,
+    "boundary_friction": 0.12, "film_cells": 48, "oil_volume": "loaded",
+}  # fmt: skip
+
+
+def test_load_sharing_has_it():
+    whole = Grid(GRID.shape, GRID.spacing, periodic=(True, True))
+    height = generate_surface(whole, rms_height=150e-9, correlation_length=20e-6, seed=3)
+    cold, hot = (solve_mixed(**MIXED, height=height, speeds=(1.0, 0.5), thermal=heat) for heat in ("off", "lumped"))
+    assert hot.status is Status.CONVERGED
+    assert hot.regime.value == "mixed"
+    assert hot.film_load + hot.contact_load == pytest.approx(20.0, rel=2e-4)
+    assert hot.contact_load > cold.contact_load
+    assert hot.friction < cold.friction
+    assert 333.15 < hot.film.mean_temperature < hot.film.maximum_temperature
+    assert 333.15 < hot.contact_temperature < hot.flash_temperature
+    assert not any("would heat the oil" in note for note in hot.notes)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"thermal": "full"}, "not there for the film of a ball"),
+        ({"lubricant": Lubricant(0.03, pressure_viscosity=18e-9)}, "the lubricant lacks"),
+        ({"bodies": STEEL}, "give a pair"),
+        ({"grid": Grid((16, 16), (2e-6, 2e-6), periodic=(True, True))}, "a cell that repeats has no heat"),
+    ],
+)
+def test_bad_input_is_said(wrong, said):
+    with pytest.raises(InputError, match=said):
+        MixedSetup(**MIXED | {"thermal": "lumped"} | wrong)
