@@ -17,7 +17,7 @@ from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_friction import rolling_part
 from bem.lubrication.line_rupture import Nodes
 from bem.lubrication.line_scales import Scales
-from bem.lubrication.line_step import Film, FixedMesh, StepOutcome, elastic_film, time_step
+from bem.lubrication.line_step import Film, FixedMesh, StepOutcome, elastic_film, step_of, time_step
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.steady import lowest_film
@@ -87,17 +87,9 @@ class March:
     def step(self, time: float, film: Film, leading: float, history: FloatArray) -> StepOutcome:
         """The film at a time where d(rho H)/dt is `leading * rho H + history`, from a film near it."""
         first, second = self.operation.speeds(time)
-        return time_step(
-            self.problem_at(time),
-            self.mesh,
-            film,
-            (first + second) / self.scaling.speed,
-            leading,
-            history,
-            self.tolerance,
-            cavitation=self.cavitation,
-            layer=self.layer / self.scaling.scales.film,
-        )
+        entrainment = (first + second) / self.scaling.speed
+        step = step_of(self.problem_at(time), self.mesh, entrainment, leading, history, self.cavitation)
+        return time_step(step, film, self.tolerance, layer=self.layer / self.scaling.scales.film)
 
 
 def film_of_gap(march: March, thickness: float) -> Film:

@@ -162,29 +162,29 @@ class Balance:
     highest: float
 
 
-def time_step(  # reason: what acts, what was there, the rate that a scheme makes of it, and what comes at the inlet
+def step_of(
     problem: Problem,
     mesh: FixedMesh,
-    start: Film,
     entrainment: float,
     leading: float,
     history: FloatArray,
-    tolerance: float,
-    max_iterations: int = 30,
     cavitation: Cavitation = Cavitation.SWIFT_STIEBER,
-    layer: float = np.inf,
+) -> Step:
+    """A step under what acts, in which the time derivative is `leading * rho H + history`."""
+    extrapolation = mesh.ahead if entrainment >= 0 else mesh.behind
+    upstream = _upstream_nodes(mesh, entrainment)
+    return Step(problem, mesh, entrainment, leading, history, RUPTURES[cavitation], *upstream, extrapolation)
+
+
+def time_step(
+    step: Step, start: Film, tolerance: float, max_iterations: int = 30, layer: float = np.inf
 ) -> StepOutcome:
-    """Solve for pressure and datum such that flow, `leading * rho H + history` (the time derivative) and load agree.
+    """Solve for pressure and datum such that flow, the time derivative and load agree.
 
     An infinite load keeps the datum as it is: a gap of given shape. The upstream end is filled by a layer, or full.
     """
-    rupture = RUPTURES[cavitation]
-    extrapolation = mesh.ahead if entrainment >= 0 else mesh.behind
-    step = Step(
-        problem, mesh, entrainment, leading, history, rupture, *_upstream_nodes(mesh, entrainment), extrapolation
-    )
-    fraction = rupture.start(start.fraction)
-    inlet = 0 if entrainment >= 0 else -1
+    fraction = step.rupture.start(start.fraction)
+    inlet = 0 if step.entrainment >= 0 else -1
     fraction[inlet] = min(layer / start.film[inlet], 1.0)  # the gap is so wide there that it does not change
     at = Iterate(start.pressure.copy(), start.film.copy(), start.datum, fraction)
     full = start.full.copy()

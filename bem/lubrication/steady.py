@@ -143,8 +143,12 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         solution_of(outcome, flooded, problem, scales, speeds, reversed_, lubricant, position), starvation=starvation
     )
     film = replace(film, notes=notes_on(case) + notes_on_factors(flow_factors, film.minimum_thickness))
-    if cavitation is Cavitation.SWIFT_STIEBER:
-        return film
+    return film if cavitation is Cavitation.SWIFT_STIEBER else _with_fraction(film, outcome, scales, reversed_)
+
+
+def _with_fraction(film: FilmSolution, outcome: Outcome, scales: Scales, reversed_: bool) -> FilmSolution:
+    """With the share of the gap that is filled: all of it but where the film is ruptured, behind its exit and before
+    its meniscus."""
     exit_film = outcome.state.film[-1] * scales.film
     along = film.position * (-1.0 if reversed_ else 1.0)
     ruptured = along > outcome.state.exit * scales.length

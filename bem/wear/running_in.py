@@ -158,17 +158,9 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
     give = sum(choices.law.compliance(setup, body) for body in wearing)
     if choices.boundary_film is not None:
         give *= float(choices.boundary_film.share())
-    particles = choices.particles
-    if particles is None:
-        step = contact_step if contact_step is not None else dry_contact(setup, compliance=give)
-    else:
-        slide = choices.law.distance_per_cycle(abs(choices.shift) * grid.spacing[0])
-        bearing = steps_with_bodies(setup, slide, contact_step, give)
-    settled = False
+    step_after, settled = _contact_steps(setup, choices, contact_step, give), False
     while state.cycle < cycles and not settled:
-        if particles is not None:
-            step = bearing(_there_now(particles, state, grid))
-        state = advance(state, setup, choices, step, counterface)
+        state = advance(state, setup, choices, step_after(state), counterface)
         if callback is not None:
             callback(state)
         settled = stop is not None and stop(state)
@@ -183,8 +175,22 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
         state=state,
         status=Status.CONVERGED,
         wearing=wearing,
-        notes=(() if state.rubbing is None else state.rubbing.notes) + _crowded(particles, state),
+        notes=(() if state.rubbing is None else state.rubbing.notes) + _crowded(choices.particles, state),
     )
+
+
+def _contact_steps(
+    setup: WearSetup, model: WearModel, contact_step: ContactStep | None, compliance: float
+) -> Callable[[RunningInState], ContactStep]:
+    """The contact of the cycle after a state: the same in all, or with the particles that there then are between the
+    surfaces."""
+    particles = model.particles
+    if particles is None:
+        step = contact_step if contact_step is not None else dry_contact(setup, compliance=compliance)
+        return lambda state: step
+    slide = model.law.distance_per_cycle(abs(model.shift) * setup.grid.spacing[0])
+    bearing = steps_with_bodies(setup, slide, contact_step, compliance)
+    return lambda state: bearing(_there_now(particles, state, setup.grid))
 
 
 def _there_now(particles: ThirdBodies, state: RunningInState, grid: Grid) -> ThirdBodies:

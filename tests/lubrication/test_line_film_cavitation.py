@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from bem import InputError, Lubricant, Status, march_line_film, solve_line_film
 from bem.lubrication import Cavitation
 from bem.lubrication.line_flow import Problem
-from bem.lubrication.line_step import Film, mesh_of, time_step
+from bem.lubrication.line_step import Film, mesh_of, step_of, time_step
 
 OIL = {"radius": 2e-3, "contact_modulus": 115.5e9, "lubricant": Lubricant(0.36, pressure_viscosity=25e-9)}
 LOAD = 5.5 / 6e-3
@@ -29,7 +29,7 @@ def slider(film, cells, cavitation, entrainment=1.0):
     ones = np.ones(cells + 1)
     start = Film(0 * ones, film, 0.0, film, ones.astype(bool), ones)
     problem = Problem(math.inf, constant(0.0, 0.0), constant(1.0, 0.0))
-    return mesh, time_step(problem, mesh, start, entrainment, 0.0, 0 * x, 1e-11, 200, cavitation)
+    return mesh, time_step(step_of(problem, mesh, entrainment, 0.0, 0 * x, cavitation), start, 1e-11, 200)
 
 
 def two_waves(x):
