@@ -5,6 +5,10 @@ of convergence makes of it where the coarser grid resolves the surface, the diff
 safety factor; and what the solver's residual may add. Factors are set so that bars cover nine errors in ten of random
 contacts (`reports/experiments/contact_error_bars.py`). A figure that does not converge has no bar, and a note says why.
 Names are loaded when first used: the bars of a contact cost no film.
+
+Knows what solvers of every room give, and solves the same again, coarser; no scene, no file. Verified in
+tests/accuracy: factors against finer solutions, notes where there is no bar; coverage on fresh seeds in
+reports/experiments, one script a kind of figure.
 """
 
 from __future__ import annotations

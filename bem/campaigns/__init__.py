@@ -4,6 +4,9 @@ A kind of scene knows one case. Here a scene becomes its cases (`cases`), they a
 this process, on all cores or on a Dask cluster (`engine`, `local`, `cluster`), each with a checkpoint of its own, and
 their records become one summary and one dataset with the axes of the scene as dimensions (`collect`). What runs where
 never shows in the result: the same scene gives the same bits on any number of workers.
+
+Knows scenes, kinds, records and checkpoints; no solver, no picture. Verified in tests/campaigns: cases, workers of
+every sort bit for bit, what an interrupted run goes on from, statistics over repetitions.
 """
 
 from __future__ import annotations

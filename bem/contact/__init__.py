@@ -7,7 +7,7 @@ is not solved for directly. `active_set` makes the rounds: the true gap, the cel
 `energy`), conjugate gradients on the cells in contact (`face`, with `preconditioner` and `long_waves`), and brings them
 back into the bounds (`feasible`). What runs over cells is compiled: `passes`, `gradients`.
 
-May know grids, threads, transforms and the displacement operator; no materials, no surfaces' statistics, no lubricant,
+Knows grids, threads, transforms and the displacement operator; no materials, no surfaces' statistics, no lubricant,
 no scene. Units inside are the solver's own; users see SI.
 
 Verified in tests/contact: closed forms (Hertz, Westergaard, punches), an independent oracle on dense matrices,

@@ -17,8 +17,8 @@ from bem.grid import FloatArray, Grid
 from bem.heat.bodies import conductors_of
 from bem.lubrication import Lubricant
 from bem.lubrication.rough_walls import WallFactors
-from bem.lubrication.steady import HEAT
 from bem.lubrication.supply import InletDistance, Supply, checked_supply, inside_hertz
+from bem.lubrication.with_heat import HEAT
 from bem.materials import Body, contact_modulus
 
 CONTACT_MODELS = ("coupled", "uncoupled")

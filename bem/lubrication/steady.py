@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -25,6 +24,7 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
 from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply, inside_hertz
 from bem.lubrication.validity import Case, notes_on
+from bem.lubrication.with_heat import film_with_heat
 from bem.materials import Body
 from bem.monotone import MonotoneCubic
 from bem.threads import one_blas_thread
@@ -32,8 +32,6 @@ from bem.threads import one_blas_thread
 MOES_LOADS = (1e-5, 1e4)
 """Loads M for which a film is looked for; beyond them the equations are not a model of anything."""
 MAX_INLET_SHARE = 0.01
-HEAT = ("lumped", "full")
-"""Models of heat, of `bem.lubrication.thermal`."""
 
 
 @one_blas_thread
@@ -112,13 +110,12 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     if thermal != "off":
         own = {"position": position is not None, "supply": supply is not None and thermal == "full"}
         own["mass-conserving cavitation"] = cavitation is not Cavitation.SWIFT_STIEBER
-        _check_heat(thermal, bodies, [name for name, given in own.items() if given])
         asked = {
             "load": load, "radius": radius, "contact_modulus": contact_modulus, "speeds": speeds,
             "lubricant": lubricant, "bodies": bodies, "bulk": bulk, "points": points, "initial": initial,
             "tolerance": tolerance, "max_iterations": max_iterations, "flow_factors": flow_factors,
         }  # fmt: skip
-        return _with_heat(thermal, asked, supply)
+        return film_with_heat(thermal, asked, supply, own)
     walls = walls_of(flow_factors, scales.film, speeds)
     problem = scaled_problem(scales, scales.load, lubricant, walls, float(speeds[0]) - float(speeds[1]))
     flooded = outcome = _flooded(problem, scales, initial, points - 1, tolerance, max_iterations)
@@ -155,28 +152,6 @@ def _with_fraction(film: FilmSolution, outcome: Outcome, scales: Scales, reverse
     if outcome.state.far_field == 0:
         ruptured |= along < outcome.state.position[0] * scales.length
     return replace(film, film_fraction=np.where(ruptured, exit_film / film.thickness, 1.0))
-
-
-def _with_heat(thermal: str, asked: dict[str, Any], supply: Supply | None) -> FilmSolution:
-    """The film of a model of heat, which stands on this module."""
-    from bem.lubrication.thermal import solve_full_thermal_line_film, solve_thermal_line_film
-
-    if thermal == "full":
-        return solve_full_thermal_line_film(**asked).as_film()
-    return solve_thermal_line_film(**asked, supply=supply).as_film()
-
-
-def _check_heat(thermal: str, bodies: Sequence[Body] | None, given: Sequence[str]) -> None:
-    """Refuse another model of heat, no bodies, and what is given that is not solved for with heat."""
-    messages = []
-    if thermal not in HEAT:
-        allowed = ", ".join(f'"{name}"' for name in ("off", *HEAT))
-        messages.append(f"solve_line_film: thermal {thermal!r} is not there; allowed: {allowed}")
-    if bodies is None:
-        messages.append("solve_line_film: with heat, bodies (flat, cylinder) with heat constants must be given")
-    messages += [f"solve_line_film: {name} cannot be given with heat" for name in given]
-    if messages:
-        raise InputError(messages)
 
 
 def _flooded(

@@ -1,6 +1,8 @@
 """Runs on disk: one scene to its folder (`scene`), one scene at many values of its keys to a folder of such (`sweep`).
 
-Computing and handing out is the business of `bem.campaigns`; here is what is written and when.
+Computing and handing out is the business of `bem.campaigns`; here is what is written and when. Knows folders, results
+and plots; no solver. Verified in tests/results (what a folder holds), tests/gallery (every built-in scene) and
+tests/test_cli_commands.py.
 """
 
 from typing import TYPE_CHECKING

@@ -3,8 +3,8 @@ outside the package is registered by `bem.register(FigureKind(...))`.
 
 `draw(run, figure)` fills an empty matplotlib figure from `run.dataset` (`bem.results.arrays`: values, axes, units),
 `run.summary` and `run.scene` (tables of plain values). It never solves and never writes. `bem.plots.style` has the
-colours, unit prefixes and maps. A figure is drawn
-when the variables it `needs` are in the dataset and `applies(run)` holds.
+colours, unit prefixes and maps. A figure is drawn when the variables it `needs` are in the dataset and `applies(run)`
+holds. Knows results and no solver. Verified in tests/plots and, on every built-in scene, tests/gallery.
 """
 
 from __future__ import annotations

@@ -11,10 +11,9 @@ before; `outcome.py`, `cycles.py` after; or a new file, named in `_ORDER`)
                 yield f"friction {case.friction:g}: what is wrong, how much; what to do"
 
 `facts.scene` is the resolved scene, `facts.cases` its contacts in one form for all kinds, `facts.surfaces` what became
-of the rough surfaces, `facts.materials` the materials by key. A check of the results takes the `Outcome` besides. Each
-has two tests in `tests/scenes/test_checks.py`: a scene that fires it, and one next to it that does not; and no
-built-in scene may fire it without a reason that stands there.
-
+of the rough surfaces, `facts.materials` the materials by key. A check of the results takes the `Outcome` besides.
+Verified in tests/scenes/test_checks.py, twice each: a scene that fires it, and one next to it that does not; no
+built-in scene may fire it without a reason that stands there. Knows scenes and closed forms; solves nothing.
 `bem plan` shows what `scene_warnings` finds; `bem run` notes that and what `outcome_warnings` finds, so that it stands
 on the terminal, in the summary's `notes` and in the report. A warning never changes a result nor an exit code.
 """

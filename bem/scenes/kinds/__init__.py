@@ -1,7 +1,7 @@
 """Kinds of scene: one file here is one kind, `running-in` in `running_in.py`, and nothing else has to know of it.
 
 A kind is one case: tables (a pydantic model), what it will cost (`plan`), the solver call (`run`), a typed record of
-what comes out. It may know the solvers, `bem.scenes` and its context; no file format, no figure, no other kind. Loops
+what comes out. Knows the solvers, `bem.scenes` and its context; no file format, no figure, no other kind. Loops
 over loads, variants, repetitions and whatever `[over]` names, workers, resuming, statistics, dataset, summary are the
 business of `bem.campaigns`, which reads them from `axes` and from the record (`bem.scenes.records`).
 

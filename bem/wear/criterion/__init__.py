@@ -3,7 +3,8 @@
 To add one, derive from `WearCriterion` and register it, here or in a file of your own, with its `equivalent_stress`.
 One that judges something else than stresses point by point, or remembers, has a `detach` of its own, as `averaged`,
 `sphere`, `fatigue` and `junction` have; the last knows no stress and derives from `Detachment`, as does `local` wear,
-which has no pieces. Loops lie beside the cycle and are loaded when they run.
+which has no pieces. Loops lie beside the cycle and are loaded when they run. Knows bodies, stresses and grids; no
+contact, no cycle.
 
 Verified in tests/wear/test_criterion.py and test_criteria_with_length.py.
 """

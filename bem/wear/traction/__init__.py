@@ -1,8 +1,8 @@
 """Tractions between the surfaces of a wear cycle: friction x pressure everywhere, or what partial slip leaves of it.
 
-To add one, derive from `TractionLaw` and register it, here or in a file of your own. Solvers are loaded when a cycle
-asks for them. Verified in tests/wear/test_wear_traction.py: Cattaneo's annulus, the energy of Mindlin and Deresiewicz'
-loop, gross sliding at the limit.
+To add one, derive from `TractionLaw` and register it, here or in a file of your own. Knows contacts and partial slip,
+whose solvers are loaded when a cycle asks for them; no pieces. Verified in tests/wear/test_wear_traction.py:
+Cattaneo's annulus, the energy of Mindlin and Deresiewicz' loop, gross sliding at the limit.
 """
 
 from bem.wear.traction.base import Rubbing, TractionLaw
