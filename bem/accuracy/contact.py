@@ -16,7 +16,7 @@ import numpy as np
 from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars, Rule
 from bem.contact import ContactSolution, solve_contact
 from bem.contact.cascade import sample
-from bem.contact.edge import plastic_region
+from bem.contact.edge import count_spots, plastic_region
 from bem.convolution import DisplacementOperator
 from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid
@@ -156,6 +156,16 @@ def figures_of(solution: ContactSolution, area: float) -> dict[str, float]:
         "load": float(solution.load),
         "approach": float(solution.approach),
         "mean_gap": mean_opening(solution.gap),
+    }
+
+
+def counted_figures(solution: ContactSolution, grid: Grid) -> dict[str, float]:
+    """What whole cells have, to compare with."""
+    return {
+        "counted_contact_area_fraction": solution.counted_area / grid.area,
+        "counted_plastic_area_fraction": solution.counted_plastic_area / grid.area,
+        "contact_spots": count_spots(solution.pressure, grid),
+        "max_pressure_of_cells": float(solution.pressure.max()),
     }
 
 

@@ -399,3 +399,9 @@ __all__ = [
     "one_for_both",
     "problem",
 ]
+
+
+def check_smooth(scene: Any, allowed: str) -> None:
+    """Refuse rough bodies of a scene whose film knows none."""
+    if scene.lower.surface.kind != "smooth" or scene.upper.surface.kind != "smooth":
+        raise problem("a rough surface", allowed)

@@ -211,8 +211,8 @@ class MixedScene(SceneModel):
     def _film_of_a_ball(self) -> Self:
         if self.contact.point_radii is not None and self.supply is not None:
             raise problem("supply of a ball's film", "a flooded one: leave supply out, or take a cylinder")
-        if self.contact.point_radii is not None and self.oil.film_rheology == "shear_law":
-            raise problem('film_rheology = "shear_law"', '"newtonian": the film of a point contact follows no other')
+        if self.contact.point_radii is not None:
+            self.oil.check_point_film()
         return self
 
     @property

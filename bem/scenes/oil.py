@@ -69,6 +69,11 @@ class OilScene(LawTable):
     shear_law: Annotated[ShearLaw, LawKey("shear_law", beside=True)] = LimitedShear()
     film_rheology: Literal["newtonian", "shear_law"] = "newtonian"
 
+    def check_point_film(self) -> None:
+        """Refuse a shear law in the film of a point contact."""
+        if self.film_rheology == "shear_law":
+            raise problem('film_rheology = "shear_law"', '"newtonian": the film of a point contact follows no other')
+
     @field_validator("grade")
     @classmethod
     def _spelt_out(cls, grade: str | None) -> str | None:

@@ -24,7 +24,8 @@ from bem.scenes.context import Context, PlainContext, tell
 from bem.scenes.planner import Step, padded_points, stress_kernel_seconds
 from bem.scenes.records import Figure, Series
 from bem.scenes.rubbing import RubbedRecord, rubbed, rubbing_step
-from bem.scenes.third_bodies import ThirdBodyRecord, third_body_figures
+from bem.scenes.tables.film_defect import film_defect
+from bem.scenes.third_bodies import ThirdBodyRecord, third_bodies, third_body_figures
 from bem.scenes.units import Length
 from bem.wear.criterion import WearCriterion
 
@@ -192,6 +193,17 @@ def on_every_second_cell(
         return None
 
 
+def between(scene: Any, grid: Grid, load: float) -> tuple[ThirdBodies | None, FilmDefect | None]:
+    """What a case has between its surfaces, under a load [N] on its grid: particles, and a boundary film with defects.
+
+    Raises
+    ------
+    InputError : what either lacks; particles that cut deeper than they lie.
+    """
+    defect = film_defect(scene)
+    return third_bodies(scene, grid, load), defect
+
+
 def on_twice_the_cell(
     scene: Any,
     heights: tuple[FloatArray, FloatArray],
@@ -214,20 +226,19 @@ def wear_loop(
     *,
     watch: Callable[[RunningInState], Mapping[str, float]],
     keep: Callable[[], Mapping[str, Any]] = dict,
-    third_bodies: ThirdBodies | None = None,
-    film_defect: FilmDefect | None = None,
+    grid: Grid,
+    load: float,
     **contact: Any,
 ) -> RunningIn:
     """The wear loop of a case, from its checkpoint where there is one.
 
     heights : of both bodies at the start [m]. watch : called after every cycle; gives the figures beside the progress.
     keep : what the checkpoint holds then besides the loop's own state, under names other than "wear".
-    third_bodies : particles between the surfaces. film_defect : of a boundary film. contact : further arguments of
-    `bem.wear.run_in`.
+    grid, load : of the contact, and on it [N]. contact : further arguments of `bem.wear.run_in`.
     """
     from bem.wear import WearModel, pack_state, run_in, unpack_state
 
-    saved, count = context.saved(), scene.cycles.count
+    saved, count, (particles, defect) = context.saved(), scene.cycles.count, between(scene, grid, load)
 
     def after(now: RunningInState) -> None:
         figures = watch(now)
@@ -243,9 +254,11 @@ def wear_loop(
             cycles=count,
             model=WearModel(
                 **scene.wear.model_dump(exclude={"third_bodies", "film_defect"}),
-                third_bodies=third_bodies,
-                film_defect=film_defect,
+                third_bodies=particles,
+                film_defect=defect,
             ),
+            grid=grid,
+            load=load,
             state=None if saved is None else unpack_state(saved["wear"]),
             callback=after,
             **contact,

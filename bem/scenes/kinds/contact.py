@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -116,7 +117,7 @@ class ContactRecord(GridRecord):
 
 def run(scene: ContactScene, context: Context) -> ContactRecord:
     """Solve the contact and, where asked for, the stresses below it."""
-    from bem.accuracy import figures_of
+    from bem.accuracy import counted_figures, figures_of
     from bem.contact.state import contact_state
 
     grid = build.grid_of(scene.grid)
@@ -131,13 +132,11 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         with context.timer("stresses"):
             below = _stresses(scene, grid, solution.pressure, context)
     wanted = scene.outputs.errors and solution.status is Status.CONVERGED
-    errors = error_bars(
-        context, wanted, lambda: _bars(scene, undeformed, solution, below, bool(rough), _level_before(context))
-    )
+    errors = error_bars(context, wanted, lambda: _bars(scene, undeformed, solution, below, rough, context))
     return filled(
         ContactRecord,
         figures_of(solution, grid.area),
-        _counted(solution, grid),
+        counted_figures(solution, grid),
         solution,
         {f"{name}_Sq": float(heights.std()) for name, heights in rough.items()},
         {f"{name}_height": heights for name, heights in rough.items()},
@@ -152,18 +151,6 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         **errors,
         where=f"contact solve: {solution.status.message}, residual {solution.residual:.2g}",
     )
-
-
-def _counted(solution: ContactSolution, grid: Grid) -> dict[str, float]:
-    """What cells have, whole ones."""
-    from bem.contact.edge import count_spots
-
-    return {
-        "counted_contact_area_fraction": solution.counted_area / grid.area,
-        "counted_plastic_area_fraction": solution.counted_plastic_area / grid.area,
-        "contact_spots": count_spots(solution.pressure, grid),
-        "max_pressure_of_cells": float(solution.pressure.max()),
-    }
 
 
 def _solve(
@@ -228,14 +215,14 @@ def _bars(
     undeformed: FloatArray,
     solution: ContactSolution,
     below: StressBelow | None,
-    rough: bool,
-    before: ContactSolution | None,
+    rough: Mapping[str, FloatArray],
+    context: Context,
 ) -> ErrorBars:
     from bem.accuracy import ContactCase, coarser_before, contact_bars, solve_coarser, stress_bars
 
-    grid = build.grid_of(scene.grid)
+    grid, before = build.grid_of(scene.grid), _level_before(context)
     operator = build.operator_of(scene, grid, scene.contact.friction)
-    case = ContactCase(operator, undeformed, solution, **scene.contact.prescribed(grid.area), from_touch=rough)
+    case = ContactCase(operator, undeformed, solution, **scene.contact.prescribed(grid.area), from_touch=bool(rough))
     nested = None if before is None else coarser_before(case, before)
     coarser = nested or solve_coarser(case, scene.contact.max_iterations)
     bars = contact_bars(case, coarser)

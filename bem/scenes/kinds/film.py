@@ -12,7 +12,7 @@ from pydantic import model_validator
 from bem.accuracy.bars import POINTS, STEPS
 from bem.grid import FloatArray
 from bem.scenes import build, plans
-from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene, problem
+from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene, check_smooth, problem
 from bem.scenes.context import Context
 from bem.scenes.kind import Kind
 from bem.scenes.marching import JUMPS, Marched, MarchedRecord, few_of
@@ -43,8 +43,7 @@ class FilmScene(SceneModel):
 
     @model_validator(mode="after")
     def _smooth(self) -> FilmScene:
-        if self.lower.surface.kind != "smooth" or self.upper.surface.kind != "smooth":
-            raise problem("a rough surface", 'smooth surfaces, or kind = "friction"')
+        check_smooth(self, 'smooth surfaces, or kind = "friction"')
         if self.motion.at(0.0) == 0 and self.march.initial_thickness is None:
             raise problem("the motion starts from rest, where no steady film exists", "march.initial_thickness")
         if self.supply is not None and self.supply.layer is None:

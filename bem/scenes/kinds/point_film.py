@@ -15,7 +15,7 @@ from bem.grid import FloatArray
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes import build, plans
 from bem.scenes.axes import changed
-from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneModel, problem
+from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneModel, check_smooth
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.oil import OilScene
@@ -49,10 +49,8 @@ class PointFilmScene(SceneModel):
 
     @model_validator(mode="after")
     def _smooth(self) -> PointFilmScene:
-        if self.lower.surface.kind != "smooth" or self.upper.surface.kind != "smooth":
-            raise problem("a rough surface", "smooth surfaces here; kind friction shares the load of rough balls")
-        if self.oil.film_rheology == "shear_law":
-            raise problem('film_rheology = "shear_law"', '"newtonian": the film of a point contact follows no other')
+        check_smooth(self, "smooth surfaces here; kind friction shares the load of rough balls")
+        self.oil.check_point_film()
         return self
 
 

@@ -63,8 +63,7 @@ class PointFilmTimeScene(SceneModel):
             raise problem("a rough surface without a patch", "patch, with shape and spacing, or smooth surfaces")
         if self.patch is not None and not rough:
             raise problem("a patch of smooth surfaces", "lower.surface or upper.surface other than smooth, or no patch")
-        if self.oil.film_rheology == "shear_law":
-            raise problem('film_rheology = "shear_law"', '"newtonian": the film of a point contact follows no other')
+        self.oil.check_point_film()
         if self.factors(0.0)[0] == 0 and self.march.initial_thickness is None:
             raise problem("the motion starts from rest, where no steady film exists", "march.initial_thickness")
         return self

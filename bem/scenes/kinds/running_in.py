@@ -12,12 +12,11 @@ from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
-from pydantic import model_validator
 
 from bem.grid import FloatArray
 from bem.scenes import build, film_plans, pieces, plans, wearing
 from bem.scenes.axes import Axis, changed, over_last, with_keys
-from bem.scenes.common import PositivePressure, Repetitions, problem
+from bem.scenes.common import PositivePressure, Repetitions
 from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.lubrication import tell_of_film
@@ -25,10 +24,9 @@ from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled, without_bars
 from bem.scenes.resolutions import CELLS, of_loop
 from bem.scenes.rubbing import FRICTION_SLIDES
-from bem.scenes.tables.film_defect import film_defect
-from bem.scenes.tables.sharing import TEMPERATURES, HotMixedScene, RunningInCycles, RunningInSharing, heated
+from bem.scenes.tables.sharing import TEMPERATURES, OneLoadScene, RunningInCycles, RunningInSharing, heated
 from bem.scenes.tables.wear_model import WearScenePart
-from bem.scenes.third_bodies import tell_of_third_bodies, third_bodies
+from bem.scenes.third_bodies import tell_of_third_bodies
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
@@ -40,7 +38,7 @@ _CONTACTS = "two or three contacts each, from the last pressure; none in full fi
 _DEPTHS_NEEDED = 6
 
 
-class RunningInScene(HotMixedScene):
+class RunningInScene(OneLoadScene):
     """A rough cylinder, ball or ellipsoid slides on a rough flat in oil; what yields and reaches the surface leaves."""
 
     kind: Literal["running-in"] = "running-in"
@@ -51,13 +49,6 @@ class RunningInScene(HotMixedScene):
     sizes: pieces.SizesScene = pieces.SizesScene()
     hardnesses: list[PositivePressure] = []  # noqa: RUF012
     repetitions: Repetitions = 1
-
-    @model_validator(mode="after")
-    def _one_load(self) -> RunningInScene:
-        given = self.contact.loads or self.contact.hertz_pressures or []
-        if len(given) != 1:
-            raise problem(f"{len(given)} loads", "one load; run the scene again for others")
-        return self
 
 
 def resolve(scene: RunningInScene) -> RunningInScene:
@@ -86,8 +77,7 @@ def plan(scene: RunningInScene) -> Plan:
     """
     grid = scene.check()
     # what these lack is said before any work
-    film_defect(scene)
-    third_bodies(scene, grid, scene.contact.on_patch(scene.load, grid.lengths))
+    wearing.between(scene, grid, scene.contact.on_patch(scene.load, grid.lengths))
     cycles = {"convolutions": _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": 4 * _DEPTHS_NEEDED}
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
@@ -231,8 +221,6 @@ def wear_down(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], con
         ),
         hardness=scene.contact.hardness,
         contact_step=step,
-        third_bodies=third_bodies(scene, setup.grid, load),
-        film_defect=film_defect(scene),
     )
     with context.timer("films"):
         film_error = step.table.error(float(step.rows["film_load"][-1]))

@@ -25,7 +25,7 @@ from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, filled, grid_map
 from bem.scenes.tables.film_defect import film_defect
 from bem.scenes.tables.life import LifeCycles, LifeFatigue, LifeFilm, LifeParticles, LifeWear
-from bem.scenes.tables.sharing import TEMPERATURES, HotMixedScene, RunningInSharing, heated
+from bem.scenes.tables.sharing import TEMPERATURES, OneLoadScene, RunningInSharing, heated
 
 if TYPE_CHECKING:
     from bem.friction.setup import MixedSetup
@@ -37,7 +37,7 @@ _CONVOLUTIONS = 60  # of the two or three contacts of a pass
 _JUMPS = 40  # steps of a life of a million cycles, each of three rounds
 
 
-class RunningInLifeScene(HotMixedScene):
+class RunningInLifeScene(OneLoadScene):
     """A rough cylinder and a rough flat that wear each other in oil over a life."""
 
     kind: Literal["running-in-life"] = "running-in-life"
@@ -50,10 +50,7 @@ class RunningInLifeScene(HotMixedScene):
     repetitions: Repetitions = 1
 
     @model_validator(mode="after")
-    def _one_load(self) -> RunningInLifeScene:
-        given = self.contact.loads or self.contact.hertz_pressures or []
-        if len(given) != 1:
-            raise problem(f"{len(given)} loads", "one load; run the scene again for others")
+    def _cylinder_and_film(self) -> RunningInLifeScene:
         if self.contact.point_radii is not None:
             raise problem("a ball or ellipsoid", "radius and width of a cylinder: lives under a ball were not tried")
         film = self.tribofilm

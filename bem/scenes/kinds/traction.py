@@ -16,7 +16,7 @@ from bem.errors import Status
 from bem.grid import FloatArray
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis
-from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneModel, problem
+from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneModel, check_smooth
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.oil import OilScene
@@ -64,8 +64,7 @@ class TractionScene(SceneModel):
 
     @model_validator(mode="after")
     def _complete(self) -> TractionScene:
-        if self.lower.surface.kind != "smooth" or self.upper.surface.kind != "smooth":
-            raise problem("a rough surface", 'smooth surfaces, or kind = "friction"')
+        check_smooth(self, 'smooth surfaces, or kind = "friction"')
         if self.thermal == "off":
             return self
         check_supply_of_heat(self.thermal, self.supply)

@@ -25,13 +25,12 @@ from bem.scenes.resolutions import first_domain, of_loop
 from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 from bem.scenes.tables.wear_model import WearScenePart
-from bem.scenes.third_bodies import THIRD_BODIES, tell_of_third_bodies, third_bodies
+from bem.scenes.third_bodies import THIRD_BODIES, tell_of_third_bodies
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
     from bem.scenes.checks.hertz import SmoothContact
     from bem.wear import RunningIn
-    from bem.wear.film_defect import FilmDefect
 
 _CONVOLUTIONS = 10  # of one warm-started contact solve, coarse levels included
 _SHARING = 7  # contacts until particles that stay have their share of the load
@@ -91,9 +90,7 @@ def plan(scene: WearScene) -> Plan:
             f"cylinder.loads: {scene.cylinder.loads[0]:g} N is beyond hardness x area of the domain; allowed: a "
             "smaller load, a larger domain or a higher hardness"
         )
-    # what these lack is said before any work
-    _film_defect(scene)
-    particles = third_bodies(scene, *_slice(scene))
+    particles, _ = wearing.between(scene, grid, load)  # what these lack is said before any work
     solves = 1 if particles is None else _SHARING
     cycles = {"convolutions": solves * _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": _DEPTHS_AT_FIRST}
     return Plan.of(
@@ -240,16 +237,9 @@ def wear_down(scene: WearScene, initial: tuple[FloatArray, FloatArray], context:
         gap=build.shape_of(cylinder, grid),
         friction=scene.cylinder.friction,
         hardness=scene.cylinder.hardness,
-        third_bodies=third_bodies(scene, grid, load),
-        film_defect=_film_defect(scene),
         stop=Settled(tolerance=scene.cycles.tolerance) if scene.cycles.stop_when_settled else None,
     )
     return _record(scene, grid, load, initial, result)
-
-
-def _film_defect(scene: WearScene) -> FilmDefect | None:
-    """Of the boundary film of a case; InputError for what it lacks."""
-    return None if scene.wear.film_defect is None else scene.wear.film_defect.build()
 
 
 def _record(

@@ -52,6 +52,9 @@ class FilmDefectScene(Table):
 
 
 def film_defect(scene: Any) -> FilmDefect | None:
-    """Of the boundary film of a case in oil, at its speeds and the oil's temperature; InputError for what it lacks."""
-    table, (speeds,) = scene.wear.film_defect, scene.speeds.build()
-    return None if table is None else table.build(speeds, scene.oil.temperature)
+    """Of the boundary film of a case, in oil at its speeds and the oil's temperature; InputError for what it lacks."""
+    table, oil = scene.wear.film_defect, getattr(scene, "oil", None)
+    if table is None:
+        return None
+    found: FilmDefect = table.build() if oil is None else table.build(scene.speeds.build()[0], oil.temperature)
+    return found

@@ -91,6 +91,17 @@ def _of_a_ball(key: str) -> str:
     return f"{key} of a ball's film"
 
 
+class OneLoadScene(HotMixedScene):
+    """One that wears, under one load: what is worn depends on what was before."""
+
+    @model_validator(mode="after")
+    def _one_load(self) -> Self:
+        given = self.contact.loads or self.contact.hertz_pressures or []
+        if len(given) != 1:
+            raise problem(f"{len(given)} loads", "one load; run the scene again for others")
+        return self
+
+
 class CurveScene(HotMixedScene):
     """A rough cylinder, ball or ellipsoid on a rough flat with oil between them, at many speeds; in a case there is one
     model."""

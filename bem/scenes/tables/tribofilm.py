@@ -144,8 +144,7 @@ class RubbedScene(SceneModel):
             )
         if self.rubbing.speeds is None or sum(self.rubbing.speeds) == 0:
             raise problem("oil without rubbing.speeds that entrain it", "speeds of both surfaces, their sum not zero")
-        if self.oil.film_rheology == "shear_law":
-            raise problem('film_rheology = "shear_law"', '"newtonian": the film of a point contact follows no other')
+        self.oil.check_point_film()
         if len(temperatures) > 1 or self.oil.temperature not in (None, *temperatures):
             raise problem(
                 "oil at another temperature than the contact",
