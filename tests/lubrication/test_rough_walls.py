@@ -1,18 +1,16 @@
 """Films between rough walls: factors that only rescale the problem, small ones to first order, and load sharing."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from rough_walls_case import STEEL, EvenWalls, flow_table
 
 from bem import (
-    CATALOGUE,
-    Body,
     Grid,
     InputError,
     Lubricant,
     Status,
-    flow_factors,
     generate_surface,
     solve_line_film,
     solve_mixed,
@@ -20,32 +18,12 @@ from bem import (
 from bem.flow import FlowFactors
 from bem.lubrication.rough_walls import RoughWalls
 
-STEEL = Body(CATALOGUE["steel-52100"].material)
 CASE = {"load": 5e4, "radius": 0.01, "contact_modulus": 1.1e11, "points": 400, "tolerance": 1e-9}
-
-
-@dataclass(frozen=True)
-class Simple:
-    """phi_x the same everywhere; phi_s in proportion to the film."""
-
-    pressure: float
-    shear: float
-    wall_share: float = 1.0
-    rms_height: float = 1e-7
-    separations = np.array([1e-9])
-
-    def pressure_x_curve(self, h):
-        return np.full(h.shape, self.pressure), np.zeros(h.shape)
-
-    def shear_x_curve(self, h):
-        return self.shear * h / self.rms_height, np.full(h.shape, self.shear / self.rms_height)
 
 
 @pytest.fixture(scope="module")
 def table():
-    grid = Grid((48, 48), (0.5e-6, 0.5e-6), periodic=(True, True))
-    heights = generate_surface(grid, rms_height=1e-7, seed=4, correlation_length=2e-6)
-    return flow_factors(heights, grid, STEEL, separations=np.geomspace(0.5, 8, 6) * 1e-7)
+    return flow_table(np.geomspace(0.5, 8, 6))
 
 
 def film(viscosity=0.05, speeds=(1.0, 0.5), factors="off", alpha=1.5e-8, **changes):
@@ -55,7 +33,7 @@ def film(viscosity=0.05, speeds=(1.0, 0.5), factors="off", alpha=1.5e-8, **chang
 
 def test_smooth_walls_are_no_factors():
     """Factors of 1 and 0 are the film without any, step by step; so is "off", to the bit."""
-    plain, off, smooth = film(), film(factors="off"), film(factors=Simple(1.0, 0.0))
+    plain, off, smooth = film(), film(factors="off"), film(factors=EvenWalls(1.0))
     assert (off.thickness == plain.thickness).all()
     assert smooth.iterations == plain.iterations
     assert smooth.thickness == pytest.approx(plain.thickness, rel=1e-12)
@@ -64,7 +42,7 @@ def test_smooth_walls_are_no_factors():
 @pytest.mark.parametrize("alpha", [0.0, 1.5e-8])
 def test_a_constant_pressure_factor_is_a_thinner_oil(alpha):
     """phi h^3/(12 mu) is h^3/(12 mu/phi): but for the friction, the film of an oil of mu/phi."""
-    rough, thick = film(factors=Simple(0.5, 0.0), alpha=alpha), film(viscosity=0.1, alpha=alpha)
+    rough, thick = film(factors=EvenWalls(0.5), alpha=alpha), film(viscosity=0.1, alpha=alpha)
     assert rough.status is Status.CONVERGED
     # cells are placed by either film: 400 of them are good for 1e-4
     assert rough.minimum_thickness == pytest.approx(thick.minimum_thickness, rel=5e-4)
@@ -75,7 +53,7 @@ def test_a_constant_pressure_factor_is_a_thinner_oil(alpha):
 def test_shear_flow_in_proportion_to_the_film_is_entrainment(speeds, share):
     """(u1 + u2)/2 (h + k s phi_s) with s phi_s = h/10: entrainment (1 + k/10) times, k = 1/3 share; fluid that the
     rough wall drags along helps where that wall is the faster one, whichever way both go."""
-    rough = film(speeds=speeds, factors=Simple(1.0, 0.1, wall_share=share))
+    rough = film(speeds=speeds, factors=EvenWalls(1.0, shear=0.1, wall_share=share))
     factor = 1 + share / 30
     smooth = film(speeds=tuple(factor * u for u in speeds))
     assert rough.status is Status.CONVERGED
@@ -146,10 +124,10 @@ def test_what_is_no_table():
 def test_notes_on_the_table_stay_with_heat():
     """They had been lost on the way from the film to that with heat."""
 
-    class Far(Simple):
+    class Far(EvenWalls):
         separations = np.array([1e-5])
 
     hot = Lubricant.of("ISO VG 68", temperature=333.15)
-    asked = CASE | {"points": 150, "speeds": (1.0, 0.9), "lubricant": hot, "flow_factors": Far(1.0, 0.0)}
+    asked = CASE | {"points": 150, "speeds": (1.0, 0.9), "lubricant": hot, "flow_factors": Far(1.0)}
     for heat in ({}, {"thermal": "lumped", "bodies": (STEEL, STEEL)}):
         assert any("smallest separation" in note for note in solve_line_film(**asked, **heat).notes)

@@ -1,20 +1,16 @@
 """Point films between rough walls: factors that only rescale the problem, derivatives, the line contact as limit."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from rough_walls_case import EvenWalls, flow_table
 
 from bem import (
-    CATALOGUE,
-    Body,
-    Grid,
     InputError,
     Lubricant,
     Status,
-    flow_factors,
-    generate_surface,
     solve_line_film,
     solve_point_film,
 )
@@ -23,36 +19,12 @@ from bem.lubrication.point.linear import flows
 from bem.lubrication.rough_walls import plane_walls_of
 from bem.reference_solutions.hertz import ellipse_contact
 
-STEEL = Body(CATALOGUE["steel-52100"].material)
 CASE = {"load": 20.0, "radii": (0.01, 0.01), "contact_modulus": 1.1e11, "shape": (48, 48)}
-
-
-@dataclass(frozen=True)
-class Simple:
-    """phi_x and phi_y the same everywhere; phi_s in proportion to the film."""
-
-    along: float
-    across: float
-    shear: float = 0.0
-    wall_share: float = 1.0
-    rms_height: float = 1e-7
-    separations = np.array([1e-9])
-
-    def pressure_x_curve(self, h):
-        return np.full(h.shape, self.along), np.zeros(h.shape)
-
-    def pressure_y_curve(self, h):
-        return np.full(h.shape, self.across), np.zeros(h.shape)
-
-    def shear_x_curve(self, h):
-        return self.shear * h / self.rms_height, np.full(h.shape, self.shear / self.rms_height)
 
 
 @pytest.fixture(scope="module")
 def table():
-    grid = Grid((48, 48), (0.5e-6, 0.5e-6), periodic=(True, True))
-    heights = generate_surface(grid, rms_height=1e-7, seed=4, correlation_length=2e-6)
-    return flow_factors(heights, grid, STEEL, separations=np.geomspace(0.3, 8, 7) * 1e-7)
+    return flow_table(np.geomspace(0.3, 8, 7))
 
 
 def film(viscosity=0.03, speeds=(1.0, 0.5), factors="off", **changes):
@@ -62,7 +34,7 @@ def film(viscosity=0.03, speeds=(1.0, 0.5), factors="off", **changes):
 
 def test_smooth_walls_are_no_factors():
     """Factors of 1 and 0 are the film without any, to the bit."""
-    plain, smooth = film(), film(factors=Simple(1.0, 1.0))
+    plain, smooth = film(), film(factors=EvenWalls(1.0, 1.0))
     assert smooth.iterations == plain.iterations
     assert (smooth.thickness == plain.thickness).all()
     assert (smooth.pressure == plain.pressure).all()
@@ -71,7 +43,7 @@ def test_smooth_walls_are_no_factors():
 def test_constant_pressure_factors_are_a_thinner_oil():
     """phi h^3/(12 mu) is h^3/(12 mu/phi). Far away, where 0.3 % of the load is, walls count as smooth: 0.06 %."""
     asked = {"extent": (-8e-4, 3e-4, -6e-4, 6e-4), "shape": (96, 96)}
-    rough, thick = film(factors=Simple(0.5, 0.5), **asked), film(viscosity=0.06, **asked)
+    rough, thick = film(factors=EvenWalls(0.5, 0.5), **asked), film(viscosity=0.06, **asked)
     assert rough.status is Status.CONVERGED
     assert rough.central_thickness == pytest.approx(thick.central_thickness, rel=2e-3)
     assert rough.minimum_thickness == pytest.approx(thick.minimum_thickness, rel=1e-2)
@@ -84,7 +56,7 @@ def test_flow_across_alone_is_another_radius():
     oil = Lubricant(0.03, viscosity_law="isoviscous")
     case = {"contact_modulus": math.inf, "speeds": (1.0, 0.5), "lubricant": oil, "shape": (48, 48)}
     edges = (-2e-3, 2e-3, -4e-3, 4e-3)
-    rough = solve_point_film(load=2.0, radii=(0.01, 0.01), extent=edges, flow_factors=Simple(1.0, 4.0), **case)
+    rough = solve_point_film(load=2.0, radii=(0.01, 0.01), extent=edges, flow_factors=EvenWalls(1.0, 4.0), **case)
     edges = (-2e-3, 2e-3, -2e-3, 2e-3)
     smooth = solve_point_film(load=1.0, radii=(0.01, 0.0025), extent=edges, **case)
     assert rough.status is Status.CONVERGED
@@ -96,7 +68,7 @@ def test_shear_flow_in_proportion_to_the_film_is_entrainment(speeds, share):
     """As of the line contact: (u1 + u2)/2 (h + k s phi_s) with s phi_s = h/10 is entrainment (1 + k/10) times, 2 % of
     the film; but for the far inlet, whose walls are smooth: 0.04 %."""
     edges = (-3e-4, 2e-4, -3e-4, 3e-4) if speeds[0] > 0 else (-2e-4, 3e-4, -3e-4, 3e-4)
-    rough = film(speeds=speeds, factors=Simple(1.0, 1.0, 0.1, wall_share=share), extent=edges)
+    rough = film(speeds=speeds, factors=EvenWalls(1.0, 1.0, 0.1, wall_share=share), extent=edges)
     factor = 1 + share / 30
     smooth = film(speeds=tuple(factor * u for u in speeds), extent=edges)
     assert rough.central_thickness == pytest.approx(smooth.central_thickness, rel=1e-3)
