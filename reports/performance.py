@@ -46,6 +46,7 @@ GROUPS = (
         ("contact-periodic", "contact-free", "contact-semi-periodic", "contact-tolerance", "partial-slip"),
     ),
     ("Capped and coated contact", ("contact-capped", "contact-layered")),
+    ("Surfaces", ("surface",)),
     ("Contact with a closed form", ("hertz-sphere", "hertz-cylinder", "sinusoid")),
     ("Stresses below the surface", ("stress", "stress-warm", "von-mises-warm")),
     ("Line-contact film", ("line-film", "line-film-dense")),

@@ -24,6 +24,7 @@ from bem.benchmarks.contact_cases import (
     rough,
     row,
     sphere,
+    surface,
     tolerances,
 )
 from bem.benchmarks.lubricated_cases import line_film, load_sharing, stribeck
@@ -83,6 +84,7 @@ CASES = {
             functools.partial(rough, periodic=FREE, bodies=film_on_base),
             sizes=(128, 256, 512, 1024),
         ),
+        _cells("surface", "Rough surface of these contacts", surface, error_name="error of the rms slope"),
         _cells(
             "contact-tolerance",
             "Dry rough contact at 512, error asked for",

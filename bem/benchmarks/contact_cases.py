@@ -30,6 +30,19 @@ def rough_gap(cells: int) -> FloatArray:
     )
 
 
+def surface(cells: float) -> Timed:
+    """The surface of all comparisons; the error is that of its rms slope, by the derivative of its Fourier series."""
+    n = int(cells)
+
+    def judge(gap: FloatArray) -> Outcome:
+        waves = 2 * math.pi * np.fft.fftfreq(n, 1 / n)
+        squared = np.abs(np.fft.fft2(gap)) ** 2 * (waves[:, None] ** 2 + waves[None, :] ** 2)
+        found = abs(math.sqrt(squared.sum()) / n**2 / 0.1 - 1)
+        return Outcome({"rms_slope": max(found, float(np.finfo(np.float64).eps))})  # diagrams are logarithmic
+
+    return Timed(lambda: rough_gap(n), judge, cells=n**2)
+
+
 def common_residual(pressure: FloatArray, gap: FloatArray, operator: DisplacementOperator) -> tuple[float, float]:
     """(complementarity, violation) of any pressure on any solver, relative to the rms of the gap.
 
@@ -78,7 +91,7 @@ def rough(
     def solve() -> ContactSolution:
         return solve_contact(gap, operator, load=MEAN_PRESSURE, hardness=hardness, tolerance=tolerance)
 
-    return Timed(solve, _judge_rough(gap, operator, hardness is not None))
+    return Timed(solve, _judge_rough(gap, operator, hardness is not None), cells=n**2)
 
 
 def film_on_base(spacing: float) -> Body:
@@ -122,7 +135,7 @@ def sphere(cells: float) -> Timed:
             {"unknowns": float(grid.cells)},
         )
 
-    return Timed(lambda: solve_contact(gap, operator, load=exact.load), judge)
+    return Timed(lambda: solve_contact(gap, operator, load=exact.load), judge, cells=n**2)
 
 
 def _judge_pressure(expected: FloatArray) -> Callable[[ContactSolution], Outcome]:

@@ -19,6 +19,10 @@ from typing import Any
 THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
+_LEAST_TOLD = 2.0**20
+"""Memory [bytes] below which what the process holds anyway decides."""
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What a solve says of itself.
@@ -34,11 +38,16 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Timed:
-    """A prepared point: `solve` is timed, `judge` is not. `restart`, if given, is called before every repeat."""
+    """A prepared point: `solve` is timed, `judge` is not. `restart`, if given, is called before every repeat.
+
+    cells : of the grid, times depths: the value `bytes_a_cell` is the memory over them; none is told of 0, nor of less
+    memory than `_LEAST_TOLD`.
+    """
 
     solve: Callable[[], Any]
     judge: Callable[[Any], Outcome]
     restart: Callable[[], None] | None = None
+    cells: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -140,7 +149,8 @@ def measure(case: str, size: float, threads: int, prepare: Callable[[float], Tim
         memory=memory,
         errors=outcome.errors,
         counts=outcome.counts,
-        values=outcome.values,
+        values=outcome.values
+        | ({"bytes_a_cell": memory / timed.cells} if timed.cells and memory >= _LEAST_TOLD else {}),
         split=dict(split),
     )
 
@@ -175,7 +185,7 @@ def watched() -> Iterator[dict[str, float]]:
         return inner
 
     targets: list[tuple[Any, str, str]] = [
-        (PaddedTransform, name, "transforms") for name in ("convolve", "forward", "inverse")
+        (PaddedTransform, name, "transforms") for name in ("convolve", "forward", "inverse", "inverse_squared")
     ]
     targets += [
         (module, name, "elementwise")

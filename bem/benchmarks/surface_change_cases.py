@@ -53,7 +53,7 @@ def stress_of_sphere(cells: float, *, mises_only: bool = False, warm: bool = Fal
             {"depths": float(len(depths)), "spectra_MB": stress_memory() / 1e6, "unpacked_MB": unpacked / 1e6},
         )
 
-    return Timed(solve, judge, None if warm else forget)
+    return Timed(solve, judge, None if warm else forget, cells=float(n * n * len(depths)))
 
 
 def wear_setup(depths: int, cells: int = 240, drawn_on: int = 240) -> tuple[Any, FloatArray, FloatArray]:

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+import bem.benchmarks.measure
 from bem import InputError, ResultsError, displacement_operator, solve_contact
 from bem.benchmarks.cases import CASES
 from bem.benchmarks.contact_cases import UNIT, common_residual, rough_gap
@@ -15,6 +16,7 @@ from bem.benchmarks.measure import Point, growth, measure, measure_apart, watche
 from bem.benchmarks.run import check_names, sizes_of
 from bem.benchmarks.show import memory_rows, thread_rows
 from bem.grid import Grid
+from bem.transforms import PaddedTransform
 
 
 def point(**change):
@@ -153,7 +155,26 @@ def test_what_more_threads_would_gain_follows_from_two():
 
 
 def test_memory_is_told_by_the_cell():
-    assert memory_rows(new_run([point(memory=256.0**2 * 50)])) == [("contact-periodic", "256", "3", "50")]
+    assert memory_rows(new_run([point(memory=256.0**2 * 50)])) == [("contact-periodic", "256", "3", "50")]  # older
+    told = point(case="surface", memory=256.0**2 * 50, values={"bytes_a_cell": 50.0})
+    assert memory_rows(new_run([told])) == [("surface", "256", "3", "50")]
+    assert not memory_rows(new_run([point(case="tribofilm", memory=1e6)]))
+
+
+def test_all_kinds_of_transforms_are_watched():
+    kinds = {name: value for name, value in vars(PaddedTransform).items() if name.startswith(("con", "forw", "inv"))}
+    assert len(kinds) == 4
+    with watched():
+        assert all(getattr(PaddedTransform, name) is not value for name, value in kinds.items())
+
+
+@pytest.mark.parametrize("name", ["contact-periodic", "surface", "von-mises-warm"])
+def test_a_point_keeps_its_memory_by_the_cell(name, monkeypatch):
+    held = iter([(5e6, 5e6), (6e6, 9e6)])
+    monkeypatch.setattr(bem.benchmarks.measure, "held_memory", lambda: next(held))
+    found = measure(name, 64, 1, CASES[name].prepare, 1)
+    cells = 64**2 * found.counts.get("depths", 1.0)
+    assert found.values["bytes_a_cell"] == pytest.approx(4e6 / cells, rel=1e-12)
 
 
 def test_the_floor_is_positive():
