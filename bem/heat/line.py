@@ -18,6 +18,9 @@ from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
 
+_FAR_UPSTREAM = 20.0
+"""From there on nothing is left of the heat, to rounding."""
+
 
 def band_temperatures(edges: FloatArray, body: Conductor) -> FloatArray:
     """Rise at the middles of cells for a unit flux into each, (m, m) [K m^2/W].
@@ -42,7 +45,12 @@ def band_temperatures(edges: FloatArray, body: Conductor) -> FloatArray:
 
 def _primitive(t: FloatArray) -> FloatArray:
     """Of exp(s) K0(|s|), zero at 0."""
-    size = np.maximum(np.abs(t), 1e-300)
-    downstream = size * (k0e(size) + k1e(size)) - 1
-    upstream = -1 - size * np.exp(-2 * size) * (k0e(size) - k1e(size))
-    return np.where(t > 0, downstream, np.where(t < 0, upstream, 0.0))
+    out = np.where(t == 0, 0.0, -1.0)
+    near = (t != 0) & (t > -_FAR_UPSTREAM)
+    at = t[near]
+    size = np.abs(at)
+    zeroth, first = k0e(size), k1e(size)
+    downstream = size * (zeroth + first) - 1
+    upstream = -1 - size * np.exp(-2 * size) * (zeroth - first)
+    out[near] = np.where(at > 0, downstream, upstream)
+    return out

@@ -3,9 +3,9 @@
 Laws of the oil: `viscosity`, `density`, `shear`, gathered in `lubricant`; grades of it in `oils`; what a shear law does
 across a film: `shear_profile`. The steady film: `steady`, by Newton's method (`line_newton`, from the starts of
 `line_continuation`) on a mesh that follows it (`line_mesh`), with hierarchical weights of the deflection
-(`line_kernel`); starved: `supply`, `line_starved`. In time: `transient`, in steps (`line_step`) with a ruptured film
-(`line_rupture`, `cavitation`). Point contacts: `point`. Heat: `thermal`. `validity` says where a model ends. Names are
-loaded when first used, so that laws cost no solver.
+(`line_kernel`); coarsely: `line_sketch`; starved: `supply`, `line_starved`. In time: `transient`, in steps
+(`line_step`) with a ruptured film (`line_rupture`, `cavitation`). Point contacts: `point`. Heat: `thermal`. `validity`
+says where a model ends. Names are loaded when first used, so that laws cost no solver.
 
 Sees grids, laws and the dry contact of smooth bodies, no scene. Verified in tests/lubrication: Martin's and Hertz'
 limits, both equations by plain quadrature, order of convergence, closed forms of cavitation, conservation.

@@ -30,6 +30,8 @@ SPIKE_SHIFT = 0.75
 MAX_SHIFT = 1.0
 """Cells by which a sharp spike may move on its mesh."""
 MAX_IMBALANCE = 5.0
+SKETCH = 250
+"""Cells of a sketch: centres of films on them were within 1e-3 of those on 400 or 2000."""
 MIDDLE = 400
 COARSE_TOLERANCE = 1e-4
 """On the way: a start needs no more, its mesh is off by more than that."""
@@ -39,12 +41,21 @@ LEAST_SHARE = 1e-3
 FIRST_FACTOR = 4.0
 
 
-def from_neighbour(
-    problem: Problem, kept: State, load: float, unit: float, cells: int, tolerance: float, limit: int
+def from_neighbour(  # reason: a state and the case that it is of, a problem and how well it is solved
+    problem: Problem,
+    kept: State,
+    load: float,
+    unit: float,
+    cells: int,
+    tolerance: float,
+    limit: int,
+    sketch: bool = False,
 ) -> Outcome:
     """From the solution of another case, at a load M, its unit of pressure over the problem's: on its mesh as long as a
     sharp spike stays on its fine cells, else anew from a coarse mesh upwards, where a spike that has moved is found in
-    few and cheap steps."""
+    few and cheap steps. A sketch of the same case is the coarse mesh itself."""
+    if sketch and load == problem.load and unit == 1:
+        return _of_sketch(problem, kept, cells, tolerance, limit)
     factor, film_factor = _scaling(load, problem.load)
     state = stretched(kept, factor, problem.load / load / factor, film_factor)
     change = max(abs(math.log(problem.load / load)), abs(math.log(unit)))
@@ -102,40 +113,85 @@ def from_newtonian(problem: Problem, cells: int, tolerance: float, limit: int) -
 
 def from_scratch(problem: Problem, cells: int, tolerance: float, limit: int) -> Outcome:
     """Continuation in the load from Martin's film on a coarse mesh, then finer ones."""
-    last: Outcome | None = None
     spent = 0
-    reached = 0.0
     attempts = (((cells, 4.0),) if cells < ATTEMPTS[0][0] else ()) + ATTEMPTS
     for coarse, first_step in attempts:
-        load = min(problem.load, START_LOAD)
-        step = first_step
-        last = newton(replace(problem, load=load), martin_start(load, coarse), COARSE_TOLERANCE, limit)
+        last = climbed(problem, coarse, first_step, limit)
         spent += last.iterations
-        while last.converged and load < problem.load and step > 1.002:
-            target = min(problem.load, load * step)
-            factor, film_factor = _scaling(load, target)
-            at = replace(problem, load=load)
-            start = last.state
-            if mesh_imbalance(at, start) > MAX_IMBALANCE:
-                start = remesh(at, start, coarse, None)
-            start = stretched(start, factor, target / load / factor, film_factor)
-            trial = newton(replace(problem, load=target), start, COARSE_TOLERANCE, limit)
-            spent += trial.iterations
-            if trial.converged:
-                step = min(step * 1.5, 10.0) if trial.iterations < 10 else step
-                last, load = trial, target
-            else:
-                step = math.sqrt(step)
-        if last.converged and load == problem.load:
+        if last.converged:
             final = refined(problem, last.state, coarse, cells, tolerance, limit)
             spent += final.iterations
             if final.converged:
                 return replace(final, iterations=spent)
             last = final
-        reached = load
-    assert last is not None
-    residual = max(last.residual, abs(1 - reached / problem.load))
-    return replace(last, iterations=spent, residual=residual, converged=False)
+    return replace(last, iterations=spent)
+
+
+def climbed(problem: Problem, coarse: int, first_step: float, limit: int) -> Outcome:
+    """On a coarse mesh, whose spike is left alone, from Martin's film by continuation in the load; the first factor of
+    which may be `first_step`. Where it does not arrive, the residual is at least the share of the load that is left."""
+    load, step = min(problem.load, START_LOAD), first_step
+    last = newton(replace(problem, load=load), martin_start(load, coarse), COARSE_TOLERANCE, limit)
+    spent = last.iterations
+    while last.converged and load < problem.load and step > 1.002:
+        target = min(problem.load, load * step)
+        factor, film_factor = _scaling(load, target)
+        at = replace(problem, load=load)
+        start = last.state
+        if mesh_imbalance(at, start) > MAX_IMBALANCE:
+            start = remesh(at, start, coarse, None)
+        start = stretched(start, factor, target / load / factor, film_factor)
+        trial = newton(replace(problem, load=target), start, COARSE_TOLERANCE, limit)
+        spent += trial.iterations
+        if trial.converged:
+            step = min(step * 1.5, 10.0) if trial.iterations < 10 else step
+            last, load = trial, target
+        else:
+            step = math.sqrt(step)
+    left = abs(1 - load / problem.load)
+    return replace(last, iterations=spent, residual=max(last.residual, left), converged=last.converged and left == 0)
+
+
+def sketched(problem: Problem, kept: State | None, load: float, limit: int) -> Outcome:
+    """A film on `SKETCH` cells, its spike on the coarsest of `SPIKE_CELLS`: from that of another case, at a load M,
+    at once or by a mesh that leaves the spike alone; where that will not do, by continuation in the load."""
+    coarse, first_step = ATTEMPTS[0]
+    spent = 0
+    if kept is not None:
+        factor, film_factor = _scaling(load, problem.load)
+        state = stretched(kept, factor, problem.load / load / factor, film_factor)
+        at_once = _drawn(problem, state, limit)
+        if at_once.converged:
+            return at_once
+        blunt = newton(problem, remesh(problem, state, coarse, None), COARSE_TOLERANCE, limit)
+        spent = at_once.iterations + blunt.iterations
+        if blunt.converged:
+            outcome = _drawn(problem, blunt.state, limit)
+            spent += outcome.iterations
+            if outcome.converged:
+                return replace(outcome, iterations=spent)
+    outcome = climbed(problem, coarse, first_step, limit)
+    spent += outcome.iterations
+    if outcome.converged:
+        outcome = _drawn(problem, outcome.state, limit)
+        spent += outcome.iterations
+    return replace(outcome, iterations=spent)
+
+
+def _drawn(problem: Problem, state: State, limit: int) -> Outcome:
+    """A sketch from a state near it."""
+    return newton(problem, remesh(problem, state, SKETCH, SPIKE_CELLS[0]), COARSE_TOLERANCE, limit)
+
+
+def _of_sketch(problem: Problem, sketch: State, cells: int, tolerance: float, limit: int) -> Outcome:
+    """The film that a sketch is of: as `refined`, from the cells at its spike on."""
+    middle = min(cells, MIDDLE)
+    wanted = spike_cell(problem, sketch, middle)
+    sizes = [size for size in SPIKE_CELLS[1:] if size > wanted]
+    stages: list[tuple[int, float | None]] = [(middle, size) for size in sizes]
+    if cells > middle or SPIKE_CELLS[-1] not in sizes:
+        stages.append((cells, SPIKE_CELLS[-1]))
+    return _staged(problem, sketch, stages, tolerance, limit)
 
 
 def refined(problem: Problem, state: State, coarse: int, cells: int, tolerance: float, limit: int) -> Outcome:
@@ -146,6 +202,13 @@ def refined(problem: Problem, state: State, coarse: int, cells: int, tolerance: 
     stages += [(middle, smallest) for smallest in SPIKE_CELLS if smallest > wanted or smallest == SPIKE_CELLS[-1]]
     if cells > middle:
         stages.append((cells, SPIKE_CELLS[-1]))
+    return _staged(problem, state, stages, tolerance, limit)
+
+
+def _staged(
+    problem: Problem, state: State, stages: list[tuple[int, float | None]], tolerance: float, limit: int
+) -> Outcome:
+    """On one mesh after the other, of so many cells and such cells at the spike; only the last to the tolerance."""
     spent = 0
     for level, (size, smallest) in enumerate(stages):
         goal = tolerance if level == len(stages) - 1 else COARSE_TOLERANCE

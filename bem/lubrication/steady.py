@@ -162,7 +162,7 @@ def _flooded(
     spent = 0
     if isinstance(kept, KeptSteady) and is_start(kept.flooded):
         unit = kept.scales.pressure / scales.pressure
-        outcome = from_neighbour(problem, kept.flooded, kept.load, unit, cells, tolerance, limit)
+        outcome = from_neighbour(problem, kept.flooded, kept.load, unit, cells, tolerance, limit, kept.sketch)
         if outcome.converged:
             return outcome
         spent = outcome.iterations
@@ -206,13 +206,14 @@ def _starvation(problem: Problem, state: State, flooded: State, scales: Scales, 
 
 @dataclass(frozen=True)
 class KeptSteady:
-    """What a warm start and a look at other positions need of a solve; `flooded` is the state without a supply."""
+    """What a warm start and a look at other positions need; `flooded`: without a supply, `sketch`: of `line_sketch`."""
 
     state: State
     flooded: State
     load: float
     scales: Scales
     reversed: bool
+    sketch: bool = False
 
     @one_blas_thread
     def sample(self, position: FloatArray) -> tuple[FloatArray, FloatArray]:

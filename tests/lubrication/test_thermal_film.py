@@ -5,13 +5,11 @@ import math
 import numpy as np
 import pytest
 
-import bem.lubrication.line_continuation as line_continuation
 from bem.errors import InputError, Status
 from bem.grid import Grid
 from bem.heat import surface_temperature
 from bem.heat.bodies import Conductor
 from bem.lubrication import Lubricant, solve_line_film
-from bem.lubrication.line_newton import newton
 from bem.lubrication.thermal import lumped, solve_full_thermal_line_film, solve_thermal_line_film
 from bem.lubrication.thermal.energy import Channel, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
@@ -153,7 +151,7 @@ def test_heat_across_a_film_between_good_conductors_is_crooks():
     edges = np.linspace(-1e-4, 1e-4, 21)
     wall = Conductor(conductivity=1e7, diffusivity=1e-5, speed=1.0, bulk=300.0)
     channel = Channel(edges, np.full(20, 3e-7), 0.13, 0.0, 300.0, (wall, wall))
-    found = film_temperatures(channel, lambda t: (np.full(20, 1e8), np.zeros((20, 20))))
+    found = film_temperatures(channel, lambda t: (np.full(20, 1e8), np.zeros((3, 20))))
     np.testing.assert_allclose(found.oil - 300, 1e8 * 3e-7 / (12 * 0.13), rtol=1e-3)
     np.testing.assert_allclose(found.into, 0.5e8, rtol=1e-6)
 
@@ -163,7 +161,7 @@ def test_heat_that_goes_nowhere_else_is_carried_by_the_oil():
     edges = np.linspace(-1e-4, 1e-4, 21)
     wall = Conductor(conductivity=1e-9, diffusivity=1e-5, speed=1.0, bulk=300.0)
     channel = Channel(edges, np.full(20, 3e-7), 0.13, 2.0, 310.0, (wall, wall))
-    found = film_temperatures(channel, lambda t: (np.full(20, 1e5), np.zeros((20, 20))))
+    found = film_temperatures(channel, lambda t: (np.full(20, 1e5), np.zeros((3, 20))))
     assert found.oil[-1] - 310 == pytest.approx(1e5 * 2e-4 / 2.0, rel=1e-3)
 
 
@@ -290,40 +288,40 @@ def test_a_starved_film_with_heat_lets_its_oil_through_and_closes(layer):
     assert given.shear_force == starved.shear_force
 
 
-def test_costs_little_more_than_an_isothermal_film(monkeypatch):
-    """Newton steps on the fine mesh, at most 1.5 times those of the isothermal film. Coarse films and temperatures come
-    on top: of 2000 points it takes some 1.8 times as long, of few points up to three times."""
-    steps = []
+def random_contacts(count):
+    """M 0.01 to 5000, L 0 to 25, slide-to-roll ratio 0 to 2, 20 to 150 degrees Celsius."""
+    random = np.random.default_rng(16)
+    laws = [{}, {"shear_law": "limited", "shear_stress_limit": None}, {"shear_law": "carreau"}]
+    for k in range(count):
+        lubricant = oil(random.uniform(293, 423), ["ISO VG 68", "PAO 4", "ISO VG 460"][k % 3], **laws[k // 3 % 3])
+        moes, piezo, slide = 10 ** random.uniform(-2, 3.5), random.uniform(0.2, 25), random.uniform(0, 2)
+        speed = (piezo / (lubricant.pressure_viscosity * 2 * MODULUS)) ** 4
+        yield {
+            "load": moes * math.sqrt(speed) * 2 * MODULUS * 10e-3,
+            "speeds": pair(speed * MODULUS * 10e-3 / lubricant.viscosity, slide),
+            "lubricant": lubricant,
+        }
 
-    def counted(*arguments, **keywords):
-        outcome = newton(*arguments, **keywords)
-        steps.append(outcome.iterations if len(outcome.state.offset) == 2000 else 0)
-        return outcome
 
-    monkeypatch.setattr(line_continuation, "newton", counted)
-    solve_line_film(
-        load=load(0.8e9), speeds=pair(10, 0.5), lubricant=oil(), radius=10e-3, contact_modulus=MODULUS, points=2000
-    )
-    isothermal = sum(steps)
-    steps.clear()
-    found = film(10.0, 0.5, points=2000)
-    assert sum(steps) <= 1.5 * isothermal
-    assert found.films <= 5
+@pytest.mark.parametrize(("points", "count"), [(400, 9), (2000, 6)])
+def test_costs_at_most_one_and_a_half_isothermal_films(points, count):
+    """Newton steps of all films and sketches over those of the isothermal film on the same points, from nothing. The
+    temperatures' come on top, some ten of 200 unknowns: of 2000 points it takes 1.4 times as long, of 400 up to 1.8
+    times (medians of 120 contacts)."""
+    isothermal, hot = [], []
+    for case in random_contacts(count):
+        cold = {name: value for name, value in ROLLER.items() if name != "bodies"}
+        isothermal.append(solve_line_film(**(cold | case | {"points": points})).iterations)
+        hot.append(solve_thermal_line_film(**(ROLLER | case | {"points": points})).iterations)
+    ratios = np.array(hot) / isothermal
+    assert np.median(ratios) <= 1.25
+    assert sum(hot) <= 1.3 * sum(isothermal)
+    long = np.array(isothermal) >= 20  # of fewer steps a second film is a third of the cost
+    assert ratios[long].max() <= 1.5
 
 
 def test_random_contacts_converge():
-    """M 0.01 to 5000, L 0 to 25, slide-to-roll ratio 0 to 2, 20 to 150 degrees Celsius, cold."""
-    random = np.random.default_rng(16)
-    laws = [{}, {"shear_law": "limited", "shear_stress_limit": None}, {"shear_law": "carreau"}]
-    for k in range(9):
-        lubricant = oil(random.uniform(293, 423), ["ISO VG 68", "PAO 4", "ISO VG 460"][k % 3], **laws[k // 3])
-        moes, piezo, slide = 10 ** random.uniform(-2, 3.5), random.uniform(0.2, 25), random.uniform(0, 2)
-        speed = (piezo / (lubricant.pressure_viscosity * 2 * MODULUS)) ** 4
-        found = solve_thermal_line_film(
-            load=moes * math.sqrt(speed) * 2 * MODULUS * 10e-3,
-            speeds=pair(speed * MODULUS * 10e-3 / lubricant.viscosity, slide),
-            lubricant=lubricant,
-            **ROLLER,
-        )
+    for case in random_contacts(9):
+        found = solve_thermal_line_film(**(ROLLER | case))
         assert found.status is Status.CONVERGED
         assert found.energy_imbalance < 1e-6

@@ -59,7 +59,8 @@ class Temperatures:
 
 
 Heat = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
-"""Heat made in the cells (m,) [W/m^2] at their temperatures (m,) [K], and its derivatives (m, m)."""
+"""Heat made in the cells (m,) [W/m^2] at their temperatures (m,) [K], and derivatives (3, m): by the temperature of a
+cell, of the heat in the one before, in itself and in the one behind."""
 
 
 def film_temperatures(channel: Channel, heat: Heat, kernels: Sequence[FloatArray] | None = None) -> Temperatures:
@@ -79,7 +80,7 @@ def film_temperatures(channel: Channel, heat: Heat, kernels: Sequence[FloatArray
         residual = float(np.abs(missed).max()) / rise
         if residual <= TOLERANCE or steps == MAX_STEPS or not np.isfinite(residual):
             break
-        matrix = np.eye(len(base)) - response @ slope
+        matrix = _difference(response, slope)
         change = -lu_solve(lu_factor(matrix, check_finite=False), missed, check_finite=False)
         longest = max(0.5 * longest, SHORTEST_STEP) if residual > last else min(1.5 * longest, LONGEST_STEP)
         last = residual
@@ -89,6 +90,15 @@ def film_temperatures(channel: Channel, heat: Heat, kernels: Sequence[FloatArray
     bulk = np.array([[body.bulk] for body in channel.bodies])
     surfaces = bulk + np.stack([kernel @ flux for kernel, flux in zip(kernels, fluxes, strict=True)])
     return Temperatures(temperature, surfaces, fluxes, made, steps, residual)
+
+
+def _difference(response: FloatArray, slope: FloatArray) -> FloatArray:
+    """1 - response x slope (m, m), of a slope as of `Heat`."""
+    out = -response * slope[1]
+    out[:, 1:] -= response[:, :-1] * slope[0, 1:]
+    out[:, :-1] -= response[:, 1:] * slope[2, :-1]
+    np.einsum("ii->i", out)[...] += 1.0
+    return out
 
 
 def _responses(channel: Channel, kernels: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
@@ -101,9 +111,7 @@ def _responses(channel: Channel, kernels: Sequence[FloatArray]) -> tuple[FloatAr
     # oil temperature = mean bulk + by_flux @ (q1, q2)
     by_flux = np.concatenate([0.5 * lower + np.diag(across), 0.5 * upper + np.diag(across)], axis=1)
     carried = channel.capacity_flow / width
-    upstream = np.zeros((cells, cells))
-    upstream[np.arange(1, cells), np.arange(cells - 1)] = 1.0
-    balance = np.concatenate([one, one], axis=1) + carried[:, None] * ((one - upstream) @ by_flux)
+    balance = np.concatenate([one, one], axis=1) + carried[:, None] * np.diff(by_flux, axis=0, prepend=0.0)
     walls = channel.thickness / (2 * channel.conductivity)
     between = np.concatenate([np.diag(walls) + lower, -np.diag(walls) - upper], axis=1)
     right = np.zeros((2 * cells, 1 + cells))

@@ -14,7 +14,7 @@ tests/lubrication/test_thermal_film.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, ClassVar
@@ -26,6 +26,7 @@ from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_scales import line_scales
+from bem.lubrication.line_sketch import sketch_line_film
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors
 from bem.lubrication.shear_profile import middle_stress
@@ -43,15 +44,11 @@ from bem.materials import Body
 from bem.reference_solutions.line_film import moes_central
 from bem.threads import one_blas_thread
 
-COARSE = 250
-"""Points of the films that say how thin the oil must be."""
-COARSE_TOLERANCE = 1e-5
-"""Of these films: far below that of the factor."""
 _TYPICAL, _SLIGHTEST, _ROUNDS = 0.7, -1e-3, 3
 """Exponent that the fitted one is found from, the least ln of a share that it is looked up for, and how often."""
 FACTOR_TOLERANCE = 5e-3
 """Of the film that inlet heating leaves; the factor itself is good to some 0.05."""
-MOST_FILMS = 4
+MOST_FILMS = 6
 LARGEST_STRESS = 1e12
 """On the way to the temperatures [Pa]: cold oil that has no limit would carry more than can be computed with."""
 EXTRAPOLATED_INLET = (
@@ -82,7 +79,7 @@ class ThermalFilm(HeatedFilm):
     Attributes
     ----------
     film : solution of the film, of the oil as thin as inlet heating makes it; its own shear force is isothermal.
-    isothermal : the film without heat, on a coarse mesh.
+    isothermal : the film without heat, a sketch (`bem.lubrication.line_sketch`).
     position : (m,) middles of cells [m]. width : (m,) of them [m].
     film_temperature : (m,) mean across the film [K]. surface_temperatures : (2, m) of flat and cylinder [K].
     sliding_stress : (m,) of the oil in the middle of the film [Pa], signed like the force.
@@ -90,7 +87,7 @@ class ThermalFilm(HeatedFilm):
     shear_force : as of `FilmSolution`, at these temperatures [N/m]. sliding_force : its part from sliding [N/m].
     friction_power, power_into, power_carried : per unit length [W/m]: of the friction; (2,) into flat and cylinder;
         carried on by the oil. energy_imbalance : of the three, relative to the friction.
-    inlet : factor of inlet heating. inlet_missed : by how much the film misses it, relative, on its coarse mesh.
+    inlet : factor of inlet heating. inlet_missed : by how much the film misses it, relative, of sketches.
     inlet_viscosity : at ambient pressure that leaves such a film [Pa s].
     films : solved. iterations : Newton steps of all films. status : of film and temperatures. notes : sentences.
     """
@@ -239,46 +236,50 @@ class _Thinned:
 def _thinned(
     case: dict[str, Any], lubricant: Lubricant, points: int, initial: FilmSolution | None, inlet: InletHeating
 ) -> _Thinned:
-    """How thin the oil must be is found on a coarse mesh, where that has films; only the last film is on all points."""
-    if points <= COARSE:
-        return _search(case | {"points": points}, lubricant, initial, inlet)
-    tolerance = max(case["tolerance"], COARSE_TOLERANCE)
-    found = _search(case | {"points": COARSE, "tolerance": tolerance}, lubricant, _coarse_start(initial), inlet)
-    if found.missed > FACTOR_TOLERANCE:
-        spent, found = found.steps, _search(case | {"points": points}, lubricant, initial, inlet)
+    """How thin the oil must be is found of sketches, where there are; only the last film is on all points."""
+    sketched = {name: value for name, value in case.items() if name != "tolerance"}
+    found = _search(partial(sketch_line_film, **sketched), case, lubricant, _sketch_start(initial), inlet)
+    on_points = partial(solve_line_film, **case, points=points)
+    if math.isinf(found.missed):
+        spent, found = found.steps, _search(on_points, case, lubricant, initial, inlet)
         found.steps += spent
         return found
-    found.add(
-        solve_line_film(**case, points=points, lubricant=found.films[-1].lubricant, initial=initial or found.films[-1])
-    )
+    found.add(on_points(lubricant=found.films[-1].lubricant, initial=initial or found.films[-1]))
     return found
 
 
-def _search(case: dict[str, Any], lubricant: Lubricant, initial: FilmSolution | None, inlet: InletHeating) -> _Thinned:
-    """All on one mesh, with the exponent of the film in the viscosity that was found last, of a fit at first."""
+def _search(
+    solve: Callable[..., FilmSolution],
+    case: dict[str, Any],
+    lubricant: Lubricant,
+    initial: FilmSolution | None,
+    inlet: InletHeating,
+) -> _Thinned:
+    """All on one mesh, with the exponent of the film in the viscosity between the last two films, of a fit at first."""
     found = _Thinned(inlet)
-    found.add(solve_line_film(**case, lubricant=lubricant, initial=initial))
-    isothermal, wanted, ratio = found.films[0], math.log(inlet.factor), 0.0
+    found.add(solve(lubricant=lubricant, initial=initial))
+    isothermal, wanted, ratio, last = found.films[0], math.log(inlet.factor), 0.0, (0.0, 0.0)
     exponent = _fitted_exponent(case, lubricant, wanted)
     while found.films[-1].status is Status.CONVERGED:
         reached = math.log(found.films[-1].central_thickness / isothermal.central_thickness)
         found.missed = abs(math.expm1(reached - wanted))
         if found.missed <= FACTOR_TOLERANCE or len(found.films) == MOST_FILMS:
             return found
-        if reached != 0 and ratio != 0:
-            exponent = reached / ratio
-        ratio = wanted / exponent
+        if reached != last[1] and ratio != last[0]:
+            exponent = (reached - last[1]) / (ratio - last[0])
+        last = ratio, reached
+        ratio += (wanted - reached) / exponent
         thinner = thinned_oil(lubricant, math.exp(ratio))
         _check_load(case, thinner, inlet)
-        found.add(solve_line_film(**case, lubricant=thinner, initial=found.films[-1]))
+        found.add(solve(lubricant=thinner, initial=found.films[-1]))
     found.missed = math.inf
     return found
 
 
-def _coarse_start(initial: FilmSolution | None) -> FilmSolution | None:
-    """Of a film with lumped heat on more points: its own coarse one without heat."""
+def _sketch_start(initial: FilmSolution | None) -> FilmSolution | None:
+    """Of a film with lumped heat: its own sketch without heat."""
     heat = None if initial is None else initial.heat
-    return heat.isothermal if isinstance(heat, ThermalFilm) else None
+    return heat.isothermal if isinstance(heat, ThermalFilm) else initial
 
 
 def _fitted_exponent(case: dict[str, Any], lubricant: Lubricant, wanted: float) -> float:
@@ -337,12 +338,14 @@ def _heated(thinned: _Thinned, lubricant: Lubricant, bodies: tuple[Conductor, Co
     ambient = lubricant.viscosity * strip.sliding * strip.upstream
     rolling = strip.pushed - strip.flow * strip.work
 
+    by_width = np.stack([np.append(0.0, 1 / width[:-1]), 1 / width, np.append(1 / width[1:], 0.0)])
+
     def heat(temperature: FloatArray) -> tuple[FloatArray, FloatArray]:
         stress, slope = stresses(temperature)
         made = summed(strip.cell, 0.5 * pieces * (stress[1:] + stress[:-1]), len(width))
         made[0] += ambient
         derivative = derivative_of(strip, middle, 0.5 * pieces * slope[:-1], 0.5 * pieces * slope[1:])
-        return (strip.sliding * made + rolling) / width, strip.sliding * derivative / width[:, None]
+        return (strip.sliding * made + rolling) / width, strip.sliding * derivative * by_width
 
     density, capacity = lubricant.density or 0.0, lubricant.heat_capacity or 0.0
     flow = 0.5 * abs(sum(film.speeds)) * float(strip.thickness[-1])

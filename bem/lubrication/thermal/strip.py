@@ -98,12 +98,13 @@ def cell_edges(x: FloatArray, pressure: FloatArray, cells: int) -> FloatArray:
 
 
 def derivative_of(strip: Strip, middle: FloatArray, before: FloatArray, after: FloatArray) -> FloatArray:
-    """Of what the cells sum up with the temperatures at their middles (m, m), from what pieces do at both their nodes;
-    temperatures at nodes are interpolated linearly."""
-    out = np.zeros((len(middle), len(middle)))
+    """Of what the cells sum up with the temperatures at their middles (3, m), as of `energy.Heat`, from what pieces do
+    at both their nodes; temperatures at nodes are interpolated linearly."""
+    out = np.zeros((3, len(middle)))
     right = np.clip(np.searchsorted(middle, strip.x), 1, len(middle) - 1)
     share = np.clip((strip.x - middle[right - 1]) / (middle[right] - middle[right - 1]), 0.0, 1.0)
     for values, node in ((before, slice(None, -1)), (after, slice(1, None))):
-        np.add.at(out, (strip.cell, right[node]), values * share[node])
-        np.add.at(out, (strip.cell, right[node] - 1), values * (1 - share[node]))
+        at = right[node]
+        np.add.at(out, (strip.cell - at + 1, at), values * share[node])
+        np.add.at(out, (strip.cell - at + 2, at - 1), values * (1 - share[node]))
     return out
