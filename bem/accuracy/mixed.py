@@ -2,9 +2,9 @@
 
 Film and contact act on one another through the balance, so that neither's own error says much about friction: the
 balance is solved anew on the grid of twice the cell (what changes is the contact's part), and there once more with the
-film on half the points (the film's part); both begin from the solution and cost about a third of it together. A third
-part is the balance's own tolerance. Each part is an estimate: the difference, times the factor that the order of
-convergence and experiment give (`reports/experiments/mixed_error_bars.py`); the bar is their sum.
+film on half the points, columns and layers (the film's part); both begin from the solution and cost about a third of it
+together. A third part is the balance's own tolerance. Each part is an estimate: the difference, times the factor that
+the order of convergence and experiment give (`reports/experiments/mixed_error_bars.py`); the bar is their sum.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import numpy as np
 from bem.accuracy.bars import GRID, POINTS, ErrorBars, Rule
 from bem.accuracy.contact import SPOT, surface_is_resolved
 from bem.accuracy.film import FEWEST
+from bem.accuracy.traction import DIFFERENCE, FILM_SHARE
 from bem.contact.cascade import sample
 from bem.errors import Status
 from bem.friction import MixedSolution
@@ -46,10 +47,6 @@ _CONTINUED = (
 )
 _UNSOLVED = "no error bars: load sharing on the grid of twice the cell did not converge"
 _REPEATED = "no error bars: not known yet of a cell that repeats; compare with one of half the spacing"
-_FULL_HEAT = (
-    "no error bars: not known yet of what the columns and layers of full heat leave (0.4 % of a film at 20 m/s that "
-    "heat thins by four tenths); kind traction has them"
-)
 _COARSE = "no error bars: the grid is too small to be compared with one of twice the cell"
 _LOADS = Rule(0.67, 0.67, edge=0.004, rough_edge=0.003)
 RULES: dict[str, Rule] = {
@@ -69,6 +66,8 @@ _PARTS = ("boundary_part", "film_part")
 """Of friction: load that passes from film to contact takes from one what it adds to the other, so that differences of
 either were up to nine times that of their sum, where their errors were of one sign."""
 _LOAD_SHARES = ("contact_load", "film_load")
+OF_FILM = ("friction", "film_part", "minimum_film", "lambda_ratio")
+"""What follows the film: with full heat by a share of its change, and more of the difference, as of kind traction."""
 _SUMMITS = 2.2
 """On that for uncoupled summits, whose radii are second differences between cells."""
 _FILM, _FILM_TWICE = 0.6, 1.5
@@ -132,15 +131,13 @@ def solve_coarser_mixed(case: MixedCase) -> CoarserShares:
     grid = case.setup.grid
     if case.setup.repeated_cell:
         return CoarserShares(None, None, why=_REPEATED)
-    if case.setup.thermal == "full":
-        return CoarserShares(None, None, why=_FULL_HEAT)
     if max(grid.shape) < _FEWEST_CELLS:
         return CoarserShares(None, None, why=_COARSE)
     points = case.setup.film_resolution
     fewest = FEWEST if case.setup.radii is None else FEWEST_CELLS
     other = points // 2 if points >= 2 * fewest else 2 * points
     contact = _shares(case, points)
-    both = _shares(case, other)
+    both = _shares(case, other, heat_mesh=0.5)
     if {contact.status, both.status} != {Status.CONVERGED}:
         return CoarserShares(None, None, why=_UNSOLVED)
     return CoarserShares(contact, both, other / points)
@@ -166,8 +163,13 @@ def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
         POINTS: {n: halved * abs(one[n] - two[n]) for n in RULES},
         BALANCE: _balance_part(case.solution, case.setup, found),
     }
+    if case.setup.thermal == "full":
+        halved = max(halved, DIFFERENCE)
     thinner = abs(one["minimum_film"] - two["minimum_film"]) / max(found["minimum_film"], two["minimum_film"])
     parts[POINTS]["film_part"] += halved * _FILM_SHARE * thinner * abs(found["film_part"])
+    if case.setup.thermal == "full":
+        for name in OF_FILM:
+            parts[POINTS][name] += FILM_SHARE * thinner * abs(found[name])
     # film and contact sum to the load, so that one is as wrong as the other; boundary friction goes with the latter
     parts[GRID] |= dict.fromkeys(_LOAD_SHARES, max(parts[GRID][name] for name in _LOAD_SHARES))
     if found["contact_load"] > 0:
@@ -223,15 +225,16 @@ def half_grid(grid: Grid) -> Grid:
     return Grid((shape[0], shape[1]), (spacing[0], spacing[1]), periodic=grid.periodic)
 
 
-def _shares(case: MixedCase, points: int) -> Shares:
-    """The balance on the grid of twice the cell with a film of other points.
+def _shares(case: MixedCase, points: int, heat_mesh: float = 1.0) -> Shares:
+    """The balance on the grid of twice the cell with a film of other points, and times the columns and layers of full
+    heat.
 
     Cells lie where every second of the finer ones does: on a free axis of an even number they are not centred, and the
     film is looked at where they are.
     """
     grid = half_grid(case.setup.grid)
     old, solution = case.setup.grid, case.solution
-    setup = dataclasses.replace(case.setup, grid=grid, film_position=None).with_film(points)
+    setup = dataclasses.replace(case.setup, grid=grid, film_position=None, heat_mesh=heat_mesh).with_film(points)
     height = sample(case.height, grid.shape, grid.periodic)
     x, y = (
         whole[::2] if not periodic else own

@@ -61,10 +61,9 @@ _FILM_TWICE = 1.5
 """On what twice the points of a film change: order two leaves 4/3 of it, as in load sharing."""
 OF_FILM = ("friction_initial", "friction_run_in", "friction", "film_friction_part", "minimum_film", "lambda_ratio")
 """Figures that follow the film."""
-FULL_HEAT = (
-    "no error bars of friction and film: not known yet of what the columns and layers of full heat leave; kind "
-    "traction has them"
-)
+_HEAT = 1.0
+"""Besides, of the difference in figures that follow a film with full heat, whose columns and layers are of first order;
+in that of the oil's friction of the film's relative change as well (as of kind traction)."""
 _WEARS = ("Sq_final", "worn_volume_per_cycle", "worn_depth")
 """Figures that say how much differently the coarser loop wears."""
 FROM_START = ("friction_initial", "contact_load_initial", "Sq_initial")
@@ -105,14 +104,23 @@ def running_in_bars(
     found: Mapping[str, float],
     coarser: Mapping[str, float] | None,
     finer_film: Mapping[str, float] | None = None,
+    *,
+    full_heat: bool = False,
 ) -> ErrorBars:
     """The same of a loop in mixed lubrication, and of one in full film, where nothing can wear; `finer_film` : the
-    coarser loop with twice the points of its film, which it has as many of as `found` where half are too few."""
+    coarser loop with twice the points of its film, which it has as many of as `found` where half are too few; with
+    `full_heat` the coarser loop has half its columns and layers."""
     if coarser is None:
         return ErrorBars.unknown(MIXED_RULES, _ODD)
     of_loop = _of_film(found, _bars(found, coarser, MIXED_RULES))
     if finer_film is not None:
         of_loop = {name: bar + _FILM_TWICE * abs(coarser[name] - finer_film[name]) for name, bar in of_loop.items()}
+    if full_heat:
+        for name in OF_FILM:
+            of_loop[name] += _HEAT * abs(found[name] - coarser[name])
+        if found["minimum_film"] > 0:
+            thinner = abs(coarser["minimum_film"] / found["minimum_film"] - 1)
+            of_loop["film_friction_part"] += _HEAT * thinner * abs(found["film_friction_part"])
     bars = ErrorBars.together({GRID: of_loop})
     wear, contact = (tuple(each[name] > 0 for each in (found, coarser)) for name in ("worn_depth", "contact_load"))
     if all(wear) or not any(contact):

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Any, Protocol
 
 from bem.errors import InputError, Status
 from bem.friction.smooth import LineContact, SmoothContact
@@ -98,20 +98,25 @@ def solved_line_film(
     """
     modulus, heat = contact.film_modulus(load), contact.heat
     lowest, _ = load_range(contact.radius, modulus, speeds, contact.lubricant)
-    return solve_line_film(
-        load=load / contact.width,
-        radius=contact.radius,
-        contact_modulus=math.inf if load / contact.width < lowest else modulus,
-        speeds=speeds,
-        lubricant=contact.lubricant,
-        points=points,
-        initial=initial,
-        position=position,
-        flow_factors=contact.flow_factors,
-        supply=contact.supply,
-        thermal="off" if heat is None else heat.model,
-        bodies=None if heat is None else heat.bodies,
-    )
+    asked: dict[str, Any] = {
+        "load": load / contact.width,
+        "radius": contact.radius,
+        "contact_modulus": math.inf if load / contact.width < lowest else modulus,
+        "speeds": speeds,
+        "lubricant": contact.lubricant,
+        "points": points,
+        "initial": initial,
+        "flow_factors": contact.flow_factors,
+    }
+    if heat is None:
+        return solve_line_film(**asked, position=position, supply=contact.supply)
+    if heat.model == "full" and heat.mesh != 1:
+        from bem.lubrication.thermal import solve_full_thermal_line_film
+        from bem.lubrication.thermal.full import COLUMNS, LAYERS
+
+        asked |= {"columns": round(heat.mesh * COLUMNS), "layers": round(heat.mesh * LAYERS)}
+        return solve_full_thermal_line_film(**asked, bodies=heat.bodies).as_film()
+    return solve_line_film(**asked, position=position, supply=contact.supply, thermal=heat.model, bodies=heat.bodies)
 
 
 @dataclass(frozen=True, eq=False)

@@ -34,7 +34,8 @@ HEAT_NEEDS = ("temperature", "density", "heat_capacity", "thermal_conductivity",
 
 @dataclass(frozen=True, eq=False)
 class MixedSetup:
-    """Load sharing but for roughness and speeds; the fields are those arguments of `solve_mixed`.
+    """Load sharing but for roughness and speeds; the fields are those arguments of `solve_mixed`, and `heat_mesh`, by
+    how many times the usual columns and layers full heat is found on.
 
     Raises
     ------
@@ -63,6 +64,7 @@ class MixedSetup:
     oil_volume: OilVolume | str = OilVolume.PATCH
     supply: Supply | float | None = None
     thermal: str = "off"
+    heat_mesh: float = 1.0
 
     def __post_init__(self) -> None:
         if not isinstance(self.grid, Grid):
@@ -253,7 +255,9 @@ class MixedSetup:
         )  # fmt: skip
 
     def _film_heat(self, bodies: tuple[Body, ...]) -> FilmHeat | None:
-        return None if self.thermal == "off" else FilmHeat(self.thermal, (bodies[0], bodies[-1]))
+        if self.thermal == "off":
+            return None
+        return FilmHeat(self.thermal, (bodies[0], bodies[-1]), self.heat_mesh)
 
     @property
     def counted(self) -> OilVolume:

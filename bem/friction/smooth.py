@@ -23,10 +23,12 @@ from bem.reference_solutions.hertz import ellipse_contact
 
 @dataclass(frozen=True)
 class FilmHeat:
-    """Which model of the film's heat, as of `solve_line_film`, and the flat and the cylinder that it enters."""
+    """Which model of the film's heat, as of `solve_line_film`, and the flat and the cylinder that it enters; `mesh` :
+    times the usual columns and layers of full heat."""
 
     model: str
     bodies: tuple[Body, Body]
+    mesh: float = 1.0
 
 
 class SmoothContact(Protocol):

@@ -288,8 +288,8 @@ def test_running_in_with_heat_wears_where_a_boundary_film_is_hot():
     assert full["flash_temperature_C"][0] - 100 == pytest.approx(hot["flash_temperature_C"][0] - 100, rel=0.01)
     assert hot["flash_temperature_C"][0] > hot["contact_temperature_C"][0] > 101
     assert "flash_temperature_C" not in off
-    # columns and layers of full heat are in no bar yet
-    assert full["minimum_film_nm_error"] == [None]
+    # with what columns and layers leave
+    assert full["minimum_film_nm_error"][0] > 0
     assert full["worn_depth_nm_error"][0] > 0
     assert hot["minimum_film_nm_error"][0] > 0
     assert hot["worn_depth_nm"][0] > 1.1 * off["worn_depth_nm"][0] > 0

@@ -97,7 +97,7 @@ _curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="fir
 _LOADS = ("contact_load", "film_load")
 _OTHER = "they are to compare with, to a thousandth of the oil"
 _other_oil = partial(_curve, no_bar=_OTHER)
-_supplied = partial(_curve, optional=True, no_bar="the minimum film, which goes with it, has one")
+_supplied = partial(_curve, optional=True, no_bar="it goes with the minimum film: look at that of it")
 _heated = partial(_curve, "C", optional=True, no_bar=BAR_OF_HEAT)
 _OF_SUPPLY = ("film_reduction", "meniscus_position")
 _OF_HEAT = ("oil_temperature", "contact_temperature", "flash_temperature")

@@ -165,24 +165,24 @@ def run(scene: RunningInScene, context: Context) -> RunningInRecord:
 
 
 def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: RunningInRecord) -> ErrorBars:
-    """Of the loop on every second cell and half the points of the film; where half are too few for a film, of that
-    loop with twice the points besides."""
-    from bem.accuracy import ErrorBars, running_in_bars
-    from bem.accuracy.wear import FULL_HEAT, MIXED_RULES, OF_FILM
+    """Of the loop on every second cell and half the points of the film, columns and layers of full heat; where half are
+    too few for a film, of that loop with twice the points besides."""
+    from bem.accuracy import running_in_bars
+    from bem.accuracy.wear import MIXED_RULES
 
     def finer(scene: RunningInScene, factor: float, across: float) -> RunningInScene:
         coarser = at_resolution(scene, factor, across)
         return with_keys(coarser, wearing.film_keys(coarser, 2.0))
 
-    coarser = partial(wearing.on_twice_the_cell, scene, initial, build.grid_of(scene.grid), wear_down)
+    loop = partial(wear_down, heat_mesh=0.5) if scene.thermal == "full" else wear_down
+    coarser = partial(wearing.on_twice_the_cell, scene, initial, build.grid_of(scene.grid), loop)
     there, finer_film = coarser(at_resolution), None
     if there is not None and not wearing.film_is_halved(scene):
         finer_film = coarser(finer)
         there = None if finer_film is None else there
     known = [name for name in MIXED_RULES if getattr(found, name) is not None]
     figures = (None if one is None else {n: getattr(one, n) for n in known} for one in (found, there, finer_film))
-    told = running_in_bars(*figures)  # type: ignore[arg-type]
-    return told | ErrorBars.unknown(OF_FILM, FULL_HEAT) if scene.thermal == "full" else told
+    return running_in_bars(*figures, full_heat=scene.thermal == "full")  # type: ignore[arg-type]
 
 
 def at_resolution(scene: RunningInScene, factor: float, across: float | None = None) -> RunningInScene:
@@ -191,12 +191,14 @@ def at_resolution(scene: RunningInScene, factor: float, across: float | None = N
     return with_keys(scene, wearing.grid_keys(scene, factor, across) | wearing.resolution_keys(scene, factor))
 
 
-def wear_down(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], context: Context) -> RunningInRecord:
-    """The wear loop of a scene from these heights [m] on its grid."""
+def wear_down(
+    scene: RunningInScene, initial: tuple[FloatArray, FloatArray], context: Context, *, heat_mesh: float = 1.0
+) -> RunningInRecord:
+    """The wear loop of a scene from these heights [m] on its grid, with times the columns and layers of full heat."""
     from bem.wear.mixed import MixedContact, pack_balance, shared_film_table, unpack_balance
 
     sharing, (speeds,), saved = scene.sharing, scene.speeds.build(), context.saved()
-    setup = scene.setup(**sharing.model_dump())
+    setup = scene.setup(**sharing.model_dump(), heat_mesh=heat_mesh)
     frames = [] if saved is None else [np.asarray(frame) for frame in saved["frames"]]
     balance = {} if saved is None else unpack_balance(saved)
     load = scene.contact.on_patch(setup.load, setup.grid.lengths)
