@@ -11,13 +11,16 @@ import numpy as np
 from bem.grid import FloatArray
 
 GRID, DEPTHS, POINTS, STEPS, RESIDUAL = "grid", "depths", "film points", "time steps", "residual"
-REUSE, INLET = "reused contacts", "inlet"
+REUSE, INLET, PRESSING = "reused contacts", "inlet", "pressing steps"
 """Where errors come from, in the words of summary, dataset and report: what discretisation leaves, and the residual of
 solvers. Over repetitions there is `bem.scenes.records.SCATTER` besides."""
 
 TWICE = 2.5
 """Where another solution has twice the points or cells, its difference counts as that of half of them so many times:
 order two would make four, but the difference is the error itself but for a quarter."""
+
+PRESSING_FACTOR = 1.5
+"""On the difference to half the steps in which a load comes: what first order leaves."""
 
 
 @dataclass(frozen=True)

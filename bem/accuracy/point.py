@@ -20,7 +20,7 @@ from bem.accuracy.film import FilmRule
 from bem.arguments import named
 from bem.errors import Status
 from bem.lubrication import Lubricant, PointFilmSolution, solve_point_film
-from bem.lubrication.point.kept import order_missed
+from bem.lubrication.point.kept import narrow_error, order_missed
 from bem.lubrication.point.validity import inlet_shear
 from bem.materials import Body
 
@@ -37,6 +37,8 @@ POINT_RULES = {
     "friction_power": FilmRule(0.8, 0.3),
     "lambda_ratio": FilmRule(0.6, 0.3),
 }
+_LEAST = ("minimum_thickness", "lambda_ratio")
+"""In a constriction, which may be narrower than cells: differences then show no order, and how steep it is tells."""
 _ALGEBRAIC = 10.0
 """Relative change of a figure over the residual of the equations."""
 _UNSOLVED = "no error bars of the film: on half as many cells it did not converge"
@@ -101,6 +103,8 @@ def point_bars(case: PointCase, film: PointFilmSolution) -> ErrorBars:
         difference = abs(value - there[name])
         factor = rule.factor * order_missed(difference, value)
         grid[name] = share * (factor * difference + rule.film * changed * abs(value))
+        if name in _LEAST:
+            grid[name] = max(grid[name], narrow_error(film.thickness) * value)
         inlet[name] = BEGINS * abs(value) + beyond.get(name, 0.0)
         residual[name] = _ALGEBRAIC * film.residual * abs(value)
     return ErrorBars.together({GRID: grid, INLET: inlet, RESIDUAL: residual})

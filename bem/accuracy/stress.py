@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.accuracy.bars import DEPTHS, GRID, ErrorBars, Rule
+from bem.accuracy.bars import DEPTHS, GRID, PRESSING, PRESSING_FACTOR, ErrorBars, Rule
 from bem.accuracy.contact import Coarser, ContactCase, is_resolved, share_at_edge
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
@@ -23,11 +23,16 @@ highest at the edge that trails, towards which it rises like x / a (Hamilton), a
 half a cell inside, h / (2 a), a quarter of that share. Differences between grids say where cells happen to lie."""
 _LATERAL = 0.3
 """Of a cell squared over the depth: by how much the depth of the highest stress moves where its place along the surface
-is known to a part of a cell: 0.1 to 0.5 under balls. Under rough surfaces the difference was larger than that."""
+is known to a part of a cell: 0.1 to 0.5 under balls. Under rough surfaces the difference was larger than that. Where
+the highest is looked for between points, on both grids, the place is known better and the difference alone is left."""
+_LOOKED_MOVED = 0.5
+"""Of that difference: order two leaves a third."""
 _JUMP = 1.3
 """Factor on the depth's bar where the surface is not resolved: the highest stress may lie under another spot."""
-_LOOKED, _LOOKED_DEPTH = 0.3, 0.05
-"""Where the highest stress was looked for between depths: factors on its rise above the points and on the interval."""
+_LOOKED, _LOOKED_DEPTH, _WIDE = 0.3, 0.05, 0.4
+"""Where the highest stress was looked for between depths: factors on its rise above the points and on the interval, on
+the latter times the square of the interval over so much of the depth where that is less: the place of the highest of a
+cubic through four depths is of third order, and stresses change over the depth."""
 _STEEPER = 2.0
 """Factor on what a straight line through two depths reaches at an interface: stresses rise the steeper the nearer."""
 
@@ -51,6 +56,7 @@ def stress_bars(
     below: StressBelow,
     friction: float = 0.0,
     traction: FloatArray | None = None,
+    fewer: tuple[FloatArray, FloatArray] | None = None,
 ) -> ErrorBars:
     """Bars from the coarser pressure at every second depth, and from the depths next to the highest stress.
 
@@ -59,9 +65,10 @@ def stress_bars(
     case, coarser : the contact and its coarser solution, as `bem.accuracy.contact` makes them.
     body, friction : as `bem.stress.stress_below` takes them. below : what it gave for the contact.
     traction : the coarser one (2, nx, ny) [Pa] where `below` is that of tractions of their own.
+    fewer : pressure (nx, ny) and traction [Pa] on the coarser grid with half of the steps in which the load comes.
     """
     rubbed = {"friction": friction, "traction": traction}
-    return _of_stress(case, coarser, body, below, rubbed) | _of_volume(case, coarser, body, below, rubbed)
+    return _of_stress(case, coarser, body, below, rubbed, fewer) | _of_volume(case, coarser, body, below, rubbed)
 
 
 def _of_volume(
@@ -83,7 +90,12 @@ def _of_volume(
 
 
 def _of_stress(
-    case: ContactCase, coarser: Coarser, body: Body, below: StressBelow, rubbed: dict[str, Any]
+    case: ContactCase,
+    coarser: Coarser,
+    body: Body,
+    below: StressBelow,
+    rubbed: dict[str, Any],
+    fewer: tuple[FloatArray, FloatArray] | None,
 ) -> ErrorBars:
     if coarser.solution is None or coarser.grid is None:
         return ErrorBars(dict.fromkeys(NAMES))
@@ -109,14 +121,19 @@ def _of_stress(
         if above > 0:
             top, error = max(top, float(above)), max(error, abs(interface - float(depths[k])))
     moved = abs(below.max_von_mises_depth - there.max_von_mises_depth)
-    if resolved and not near:
+    looked = all(one.max_von_mises_depth not in one.depths for one in (below, there))
+    if resolved and looked:
+        moved *= _LOOKED_MOVED
+    elif resolved and not near:
         moved += _LATERAL * case.grid.cell_area / float(depths[k])
-    return ErrorBars.together(
-        {
-            GRID: {"max_von_mises": float(stress), "max_von_mises_depth": float(jump * moved)},
-            DEPTHS: {"max_von_mises": top, "max_von_mises_depth": jump * error},
-        }
-    )
+    parts = {
+        GRID: {"max_von_mises": float(stress), "max_von_mises_depth": float(jump * moved)},
+        DEPTHS: {"max_von_mises": top, "max_von_mises_depth": jump * error},
+    }
+    if fewer is not None:
+        half = _highest_below(fewer[0], coarser.grid, body, kept, {"traction": fewer[1]})
+        parts[PRESSING] = {n: PRESSING_FACTOR * abs(getattr(there, n) - getattr(half, n)) for n in NAMES}
+    return ErrorBars.together(parts)
 
 
 def _highest_below(
@@ -134,7 +151,8 @@ def _between(below: StressBelow, k: int) -> tuple[float, float]:
     if below.max_von_mises_depth == depths[k]:  # nothing was looked for
         return _highest_between(depths, below.highest, k)
     interval = float(max(depths[k] - depths[k - 1], depths[k + 1] - depths[k]))
-    return _LOOKED * float(below.max_von_mises - below.highest[k]), _LOOKED_DEPTH * interval
+    order = min(interval / (_WIDE * float(depths[k])), 1.0) ** 2
+    return _LOOKED * float(below.max_von_mises - below.highest[k]), _LOOKED_DEPTH * order * interval
 
 
 def _highest_between(depths: FloatArray, highest: FloatArray, k: int) -> tuple[float, float]:

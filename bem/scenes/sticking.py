@@ -102,13 +102,14 @@ def pressed_together(scene: StressedScene, context: Context) -> Site:
 class Coarse:
     """What came of the grid of twice the cell: figures that have error bars, the contact under its tractions, these
     (2, nx, ny) on the lower body [Pa], whether all of it converged; and figures with half the steps in which the load
-    comes, where it has any."""
+    comes, where it has any, with the contact and tractions that they leave."""
 
     figures: dict[str, float]
     contact: ContactSolution
     traction: FloatArray
     converged: bool
     fewer: dict[str, float] | None = None
+    fewer_left: tuple[ContactSolution, FloatArray] | None = None
 
 
 @dataclass(frozen=True)
@@ -149,7 +150,11 @@ def bars(scene: StressedScene, site: Site, found: Found, again: Callable[[Site],
         return own | of_contact
     body, sign = scene.stressed()
     below = replace(found.below, yielded_volume=None)
-    return own | of_contact | stress_bars(case, coarser, body, below, traction=sign * there.traction)
+    fewer = None
+    if there.fewer_left is not None:
+        contact, traction = there.fewer_left
+        fewer = contact.pressure, sign * traction
+    return own | of_contact | stress_bars(case, coarser, body, below, traction=sign * there.traction, fewer=fewer)
 
 
 def coupled(scene: StressedScene) -> bool:

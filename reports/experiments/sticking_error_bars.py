@@ -3,8 +3,9 @@
     python -m reports.experiments.sticking_error_bars [CASES]
 
 Balls and rough flats, of like and unlike bodies, pushed by a force or a shift, once or to and fro, turned, or rolling
-with creepage, spin or a given force. References have four times the cells a side, the same surfaces, and four times the
-steps in which the load of unlike bodies comes. The result is stored in `reports/results/sticking_error_bars.json`.
+with creepage, spin or a given force. References have four times the cells a side, the same surfaces, depths four times
+as close, and four times the steps in which the load of unlike bodies comes. The result is stored in
+`reports/results/sticking_error_bars.json`.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from reports.experiments.judging import Rows, judge
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "sticking_error_bars.json"
 FINER = 4
+_DEPTHS = 24
 _FIRST_STEPS = 6
 """In which the load of unlike bodies comes, in the case that is judged."""
 
@@ -56,7 +58,7 @@ def draw(rng: np.random.Generator) -> dict[str, Any]:
         side = 2 * size * float(rng.uniform(1.15, 1.9))
         scene |= {"shape": {"kind": "sphere", "radius": radius}, "contact": {"load": load}}
     scene["grid"] = {"shape": [cells, cells], "lengths": [side, side], "periodic": rough}
-    scene["outputs"] = {"von_mises": bool(rng.random() < 0.2)}
+    scene["outputs"] = {"von_mises": bool(rng.random() < 0.2), "depths": {"deepest": side / 4, "count": _DEPTHS}}
     if rolls:
         full = friction * size / 10e-3 if load is not None else 0.01 * friction
         roll: dict[str, Any] = {"friction": friction}
@@ -81,10 +83,10 @@ def draw(rng: np.random.Generator) -> dict[str, Any]:
 
 
 def _finer(scene: dict[str, Any]) -> dict[str, Any]:
-    cells = [FINER * n for n in scene["grid"]["shape"]]
+    cells, depths = [FINER * n for n in scene["grid"]["shape"]], scene["outputs"]["depths"]
     fine = scene | {
         "grid": scene["grid"] | {"shape": cells},
-        "outputs": scene["outputs"] | {"errors": False},
+        "outputs": scene["outputs"] | {"errors": False, "depths": depths | {"count": FINER * (_DEPTHS - 1) + 1}},
     }
     if "pressing_steps" in scene.get("push", {}):
         fine["push"] = scene["push"] | {"pressing_steps": FINER * scene["push"]["pressing_steps"]}

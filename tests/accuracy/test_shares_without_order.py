@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, Material, solve_contact
-from bem.accuracy import film
+from bem.accuracy import film, solve_coarser, stress_bars
 from bem.accuracy.contact import ContactCase, share_at_edge
 from bem.accuracy.sticking import PUSH_RULES, cells_across_ring, sticking_bars
 from bem.convolution import DisplacementOperator
+from bem.reference_solutions.hertz import ellipse_contact
+from bem.stress import stress_below
 from reports.error_bars import RESULTS
 
 
@@ -49,6 +51,30 @@ def test_stiffness_is_known_as_well_as_whole_cells_fill_a_circle(ball):
     bar = bars_of_equal_grids(ball, 0.5)["normal_stiffness"]
     # 400 places tell the root mean square to 4 %; radii scatter by a tenth
     assert bar == pytest.approx(2 * 0.5 * float(np.std(missed)), rel=0.15)
+
+
+def test_what_sticks_is_known_as_well_as_whole_cells_fill_its_circle(ball):
+    """Twice the root mean square of what lattice points in circles of any place miss of the area that sticks."""
+    wide, narrow = (bars_of_equal_grids(ball, stick)["stick_fraction"] / stick for stick in (0.81, 0.2025))
+    radius = 0.9 * 2 / share_at_edge(ball)
+    # points of a lattice miss the area of a circle of r cells by 0.676 sqrt(r), see the miscount of stiffness above
+    assert wide == pytest.approx(2 * 0.676 * np.sqrt(radius) / (np.pi * radius**2), rel=0.01)
+    assert narrow / wide == pytest.approx(2**1.5)
+
+
+def test_depth_below_a_ball_is_known_to_a_percent(ball):
+    """Looked for between points and depths it is off by less than its bar, and that is small."""
+    depths = 5e-6 * np.linspace(0, 1.6, 13) ** 2
+    body = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
+    below = stress_below(ball.solution.pressure, ball.grid, body, depths)
+    bars = stress_bars(ball, solve_coarser(ball), body, below)
+    z = np.linspace(0.3, 0.7, 40001)
+    # von Mises on the axis below Hertz' pressure (Johnson, Contact Mechanics, eq. 3.45)
+    axis = 1.5 / (1 + z**2) - 1.3 * (1 - z * np.arctan(1 / z))
+    radius = ellipse_contact(radii=(1e-2, 1e-2), contact_modulus=210e9 / (1 - 0.3**2), load=0.05).semi_axes[0]
+    true = radius * z[axis.argmax()]
+    bar = bars.values["max_von_mises_depth"]
+    assert abs(below.max_von_mises_depth - true) <= bar < 0.02 * true
 
 
 @pytest.mark.parametrize("place", [0.1, 0.3, 0.45])

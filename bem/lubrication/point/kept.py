@@ -78,8 +78,13 @@ def film_errors(films: tuple[float, float], coarse: tuple[float, float], thickne
         one / 3 * order_missed(one, value) + share * changed * value
         for one, value, share in zip(differences, films, PASSING, strict=True)
     )
+    return central, max(least, narrow_error(thickness) * films[1])
+
+
+def narrow_error(thickness: FloatArray) -> float:
+    """Relative error of a minimum by how steep its constriction is on the cells, of a film (nx, ny)."""
     rise = rise_beside_lowest(thickness)
-    return central, max(least, NARROW * (rise - 1) ** 2 / rise * films[1])
+    return NARROW * (rise - 1) ** 2 / rise
 
 
 def order_missed(difference: float, value: float) -> float:

@@ -173,14 +173,16 @@ def _bars(
     def again(coarser: Site) -> Coarse:
         there = pushed(scene, coarser, pressed(scene, coarser, steps))
         figures, fewer, converged = figures_of(scene, there), None, there.status is Status.CONVERGED
+        left = None
         if steps > 1:
             half = pushed(scene, coarser, pressed(scene, coarser, max(steps // 2, 1)))
             fewer, converged = figures_of(scene, half), converged and half.status is Status.CONVERGED
+            left = half.contact(coarser), half.last.traction
         if scene.outputs.stiffness:
             # closed on the coarser grid: what is not known there has no bar
             stiff = _stiffness(scene, coarser) or dict.fromkeys(("normal_stiffness", "tangential_stiffness"), math.nan)
             figures, fewer = figures | stiff, None if fewer is None else fewer | stiff
-        return Coarse(figures, there.contact(coarser), there.last.traction, converged, fewer)
+        return Coarse(figures, there.contact(coarser), there.last.traction, converged, fewer, left)
 
     figures = figures_of(scene, path) | extra
     given = ("shift",) if scene.push.shift is not None else ("force",)
