@@ -92,6 +92,8 @@ def test_the_top_of_a_spike_between_nodes_is_within_half_its_fall(place):
         ("mixed", "film_part"),
         ("film", "shear_force"),
         ("film", "maximum_pressure"),
+        ("point", "minimum_thickness"),
+        ("point", "traction_coefficient"),
         ("sticking", "partial-slip: dissipated"),
         ("sticking", "partial-slip: max_von_mises"),
     ],
