@@ -25,7 +25,8 @@ class CurvePoint:
     """The numbers of one speed: [m/s], forces on the whole width [N], parts of the coefficient of friction, lengths
     [m], ratios, counts; what was loaded is with the oil counted where the film carries (`OilBeside`). With a supply of
     oil: the film over the flooded one, and the meniscus [m], not-a-number where that is nowhere. With heat: of the oil,
-    mean of the surfaces in contact and their highest [K], not-a-number where nothing is in contact or slides."""
+    mean of the surfaces in contact and their highest [K], not-a-number where nothing is in contact or slides. What the
+    film's shear stress on cells in contact would add to friction."""
 
     speed: float
     friction: float
@@ -48,6 +49,7 @@ class CurvePoint:
     oil_temperature: float = math.nan
     contact_temperature: float = math.nan
     flash_temperature: float = math.nan
+    oil_on_contact: float = 0.0
 
     @property
     def oil(self) -> OilBeside:
@@ -81,6 +83,7 @@ class CurvePoint:
             oil_temperature=_or_nan(solution.film.mean_temperature),
             contact_temperature=_or_nan(solution.contact_temperature),
             flash_temperature=_or_nan(solution.flash_temperature),
+            oil_on_contact=solution.oil_on_contact,
             film_reduction=1.0 if starved is None else starved.reduction,
             meniscus_position=math.nan if starved is None or starved.flooded else starved.meniscus_position,
         )

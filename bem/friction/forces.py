@@ -30,12 +30,14 @@ LARGEST_FRICTION = 1.0
 @dataclass(frozen=True)
 class Forces:
     """Friction forces on the whole contact [N], and the boundary part over the contact's load, 0 without a contact;
-    temperatures of the contact where they were asked for and there is one that slides."""
+    temperatures of the contact where they were asked for and there is one that slides. covered : shear force of the
+    film on cells in contact, which is not in `film`."""
 
     boundary: float
     film: float
     coefficient: float
     heat: ContactHeat | None = None
+    covered: float = 0.0
 
 
 def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup, speeds: tuple[float, float]) -> Forces:
@@ -49,7 +51,8 @@ def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup,
     film_grid = setup.film_grid
     covered = float(np.sum(film.shear_stress * contact.covered)) * film_grid.cell_area * setup.smooth.slices(film_grid)
     boundary = coefficient * contact.load if slide > 0 else 0.0
-    return Forces(boundary, sliding_sign(speeds) * (film.shear_force - covered), coefficient, heat)
+    sign = sliding_sign(speeds)
+    return Forces(boundary, sign * (film.shear_force - covered), coefficient, heat, sign * covered)
 
 
 def unrubbed(setup: MixedSetup) -> float:

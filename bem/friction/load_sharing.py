@@ -24,6 +24,7 @@ from bem.friction.film import PatchFilm, SolvedFilm, middle_line
 from bem.friction.films import SolvedFilms, films_of
 from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, validity_notes
 from bem.friction.oil_beside import OilBeside, oil_notes
+from bem.friction.oil_on_contact import covered_notes
 from bem.friction.oil_sensitivity import oil_beside
 from bem.friction.oil_volume import OilVolume
 from bem.friction.rough_contact import RoughContact, rough_contact
@@ -267,7 +268,7 @@ def _solution(
 ) -> MixedSolution:
     found, contact = balance.film, balance.contact
     forces = friction_forces(found, contact, setup, film.speeds)
-    friction = (forces.boundary + forces.film) / setup.load
+    friction, covered = (forces.boundary + forces.film) / setup.load, forces.covered / setup.load
     oil = oil_beside(setup, height, balance, whole, speeds=film.speeds, friction=friction, before=before)
     returned: FilmSolution | PointFilmSolution | None = found.solution
     assert returned is not None
@@ -302,12 +303,14 @@ def _solution(
         boundary_friction=_told(setup, forces),
         contact_temperature=None if forces.heat is None else forces.heat.mean,
         flash_temperature=None if forces.heat is None else forces.heat.maximum,
+        oil_on_contact=covered,
         regime=balance.regime,
         notes=balance.notes
         + validity_notes(friction, forces, found, whole, setup)
         + coupling_notes(forces, rough.traction, setup)
         + (() if forces.heat is None else tuple(note for note in forces.heat.notes if note not in balance.notes))
-        + oil_notes([oil]),
+        + oil_notes([oil])
+        + covered_notes([(friction, covered)]),
     )
 
 

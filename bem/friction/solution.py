@@ -55,6 +55,7 @@ class MixedSolution:
     regime : "full film", "mixed" or "boundary": the end of the balance, if any, that it is at.
     contact_temperature, flash_temperature : of the surfaces in contact [K], mean by pressure and highest; None without
         heat, contact or sliding. The film's stand in `film`.
+    oil_on_contact : what the film's shear stress on cells in contact would add to `friction`, in which it is not.
     notes : sentences on what is outside a model's validity, or at an end of the balance.
     """
 
@@ -84,6 +85,7 @@ class MixedSolution:
     regime: Regime = Regime.MIXED
     contact_temperature: float | None = None
     flash_temperature: float | None = None
+    oil_on_contact: float = 0.0
     notes: tuple[str, ...] = ()
 
     @property

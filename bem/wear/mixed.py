@@ -22,6 +22,7 @@ from bem.friction.film_table import FilmTable
 from bem.friction.films import films_of
 from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, unrubbed, validity_notes
 from bem.friction.oil_beside import OilBeside, oil_notes
+from bem.friction.oil_on_contact import covered_notes
 from bem.friction.oil_sensitivity import oil_beside
 from bem.friction.oil_volume import OilVolume
 from bem.friction.rough_contact import CoupledContact, RoughContact, boundary_traction, rough_contact
@@ -192,7 +193,8 @@ class MixedContact:
         hanging = () if oil is None else tuple(f"last cycle: {note}" for note in oil_notes([oil]))
         if last.borne > FEW and self.setup.counted is OilVolume.PATCH:
             hanging = (_OIL_UNKNOWN,)
-        return (*notes, *last.coupling, *hanging)
+        covered = covered_notes([(float(self.rows["friction"][-1]), last.forces.covered / self.setup.load)])
+        return (*notes, *last.coupling, *hanging, *(f"last cycle: {note}" for note in covered))
 
     def oil(self) -> OilBeside | None:
         """How far the last cycle's load sharing hangs on the oil beside Hertz' contact; one more balance."""

@@ -223,8 +223,9 @@ def _rows(
 
 
 def load_shared(height: FloatArray, speed: float, oil_volume: str, shared: dict[str, Any]) -> dict[str, Any]:
-    """Of load sharing of heights (nx, ny) [m]: share of the load on the surfaces, friction, and the share that the film
-    carries on cells in contact, where its load counts and its shear stress does not."""
+    """Of load sharing of heights (nx, ny) [m]: share of the load on the surfaces, friction, as it is and with the shear
+    stress of the film on cells in contact, and the share that the film carries on these, where its load counts and its
+    shear stress does not."""
     found = solve_mixed(
         bodies=(Body(STEEL),) * 2,
         lubricant=OIL,
@@ -241,6 +242,7 @@ def load_shared(height: FloatArray, speed: float, oil_volume: str, shared: dict[
         "status": found.status.value,
         "share": found.contact_load / load,
         "friction": found.friction,
+        "with_oil_on_contact": found.friction + found.oil_on_contact,
         "film_on_contact": covered * found.film_load / load,
     }
 

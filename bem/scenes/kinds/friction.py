@@ -152,6 +152,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     from bem.friction.curves import Curve
     from bem.friction.load_sharing import solve_setup
     from bem.friction.oil_beside import oil_notes
+    from bem.friction.oil_on_contact import covered_notes
 
     grid, pairs = build.grid_of(scene.grid), scene.speeds.build()
     lower, upper = build.both_heights(scene, grid, context)
@@ -164,7 +165,8 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     for speeds in pairs[len(curve.points) :]:
         with context.timer("load sharing"), in_words_of_the_scene():
             own = solve_setup(setup, height, speeds, curve.last)
-        said_at_the_end = oil_notes([own.oil])  # once for all speeds
+        # once for all speeds
+        said_at_the_end = oil_notes([own.oil]) + covered_notes([(own.friction, own.oil_on_contact)])
         notes = tuple(note for note in own.notes if note not in said_at_the_end)
         tell_of_film(context, notes, own.film.notes, _at(own))
         curve = curve.then(own)
@@ -174,6 +176,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
             keep(context, (curve, errors), made_again)
         context.progress(len(curve.points), len(pairs), "speeds", friction=own.friction)
     tell(context, oil_notes([point.oil for point in curve.points]))
+    tell(context, covered_notes([(point.friction, point.oil_on_contact) for point in curve.points]))
     left_out = (_OF_SUPPLY if scene.supply is None else ()) + (_OF_HEAT if scene.thermal == "off" else ())
     return _record(grid, curve, height, errors, left_out)
 
@@ -223,7 +226,7 @@ def _record(
     shown = curve.shown
     assert shown is not None
     resists = sliding_sign(shown.speeds)
-    names = [item.name for item in fields(curve.points[0]) if item.name not in left_out]
+    names = [item.name for item in fields(curve.points[0]) if item.name not in (*left_out, "oil_on_contact")]
     bad = [one for one in curve.points if one.status is not Status.CONVERGED]
     return filled(
         CurveRecord,

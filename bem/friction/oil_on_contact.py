@@ -1,0 +1,31 @@
+"""What the oil on cells in contact leaves open about friction, and what is said of it.
+
+The smooth film carries its load on the whole contact, on cells where the surfaces touch, too; its shear stress counts
+outside of these alone, as the thesis has it. Between such films and those with the roughness in Reynolds' equation
+itself (`reports/experiments/rough_films.py`) friction was up to 31 % too low; with the film's own shear stress there
+as well about 5 % too low to 8 % too high under a cylinder, 20 % under a ball, where the smooth film is at least 0.7 of
+the rms height, and too high by more below; with boundary friction on the oil's load there by up to 160 %.
+
+Knows numbers only; they come from `forces`. Verified in tests/friction/test_oil_on_contact.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+MATTERS = 0.05
+"""Of friction, from which a note says so."""
+
+
+def covered_notes(points: Sequence[tuple[float, float]]) -> tuple[str, ...]:
+    """What to say of results, at one speed or several: (friction, what the film's own shear stress on cells in contact
+    would add to it); nothing where it adds little at all of them."""
+    following = [(friction, more) for friction, more in points if abs(more) > MATTERS * abs(friction)]
+    if not following:
+        return ()
+    friction, more = max(following, key=lambda one: abs(one[1] / one[0]) if one[0] else math.inf)
+    return (
+        "oil on cells in contact carries load and adds no friction; with the film's shear stress on them it would be "
+        f"{friction + more:.3g}, here {friction:.3g}" + (", where that differs most" if len(following) > 1 else ""),
+    )

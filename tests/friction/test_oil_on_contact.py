@@ -1,0 +1,45 @@
+"""Shear of the oil on cells in contact: what it is, that friction is without it, and when that is said."""
+
+import numpy as np
+import pytest
+from mixed_case import mixed_case
+
+from bem import Lubricant, solve_mixed
+from bem.friction.oil_on_contact import MATTERS, covered_notes
+
+CASE = mixed_case(100, 0.9e-6, 4e-6, lubricant=Lubricant(0.36, pressure_viscosity=25e-9), boundary_friction=0.15)
+SAID = "oil on cells in contact"
+
+
+def said(point):
+    return [note for note in point.notes if SAID in note]
+
+
+@pytest.mark.parametrize("speeds", [(0.03, 0.0), (0.0, 0.03)])
+def test_what_is_left_out_is_the_films_stress_on_cells_in_contact(speeds):
+    point = solve_mixed(**CASE, speeds=speeds)
+    film, touching, resists = point.patch_film, point.contact_pressure > 0, 1 if speeds[0] > speeds[1] else -1
+    more = point.oil_on_contact * point.load
+    assert point.film_force + more == pytest.approx(resists * film.shear_force, rel=1e-12)
+    # the contact's area is known better than by its cells, which have it too large (`bem.subcell`)
+    stress = resists * np.broadcast_to(film.shear_stress, point.grid.shape)
+    counted = float(stress[touching].sum()) * point.grid.cell_area * 6e-3 / point.grid.lengths[1]
+    assert 0.7 * counted < more < counted
+    assert bool(said(point)) is (point.oil_on_contact > MATTERS * point.friction)
+
+
+def test_nothing_is_left_out_of_a_full_film():
+    point = solve_mixed(**CASE, speeds=(0.6, 0.0))
+    assert point.full_film
+    assert point.oil_on_contact == 0
+    assert not said(point)
+
+
+def test_the_note_names_the_worst_of_many_speeds_and_is_silent_where_little_changes():
+    assert covered_notes([(0.1, 0.004), (0.05, -0.002), (0.0, 0.0)]) == ()
+    (one,) = covered_notes([(0.1, 0.01), (0.1, 0.004)])
+    assert "would be 0.11, here 0.1" in one
+    assert "most" not in one
+    (many,) = covered_notes([(0.1, 0.01), (0.05, 0.02)])
+    assert "would be 0.07, here 0.05, where that differs most" in many
+    assert covered_notes([(0.0, 0.01)])
