@@ -24,8 +24,8 @@ from bem.convolution import DisplacementOperator, displacement_operator
 from bem.errors import Status
 from bem.friction.cell_law import CellLaw, SolvedCell
 from bem.friction.film import PatchFilm
-from bem.friction.oil_volume import OilVolume, mean_where_counted
-from bem.friction.rough_contact import CoupledContact, Pressed
+from bem.friction.oil_volume import mean_where_counted
+from bem.friction.rough_contact import OfPatch, Pressed
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
 from bem.representation import readable
@@ -64,26 +64,13 @@ class SpreadContact:
 
 
 @dataclass(frozen=True, eq=False)
-class RepeatedCell:
-    """Many of one cell; a `RoughContact`. cell : one of them."""
-
-    setup: MixedSetup
-    cell: CoupledContact
+class RepeatedCell(OfPatch):
+    """Many of one cell; a `RoughContact`. patch : one of them, within which traction acts."""
 
     @property
-    def traction(self) -> float:
-        """As `RoughContact`; it acts within the cells."""
-        return self.cell.traction
-
-    @property
-    def tolerance(self) -> float:
-        """As `RoughContact`."""
-        return self.cell.tolerance
-
-    @property
-    def counted(self) -> OilVolume:
-        """As `RoughContact`."""
-        return self.cell.counted
+    def setup(self) -> MixedSetup:
+        """Of the contact and its cell."""
+        return self.patch.setup
 
     @property
     def largest_load(self) -> float:
@@ -102,7 +89,7 @@ class RepeatedCell:
 
     def clears(self, film: PatchFilm) -> bool:
         """As `RoughContact`."""
-        return float(film.thickness.min()) >= float(self.cell.rough.max())
+        return float(film.thickness.min()) >= float(self.patch.rough.max())
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """As `RoughContact`; the pressures are the cells' means on the film's grid."""
@@ -124,7 +111,7 @@ class RepeatedCell:
         setup, law = self.setup, self.law
         grid = setup.film_grid
         first = start if start is not None and start.shape == grid.shape and start.any() else self._hertz()
-        goal = tolerance * float(self.cell.rough.std())
+        goal = tolerance * float(self.patch.rough.std())
         spread = spread_pressure(film.gap, law, self.operator, grid, first, goal, load=load, approach=approach)
         logarithm = np.log(spread.pressure)
         share = law.share(logarithm)
@@ -157,10 +144,10 @@ class RepeatedCell:
 
     def _solved(self, pressure: float, start: FloatArray | None) -> SolvedCell:
         """The cell under a mean pressure [Pa]."""
-        grid, rough = self.setup.grid, self.cell.rough
+        grid, rough = self.setup.grid, self.patch.rough
         found: ContactSolution = solve_contact(
             -rough,
-            self.cell.operator,
+            self.patch.operator,
             load=pressure * grid.area,
             hardness=self.setup.hardness,
             tolerance=self.tolerance,

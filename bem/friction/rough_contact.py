@@ -118,7 +118,7 @@ def rough_contact(setup: MixedSetup, height: FloatArray, speeds: Sequence[float]
         return patch
     from bem.friction.repeated_cell import RepeatedCell  # of balls alone
 
-    return RepeatedCell(setup, patch)
+    return RepeatedCell(patch)
 
 
 def reference_friction(setup: MixedSetup, height: FloatArray, speeds: Sequence[float]) -> float:
@@ -212,6 +212,28 @@ class CoupledContact:
             notes=solution.notes,
             opening_error=tolerance * float(gap.std()),
         )
+
+
+@dataclass(frozen=True, eq=False)
+class OfPatch:
+    """What a `RoughContact` that is made of a patch has from it."""
+
+    patch: CoupledContact
+
+    @property
+    def traction(self) -> float:
+        """As `RoughContact`."""
+        return self.patch.traction
+
+    @property
+    def tolerance(self) -> float:
+        """As `RoughContact`."""
+        return self.patch.tolerance
+
+    @property
+    def counted(self) -> OilVolume:
+        """As `RoughContact`."""
+        return self.patch.counted
 
 
 @dataclass(frozen=True, eq=False)

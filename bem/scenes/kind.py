@@ -71,8 +71,11 @@ class Kind:
     @classmethod
     def of(cls, file: Mapping[str, Any], model: type[SceneModel], record: type[Record], title: str, **own: Any) -> Kind:
         """That of a file, `vars()` at its end: its functions `plan`, `run`, `resolve`, `axes`, `summarise`, `volumes`
-        and `scattering`; the kind's name is the model's; `own` are the other parameters."""
+        and `scattering`; the kind's name is the model's, whose own `resolved` is `resolve` where it has one; `own` are
+        the other parameters."""
         parts = {name: file[name] for name in _PARTS if name in file}
+        if hasattr(model, "resolved"):
+            parts.setdefault("resolve", model.resolved)
         name = model.model_fields["kind"].default
         return cls(**({"name": name, "title": title, "model": model, "record": record} | parts | own))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
 
 
@@ -25,6 +25,16 @@ def exactly_one(table: BaseModel, *names: str) -> None:
     if len(given) != 1:
         found = "none is given" if not given else f"{' and '.join(given)} are given"
         raise problem(found, f"exactly one of {', '.join(names)}")
+
+
+def one_of(*names: str) -> Any:
+    """A validator: as `exactly_one`."""
+
+    def check(table: Any) -> Any:
+        exactly_one(table, *names)
+        return table
+
+    return model_validator(mode="after")(check)
 
 
 def one_for_both(value: Any) -> Any:

@@ -17,8 +17,7 @@ import numpy as np
 from bem.contact import ContactSolution
 from bem.friction.film import PatchFilm
 from bem.friction.forces import Forces
-from bem.friction.oil_volume import OilVolume
-from bem.friction.rough_contact import CoupledContact, Pressed, shift_apart
+from bem.friction.rough_contact import OfPatch, Pressed, shift_apart
 from bem.grid import FloatArray
 from bem.wear.loads import LOWER, UPPER
 from bem.wear.third_bodies import ThirdBodies, ThirdBodyLoad
@@ -29,27 +28,11 @@ _OF_TOLERANCE = 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class ContactWithBodies:
+class ContactWithBodies(OfPatch):
     """A `RoughContact`: the patch, and particles between surfaces of those hardnesses (lower, upper) [Pa]."""
 
-    patch: CoupledContact
     particles: ThirdBodies
     hardnesses: tuple[float, float]
-
-    @property
-    def traction(self) -> float:
-        """As `RoughContact`."""
-        return self.patch.traction
-
-    @property
-    def tolerance(self) -> float:
-        """As `RoughContact`."""
-        return self.patch.tolerance
-
-    @property
-    def counted(self) -> OilVolume:
-        """As `RoughContact`."""
-        return self.patch.counted
 
     @property
     def largest_load(self) -> float:

@@ -237,7 +237,6 @@ KIND = Kind.of(
     ContactScene,
     ContactRecord,
     "two rough, possibly coated bodies pressed together: pressure, contact area, approach, stresses below",
-    resolve=ContactScene.resolved,
     resolutions=(CELLS, DEPTHS),
     volumes=lambda scene: scene.outputs.volumes,
     figures=(

@@ -270,7 +270,6 @@ KIND = Kind.of(
     PartialSlipScene,
     PartialSlipRecord,
     "pressed bodies pushed along, once or there and back: where they stick and slip, loop, energy of friction",
-    resolve=PartialSlipScene.resolved,
     resolutions=(CELLS, DEPTHS),
     figures=(
         "contact-stiffness",

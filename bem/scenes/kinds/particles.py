@@ -8,11 +8,10 @@ from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
-from pydantic import model_validator
 
 from bem.grid import FloatArray, Grid
 from bem.scenes import plans
-from bem.scenes.common import MeasuredSurface, OutputsScene, SceneModel, exactly_one
+from bem.scenes.common import MeasuredSurface, OutputsScene, SceneModel, one_of
 from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.pieces import ParticleTable, particle_rows
@@ -36,10 +35,7 @@ class ParticlesScene(SceneModel):
     sedimentation: SedimentationScene | None = None
     outputs: OutputsScene = OutputsScene()
 
-    @model_validator(mode="after")
-    def _one_map(self) -> ParticlesScene:
-        exactly_one(self, "map", "synthetic")
-        return self
+    _one_map = one_of("map", "synthetic")
 
 
 def plan(scene: ParticlesScene) -> Plan:

@@ -160,7 +160,6 @@ KIND = Kind.of(
     RollingContactScene,
     RollingRecord,
     "pressed bodies that roll over each other with creepage and spin: stick and slip, traction, energy of friction",
-    resolve=RollingContactScene.resolved,
     resolutions=(CELLS, DEPTHS),
     figures=("creep-curve", "slip-map", "traction-section", "pressure-map", "von-mises-section", "von-mises-depth"),
 )

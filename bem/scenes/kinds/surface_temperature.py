@@ -119,7 +119,6 @@ KIND = Kind.of(
     SurfaceTemperatureScene,
     SurfaceTemperatureRecord,
     "heat of friction in a rough or smooth contact: surface temperature, its share between the bodies",
-    resolve=SurfaceTemperatureScene.resolved,
     resolutions=(CELLS,),
     figures=("temperature-map", "temperature-section", "pressure-map"),
 )

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import Annotated
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, field_validator
 
 from bem.reference_solutions.hertz import ellipse_load
-from bem.scenes.common import Force, PositiveLength, PositivePressure, Table, exactly_one, one_for_both
+from bem.scenes.common import Force, PositiveLength, PositivePressure, Table, one_for_both, one_of
 from bem.scenes.units import Angle, Ratio, Speed
 
 
@@ -21,10 +21,7 @@ class BallScene(Table):
     load: Annotated[Force, Field(gt=0)] | None = None
     hertz_pressure: PositivePressure | None = None
 
-    @model_validator(mode="after")
-    def _one_load(self) -> BallScene:
-        exactly_one(self, "load", "hertz_pressure")
-        return self
+    _one_load = one_of("load", "hertz_pressure")
 
     @property
     def radii(self) -> tuple[float, float]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from bem.scenes.common import CylinderTable, Force, PositivePressure, Table, exactly_one
+from bem.scenes.common import CylinderTable, Force, PositivePressure, Table, one_of
 from bem.scenes.tables.heat import BulkTemperature
 from bem.scenes.units import Ratio, Speed
 
@@ -18,10 +18,7 @@ class RollerScene(CylinderTable):
     load: Annotated[Force, Field(gt=0)] | None = None
     hertz_pressure: PositivePressure | None = None
 
-    @model_validator(mode="after")
-    def _one_load(self) -> RollerScene:
-        exactly_one(self, "load", "hertz_pressure")
-        return self
+    _one_load = one_of("load", "hertz_pressure")
 
     def per_length(self, contact_modulus: float) -> float:
         """Load per length [N/m]; of a pressure p0 it is pi R p0^2/E*, Johnson (1985), eq. 4.45."""

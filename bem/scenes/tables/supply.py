@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from bem.lubrication.supply import InletDistance, OilLayer, Supply
-from bem.scenes.common import Table, exactly_one
+from bem.scenes.common import Table, one_of
 from bem.scenes.units import Length
 
 SupplyLength = Annotated[Length, Field(gt=0)]
@@ -26,10 +26,7 @@ class SupplyScene(Table):
     layer: SupplyLength | None = None
     distance: SupplyLength | None = None
 
-    @model_validator(mode="after")
-    def _one(self) -> SupplyScene:
-        exactly_one(self, "layer", "distance")
-        return self
+    _one = one_of("layer", "distance")
 
     def build(self) -> Supply:
         """As `bem.lubrication.supply` has it."""
