@@ -3,6 +3,7 @@
 import numpy as np
 import scipy.optimize
 import scipy.signal
+from random_surfaces import self_affine
 
 from bem.convolution import displacement_operator
 from bem.grid import Grid
@@ -22,12 +23,7 @@ def operator(shape, spacing, periodic, modulus=1.0):
 
 def rough(nx, ny, seed=0, hurst=0.8, rolloff=2.0):
     """Heights of unit rms with a self-affine spectrum down to the cell."""
-    rng = np.random.default_rng(seed)
-    k = np.hypot(np.fft.fftfreq(nx, 1 / nx)[:, None], np.fft.rfftfreq(ny, 1 / ny)[None, :])
-    amplitude = np.maximum(k, rolloff) ** (-(1 + hurst))
-    amplitude[0, 0] = 0
-    heights = np.fft.irfft2(amplitude * np.fft.rfft2(rng.standard_normal((nx, ny))), s=(nx, ny))
-    return heights / heights.std()
+    return self_affine(nx, ny, np.random.default_rng(seed), hurst, rolloff)
 
 
 def notes_surface(cells, seed=0, rolloff=8, cutoff=8, slope=0.1):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, operator, rough, violation
+from random_surfaces import self_affine
 
 from bem import Body, Grid, Layer, Material, displacement_operator, generate_surface
 from bem.contact import solve_contact
@@ -18,11 +19,7 @@ def random_problem(seed):
     op = operator((nx, ny), (side, side * aspect), periodic)
     kind = rng.integers(0, 5)
     hurst, rolloff = rng.uniform(0.1, 1), rng.uniform(1, 6)
-    k = np.hypot(np.fft.fftfreq(nx, 1 / nx)[:, None], np.fft.rfftfreq(ny, 1 / ny)[None, :])
-    amplitude = np.maximum(k, rolloff) ** (-(1 + hurst))
-    amplitude[0, 0] = 0
-    heights = np.fft.irfft2(amplitude * np.fft.rfft2(rng.standard_normal((nx, ny))), s=(nx, ny))
-    gap = -heights / heights.std()
+    gap = -self_affine(nx, ny, rng, hurst, rolloff)
     if kind == 1:
         gap = rng.standard_normal((nx, ny))
     elif kind == 2:

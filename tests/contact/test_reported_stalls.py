@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from random_surfaces import self_affine
 
 from bem import Body, Grid, Layer, Material, Status, displacement_operator, generate_surface, solve_contact
 
@@ -32,22 +33,14 @@ def test_warm_start_above_a_lowered_cap_converges():
     assert np.isfinite(last).all()
 
 
-def _self_affine(nx, ny, hurst, rolloff, seed):
-    random = np.random.default_rng(seed)
-    k = np.hypot(np.fft.fftfreq(nx, 1 / nx)[:, None], np.fft.rfftfreq(ny, 1 / ny)[None, :])
-    amplitude = np.maximum(k, rolloff) ** -(1 + hurst)
-    amplitude[0, 0] = 0
-    heights = np.fft.irfft2(amplitude * np.fft.rfft2(random.standard_normal((nx, ny))), s=(nx, ny))
-    return 0.01 * heights / heights.std()
-
-
 def _stiff_layer(shape, poisson, friction, surface, layer, load, hardness):
     """Free grids; the operator's symmetric part is positive (checked: smallest over largest eigenvalue 3e-4 and up)."""
     film = Material("film", youngs_modulus=layer[0], poissons_ratio=0.3)
     base = Material("base", youngs_modulus=1.0, poissons_ratio=poisson)
     grid = Grid(shape, (1 / max(shape),) * 2)
     operator = displacement_operator(grid, Body(base, layer=Layer(film, layer[1])), friction=friction)
-    gap = -_self_affine(*shape, *surface)
+    hurst, rolloff, seed = surface
+    gap = -self_affine(*shape, np.random.default_rng(seed), hurst, rolloff, rms=0.01)
     solution = solve_contact(gap, operator, load=load, hardness=hardness, tolerance=1e-6)
     assert solution.status == Status.CONVERGED, solution.residual
     return gap, operator, solution

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from scipy import special
 
-from bem import Body, Layer, Material
-from bem.kernels import layered_hankel
-from bem.kernels.coefficients import stress_coefficients, surface_coefficients
+from bem import Body, Layer, Material, displacement_operator, subsurface_stress
+from bem.kernels import layered, layered_hankel
+from bem.kernels.coefficients import STRESS_PARITY, stress_coefficients, surface_coefficients
+from bem.kernels.half_space import Load
 
 
 def material(shear_modulus, poissons_ratio):
@@ -52,3 +53,54 @@ def assert_identical_materials_add_nothing(grid, load, on_surface, below):
         stress = stress_coefficients(grid, plain, depth, load)
         # below the layer a transform stands against closed forms (and their images)
         assert stress_coefficients(grid, body, depth, load) == pytest.approx(stress, abs=below * np.abs(stress).max())
+
+
+def assert_tractions_and_strains_pass(grid, body, load, of_strains):
+    """Through the interface of a layer, strains to this part of the largest stress."""
+    thickness = body.layer.thickness
+    above = stress_coefficients(grid, body, thickness, load)
+    below = stress_coefficients(grid, body, thickness * (1 + 1e-14), load)
+    scale = max(np.abs(above).max(), np.abs(below).max())
+    assert above[[2, 3, 4]] == pytest.approx(below[[2, 3, 4]], abs=2e-12 * scale)  # z moved by 1e-14 h; round-off
+    over, under = in_plane_strain(above, body.layer.material), in_plane_strain(below, body.material)
+    assert over == pytest.approx(under, abs=of_strains * scale)
+
+
+def assert_layers_of_the_same_change_nothing(grid, solid, thicknesses, depths, seed):
+    """Layers of the substrate's material under a random pressure: displacements and stresses are the substrate's."""
+    pressure = np.random.default_rng(seed).random(grid.shape) * 1e8
+    stacked, bare = Body(solid, layers=[Layer(solid, thickness) for thickness in thicknesses]), Body(solid)
+    u, v = (displacement_operator(grid, body, friction=0.3)(pressure) for body in (stacked, bare))
+    assert u == pytest.approx(v, abs=1e-13 * np.abs(v).max())  # round-off
+    s, t = (subsurface_stress(pressure, grid, body, depths, friction=0.3) for body in (stacked, bare))
+    assert s == pytest.approx(t, abs=1e-12 * np.abs(t).max())
+
+
+def by_fourier(body, depth, load, x, y, dx, dy):
+    """Displacement (depth None) or six stresses at (x, y) of a loaded cell: the double Fourier integral in polars.
+
+    Knows no Bessel function, no table and no cell integration; below the outermost layer the whole, in it what the
+    layer adds.
+    """
+    top = body.interfaces[0]
+    inside = depth is None or depth <= top
+    decay = 2 * top - (depth or 0.0) if inside else depth
+    radius = np.hypot(x, y) + np.hypot(dx, dy)
+    edges = np.union1d(layered_hankel.graded(1e-3, 1 / decay), np.arange(0, 40 / decay, min(1 / decay, 3 / radius)))
+    q, weights = layered_hankel.gauss_rule(edges)
+    count = 2 * int(24 * radius / decay) + 80
+    theta = 2 * np.pi * (np.arange(count) + 0.5) / count
+    kx, ky = np.outer(q, np.cos(theta)), np.outer(q, np.sin(theta))
+    tangential = load is Load.TANGENTIAL
+    if depth is None:
+        spectrum = layered.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
+        odd = [tangential]
+    else:
+        spectrum = layered.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
+        odd = [a * b < 0 for a, b in STRESS_PARITY[load]]
+    phase = kx * x + ky * y
+    measure = (q * weights)[:, None] * np.sinc(kx * dx / 2 / np.pi) * np.sinc(ky * dy / 2 / np.pi)
+    measure *= dx * dy / (2 * np.pi * count)
+    return np.array(
+        [np.sum(s * measure * (-np.sin(phase) if o else np.cos(phase))) for s, o in zip(spectrum, odd, strict=True)]
+    )

@@ -4,6 +4,7 @@ import itertools
 
 import mpmath as mp
 import numpy as np
+import pytest
 
 from bem.kernels import layered
 
@@ -97,3 +98,25 @@ def disagreement(body, kx, ky, depth, tangential):
         np.abs(mine - displacement).max() / np.abs(displacement).max(),
         np.abs(mine_stress - stress).max() / np.abs(stress).max(),
     )
+
+
+def assert_finite_and_balanced(q, body, depth, jump):
+    """Of waves (1,): no overflow; the surface carries the load; displacements and tractions pass every interface, to
+    that part of the largest on the surface."""
+    assert np.isfinite(layered.wave_functions(q, body, depth)).all()
+    surface = layered.wave_functions(q, body, 0.0)[:, 0]
+    loads = surface[[layered.NORMAL_TAU, layered.NORMAL_SIGMA, layered.TANGENTIAL_TAU, layered.TANGENTIAL_SIGMA, 14]]
+    # a thin stiff layer carries up to 1e6 times the load: 1e-15 of that
+    assert loads == pytest.approx([0, -1, 1, 0, -1], abs=1e-9)
+    keep = [0, 1, 2, 3, 6, 7, 8, 9, 12, 14]
+    for interface in body.interfaces:
+        above = layered.wave_functions(q, body, interface)[:, 0]
+        below = layered.wave_functions(q, body, float(np.nextafter(interface, np.inf)))[:, 0]
+        assert above[keep] == pytest.approx(below[keep], rel=1e-8, abs=jump * np.abs(surface).max())
+
+
+def off_the_mean_of_a_circle(body, depth, centre, radius):
+    """By how much waves of a wavenumber are not the mean of those on a circle around it, over the largest of them."""
+    circle = radius * np.exp(2j * np.pi * np.arange(64) / 64)
+    here = layered.wave_functions(np.array([centre]), body, depth)[:, 0]
+    return np.abs(layered.wave_functions(centre + circle, body, depth).mean(axis=1) - here).max() / np.abs(here).max()

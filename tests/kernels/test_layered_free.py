@@ -5,10 +5,16 @@ import itertools
 import mpmath as mp
 import numpy as np
 import pytest
-from coated_bodies import assert_identical_materials_add_nothing, coated, error_of_table, in_plane_strain
+from coated_bodies import (
+    assert_identical_materials_add_nothing,
+    assert_tractions_and_strains_pass,
+    by_fourier,
+    coated,
+    error_of_table,
+)
 
 from bem import Body, Grid
-from bem.kernels import layered, layered_cells, layered_hankel
+from bem.kernels import layered_cells, layered_hankel
 from bem.kernels.coefficients import STRESS_PARITY, stress_coefficients, surface_coefficients
 from bem.kernels.half_space import Load
 from bem.kernels.layered_cells import stress_remainder, surface_remainder
@@ -61,34 +67,6 @@ def test_tables_against_the_real_axis(ratio, nu1, nu2, load):
     cases += [layered_hankel.stress_kernels(body, depth, load) for depth in (0.4, 1.0, 1.001, 2.5)]
     # panels that follow exponential tails (of soft layers) are the worst: measured 1e-13
     assert max(error_of_table(kernels, radii, 1e4, panels=1.0) for kernels in cases) < 5e-13
-
-
-def by_fourier(body, depth, load, x, y, dx, dy):
-    """Displacement (depth None) or six stresses at (x, y) of a loaded cell: the double Fourier integral in polars.
-
-    Knows no Bessel function, no table and no cell integration; below the layer the whole, in it what the layer adds.
-    """
-    inside = depth is None or depth <= body.layer.thickness
-    decay = 2 * body.layer.thickness - (depth or 0.0) if inside else depth
-    radius = np.hypot(x, y) + np.hypot(dx, dy)
-    edges = np.union1d(layered_hankel.graded(1e-3, 1 / decay), np.arange(0, 40 / decay, min(1 / decay, 3 / radius)))
-    q, weights = layered_hankel.gauss_rule(edges)
-    count = 2 * int(24 * radius / decay) + 80
-    theta = 2 * np.pi * (np.arange(count) + 0.5) / count
-    kx, ky = np.outer(q, np.cos(theta)), np.outer(q, np.sin(theta))
-    tangential = load is Load.TANGENTIAL
-    if depth is None:
-        spectrum = layered.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
-        odd = [tangential]
-    else:
-        spectrum = layered.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
-        odd = [a * b < 0 for a, b in STRESS_PARITY[load]]
-    phase = kx * x + ky * y
-    measure = (q * weights)[:, None] * np.sinc(kx * dx / 2 / np.pi) * np.sinc(ky * dy / 2 / np.pi)
-    measure *= dx * dy / (2 * np.pi * count)
-    return np.array(
-        [np.sum(s * measure * (-np.sin(phase) if o else np.cos(phase))) for s, o in zip(spectrum, odd, strict=True)]
-    )
 
 
 @pytest.mark.parametrize(("ratio", "nu1", "nu2"), [slow(*PAIRS[0]), PAIRS[1], slow(*PAIRS[2])])
@@ -144,13 +122,7 @@ def test_tractions_and_strains_pass_the_interface(ratio, nu1, nu2, load, thickne
     """Above: closed forms of the layer's half-space plus a remainder. Below: one transform. They must meet."""
     grid = Grid((6, 6), (1.0, 1.0))
     body = coated(ratio, nu1, nu2, thickness)
-    above = stress_coefficients(grid, body, thickness, load)
-    below = stress_coefficients(grid, body, thickness * (1 + 1e-14), load)
-    scale = max(np.abs(above).max(), np.abs(below).max())
-    assert above[[2, 3, 4]] == pytest.approx(below[[2, 3, 4]], abs=2e-12 * scale)  # z moved by 1e-14 h; round-off
-
-    over, under = in_plane_strain(above, body.layer.material), in_plane_strain(below, body.material)
-    assert over == pytest.approx(under, abs=2e-12 * scale / min(1.0, ratio))
+    assert_tractions_and_strains_pass(grid, body, load, of_strains=2e-12 / min(1.0, ratio))
 
 
 @pytest.mark.parametrize("load", list(Load))

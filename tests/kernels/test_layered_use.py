@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from coated_bodies import assert_layers_of_the_same_change_nothing
 
 from bem import Body, Grid, Layer, Material, displacement_operator, subsurface_stress
 from bem.kernels import layered, layered_hankel
@@ -112,9 +113,4 @@ def test_limits_of_the_thickness(periodic, thickness):
 @pytest.mark.parametrize("periodic", [(False, False), (False, True), (True, True)])
 def test_identical_materials_change_nothing(periodic):
     grid = Grid((16, 12), (0.5, 0.5), periodic=periodic)
-    pressure = np.random.default_rng(3).random(grid.shape) * 1e8
-    coated, bare = Body(STEEL, layer=Layer(STEEL, 1.3)), Body(STEEL)
-    u, v = (displacement_operator(grid, b, friction=0.3)(pressure) for b in (coated, bare))
-    assert u == pytest.approx(v, abs=1e-13 * np.abs(v).max())  # round-off
-    s, t = (subsurface_stress(pressure, grid, b, [0.2, 1.3, 2.0], friction=0.3) for b in (coated, bare))
-    assert s == pytest.approx(t, abs=1e-12 * np.abs(t).max())
+    assert_layers_of_the_same_change_nothing(grid, STEEL, (1.3,), [0.2, 1.3, 2.0], seed=3)

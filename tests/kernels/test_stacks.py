@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from coated_bodies import error_of_table
+from coated_bodies import assert_layers_of_the_same_change_nothing, by_fourier, error_of_table
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from stack_oracle import disagreement
+from stack_oracle import assert_finite_and_balanced, disagreement, off_the_mean_of_a_circle
 
 from bem import Body, Grid, InputError, Layer, Material, displacement_operator, subsurface_stress
 from bem.kernels import layered, layered_hankel
-from bem.kernels.coefficients import STRESS_PARITY, stress_coefficients, surface_coefficients
+from bem.kernels.coefficients import stress_coefficients, surface_coefficients
 from bem.kernels.half_space import Load
 from bem.kernels.layered_cells import stress_remainder, surface_remainder
 
@@ -70,17 +70,8 @@ def test_finite_everywhere_and_tractions_pass(layers, qh, depth):
     """No overflow; displacements and tractions pass every interface; the surface carries the load."""
     body = stack(layers)
     q = np.array([qh / min(h for _, _, h in layers)])
-    assert np.isfinite(layered.wave_functions(q, body, depth)).all()
-    surface = layered.wave_functions(q, body, 0.0)[:, 0]
-    loads = surface[[layered.NORMAL_TAU, layered.NORMAL_SIGMA, layered.TANGENTIAL_TAU, layered.TANGENTIAL_SIGMA, 14]]
-    # a thin stiff layer carries up to 1e6 times the load: 1e-15 of that
-    assert loads == pytest.approx([0, -1, 1, 0, -1], abs=1e-9)
-    keep = [0, 1, 2, 3, 6, 7, 8, 9, 12, 14]
-    for interface in body.interfaces:
-        above = layered.wave_functions(q, body, interface)[:, 0]
-        below = layered.wave_functions(q, body, float(np.nextafter(interface, np.inf)))[:, 0]
-        # one last digit of the depth, times q and the jump of the moduli
-        assert above[keep] == pytest.approx(below[keep], rel=1e-8, abs=1e-9 * np.abs(surface).max())
+    # one last digit of the depth, times q and the jump of the moduli
+    assert_finite_and_balanced(q, body, depth, jump=1e-9)
 
 
 @pytest.mark.parametrize("layers", [STIFF_SOFT, MIXED])
@@ -117,13 +108,10 @@ def test_stack_of_the_substrate_is_the_half_space():
 def test_complex_wavenumbers_continue_the_real_ones():
     """Cauchy: the mean over a small circle is the value at its centre, across the switch of every layer."""
     body = stack(MIXED)
-    circle = 0.2 * np.exp(2j * np.pi * np.arange(64) / 64)
     for centre in (0.5, 0.7, 4.0, 8.0):
         for depth in (0.0, 0.2, 0.3, 1.0, 2.5):
-            mean = layered.wave_functions(centre + circle, body, depth).mean(axis=1)
-            here = layered.wave_functions(np.array([centre]), body, depth)[:, 0]
             # round-off; the trapezoidal rule on a circle is exact to it
-            assert mean == pytest.approx(here, abs=1e-12 * np.abs(here).max())
+            assert off_the_mean_of_a_circle(body, depth, centre, 0.2) <= 1e-12
 
 
 @pytest.mark.parametrize("layers", [STIFF_SOFT, pytest.param(MIXED, marks=pytest.mark.slow)])
@@ -158,33 +146,15 @@ def test_coefficients_against_the_double_fourier_integral(load):
     """By polars, without Bessel functions, tables or cell integration; in every medium."""
     body, dx, dy = stack(MIXED), 0.5, 0.35
     grid = Grid((5, 4), (dx, dy))
-    tangential = load is Load.TANGENTIAL
-    offsets = [(0, 0), (2, 3)]
     for depth in (None, 0.1, 1.0):
-        remains = body.medium_at(depth or 0.0) == 0
-        decay = 2 * body.interfaces[0] - (depth or 0.0) if remains else depth
-        reach = np.hypot(*grid.lengths) + np.hypot(dx, dy)
-        even = np.arange(0, 40 / decay, min(1 / decay, 3 / reach))
-        q, weights = layered_hankel.gauss_rule(np.union1d(layered_hankel.graded(1e-4, 1 / decay), even))
-        count = 2 * int(20 * reach / decay) + 80
-        theta = 2 * np.pi * (np.arange(count) + 0.5) / count
-        kx, ky = np.outer(q, np.cos(theta)), np.outer(q, np.sin(theta))
         if depth is None:
-            spectrum = layered.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
-            odd, mine = [tangential], surface_remainder(grid, body, load)[None]
+            mine = surface_remainder(grid, body, load)[None]
         else:
-            spectrum = layered.stress_response(kx, ky, body, depth, tangential=tangential, remainder=remains)
-            odd, mine = [a * b < 0 for a, b in STRESS_PARITY[load]], stress_remainder(grid, body, depth, load)
-        measure = (q * weights)[:, None] * np.sinc(kx * dx / 2 / np.pi) * np.sinc(ky * dy / 2 / np.pi)
-        measure *= dx * dy / (2 * np.pi * count)
-        for i, j in offsets:
-            phase = kx * i * dx + ky * j * dy
-            expected = [
-                np.sum(s * measure * (-np.sin(phase) if o else np.cos(phase)))
-                for s, o in zip(spectrum, odd, strict=True)
-            ]
+            mine = stress_remainder(grid, body, depth, load)
+        for i, j in ((0, 0), (2, 3)):
+            expected = by_fourier(body, depth, load, i * dx, j * dy, dx, dy)
             # round-off of 1e5 terms that oscillate
-            assert mine[:, i, j] == pytest.approx(np.array(expected), abs=2e-12 * np.abs(mine).max())
+            assert mine[:, i, j] == pytest.approx(expected, abs=2e-12 * np.abs(mine).max())
 
 
 @pytest.mark.parametrize("periodic", [(False, False), (False, True), (True, True)])
@@ -213,12 +183,8 @@ def test_tractions_and_strains_pass_every_interface(periodic):
 @pytest.mark.parametrize("periodic", [(False, False), (True, False), (True, True)])
 def test_identical_materials_change_nothing(periodic):
     grid = Grid((16, 12), (0.5, 0.5), periodic=periodic)
-    pressure = np.random.default_rng(5).random(grid.shape) * 1e8
-    coated, bare = Body(STEEL, layers=(Layer(STEEL, 0.4), Layer(STEEL, 0.9), Layer(STEEL, 0.2))), Body(STEEL)
-    u, v = (displacement_operator(grid, b, friction=0.3)(pressure) for b in (coated, bare))
-    assert u == pytest.approx(v, abs=1e-13 * np.abs(v).max())  # round-off
-    s, t = (subsurface_stress(pressure, grid, b, [0.2, 0.4, 1.0, 1.3, 2.0], friction=0.3) for b in (coated, bare))
-    assert s == pytest.approx(t, abs=1e-12 * np.abs(t).max())
+    depths = [0.2, 0.4, 1.0, 1.3, 2.0]
+    assert_layers_of_the_same_change_nothing(grid, STEEL, (0.4, 0.9, 0.2), depths, seed=5)
 
 
 def test_a_layer_of_nearly_no_thickness_vanishes():

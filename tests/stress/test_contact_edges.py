@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from random_surfaces import self_affine
 
 from bem import Body, Grid, InfeasibleError, Layer, Material, displacement_operator, solve_contact
 
@@ -15,12 +16,7 @@ FREE, SEMI, PERIODIC = (False, False), (False, True), (True, True)
 
 
 def rough(nx, ny, seed=0, hurst=0.8):
-    rng = np.random.default_rng(seed)
-    k = np.hypot(np.fft.fftfreq(nx, 1 / nx)[:, None], np.fft.rfftfreq(ny, 1 / ny)[None, :])
-    amplitude = np.maximum(k, 2.0) ** (-(1 + hurst))
-    amplitude[0, 0] = 0
-    heights = np.fft.irfft2(amplitude * np.fft.rfft2(rng.standard_normal((nx, ny))), s=(nx, ny))
-    return 0.01 * heights / heights.std()
+    return self_affine(nx, ny, np.random.default_rng(seed), hurst, rms=0.01)
 
 
 def body(nu=0.3, modulus=1.0, layer=None):

@@ -29,11 +29,14 @@ BODIES = (Body(SOLID), Body(SOLID))
 HALF_WIDTH = (3 * LOAD * RADIUS * (1 - NU**2) / (2 * SOLID.youngs_modulus)) ** (1 / 3)
 
 
+def gap_of_ball(grid):
+    x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
+    return (x[:, None] ** 2 + y**2) / (2 * RADIUS)
+
+
 def ball(cells):
     grid = Grid((cells, cells), (2.4 * HALF_WIDTH / cells,) * 2)
-    x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
-    gap = (x[:, None] ** 2 + y**2) / (2 * RADIUS)
-    return grid, solve_contact(gap, displacement_operator(grid, BODIES), load=LOAD)
+    return grid, solve_contact(gap_of_ball(grid), displacement_operator(grid, BODIES), load=LOAD)
 
 
 @pytest.fixture(scope="module")
@@ -165,8 +168,7 @@ def test_mindlin_and_deresiewicz_s_loop_closes_and_dissipates_its_area(pressed):
 def test_growing_load_with_growing_force_sticks():
     """Mindlin and Deresiewicz: where the force grows slower than friction x load nothing slips but the new edge."""
     grid, _ = ball(32)
-    x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
-    gap = (x[:, None] ** 2 + y**2) / (2 * RADIUS)
+    gap = gap_of_ball(grid)
     operator = displacement_operator(grid, BODIES)
     solution = None
     for part in (0.25, 0.5, 0.75, 1.0):
