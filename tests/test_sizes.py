@@ -47,6 +47,20 @@ def test_no_file_is_long():
     assert not long, f"more than {LARGEST_FILE} lines; divide them by what they know"
 
 
+def test_no_merge_is_left_half_done():
+    """Of texts, which say nothing of it themselves."""
+    texts = [
+        path
+        for end in ("md", "html", "css")
+        for top in ("", "bem/**/", "reports/**/")
+        for path in ROOT.glob(f"{top}*.{end}")
+    ]
+    assert len(texts) > 3
+    marks = ("<" * 7 + " ", ">" * 7 + " ")
+    left = [path.name for path in texts if any(line.startswith(marks) for line in path.read_text("utf-8").splitlines())]
+    assert not left, f"decide between both sides: {left}"
+
+
 @pytest.mark.parametrize(
     ("source", "found"),
     [

@@ -78,8 +78,8 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
         counted where the film is "loaded".
     bodies : one Body (the other rigid) or a pair.
     radius, width : of the cylinder [m].
-    radii : (Rx, Ry) of relative curvature of a ball or ellipsoid [m], in place of radius and width. Its film
-        (`solve_point_film`) is flooded, isothermal and between smooth walls.
+    radii : (Rx, Ry) of relative curvature of a ball or ellipsoid [m], in place of radius and width. Its film is that of
+        `solve_point_film`.
     load : on the whole width [N].
     speeds : (u1, u2) of flat and cylinder or ball along x [m/s].
     lubricant : the oil.
@@ -104,7 +104,7 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     supply : oil that reaches the contact, as of `solve_line_film`: `MixedSolution.film.starvation` says what it does.
     thermal : "off", "lumped" or "full": the film with its heat, as of `solve_line_film`; the contact's surfaces as
         warm as rubbing makes them (`bem.friction.contact_heat`), which boundary friction over temperature is told. Far
-        away both bodies are as warm as the oil that comes. No supply with "full".
+        away both bodies are as warm as the oil that comes. No supply with "full", which is not there under a ball.
 
     Returns
     -------

@@ -68,7 +68,7 @@ def judge(status, imbalance, tolerance, setup):
 @pytest.mark.parametrize("seed", [1, 3, 8, 14, 34, 59, 76, 82, 87, 123])
 def test_solved_films(seed):
     setup, height, speeds = random_case(seed)
-    arguments = {name: getattr(setup, name) for name in setup.__dataclass_fields__}
+    arguments = {name: getattr(setup, name) for name in setup.__dataclass_fields__ if name != "heat_mesh"}
     point = solve_mixed(height=height, speeds=speeds, **arguments)
     judge(point.status, point.contact_load + point.film_load - setup.load, 1e-4 * setup.load, setup)
     assert 0 <= point.boundary_force <= setup.boundary_friction * setup.load * (1 + 1e-4)

@@ -67,6 +67,13 @@ def test_the_film_is_as_thin_as_inlet_heating_says_and_friction_falls():
     assert back.shear_force[0, 0] == pytest.approx(-hot.shear_force[0, 0], rel=1e-6)
 
 
+def test_strong_heat_is_found():
+    """A ball that slides at 5 m/s over a disc at rest: the oil warms by 140 K, at which the stress depends on it."""
+    hot = point_film(PointContact((5e-3, 5e-3), MODULUS, OIL, heat=HEAT), (5.0, 0.0), 20.0, 32)
+    assert hot.status is Status.CONVERGED
+    assert hot.mean_temperature > 333.15 + 100
+
+
 def test_slow_films_have_no_heat():
     ball, speeds = PointContact((0.01, 0.01), MODULUS, OIL, heat=HEAT), (0.02, 0.019)
     cold, hot = cold_film(replace(ball, heat=None), speeds, 20.0, 48), point_film(ball, speeds, 20.0, 48)

@@ -155,9 +155,9 @@ def point_heat(film: PointFilmSolution, lubricant: Lubricant, bodies: tuple[Cond
         flow = mean * float(thickness[top, j] * density[top, j])
 
         def heat(at: FloatArray, j: int = j) -> tuple[FloatArray, FloatArray]:
-            value = stresses(j, at)
-            slope = (stresses(j, at + _WARMER) - value) / _WARMER
-            return abs(slide) * value + driven[:, j], np.diag(abs(slide) * slope)
+            value, slope = stresses(j, at), np.zeros((3, at.size))
+            slope[1] = abs(slide) * (stresses(j, at + _WARMER) - value) / _WARMER
+            return abs(slide) * value + driven[:, j], slope
 
         channel = Channel(
             edges, thickness[:, j], lubricant.thermal_conductivity or 0.0, capacity * flow, supply, bodies
