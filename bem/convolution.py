@@ -34,7 +34,7 @@ from bem.transforms import (
     kernel_spectrum,
     multiplier,
     offset_cosines,
-    padded_length,
+    padded_shape,
     transform_of,
 )
 
@@ -144,7 +144,7 @@ def _kernel(grid: Grid, bodies: tuple[Body, ...], load: Load) -> FloatArray:
         terms = [(bodies[first], scale)]
     else:
         terms = list(zip(bodies, signs, strict=False))
-    padded = _padded(grid)
+    padded = padded_shape(grid.shape, grid.periodic)
     parity = EVEN if load is Load.NORMAL else ODD_IN_X
     total: FloatArray | None = None
     for body, factor in terms:
@@ -163,11 +163,6 @@ def _kernel(grid: Grid, bodies: tuple[Body, ...], load: Load) -> FloatArray:
         total = spectrum if total is None else total + spectrum
     assert total is not None
     return total
-
-
-def _padded(grid: Grid) -> tuple[int, int]:
-    nx, ny = grid.shape
-    return padded_length(nx, grid.periodic[0]), padded_length(ny, grid.periodic[1])
 
 
 def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float, compliance: float) -> Spectra:
@@ -267,7 +262,7 @@ class DisplacementOperator:
     @property
     def padded(self) -> tuple[int, int]:
         """Lengths of the transforms."""
-        return _padded(self.grid)
+        return padded_shape(self.grid.shape, self.grid.periodic)
 
     def scaled(self, dtype: DTypeLike = np.float64, *, symmetric_part: bool = False) -> ScaledConvolution:
         """The operator divided by `unit`, in float64 or float32, without the coupling of friction if so asked."""

@@ -66,20 +66,22 @@ def _covered() -> Iterator[tuple[str, ...]]:
     everything = [row for each in found.values() for row in each["rows"]]
     yield _row(f"{sum(each['cases'] for each in found.values())} cases", "all figures", together(everything))
     for name, each in found.items():
-        drawn = f"{each['cases']} {_WORDS['drawn'][name]}"
-        yield _row(drawn, "all figures", together(each["rows"]))
-        for figure, row in each["figures"].items():
-            yield _row(drawn, figure.replace("_", " ").replace("von mises", "von Mises"), row)
+        yield from _rows_of(name, each)
 
 
 def covered_of(kind: str) -> Iterator[tuple[str, ...]]:
     """The rows on experiments that ran the code of a kind."""
     for name, each in measured().items():
         if _KINDS.get(name) == kind:
-            drawn = f"{each['cases']} {_WORDS['drawn'][name]}"
-            yield _row(drawn, "all figures", together(each["rows"]))
-            for figure, row in each["figures"].items():
-                yield _row(drawn, figure.replace("_", " ").replace("von mises", "von Mises"), row)
+            yield from _rows_of(name, each)
+
+
+def _rows_of(name: str, each: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """Of one experiment: all its figures together, then each."""
+    drawn = f"{each['cases']} {_WORDS['drawn'][name]}"
+    yield _row(drawn, "all figures", together(each["rows"]))
+    for figure, row in each["figures"].items():
+        yield _row(drawn, figure.replace("_", " ").replace("von mises", "von Mises"), row)
 
 
 def together(rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:

@@ -43,15 +43,20 @@ def surface(cells: float) -> Timed:
     return Timed(lambda: rough_gap(n), judge, cells=n**2)
 
 
+def deformed_gap(pressure: FloatArray, gap: FloatArray, operator: DisplacementOperator) -> FloatArray:
+    """Under any pressure on any solver, counted from its pressure-weighted mean."""
+    deformed = gap + operator(pressure)
+    return np.asarray(deformed - (pressure * deformed).sum() / pressure.sum())
+
+
 def common_residual(pressure: FloatArray, gap: FloatArray, operator: DisplacementOperator) -> tuple[float, float]:
     """(complementarity, violation) of any pressure on any solver, relative to the rms of the gap.
 
     The gap is counted from its pressure-weighted mean, so the first is sum p |g| / sum p and the second the largest of
     |g| in contact and -g outside.
     """
-    deformed = gap + operator(pressure)
+    deformed = deformed_gap(pressure, gap, operator)
     touching = pressure > 0
-    deformed -= (pressure * deformed).sum() / pressure.sum()
     roughness = gap.std()
     complementarity = (pressure * np.abs(deformed)).sum() / pressure.sum() / roughness
     overlap = max(float(np.abs(deformed[touching]).max()), float(-deformed[~touching].min(initial=0.0)))

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bem.benchmarks.contact_cases import MEAN_PRESSURE, PERIODIC, POISSON, UNIT
+from bem.benchmarks.contact_cases import MEAN_PRESSURE, PERIODIC, POISSON, UNIT, deformed_gap
 from bem.benchmarks.lubricated_cases import FILM, SPEEDS, mixed_case
 from bem.benchmarks.measure import Outcome, Timed
 from bem.benchmarks.surface_change_cases import tip, wear_setup
@@ -89,9 +89,8 @@ def pressure_figures(pressure: FloatArray, gap: FloatArray) -> dict[str, float]:
     """Figures of any solver's pressure on the rough surface, as cells have them; the gap is bem's for that pressure."""
     n = pressure.shape[0]
     operator = displacement_operator(Grid((n, n), (1 / n, 1 / n), periodic=PERIODIC), UNIT)
-    deformed = gap + operator(pressure)
+    deformed = deformed_gap(pressure, gap, operator)
     touching = pressure > 0
-    deformed -= (pressure * deformed).sum() / pressure.sum()
     return {
         "contact_area": float(touching.mean()),
         "mean_gap": float(np.maximum(deformed, 0.0).mean()),

@@ -15,7 +15,7 @@ from scipy.special import erfc
 from bem.grid import FloatArray, Grid
 from bem.heat.bodies import Conductor
 from bem.heat.coefficients import Rows, temperature_table
-from bem.transforms import Multiplier, PaddedTransform, kernel_spectrum, multiplier, padded_length, transform_of
+from bem.transforms import Multiplier, PaddedTransform, kernel_spectrum, multiplier, padded_shape, transform_of
 
 EVEN, ODD_IN_X = (1, 1), (-1, 1)
 
@@ -41,12 +41,6 @@ class HeatOperator:
         total[:, half:] += factor[:, mirror].conj() * spectrum[:, half:]
 
 
-def padded_shape(grid: Grid) -> tuple[int, int]:
-    """Lengths of the transforms."""
-    nx, ny = grid.shape
-    return padded_length(nx, grid.periodic[0]), padded_length(ny, grid.periodic[1])
-
-
 def heat_operator(grid: Grid, body: Conductor, begin: float = 0.0, end: float = math.inf) -> HeatOperator:
     """The rise that heat made between two times leaves; the steady one by default. Not for grids periodic along x.
 
@@ -64,7 +58,7 @@ def heat_operator(grid: Grid, body: Conductor, begin: float = 0.0, end: float = 
         # cosines of the middles of cells: their sum is the sampled kernel
         table = np.fft.irfft(table, ny, axis=1)
     downstream, upstream = table[nx - 1 :], table[nx - 1 :: -1]
-    padded = padded_shape(grid)
+    padded = padded_shape(grid.shape, grid.periodic)
     parts = [(kernel_spectrum(0.5 * (downstream + upstream), padded, EVEN), EVEN, 1.0)]
     if body.speed:
         odd = kernel_spectrum(0.5 * (downstream - upstream), padded, ODD_IN_X)
@@ -91,7 +85,7 @@ def periodic_operator(grid: Grid, body: Conductor, begin: float, end: float) -> 
     if nx % 2 == 0:
         imaginary[:, -1] = 0.0
     factor = Multiplier(np.ascontiguousarray(spectrum.real), imaginary if body.speed else None)
-    return HeatOperator(transform_of(grid.shape, padded_shape(grid)), factor)
+    return HeatOperator(transform_of(grid.shape, padded_shape(grid.shape, grid.periodic)), factor)
 
 
 def approximate_inverse(grid: Grid, bodies: tuple[Conductor, ...], rate: float = 0.0) -> HeatOperator:
@@ -100,7 +94,7 @@ def approximate_inverse(grid: Grid, bodies: tuple[Conductor, ...], rate: float =
     The exact spectrum of a half-space is 1 / (k sqrt(q^2 + i U q_x / kappa + rate / kappa)) (Carslaw and Jaeger);
     `rate` [1/s] stands for the time since the heat began. Wavenumbers stay above that of the longest wave.
     """
-    px, py = padded_shape(grid)
+    px, py = padded_shape(grid.shape, grid.periodic)
     dx, dy = grid.spacing
     along = 2 * math.pi * np.arange(px // 2 + 1) / (px * dx)
     across = 2 * math.pi * np.arange(py // 2 + 1) / (py * dy)

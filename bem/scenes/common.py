@@ -15,7 +15,7 @@ from bem.materials import CATALOGUE, Body, Layer, Material
 from bem.scenes.asked import AskedAccuracy
 from bem.scenes.paths import checksum_of, what_is_wrong_with
 from bem.scenes.ranges import values_of_keys
-from bem.scenes.table import Table, exactly_one, one_for_both, one_of, problem
+from bem.scenes.table import Table, check_rising, exactly_one, one_for_both, one_of, problem
 from bem.scenes.tables.marks import CrossHatchScene, FeedMarksScene
 from bem.scenes.units import Density, Force, HeatCapacity, Length, Pressure, Ratio, ThermalConductivity
 from bem.surfaces.processes import PROCESSES, Lay, ProcessName, statistics_beside
@@ -395,6 +395,7 @@ __all__ = [
     "Table",
     "UpperBodyScene",
     "Variant",
+    "check_rising",
     "exactly_one",
     "one_for_both",
     "one_of",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, model_validator
@@ -25,6 +27,12 @@ def exactly_one(table: BaseModel, *names: str) -> None:
     if len(given) != 1:
         found = "none is given" if not given else f"{' and '.join(given)} are given"
         raise problem(found, f"exactly one of {', '.join(names)}")
+
+
+def check_rising(values: Sequence[float], what: str) -> None:
+    """Refuse values that do not rise."""
+    if any(b <= a for a, b in pairwise(values)):
+        raise problem(f"the {what} do not rise", f"{what} in rising order, none twice")
 
 
 def one_of(*names: str) -> Any:

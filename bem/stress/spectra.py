@@ -31,7 +31,7 @@ from bem.kernels.coefficients import STRESS_PARITY, Load, stress_coefficients
 from bem.kernels.spectral import stress_response
 from bem.materials import Body
 from bem.stress.packed import Packed, pack
-from bem.transforms import Multiplier, kernel_spectrum, multiplier, narrowed_lengths, padded_length
+from bem.transforms import Multiplier, kernel_spectrum, multiplier, narrowed_lengths, padded_shape
 
 
 @dataclass
@@ -164,7 +164,7 @@ def check_request(
 
 def padded_lengths(grid: Grid) -> tuple[int, int]:
     """Lengths of the transforms."""
-    return padded_length(grid.shape[0], grid.periodic[0]), padded_length(grid.shape[1], grid.periodic[1])
+    return padded_shape(grid.shape, grid.periodic)
 
 
 def column_lengths(grid: Grid, body: Body) -> tuple[int, ...] | None:

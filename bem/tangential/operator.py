@@ -21,7 +21,7 @@ from bem.grid import FloatArray, Grid
 from bem.kernels import spectral
 from bem.kernels.coefficients import IN_PLANE_PARITY, Load, in_plane_coefficients, surface_coefficients
 from bem.materials import Body
-from bem.transforms import kernel_spectrum, offset_cosines, padded_length, transform_of
+from bem.transforms import kernel_spectrum, offset_cosines, padded_shape, transform_of
 
 ComplexArray = NDArray[np.complex128]
 
@@ -107,8 +107,7 @@ class TangentialOperator:
     @property
     def padded(self) -> tuple[int, int]:
         """Lengths of the transforms."""
-        (nx, ny), (along_x, along_y) = self.grid.shape, self.grid.periodic
-        return padded_length(nx, along_x), padded_length(ny, along_y)
+        return padded_shape(self.grid.shape, self.grid.periodic)
 
     @property
     def _key(self) -> tuple[Any, ...]:

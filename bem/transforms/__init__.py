@@ -18,7 +18,7 @@ in tests/test_transforms.py against numpy's and scipy's transforms.
 
 from bem.transforms.cache import set_transform_memory, transform_memory, transform_of
 from bem.transforms.count import COUNT, TransformCount
-from bem.transforms.kernel import kernel_spectrum, offset_cosines, padded_length
+from bem.transforms.kernel import kernel_spectrum, offset_cosines, padded_length, padded_shape
 from bem.transforms.narrow import narrowed_lengths
 from bem.transforms.padded import PaddedTransform
 from bem.transforms.products import Multiplier, multiplier
@@ -33,6 +33,7 @@ __all__ = [
     "narrowed_lengths",
     "offset_cosines",
     "padded_length",
+    "padded_shape",
     "set_transform_memory",
     "transform_memory",
     "transform_of",

@@ -27,6 +27,11 @@ def padded_length(cells: int, periodic: bool) -> int:
     return power if power >= 512 and power <= (1.1 if power == 512 else 1.03) * fast else fast
 
 
+def padded_shape(cells: tuple[int, int], periodic: tuple[bool, bool]) -> tuple[int, int]:
+    """As `padded_length`, of both axes."""
+    return padded_length(cells[0], periodic[0]), padded_length(cells[1], periodic[1])
+
+
 def kernel_spectrum(
     coefficients: FloatArray,
     padded: tuple[int, int],

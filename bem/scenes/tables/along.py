@@ -17,7 +17,7 @@ from typing import Annotated, Any
 
 from pydantic import Field, ValidationError, model_validator
 
-from bem.scenes.common import Force, Table, problem
+from bem.scenes.common import Force, Table, check_rising, problem
 from bem.scenes.units import Length, Speed
 from bem.scenes.validate import nearest
 from bem.small_files import read_small
@@ -51,8 +51,7 @@ class AlongScene(Table):
         counts = {name: len(getattr(self, name)) for name in COLUMNS}
         if len(set(counts.values())) > 1:
             raise problem(", ".join(f"{n} of {name}" for name, n in counts.items()), "as many of each")
-        if any(b <= a for a, b in zip(self.position, self.position[1:], strict=False)):
-            raise problem("the positions do not rise", "positions in rising order, none twice")
+        check_rising(self.position, "positions")
         if any(a + b == 0 for a, b in zip(self.lower_speed, self.upper_speed, strict=True)):
             raise problem("both surfaces stand still in a row", "speeds of which one is positive")
         return self

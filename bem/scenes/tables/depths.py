@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from pydantic import Field, model_validator
 
-from bem.scenes.common import PositiveLength, Table, exactly_one, problem
+from bem.scenes.common import PositiveLength, Table, check_rising, exactly_one
 from bem.scenes.units import Length, Ratio
 
 
@@ -26,8 +26,7 @@ class DepthsScene(Table):
     @model_validator(mode="after")
     def _one_way(self) -> DepthsScene:
         exactly_one(self, "values", "deepest")
-        if self.values is not None and any(b <= a for a, b in zip(self.values, self.values[1:], strict=False)):
-            raise problem("the depths do not rise", "depths in rising order, none twice")
+        check_rising(self.values or (), "depths")
         return self
 
     def build(self) -> tuple[float, ...]:

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from bem.scenes.common import CylinderTable, Force, Table, problem
+from bem.scenes.common import CylinderTable, Force, Table, check_rising, problem
 from bem.scenes.units import Length, Speed, Time
 
 
@@ -45,8 +45,7 @@ class MotionScene(Table):
         if self.times is not None and self.speeds is not None:
             if len(self.times) != len(self.speeds):
                 raise problem(f"{len(self.times)} times and {len(self.speeds)} speeds", "as many of each")
-            if any(b <= a for a, b in zip(self.times, self.times[1:], strict=False)):
-                raise problem("the times do not rise", "times in rising order, none twice")
+            check_rising(self.times, "times")
         return self
 
     def at(self, time: float) -> float:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from bem.scenes.common import GridScene, PositiveLength, Table, problem
+from bem.scenes.common import GridScene, PositiveLength, Table, check_rising, problem
 from bem.scenes.tables.ball import FilmCellsScene
 from bem.scenes.units import Angle, Length, Ratio, Time
 
@@ -70,8 +70,7 @@ class OverTimeScene(Table):
         for name, values in (("speed", self.speed), ("load", self.load)):
             if values is not None and len(values) != len(self.times):
                 raise problem(f"{len(self.times)} times and {len(values)} factors of {name}", "as many of each")
-        if any(b <= a for a, b in zip(self.times, self.times[1:], strict=False)):
-            raise problem("the times do not rise", "times in rising order, none twice")
+        check_rising(self.times, "times")
         return self
 
     def factors(self, time: float) -> tuple[float, float]:
