@@ -227,6 +227,22 @@ def _connect(start, stop, result, cells, position, grid, offsets, columns, patte
     result[1] = inner
 
 
+@njit(cache=True, nogil=True, error_model="numpy")
+def row_of_inverse(factor, active, row, out):  # type: ignore[no-untyped-def]
+    """The last row of (L L^T)^-1 over the root of its last entry, L the factor of n rows, into the places `active` (n,)
+    of `out`; `row` is scratch."""
+    n = active.size
+    row[n - 1] = 1 / factor[n - 1, n - 1] ** 2
+    for a in range(n - 2, -1, -1):
+        s = 0.0
+        for c in range(a + 1, n):
+            s -= factor[c, a] * row[c]
+        row[a] = s / factor[a, a]
+    scale = 1 / np.sqrt(row[n - 1])
+    for a in range(n):
+        out[active[a]] = row[a] * scale
+
+
 @njit(cache=True, nogil=True)
 def _solve_patterns(pattern, offsets, near_field, table, solved):  # type: ignore[no-untyped-def]
     m = offsets.shape[0]
@@ -264,15 +280,7 @@ def _solve_patterns(pattern, offsets, near_field, table, solved):  # type: ignor
         if not regular:
             table[bits, m] = 1 / np.sqrt(abs(near_field[middle, middle]))
             continue
-        row[n - 1] = 1 / factor[n - 1, n - 1] ** 2
-        for a in range(n - 2, -1, -1):
-            s = 0.0
-            for c in range(a + 1, n):
-                s -= factor[c, a] * row[c]
-            row[a] = s / factor[a, a]
-        scale = 1 / np.sqrt(row[n - 1])
-        for a in range(n):
-            table[bits, active[a]] = row[a] * scale
+        row_of_inverse(factor, active[:n], row, table[bits])
 
 
 @_fast

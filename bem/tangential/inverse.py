@@ -18,7 +18,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from bem.contact.long_waves import LongWaves, LongWavesOnCells, long_waves
-from bem.contact.preconditioner import Rows, SparseInverse, SparseInverseOnCells, sparse_inverse
+from bem.contact.preconditioner import Rows, SparseInverse, SparseInverseOnCells, row_of_inverse, sparse_inverse
 from bem.grid import FloatArray
 from bem.tangential.along import AlongOperator
 from bem.tangential.operator import TangentialOperator
@@ -171,13 +171,5 @@ def _rows_with_diagonal(rows: Rows, offsets: Any, near_field: FloatArray, diagon
                     factor[a, a] = np.sqrt(max(s, 1e-12 * near_field[middle, middle]))
                 else:
                     factor[a, b] = s / factor[b, b]
-        row[count - 1] = 1 / factor[count - 1, count - 1] ** 2
-        for a in range(count - 2, -1, -1):
-            s = 0.0
-            for c in range(a + 1, count):
-                s -= factor[c, a] * row[c]
-            row[a] = s / factor[a, a]
-        scale = 1 / np.sqrt(row[count - 1])
-        for a in range(count):
-            out[k, active[a]] = row[a] * scale
+        row_of_inverse(factor, active[:count], row, out[k])
     return out
