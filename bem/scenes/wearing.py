@@ -295,11 +295,12 @@ class WornSurface:
         result: RunningIn,
         grid: Grid,
         load: float,
-        strip: Callable[[FloatArray], NDArray[np.bool_]],
+        strip: Callable[[FloatArray], NDArray[Any]],
     ) -> WornSurface:
         """That of a scene's loop, which started from `initial` heights of both bodies; `load` [N] on the grid.
 
-        strip : the rows (nx,) or cells (nx, ny) that roughness and depth are told of, from the last pressure."""
+        strip : the rows (nx,) or cells (nx, ny) that roughness and depth are told of, or the part of each, from the
+        last pressure."""
         from bem.wear.criterion import LocalWear
         from bem.wear.outcome import criterion_wear_rate, step_error, strip_wear
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,10 +25,17 @@ class StripWear:
     depth: float
 
 
-def strip_wear(before: FloatArray, after: FloatArray, strip: NDArray[np.bool_]) -> StripWear:
-    """Of heights (nx, ny) [m] in those rows (nx,) or cells (nx, ny)."""
-    depth = float((before - after)[strip].mean())
-    return StripWear(float(before[strip].std()), float(after[strip].std()), depth)
+def strip_wear(before: FloatArray, after: FloatArray, strip: NDArray[Any]) -> StripWear:
+    """Of heights (nx, ny) [m], rows (nx,) or cells (nx, ny) counting as much as `strip` says: True and False, or the
+    parts of them that lie within."""
+    counts = np.asarray(strip, dtype=np.float64)
+    counts = np.broadcast_to(counts if counts.ndim == 2 else counts[:, None], before.shape)
+
+    def rms(heights: FloatArray) -> float:
+        about = heights - np.average(heights, weights=counts)
+        return math.sqrt(float(np.average(about**2, weights=counts)))
+
+    return StripWear(rms(before), rms(after), float(np.average(before - after, weights=counts)))
 
 
 def contact_strip(pressure: FloatArray) -> NDArray[np.bool_]:
@@ -36,20 +44,54 @@ def contact_strip(pressure: FloatArray) -> NDArray[np.bool_]:
     return touched if touched.any() else ~touched
 
 
-def hertz_strip(x: FloatArray, half_width: float) -> NDArray[np.bool_]:
-    """The rows at x (nx,) [m] within Hertz' contact; of one narrower than a cell, those next to the axis."""
-    nearest = float(np.abs(x).min()) * (1 + 1e-9)  # on either side of it
-    return np.abs(x) <= max(half_width, nearest)
+_CUTS = 8
+"""Lines along y through a cell, between which the edge of an ellipse is straight enough: areas are within 0.1 % for a
+contact four cells wide, and 0.5 % for one within a cell."""
 
 
-def hertz_area(grid: Grid, half_axes: tuple[float, float]) -> NDArray[np.bool_]:
-    """What of a grid lies within Hertz' contact of these half-axes [m]: rows (nx,) of a cylinder's, cells (nx, ny) of
-    an ellipse; of a contact narrower than a cell those next to its middle."""
-    (a, b), x, y = half_axes, grid.x, grid.y
+def hertz_area(grid: Grid, half_axes: tuple[float, float]) -> FloatArray:
+    """The part of each cell of a grid within Hertz' contact of these half-axes [m], 0 to 1: of rows (nx,) of a
+    cylinder's, whose second is infinite, of cells (nx, ny) of an ellipse.
+
+    Cells on the edge count as far as they lie inside, so that figures of the area converge: whole cells jump.
+    """
+    return _parts_inside(grid.x, grid.y, grid.spacing, half_axes)
+
+
+def _parts_inside(
+    x: FloatArray, y: FloatArray, spacing: tuple[float, float], half_axes: tuple[float, float]
+) -> FloatArray:
+    """As `hertz_area`, of cells with their centres at x (nx,) and y (ny,) [m]."""
+    (a, b), (dx, dy) = half_axes, spacing
+    low, high = (np.clip(x + side * dx / 2, -a, a) for side in (-1, 1))
     if math.isinf(b):
-        return hertz_strip(x, a)
-    a, b = (max(half, float(np.abs(at).min()) * 1.5) for half, at in zip(half_axes, (x, y), strict=True))
-    return np.asarray((x[:, None] / a) ** 2 + (y[None, :] / b) ** 2 <= 1)
+        return np.asarray((high - low) / dx)
+    inside = np.zeros((x.size, y.size))
+    for cut in (np.arange(_CUTS) + 0.5) / _CUTS:
+        reach = b * np.sqrt(1 - ((low + cut * (high - low)) / a) ** 2)[:, None]
+        below, above = (np.clip(y + side * dy / 2, -reach, reach) for side in (-1, 1))
+        inside += (above - below) / dy
+    return np.asarray(inside * ((high - low) / dx)[:, None] / _CUTS)
+
+
+_OF_HALVES = 0.95
+"""On what half the rows and columns change the rms height: order two would leave a third of it, but few cells to a
+wave, and the cells on the edge, have less. By experiment, on 100 surfaces of the seed 99 against quarters of the cell.
+"""
+
+
+def rms_error(heights: FloatArray, grid: Grid, half_axes: tuple[float, float]) -> float:
+    """What the cells leave open of the rms height [m] within Hertz' contact, an estimate: what every second row and
+    column of the heights (nx, ny) [m] change it by, in each way to take them, where they lie."""
+    spacing = (2 * grid.spacing[0], 2 * grid.spacing[1])
+
+    def rms(x: slice, y: slice, of: tuple[float, float]) -> float:
+        within = _parts_inside(grid.x[x], grid.y[y], of, half_axes)
+        return strip_wear(heights[x, y], heights[x, y], within).rms_before
+
+    every, ways = slice(None), [[slice(first, None, 2) for first in range(min(n, 2))] for n in grid.shape]
+    whole = rms(every, every, grid.spacing)
+    return _OF_HALVES * math.sqrt(np.mean([(rms(x, y, spacing) - whole) ** 2 for x in ways[0] for y in ways[1]]))
 
 
 @dataclass(frozen=True)

@@ -1,19 +1,42 @@
 """Figures of a finished wear loop: strips, what is worn in them, sizes over cycles."""
 
+import math
+
 import numpy as np
 import pytest
 
-from bem.grid import Grid
-from bem.wear.outcome import contact_strip, drift, hertz_strip, sizes_over_cycles, strip_wear
+from bem.grid import FloatArray, Grid
+from bem.wear.outcome import contact_strip, drift, hertz_area, rms_error, sizes_over_cycles, strip_wear
 from bem.wear.state import PARTICLE_FIELDS
 
 
-@pytest.mark.parametrize(("half_width", "rows"), [(0.1, 2), (1.0, 2), (2.0, 4), (100.0, 8)])
-def test_hertz_strip_of_a_contact_narrower_than_a_cell(half_width, rows):
+@pytest.mark.parametrize("half_width", [0.1, 1.0, 1.7, 3.0])
+def test_hertz_strip_is_as_wide_as_the_contact(half_width):
     # loads of a few millinewtons on the thesis' grid: no cell's centre is within the contact, and the mean was NaN
-    strip = hertz_strip(Grid((8, 8), (1.0, 1.0)).x, half_width)
-    assert strip.sum() == rows
+    strip = hertz_area(Grid((8, 8), (1.0, 1.0)), (half_width, math.inf))
+    assert strip.sum() == pytest.approx(2 * half_width, rel=1e-14)
     assert (strip == strip[::-1]).all()
+
+
+def wavy(cells: int) -> tuple[FloatArray, Grid]:
+    grid = Grid((cells, cells), (1.0 / cells, 1.0 / cells))
+    x, y = grid.x[:, None], grid.y[None, :]
+    return np.sin(20 * x + 1) + np.cos(17 * x) * np.sin(2 * np.pi * y) + 2 * x, grid
+
+
+@pytest.mark.parametrize("half_axes", [(0.2637, math.inf), (0.2637, 0.18)])
+def test_roughness_of_hertz_contact_converges_and_its_error_is_told(half_axes):
+    fine, there = wavy(2048)
+    exact = strip_wear(fine, fine, hertz_area(there, half_axes)).rms_before
+    errors, told = [], []
+    for cells in (32, 38, 44, 50, 64, 76, 88, 100):
+        heights, grid = wavy(cells)
+        errors.append(abs(strip_wear(heights, heights, hertz_area(grid, half_axes)).rms_before - exact))
+        told.append(rms_error(heights, grid, half_axes))
+    # whole cells at the edge are of first order, and 0.5 % off with these
+    assert np.mean(errors[4:]) < 0.4 * np.mean(errors[:4])
+    assert np.mean(errors) < 1.5e-3 * exact
+    assert sum(t >= e for t, e in zip(told, errors, strict=True)) >= 7
 
 
 def test_contact_strip_is_the_rows_that_touch_or_all():

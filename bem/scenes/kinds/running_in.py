@@ -182,7 +182,18 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
         there = None if finer_film is None else there
     known = [name for name in MIXED_RULES if getattr(found, name) is not None]
     figures = (None if one is None else {n: getattr(one, n) for n in known} for one in (found, there, finer_film))
-    return running_in_bars(*figures, full_heat=scene.thermal == "full")  # type: ignore[arg-type]
+    bars = running_in_bars(*figures, full_heat=scene.thermal == "full")  # type: ignore[arg-type]
+    return bars if there is None else bars | _of_heights(scene, found)
+
+
+def _of_heights(scene: RunningInScene, found: RunningInRecord) -> ErrorBars:
+    """Of what the unworn heights alone decide: the coarser loop's lie half a cell beside where it has them."""
+    from bem.accuracy.bars import GRID, ErrorBars
+    from bem.wear.outcome import rms_error
+
+    setup = scene.setup(**scene.sharing.model_dump(), heat_mesh=1.0)
+    error = rms_error(found.height_before, setup.grid, setup.smooth.half_axes(setup.load))
+    return ErrorBars.together({GRID: {"Sq_initial": error}})
 
 
 def at_resolution(scene: RunningInScene, factor: float, across: float | None = None) -> RunningInScene:
