@@ -236,6 +236,15 @@ def test_a_check_of_scenes_fires_where_it_should_and_not_next_to_it(name):
     assert fired(name, good) == []
 
 
+def test_cells_unlike_along_x_and_y_are_told_the_spacing_that_the_contact_asks_for():
+    cylinder = with_(BALL, shape__kind="cylinder", grid={"shape": [8, 400], "spacing": ["100 um", "1 um"]})
+    (told,) = [words for words in scene_warnings(facts_of(cylinder)) if "across the Hertz contact" in words]
+    # 19 N over 400 um, R = 10 mm, E* = 113.8 GPa: a = sqrt(4 P R / (pi E*)) = 72.9 um (it said 72.9 nm, of cells
+    # along y)
+    assert "1.5 cells" in told
+    assert "spacing 7.29 um gives 20" in told
+
+
 def test_cells_of_an_elongated_surface_are_looked_at_along_each_axis():
     """Ridges along y, 36 um by 4 um, on cells of 2 um: of their geometric mean there had been six, and nothing was
     said; on long cells along them all is well."""

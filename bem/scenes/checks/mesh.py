@@ -28,11 +28,10 @@ def few_cells_across_the_contact(facts: Facts) -> Iterator[str]:
     found = worst(values)
     if found is not None and 1 / found[0] < _CELLS_ACROSS:
         across, case = 1 / found[0], found[1]
-        assert case.grid is not None
+        assert case.smooth is not None
         yield (
             f"grid: {across:.2g} cells across the Hertz contact{case.at}; take {_CELLS_ACROSS} or more (pressure "
-            f"within 1.5 %, area within 13 %), 40 for maps: spacing {si(min(case.grid.spacing) * across / 20, 'm')} "
-            "gives 20"
+            f"within 1.5 %, area within 13 %), 40 for maps: spacing {si(min(case.smooth.semi_axes) / 10, 'm')} gives 20"
         )
 
 
