@@ -412,6 +412,11 @@ OUTCOMES = {
         (loop_outcome(100.0, (0.13, 0.12, 0.11, 0.1)), "not settled: friction by 16 % in 1 of 2 loops"),
         loop_outcome(100.0),
     ),
+    "loop_without_error_bars": (
+        "running-in-stribeck",
+        (Outcome({"Sq_final_nm": [90.0]}, {}), "no error bars of a single loop"),
+        Outcome({"Sq_final_nm": [90.0], "Sq_final_nm_error": [None]}, {}),
+    ),
     "particles_cut_by_the_depths": (
         "wear-steel-steel",
         (wear_outcome([CELL], truncated_particles=30, particles_per_cycle=10.0), "6 % of the settled particles"),

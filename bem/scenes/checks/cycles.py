@@ -1,4 +1,5 @@
-"""Checks of wear loops: a surface that grows rough by its own pieces, figures that still drift at the last cycle.
+"""Checks of wear loops: a surface that grows rough by its own pieces, figures that still drift at the last cycle, loops
+that nothing is compared with.
 
 Read off what a run gives; the rule of drift is `bem.wear.outcome.drift`. Verified in tests/scenes/test_checks.py.
 """
@@ -80,6 +81,17 @@ def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[str]:
             f"not settled: {joined(told)}, the mean of the last cycles (25, or half of all) against that of as many "
             "before them; what is told of the end is that of this number of cycles: take more cycles.count, or read "
             "the curves over cycles"
+        )
+
+
+@outcome_check
+def loop_without_error_bars(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """One loop on one grid says nothing of its errors: no finer cells, no other surfaces to compare it with."""
+    told = outcome.summary
+    if facts.of_kind("wear", "running-in") and "Sq_final_nm" in told and "Sq_final_nm_error" not in told:
+        yield (
+            "no error bars of a single loop: with cycles.coarser_grid = true it is made once more on the grid of twice "
+            "the cell, which tells what cells leave open; repetitions tell how figures scatter with the surface"
         )
 
 
