@@ -22,6 +22,7 @@ from bem.errors import Status
 from bem.lubrication import Lubricant, PointFilmSolution, solve_point_film
 from bem.lubrication.point.kept import narrow_error, order_missed
 from bem.lubrication.point.validity import inlet_shear
+from bem.lubrication.supply import Supply
 from bem.materials import Body
 
 FEWEST = 32
@@ -36,6 +37,10 @@ POINT_RULES = {
     "traction_coefficient": FilmRule(0.8, 0.3),
     "friction_power": FilmRule(0.8, 0.3),
     "lambda_ratio": FilmRule(0.6, 0.3),
+    "film_reduction": FilmRule(0.8, 0.3),
+    "oil_layer": FilmRule(0.6, 0.05),
+    "flooded_layer": FilmRule(0.6, 0.05),
+    "meniscus_position": FilmRule(0.8, 0.3),
 }
 _LEAST = ("minimum_thickness", "lambda_ratio")
 """In a constriction, which may be narrower than cells: differences then show no order, and how steep it is tells."""
@@ -56,10 +61,11 @@ class PointCase:
     cells: tuple[int, int]
     bodies: tuple[Body, ...] | None = None
     roughness: float | None = None
+    supply: Supply | None = None
 
     def on(self, cells: tuple[int, int]) -> PointFilmSolution:
         """The film on so many cells."""
-        asked = named(self, "load radii contact_modulus speeds lubricant bodies")
+        asked = named(self, "load radii contact_modulus speeds lubricant bodies supply")
         return solve_point_film(**asked, shape=cells, cavitation="mass_conserving")
 
 
@@ -76,6 +82,12 @@ def point_figures(case: PointCase, film: PointFilmSolution) -> dict[str, float]:
     }
     if case.roughness is not None:
         figures["lambda_ratio"] = film.minimum_thickness / case.roughness
+    if film.starvation is not None:
+        lacking = film.starvation
+        figures |= {"film_reduction": lacking.reduction, "oil_layer": lacking.layer}
+        figures["flooded_layer"] = lacking.flooded_layer
+        if not lacking.flooded:
+            figures["meniscus_position"] = lacking.meniscus_position
     return figures
 
 
@@ -87,7 +99,7 @@ def point_bars(case: PointCase, film: PointFilmSolution) -> ErrorBars:
     other = case.on((nx // 2, ny // 2) if halved else (2 * nx, 2 * ny))
     if other.status is not Status.CONVERGED:
         return ErrorBars.unknown(figures, _UNSOLVED)
-    there = point_figures(case, other)
+    there = figures | point_figures(case, other)  # nearly flooded, one grid may have no meniscus
     share = 1.0 if halved else TWICE
     films = ("central_thickness", "minimum_thickness")
     changed = max(abs(there[name] / figures[name] - 1) for name in films)

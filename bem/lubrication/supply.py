@@ -1,7 +1,7 @@
-"""How much oil reaches a line contact, and what is said of a film that gets less than it would take.
+"""How much oil reaches a contact, and what is said of a film that gets less than it would take.
 
-Supplies are small frozen dataclasses given to `solve_line_film`; the solver is in `line_starved`. Verified in
-tests/lubrication/test_supply.py.
+Supplies are small frozen dataclasses given to `solve_line_film` and `solve_point_film`; the solvers are in
+`line_starved` and `point.starved`. Verified in tests/lubrication/test_supply.py and point/test_point_supply.py.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from bem.errors import InputError
 @dataclass(frozen=True)
 class OilLayer:
     """Oil that the surfaces bring along: `thickness` [m] of both layers together, as if all of it moved at the mean
-    speed: (u1 h1 + u2 h2) / ((u1 + u2)/2). All of it goes through the contact, or as much as a flooded one takes."""
+    speed: (u1 h1 + u2 h2) / ((u1 + u2)/2). All of it goes through a line contact, or as much as a flooded one takes;
+    of a point contact some goes around."""
 
     thickness: float
 
@@ -43,7 +44,8 @@ class Starvation:
 
     meniscus_position : where the gap begins to be full [m]; infinite, upstream, of a flooded contact. layer : oil that
     goes through, as `OilLayer.thickness` [m]. reduction : central thickness over that of the flooded contact.
-    flooded_layer : what a flooded contact would take [m].
+    flooded_layer : what a flooded contact would take [m]. Of a point contact the first is on the line through its
+    middle, negative along the entrainment, and both layers are what goes through the middle.
     """
 
     meniscus_position: float

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from small_scenes import FILM, PATCH
+from small_scenes import FILM, PATCH, oiled_ball
 
 from bem import InputError, Status, load_scene, solve_mixed
 from bem.campaigns.collect import outcome_of
@@ -20,6 +20,14 @@ TRACTION = {
     "rolling": {"mean_speed": "2 m/s"},
     "film": {"points": 200},
 }
+BALL = oiled_ball(
+    "point-film",
+    {"radius": "10 mm", "hertz_pressure": "0.7 GPa"},
+    {"viscosity": "0.05 Pa s", "pressure_viscosity": "20 1/GPa"},
+    rolling={"mean_speed": "0.5 m/s", "slide_roll_ratio": 0.1},
+    film={"cells": 64},
+    outputs={"errors": False},
+)
 FRICTION = {"kind": "friction", "speeds": ["0.05 m/s", "0.5 m/s"], "film": {"points": 200}, **PATCH}
 IN_TIME = FILM | {
     "motion": {"kind": "reciprocating", "speed": "0.05 m/s", "period": "20 ms"},
@@ -45,6 +53,28 @@ def test_a_starved_roller_follows_the_published_curve(tmp_path):
     bars = np.array(found["film_reduction_error"][:3])
     assert ((bars > 0) & (bars < 0.05)).all()
     assert (run.path / "figures" / "starvation-curve.png").exists()
+
+
+def test_a_starved_ball_from_table_to_figures(tmp_path):
+    """More oil, more film, up to the flooded one."""
+    layers = ["60 nm", "150 nm", "1 mm"]
+    run = run_scene(BALL | {"over": {"supply.layer": layers}, "supply": {"layer": "1 um"}}, tmp_path / "run")
+    found = run.summary
+    assert found["status"] == "converged"
+    central = np.array(found["central_thickness_nm"])
+    assert (np.diff(central) > 0).all()
+    assert found["oil_layer_nm"][0] == pytest.approx(60, rel=0.03)  # less than half of what it would take
+    assert found["film_reduction"][0] < 0.5
+    assert found["film_reduction"][2] == 1
+    first, second, third = found["meniscus_position_um"]
+    assert second < first < 0
+    assert third is None
+    flooded = run_scene(BALL, tmp_path / "flooded", figures=False).summary
+    assert central[2] == pytest.approx(flooded["central_thickness_nm"], rel=1e-9)
+    assert "film_reduction" not in flooded
+    full = run.dataset["film_fraction"].values
+    assert full.min() < 0.1
+    assert full.max() == 1
 
 
 def test_a_distance_is_the_meniscus(tmp_path):
@@ -105,6 +135,7 @@ def test_a_film_in_time_has_less_oil_after_it_turned():
         (TRACTION, {"supply": {}}, "none is given; allowed: exactly one of layer, distance"),
         (TRACTION, {"supply": {"layer": "1 um", "distance": "1 mm"}}, "exactly one of layer, distance"),
         (TRACTION, {"supply": {"layer": "0 nm"}}, "supply.layer"),
+        (BALL, {"supply": {"distance": "1 mm"}}, "the meniscus of a point contact is curved and is found"),
         (TRACTION, {"supply": {"layer": "1 um"}, "thermal": "full"}, "a supply of oil with thermal"),
         (IN_TIME, {"supply": {"distance": "1 mm"}}, "in time the meniscus moves"),
         (

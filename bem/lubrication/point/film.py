@@ -11,6 +11,7 @@ import numpy as np
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.supply import Starvation
 from bem.representation import readable
 
 if TYPE_CHECKING:
@@ -52,6 +53,7 @@ class PointFilmSolution:
     heights : (nx, ny) of both surfaces then, out of the bodies [m]; None of smooth ones.
     temperature : (nx, ny), mean across the film [K]; mean_temperature, maximum_temperature : of it, by pressure, and
     the highest; middle_stress : (2, nx, ny) in the middle of the film at it [Pa]; all None of films without heat.
+    starvation : what a supply makes of it, the meniscus along the entrainment; None of a flooded inlet.
     notes : where the model is outside its validity, a sentence each.
     state : what a solver can start from.
     """
@@ -83,6 +85,7 @@ class PointFilmSolution:
     mean_temperature: float | None = None
     maximum_temperature: float | None = None
     middle_stress: FloatArray | None = None
+    starvation: Starvation | None = None
     notes: tuple[str, ...] = ()
     state: KeptPoint | None = field(default=None, repr=False, compare=False)
 

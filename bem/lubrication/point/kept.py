@@ -10,7 +10,7 @@ from bem.grid import FloatArray
 from bem.lubrication.point import loops
 from bem.lubrication.point.levels import Level
 from bem.lubrication.point.linear import flows
-from bem.lubrication.point.newton import State, balance, own_film
+from bem.lubrication.point.newton import State, balance, own_film, partly_filled
 from bem.lubrication.point.setting import Setting
 
 AROUND = 4
@@ -61,6 +61,9 @@ def film_fraction(level: Level, pressure: FloatArray, film: FloatArray) -> Float
     """Share of the gap filled (nx, ny): where it is full oil flows as solved for, behind it goes on with what comes
     in (Jakobsson and Floberg 1957, Olsson 1965)."""
     flow, stencil = flows(level, pressure, film)
+    if level.problem.layer is not None:
+        content = partly_filled(level, pressure, flow, stencil)[1]
+        return np.minimum(content / stencil[8], 1.0)
     full = pressure > 0
     share = np.ones(level.shape)
     loops.carry_on(flow, stencil[8], full, level.problem.drag, level.spacing, share)

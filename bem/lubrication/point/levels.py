@@ -41,7 +41,8 @@ class PointProblem:
     operator : for a shape, the displacement of both bodies and the factor to films from what it makes of pressures in
     their unit; None of rigid bodies. typical_film : what is expected in the middle. heights : (nx, ny) of both surfaces
     out of the bodies, None of smooth ones. in_time : None of a steady film. walls : flow factors, of steady films
-    alone; None of smooth walls, and far away walls count as smooth.
+    alone; None of smooth walls, and far away walls count as smooth. layer : oil that the surfaces bring along, in
+    films, of steady ones alone, less than there is room for on the inlet's outermost cells; None of a flooded contact.
     """
 
     load: float
@@ -54,6 +55,7 @@ class PointProblem:
     heights: FloatArray | None = None
     in_time: InTime | None = None
     walls: PlaneWalls | None = None
+    layer: float | None = None
 
     @property
     def storing(self) -> float:
@@ -74,6 +76,8 @@ class PointProblem:
 
     def outside(self, datum: float) -> tuple[float, float]:
         """Load outside the rectangle, and its derivative with H0."""
+        if self.layer is not None:
+            return 0.0, 0.0
         lifting = 0.0 if self.operator is None else self.load
         return far_load(self.rectangle, self.far(datum), datum, lifting, self.squeeze_slope)
 
@@ -119,7 +123,9 @@ class Level:
         return gap if self.problem.heights is None else gap - self.problem.heights
 
     def far_source(self, datum: float) -> FloatArray:
-        """Pressure times film squared far away (nx, ny); zero in the ruptured film."""
+        """Pressure times film squared far away (nx, ny); zero in the ruptured film and where the gap is not full."""
+        if self.problem.layer is not None:
+            return np.zeros(self.shape)
         if self.problem.in_time is None:
             return self._steady_source
         return self.problem.far(datum).source(*self._points)

@@ -17,7 +17,7 @@ from scipy.linalg import LinAlgWarning, lu_factor, lu_solve
 from scipy.sparse import csr_matrix
 
 from bem.grid import FloatArray
-from bem.lubrication.point import loops
+from bem.lubrication.point import loops, supply_loops
 from bem.lubrication.point.levels import Level
 from bem.lubrication.point.rough_loops import rough_flows
 
@@ -82,13 +82,20 @@ class Linear:
         """Left side: balances (nx, ny), with zero for held cells, and the load."""
         level = self.level
         film = level.deflection(change.pressure) + change.datum
-        out = np.zeros(level.shape)
-        problem = level.problem
-        loops.applied(self.stencil, level.spacing, problem.drag, problem.storing, change.pressure, film, out)
+        out = self.balances(change.pressure, film)
         far = change.pressure + self.far_slope * film + self.squeezed * change.datum
         np.copyto(out, far, where=level.border)
         out[self.held] = 0.0
         return out, float(change.pressure.sum()) * level.cell + self.tail_slope * change.datum
+
+    def balances(self, pressure: FloatArray, film: FloatArray) -> FloatArray:
+        """Change of the balances of inner cells (nx, ny) with pressures and films."""
+        level, out = self.level, np.zeros(self.level.shape)
+        problem = level.problem
+        loops.applied(self.stencil, level.spacing, problem.drag, problem.storing, pressure, film, out)
+        if problem.layer is not None:
+            supply_loops.carried(self.held, problem.drag, level.spacing, out)
+        return out
 
     def relaxed(self, residual: FloatArray, back: bool) -> FloatArray:
         """Pressures that a sweep over lines adds, there or back; of oil that comes at an angle the way back is along
@@ -124,6 +131,8 @@ class Linear:
         held = level.averaged(self.held.astype(float)) > 0.5
         pressure, film = level.averaged(self.pressure), level.averaged(self.film)
         stencil = flows(coarse, pressure, film)[1]
+        if level.problem.layer is not None:
+            supply_loops.nothing_dragged(held, stencil)
         return Linear(coarse, pressure, film, held, stencil, level.averaged(self.far), self.tail_slope)
 
     @cached_property

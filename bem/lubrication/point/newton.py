@@ -13,9 +13,9 @@ from functools import cached_property
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.lubrication.point import loops
+from bem.lubrication.point import loops, supply_loops
 from bem.lubrication.point.levels import Level
-from bem.lubrication.point.linear import Change, Linear, flows, solve
+from bem.lubrication.point.linear import BoolArray, Change, Linear, flows, solve
 
 LEAST_FILM = 0.3
 """Of a film, what a step leaves of it at least."""
@@ -108,7 +108,9 @@ def balance(level: Level, state: State, mismatch: FloatArray) -> Balance:
     """What the equations leave of a state."""
     problem, pressure, film = level.problem, state.pressure, state.film
     flow, stencil = flows(level, pressure, film)
-    out = np.zeros(level.shape)
+    out, empty = np.zeros(level.shape), None
+    if problem.layer is not None:
+        empty, _ = partly_filled(level, pressure, flow, stencil)
     loops.divergence(flow, level.spacing, out)
     far, stored = level.far_source(state.datum), 0.0
     if problem.in_time is not None:
@@ -118,12 +120,21 @@ def balance(level: Level, state: State, mismatch: FloatArray) -> Balance:
     np.copyto(out, pressure - far / film**2, where=level.border)
     outside, tail_slope = problem.outside(state.datum)
     wanted, inertia = problem.wanted(state.datum)
-    held = np.where(level.border, far == 0, (pressure <= 0) & (out > 0))
+    held = np.where(level.border, far == 0, (pressure <= 0) & (out > 0)) if empty is None else empty
     load = float(pressure.sum()) * level.cell + outside - wanted
     totals = (np.abs(flow[axis, 1:-1, 1:-1].sum(axis=1 - axis)).max() for axis in (0, 1))
     first, second = (float(total) * step + stored for total, step in zip(totals, level.spacing[::-1], strict=True))
     linear = Linear(level, pressure, film, held, stencil, far, tail_slope - inertia)
     return Balance(state, mismatch, out, load, linear, (max(first, 1e-300), max(second, 1e-300)))
+
+
+def partly_filled(
+    level: Level, pressure: FloatArray, flow: FloatArray, stencil: FloatArray
+) -> tuple[BoolArray, FloatArray]:
+    """Cells of a starved contact that are not full, and contents (nx, ny); flow and stencil become theirs."""
+    problem, empty, content = level.problem, np.zeros(level.shape, dtype=bool), np.zeros(level.shape)
+    supply_loops.contents(pressure, problem.layer, problem.drag, level.spacing, flow, stencil, empty, content)
+    return empty, content
 
 
 def own_film(level: Level, pressure: FloatArray, datum: float) -> FloatArray:
@@ -144,7 +155,9 @@ def newton(level: Level, start: State, tolerance: float, most: int = 40) -> Outc
             break
         change, spent = _change(at, float(np.clip(0.3 * tolerance / largest, *FORCING)))
         cycles += spent
-        following = _improved(at, change, max(sizes[-2:]))
+        # a meniscus moves by what is wrong at it, cell by cell: errors there are as large until it is in its place
+        wanted = max(sizes[-2:]) if level.problem.layer is None else np.inf
+        following = _improved(at, change, wanted)
         if following is None:
             break
         at = following
@@ -158,12 +171,10 @@ def _change(at: Balance, forcing: float) -> tuple[Change, int]:
     linear = at.linear
     level = linear.level
     known = np.where(linear.held, -at.state.pressure, 0.0)
-    done = np.zeros(level.shape)
     film = -at.mismatch
     if known.any():
         film = film + level.deflection(known)
-    problem = level.problem
-    loops.applied(linear.stencil, level.spacing, problem.drag, problem.storing, known, film, done)
+    done = linear.balances(known, film)
     np.copyto(done, known + linear.far_slope * film, where=level.border)
     right = np.where(linear.held, 0.0, -at.right - done)
     load = -at.load - float(known.sum()) * level.cell

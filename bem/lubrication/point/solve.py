@@ -17,8 +17,10 @@ from bem.lubrication.point.cascade import Reached, solved
 from bem.lubrication.point.film import PointFilmSolution
 from bem.lubrication.point.kept import KeptPoint, central_film, certificate, film_errors, film_fraction, least_film
 from bem.lubrication.point.setting import Rectangle, Setting, setting_of
+from bem.lubrication.point.starved import checked_layer, starvation, starved
 from bem.lubrication.point.validity import notes_on_point
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors, plane_walls_of
+from bem.lubrication.supply import Starvation, Supply
 from bem.materials import Body
 from bem.threads import one_blas_thread
 
@@ -48,6 +50,7 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
     cavitation: Cavitation | str = Cavitation.SWIFT_STIEBER,
     max_iterations: int = 40,
     flow_factors: WallFactors | str = "off",
+    supply: Supply | float | None = None,
 ) -> PointFilmSolution:
     """Steady film between an ellipsoid and a flat: Reynolds' equation with rupture and elastic deflection.
 
@@ -73,6 +76,10 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
     max_iterations : Newton steps from one start on one grid; up to four starts are tried.
     flow_factors : "off", or a table of `bem.flow_factors`: pressure flow phi_x h^3 along x and phi_y h^3 along y, and
         shear flow (u1 - u2)/2 s phi_s along x, along which both walls must move then. Far away they count as smooth.
+    supply : oil that reaches the contact, an `OilLayer` or the thickness of one [m], as thick everywhere; None is
+        flooded. `PointFilmSolution.starvation` has where the gap begins to be full and by how much the film is thinner.
+        Oil is kept account of everywhere then, with either cavitation. A layer as thick as the gap on the edge of the
+        grid in the inlet floods the contact.
 
     Returns
     -------
@@ -82,7 +89,7 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
     Raises
     ------
     InputError : a value out of range, no entrainment, a load far outside what a film can carry, a grid that does not
-        hold the contact.
+        hold the contact, a supply that is a distance or comes with flow factors.
 
     Notes
     -----
@@ -92,6 +99,7 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
     """
     pair = checked(load, radii, contact_modulus, speeds, lubricant, shape, tolerance, extent)
     model, cells = cavitation_of(cavitation), SHAPE if shape is None else (int(shape[0]), int(shape[1]))
+    layer = checked_layer(supply, flow_factors)
     both = (bodies,) if isinstance(bodies, Body) else bodies
     setting = setting_of(
         float(load), (float(radii[0]), float(radii[1])), float(contact_modulus), entrainment(pair), lubricant,
@@ -100,14 +108,20 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
     check_load(setting, load)
     check_extent(setting)
     along = (cells[1], cells[0]) if setting.frame.exchanged else cells
-    reached = solved(setting.problem, along, tolerance, max_iterations)
-    film = result_of(setting, reached, Request(pair, lubricant, tolerance, contact_modulus, model))
+    flooded = reached = solved(setting.problem, along, tolerance, max_iterations)
+    lacking = None
+    if layer is not None:
+        setting, reached = starved(setting, flooded, layer, tolerance, max_iterations)
+        lacking = starvation(setting, reached, flooded)
+    asked = Request(pair, lubricant, tolerance, contact_modulus, model, starvation=lacking)
+    film = result_of(setting, reached, asked)
     return replace(film, notes=film.notes + notes_on_factors(flow_factors, film.minimum_thickness))
 
 
 @dataclass(frozen=True)
 class Request:
-    """What a result repeats of what was asked for; time [s] of one in time, which was `given` and not solved for."""
+    """What a result repeats of what was asked for; time [s] of one in time, which was `given` and not solved for; what
+    its supply does to it."""
 
     speeds: Speeds
     lubricant: Lubricant
@@ -116,6 +130,7 @@ class Request:
     cavitation: Cavitation = Cavitation.SWIFT_STIEBER
     time: float | None = None
     given: bool = False
+    starvation: Starvation | None = None
 
 
 def result_of(setting: Setting, reached: Reached, asked: Request) -> PointFilmSolution:
@@ -137,7 +152,7 @@ def result_of(setting: Setting, reached: Reached, asked: Request) -> PointFilmSo
     share = setting.problem.outside(state.datum)[0] / setting.problem.load
     full = None
     if asked.cavitation is Cavitation.MASS_CONSERVING:
-        full = frame.outer(film_fraction(level, state.pressure, film))
+        full = frame.outer(film_fraction(level, state.pressure, film) if sound else np.ones(level.shape))
     x, y = frame.axes(level.x * scales.length, level.y * scales.length)
     fields: dict[str, Any] = {
         "x": x,
@@ -165,6 +180,7 @@ def result_of(setting: Setting, reached: Reached, asked: Request) -> PointFilmSo
         lubricant=asked.lubricant,
         film_fraction=full,
         time=asked.time,
+        starvation=asked.starvation,
         state=KeptPoint(setting, level, state),
     )
     forces, rolling = unforced.forces()

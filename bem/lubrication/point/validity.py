@@ -50,7 +50,7 @@ def inlet_heating(case: PointCase) -> str | None:
     heating = inlet_heating_factor(
         case.lubricant.viscosity, validity.OIL_SOFTENING, validity.OIL_CONDUCTIVITY, case.speeds, case.hertz_ratio
     )
-    return validity.HEATING_NOTES[0] if heating.factor < validity.LEAST_INLET_FACTOR else None
+    return validity.HEATING_NOTES[0] if heating.factor < validity.LEAST_INLET_FACTOR * case.reduction else None
 
 
 def film_heating(case: PointCase) -> str | None:
@@ -95,6 +95,7 @@ def notes_on_point(film: PointFilmSolution, setting: Setting, level: Level, cont
         # of bodies as stiff as 1/2 in units of the pressure
         hertz_ratio=0.0 if hertz is None else hertz.maximum_pressure * scales.pressure / contact_modulus,
         length=0.0 if hertz is None else 2 * hertz.semi_axes[0] * scales.length,
+        reduction=1.0 if film.starvation is None else film.starvation.reduction,
     )
     notes = film.lubricant.notes + tuple(note for check in CHECKS if (note := check(case)) is not None)
     return notes + _on_grid(film, frame.inner(film.thickness), setting, level)
@@ -104,6 +105,8 @@ def inlet_shear(film: PointFilmSolution, setting: Setting) -> float:
     """Sliding force that would be added by oil in the inlet up to twice the distance [N]: Couette flow of h = r^2 g/2,
     mu |u2 - u1| integral dx dy/h, which grows with the logarithm of the distance."""
     scales, problem = setting.scales, setting.problem
+    if problem.layer is not None:  # the inlet is as full as it is
+        return 0.0
     slide = math.hypot(*np.subtract(*film.speeds))
     radius = scales.length**2 / scales.film
     return film.lubricant.viscosity * slide * radius * far_shear(problem.drag, problem.curvatures) * math.log(2)

@@ -23,6 +23,7 @@ from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.resolutions import Resolution
 from bem.scenes.tables.ball import BallRollingScene, BallScene, FilmCellsScene
+from bem.scenes.tables.supply import SupplyScene, build_supply, check_layer
 
 if TYPE_CHECKING:
     from bem.accuracy.point import PointCase
@@ -45,12 +46,14 @@ class PointFilmScene(SceneModel):
     rolling: BallRollingScene
     roughness: PositiveLength | None = None
     film: FilmCellsScene = FilmCellsScene()
+    supply: SupplyScene | None = None
     outputs: OutputsScene = OutputsScene()
 
     @model_validator(mode="after")
     def _smooth(self) -> PointFilmScene:
         check_smooth(self, "smooth surfaces here; kind friction shares the load of rough balls")
         self.oil.check_point_film()
+        check_layer(self.supply)
         return self
 
 
@@ -58,12 +61,18 @@ def plan(scene: PointFilmScene) -> Plan:
     """What will be computed."""
     (nx, ny), errors = scene.film.cells, scene.outputs.errors
     # counted: 60 to 300 cycles and as many convolutions, weighed by cells
-    seconds = 4e-5 * nx * ny
+    seconds = 4e-5 * nx * ny * (1.0 if scene.supply is None else 2.0)
+    supplied = "" if scene.supply is None else ", flooded and then with its supply"
     coated = bool(scene.lower.build().layers or scene.upper.build().layers)
     return Plan.of(
         Step("rough contact", "the surfaces are smooth, the film carries all of the load", skipped=True),
         Step("layered kernels", "of coated bodies" if coated else "no layers", skipped=not coated, seconds=1.0),
-        Step("film", f"Newton's method with multigrid on {nx} x {ny} cells", seconds=seconds, memory=900.0 * nx * ny),
+        Step(
+            "film",
+            f"Newton's method with multigrid on {nx} x {ny} cells{supplied}",
+            seconds=seconds,
+            memory=900.0 * nx * ny,
+        ),
         plans.error_bars(errors, "the film on half as many cells", seconds=0.3 * seconds),
         plans.figures(nx * ny),
     )
@@ -71,6 +80,7 @@ def plan(scene: PointFilmScene) -> Plan:
 
 _SPIKE = "the pressure spike before the outlet is narrower than the cells, and its height follows them"
 _GIVEN = partial(Figure, unjudged=True)
+_of_supply = partial(Figure, optional=True)
 _ROUGH = (
     "the film is thinner than the roughness (lambda below 1): the surfaces touch, of which this smooth contact knows "
     "nothing"
@@ -90,6 +100,12 @@ class PointFilmRecord(Record):
     lambda_ratio: Annotated[float | None, Figure("", "minimum film over roughness", optional=True, headline=True)] = (
         None
     )
+    film_reduction: Annotated[float | None, _of_supply("", "central film over that of a flooded inlet")] = None
+    oil_layer: Annotated[float | None, _of_supply("nm", "oil that goes through the middle, as a layer")] = None
+    flooded_layer: Annotated[float | None, _of_supply("nm", "the same of a flooded contact")] = None
+    meniscus_position: Annotated[
+        float | None, _of_supply("um", "where the gap begins to be full, along the entrainment")
+    ] = None
     load: Annotated[float, _GIVEN("N", "load")]
     hertz_pressure: Annotated[float, _GIVEN("Pa", "highest pressure of the dry contact")]
     half_axis_x: Annotated[float, _GIVEN("um", "half-axis of the dry contact along x")]
@@ -148,6 +164,7 @@ def _case(scene: PointFilmScene) -> PointCase:
         cells=scene.film.cells,
         bodies=bodies if any(body.layers for body in bodies) else None,
         roughness=scene.roughness,
+        supply=build_supply(scene.supply),
     )
 
 

@@ -1,4 +1,4 @@
-"""How much oil reaches a line contact: the table `supply` of the kinds with an oil film.
+"""How much oil reaches a contact: the table `supply` of the kinds with an oil film.
 
 Verified in tests/scenes/test_supply_scenes.py.
 """
@@ -10,7 +10,7 @@ from typing import Annotated
 from pydantic import Field
 
 from bem.lubrication.supply import InletDistance, OilLayer, Supply
-from bem.scenes.common import Table, one_of
+from bem.scenes.common import Table, one_of, problem
 from bem.scenes.units import Length
 
 SupplyLength = Annotated[Length, Field(gt=0)]
@@ -34,6 +34,17 @@ class SupplyScene(Table):
             return OilLayer(self.layer)
         assert self.distance is not None
         return InletDistance(self.distance)
+
+
+def check_layer(scene: SupplyScene | None) -> None:
+    """Refuse a distance of a point contact.
+
+    Raises
+    ------
+    ValueError : with a message.
+    """
+    if scene is not None and scene.layer is None:
+        raise problem("supply.distance: the meniscus of a point contact is curved and is found", "supply.layer")
 
 
 def build_supply(scene: SupplyScene | None) -> Supply | None:
