@@ -41,7 +41,7 @@ class Across:
     centre, and steep : d ln(it)/d ln(newtonian) (n,). flux : mass through a layer over the oil's density (n, K)
     [m^2/s]. heat : made in a layer by shear (n, K) [W/m^2]; of these sheared : by the centred stress in the sliding;
     crossing : by that in what pressure shears; leaning : by the pressure's in the sliding. expanding : heat that
-    compression makes, over temperature and rise of pressure (n, K) [m^2/(s K)]. softer : -d ln(viscosity)/dT (n, K)
+    compression makes, over temperature and rise of `Oil.expanded` (n, K) [m^2/s]. softer : -d ln(viscosity)/dT (n, K)
     [1/K]. share : of the sliding (n, K). dense : density over that of the oil without pressure (n, K). slow : one over
     the flux (n, K). thinning : (n,) see `line_flow.Layered`. pushed : rise of speed through a layer by the pressure
     over lever (n, K) [m/s]. lever : s less where the fluidity has its centre (n, K). turning : heat lost as that centre
@@ -141,7 +141,7 @@ def across(oil: Oil, strip: Strip, temperature: FloatArray, given: Given) -> Acr
         sheared=dragged,
         crossing=crossing * lever,
         leaning=leaning * lever,
-        expanding=oil.expands(strip.pressure)[:, None] * found.density * volume,
+        expanding=found.density * volume,
         softer=softer,
         share=share,
         steep=sheared.steep,

@@ -62,6 +62,10 @@ class Oil:
         """Expansion at pressures [Pa] [1/K]."""
         return np.asarray(self.expansion / (1 + pressure / EXPANSION_PRESSURE))
 
+    def expanded(self, pressure: FloatArray) -> FloatArray:
+        """Integral of that from no pressure on [Pa/K]: across a spike of a few nodes no sum over them has it."""
+        return np.asarray(self.expansion * EXPANSION_PRESSURE * np.log1p(pressure / EXPANSION_PRESSURE))
+
     def kept_work(self, pressure: FloatArray) -> FloatArray:
         """Share of the pressure's work that does not become heat: 1 - alpha T at the lubricant's own temperature."""
         return 1 - self.viscosity.reference * self.expands(pressure)

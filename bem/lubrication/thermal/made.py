@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numba import njit
@@ -51,6 +52,11 @@ class Made:
         """Stress, flow and heat at the nodes."""
         return across(self.oil, self.strip, self.at_nodes(temperature), self.given)
 
+    @cached_property
+    def expanded(self) -> FloatArray:
+        """`Oil.expanded` at the nodes (n,) [Pa/K]."""
+        return self.oil.expanded(self.strip.pressure)
+
     @property
     def ambient(self) -> float:
         """Sliding force upstream of the mesh [N/m]."""
@@ -90,7 +96,7 @@ class Made:
         slope *= blunted[:, None, None]
         expanded = self._by_pressure(found.expanding * nodes * found.slow)
         slope[1] += expanded[:, :, None] * 0.5 * (bending[1:] + bending[:-1])
-        _gather_expansion(self.strip.pressure, self.edge, self.right, self.share, found.expanding, slope)
+        _gather_expansion(self.expanded, self.edge, self.right, self.share, found.expanding, slope)
         return slope
 
     def _gathered(self, heat: FloatArray, softer: FloatArray, lost: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -102,8 +108,8 @@ class Made:
         return slope, growth
 
     def _by_pressure(self, values: FloatArray) -> FloatArray:
-        """Integrals over pressure in the columns of values at the nodes (n, K)."""
-        rises = np.diff(self.strip.pressure)[:, None]
+        """Integrals over what pressure expands by, in the columns, of values at the nodes (n, K)."""
+        rises = np.diff(self.expanded)[:, None]
         return np.asarray(np.add.reduceat(0.5 * rises * (values[1:] + values[:-1]), self.edge[:-1], axis=0))
 
     def _in_columns(self, values: FloatArray) -> FloatArray:
@@ -159,7 +165,7 @@ def _gather(  # reason: arrays of one loop, which cannot be a record in compiled
 
 @njit(cache=True)
 def _gather_expansion(
-    pressure: FloatArray,
+    expanded: FloatArray,
     edge: NDArray[np.intp],
     right: NDArray[np.intp],
     share: FloatArray,
@@ -169,7 +175,7 @@ def _gather_expansion(
     """Add heat of compression over the temperatures that it is in proportion to."""
     for column in range(len(edge) - 1):
         for node in range(edge[column], edge[column + 1] + 1):
-            rise = _half_pieces(pressure, edge, column, node)
+            rise = _half_pieces(expanded, edge, column, node)
             for side in range(2):
                 part = rise * (share[node] if side == 1 else 1 - share[node])
                 step = right[node] + side - column
