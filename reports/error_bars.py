@@ -17,7 +17,8 @@ from reports.validation_origin import changed_since_stored
 _WORDS = prose("guide")["error_bars"]
 RESULTS = Path(__file__).parent / "results"
 _KINDS = {
-    "contact": "contact", "film": "friction", "mixed": "friction", "mixed_ball": "friction", "march": "film",
+    "contact": "contact", "film": "friction", "mixed": "friction", "mixed_ball": "friction", "heated_mixed": "friction",
+    "march": "film",
     "point": "point-film",
     "asperities": "asperities", "flow": "flow-factors", "rubbing": "surface-temperature", "tribofilm": "tribofilm",
     "wear": "wear", "running_in": "running-in", "particle": "particles", "sticking": "partial-slip",

@@ -24,7 +24,7 @@ from bem.errors import Status
 from bem.friction import MixedSolution
 from bem.friction.balance import BalanceStart, Regime, share_load
 from bem.friction.films import films_of
-from bem.friction.forces import friction_forces, lambda_ratio
+from bem.friction.forces import friction_forces, lambda_ratio, unrubbed
 from bem.friction.rough_contact import rough_contact
 from bem.friction.setup import FEWEST_CELLS, MixedSetup
 from bem.grid import FloatArray, Grid
@@ -60,10 +60,14 @@ RULES: dict[str, Rule] = {
     "minimum_film": Rule(0.5, 0.4, edge=0.0005),
     "lambda_ratio": Rule(1.0, 1.0),
     "contact_area_fraction": Rule(0.67, 0.67, edge=0.006, rough_edge=0.05),
+    "contact_temperature": Rule(1.0, 1.0, edge=0.005, rough_edge=0.005),
+    "flash_temperature": Rule(1.0, 1.0, edge=0.01, rough_edge=0.01),
 }
 """Of the difference between the grids; set by `reports/experiments/mixed_error_bars.py` with seeds that it does not
 store. Edges of areas whose spots are not resolved count squared: errors of contacts of one to five cells were 4 to
 0.3 times the area."""
+TEMPERATURES = ("contact_temperature", "flash_temperature")
+"""Of a contact whose heat was asked for and that slides: they count from the oil's."""
 _PARTS = ("boundary_part", "film_part")
 """Of friction: load that passes from film to contact takes from one what it adds to the other, so that differences of
 either were up to nine times that of their sum, where their errors were of one sign."""
@@ -113,7 +117,8 @@ class CoarserShares:
 
 
 def mixed_figures(solution: MixedSolution) -> dict[str, float]:
-    """Figures of load sharing that have bars."""
+    """Figures of load sharing that have bars; temperatures [K] where there are any."""
+    hot = {name: getattr(solution, name) for name in TEMPERATURES if getattr(solution, name) is not None}
     area = 0.0 if solution.contact is None else solution.contact.contact_area / solution.grid.area
     return {
         "friction": solution.friction,
@@ -124,6 +129,7 @@ def mixed_figures(solution: MixedSolution) -> dict[str, float]:
         "minimum_film": solution.minimum_film,
         "lambda_ratio": solution.lambda_ratio,
         "contact_area_fraction": area,
+        **hot,
     }
 
 
@@ -149,7 +155,8 @@ def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
     """Bars of the figures of load sharing, their parts by origin."""
     if coarser.contact is None or coarser.both is None:
         return ErrorBars.unknown(RULES, coarser.why)
-    found = mixed_figures(case.solution)
+    found, cool = mixed_figures(case.solution), unrubbed(case.setup)
+    found |= {name: found[name] - cool for name in TEMPERATURES if name in found}
     one, two = coarser.contact.figures, coarser.both.figures
     resolved, uncoupled = surface_is_resolved(case.height, case.setup.grid), case.setup.contact_model == "uncoupled"
     if uncoupled and not resolved and not case.solution.full_film:
@@ -161,15 +168,16 @@ def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
     halved = _FILM_TWICE if coarser.ratio > 1 else _FILM * 3 / (1 / coarser.ratio**2 - 1)
     halved = max(halved, _of_continuing(found["film_load"], coarser.contact.solved_load, coarser.both.solved_load))
     parts = {
-        GRID: {n: summits * rule.bar(found[n] - one[n], edge[n], resolved=resolved) for n, rule in RULES.items()},
-        POINTS: {n: halved * abs(one[n] - two[n]) for n in RULES},
+        GRID: {n: summits * RULES[n].bar(found[n] - one[n], edge[n], resolved=resolved) for n in found},
+        POINTS: {n: halved * abs(one[n] - two[n]) for n in found},
         BALANCE: _balance_part(case.solution, case.setup, found),
     }
-    if case.setup.thermal == "full":
+    hot_line = case.setup.thermal != "off" and case.setup.radii is None
+    if hot_line:
         halved = max(halved, DIFFERENCE)
     thinner = abs(one["minimum_film"] - two["minimum_film"]) / max(found["minimum_film"], two["minimum_film"])
     parts[POINTS]["film_part"] += halved * _FILM_SHARE * thinner * abs(found["film_part"])
-    if case.setup.thermal == "full":
+    if hot_line:
         for name in OF_FILM:
             parts[POINTS][name] += FILM_SHARE * thinner * abs(found[name])
     # film and contact sum to the load, so that one is as wrong as the other; boundary friction goes with the latter
@@ -179,6 +187,11 @@ def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
         parts[GRID]["boundary_part"] = max(parts[GRID]["boundary_part"], of_contact * abs(found["boundary_part"]))
     for part in (parts[GRID], parts[POINTS]):
         part["friction"] = max(part["friction"], *(part[name] for name in _PARTS))
+        # heat is friction's, and temperatures are linear in it
+        missed = part["friction"] / abs(found["friction"]) if found["friction"] else 0.0
+        for name in TEMPERATURES:
+            if name in found:
+                part[name] = max(part[name], missed * found[name])
     bars = ErrorBars.together(parts)
     if case.setup.load > coarser.contact.solved_load:
         bars = bars.without("lambda_ratio", _CONTINUED)
@@ -207,14 +220,14 @@ def _at_edge(solution: MixedSolution, found: dict[str, float], share: float, *, 
     """What of the figures lies within a cell of the contact's edge. Of loads no more than the other of film and contact
     has: that much can pass between them."""
     if not share > 0:
-        return dict.fromkeys(RULES, 0.0)
+        return dict.fromkeys(found, 0.0)
     passed = min(solution.contact_load, solution.film_load)
     of_contact = passed / solution.contact_load if solution.contact_load > 0 else 0.0
     of_film = passed / solution.film_load if solution.film_load > 0 else 0.0
     parts = {"friction": of_contact, "boundary_part": of_contact, "contact_load": of_contact, "film_load": of_film}
     if not resolved:
         parts["contact_area_fraction"] = share
-    return {name: share * parts.get(name, 1.0) * found[name] for name in RULES}
+    return {name: share * parts.get(name, 1.0) * value for name, value in found.items()}
 
 
 def half_grid(grid: Grid) -> Grid:
@@ -260,6 +273,9 @@ def _shares(case: MixedCase, points: int, heat_mesh: float = 1.0) -> Shares:
         "minimum_film": balance.film.minimum_thickness,
         "lambda_ratio": lambda_ratio(whole, case.height),
         "contact_area_fraction": 0.0 if balance.contact is None else balance.contact.area / setup.slices / grid.area,
+        # rises over the oil; a contact that does not touch has none
+        "contact_temperature": 0.0 if forces.heat is None else forces.heat.mean - unrubbed(setup),
+        "flash_temperature": 0.0 if forces.heat is None else forces.heat.maximum - unrubbed(setup),
     }
     return Shares(figures, balance.status, film.solved_load)
 
@@ -268,7 +284,7 @@ def _balance_part(solution: MixedSolution, setup: MixedSetup, found: dict[str, f
     """What the balance's imbalances and the contact's tolerance may hide: the film load is off by that of the oil over
     the slope of the balance, the contact's load by as much and the imbalance, all else in proportion."""
     if solution.full_film:
-        return dict.fromkeys(RULES, 0.0)
+        return dict.fromkeys(found, 0.0)
     missing = abs(solution.imbalance) + setup.contact_tolerance + abs(solution.oil_imbalance)
     film = missing * solution.film_load / max(solution.balance_slope, 0.1)
     if solution.regime is Regime.BOUNDARY:  # anything from nothing to this
@@ -277,7 +293,9 @@ def _balance_part(solution: MixedSolution, setup: MixedSetup, found: dict[str, f
     of_contact = contact / solution.contact_load if solution.contact_load > 0 else math.inf
     of_film = film / solution.film_load if solution.film_load > 0 else math.inf
     boundary, oil = abs(found["boundary_part"]) * of_contact, abs(found["film_part"]) * of_film
+    heat = min((boundary + oil) / abs(found["friction"]), 1.0) if found["friction"] else 0.0
     return {
+        **{name: found[name] * heat for name in TEMPERATURES if name in found},
         "friction": boundary + oil,
         "boundary_part": boundary,
         "film_part": oil,

@@ -55,8 +55,10 @@ MIXED_RULES: dict[str, LoopRule] = {
     "Sq_final": LoopRule(1.5, wear=0.6, share=0.005),
     "worn_depth": LoopRule(1.5, wear=0.6),
     "criterion_wear_rate": RULES["worn_volume_per_cycle"],
+    **dict.fromkeys(("contact_temperature", "flash_temperature"), LoopRule(1.5, wear=0.3, share=0.002)),
 }
-"""The same in mixed lubrication; `_of_film` adds to those of the film. There is no wear rate where nothing slides."""
+"""The same in mixed lubrication; `_of_film` adds to those of the film. There is no wear rate where nothing slides; of
+temperatures the rise counts."""
 _FILM_TWICE = 1.5
 """On what twice the points of a film change: order two leaves 4/3 of it, as in load sharing."""
 OF_FILM = ("friction_initial", "friction_run_in", "friction", "film_friction_part", "minimum_film", "lambda_ratio")

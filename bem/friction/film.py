@@ -110,7 +110,13 @@ def solved_line_film(
     }
     if heat is None:
         return solve_line_film(**asked, position=position, supply=contact.supply)
-    if heat.model == "full" and heat.mesh != 1:
+    if heat.model == "lumped" and heat.mesh != 1:
+        from bem.lubrication.thermal import solve_thermal_line_film
+        from bem.lubrication.thermal.lumped import CELLS
+
+        cells = round(heat.mesh * CELLS)
+        return solve_thermal_line_film(**asked, bodies=heat.bodies, supply=contact.supply, cells=cells).as_film()
+    if heat.mesh != 1:
         from bem.lubrication.thermal import solve_full_thermal_line_film
         from bem.lubrication.thermal.full import COLUMNS, LAYERS
 

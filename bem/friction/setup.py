@@ -35,7 +35,7 @@ HEAT_NEEDS = ("temperature", "density", "heat_capacity", "thermal_conductivity",
 @dataclass(frozen=True, eq=False)
 class MixedSetup:
     """Load sharing but for roughness and speeds; the fields are those arguments of `solve_mixed`, and `heat_mesh`, by
-    how many times the usual columns and layers full heat is found on.
+    how many times the usual columns and layers full heat, or cells along a line lumped heat, is found on.
 
     Raises
     ------

@@ -24,7 +24,7 @@ from bem.reference_solutions.hertz import ellipse_contact
 @dataclass(frozen=True)
 class FilmHeat:
     """Which model of the film's heat, as of `solve_line_film`, and the flat and the cylinder that it enters; `mesh` :
-    times the usual columns and layers of full heat."""
+    times the usual columns and layers of full heat, cells of lumped heat along a line film."""
 
     model: str
     bodies: tuple[Body, Body]

@@ -144,11 +144,13 @@ def relative_error(record: Record, name: str) -> float:
     """The largest relative error of a figure of a record, infinite where it has none."""
     item = described(type(record))[name]
     assert isinstance(item, Figure)
-    error = record.errors.get(name)
+    error, value = record.errors.get(name), getattr(record, name)
+    if error is not None and item.optional and isinstance(value, np.ndarray):  # not all speeds have it
+        error = np.where(np.isnan(value), 0.0, error)
     if error is None or not np.all(np.isfinite(error)):
         return math.inf
     whole = sum(np.abs(np.asarray(getattr(record, part))) for part in item.part_of or (name,))
-    largest, worst = float(np.max(whole)), float(np.max(np.abs(error)))
+    largest, worst = float(np.nanmax(whole, initial=0.0)), float(np.max(np.abs(error)))
     if item.unit in ("C", "K"):
         largest = max(largest, _KELVINS)
     return 0.0 if worst == 0 else worst / largest if largest > 0 else math.inf

@@ -86,10 +86,13 @@ def draw(rng: np.random.Generator) -> Problem:
 
 
 def finer(setup: MixedSetup) -> MixedSetup:
-    """Each cell cut into 4 x 4, films of four times the points."""
+    """Each cell cut into 4 x 4, films of four times the points and, where lumped heat is found, cells."""
     (nx, ny), (dx, dy) = setup.grid.shape, setup.grid.spacing
     grid = Grid((FINER * nx, FINER * ny), (dx / FINER, dy / FINER), periodic=setup.grid.periodic)
-    return replace(setup, grid=grid, tolerance=setup.tolerance / 10).with_film(FINER * setup.film_resolution)
+    mesh = 1.0 if setup.thermal == "off" else float(FINER)
+    return replace(setup, grid=grid, heat_mesh=mesh, tolerance=setup.tolerance / 10).with_film(
+        FINER * setup.film_resolution
+    )
 
 
 def rows_of(problem: Problem) -> list[dict[str, Any]]:

@@ -271,6 +271,27 @@ def test_running_in_resumes_to_the_same_bits(tmp_path):
         assert np.array_equal(variable.values, resumed.variables[name].values), name
 
 
+def test_temperatures_of_contacts_have_error_bars_where_surfaces_touch():
+    steel = {
+        "lower": {"material": "steel-52100", "surface": PATCH["lower"]["surface"]},
+        "upper": {"material": "steel-52100"},
+    }
+    oil = {"oil": {"grade": "ISO VG 10", "temperature": "100 degC"}, "speeds": ["0.5 m/s", "40 m/s"]}
+    slow, fast = 0, 1
+    summary = run(FRICTION | steel | oil | {"thermal": "lumped"})[1].summary
+    assert summary["contact_load_N"][fast] == 0 < summary["contact_load_N"][slow]
+    for name in ("contact_temperature_C", "flash_temperature_C"):
+        error = summary[f"{name}_error"]
+        assert 0 < error[slow] < summary[name][slow] - 100
+        assert error[slow] == pytest.approx(
+            sum(summary[f"{name}_error_{part}"][slow] for part in ("grid", "film_points", "balance"))
+        )
+        assert np.isnan(summary[name][fast])
+        assert error[fast] is None
+    off = run(FRICTION | steel | oil)[1].summary
+    assert "flash_temperature_C_error" not in off
+
+
 def test_running_in_with_heat_wears_where_a_boundary_film_is_hot():
     steel = {"catalogue": "steel-52100", "hardness": "1.08 GPa"}
     law = {"kind": "archard", "specific_wear_rate": "1e-6 mm^3/(N*m)", "distance": "1 cm"}
@@ -292,6 +313,10 @@ def test_running_in_with_heat_wears_where_a_boundary_film_is_hot():
     assert full["minimum_film_nm_error"][0] > 0
     assert full["worn_depth_nm_error"][0] > 0
     assert hot["minimum_film_nm_error"][0] > 0
+    for name in ("contact_temperature_C", "flash_temperature_C"):
+        rise = hot[name][0] - 100
+        assert 0 < hot[f"{name}_error"][0] < rise
+        assert f"{name}_error" not in off
     assert hot["worn_depth_nm"][0] > 1.1 * off["worn_depth_nm"][0] > 0
     with pytest.raises(InputError, match=r"film_defect\.temperature: missing"):
         run(scene | {"oil": PATCH["oil"]})

@@ -48,6 +48,8 @@ _TYPICAL, _SLIGHTEST, _ROUNDS = 0.7, -1e-3, 3
 """Exponent that the fitted one is found from, the least ln of a share that it is looked up for, and how often."""
 FACTOR_TOLERANCE = 5e-3
 """Of the film that inlet heating leaves; the factor itself is good to some 0.05."""
+CELLS = 200
+"""Along the film."""
 MOST_FILMS = 6
 LARGEST_STRESS = 1e12
 """On the way to the temperatures [Pa]: cold oil that has no limit would carry more than can be computed with."""
@@ -157,7 +159,7 @@ def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and 
     tolerance: float = 1e-8,
     max_iterations: int = 40,
     flow_factors: WallFactors | str = "off",
-    cells: int = 200,
+    cells: int = CELLS,
     supply: Supply | float | None = None,
 ) -> ThermalFilm:
     """Steady thermal film between a cylinder and a flat, lumped over the film's thickness.

@@ -5,7 +5,7 @@ A case is one curve: one load, one surface, one contact model; each speed starts
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -98,7 +98,7 @@ _LOADS = ("contact_load", "film_load")
 _OTHER = "they are to compare with, to a thousandth of the oil"
 _other_oil = partial(_curve, no_bar=_OTHER)
 _supplied = partial(_curve, optional=True, no_bar="it goes with the minimum film: look at that of it")
-_heated = partial(_curve, "C", optional=True, no_bar=BAR_OF_HEAT)
+_heated = partial(_curve, "C", optional=True)
 _OF_SUPPLY = ("film_reduction", "meniscus_position")
 _OF_HEAT = ("oil_temperature", "contact_temperature", "flash_temperature")
 
@@ -127,7 +127,9 @@ class CurveRecord(Record):
     loaded_friction: Annotated[FloatArray, _other_oil("", "friction with the oil counted where the film carries")]
     film_reduction: Annotated[FloatArray | None, _supplied("", "central film over that of a flooded inlet")] = None
     meniscus_position: Annotated[FloatArray | None, _supplied("um", "where the gap begins to be full")] = None
-    oil_temperature: Annotated[FloatArray | None, _heated("oil in the contact, mean by pressure")] = None
+    oil_temperature: Annotated[
+        FloatArray | None, _heated("oil in the contact, mean by pressure", no_bar=BAR_OF_HEAT)
+    ] = None
     contact_temperature: Annotated[FloatArray | None, _heated("surfaces in contact, mean by pressure")] = None
     flash_temperature: Annotated[FloatArray | None, _heated("surfaces in contact, highest")] = None
     rms_height: Annotated[float, Figure("nm", "rms height of both surfaces together", name="Sq", unjudged=True)]
@@ -242,11 +244,16 @@ def _record(
         separation=shown.separation,
         **dict(zip(_ON_PATCH, shown.film_along_x, strict=True)),
         **dict(zip(_ON_ITS_MESH, shown.film_section, strict=True)),
-        errors=bars,
-        error_parts=parts,
+        errors=_kept(bars, left_out),
+        error_parts={origin: _kept(part, left_out) for origin, part in parts.items()},
         status=bad[0].status if bad else Status.CONVERGED,
         where="; ".join(f"speed {one.speed:g} m/s: {one.status.value}" for one in bad[:5]),
     )
+
+
+def _kept(errors: Mapping[str, FloatArray], left_out: Collection[str]) -> dict[str, FloatArray]:
+    """Errors of the figures that are not left out."""
+    return {name: error for name, error in errors.items() if name not in left_out}
 
 
 _ON_PATCH, _ON_ITS_MESH = (

@@ -24,7 +24,7 @@ from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled, without_bars
 from bem.scenes.resolutions import CELLS, of_loop
 from bem.scenes.rubbing import FRICTION_SLIDES
-from bem.scenes.tables.sharing import TEMPERATURES, OneLoadScene, RunningInCycles, RunningInSharing, heated
+from bem.scenes.tables.sharing import TEMPERATURES, OneLoadScene, RunningInCycles, RunningInSharing
 from bem.scenes.tables.wear_model import WearScenePart
 from bem.scenes.third_bodies import tell_of_third_bodies
 
@@ -96,6 +96,9 @@ _over, _shown, _line = (partial(Series, ("cycle",)), partial(Series, ("x", "y"),
 _FOLLOWS_CELL = f"{pieces.FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
 
 
+_heated = partial(Figure, "C", optional=True)
+
+
 @dataclass(frozen=True, eq=False)
 class RunningInRecord(GridRecord, wearing.WornRecord):
     """A lubricated wear loop: friction before and after, particles, histories, the last film and surface."""
@@ -103,7 +106,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     scatters: ClassVar[tuple[str, ...]] = (
         *("friction_initial", "friction_run_in", "friction", "boundary_friction_part", "film_friction_part"),
         *("Sq_initial", "Sq_final", "worn_depth", "contact_load_initial", "contact_load", "film_load", "lambda_ratio"),
-        *("minimum_film", "contact_area_fraction", "criterion_wear_rate"),
+        *("minimum_film", "contact_area_fraction", "criterion_wear_rate", *TEMPERATURES),
     )
     friction_initial: Annotated[float, Figure("", "friction in the first cycle", headline=True)]
     friction_run_in: Annotated[float, Figure("", "friction, mean of the last cycles", headline=True)]
@@ -133,8 +136,8 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle", no_bar=pieces.FOLLOWS_CELL)]
     particles_last_cycles: Annotated[float, Figure("", "particles of the last cycles", no_bar=pieces.FOLLOWS_CELL)]
     film_table_error: Annotated[float, Figure("", "error of the film that is interpolated in the table", unjudged=True)]
-    contact_temperature: Annotated[float | None, heated("surfaces in contact, mean by pressure, run in")]
-    flash_temperature: Annotated[float | None, heated("surfaces in contact, highest, run in")]
+    contact_temperature: Annotated[float | None, _heated("surfaces in contact, mean by pressure, run in")]
+    flash_temperature: Annotated[float | None, _heated("surfaces in contact, highest, run in")]
     evaluations_per_cycle: Annotated[float, Figure("", "films per cycle", unjudged=True)]
     number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number", no_bar=pieces.FOLLOWS_CELL)]
     volume_mean_radius: Annotated[float, Figure("nm", "the same, mean by volume", no_bar=_FOLLOWS_CELL)]
@@ -165,8 +168,8 @@ def run(scene: RunningInScene, context: Context) -> RunningInRecord:
 
 
 def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: RunningInRecord) -> ErrorBars:
-    """Of the loop on every second cell and half the points of the film, columns and layers of full heat; where half are
-    too few for a film, of that loop with twice the points besides."""
+    """Of the loop on every second cell and half the points of the film, columns and layers of full heat, cells of
+    lumped heat; where half are too few for a film, of that loop with twice the points besides."""
     from bem.accuracy import running_in_bars
     from bem.accuracy.wear import MIXED_RULES
 
@@ -174,14 +177,19 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
         coarser = at_resolution(scene, factor, across)
         return with_keys(coarser, wearing.film_keys(coarser, 2.0))
 
-    loop = partial(wear_down, heat_mesh=0.5) if scene.thermal == "full" else wear_down
+    loop = partial(wear_down, heat_mesh=0.5) if scene.thermal != "off" else wear_down
     coarser = partial(wearing.on_twice_the_cell, scene, initial, build.grid_of(scene.grid), loop)
     there, finer_film = coarser(at_resolution), None
     if there is not None and not wearing.film_is_halved(scene):
         finer_film = coarser(finer)
         there = None if finer_film is None else there
     known = [name for name in MIXED_RULES if getattr(found, name) is not None]
-    figures = (None if one is None else {n: getattr(one, n) for n in known} for one in (found, there, finer_film))
+    # of temperatures the rise
+    cool = dict.fromkeys(TEMPERATURES, scene.oil.temperature or 0.0)
+    figures = (
+        None if one is None else {n: getattr(one, n) - cool.get(n, 0.0) for n in known}
+        for one in (found, there, finer_film)
+    )
     bars = running_in_bars(*figures, full_heat=scene.thermal == "full")  # type: ignore[arg-type]
     return bars if there is None else bars | _of_heights(scene, found)
 
