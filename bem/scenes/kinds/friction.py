@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 
 _CONVOLUTIONS = 120  # of the contacts of one speed
 _SEPARATIONS = 10  # of the flow factors' table
+_FILMS_AGAIN = 0.6
+"""Of the time of films and their heat, for both balances of error bars: 0.4 to 0.8 was measured, heat or none."""
 
 
 class FrictionScene(CurveScene):
@@ -69,10 +71,12 @@ def plan(scene: FrictionScene) -> Plan:
     InputError : a patch that does not fit. InfeasibleError : a load that neither film nor surfaces can carry.
     """
     grid, speeds, coupled = scene.check(scene.film), len(scene.speeds.build()), scene.coupled
+    heat, cells = film_plans.heat(scene.thermal, speeds, grid.cells), scene.film.cells
+    films = film_plans.of_curve(speeds, scene.film.points, None if scene.contact.point_radii is None else cells)
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
-        film_plans.of_curve(speeds, scene.film.points, None if scene.contact.point_radii is None else scene.film.cells),
-        film_plans.heat(scene.thermal, speeds, grid.cells),
+        films,
+        heat,
         plans.contacts(
             grid,
             _CONVOLUTIONS * speeds,
@@ -84,6 +88,7 @@ def plan(scene: FrictionScene) -> Plan:
         plans.error_bars(
             scene.outputs.errors,
             "each balance on the grid of twice the cell, and there with half the film's points",
+            seconds=_FILMS_AGAIN * (films.seconds + (0.0 if heat.skipped else heat.seconds)),
             **plans.coarser_contacts(grid, _CONVOLUTIONS * speeds if coupled else 0, 2.0),
         ),
         plans.flow_factors(grid, _SEPARATIONS, wanted=scene.sharing.flow_factors != "off"),
