@@ -89,7 +89,7 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
     Raises
     ------
     InputError : a value out of range, no entrainment, a load far outside what a film can carry, a grid that does not
-        hold the contact, a supply that is a distance or comes with flow factors.
+        hold the contact, a supply that is a distance or comes with flow factors or at an angle.
 
     Notes
     -----
@@ -99,7 +99,7 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
     """
     pair = checked(load, radii, contact_modulus, speeds, lubricant, shape, tolerance, extent)
     model, cells = cavitation_of(cavitation), SHAPE if shape is None else (int(shape[0]), int(shape[1]))
-    layer = checked_layer(supply, flow_factors)
+    layer = checked_layer(supply, flow_factors, entrainment(pair))
     both = (bodies,) if isinstance(bodies, Body) else bodies
     setting = setting_of(
         float(load), (float(radii[0]), float(radii[1])), float(contact_modulus), entrainment(pair), lubricant,

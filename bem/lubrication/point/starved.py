@@ -29,7 +29,7 @@ PER_CELL = 8
 """Samples of a cell along a line."""
 
 
-def checked_layer(supply: object, flow_factors: object) -> OilLayer | None:
+def checked_layer(supply: object, flow_factors: object, entrainment: tuple[float, float]) -> OilLayer | None:
     """The layer that reaches a point contact.
 
     Raises
@@ -46,6 +46,8 @@ def checked_layer(supply: object, flow_factors: object) -> OilLayer | None:
         )
     if not (isinstance(flow_factors, str) and flow_factors == "off"):
         raise InputError('supply: not there with flow_factors for point contacts; leave one out, flow_factors="off"')
+    if 0.0 not in entrainment:
+        raise InputError("supply: entrainment at an angle has none yet; let both speeds point along x or along y")
     return found
 
 
