@@ -1,7 +1,7 @@
 """How hot rubbing makes the surfaces of a contact in oil, and the boundary friction that they then have.
 
 Friction of the contact and of the oil between its cells heats both bodies, moving half-spaces that are as warm far
-away as the oil that comes (`bem.heat`); a body at rest is taken as cool at a distance of the cylinder's radius. Where
+away as the oil that comes (`bem.heat`); a body at rest under a cylinder is taken as cool at its radius. Where
 the law of boundary friction knows temperature it is told the contact's mean, weighted by pressure, which depends on it
 in turn: temperatures are linear in the coefficient, and one number is looked for. Verified in
 tests/friction/test_hot_contact.py.
@@ -53,9 +53,8 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
     """Of a contact that carries some load, between surfaces that slide at a pair of speeds [m/s], with heat."""
     heat, law, slide = setup.smooth.heat, setup.boundary_law, abs(speeds[0] - speeds[1])
     assert heat is not None
-    radius = setup.radius if setup.radii is None else setup.radii[0]
-    assert radius is not None
-    bulk, moving = float(setup.lubricant.temperature or 0.0), _moving(heat, radius, speeds)
+    bulk = float(setup.lubricant.temperature or 0.0)
+    moving = speeds if setup.radius is None else _moving(heat, setup.radius, speeds)
     pressure, touching = contact.pressure, contact.pressure > 0
     filled = filled_part(pressure, contact.area / setup.slices, setup.grid)
     of_oil = np.broadcast_to(np.abs(film.shear_stress), pressure.shape) * np.where(touching, 0.0, slide)
@@ -90,7 +89,7 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
         law=law,
         coefficient=coefficient,
         status=found.status,
-        notes=found.notes + ((AT_REST,) if 0 in speeds else ()),
+        notes=found.notes + ((AT_REST,) if moving != speeds and 0 in speeds else ()),
     )
 
 

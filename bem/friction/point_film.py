@@ -146,8 +146,8 @@ def point_film(
 
         known[place] = thinning(oil, _inlet(contact, speeds, at), central, _fitted_exponent(contact, speeds, at))
     film = cold_film(_of_oil(contact, known[place].oil(oil, inlet)), speeds, load, cells)
-    across = ellipse_contact(radii=contact.radii, contact_modulus=contact.film_modulus(load), load=load).semi_axes[1]
-    return with_heat(film, oil, contact.heat.bodies, across, inlet, known[place].missed)
+    dry = ellipse_contact(radii=contact.radii, contact_modulus=contact.film_modulus(load), load=load)
+    return with_heat(film, oil, contact.heat.bodies, dry.semi_axes, inlet, known[place].missed)
 
 
 def _of_oil(contact: PointContact, lubricant: Lubricant) -> PointContact:

@@ -6,13 +6,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_surface, solve_line_film, solve_mixed
+from bem import (
+    Body,
+    Grid,
+    InputError,
+    Lubricant,
+    Material,
+    Status,
+    generate_surface,
+    solve_line_film,
+    solve_mixed,
+    surface_temperature,
+)
 from bem.friction.point_film import cold_film, point_film
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import FilmHeat, PointContact
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.inlet import InletHeating
-from bem.lubrication.thermal.lumped_point import point_heat, thinning
+from bem.lubrication.thermal.lumped_point import SPREADS, point_heat, thinning
 from bem.reference_solutions.hertz import ellipse_contact
 
 ELASTIC = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
@@ -74,6 +85,24 @@ def test_strong_heat_is_found():
     assert hot.mean_temperature > 333.15 + 100
 
 
+@pytest.mark.parametrize(
+    ("radii", "speeds", "most", "told"),
+    [((5e-3, 5e-3), (3.0, 2.6), 0.08, False), ((5e-2, 5e-3), (3.0, 1.0), 0.7, True)],
+)
+def test_surfaces_beside_heat_that_spreads_across(radii, speeds, most, told):
+    """Under the same heat, with what is conducted from line to line, surfaces are less warm: by as much as is said."""
+    contact = PointContact(radii, MODULUS, OIL, heat=HEAT)
+    half_axes = ellipse_contact(radii=radii, contact_modulus=MODULUS, load=20.0).semi_axes
+    film = point_film(contact, speeds, 20.0, 32)
+    heat = point_heat(film, OIL, moving_bodies("test", OIL, (STEEL, STEEL), speeds, None, half_axes[1]))
+    grid = Grid(film.pressure.shape, (film.x[1] - film.x[0], film.y[1] - film.y[0]))
+    for flux, surface, speed in zip(heat.fluxes, heat.surfaces, speeds, strict=True):
+        whole = float((surface_temperature(flux, grid, STEEL, speeds=speed).temperature * film.pressure).sum())
+        lines = float(((surface - 333.15) * film.pressure).sum())
+        assert 0.02 < lines / whole - 1 < most
+    assert (SPREADS in film.notes) is told
+
+
 def test_slow_films_have_no_heat():
     ball, speeds = PointContact((0.01, 0.01), MODULUS, OIL, heat=HEAT), (0.02, 0.019)
     cold, hot = cold_film(replace(ball, heat=None), speeds, 20.0, 48), point_film(ball, speeds, 20.0, 48)
@@ -115,6 +144,16 @@ def test_load_sharing_has_it():
     assert 333.15 < hot.film.mean_temperature < hot.film.maximum_temperature
     assert 333.15 < hot.contact_temperature < hot.flash_temperature
     assert not any("would heat the oil" in note for note in hot.notes)
+
+
+def test_a_ball_at_rest_has_its_own_heat():
+    """Heat under a ball has a steady temperature at rest: that of a body that hardly moves."""
+    height = np.zeros(GRID.shape)
+    height[::4] = 4e-7
+    still, slow = (solve_mixed(**MIXED, height=height, speeds=(0.05, ball), thermal="lumped") for ball in (0.0, 1e-5))
+    assert still.contact_temperature == pytest.approx(slow.contact_temperature, abs=1e-2)
+    assert still.contact_temperature > 333.15 + 1
+    assert not any("cylinder" in note for note in still.notes)
 
 
 @pytest.mark.parametrize(

@@ -2,9 +2,9 @@
 
 As of line contacts (`lumped`), line by line: on each line of cells along x heat goes across the film into two moving
 half-spaces, as of bands that reach far along y, or is carried on by the oil (`energy`). What flows or is conducted from
-line to line is left out; a body that hardly moves is cool at the half-axis across. Heat is made by sliding at the
-stress that the oil has at its temperature, and by the pressure's flow, h^3/(12 mu) |grad p|^2. A long ellipse is the
-line contact. Knows solved films; verified in tests/lubrication/test_thermal_point.py.
+line to line is left out, which is said; a body that hardly moves is cool at the half-axis across. Heat is made by
+sliding at the stress that the oil has at its temperature, and by the pressure's flow, h^3/(12 mu) |grad p|^2. A long
+ellipse is the line contact. Knows solved films; verified in tests/lubrication/test_thermal_point.py.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.energy import Channel, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.lubrication.thermal.inlet import InletHeating
-from bem.lubrication.thermal.lumped import FACTOR_TOLERANCE, MOST_FILMS, heat_limits, thinned_oil
+from bem.lubrication.thermal.lumped import FACTOR_TOLERANCE, LARGEST_RISE, MOST_FILMS, heat_limits, thinned_oil
 from bem.lubrication.thermal.notes import notes_of_heat
 from bem.lubrication.validity import HEATING_NOTES
 from bem.materials import Body
@@ -36,17 +36,28 @@ _WARMER = 1e-3
 """Step [K] of the derivative of stresses with temperature."""
 RESIDUAL = 1e-6
 """Of temperatures, as of line films."""
+LARGEST_SPREAD = 0.5
+"""How far heat spreads in a body while it crosses the contact, over the half-axis across, up to which surfaces were
+within 10 % as warm as `surface_temperature` has them under the same heat: 5 % too warm at 0.3, 12 % at 0.54, 22 % at
+0.76 (balls), 18 % at 0.68, 42 % at 1.2 and 66 % at 1.4 (Rx/Ry 10); bodies at rest 10 % too cool to 21 % too warm."""
+SPREADS = (
+    "heat that spreads in the bodies across the flow, which lumped heat leaves out, cools them: their rise was found a "
+    "tenth to a quarter too large under balls, two thirds under an ellipse 4.5 times as long along the flow as across"
+)
+HALF_AXIS = "the contact's half-axis across the flow"
 
 
 @dataclass(frozen=True)
 class PointHeat:
     """Of a film on its cells. temperature : (nx, ny), mean across the film [K]. surfaces : (2, nx, ny) of flat and ball
-    [K]. stress : (nx, ny) in the middle of the film [Pa], along the slide of the ball over the flat. power, into,
+    [K]. fluxes : (2, nx, ny) into them [W/m^2]. stress : (nx, ny) in the middle of the film [Pa], along the slide of
+    the ball over the flat. power, into,
     carried : of the friction on lines with temperatures, (2,) into both bodies, carried on by the oil [W]. residual :
     of the temperatures, largest of all lines."""
 
     temperature: FloatArray
     surfaces: FloatArray
+    fluxes: FloatArray
     stress: FloatArray
     power: float
     into: tuple[float, float]
@@ -92,14 +103,14 @@ def with_heat(
     film: PointFilmSolution,
     lubricant: Lubricant,
     bodies: Sequence[Body],
-    across: float,
+    half_axes: tuple[float, float],
     inlet: InletHeating,
     missed: float,
 ) -> PointFilmSolution:
     """A film of an oil thinned by inlet heating, its speeds along x, with the stresses, forces and temperatures of the
-    oil as it is; `across` : half-axis across the flow [m]."""
+    oil as it is; `half_axes` : of the contact, along and across the flow [m]."""
     first, second = film.speeds[0][0], film.speeds[1][0]
-    conductors = moving_bodies("thermal", lubricant, bodies, (first, second), None, across)
+    conductors = moving_bodies("thermal", lubricant, bodies, (first, second), None, half_axes[1])
     heat = point_heat(film, lubricant, conductors)
     middle = np.zeros((2, *film.pressure.shape))
     middle[0] = heat.stress
@@ -116,10 +127,23 @@ def with_heat(
         mean_temperature=mean,
         maximum_temperature=float(heat.temperature.max()),
         status=film.status if film.status is not Status.CONVERGED or right else Status.STALLED,
-        notes=(*notes, *heat_limits(inlet, (first, second), rise), *notes_of_heat(lubricant, hottest, (first, second))),
+        notes=(
+            *notes,
+            *heat_limits(inlet, (first, second), rise),
+            *((SPREADS,) if rise > LARGEST_RISE and _spread(conductors, half_axes) > LARGEST_SPREAD else ()),
+            *notes_of_heat(lubricant, hottest, (first, second), HALF_AXIS),
+        ),
     )
     forces, rolling = made.forces()
     return replace(made, shear_force=forces, rolling_force=rolling)
+
+
+def _spread(bodies: tuple[Conductor, Conductor], half_axes: tuple[float, float]) -> float:
+    """How far heat spreads in bodies while they cross the contact, over the half-axis across; 0 of those that are taken
+    as cool there."""
+    along, across = half_axes
+    moving = [body for body in bodies if abs(body.wavenumber) * across > 1 + 1e-9]
+    return max((math.sqrt(along / abs(body.wavenumber)) / across for body in moving), default=0.0)
 
 
 def point_heat(film: PointFilmSolution, lubricant: Lubricant, bodies: tuple[Conductor, Conductor]) -> PointHeat:
@@ -139,7 +163,7 @@ def point_heat(film: PointFilmSolution, lubricant: Lubricant, bodies: tuple[Cond
     edges = np.append(x, x[-1] + width) - 0.5 * width
     kernels = [band_temperatures(edges, body) for body in bodies]
     temperature, surfaces = np.full(pressure.shape, supply), np.full((2, *pressure.shape), supply)
-    stress = np.zeros(pressure.shape)
+    stress, fluxes = np.zeros(pressure.shape), np.zeros(surfaces.shape)
     into, carried, power, residual = np.zeros(2), 0.0, 0.0, 0.0
 
     def stresses(j: int, at: FloatArray) -> FloatArray:
@@ -164,6 +188,7 @@ def point_heat(film: PointFilmSolution, lubricant: Lubricant, bodies: tuple[Cond
         )
         found = film_temperatures(channel, heat, kernels)
         temperature[:, j], surfaces[:, :, j], stress[:, j] = found.oil, found.surfaces, stresses(j, found.oil)
+        fluxes[:, :, j] = found.into
         into += found.into.sum(axis=1) * width
         carried += channel.capacity_flow * float(found.oil[-1] - supply)
         power += float(found.made.sum()) * width
@@ -172,6 +197,7 @@ def point_heat(film: PointFilmSolution, lubricant: Lubricant, bodies: tuple[Cond
     return PointHeat(
         temperature=temperature[steps],
         surfaces=surfaces[:, steps],
+        fluxes=fluxes[:, steps],
         stress=math.copysign(1.0, slide) * stress[steps],
         power=power * line,
         into=(float(into[0]) * line, float(into[1]) * line),

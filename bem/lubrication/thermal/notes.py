@@ -33,8 +33,10 @@ def notes_of_film(
     return tuple(note for note in notes_on(case) if note not in HEATING_NOTES)
 
 
-def notes_of_heat(lubricant: Lubricant, hottest: float, speeds: tuple[float, float]) -> tuple[str, ...]:
-    """Of the highest temperature of oil and surfaces [K]."""
+def notes_of_heat(
+    lubricant: Lubricant, hottest: float, speeds: tuple[float, float], cool_at: str = "the cylinder's radius"
+) -> tuple[str, ...]:
+    """Of the highest temperature of oil and surfaces [K], and of where a body at rest is taken as cool."""
     said = []
     if hottest > HOTTEST:
         said.append(
@@ -44,7 +46,7 @@ def notes_of_heat(lubricant: Lubricant, hottest: float, speeds: tuple[float, flo
     elif lubricant.oil is not None:
         said += _hot_oil(lubricant.oil, hottest)
     if min(abs(speed) for speed in speeds) == 0:
-        said.append("a body at rest is taken as cool at a distance of the cylinder's radius")
+        said.append(f"a body at rest is taken as cool at a distance of {cool_at}")
     return tuple(said)
 
 
