@@ -11,7 +11,7 @@ from scipy.sparse import csr_matrix
 
 from bem.convolution import DisplacementOperator
 from bem.grid import FloatArray
-from bem.lubrication.point import loops
+from bem.lubrication.point import lines
 from bem.lubrication.point.far import Far, far_load
 from bem.lubrication.rough_walls import PlaneWalls
 
@@ -172,7 +172,7 @@ class Level:
 
     @cached_property
     def near(self) -> FloatArray:
-        """Films under a unit pressure on a cell, and under one with its counterpart around it (`loops.relax`), at
+        """Films under a unit pressure on a cell, and under one with its counterpart around it (`lines.relax`), at
         distances 0 .. along x and 0 .. 2 along y: (2, n, 3)."""
         return self._near(False)
 
@@ -182,7 +182,7 @@ class Level:
         return self._near(True)
 
     def _near(self, exchanged: bool) -> FloatArray:
-        reach = loops.BAND + 2
+        reach = lines.REACH
         if self.kernel is None:
             return np.zeros((2, reach + 1, 3))
         operator, factor = self.kernel

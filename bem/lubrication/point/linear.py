@@ -17,7 +17,7 @@ from scipy.linalg import LinAlgWarning, lu_factor, lu_solve
 from scipy.sparse import csr_matrix
 
 from bem.grid import FloatArray
-from bem.lubrication.point import loops, supply_loops
+from bem.lubrication.point import lines, loops, supply_loops
 from bem.lubrication.point.levels import Level
 from bem.lubrication.point.rough_loops import rough_flows
 
@@ -64,7 +64,7 @@ class Linear:
 
     @cached_property
     def kinds(self) -> NDArray[np.int8]:
-        """Of relaxation, see `loops.relax`."""
+        """Of relaxation, see `lines.relax`."""
         free = ~(self.held | self.level.border)
         inside = free.copy()
         inside[1:-1, 1:-1] &= free[:-2, 1:-1] & free[2:, 1:-1] & free[1:-1, :-2] & free[1:-1, 2:]
@@ -108,11 +108,11 @@ class Linear:
             right = np.ascontiguousarray(residual.T)
             steps, near = level.spacing[::-1], level.near_across
             kinds = self.kinds.T.copy()
-            loops.relax(self._crossed, steps, drag[::-1], storing, near, kinds, right, DAMPING, True, crossed)
+            lines.relax(self._crossed, steps, drag[::-1], storing, near, kinds, right, DAMPING, True, crossed)
             out[:] = crossed.T
         else:
             steps, near = level.spacing, level.near
-            loops.relax(self.stencil, steps, drag, storing, near, self.kinds, residual, DAMPING, back, out)
+            lines.relax(self.stencil, steps, drag, storing, near, self.kinds, residual, DAMPING, back, out)
         np.copyto(out, residual, where=level.border)
         out[self.held] = 0.0
         return out
@@ -195,9 +195,10 @@ class Linear:
 
 
 def flows(level: Level, pressure: FloatArray, film: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Flow through the faces (2, nx, ny) and its stencil (13, nx, ny), see `loops`."""
-    flow, stencil = np.zeros((2, *level.shape)), np.zeros((13, *level.shape))
+    """Flow through the faces (2, nx, ny) and its stencil (12 or 13, nx, ny), see `loops`."""
     problem = level.problem
+    parts = 13 if problem.drag[1] != 0 else 12
+    flow, stencil = np.zeros((2, *level.shape)), np.zeros((parts, *level.shape))
     oil = problem.oil(pressure)
     if problem.walls is None:
         loops.flows(pressure, film, oil, level.spacing, problem.drag, flow, stencil)

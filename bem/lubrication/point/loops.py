@@ -19,7 +19,7 @@ Entrainment c points to larger indices along both axes. Outermost cells hold no 
 Arrays are [ix, iy]; a face [i, j] lies between cell [i, j] and the next one along its axis. `oil` (4, nx, ny): ln m and
 its slope with pressure, rho and its slope. `stencil` (13, nx, ny): derivatives of the pressure flow through the faces
 along x with the pressure on the left, on the right, and with both films; the same along y; rho h, and its relative
-derivatives with film and pressure; what is dragged through the faces along x, and along y.
+derivatives with film and pressure; what is dragged through the faces along x, and along y (12 where none is).
 """
 
 from __future__ import annotations
@@ -32,8 +32,6 @@ import numpy as np
 from bem.grid import FloatArray
 
 COMPILE: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True}
-BAND = 3
-"""Cells on either side whose coupling along a line is solved for."""
 AHEAD, HERE, BEHIND = 0.375, 0.75, 0.125
 """Shares of the cells around a face in what is dragged through it."""
 
@@ -176,39 +174,17 @@ def applied(
 
 
 @nb.njit(**COMPILE)
-def _dragged_row(
-    s: FloatArray, m: FloatArray, i: int, j: int, spacing: tuple[float, float], oblique: bool, row: FloatArray
-) -> None:
-    """Add derivatives of what is dragged with unknowns, m the relative change of the oil with them, to a row: unknowns
-    at [i - 2 .. i + 1, j], then at [i, j - 2], [i, j - 1], [i, j + 1]."""
-    comes, leaves = s[11, i - 1, j] / spacing[0], s[11, i, j] / spacing[0]
-    row[3] += AHEAD * leaves * m[i + 1, j]
-    row[2] += HERE * leaves * m[i, j]
-    row[1] -= BEHIND * leaves * m[i - 1, j]
-    if i == 1:
-        row[2] -= 0.5 * comes * m[1, j]
-        row[1] -= 0.5 * comes * m[0, j]
-    else:
-        row[2] -= AHEAD * comes * m[i, j]
-        row[1] -= HERE * comes * m[i - 1, j]
-        row[0] += BEHIND * comes * m[i - 2, j]
-    if not oblique:
-        return
-    comes, leaves = s[12, i, j - 1] / spacing[1], s[12, i, j] / spacing[1]
-    row[6] += AHEAD * leaves * m[i, j + 1]
-    row[2] += HERE * leaves * m[i, j]
-    row[5] -= BEHIND * leaves * m[i, j - 1]
-    if j == 1:
-        row[2] -= 0.5 * comes * m[i, 1]
-        row[5] -= 0.5 * comes * m[i, 0]
-    else:
-        row[2] -= AHEAD * comes * m[i, j]
-        row[5] -= HERE * comes * m[i, j - 1]
-        row[4] += BEHIND * comes * m[i, j - 2]
+def _shares(comes: float, leaves: float, first: bool) -> tuple[float, float, float, float]:
+    """Derivatives of what is dragged out of a cell along an axis, less what is dragged in, with relative changes of
+    the oil two cells upstream, one upstream, in the cell and downstream; of the first cell along the axis, whose oil
+    comes from two cells alone."""
+    if first:
+        return 0.0, -BEHIND * leaves - 0.5 * comes, HERE * leaves - 0.5 * comes, AHEAD * leaves
+    return BEHIND * comes, -BEHIND * leaves - HERE * comes, HERE * leaves - AHEAD * comes, AHEAD * leaves
 
 
 @nb.njit(**COMPILE)
-def _rows(
+def fill_row(
     s: FloatArray,
     spacing: tuple[float, float],
     drag: tuple[float, float],
@@ -218,23 +194,26 @@ def _rows(
     rows: FloatArray,
 ) -> None:
     """Derivatives (2, 7) of the balance of inner cell [i, j] with pressures, films held, and with films, at
-    [i - 2 .. i + 1, j], then at [i, j - 2], [i, j - 1], [i, j + 1]."""
-    dx, dy = spacing
-    rows[:, :] = 0.0
-    rows[0, 1] = -s[0, i - 1, j] / dx
-    rows[0, 2] = (s[0, i, j] - s[1, i - 1, j]) / dx + (s[4, i, j] - s[5, i, j - 1]) / dy
-    rows[0, 3] = s[1, i, j] / dx
-    rows[0, 5] = -s[4, i, j - 1] / dy
-    rows[0, 6] = s[5, i, j] / dy
-    rows[1, 1] = -s[2, i - 1, j] / dx
-    rows[1, 2] = (s[2, i, j] - s[3, i - 1, j]) / dx + (s[6, i, j] - s[7, i, j - 1]) / dy
-    rows[1, 3] = s[3, i, j] / dx
-    rows[1, 5] = -s[6, i, j - 1] / dy
-    rows[1, 6] = s[7, i, j] / dy
-    _dragged_row(s, s[10], i, j, spacing, drag[1] != 0.0, rows[0])
-    _dragged_row(s, s[9], i, j, spacing, drag[1] != 0.0, rows[1])
-    rows[0, 2] += 6.0 * storing * s[8, i, j] * s[10, i, j]
-    rows[1, 2] += 6.0 * storing * s[8, i, j] * s[9, i, j]
+    [i - 2 .. i + 1, j], then at [i, j - 2], [i, j - 1], [i, j + 1]. Plain numbers: parts of arrays, which are counted
+    as they come and go, cost three times as much here."""
+    x, y = 1.0 / spacing[0], 1.0 / spacing[1]
+    back, up = max(i - 2, 0), max(j - 2, 0)  # shares of those before the first cell are zero
+    w0, w1, w2, w3 = _shares(s[11, i - 1, j] * x, s[11, i, j] * x, i == 1)
+    w2 += 6.0 * storing * s[8, i, j]
+    v0, v1, v3 = 0.0, 0.0, 0.0
+    if drag[1] != 0.0:
+        v0, v1, v2, v3 = _shares(s[12, i, j - 1] * y, s[12, i, j] * y, j == 1)
+        w2 += v2
+    for by in range(2):
+        flow, oil = 2 * by, 10 - by
+        rows[by, 0] = w0 * s[oil, back, j]
+        rows[by, 1] = w1 * s[oil, i - 1, j] - s[flow, i - 1, j] * x
+        own = (s[flow, i, j] - s[flow + 1, i - 1, j]) * x + (s[flow + 4, i, j] - s[flow + 5, i, j - 1]) * y
+        rows[by, 2] = w2 * s[oil, i, j] + own
+        rows[by, 3] = w3 * s[oil, i + 1, j] + s[flow + 1, i, j] * x
+        rows[by, 4] = v0 * s[oil, i, up]
+        rows[by, 5] = v1 * s[oil, i, j - 1] - s[flow + 4, i, j - 1] * y
+        rows[by, 6] = v3 * s[oil, i, j + 1] + s[flow + 5, i, j] * y
 
 
 @nb.njit(**COMPILE)
@@ -245,98 +224,6 @@ def own_flow(s: FloatArray, spacing: tuple[float, float], out: FloatArray) -> No
     for i in range(1, nx - 1):
         for j in range(1, ny - 1):
             out[i, j] = (s[0, i, j] - s[1, i - 1, j]) / dx + (s[4, i, j] - s[5, i, j - 1]) / dy
-
-
-@nb.njit(**COMPILE)
-def _solve_band(matrix: FloatArray, right: FloatArray, n: int) -> None:
-    """Gaussian elimination without exchange of rows: matrix (n, 2 BAND + 1), column BAND the diagonal."""
-    for k in range(n):
-        pivot = matrix[k, BAND]
-        for i in range(k + 1, min(k + BAND + 1, n)):
-            factor = matrix[i, BAND + k - i] / pivot
-            if factor != 0.0:
-                for c in range(k + 1, min(k + BAND + 1, n)):
-                    matrix[i, BAND + c - i] -= factor * matrix[k, BAND + c - k]
-                right[i] -= factor * right[k]
-    for k in range(n - 1, -1, -1):
-        total = right[k]
-        for c in range(k + 1, min(k + BAND + 1, n)):
-            total -= matrix[k, BAND + c - k] * right[c]
-        right[k] = total / matrix[k, BAND]
-
-
-@nb.njit(**COMPILE)
-def _coupling(
-    rows: FloatArray, near: FloatArray, spread: bool, weights: tuple[float, float], s: int, oblique: bool
-) -> float:
-    """Balance of a cell under a unit change, alone or spread, of the cell s further along the line."""
-    value = 0.0
-    for t in range(4):
-        value += rows[1, t] * near[abs(t - 2 - s), 0]
-    if oblique:
-        value += rows[1, 4] * near[abs(s), 2] + (rows[1, 5] + rows[1, 6]) * near[abs(s), 1]
-    for t in range(4):
-        distance = abs(t - 2 - s)
-        if distance == 0:
-            value += rows[0, t]
-        elif distance == 1 and spread:
-            value -= weights[0] * rows[0, t]
-    if s == 0 and spread:
-        value -= weights[1] * (rows[0, 5] + rows[0, 6])
-    return value
-
-
-@nb.njit(**COMPILE)
-def relax(  # reason: Numba compiles plain arrays; they are the parts of one equation
-    stencil: FloatArray,
-    spacing: tuple[float, float],
-    drag: tuple[float, float],
-    storing: float,
-    near: FloatArray,
-    kinds: Any,
-    residual: FloatArray,
-    damping: tuple[float, float],
-    downwards: bool,
-    dp: FloatArray,
-) -> None:
-    """One sweep of line relaxation along x: `dp` is what it adds to the pressures for a residual.
-
-    kinds : 0 held, 1 a change of its own, 2 a change with its counterpart on the four neighbours, so that what is
-    far away hardly feels it (distributive relaxation; Brandt and Lubrecht 1990, Venner and Lubrecht 2000).
-    near : (2, n, 3) films under a unit change of either kind at distances 0 .. along and 0 .. 2 across the line.
-    """
-    nx, ny = residual.shape
-    dx, dy = spacing
-    weights = (0.5 * dy * dy / (dx * dx + dy * dy), 0.5 * dx * dx / (dx * dx + dy * dy))
-    oblique = drag[1] != 0.0
-    matrix, right = np.zeros((nx, 2 * BAND + 1)), np.zeros(nx)
-    rows = np.zeros((2, 7))
-    dp[:, :] = 0.0
-    for count in range(1, ny - 1):
-        j = ny - 1 - count if downwards else count
-        for i in range(nx):
-            matrix[i, :] = 0.0
-            right[i] = 0.0
-            if kinds[i, j] == 0:
-                matrix[i, BAND] = 1.0
-                continue
-            _rows(stencil, spacing, drag, storing, i, j, rows)
-            right[i] = residual[i, j] - (rows[0, 6] * dp[i, j + 1] if downwards else rows[0, 5] * dp[i, j - 1])
-            for s in range(max(-BAND, -i), min(BAND, nx - 1 - i) + 1):
-                kind = kinds[i + s, j]
-                if kind != 0:
-                    matrix[i, BAND + s] = _coupling(rows, near[kind - 1], kind == 2, weights, s, oblique)
-        _solve_band(matrix, right, nx)
-        for i in range(1, nx - 1):
-            if kinds[i, j] == 1:
-                dp[i, j] += damping[0] * right[i]
-            elif kinds[i, j] == 2:
-                change = damping[1] * right[i]
-                dp[i, j] += change
-                dp[i - 1, j] -= weights[0] * change
-                dp[i + 1, j] -= weights[0] * change
-                dp[i, j - 1] -= weights[1] * change
-                dp[i, j + 1] -= weights[1] * change
 
 
 @nb.njit(**COMPILE)
@@ -353,7 +240,7 @@ def fill_rows(
     rows = np.zeros((2, 7))
     for i in range(1, nx - 1):
         for j in range(1, ny - 1):
-            _rows(stencil, spacing, drag, storing, i, j, rows)
+            fill_row(stencil, spacing, drag, storing, i, j, rows)
             for t in range(7):
                 k = i + t - 2 if t < 4 else i
                 m = j if t < 4 else j + (t - 6 if t < 6 else 1)
