@@ -195,9 +195,10 @@ class Linear:
 
 
 def flows(level: Level, pressure: FloatArray, film: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Flow through the faces (2, nx, ny) and its stencil (12 or 13, nx, ny), see `loops`."""
+    """Flow through the faces (2, nx, ny) and its stencil (13, nx, ny), see `loops`; (12, nx, ny) of
+    flooded contacts whose oil comes along x, where nothing is dragged along y."""
     problem = level.problem
-    parts = 13 if problem.drag[1] != 0 else 12
+    parts = 12 if problem.drag[1] == 0 and problem.layer is None else 13
     flow, stencil = np.zeros((2, *level.shape)), np.zeros((parts, *level.shape))
     oil = problem.oil(pressure)
     if problem.walls is None:
