@@ -18,6 +18,7 @@ _WORDS = prose("guide")["error_bars"]
 RESULTS = Path(__file__).parent / "results"
 _KINDS = {
     "contact": "contact", "film": "friction", "mixed": "friction", "mixed_ball": "friction", "heated_mixed": "friction",
+    "hot_mixed": "friction",
     "march": "film",
     "point": "point-film",
     "asperities": "asperities", "flow": "flow-factors", "rubbing": "surface-temperature", "tribofilm": "tribofilm",

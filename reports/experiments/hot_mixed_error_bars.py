@@ -1,0 +1,92 @@
+"""What points, columns and layers of full heat leave of load sharing, against its bars' part of the film.
+
+    python -m reports.experiments.hot_mixed_error_bars [CASES]
+
+Contacts of `mixed_error_bars` with full heat: steel, ISO VG 10 to 320 at 40 to 100 degrees Celsius, 2 to 20 m/s,
+roughness of 25 to 320 nm. References have 2.5 times the points, columns and layers on the same rough patch, whose cells
+are judged there; what they leave themselves is added. The result is stored in
+`reports/results/hot_mixed_error_bars.json`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bem import Body, Grid, Lubricant
+from bem.accuracy import MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
+from bem.accuracy.bars import POINTS
+from bem.accuracy.mixed import BALANCE
+from bem.errors import InputError, Status
+from bem.friction.load_sharing import solve_setup
+from bem.friction.setup import MixedSetup
+from bem.materials import CATALOGUE
+from bem.surfaces import generate_surface
+from reports.experiments.judging import judge
+
+RESULT = Path(__file__).resolve().parents[1] / "results" / "hot_mixed_error_bars.json"
+FINER = 2.5
+LEFT = 1 / (1 - 1 / FINER)
+"""Of the difference to the reference: columns and layers are of first order."""
+GRADES = ("ISO VG 10", "ISO VG 32", "ISO VG 100", "ISO VG 320")
+
+
+def draw(rng: np.random.Generator) -> tuple[MixedSetup, Any, tuple[float, float]]:
+    """Set-up, heights and speeds."""
+    steel = CATALOGUE["steel-52100"].material
+    radius, hertz = 10 ** rng.uniform(-2.3, -1.5), 10 ** rng.uniform(8.5, 9.1)
+    modulus = steel.plane_strain_modulus / 2
+    half_width, cells = 2 * hertz * radius / modulus, (48, 24)
+    spacing = 3 * half_width / cells[0]
+    grid = Grid(cells, (spacing, spacing), periodic=(False, True))
+    heights = generate_surface(
+        grid,
+        seed=int(rng.integers(1 << 30)),
+        hurst=0.8,
+        cutoff_wavelength=6 * spacing,
+        rms_height=10 ** rng.uniform(-7.6, -6.5),
+    )
+    sliding, mean = rng.uniform(0.05, 2), 10 ** rng.uniform(0.3, 1.3)
+    setup = MixedSetup(
+        grid=grid,
+        bodies=(Body(steel), Body(steel)),
+        radius=radius,
+        width=1e-3,
+        load=math.pi * radius * hertz**2 / modulus * 1e-3,
+        lubricant=Lubricant.of(str(rng.choice(GRADES)), temperature=float(rng.uniform(313, 373))),
+        boundary_friction=0.12,
+        hardness=6e9,
+        film_points=int(rng.integers(200, 401)),
+        thermal="full",
+    )
+    return setup, heights, (mean * (1 + sliding / 2), mean * (1 - sliding / 2))
+
+
+def rows_of(setup: MixedSetup, heights: Any, speeds: tuple[float, float]) -> list[dict[str, Any]]:
+    """Bar and true error of every figure; none where there is no solution."""
+    finer = replace(setup, heat_mesh=FINER, tolerance=1e-5).with_film(round(FINER * setup.film_resolution))
+    try:
+        solution = solve_setup(setup, heights, speeds)
+        reference = solve_setup(finer, heights, speeds, solution)
+    except InputError:  # a load that no film is looked for
+        return []
+    if {solution.status, reference.status} != {Status.CONVERGED}:
+        return []
+    case = MixedCase(setup, heights, solution)
+    bars = mixed_bars(case, solve_coarser_mixed(case))
+    found, truth = mixed_figures(solution), mixed_figures(reference)
+    words = f"{speeds[0]:.3g} m/s, {solution.regime}, lambda {solution.lambda_ratio:.2g}"
+    rows: list[dict[str, Any]] = []
+    for name, bar in bars.values.items():
+        of_film = None if bar is None else bars.parts[POINTS][name] + bars.parts[BALANCE][name]
+        error = LEFT * abs(found[name] - truth[name])
+        rows.append({"figure": name, "contact": words, "value": found[name], "error": error, "bar": of_film})
+    return rows
+
+
+if __name__ == "__main__":
+    judge(lambda rng: rows_of(*draw(rng)), RESULT, cases=8, seed=20)
