@@ -101,12 +101,12 @@ def _harmonic(rng: np.random.Generator) -> Parameters:
 
 
 def _rectangle(rng: np.random.Generator) -> Parameters:
-    """Widths in sixteenths: all points at which the reference is asked are then middles of the gate's cells.
+    """Widths in eighths: all points at which the reference is asked are then middles of the gate's cells.
 
     Poisson's ratios up to 0.4, of substrate and layer: at 0.45 the reference's blocks are too coarse, and their error
     bars miss half the error; so they did at 0.407 in a soft layer, under which a disc agreed to 1e-4.
     """
-    width = round(16 * _uniform(rng, 0.3, 1.0)) / 16
+    width = round(8 * _uniform(rng, 0.3, 1.0)) / 8
     body = _layer(rng, most=1)
     if body:
         body["layer"][1] = min(body["layer"][1], 0.4)

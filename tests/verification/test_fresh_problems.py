@@ -149,7 +149,7 @@ def test_a_strip_on_a_thin_soft_layer_has_cells_to_match(tmp_path):
 
 
 def test_points_of_a_drawn_rectangle_are_middles_of_the_cells_of_its_gate():
-    """A width that was none ended the draw in a ValueError."""
+    """A width that was none ended the draw in a ValueError: no point was left below (1.4, 0.5 width)."""
     from bem.verification.fresh import _rectangle
     from bem.verification.rectangle import STEP
 
@@ -157,5 +157,5 @@ def test_points_of_a_drawn_rectangle_are_middles_of_the_cells_of_its_gate():
         drawn = _rectangle(np.random.default_rng(seed))
         assert max(drawn["nu"], *drawn.get("layer", [0.0] * 3)[1::3]) <= 0.4
         width = drawn["width"]
-        steps = width * np.array([0.4, 0.8, 1.2, 3.0, 4.0, 6.0, 10.0]) / STEP  # where fem_reference.rectangle asks
+        steps = width * np.array([0.2, 0.4, 0.5, 0.6, 1.5, 2.0, 3.0, 5.0]) / STEP  # where fem_reference.rectangle asks
         assert np.abs(steps - np.round(steps)).max() < 1e-9
