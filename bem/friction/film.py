@@ -15,6 +15,7 @@ from bem.friction.smooth import LineContact, SmoothContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, PointFilmSolution, solve_line_film
 from bem.lubrication.steady import load_range
+from bem.lubrication.with_heat import film_with_heat
 
 BALANCE_POINTS = 400
 """Film nodes while the balance is looked for; the last evaluations use the number asked for."""
@@ -110,19 +111,8 @@ def solved_line_film(
     }
     if heat is None:
         return solve_line_film(**asked, position=position, supply=contact.supply)
-    if heat.model == "lumped" and heat.mesh != 1:
-        from bem.lubrication.thermal import solve_thermal_line_film
-        from bem.lubrication.thermal.lumped import CELLS
-
-        cells = round(heat.mesh * CELLS)
-        return solve_thermal_line_film(**asked, bodies=heat.bodies, supply=contact.supply, cells=cells).as_film()
-    if heat.mesh != 1:
-        from bem.lubrication.thermal import solve_full_thermal_line_film
-        from bem.lubrication.thermal.full import COLUMNS, LAYERS
-
-        asked |= {"columns": round(heat.mesh * COLUMNS), "layers": round(heat.mesh * LAYERS)}
-        return solve_full_thermal_line_film(**asked, bodies=heat.bodies).as_film()
-    return solve_line_film(**asked, position=position, supply=contact.supply, thermal=heat.model, bodies=heat.bodies)
+    unheated = {"position": position is not None, "supply": contact.supply is not None and heat.model == "full"}
+    return film_with_heat(heat.model, asked | {"bodies": heat.bodies}, contact.supply, unheated, heat.mesh)
 
 
 @dataclass(frozen=True, eq=False)

@@ -112,14 +112,13 @@ def plane_walls_of(factors: WallFactors | str, film: float, speeds: Sequence[Seq
     InputError : neither "off" nor a table with both pressure factors; speeds across x, for which a table has no shear
         flow.
     """
-    along = walls_of(factors, film, [speed[0] for speed in speeds]) if not any(s[1] for s in speeds) else None
     if isinstance(factors, str) and factors == "off":
         return None
     if not isinstance(factors, PlaneWallFactors):
         raise InputError(f'flow_factors: {factors!r} must be "off" or a table of bem.flow_factors')
-    if along is None:
+    if any(speed[1] for speed in speeds):
         raise InputError("flow_factors: a table has the shear flow of walls that move along x; give speeds along x")
-    return PlaneWalls(along, factors.pressure_y_curve)
+    return PlaneWalls(RoughWalls.of(factors, film, [speed[0] for speed in speeds]), factors.pressure_y_curve)
 
 
 def _bounded(curve: Curve, thickness: FloatArray, film: float) -> tuple[FloatArray, FloatArray]:

@@ -18,9 +18,10 @@ HEAT = ("lumped", "full")
 
 
 def film_with_heat(
-    thermal: str, asked: dict[str, Any], supply: Supply | None, given: Mapping[str, bool]
+    thermal: str, asked: dict[str, Any], supply: Supply | None, given: Mapping[str, bool], mesh: float = 1.0
 ) -> FilmSolution:
-    """The film of a model of heat; `asked` are the arguments of both models.
+    """The film of a model of heat; `asked` are the arguments of both models. mesh : times the usual columns and layers
+    of full heat, cells of lumped heat.
 
     Raises
     ------
@@ -35,8 +36,9 @@ def film_with_heat(
     messages += [f"solve_line_film: {name} cannot be given with heat" for name, is_given in given.items() if is_given]
     if messages:
         raise InputError(messages)
-    from bem.lubrication.thermal import solve_full_thermal_line_film, solve_thermal_line_film
+    from bem.lubrication.thermal import full, lumped
 
     if thermal == "full":
-        return solve_full_thermal_line_film(**asked).as_film()
-    return solve_thermal_line_film(**asked, supply=supply).as_film()
+        sizes: dict[str, Any] = {"columns": round(mesh * full.COLUMNS), "layers": round(mesh * full.LAYERS)}
+        return full.solve_full_thermal_line_film(**asked, **sizes).as_film()
+    return lumped.solve_thermal_line_film(**asked, supply=supply, cells=round(mesh * lumped.CELLS)).as_film()

@@ -78,7 +78,7 @@ def pressure_flow(
 
 
 @nb.njit(**COMPILE)
-def dragged_flow(m: FloatArray, share: float, along_y: int, dragged: FloatArray) -> None:
+def _dragged_flow(m: FloatArray, share: float, along_y: int, dragged: FloatArray) -> None:
     """What is dragged through the faces along one axis (nx, ny), of oil m > 0 in the cells."""
     nx, ny = m.shape
     di, dj = 1 - along_y, along_y
@@ -119,6 +119,15 @@ def divergence(flow: FloatArray, spacing: tuple[float, float], out: FloatArray) 
 
 
 @nb.njit(**COMPILE)
+def add_dragged(drag: tuple[float, float], flow: FloatArray, stencil: FloatArray) -> None:
+    """What is dragged through all faces, of the oil in `stencil[8]`, into the flow (2, nx, ny) and the stencil."""
+    for axis in range(2):
+        if drag[axis] != 0.0:
+            _dragged_flow(stencil[8], drag[axis], axis, stencil[11 + axis])
+            flow[axis] += stencil[11 + axis]
+
+
+@nb.njit(**COMPILE)
 def flows(
     p: FloatArray,
     h: FloatArray,
@@ -134,10 +143,7 @@ def flows(
     stencil[8] = oil[2] * h
     stencil[9] = 1.0 / h
     stencil[10] = oil[3] / oil[2]
-    for axis in range(2):
-        if drag[axis] != 0.0:
-            dragged_flow(stencil[8], drag[axis], axis, stencil[11 + axis])
-            flow[axis] += stencil[11 + axis]
+    add_dragged(drag, flow, stencil)
 
 
 @nb.njit(**COMPILE)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numba as nb
 
 from bem.grid import FloatArray
-from bem.lubrication.point.loops import COMPILE, dragged_flow, pressure_flow
+from bem.lubrication.point.loops import COMPILE, add_dragged, pressure_flow
 
 
 @nb.njit(**COMPILE)
@@ -51,7 +51,4 @@ def rough_flows(
     stencil[8] = oil[2] * walls[4]
     stencil[9] = walls[5] / walls[4]
     stencil[10] = oil[3] / oil[2]
-    for axis in range(2):
-        if drag[axis] != 0.0:
-            dragged_flow(stencil[8], drag[axis], axis, stencil[11 + axis])
-            flow[axis] += stencil[11 + axis]
+    add_dragged(drag, flow, stencil)

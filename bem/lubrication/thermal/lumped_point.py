@@ -49,11 +49,14 @@ HALF_AXIS = "the contact's half-axis across the flow"
 
 @dataclass(frozen=True)
 class PointHeat:
-    """Of a film on its cells. temperature : (nx, ny), mean across the film [K]. surfaces : (2, nx, ny) of flat and ball
-    [K]. fluxes : (2, nx, ny) into them [W/m^2]. stress : (nx, ny) in the middle of the film [Pa], along the slide of
-    the ball over the flat. power, into,
-    carried : of the friction on lines with temperatures, (2,) into both bodies, carried on by the oil [W]. residual :
-    of the temperatures, largest of all lines."""
+    """Of a film on its cells.
+
+    temperature : (nx, ny), mean across the film [K].
+    surfaces, fluxes : (2, nx, ny) of flat and ball [K], and into them [W/m^2].
+    stress : (nx, ny) in the middle of the film [Pa], along the slide of the ball over the flat.
+    power, into, carried : of lines with temperatures: made, (2,) into both bodies, carried on by the oil [W].
+    residual : of the temperatures, largest of all lines.
+    """
 
     temperature: FloatArray
     surfaces: FloatArray

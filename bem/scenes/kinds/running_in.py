@@ -186,11 +186,12 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
     known = [name for name in MIXED_RULES if getattr(found, name) is not None]
     # of temperatures the rise
     cool = dict.fromkeys(TEMPERATURES, scene.oil.temperature or 0.0)
-    figures = (
-        None if one is None else {n: getattr(one, n) - cool.get(n, 0.0) for n in known}
-        for one in (found, there, finer_film)
-    )
-    bars = running_in_bars(*figures, full_heat=scene.thermal == "full")  # type: ignore[arg-type]
+
+    def figures(one: RunningInRecord) -> dict[str, float]:
+        return {name: getattr(one, name) - cool.get(name, 0.0) for name in known}
+
+    coarse, finer_points = (None if one is None else figures(one) for one in (there, finer_film))
+    bars = running_in_bars(figures(found), coarse, finer_points, full_heat=scene.thermal == "full")
     return bars if there is None else bars | _of_heights(scene, found)
 
 
