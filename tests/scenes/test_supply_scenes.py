@@ -136,6 +136,11 @@ def test_a_film_in_time_has_less_oil_after_it_turned():
         (TRACTION, {"supply": {"layer": "1 um", "distance": "1 mm"}}, "exactly one of layer, distance"),
         (TRACTION, {"supply": {"layer": "0 nm"}}, "supply.layer"),
         (BALL, {"supply": {"distance": "1 mm"}}, "the meniscus of a point contact is curved and is found"),
+        (
+            BALL,
+            {"supply": {"layer": "1 um"}, "rolling": BALL["rolling"] | {"direction": "20 deg"}},
+            "rolling.direction: at an angle to the axes",
+        ),
         (TRACTION, {"supply": {"layer": "1 um"}, "thermal": "full"}, "a supply of oil with thermal"),
         (IN_TIME, {"supply": {"distance": "1 mm"}}, "in time the meniscus moves"),
         (

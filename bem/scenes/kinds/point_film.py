@@ -53,7 +53,7 @@ class PointFilmScene(SceneModel):
     def _smooth(self) -> PointFilmScene:
         check_smooth(self, "smooth surfaces here; kind friction shares the load of rough balls")
         self.oil.check_point_film()
-        check_layer(self.supply)
+        check_layer(self.supply, self.rolling)
         return self
 
 

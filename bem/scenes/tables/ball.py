@@ -47,9 +47,8 @@ class BallRollingScene(Table):
     @property
     def speeds(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Of flat and ball along x and y [m/s]."""
-        cos, sin = math.cos(self.direction), math.sin(self.direction)
-        if abs(sin) < 1e-12:  # along x to rounding
-            sin = 0.0
+        # along an axis to rounding is along it
+        cos, sin = (0.0 if abs(part) < 1e-12 else part for part in (math.cos(self.direction), math.sin(self.direction)))
         both = (self.mean_speed * (1 + side * 0.5 * self.slide_roll_ratio) for side in (1, -1))
         first, second = ((speed * cos, speed * sin) for speed in both)
         return first, second

@@ -11,6 +11,7 @@ from pydantic import Field
 
 from bem.lubrication.supply import InletDistance, OilLayer, Supply
 from bem.scenes.common import Table, one_of, problem
+from bem.scenes.tables.ball import BallRollingScene
 from bem.scenes.units import Length
 
 SupplyLength = Annotated[Length, Field(gt=0)]
@@ -36,8 +37,8 @@ class SupplyScene(Table):
         return InletDistance(self.distance)
 
 
-def check_layer(scene: SupplyScene | None) -> None:
-    """Refuse a distance of a point contact.
+def check_layer(scene: SupplyScene | None, rolling: BallRollingScene) -> None:
+    """Refuse a distance of a point contact, and entrainment at an angle to its axes.
 
     Raises
     ------
@@ -45,6 +46,8 @@ def check_layer(scene: SupplyScene | None) -> None:
     """
     if scene is not None and scene.layer is None:
         raise problem("supply.distance: the meniscus of a point contact is curved and is found", "supply.layer")
+    if scene is not None and any(all(speed) for speed in rolling.speeds):
+        raise problem("rolling.direction: at an angle to the axes there is no supply yet", '"0 deg" and "90 deg"')
 
 
 def build_supply(scene: SupplyScene | None) -> Supply | None:
