@@ -11,7 +11,7 @@ _IN_CONTACT = "; that of the surfaces in contact at each speed"
 _HEAT = {
     "off": ('thermal is "off"', 0.0),
     "lumped": ("inlet heating of each film and its oil's temperature" + _IN_CONTACT, 1.0),
-    "full": ("temperature along and across each film" + _IN_CONTACT, 4.0),
+    "full": ("temperature along and across each film" + _IN_CONTACT, 5.0),
 }
 """What is found, and seconds at a speed, whatever the grid."""
 

@@ -399,6 +399,7 @@ def test_second_order_in_columns_and_layers(monkeypatch):
     """Film, heat carried and mean temperature between bodies that stay cool, on one film mesh: what a halving
     changes is a quarter of what the one before did; the film hardly knows the columns. Columns of evenly many nodes."""
     steel = STEEL.material
+    monkeypatch.setattr(coupled, "SKETCH", 1000)  # films that begin on fewer cells have meshes that differ a little
     cool = Body(
         Material("cool", youngs_modulus=steel.youngs_modulus, poissons_ratio=steel.poissons_ratio,
                  thermal_conductivity=1e9, density=7850.0, heat_capacity=470.0)
@@ -521,3 +522,26 @@ def test_a_film_that_runs_backwards_is_the_mirror_image():
     assert other.shear_force == pytest.approx(-one.shear_force, rel=1e-9)
     np.testing.assert_allclose(other.position, -one.position[::-1], rtol=1e-9)
     np.testing.assert_allclose(other.temperature, one.temperature[::-1], rtol=1e-9)
+
+
+def test_fine_meshes_begin_where_coarse_ones_ended(monkeypatch):
+    """On 2000 cells few Newton steps are left to do, and the film is that of rounds on these alone."""
+    fine, newton = [], coupled.newton
+
+    def counted(problem, state, tolerance, limit):
+        outcome = newton(problem, state, tolerance, limit)
+        fine.extend([outcome.iterations] if len(state.offset) > coupled.SKETCH + 1 else [])
+        return outcome
+
+    monkeypatch.setattr(coupled, "newton", counted)
+    nested = film(3.0, 0.2, points=2001)
+    steps = sum(fine)
+    monkeypatch.setattr(coupled, "SKETCH", 2000)
+    fine.clear()
+    alone = film(3.0, 0.2, points=2001)
+    assert nested.status is alone.status is Status.CONVERGED
+    assert steps <= 30  # 7, and 66 without
+    # meshes differ by where the spike was when they were made
+    assert nested.central_thickness == pytest.approx(alone.central_thickness, rel=1e-4)
+    assert nested.shear_force == pytest.approx(alone.shear_force, rel=1e-4)
+    assert nested.iterations <= 15 * nested.isothermal.iterations
