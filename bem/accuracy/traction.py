@@ -48,6 +48,8 @@ _BARE = ("energy_imbalance", "inlet_factor", "highest_film_temperature", "hottes
 """Rounding, a formula that no mesh changes, and what stands at a spike of pressure in pure rolling."""
 _TEMPERATURES = ("film_temperature", "lower_temperature", "upper_temperature")
 
+Found = FilmSolution | ThermalFilm | FullThermalFilm
+
 
 @dataclass(frozen=True)
 class TractionCase:
@@ -77,10 +79,11 @@ class TractionCase:
         """Of lumped heat; more of them go with more points."""
         return min(max(CELLS, self.points // 5), MOST_CELLS)
 
-    def on(self, points: int, coarseness: int = 1) -> Any:
+    def on(self, points: int, coarseness: int = 1, initial: Found | None = None) -> Any:
         """The film on a mesh of so many points: a `ThermalFilm` or a `FullThermalFilm` with its heat, on as many times
-        fewer cells, else a `FilmSolution`."""
-        asked = named(self, "load radius contact_modulus speeds lubricant") | {"points": points}
+        fewer cells, else a `FilmSolution`; from one of a similar case."""
+        start = initial if initial is None or isinstance(initial, FilmSolution) else initial.as_film()
+        asked = named(self, "load radius contact_modulus speeds lubricant") | {"points": points, "initial": start}
         if self.bodies is None:
             return solve_line_film(**asked, supply=self.supply)
         asked |= {"bodies": self.bodies, "bulk": self.bulk}
@@ -88,9 +91,6 @@ class TractionCase:
             columns = min(max(COLUMNS, self.points // 6), MOST_CELLS) // coarseness
             return solve_full_thermal_line_film(**asked, columns=columns, layers=LAYERS // coarseness)
         return solve_thermal_line_film(**asked, supply=self.supply, cells=self.cells // coarseness)
-
-
-Found = FilmSolution | ThermalFilm | FullThermalFilm
 
 
 def traction_figures(case: TractionCase, found: Found) -> dict[str, float]:
@@ -158,7 +158,7 @@ def traction_bars(case: TractionCase, found: Found) -> ErrorBars:
     """Bars of the figures of a solution on all points."""
     figures = {name: value for name, value in traction_figures(case, found).items() if name not in _BARE}
     film = film_of(found)
-    other = case.on(case.points // 2 if case.points >= 2 * FEWEST else 2 * case.points, coarseness=2)
+    other = case.on(case.points // 2 if case.points >= 2 * FEWEST else 2 * case.points, coarseness=2, initial=found)
     if other.status is not Status.CONVERGED:
         return ErrorBars.unknown(figures, _UNSOLVED)
     there = figures | traction_figures(case, other)  # nearly flooded, one mesh may have no meniscus

@@ -56,20 +56,32 @@ def from_neighbour(  # reason: a state and the case that it is of, a problem and
     few and cheap steps. A sketch of the same case is the coarse mesh itself."""
     if sketch and load == problem.load and unit == 1:
         return _of_sketch(problem, kept, cells, tolerance, limit)
-    factor, film_factor = _scaling(load, problem.load)
-    state = stretched(kept, factor, problem.load / load / factor, film_factor)
-    change = max(abs(math.log(problem.load / load)), abs(math.log(unit)))
-    if spike_cell(problem, state, min(cells, MIDDLE)) < SPIKE_CELLS[0] and (
-        len(state.offset) != cells + 1 or SPIKE_SHIFT * change * spike_cells_to_exit(state) > MAX_SHIFT
-    ):
-        return refined(problem, state, ATTEMPTS[0][0], cells, tolerance, limit)
-    if len(state.offset) != cells + 1:
-        state = remesh(problem, state, cells, SPIKE_CELLS[-1])
+    state = neighbour(problem, kept, load, unit, cells)
+    if state is None:
+        return refined(problem, _like(problem, kept, load), ATTEMPTS[0][0], cells, tolerance, limit)
     outcome = newton(problem, state, tolerance, min(limit, 20))
     if outcome.converged and mesh_imbalance(problem, outcome.state) > MAX_IMBALANCE:
         again = newton(problem, remesh(problem, outcome.state, cells, SPIKE_CELLS[-1]), tolerance, limit)
         outcome = replace(again, iterations=again.iterations + outcome.iterations)
     return outcome
+
+
+def neighbour(problem: Problem, kept: State, load: float, unit: float, cells: int) -> State | None:
+    """The solution of another case, see `from_neighbour`, as that of this one would be, on so many cells; None where a
+    sharp spike is not on its fine cells then."""
+    state = _like(problem, kept, load)
+    change = max(abs(math.log(problem.load / load)), abs(math.log(unit)))
+    same = len(state.offset) == cells + 1
+    moves = not same or SPIKE_SHIFT * change * spike_cells_to_exit(state) > MAX_SHIFT
+    if moves and spike_cell(problem, state, min(cells, MIDDLE)) < SPIKE_CELLS[0]:
+        return None
+    return state if same else remesh(problem, state, cells, SPIKE_CELLS[-1])
+
+
+def _like(problem: Problem, kept: State, load: float) -> State:
+    """The solution at another load M, stretched."""
+    factor, film_factor = _scaling(load, problem.load)
+    return stretched(kept, factor, problem.load / load / factor, film_factor)
 
 
 def _scaling(old: float, new: float) -> tuple[float, float]:

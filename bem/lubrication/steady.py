@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -28,6 +29,9 @@ from bem.lubrication.with_heat import film_with_heat
 from bem.materials import Body
 from bem.monotone import MonotoneCubic
 from bem.threads import one_blas_thread
+
+if TYPE_CHECKING:
+    from bem.lubrication.thermal.warm_start import KeptHeat
 
 MOES_LOADS = (1e-5, 1e4)
 """Loads M for which a film is looked for; beyond them the equations are not a model of anything."""
@@ -70,7 +74,8 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     points : nodes of the graded mesh that the equations are solved on.
     tolerance : largest residual, relative to the local film (and to the load).
     position : ascending abscissae [m] at which to return pressure and thickness; the mesh itself by default.
-    initial : an earlier solution of a similar case: its film and mesh are the start.
+    initial : an earlier solution of a similar case: its film and mesh are the start, and with full heat its
+        temperatures.
     max_iterations : Newton steps of one solve.
     cavitation : a `Cavitation` or its name; `Cavitation.MASS_CONSERVING` also says how full the gap is behind the
         exit, `film_fraction`. Pressure and thickness are the same as with SWIFT_STIEBER: with a flooded inlet both
@@ -206,7 +211,8 @@ def _starvation(problem: Problem, state: State, flooded: State, scales: Scales, 
 
 @dataclass(frozen=True)
 class KeptSteady:
-    """What a warm start and a look at other positions need; `flooded`: without a supply, `sketch`: of `line_sketch`."""
+    """What a warm start and a look at other positions need; `flooded`: without a supply, `sketch`: of `line_sketch`,
+    `heat`: what full heat starts from."""
 
     state: State
     flooded: State
@@ -214,6 +220,7 @@ class KeptSteady:
     scales: Scales
     reversed: bool
     sketch: bool = False
+    heat: KeptHeat | None = None
 
     @one_blas_thread
     def sample(self, position: FloatArray) -> tuple[FloatArray, FloatArray]:

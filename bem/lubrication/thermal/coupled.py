@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from dataclasses import field as field_of
@@ -12,7 +13,7 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
 from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_continuation import MAX_IMBALANCE, SPIKE_CELLS
+from bem.lubrication.line_continuation import MAX_IMBALANCE, SPIKE_CELLS, neighbour
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_newton import Outcome, State, mesh_imbalance, newton, remesh, spike_cell
 from bem.lubrication.thermal.across import Given
@@ -20,6 +21,7 @@ from bem.lubrication.thermal.field import TOLERANCE, Duct, Field, temperature_fi
 from bem.lubrication.thermal.layers import HotFilm, Oil
 from bem.lubrication.thermal.made import Made
 from bem.lubrication.thermal.strip import Strip, cell_edges, strip_of
+from bem.lubrication.thermal.warm_start import KeptHeat, moved
 
 MOST_ROUNDS = 80
 SKETCH, SKETCHED = 400, 1e-3
@@ -80,11 +82,16 @@ class Coupling:
             slender,
             lubricant.thermal_conductivity or 0.0,
             capacity,
-            float(lubricant.temperature or 0.0),
+            self.supply,
             self.bodies,
             self.layers,
             warming,
         )
+
+    @property
+    def supply(self) -> float:
+        """Temperature of the oil as it comes [K]."""
+        return float(self.oil.lubricant.temperature or 0.0)
 
     def layered(self, layers: FloatArray) -> HotFilm:
         """Temperatures at the nodes [K] and, last, the thinning of layers (n, K + 1), see
@@ -115,31 +122,104 @@ class Heated:
     steps: int = 0
     rounds: int = 0
 
+    def kept(self, isothermal: FilmSolution, columns: int) -> KeptHeat:
+        """For the next one to start from."""
+        supply, exit_, state = self.duct.supply, abs(self.film.exit_position), self.outcome.state
+        layers = self.found.copy()
+        layers[:, :-1] -= supply
+        middles = self.duct.middles / exit_ - 1
+        nodes = state.offset / state.exit
+        return KeptHeat(isothermal, nodes, layers, middles, self.field.rise, self.made.edge, columns)
+
     def met(self, tolerance: float) -> bool:
         """Whether Reynolds' equation holds at the temperatures, and they at the film."""
         return self.residual <= tolerance and self.field.residual <= FINE
 
 
-def coupled(coupling: Coupling, start: Outcome) -> Heated:
-    """From a film without heat, or of another case: on few cells at first, where film and heat find each other."""
-    cells = len(start.state.offset) - 1
-    if cells <= SKETCH:
-        return _rounds(coupling, _cold(coupling, start))
-    state = remesh(coupling.problem, start.state, SKETCH, SPIKE_CELLS[-1])
-    sketch = newton(coupling.problem, state, COARSE, coupling.limit)
-    steps, rounds = start.iterations + sketch.iterations, 0
-    if sketch.converged:
-        found = _rounds(coupling, _cold(coupling, sketch), SKETCHED)
-        steps, rounds = steps - sketch.iterations + found.steps, found.rounds
-        if found.residual <= SKETCHED:
-            fine = _on_cells(coupling, found, cells)
-            if fine is not None:
-                found = _rounds(coupling, replace(fine, steps=steps + fine.steps, rounds=rounds + 1))
-                if found.met(coupling.tolerance):
-                    return found
-                steps, rounds = found.steps, found.rounds
+@dataclass(frozen=True)
+class Neighbour:
+    """A film with heat of another case: its state, load M, its unit of pressure over the problem's, and its heat."""
+
+    state: State
+    load: float
+    unit: float
+    heat: KeptHeat
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A film with its heat, None where it is not met; the Newton steps and rounds that went into it."""
+
+    found: Heated | None = None
+    steps: int = 0
+    rounds: int = 0
+
+    @classmethod
+    def of(cls, found: Heated, tolerance: float) -> Tried:
+        """A film, where it is met."""
+        return cls(found if found.met(tolerance) else None, found.steps, found.rounds)
+
+
+def coupled(coupling: Coupling, start: Outcome, near: Neighbour | None = None) -> Heated:
+    """From a film without heat and, where that will do, a neighbour with its own; else on few cells at first, where
+    film and heat find each other."""
+    tried = Tried() if near is None else _from_neighbour(coupling, start.state, near)
+    steps, rounds = start.iterations + tried.steps, tried.rounds
+    if tried.found is None and len(start.state.offset) - 1 > SKETCH:
+        sketch = newton(coupling.problem, _sketch_of(coupling, start.state), COARSE, coupling.limit)
+        tried = Tried(steps=sketch.iterations)
+        if sketch.converged:
+            tried = _from_sketch(coupling, _cold(coupling, sketch), len(start.state.offset) - 1)
+        steps, rounds = steps + tried.steps, rounds + tried.rounds
+    if tried.found is not None:
+        return replace(tried.found, steps=steps, rounds=rounds)
     at = _cold(coupling, start)
-    return _rounds(coupling, replace(at, steps=steps, rounds=at.rounds + rounds))
+    return _rounds(coupling, replace(at, steps=steps, rounds=rounds + at.rounds))
+
+
+def _from_neighbour(coupling: Coupling, start: State, near: Neighbour) -> Tried:
+    """With its heat on the film's own cells, where that is nearly met, else on few of them first."""
+    cells = len(start.offset) - 1
+    state = neighbour(coupling.problem, near.state, near.load, near.unit, cells)
+    at = _given(coupling, near, start if state is None else state, SKETCHED if cells > SKETCH else math.inf)
+    if at is not None:
+        return Tried.of(_rounds(coupling, at), coupling.tolerance)
+    if cells <= SKETCH and state is None:
+        return Tried()
+    at = _given(coupling, near, start if cells <= SKETCH else _sketch_of(coupling, start), math.inf)
+    if at is None:
+        return Tried()
+    if cells > SKETCH:
+        return _from_sketch(coupling, at, cells)
+    return Tried.of(_rounds(coupling, at), coupling.tolerance)
+
+
+def _given(coupling: Coupling, near: Neighbour, state: State, most: float) -> Heated | None:
+    """A film that begins as a state does, with the heat of a neighbour; None where that is not found, or leaves a
+    residual of more than the most."""
+    layers = near.heat.at_nodes(state.offset / state.exit, coupling.layers, coupling.supply)
+    hot = coupling.hot(layers)
+    left = newton(hot, state, coupling.tolerance, 0).residual
+    if not left <= most:
+        return None
+    outcome = newton(hot, state, max(coupling.tolerance, min(EXACTNESS * left, COARSE)), coupling.limit)
+    if not outcome.converged:
+        return None
+    return replace(_heated(coupling, outcome, layers, near.heat, left), steps=outcome.iterations, rounds=1)
+
+
+def _sketch_of(coupling: Coupling, state: State) -> State:
+    return remesh(coupling.problem, state, SKETCH, SPIKE_CELLS[-1])
+
+
+def _from_sketch(coupling: Coupling, sketch: Heated, cells: int) -> Tried:
+    """Rounds on few cells, and then on all."""
+    found = _rounds(coupling, sketch, SKETCHED)
+    fine = _on_cells(coupling, found, cells) if found.residual <= SKETCHED else None
+    if fine is None:
+        return Tried(None, found.steps, found.rounds)
+    fine = replace(fine, steps=found.steps + fine.steps, rounds=found.rounds + 1)
+    return Tried.of(_rounds(coupling, fine), coupling.tolerance)
 
 
 def _cold(coupling: Coupling, start: Outcome) -> Heated:
@@ -152,11 +232,11 @@ def _cold(coupling: Coupling, start: Outcome) -> Heated:
 def _on_cells(coupling: Coupling, sketch: Heated, cells: int) -> Heated | None:
     """On so many cells from fewer, with the steps that took; None where Reynolds' equation is not followed there."""
     state = remesh(coupling.problem, sketch.outcome.state, cells, SPIKE_CELLS[-1])
-    moved = _moved(sketch.outcome.state.offset, sketch.found, state.offset)
-    fine = newton(coupling.hot(moved), state, COARSE, coupling.limit)
+    there = moved(sketch.outcome.state.offset, sketch.found, state.offset)
+    fine = newton(coupling.hot(there), state, COARSE, coupling.limit)
     if not fine.converged:
         return None
-    return replace(_heated(coupling, fine, moved, sketch, sketch.residual), steps=fine.iterations)
+    return replace(_heated(coupling, fine, there, sketch, sketch.residual), steps=fine.iterations)
 
 
 def _rounds(coupling: Coupling, at: Heated, tolerance: float = 0.0) -> Heated:
@@ -177,11 +257,11 @@ def _rounds(coupling: Coupling, at: Heated, tolerance: float = 0.0) -> Heated:
         ):
             remeshed += 1
             state = remesh(coupling.problem, outcome.state, len(outcome.state.offset) - 1, SPIKE_CELLS[-1])
-            moved = _moved(outcome.state.offset, kept, state.offset)
-            again = newton(coupling.hot(moved), state, goal, coupling.limit)
+            there = moved(outcome.state.offset, kept, state.offset)
+            again = newton(coupling.hot(there), state, goal, coupling.limit)
             steps += again.iterations
             if again.converged:
-                outcome, kept, history = again, moved, History(mixing=history.mixing)
+                outcome, kept, history = again, there, History(mixing=history.mixing)
         following = None if outcome is None else _heated(coupling, outcome, kept, at, at.residual)
         rounds += 1
         if following is not None and following.field.residual <= LOST:
@@ -192,11 +272,17 @@ def _rounds(coupling: Coupling, at: Heated, tolerance: float = 0.0) -> Heated:
             return replace(at, steps=steps, rounds=rounds)
 
 
-def _heated(coupling: Coupling, outcome: Outcome, given: FloatArray, before: Heated | None, residual: float) -> Heated:
-    """The heat of a film that was solved for as it was given, see `Heated`, to a share of the residual before."""
+def _heated(
+    coupling: Coupling, outcome: Outcome, given: FloatArray, near: Heated | KeptHeat | None, residual: float
+) -> Heated:
+    """The heat of a film that was solved for as it was given, see `Heated`, to a share of the residual before; from
+    that of the round before, or of another case."""
     film = coupling.film_of(outcome)
+    before = near if isinstance(near, Heated) else None
     kept = before is not None and before.outcome.state.offset is outcome.state.offset
     places = before.made.edge if before is not None and kept else None
+    if isinstance(near, KeptHeat):
+        places = near.edges_of(outcome.state.offset / outcome.state.exit, coupling.columns)
 
     def edges(x: FloatArray, pressure: FloatArray) -> FloatArray:
         return cell_edges(x, pressure, coupling.columns) if places is None else x[places]
@@ -209,7 +295,10 @@ def _heated(coupling: Coupling, outcome: Outcome, given: FloatArray, before: Hea
     warm = before is not None and before.field.residual <= LOST
     guess = np.full((duct.columns, coupling.layers + 2), duct.supply)
     if before is not None and warm:
-        guess = _moved(before.duct.middles, before.field.temperature, duct.middles)
+        guess = moved(before.duct.middles, before.field.temperature, duct.middles)
+    elif isinstance(near, KeptHeat):
+        warm = True
+        guess = near.in_columns(duct.middles / abs(film.exit_position) - 1, coupling.layers, duct.supply)
     wanted = max(TOLERANCE, min(EXACTNESS * residual, COARSE))
     field = temperature_field(duct, made, guess, wanted, held=0.0 if warm else 1.0)
     warm_layers = _smoothed(field.oil)
@@ -277,11 +366,6 @@ def _followed(
             return trial, temperature, spent
         share *= 0.5
     return None, kept, spent
-
-
-def _moved(old: FloatArray, values: FloatArray, new: FloatArray) -> FloatArray:
-    """Values at nodes (n, K), at other nodes: linear in between."""
-    return np.stack([np.interp(new, old, column) for column in values.T], axis=1)
 
 
 def _smoothed(oil: FloatArray) -> FloatArray:

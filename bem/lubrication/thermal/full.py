@@ -25,7 +25,7 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
 from bem.lubrication.steady import KeptSteady, checked_case, solution_of, solve_line_film
 from bem.lubrication.thermal.conductors import moving_bodies
-from bem.lubrication.thermal.coupled import Coupling, Heated, coupled
+from bem.lubrication.thermal.coupled import Coupling, Heated, Neighbour, coupled
 from bem.lubrication.thermal.field import LEAST_RISE, carried
 from bem.lubrication.thermal.heated_film import HeatedFilm
 from bem.lubrication.thermal.layers import Oil, expansion_of, middles
@@ -62,7 +62,7 @@ class FullThermalFilm(HeatedFilm):
     Attributes
     ----------
     film : solution of the film at these temperatures; its own shear force is that of the oil at its own temperature.
-    isothermal : the film without heat, or the one that it was started from.
+    isothermal : the film without heat.
     position : (m,) middles of columns [m]. width : (m,) of them [m].
     height : (K,) of the layers' middles over the film's thickness, from the flat (0) to the cylinder (1).
     temperature : (m, K) of the oil [K]. surface_temperatures : (2, m) of flat and cylinder [K].
@@ -162,9 +162,12 @@ def solve_full_thermal_line_film(  # reason: the arguments of `solve_line_film`,
             raise InputError(f"solve_full_thermal_line_film: {name} {value!r} must be an integer from 6 to {most}")
     checked_case(load, radius, contact_modulus, speeds, lubricant, points, tolerance, None, initial)
     conductors = moving_bodies("solve_full_thermal_line_film", lubricant, bodies, speeds, bulk, radius)
+    before = None if initial is None else initial.state
+    heat = before.heat if isinstance(before, KeptSteady) else None
     cold = solve_line_film(
         load=load, radius=radius, contact_modulus=contact_modulus, speeds=speeds, lubricant=lubricant, points=points,
-        initial=initial, tolerance=tolerance, max_iterations=max_iterations, flow_factors=flow_factors,
+        initial=initial if heat is None else heat.isothermal, tolerance=tolerance, max_iterations=max_iterations,
+        flow_factors=flow_factors,
     )  # fmt: skip
     kept = cold.state
     assert isinstance(kept, KeptSteady)
@@ -186,7 +189,15 @@ def solve_full_thermal_line_film(  # reason: the arguments of `solve_line_film`,
         limit=max_iterations,
     )
     start = Outcome(kept.state, cold.iterations, cold.residual, cold.status is Status.CONVERGED)
-    found = coupled(coupling, start)
+    near = None
+    if heat is not None and isinstance(before, KeptSteady):
+        near = Neighbour(before.state, before.load, before.scales.pressure / kept.scales.pressure, heat)
+    found = coupled(coupling, start, near)
+    if found.met(tolerance):
+        film = found.film
+        assert isinstance(film.state, KeptSteady)
+        film = replace(film, state=replace(film.state, heat=found.kept(cold, columns)))
+        found = replace(found, film=film)
     thermal = _result(found, cold, tolerance, kept.reversed)
     stress = found.made.across(found.field.oil).newtonian
     notes = notes_of_film(found.film, lubricant, radius, contact_modulus, stress)
