@@ -17,7 +17,8 @@ from reports.validation_origin import changed_since_stored
 _WORDS = prose("guide")["error_bars"]
 RESULTS = Path(__file__).parent / "results"
 _KINDS = {
-    "contact": "contact", "film": "friction", "mixed": "friction", "mixed_ball": "friction", "heated_mixed": "friction",
+    "contact": "contact", "small_contact": "contact",
+    "film": "friction", "mixed": "friction", "mixed_ball": "friction", "heated_mixed": "friction",
     "hot_mixed": "friction",
     "march": "film",
     "point": "point-film",

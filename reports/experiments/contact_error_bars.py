@@ -35,7 +35,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Problem:
-    """A contact that any grid can take: bodies, curvatures [1/m], waves, and what is prescribed."""
+    """A contact that any grid can take: bodies, curvatures [1/m], their centre [m], waves, what is prescribed."""
 
     words: str
     grid: Grid
@@ -45,6 +45,7 @@ class Problem:
     given: dict[str, float]
     hardness: float | None
     depths: int
+    centre: tuple[float, float] = (0.0, 0.0)
 
     def refined(self, factor: int) -> Grid:
         """Each cell cut into factor x factor."""
@@ -54,7 +55,7 @@ class Problem:
     def gap(self, factor: int) -> FloatArray:
         """Undeformed gap on the refined grid, from first touch where the surface is rough [m]."""
         grid = self.refined(factor)
-        x, y = grid.x[:, None], grid.y[None, :]
+        x, y = grid.x[:, None] - self.centre[0], grid.y[None, :] - self.centre[1]
         gap = 0.5 * (self.curvature[0] * x**2 + self.curvature[1] * y**2) - waves_through(self.heights, factor)
         return gap - gap.min() if self.heights.any() else gap
 
@@ -168,13 +169,13 @@ def rows_of(problem: Problem) -> list[dict[str, Any]]:
         bars = bars | stress_bars(case, coarser, problem.body, below)
         for figures, stresses in ((found, below), (truth, problem.stresses(fine, FINER))):
             figures |= {name: getattr(stresses, name) for name in _STRESSES}
-    across = 4 * case.solution.contact_area / max(case.solution.contact_perimeter, 1e-30) / 1e-7
+    across = 4 * case.solution.contact_area / max(case.solution.contact_perimeter, 1e-30)
     return [
         {
             "figure": name,
             "contact": problem.words,
             "resolved": is_resolved(case),
-            "cells_across": round(across, 2),
+            "cells_across": round(across / math.sqrt(case.grid.cell_area), 2),
             "share_at_edge": share_at_edge(case),
             "value": found[name],
             "difference": abs(found[name] - coarse.get(name, math.nan)),

@@ -15,7 +15,8 @@ of the rough surfaces, `facts.materials` the materials by key. A check of the re
 Verified in tests/scenes/test_checks.py, twice each: a scene that fires it, and one next to it that does not; no
 built-in scene may fire it without a reason that stands there. Knows scenes and closed forms; solves nothing.
 `bem plan` shows what `scene_warnings` finds; `bem run` notes that and what `outcome_warnings` finds, so that it stands
-on the terminal, in the summary's `notes` and in the report. A warning never changes a result nor an exit code.
+on the terminal, in the summary's `notes` and in the report. A warning never changes a result nor an exit code; what no
+half-space can be is refused instead (`refusals.py`).
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from typing import Any
 from bem.errors import InputError
 from bem.scenes.checks import contact, cycles, materials, mesh, operation, outcome, surfaces
 from bem.scenes.checks.facts import Case, Facts, examine
+from bem.scenes.checks.refusals import refusals
 from bem.scenes.checks.registry import OUTCOME_CHECKS, SCENE_CHECKS
 from bem.scenes.context import Outcome
 
@@ -34,7 +36,14 @@ _ORDER = [module.__name__ for module in (materials, operation, surfaces, contact
 
 
 def scene_warnings(facts: Facts) -> list[str]:
-    """What can be warned of before any work."""
+    """What can be warned of before any work.
+
+    Raises
+    ------
+    InputError : a contact that no half-space can have.
+    """
+    if refused := refusals(facts):
+        raise InputError(refused)
     return _sentences(SCENE_CHECKS, facts)
 
 
