@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 import threading
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -210,7 +211,11 @@ class Factors:
         return sum(part.nbytes for pair in self.parts for part in pair if part is not None)
 
     def multiplier(self, component: int, workspace: FloatArray) -> Multiplier:
-        """The spectrum of one of t, d, e, yz, xz, xy, in `workspace` (3, rows, columns) where it has to be unpacked."""
+        """The spectrum of one of t, d, e, yz, xz, xy, in `workspace` (3, rows, columns) where it has to be unpacked;
+        kept where it has not."""
+        found = self._whole.get(component)
+        if found is not None:
+            return found
         real, imaginary = (
             part.unpack(workspace[index]) if isinstance(part, Packed) else part
             for index, part in enumerate(self.parts[component])
@@ -221,7 +226,14 @@ class Factors:
             assert isinstance(trace, Packed)
             imaginary = xz.unpack(workspace[1])
             _join_traction(imaginary, trace.unpack(workspace[2]), 1.5 * self.traction)
-        return Multiplier(real, imaginary, *self.parities[component])
+        result = Multiplier(real, imaginary, *self.parities[component])
+        if not any(isinstance(part, Packed) for part in self.parts[component]) and self.traction is None:
+            self._whole[component] = result
+        return result
+
+    @cached_property
+    def _whole(self) -> dict[int, Multiplier]:
+        return {}
 
 
 _T, _E, _XZ = 0, 2, 4

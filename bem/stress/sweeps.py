@@ -194,7 +194,7 @@ def _share_rows(work: Any, rows: int, *arguments: Any) -> None:
         share(block, -(-rows // _ROWS))
 
 
-_SHARES = (0.0, 0.75, 1.0, 3.0, 3.0, 3.0)  # of t, d, e, yz, xz, xy squared in von Mises squared
+SHARES = (0.0, 0.75, 1.0, 3.0, 3.0, 3.0)  # of t, d, e, yz, xz, xy squared in von Mises squared
 
 
 def planes(sweep: Sweep, outs: Sequence[FloatArray | None]) -> Iterator[FloatArray]:
@@ -214,7 +214,7 @@ def planes(sweep: Sweep, outs: Sequence[FloatArray | None]) -> Iterator[FloatArr
         for component in range(1, 6):
             field(component, scratch)
             work = {1: _begin, 5: _finish}.get(component, _accumulate)
-            _share_rows(work, shape[0], scratch, _SHARES[component], plane)
+            _share_rows(work, shape[0], scratch, SHARES[component], plane)
         yield plane
 
 
@@ -229,7 +229,7 @@ def check_out(name: str, out: FloatArray | None, shape: tuple[int, ...]) -> Floa
 
 
 @dataclass(frozen=True)
-class _Part:
+class Part:
     """One field on the surface: transformed, and the spectra of each depth as they are needed.
 
     turned : the field and its grid have their axes exchanged, so that a traction along +y is one along +x.
@@ -245,7 +245,7 @@ class _Part:
     turned: bool
 
     @classmethod
-    def of(cls, field: FloatArray, grid: Grid, body: Body, acting: Loads, *, turned: bool = False) -> _Part:
+    def of(cls, field: FloatArray, grid: Grid, body: Body, acting: Loads, *, turned: bool = False) -> Part:
         """Transform a field."""
         if turned:
             field = np.ascontiguousarray(field.T)
@@ -281,7 +281,7 @@ class _Part:
                 self.spectrum,
                 factors.multiplier(component, self.workspace),
                 out,
-                weight=_SHARES[component],
+                weight=SHARES[component],
                 stage={1: BEGINS, 5: ENDS}.get(component, GOES_ON),
                 columns=factors.columns[component],
             )
@@ -308,7 +308,7 @@ class Sweep:
 
     grid: Grid
     depths: tuple[float, ...]
-    parts: tuple[_Part, ...]
+    parts: tuple[Part, ...]
 
     @classmethod
     def of(  # reason: a request as users make it
@@ -325,9 +325,9 @@ class Sweep:
         places, coefficient = check_request(name, grid, body, depths, friction)
         field = grid.check_field(pressure, "pressure")
         sheared = None if traction is None else _checked_traction(name, traction, grid, coefficient)
-        parts = [_Part.of(field, grid, body, loads(coefficient))]
+        parts = [Part.of(field, grid, body, loads(coefficient))]
         if sheared is not None:
-            parts += [_Part.of(t, grid, body, TRACTION, turned=k == 1) for k, t in enumerate(sheared) if t.any()]
+            parts += [Part.of(t, grid, body, TRACTION, turned=k == 1) for k, t in enumerate(sheared) if t.any()]
         return cls(grid, places, tuple(parts))
 
     def at(self, index: int) -> Callable[[int, FloatArray], None]:

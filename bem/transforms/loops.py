@@ -63,6 +63,34 @@ class Scratch(NamedTuple):
     columns_out: NDArray[Any]
 
 
+class Singles(NamedTuple):
+    """The way back in small portions: `columns`, `lengths`, `scales` : (py // 2 + 1,), plans, lengths and scales of one
+    column each. `numbers` : (py // 2 + 2,), how many in the first so many columns. `rows` : (2,), plans for `GROUP`
+    rows, and for the last group."""
+
+    columns: NDArray[Any]
+    lengths: NDArray[Any]
+    scales: NDArray[Any]
+    numbers: NDArray[Any]
+    rows: NDArray[Any]
+
+
+GROUP = 8
+"""Rows in a group: whole cache lines of the half-way array."""
+
+
+class Squares(NamedTuple):
+    """A root of a sum of squares of fields, on its way: half-way arrays (terms, py // 2 + 1, stride), how many columns
+    of each count, weights (terms,), and scratch for a group's rows. `begun` : groups whose rows are added term by term.
+    """
+
+    halves: NDArray[Any]
+    columns: NDArray[Any]
+    weights: NDArray[Any]
+    rows: NDArray[Any]
+    begun: NDArray[Any]
+
+
 class Factor(NamedTuple):
     """A multiplier's parts; parity 0 says that a part is zero, `ONE` that it is one, and its array is empty."""
 
@@ -189,6 +217,48 @@ def columns_in(room, scratch, factor, spectrum, first, last):  # type: ignore[no
 
 
 @_plain
+def terms_back(  # type: ignore[no-untyped-def]  # reason: compiled, so each array is an argument
+    room, singles, scratch, factors, spectrum, squares, terms, share, out
+):
+    """The terms (first, last) of a spectrum times `factors` along x, into half-way arrays of their own, and along y in
+    the groups that are begun, while they are near. share : this thread's number, and of how many."""
+    source, done = scratch.columns[0], scratch.columns_out[0]
+    for term in range(terms[0], terms[1]):
+        half, count = squares.halves[term], squares.columns[term]
+        for number in range(share[0] * count // share[1], (share[0] + 1) * count // share[1]):
+            given, scale, length = spectrum[number], singles.scales[number], singles.lengths[number]
+            multiply_column(factors[term], number, given, source, scale, length)
+            execute(room.executors[1], singles.columns[number], source.ctypes.data, done.ctypes.data)
+            for j in range(room.nx):
+                half[number, j] = done[j]
+        if share[0] == 0:
+            half[count:] = 0
+        for group in range(squares.begun.size):
+            if squares.begun[group]:
+                term_of_group(room, singles, squares, term, group, out)
+
+
+@_plain
+def term_of_group(room, singles, squares, term, group, out):  # type: ignore[no-untyped-def]
+    """Rows of a group from a half-way array, destroyed there, added as `rows_back_squared` does."""
+    start = group * GROUP
+    count = min(room.nx, start + GROUP) - start
+    rows, weight, last = squares.rows, squares.weights[term], squares.weights.size - 1
+    plan = singles.rows[0 if count == GROUP else 1]
+    execute(room.executors[2], plan, squares.halves[term, 0, start:].ctypes.data, rows.ctypes.data)
+    for i in range(count):
+        if term == 0:
+            for j in range(room.ny):
+                out[start + i, j] = weight * rows[i, j] * rows[i, j]
+        elif term == last:
+            for j in range(room.ny):
+                out[start + i, j] = np.sqrt(out[start + i, j] + weight * rows[i, j] * rows[i, j])
+        else:
+            for j in range(room.ny):
+                out[start + i, j] += weight * rows[i, j] * rows[i, j]
+
+
+@_plain
 def _columns_forward(room, scratch, block):  # type: ignore[no-untyped-def]
     """From the half-way array to `columns_out`."""
     start, plan = room.columns[block], room.column_plans[0, block]
@@ -222,47 +292,49 @@ def _columns_back(room, scratch, block):  # type: ignore[no-untyped-def]
 def multiply(room, factor, given, target, block, offset):  # type: ignore[no-untyped-def]
     """A block of columns times the factor and the inverse transform's own scale; they begin in `given` at `offset`."""
     start, count = room.columns[block], room.columns[block + 1] - room.columns[block]
-    real, imaginary, scale, length = factor.real, factor.imaginary, room.scales[block], room.lengths[block]
+    for i in range(count):
+        multiply_column(factor, start + i, given[offset + i], target[i], room.scales[block], room.lengths[block])
+
+
+@_contracted
+def multiply_column(factor, number, given, target, scale, length):  # type: ignore[no-untyped-def]
+    """The column of a number times the factor and a scale."""
+    real, imaginary = factor.real, factor.imaginary
     half = length // 2 + 1
     if factor.real_parity == ONE:
-        for i in range(count):
-            for j in range(length):
-                target[i, j] = given[offset + i, j] * scale
+        for j in range(length):
+            target[j] = given[j] * scale
     elif factor.real_parity == 0 and factor.imaginary_parity == 0:
-        for i in range(count):
-            for j in range(length):
-                target[i, j] = 0
+        for j in range(length):
+            target[j] = 0
     elif factor.imaginary_parity == 0:
-        for i in range(count):
-            for j in range(half):
-                target[i, j] = given[offset + i, j] * (real[start + i, j] * scale)
-            mirrored = scale if factor.real_parity > 0 else -scale
-            for j in range(half, length):
-                target[i, j] = given[offset + i, j] * (real[start + i, length - j] * mirrored)
+        for j in range(half):
+            target[j] = given[j] * (real[number, j] * scale)
+        mirrored = scale if factor.real_parity > 0 else -scale
+        for j in range(half, length):
+            target[j] = given[j] * (real[number, length - j] * mirrored)
     elif factor.real_parity == 0:
         mirrored = scale if factor.imaginary_parity > 0 else -scale
-        for i in range(count):
-            for j in range(length):
-                k, sign = (j, scale) if j < half else (length - j, mirrored)
-                a = imaginary[start + i, k] * sign
-                z = given[offset + i, j]
-                target[i, j] = complex(-a * z.imag, a * z.real)
+        for j in range(length):
+            k, sign = (j, scale) if j < half else (length - j, mirrored)
+            a = imaginary[number, k] * sign
+            z = given[j]
+            target[j] = complex(-a * z.imag, a * z.real)
     else:
         mirrored_real = scale if factor.real_parity > 0 else -scale
         mirrored_imaginary = scale if factor.imaginary_parity > 0 else -scale
         # as real numbers, two for each: a third less time than a loop of complex ones, same bits
         kind = real.dtype
-        for i in range(count):
-            source, result = given[offset + i].view(kind), target[i].view(kind)
-            for j in range(half):
-                a = real[start + i, j] * scale
-                b = imaginary[start + i, j] * scale
-                x, y = source[2 * j], source[2 * j + 1]
-                result[2 * j] = a * x - b * y
-                result[2 * j + 1] = a * y + b * x
-            for j in range(half, length):
-                a = real[start + i, length - j] * mirrored_real
-                b = imaginary[start + i, length - j] * mirrored_imaginary
-                x, y = source[2 * j], source[2 * j + 1]
-                result[2 * j] = a * x - b * y
-                result[2 * j + 1] = a * y + b * x
+        source, result = given.view(kind), target.view(kind)
+        for j in range(half):
+            a = real[number, j] * scale
+            b = imaginary[number, j] * scale
+            x, y = source[2 * j], source[2 * j + 1]
+            result[2 * j] = a * x - b * y
+            result[2 * j + 1] = a * y + b * x
+        for j in range(half, length):
+            a = real[number, length - j] * mirrored_real
+            b = imaginary[number, length - j] * mirrored_imaginary
+            x, y = source[2 * j], source[2 * j + 1]
+            result[2 * j] = a * x - b * y
+            result[2 * j + 1] = a * y + b * x

@@ -6,6 +6,7 @@ import threading
 import weakref
 from bisect import bisect_left
 from collections.abc import Sequence
+from functools import cached_property
 from typing import Any, cast
 
 import numpy as np
@@ -15,7 +16,7 @@ from bem.fftw import pyfftw
 from bem.threads import get_threads, share
 from bem.transforms import loops
 from bem.transforms.count import COUNT
-from bem.transforms.loops import ALIGNMENT, Room, Scratch
+from bem.transforms.loops import ALIGNMENT, GROUP, Factor, Room, Scratch, Singles, Squares
 from bem.transforms.plans import library
 from bem.transforms.products import Multiplier, unit_factor
 
@@ -184,6 +185,64 @@ class PaddedTransform:
                 self.room.half[self._ends[blocks] :] = 0
                 self._each(loops.rows_back_squared, self._row_blocks, weight, stage, out)
         self._count(inverse=1, blocks=blocks)
+
+    def empty_squares(self, weights: FloatArray) -> Squares:
+        """Room for the root of a sum of squares of so many fields, of which no group is begun."""
+        shape = (len(weights), self.spectrum_shape[0], self._half_stride)
+        halves = pyfftw.empty_aligned(shape, self.complex_dtype, n=ALIGNMENT)
+        rows = pyfftw.empty_aligned((GROUP, self._real_stride), self.dtype, n=ALIGNMENT)
+        columns, begun = np.zeros(len(weights), np.int64), np.zeros(-(-self.shape[0] // GROUP), np.bool_)
+        return Squares(halves, columns, weights, rows, begun)
+
+    def terms_back(
+        self,
+        spectrum: ComplexArray,
+        factors: tuple[Factor, ...],
+        squares: Squares,
+        terms: tuple[int, int],
+        out: FloatArray,
+    ) -> None:
+        """The first of the two passes of `inverse` for the terms (first, last) of a sum of squares, one factor each;
+        the second one in the groups that are begun. `loops.term_of_group` does it in the others."""
+        threads, singles = get_threads(), self.singles
+        own = (factors, spectrum, squares, terms)
+        with self.lock:
+            self.ready(threads)
+
+            def work(number: int, block: int) -> None:
+                loops.terms_back(self.room, singles, self._scratch[number], *own, (block, threads), out)
+
+            if threads == 1:
+                work(0, 0)
+            else:
+                share(work, threads)
+        for count in squares.columns[slice(*terms)].tolist():
+            COUNT.inverse += 1
+            COUNT.columns += count
+            COUNT.numbers += int(singles.numbers[count])
+
+    @cached_property
+    def singles(self) -> Singles:
+        """Plans for the way back in small portions, made when they are first asked for."""
+        with self.lock:
+            scratch, fftw = self.ready(1), library(self.dtype)
+            each = np.diff(self.room.columns)
+            lengths, stride = np.repeat(self.room.lengths, each), self._spectrum_stride
+            data = (scratch.columns.ctypes.data, scratch.columns_out.ctypes.data)
+            made = {
+                length: fftw.complex(length, 1, (1, 1, stride, stride), data, back=True)
+                for length in set(lengths.tolist())
+            }
+            across = (self._half_stride, 1, 1, self._real_stride)
+            data = (self.room.half.ctypes.data, self.empty_squares(np.ones(1)).rows.ctypes.data)
+            rows = [
+                fftw.complex_to_real(self.padded[1], count, across, data)
+                for count in (min(GROUP, self.shape[0]), self.shape[0] % GROUP or GROUP)
+            ]
+            weakref.finalize(self, _destroy, fftw.destroy, [*made.values(), *rows])
+            plans = np.array([made[length] for length in lengths.tolist()], np.int64)
+            scales, numbers = np.repeat(self.room.scales, each), np.append(0, np.cumsum(lengths))
+            return Singles(plans, lengths, scales, numbers, np.array(rows, np.int64))
 
     def convolve(self, values: FloatArray, factor: Multiplier, out: FloatArray | None = None) -> FloatArray:
         """Forward, times `factor`, and back, without ever storing a whole padded spectrum. `out` may be `values`."""

@@ -25,6 +25,8 @@ class RemovalLaw(Law):
     """Which runs leave, as which pieces."""
 
     family: ClassVar[str] = "removal"
+    follows_pieces: ClassVar[bool] = False
+    """Whether runs that nothing joins to the surface are never looked at, so that they need not be found."""
 
     @abstractmethod
     def remove(self, runs: Runs, parent: NDArray[np.int64], labels: NDArray[np.int32], thickness: FloatArray) -> int:
@@ -37,6 +39,7 @@ class RemovalLaw(Law):
 class _ByColumns(RemovalLaw):
     """Laws that look at one column of yielded runs after the other."""
 
+    follows_pieces: ClassVar[bool] = True
     takes_along: ClassVar[bool]
 
     def remove(self, runs: Runs, parent: NDArray[np.int64], labels: NDArray[np.int32], thickness: FloatArray) -> int:

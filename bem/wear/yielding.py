@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.stress import subsurface_stress, von_mises_limit, von_mises_planes
+from bem.stress import reached_stress, subsurface_stress, von_mises_limit, von_mises_planes
 from bem.wear.criterion import VonMises, WearCriterion
 from bem.wear.loads import Removal, SurfaceLoad
+from bem.wear.removal import RemovalLaw
 from bem.wear.segmentation import Segmentation, refine_depths, segment
 
 if TYPE_CHECKING:
@@ -120,9 +121,35 @@ def yielded_stress(
     return YieldedStress(stack[:used], depths[:used], computed, time.perf_counter() - start)
 
 
+def piece_stress(
+    load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearModel, body: int
+) -> YieldedStress:
+    """As `yielded_stress`, where pieces can be: rows that none reaches are zero if von Mises stress of one load is
+    asked for, of which pieces from the surface down leave, found on the way (`bem.stress.reach`).
+
+    Between depths, yield needs a depth next to it that yields: so a piece is followed from depth to depth and row to
+    row. The monotone cubic in an interval needs values two depths from the end that yields.
+    """
+    loads = (SurfaceLoad(load, setup.friction),) if isinstance(load, np.ndarray) else load
+    law, removal, (first, *others) = model.law, model.removal, loads
+    assert isinstance(removal, RemovalLaw)
+    if not isinstance(law, VonMises) or others or first.traction is not None or not removal.follows_pieces:
+        return yielded_stress(loads, setup, model, body)
+    start = time.perf_counter()
+    depths, strength = depths_for(setup, model, body), setup.yield_stress(body)
+    none, grid = np.empty((0, *setup.grid.shape)), setup.grid
+    if cannot_yield(loads, setup, body, float(depths[0]), law):
+        return YieldedStress(none, depths[:0], 0, time.perf_counter() - start)
+    reach = 2 if model.refinement == "monotone_cubic" else 1
+    solid, shear = setup.bodies[body], first.shear(body)
+    found = reached_stress(first.pressure, grid, solid, depths, strength, reach=reach, **shear).stress
+    used = len(found) if len(found) > 1 else 0  # of the first depth alone where nothing yields in it
+    return YieldedStress(found[:used], depths[:used], len(found), time.perf_counter() - start)
+
+
 def yielded_pieces(load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearModel, body: int) -> Removal:
     """The pieces that come off one body where its stress exceeds the yield stress; arguments as in `yielded_stress`."""
-    found = yielded_stress(load, setup, model, body)
+    found = piece_stress(load, setup, model, body)
     start = time.perf_counter()
     pieces = pieces_above(found.stress, found.depths, setup.yield_stress(body), setup, model)
     return Removal(body, pieces, found.computed, found.seconds, time.perf_counter() - start)

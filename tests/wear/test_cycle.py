@@ -70,7 +70,8 @@ def test_stopping_at_a_quiet_depth_gives_the_pieces_of_the_whole_stack():
     whole = segment(stack, DEPTHS, yield_stress=0.64e9, periodic=GRID.periodic)
     assert whole.count > 3
     assert np.array_equal(found.pieces.labels, whole.labels)
-    assert np.array_equal(found.pieces.thickness, whole.thickness)
+    # rows and columns of transforms in other portions: the last digits of a stress
+    assert np.abs(found.pieces.thickness - whole.thickness).max() <= 1e-12 * DEPTHS[-1]
     assert found.depths_computed < DEPTHS.size / 2
 
 
@@ -97,7 +98,8 @@ def test_only_the_cubic_needs_the_depth_below_the_quiet_one():
     stack = von_mises_field(pressure, GRID, SOFT, DEPTHS, friction=0.16)
     whole = segment(stack, DEPTHS, yield_stress=0.64e9, periodic=GRID.periodic, refinement="linear")
     assert whole.count > 3
-    assert np.array_equal(linear.pieces.thickness, whole.thickness)
+    assert np.array_equal(linear.pieces.labels, whole.labels)
+    assert np.abs(linear.pieces.thickness - whole.thickness).max() <= 1e-12 * DEPTHS[-1]
 
 
 def test_a_stopped_run_goes_on_to_the_same_bits():

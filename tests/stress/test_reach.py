@@ -1,0 +1,133 @@
+"""Stress where pieces can reach: whole planes wherever it matters; no row, depth or transform more than is needed."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from bem import Body, Grid, Material, transforms
+from bem.stress import reached_stress, set_stress_memory, von_mises_field
+from bem.threads import set_threads
+from bem.wear import WearModel, WearSetup, yielded_pieces
+from bem.wear.removal import Cap
+from bem.wear.yielding import piece_stress, pieces_above, yielded_stress
+
+STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9))
+CELL = 100e-9
+DEPTHS = np.arange(20) * 95e-9
+
+
+def rough_pressure(shape, seed):
+    """Spots of some cells, far from each other and near: what they load goes together below the surface, or not."""
+    random = np.random.default_rng(seed)
+    x, y = np.meshgrid(*(np.arange(n) for n in shape), indexing="ij")
+    pressure = np.zeros(shape)
+    for _ in range(9):
+        i, j, radius = random.integers(shape[0]), random.integers(shape[1]), random.uniform(1.5, 6)
+        pressure += 1.6e9 * np.sqrt(np.maximum(1 - ((x - i) ** 2 + (y - j) ** 2) / radius**2, 0))
+    return np.minimum(pressure, 1.8e9)
+
+
+def setup(shape, periodic):
+    grid = Grid(shape, (CELL, CELL), periodic=periodic)
+    return WearSetup(grid, (STEEL, STEEL), np.zeros(shape), 1.0, 0.16, DEPTHS)
+
+
+@pytest.mark.parametrize("periodic", [(False, True), (False, False), (True, True)])
+@pytest.mark.parametrize("shape", [(64, 48), (61, 40), (5, 40)])
+def test_rows_that_are_computed_are_those_of_whole_planes_and_what_exceeds_the_limit_ends_in_them(periodic, shape):
+    grid = Grid(shape, (CELL, CELL), periodic=periodic)
+    pressure = rough_pressure(shape, 3)
+    whole = von_mises_field(pressure, grid, STEEL, DEPTHS, friction=0.3)
+    limit = 0.45 * whole.max()
+    found = reached_stress(pressure, grid, STEEL, DEPTHS, limit, friction=0.3, reach=2)
+    used = len(found.stress)
+    # round-off of transforms in other portions
+    error = np.abs(found.stress - whole[:used])[found.computed].max()
+    assert error <= 1e-13 * whole.max()
+    assert not found.stress[~found.computed].any()
+    assert found.computed[0].all()
+    above = (found.stress > limit).any(axis=2)
+    assert above.any()
+    for depth, row in np.argwhere(above):
+        for other, beside in itertools.product(range(depth - 2, depth + 3), range(row - 1, row + 2)):
+            if 0 <= other < DEPTHS.size and (periodic[0] or 0 <= beside < shape[0]):
+                assert found.computed[other, beside % shape[0]]
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("choice", [{}, {"refinement": "linear"}, {"connectivity": 26, "removal": "top_run"}])
+def test_pieces_are_those_of_whole_planes(seed, choice):
+    fixed, model = setup((96, 48), (seed % 2 == 0, True)), WearModel(**choice)
+    pressure = rough_pressure(fixed.grid.shape, seed)
+    found = yielded_pieces(pressure, fixed, model, 0)
+    everything = yielded_stress(pressure, fixed, model, 0)
+    whole = pieces_above(everything.stress, everything.depths, fixed.yield_stress(0), fixed, model)
+    assert whole.count > 0
+    assert np.array_equal(found.pieces.labels, whole.labels)
+    assert np.abs(found.pieces.thickness - whole.thickness).max() <= 1e-12 * DEPTHS[-1]
+
+
+def test_what_lies_deeper_and_wider_than_the_surface_shows_is_found_by_a_second_pass():
+    """A piece that begins in few rows and spreads below them, under a limit that only a spot's middle exceeds."""
+    grid = Grid((96, 32), (CELL, CELL), periodic=(False, True))
+    x, y = np.meshgrid(np.arange(96) - 47.5, np.arange(32) - 15.5, indexing="ij")
+    pressure = 1e9 * np.sqrt(np.maximum(1 - (x**2 + y**2) / 14**2, 0))
+    pressure[46:50, 14:18] += 1e9
+    depths = np.arange(14) * 90e-9
+    whole = von_mises_field(pressure, grid, STEEL, depths)
+    limit = 0.55e9
+    above = (whole > limit).any(axis=2).sum(axis=1)
+    assert above.argmax() > 3  # wider below than at the surface
+    found = reached_stress(pressure, grid, STEEL, depths, limit, reach=2)
+    used = len(found.stress)
+    assert found.passes >= used
+    both = whole[:used] > limit
+    rows = both.any(axis=2)
+    connected = found.computed & rows
+    assert connected.sum() == rows.sum()  # one region, all of it joined to the surface
+
+
+def test_half_of_the_rows_are_left_out_and_each_depth_takes_five_transforms_along_x():
+    fixed = setup((96, 48), (False, True))
+    pressure = np.zeros(fixed.grid.shape)
+    pressure[40:48, 20:28] = 1.8e9
+    transforms.COUNT.reset()
+    found = yielded_pieces(pressure, fixed, WearModel(), 0)
+    assert found.pieces.count == 1
+    assert found.depths_computed > 3
+    assert transforms.COUNT.inverse == 5 * found.depths_computed
+    all_rows = 96 * (1 + 5 * found.depths_computed)
+    assert transforms.COUNT.rows < 0.5 * all_rows
+    first = piece_stress(pressure, fixed, WearModel(), 0).stress
+    assert np.count_nonzero(first[1].any(axis=1)) <= 32  # eight rows loaded, groups of eight on either side
+
+
+def test_packed_spectra_and_several_threads_give_the_same():
+    grid = Grid((256, 256), (CELL, CELL))
+    pressure = np.zeros(grid.shape)
+    pressure[100:140, 100:140] = rough_pressure((40, 40), 1)
+    depths = DEPTHS[:3]
+    set_stress_memory(1 << 29)
+    whole = von_mises_field(pressure, grid, STEEL, depths, friction=0.2)
+    limit = 0.5 * whole.max()
+    one = reached_stress(pressure, grid, STEEL, depths, limit, friction=0.2)
+    set_threads(2)
+    try:
+        two = reached_stress(pressure, grid, STEEL, depths, limit, friction=0.2)
+    finally:
+        set_threads(1)
+    assert np.array_equal(one.stress, two.stress)
+    assert np.abs(one.stress - whole[: len(one.stress)])[one.computed].max() <= 1e-13 * whole.max()
+
+
+def test_a_law_that_looks_at_all_runs_gets_all_of_them():
+    class Everything(Cap):
+        follows_pieces = False
+
+    fixed = setup((64, 48), (False, True))
+    pressure = rough_pressure(fixed.grid.shape, 0)
+    model = WearModel()
+    object.__setattr__(model, "removal", Everything())
+    whole, asked = yielded_stress(pressure, fixed, model, 0), piece_stress(pressure, fixed, model, 0)
+    assert np.array_equal(whole.stress, asked.stress)
