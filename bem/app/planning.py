@@ -45,6 +45,7 @@ def shown_plan(table: Mapping[str, Any]) -> ShownPlan:
         for step in plan.steps
     ]
     tables.append(("steps", steps))
+    tables.append(("precision of fields and transforms", plan.precision_rows))
     takes = f"about {show_seconds(plan.seconds(rate))} and {show_bytes(plan.memory)}"
     if plan.memory > available_memory():
         warnings = [f"it needs {show_bytes(plan.memory)}, more than is free now: it will be refused", *warnings]

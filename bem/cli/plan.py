@@ -15,7 +15,8 @@ def register(app: typer.Typer) -> None:
     @app.command(short_help="Show what would be computed and warned of, what is skipped, memory, time.")
     def plan(scene: SceneArgument, set_: SetOption = None, accuracy: AccuracyOption = None) -> None:
         """Show what a scene would compute: bodies, surfaces and what is done to them, grid, Hertz contact, steps with
-        estimated memory and time, what is skipped and why, and what an expert would warn of.
+        estimated memory and time, what is skipped and why, what is not held in double precision and what that costs,
+        and what an expert would warn of.
 
         Exit code 2 where it would not fit into the memory that is free now; warnings change no exit code.
 
@@ -85,3 +86,4 @@ def _show_steps(planned: Any) -> None:
     ]
     rows.append(("peak, total", show_bytes(planned.memory), show_seconds(planned.seconds(rate)), ""))
     table(("step", "memory", "time", "why"), rows, title="steps", right=(1, 2))
+    table(("", ""), planned.precision_rows, title="precision of fields and transforms")

@@ -5,7 +5,7 @@ Knows what a scene says of its films and speeds; no kind of scene, no film. Veri
 
 from __future__ import annotations
 
-from bem.scenes.planner import Step
+from bem.scenes.planner import SEARCHED_IN_SINGLE, Step
 
 _IN_CONTACT = "; that of the surfaces in contact at each speed"
 _HEAT = {
@@ -42,7 +42,13 @@ def oil_beside(oil_volume: str, speeds: int) -> Step:
         if loaded
         else "once more at each speed where film and contact share the load, to tell what that oil decides"
     )
-    return Step("balance without the oil beside the contact", why, seconds=speeds * 0.2, skipped=loaded)
+    return Step(
+        "balance without the oil beside the contact",
+        why,
+        seconds=speeds * 0.2,
+        skipped=loaded,
+        precision=SEARCHED_IN_SINGLE,
+    )
 
 
 def tables(points: int, shared_by: str) -> Step:

@@ -15,6 +15,12 @@ from bem.errors import InputError
 
 _CALIBRATION_SIDE = 512
 _PROCESS = 1.3e8  # bytes of the interpreter and the libraries of a run, compiled loops included
+SEARCHED_IN_SINGLE = (
+    "pressure, gap and residual in double; transforms of the search for a better pressure in single: no accuracy lost"
+)
+"""What is said of contacts: tests/frugality/test_plans.py compares them with those searched in double."""
+PACKED_SPECTRA = "double; large spectra are kept in 48 bits: 1e-15 of the largest pressure"
+"""What is said of stresses on grids with a free axis: `bem.stress.packed`."""
 _START = 2.0  # seconds until libraries and compiled loops are loaded
 
 
@@ -32,6 +38,7 @@ class Step:
     memory : bytes held at its peak beyond what the steps before it keep.
     kept : bytes of these that stay when it is over; all of them where not given.
     seconds : further time that is not spent in transforms, on any machine [s].
+    precision : in which numbers are held that are not all held in double, and what it costs; empty where all are.
     per : of what it is done once, where a scene has several cases: each "case"; each "grid", for all repetitions on it;
         the whole "run".
     """
@@ -44,6 +51,7 @@ class Step:
     memory: float = 0.0
     seconds: float = 0.0
     kept: float | None = None
+    precision: str = ""
     per: Literal["case", "grid", "run"] = "case"
 
 
@@ -69,6 +77,17 @@ class Plan:
                 peak = max(peak, held + step.memory)
                 held += step.memory if step.kept is None else step.kept
         return peak
+
+    @property
+    def precisions(self) -> dict[str, str]:
+        """Of each step that does not hold all numbers in double: which it does not, and what that costs."""
+        return {step.name: step.precision for step in self.steps if step.precision and not step.skipped}
+
+    @property
+    def precision_rows(self) -> list[tuple[str, str]]:
+        """The same in words, with all that is held in double."""
+        named = list(self.precisions.items())
+        return [*named, ("all else", "double; error bars as what they repeat")] if named else [("all", "double")]
 
     def work(self, rate: float) -> float:
         """Estimated processor time of the cases alone [s], without what a run does once."""

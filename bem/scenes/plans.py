@@ -13,7 +13,15 @@ from bem.laws import Law
 from bem.materials import Body
 from bem.scenes import build
 from bem.scenes.context import LARGE
-from bem.scenes.planner import Step, convolution_memory, layered_kernel_seconds, padded_points, show_bytes
+from bem.scenes.planner import (
+    PACKED_SPECTRA,
+    SEARCHED_IN_SINGLE,
+    Step,
+    convolution_memory,
+    layered_kernel_seconds,
+    padded_points,
+    show_bytes,
+)
 
 _LIBRARIES = 2.2e8
 """Bytes of the interpreter with the solver's libraries."""
@@ -112,6 +120,7 @@ def contact(grid: Grid, why: str, *, capped: bool = False) -> Step:
         memory=_LIBRARIES + 8.0 * grid.cells * 9.5 + 20.0 * points,
         kept=_LIBRARIES + 8.0 * grid.cells * 4.2 + 8.0 * points,
         seconds=1.0,
+        precision=SEARCHED_IN_SINGLE,
     )
 
 
@@ -124,6 +133,7 @@ def contacts(grid: Grid, total: float, why: str, *, name: str = "contact", skipp
         transforms=2.0 * total,
         points=padded_points(grid.shape, grid.periodic),
         memory=convolution_memory(grid.shape, grid.periodic),
+        precision=SEARCHED_IN_SINGLE,
     )
 
 
@@ -151,6 +161,7 @@ def stresses(grid: Grid, body: Body | None, name: str, depths: int, *, fields: i
         memory=held + spectra + 8 * 8.0 * points,
         kept=held + spectra,
         seconds=0.5,
+        precision="" if periodic else PACKED_SPECTRA,
     )
 
 

@@ -89,7 +89,8 @@ def test_a_bad_scene_starts_nothing(workspace):
 def test_the_plan_is_that_of_the_command(workspace):
     plan = shown_plan(SMALL)
     assert plan.messages == ()
-    assert [title for title, _ in plan.tables] == ["bodies", "grid and smooth contact", "steps"]
+    wanted = ["bodies", "grid and smooth contact", "steps", "precision of fields and transforms"]
+    assert [title for title, _ in plan.tables] == wanted
     assert "and" in plan.takes
 
 

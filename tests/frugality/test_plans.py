@@ -3,14 +3,20 @@
 import json
 import math
 
+import numpy as np
 import pytest
 
+from bem import Body, Grid, Material
 from bem.campaigns import campaign_of, compute
-from bem.errors import InputError
+from bem.contact import solve_contact
+from bem.convolution import DisplacementOperator, displacement_operator
+from bem.errors import InputError, Status
 from bem.runs import plan_scene
 from bem.scenes import build, library
 from bem.scenes.kind import kind_names
+from bem.scenes.planner import PACKED_SPECTRA, SEARCHED_IN_SINGLE
 from bem.scenes.plans import convolutions
+from bem.surfaces import generate_surface
 from bem.transforms import COUNT
 
 SCENES = sorted(name for name, tables in library().items() if '"kind": "measured"' not in json.dumps(tables))
@@ -39,6 +45,53 @@ def test_every_kind_has_a_built_in_scene_and_something_to_skip():
     for kind in kind_names():
         if kind in kinds:
             assert any(kinds[kind]), f"no scene of kind {kind} skips anything"
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_plan_says_what_is_not_held_in_double(name):
+    """Contacts and stresses of free grids, wherever they are computed; films and surfaces are held in double."""
+    _, plan = plan_scene(name)
+    for step in plan.steps:
+        if not step.skipped and step.name != "partial slip":  # whose pressure may follow the tractions, or not
+            searches = "contact" in step.name or step.name == "pressing in steps"
+            assert (step.precision == SEARCHED_IN_SINGLE) == searches, step.name
+        assert step.precision in ("", SEARCHED_IN_SINGLE, PACKED_SPECTRA)
+        assert (step.name in plan.precisions) == (bool(step.precision) and not step.skipped)
+
+
+def test_the_plan_names_precision_where_the_scene_asks_for_it():
+    _, free = plan_scene("hertz-sphere")
+    assert free.precisions == {"contact": SEARCHED_IN_SINGLE, "stresses below": PACKED_SPECTRA}
+    assert [name for name, _ in free.precision_rows] == ["contact", "stresses below", "all else"]
+    _, film = plan_scene("film-ball")
+    assert not film.precisions
+    assert film.precision_rows == [("all", "double")]
+
+
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-10])
+def test_a_search_in_single_precision_costs_a_contact_no_accuracy(tolerance, monkeypatch):
+    grid = Grid((64, 64), (1e-7, 1e-7))
+    torus = Grid(grid.shape, grid.spacing, periodic=(True, True))
+    body = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
+    height = generate_surface(torus, rms_height=1e-7, correlation_length=1e-6, seed=3)
+
+    def solved():
+        operator = displacement_operator(grid, (body, body))
+        return solve_contact(height.max() - height, operator, load=5e8 * grid.area, tolerance=tolerance)
+
+    single, kinds, scaled = solved(), [], DisplacementOperator.scaled
+
+    def in_double(self, dtype=np.float64, **choices):
+        kinds.append(dtype)
+        return scaled(self, np.float64, **choices)
+
+    monkeypatch.setattr(DisplacementOperator, "scaled", in_double)
+    double = solved()
+    assert np.float32 in kinds
+    assert single.status == double.status == Status.CONVERGED
+    assert single.convolutions <= 1.1 * double.convolutions
+    # both are within the tolerance of the answer; they lie much nearer to each other
+    assert np.abs(single.pressure - double.pressure).max() <= 0.1 * tolerance * double.pressure.max()
 
 
 def skipped(source, *settings):

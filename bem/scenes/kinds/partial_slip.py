@@ -16,7 +16,7 @@ from bem.scenes import build, sticking
 from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
-from bem.scenes.planner import Plan, Step
+from bem.scenes.planner import SEARCHED_IN_SINGLE, Plan, Step
 from bem.scenes.pushing import PRESSING_STEPS, Path, answers, figures_of, pressed, pressing_steps, pushed
 from bem.scenes.records import Figure, Series, filled, grid_map
 from bem.scenes.resolutions import CELLS, DEPTHS
@@ -55,6 +55,7 @@ def plan(scene: PartialSlipScene) -> Plan:
                 skipped=pressing == 1,
                 transforms=(40.0 + each) * (pressing - 1),
                 points=points,
+                precision=SEARCHED_IN_SINGLE,
             ),
             Step(
                 "partial slip",
@@ -65,6 +66,7 @@ def plan(scene: PartialSlipScene) -> Plan:
                 memory=8.0 * points * 6 + 8.0 * grid.cells * 40,
                 kept=8.0 * grid.cells * 10,
                 seconds=0.2,
+                precision=SEARCHED_IN_SINGLE if answers(scene) else "",
             ),
             Step(
                 "stiffness",
