@@ -134,13 +134,17 @@ def map_of(
     values: NDArray[np.float64],
     text: str,
     unit: str,
+    ends: tuple[float, float] | None = None,
     **more: Any,
 ) -> Any:
     """A colour map of values[ix, iy] with its bar; not-a-number is drawn as open.
 
-    Of a map with more cells than dots, every n-th is drawn; unit and colours are those of all.
+    Of a map with more cells than dots, every n-th is drawn; unit and colours are those of all, or of the `ends` of the
+    scale, in the unit of the values.
     """
-    factor, shown = prefix(values, unit)
+    factor, shown = prefix(values if ends is None else ends, unit)
+    if ends is not None:
+        more = {"vmin": ends[0] * factor, "vmax": ends[1] * factor} | more
     extent = field_axes(axes, x, y)
     axes.set_facecolor(OPEN)
     drawn = thinned(values)

@@ -75,8 +75,13 @@ def test_one_speed_is_no_curve():
     curves = [kind for kind in (*friction.FIGURES, *running_in.FIGURES) if kind.name in CURVES]
     assert len(curves) == len(CURVES)
     for kind in curves:
-        assert not kind.applies(run_of(speed=[0.1]))
-        assert kind.applies(run_of(speed=[0.1, 1.0]))
+        assert not kind.applies(run_of(speed=[0.1], particle_equivalent_radius=[1e-7]))
+        assert kind.applies(run_of(speed=[0.1, 1.0], particle_equivalent_radius=("speed", [1e-7, 0.0])))
+
+
+def test_particles_are_not_drawn_where_none_come_off():
+    (kind,) = (each for each in running_in.FIGURES if each.name == "particle-radius-over-speed")
+    assert not kind.applies(run_of(speed=[0.1, 1.0], particle_equivalent_radius=("speed", [0.0, 0.0])))
 
 
 def test_a_scar_deeper_than_the_roughness_is_told_apart():
@@ -86,6 +91,17 @@ def test_a_scar_deeper_than_the_roughness_is_told_apart():
     after = drawn(wear._worn_surface, run).axes[1].images[0]
     shown = np.clip(after.get_array(), *after.get_clim())
     assert np.unique(np.round(shown, 6)).size > 10  # 15 different heights, a few cut off at the ends of the scale
+
+
+def test_a_lone_deep_hole_leaves_the_scale_of_worn_heights_in_their_unit():
+    x = 1e-6 * np.arange(30)
+    before = 1e-7 * np.sin(np.add.outer(np.arange(30), np.arange(30)))
+    after = before.copy()
+    after[3, 4] = -2e-6  # micrometres, where all else is told in nanometres
+    run = run_of(x=x, y=x, height_before=(("x", "y"), before), height_after=(("x", "y"), after))
+    low, high = drawn(wear._worn_surface, run).axes[1].images[0].get_clim()
+    assert -101 < low < -90
+    assert 90 < high < 101
 
 
 def test_a_curve_at_one_speed_shows_its_error_bar():

@@ -37,12 +37,11 @@ def _array(run: Any, name: str) -> Any:
 
 def _pressure_map(run: Any, figure: Figure) -> None:
     pressure = _array(run, "pressure")
-    factor, _ = prefix(pressure, "Pa")
     shown = thinned(pressure)
     axes = figure.add_subplot()
     map_of(
         figure, axes, _array(run, "x"), _array(run, "y"), np.where(shown > 0, shown, np.nan), "contact pressure", "Pa",
-        vmin=0, vmax=float(pressure.max()) * factor,
+        ends=(0.0, float(pressure.max())),
     )  # fmt: skip
     axes.set_title(_one_colour(pressure), loc="right")
 

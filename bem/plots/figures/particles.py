@@ -16,10 +16,7 @@ def _map(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
     x, y, level = data["x"].values, data["y"].values, data["level_height"].values
     low, high = np.percentile(level, [1, 99.8])
-    factor, _ = prefix(level, "m")
-    map_of(
-        figure, axes, x, y, level, "height above the plate", "m", cmap="cividis", vmin=low * factor, vmax=high * factor
-    )
+    map_of(figure, axes, x, y, level, "height above the plate", "m", ends=(low, high), cmap="cividis")
     scale, _ = prefix([x[-1] - x[0], y[-1] - y[0]], "m")
     axes.plot(
         data["particle_x"].values * scale,

@@ -61,9 +61,8 @@ def _maps(run: Any, figure: Figure) -> None:
     x, y, thickness, pressure = (_array(run, name) for name in ("x", "y", "thickness", "pressure"))
     left, right = figure.subplots(1, 2)
     most = _THICK * float(thickness[np.abs(x).argmin(), np.abs(y).argmin()])
-    factor, _ = prefix(thickness[thickness < most], "m")
     shown = np.where(thickness < most, thickness, np.nan)
-    map_of(figure, left, x, y, shown, "film thickness", "m", vmin=0, vmax=most * factor)
+    map_of(figure, left, x, y, shown, "film thickness", "m", ends=(0.0, most))
     map_of(figure, right, x, y, np.where(pressure > 0, pressure, np.nan), "film pressure", "Pa", vmin=0)
 
 

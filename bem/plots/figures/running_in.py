@@ -197,7 +197,7 @@ FIGURES = (
         ("speed", "particle_equivalent_radius"),
         _radius_over_speed,
         _WIDE,
-        many_speeds,
+        lambda run: many_speeds(run) and bool((run.dataset["particle_equivalent_radius"].values > 0).any()),
     ),
     FigureKind(
         "friction-over-hardness",

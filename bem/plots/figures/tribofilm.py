@@ -70,8 +70,7 @@ def _maps(run: Any, figure: Figure, name: str, text: str, unit: str) -> None:
     x, y = run.dataset["x"].values, run.dataset["y"].values
     for axes, (film, shown) in zip(np.atleast_1d(figure.subplots(1, len(chosen))), chosen, strict=True):
         picture = shown if np.isfinite(shown).any() else np.zeros_like(shown)
-        own_factor, _ = prefix(picture, unit)
-        map_of(figure, axes, x, y, picture, text, unit, vmin=0, vmax=limit * own_factor)
+        map_of(figure, axes, x, y, picture, text, unit, ends=(0.0, limit))
         axes.set_title(film)
 
 

@@ -120,7 +120,6 @@ def _worn_surface(run: Any, figure: Figure) -> None:
     before, after = run.dataset["height_before"].values, run.dataset["height_after"].values
     both = np.stack([before, after])
     low, high = np.percentile(both, [0.5, 99.5])  # of the worn one too: a scar deeper than the roughness is seen
-    factor, _ = prefix(both, "m")
     for axes, values, title in zip(
         figure.subplots(1, 2), (before, after), ("before", "after the last cycle"), strict=True
     ):
@@ -129,12 +128,11 @@ def _worn_surface(run: Any, figure: Figure) -> None:
             axes,
             x,
             y,
-            np.clip(values, low, high),
+            values,
             "height",
             "m",
+            ends=(low, high),
             cmap="cividis",
-            vmin=low * factor,
-            vmax=high * factor,
         )  # one scale for both: the difference is what matters
         axes.set_title(title)
 
