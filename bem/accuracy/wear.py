@@ -34,31 +34,36 @@ class LoopRule(NamedTuple):
 
 _SIZE = LoopRule(1.0, share=0.1)
 RULES: dict[str, LoopRule] = {
-    "Sq_initial": LoopRule(0.8, wear=0.2),
-    "Sq_final": LoopRule(1.0, wear=0.5),
-    "contact_area_fraction": LoopRule(1.0, wear=0.25),
-    "mean_contact_pressure": LoopRule(1.0, wear=0.25),
+    "Sq_initial": LoopRule(0.9, wear=0.12),
+    "Sq_final": LoopRule(0.9, wear=0.45),
+    "contact_area_fraction": LoopRule(1.0, wear=1.0),
+    "mean_contact_pressure": LoopRule(1.0, wear=1.0),  # that of the area, relatively: the load is given
     "worn_volume_per_cycle": LoopRule(1.2, wear=0.4),
-    "worn_depth": LoopRule(1.0, wear=0.3),
-    "first_cycles_radius": LoopRule(0.2, wear=0.25),
+    "worn_depth": LoopRule(0.8, wear=0.6),
+    "first_cycles_radius": LoopRule(0.6, wear=0.05, share=0.025),
     **{f"{by}_mean_{size}": _SIZE for by in ("area", "volume") for size in ("equivalent_radius", "thickness")},
 }
 # chosen on loops of other seeds than the stored ones'
-_LOAD = LoopRule(1.2, wear=0.1)
+_OF_CONTACT = ("boundary_friction_part", "contact_load", "contact_area_fraction")
+_OF_FRICTION = ("friction_run_in", "friction")
 MIXED_RULES: dict[str, LoopRule] = {
-    **dict.fromkeys(("friction_initial", "contact_load_initial", "Sq_initial"), LoopRule(1.2, share=0.0005)),
-    **dict.fromkeys(("friction_run_in", "friction"), LoopRule(1.2, wear=0.1, share=0.001)),
-    **dict.fromkeys(("boundary_friction_part", "contact_load", "contact_area_fraction"), _LOAD),
+    **dict.fromkeys(("friction_initial", "contact_load_initial", "Sq_initial"), LoopRule(0.8, share=0.0002)),
+    **dict.fromkeys(_OF_FRICTION, LoopRule(1.2, share=0.0005)),
+    **dict.fromkeys(_OF_CONTACT, LoopRule(1.2)),
     **dict.fromkeys(("film_load", "minimum_film"), LoopRule(1.0)),
     "film_friction_part": LoopRule(1.0, share=0.001),
-    "lambda_ratio": LoopRule(0.8, wear=0.2),
-    "Sq_final": LoopRule(1.5, wear=0.6, share=0.005),
-    "worn_depth": LoopRule(1.5, wear=0.6),
-    "criterion_wear_rate": RULES["worn_volume_per_cycle"],
+    "lambda_ratio": LoopRule(0.6, wear=0.2, share=0.002),
+    "Sq_final": LoopRule(1.2, wear=0.45, share=0.005),
+    "worn_depth": LoopRule(1.5, wear=0.7),
+    "criterion_wear_rate": LoopRule(2.0, wear=1.2),
     **dict.fromkeys(("contact_temperature", "flash_temperature"), LoopRule(1.5, wear=0.3, share=0.002)),
 }
 """The same in mixed lubrication; `_of_film` adds to those of the film. There is no wear rate where nothing slides; of
 temperatures the rise counts."""
+_PASSES, _PASSES_FIRST = 0.8, 0.005
+"""Of the load that can pass between film and contact, no more than the lighter of them has: times how much differently
+the coarser loop wears, and of the first cycle's. Surfaces worn otherwise pass it from one to the other; where one has
+nearly all, shares of the load (and the boundary friction) are known far better than the wear."""
 _FILM_TWICE = 1.5
 """On what twice the points of a film change: order two leaves 4/3 of it, as in load sharing."""
 OF_FILM = ("friction_initial", "friction_run_in", "friction", "film_friction_part", "minimum_film", "lambda_ratio")
@@ -99,7 +104,10 @@ def _wear_bars(found: Mapping[str, Any], coarser: Mapping[str, Any] | None) -> E
         return ErrorBars.unknown(RULES, _ODD)
     if not (found["worn_volume_per_cycle"] > 0 and coarser["worn_volume_per_cycle"] > 0):
         return ErrorBars.unknown(RULES, _NOTHING)
-    return ErrorBars.together({GRID: _bars(found, coarser, RULES)})
+    bars, area = _bars(found, coarser, RULES), found["contact_area_fraction"]
+    if area > 0:
+        bars["mean_contact_pressure"] = found["mean_contact_pressure"] / area * bars["contact_area_fraction"]
+    return ErrorBars.together({GRID: bars})
 
 
 def running_in_bars(
@@ -114,7 +122,7 @@ def running_in_bars(
     `full_heat` the coarser loop has half its columns and layers."""
     if coarser is None:
         return ErrorBars.unknown(MIXED_RULES, _ODD)
-    of_loop = _of_film(found, _bars(found, coarser, MIXED_RULES))
+    of_loop = _of_film(found, _of_passing(found, coarser, _bars(found, coarser, MIXED_RULES)))
     if finer_film is not None:
         of_loop = {name: bar + _FILM_TWICE * abs(coarser[name] - finer_film[name]) for name, bar in of_loop.items()}
     if full_heat:
@@ -129,6 +137,23 @@ def running_in_bars(
         return bars
     known = ErrorBars.together({GRID: {name: bars.values[name] for name in FROM_START}})
     return ErrorBars.unknown([name for name in MIXED_RULES if name not in FROM_START], _MIXED_NOTHING) | known
+
+
+def _of_passing(found: Mapping[str, float], coarser: Mapping[str, float], bars: dict[str, float]) -> dict[str, float]:
+    """With the load that wear may pass between film and contact."""
+    contact, first = found["contact_load"], found["contact_load_initial"]
+    load = contact + found["film_load"]
+    passes_first = _PASSES_FIRST * min(first, load - first)
+    bars = bars | {
+        "contact_load_initial": bars["contact_load_initial"] + passes_first,
+        "friction_initial": bars["friction_initial"] + passes_first / load * abs(found["friction_initial"]),
+    }
+    if not contact > 0:
+        return bars
+    passes = _PASSES * _differs(found, coarser) * min(found["film_load"] / contact, 1.0)
+    changes = {name: passes * abs(found[name]) for name in _OF_CONTACT}
+    changes |= dict.fromkeys(_OF_FRICTION, changes["boundary_friction_part"])
+    return bars | {name: bars[name] + change for name, change in changes.items()}
 
 
 def _of_film(found: Mapping[str, float], bars: dict[str, float]) -> dict[str, float]:

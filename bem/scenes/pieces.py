@@ -78,7 +78,7 @@ class ParticleTable(Record):
     particle_y: Annotated[FloatArray, particle_rows("m", "y of a particle's centre")]
 
 
-_OF_PIECES = "which pieces leave first decides the sizes of those that follow, and repetitions narrow that, no cells"
+OF_PIECES = "which pieces leave first decides the sizes of those that follow, and repetitions narrow that, no cells"
 
 
 def _reported(quantity: str) -> Figure:
@@ -87,7 +87,7 @@ def _reported(quantity: str) -> Figure:
         f"{quantity} of the particles, the reported mean",
         name=f"particle_{quantity.replace(' ', '_')}",
         headline=True,
-        chance=_OF_PIECES,
+        chance=OF_PIECES,
     )
 
 
@@ -104,7 +104,7 @@ def _by(weight: str, quantity: str) -> Figure:
         "nm",
         f"{quantity} of the particles, mean {weight}",
         no_bar=FOLLOWS_CELL if follows else "",
-        chance="" if follows else _OF_PIECES,
+        chance="" if follows else OF_PIECES,
     )
 
 

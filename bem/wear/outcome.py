@@ -74,10 +74,10 @@ def _parts_inside(
     return np.asarray(inside * ((high - low) / dx)[:, None] / _CUTS)
 
 
-_OF_HALVES = 0.95
+_OF_HALVES = 0.85
 """On what half the rows and columns change the rms height: order two would leave a third of it, but few cells to a
-wave, and the cells on the edge, have less. By experiment, on 100 surfaces of the seed 99 against quarters of the cell.
-"""
+wave, and the cells on the edge, have less. By experiment, on 100 surfaces of the seeds 98 and 99 each against
+quarters of the cell."""
 
 
 def rms_error(heights: FloatArray, grid: Grid, half_axes: tuple[float, float]) -> float:

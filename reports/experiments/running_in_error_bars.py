@@ -70,7 +70,8 @@ def rows_of(table: dict[str, Any]) -> list[dict[str, Any]]:
         print(f"{words}: {error}")
         return []
     print(words, flush=True)
-    return loop_rows(found, bars, truth, MIXED_RULES, words)
+    known = [name for name in MIXED_RULES if getattr(found, name) is not None]  # no temperatures without heat
+    return loop_rows(found, bars, truth, known, words)
 
 
 def main() -> None:

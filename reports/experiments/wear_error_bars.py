@@ -4,7 +4,8 @@
 
 Slices of 4 um with 32 to 64 cells a side, three to eight of them to the correlation length of either surface, capped at
 the hardness of steel or, every second one, higher up (2.5 to 12 GPa), 1 to 6 N on 6 mm, sliding 2 to 6 cells a cycle,
-24 cycles of which the last 12 count. The finer grid sees the same waves. The result is stored in
+24 cycles of which the last 12 count. Such surfaces touch at the hardness alone, and their area is prescribed by it:
+every third pair is a fifth as rough and capped at 10 GPa. The finer grid sees the same waves. The result is stored in
 `reports/results/wear_error_bars.json`.
 """
 
@@ -34,9 +35,13 @@ def draw(rng: np.random.Generator) -> dict[str, Any]:
     cell = SIDE / cells
     correlated = float(rng.uniform(3, 8)) * cell
     higher = {"hardness": float(rng.uniform(2.5e9, 12e9))} if rng.random() < 0.5 else {}
+    rough = 1.0
+    if rng.random() < 1 / 3:
+        rough, higher = 0.2, {"hardness": 10e9}
+    lower, upper = (rough * 40e-9, rough * 150e-9), (rough * 10e-9, rough * 50e-9)
     return {
         "kind": "wear",
-        **worn_bodies(rng, "steel-disk", (40e-9, 150e-9), (10e-9, 50e-9), correlated),
+        **worn_bodies(rng, "steel-disk", lower, upper, correlated),
         "cylinder": {
             "radius": 2e-3,
             "width": 6e-3,

@@ -94,6 +94,20 @@ def test_where_nothing_wears_only_what_was_before_any_wear_has_a_bar():
     assert None not in running_in_bars(worn, worn | {"friction": 2.0}).values.values()
 
 
+def test_where_one_of_film_and_contact_has_all_of_the_load_wear_passes_little():
+    """A tenth of what wears differently stood in the bars of friction whatever passes: forty times the error."""
+    contact = dict.fromkeys(MIXED_RULES, 1.0) | {"film_load": 0.01}
+    worn = contact | {"worn_depth": 2.0}
+    shared = running_in_bars(contact | {"film_load": 1.0}, worn | {"film_load": 1.0}).values
+    alone = running_in_bars(contact, worn).values
+    for name in ("friction", "boundary_friction_part", "contact_load", "contact_area_fraction"):
+        assert shared[name] > 0.1
+        assert 0.001 < alone[name] < 0.01
+    # the film's load is off by as much, and its thickness with it
+    assert alone["film_load"] == alone["contact_load"]
+    assert alone["minimum_film"] > 0.1
+
+
 def test_odd_grids_have_none_and_say_so(tmp_path):
     found = summary_of(tmp_path, grid={"shape": [64, 31], "spacing": "0.8 um"}, speeds=["0.5 m/s"])
     assert found["friction_run_in_error"] in (None, [None])

@@ -412,6 +412,14 @@ OUTCOMES = {
         (loop_outcome(100.0, (0.13, 0.12, 0.11, 0.1)), "not settled: friction by 16 % in 1 of 2 loops"),
         loop_outcome(100.0),
     ),
+    "long_steps_of_wear_by_pressure": (
+        "wear-cylinder-scar",
+        (
+            Outcome({"step_error_nm": [20.0], "worn_depth_nm": [100.0]}, {}),
+            "up to 20 nm open of a mean depth of 100 nm, which no error bar counts",
+        ),
+        Outcome({"step_error_nm": [9.0], "worn_depth_nm": [100.0]}, {}),
+    ),
     "loop_without_error_bars": (
         "running-in-stribeck",
         (Outcome({"Sq_final_nm": [90.0]}, {}), "no error bars of a single loop"),

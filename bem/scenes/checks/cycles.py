@@ -84,6 +84,29 @@ def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[str]:
         )
 
 
+_STEPS = 0.1
+"""Of the mean depth: below that the error of the steps is beside those that bars have."""
+
+
+@outcome_check
+def long_steps_of_wear_by_pressure(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """Bars are those of the cells: the same distances stand in the loop on the coarser ones. What a law that wears by
+    pressure leaves open over its distance is `bem.wear.outcome.step_error`; and it makes no particles."""
+    if not facts.of_kind("wear", "running-in") or _with_pieces(facts):
+        return
+    steps, depths = (numbers(outcome.summary.get(name)) for name in ("step_error_nm", "worn_depth_nm"))
+    long = [(step, depth) for step, depth in zip(steps, depths, strict=False) if step > _STEPS * depth > 0]
+    if long:
+        step, depth = max(long, key=lambda pair: pair[0] / pair[1])
+        yield (
+            f"the wear law's steps leave up to {si(1e-9 * step, 'm')} open of a mean depth of {si(1e-9 * depth, 'm')}"
+            f"{_of(len(long), len(steps))}, which no error bar counts: take a shorter wear.criterion.distance, and as "
+            "many more cycles.count"
+        )
+    if facts.of_kind("running-in"):
+        yield "a law that wears by pressure makes no particles: their sizes and numbers, 0, are no result"
+
+
 @outcome_check
 def loop_without_error_bars(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """One loop on one grid says nothing of its errors: no finer cells, no other surfaces to compare it with."""

@@ -128,7 +128,9 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the slice", headline=True)]
     mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
     worn_volume_per_cycle: Annotated[float, Figure("um3", "volume worn per cycle")]
-    first_cycles_radius: Annotated[float, Figure("nm", "volume-mean radius of the particles of the first five cycles")]
+    first_cycles_radius: Annotated[
+        float, Figure("nm", "volume-mean radius of the particles of the first five cycles", chance=pieces.OF_PIECES)
+    ]
     step_error: Annotated[
         float | None,
         Figure(
