@@ -2,14 +2,13 @@
 
 Every second pixel along both axes makes four maps, each as if scanned with twice the pixel; the largest difference to
 them, times a factor, is what pixels leave: sides of particles are whole pixels, so that it is of first order. The
-scatter is that of the sample: the standard error of a weighted mean, and the root of a count (particles land on a plate
-independently of one another), so that it says how far another map of the same plate may be. Set by
-`reports/experiments/particle_error_bars.py`: an estimate, no proved bound.
+scatter is that of the sample: the standard error of a weighted mean, and of a count that of Poisson's distribution
+(particles land on a plate independently of one another), so that it says how far another map of the same plate may be.
+Set by `reports/experiments/particle_error_bars.py`: an estimate, no proved bound.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -25,8 +24,9 @@ SAMPLE = "sample"
 WEIGHTS = ("number", "area", "volume")
 _GRID = 1.0
 """On the largest difference: what first order leaves."""
-_LEVEL = 0.95
-"""Of Student's distribution, with as many degrees of freedom as particles count: nine in ten errors within it."""
+_LEVEL = 0.96
+"""Of Student's distribution, with as many degrees of freedom as particles count: nine in ten errors within it, and
+what weights that hang on the sizes themselves leave out."""
 _FEW = "no error bars: fewer than two particles"
 
 
@@ -74,17 +74,29 @@ def _scatter(found: Sequence[Particle], figures: Mapping[str, float]) -> dict[st
     radius = np.array([p.equivalent_radius for p in found])
     area = np.array([p.length * p.width for p in found])
     volume = np.array([p.volume for p in found])
-    scatter = {"count": float(stats.norm.ppf(_LEVEL)) * math.sqrt(len(found))}
+    # the upper end of Garwood's interval of Poisson's mean (Biometrika 28 (1936) 437), which is the farther one
+    scatter = {"count": float(stats.chi2.ppf(_LEVEL, 2 * len(found) + 2)) / 2 - len(found)}
     for name, weights in zip(WEIGHTS, (np.ones_like(radius), area, volume), strict=True):
         mean, std = figures[f"{name}_mean_radius"], figures[f"{name}_std_radius"]
         scatter[f"{name}_mean_radius"] = _scattered(radius, weights, mean)
         if name == "number":  # by the variance, whose root it is
+            scatter["number_mean_radius"] += _of_skewness(radius)
             squares = _scattered((radius - mean) ** 2, weights, std**2)
             scatter["number_std_radius"] = squares / (2 * std) if std > 0 else 0.0
     for name in ("length", "width", "thickness", "volume"):
         values = np.array([getattr(p, name) for p in found])
-        scatter[name] = _scattered(values, np.ones_like(values), figures[name])
+        scatter[name] = _scattered(values, np.ones_like(values), figures[name]) + _of_skewness(values)
     return scatter
+
+
+def _of_skewness(values: FloatArray) -> float:
+    """How much farther a mean may lie where few values are large: (1 + 2 z^2) / 6 times the third moment over the
+    second and the count, z of the normal distribution (Johnson, J. Am. Stat. Assoc. 73 (1978) 536): volumes, cubes of
+    sizes, are skewed, and samples that lack a large one have too small a scatter as well."""
+    about = values - values.mean()
+    variance = float((about**2).mean())
+    z = float(stats.norm.ppf(_LEVEL))
+    return (1 + 2 * z**2) / 6 * abs(float((about**3).mean())) / (variance * values.size) if variance > 0 else 0.0
 
 
 def _scattered(values: FloatArray, weights: FloatArray, mean: float) -> float:

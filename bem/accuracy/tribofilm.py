@@ -41,8 +41,8 @@ FIGURES = (
     "final_concentration",
     "steady_thickness",
 )
-_GRID, _COUNT = 1.5, 0.1
-"""On the difference to twice the cell: 1 is that of first order, half as much again what single cells scatter by; and
+_GRID, _COUNT = 1.15, 0.075
+"""On the difference to twice the cell: 1 is that of first order, the rest what single cells scatter by; and
 on the share of the contact that lies within a cell of its edge: touching cells are counted, and the count is off by so
 much of those at the edge."""
 _LEFT = 1.0
