@@ -154,13 +154,13 @@ def solve_coarser_mixed(case: MixedCase) -> CoarserShares:
 def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
     """Bars of the figures of load sharing, their parts by origin."""
     if coarser.contact is None or coarser.both is None:
-        return ErrorBars.unknown(RULES, coarser.why)
+        return ErrorBars.unknown(mixed_figures(case.solution), coarser.why)
     found, cool = mixed_figures(case.solution), unrubbed(case.setup)
     found |= {name: found[name] - cool for name in TEMPERATURES if name in found}
     one, two = coarser.contact.figures, coarser.both.figures
     resolved, uncoupled = surface_is_resolved(case.height, case.setup.grid), case.setup.contact_model == "uncoupled"
     if uncoupled and not resolved and not case.solution.full_film:
-        return ErrorBars.unknown(RULES, _FEW_SUMMITS)
+        return ErrorBars.unknown(found, _FEW_SUMMITS)
     summits = _SUMMITS if uncoupled else 1.0
     share = _share_at_edge(case.solution)
     resolved = resolved and share < 4 / SPOT

@@ -46,8 +46,7 @@ class CellFlow:
     dragged_flow : (2, 2), M: mean of h (e_j + grad chi_j) along i, of order h. Twice the flow through the patch, in
         its own frame, while the smooth wall moves along i with unit speed, is row i.
     sliding_shear : mean of h d(chi_s)/dx, of order 1/h; the shear stress on the smooth wall in sliding at U is
-        mu U (<1/h> + 3 sliding_shear).
-    inverse_gap : <1/h> over the cells that are not thinner than the `least_shear_gap`.
+        mu U (<1/h> + 3 sliding_shear), whose first term is in `bem.flow.inverse_gap`.
     mean_gap, open_fraction : of all cells.
     through_x, through_y : whether fluid hangs together from patch to patch.
     iterations : of conjugate gradients, all problems together.
@@ -60,7 +59,6 @@ class CellFlow:
     pressure_flow: FloatArray
     dragged_flow: FloatArray
     sliding_shear: float
-    inverse_gap: float
     mean_gap: float
     open_fraction: float
     through_x: bool
@@ -115,7 +113,7 @@ def cell_flow(
     ----------
     gap : (nx, ny), >= 0, zero in contact; any unit (of order one is best). spacing : (dx, dy), any unit.
     tolerance, max_iterations : of the solver, relative to the flow.
-    least_shear_gap : cells with less have no part in the means of shear, which have no limit as the gap vanishes.
+    least_shear_gap : cells with less have no part in the mean of shear, which has no limit as the gap vanishes.
     shear : whether to solve for `sliding_shear`, which is not-a-number otherwise.
     """
     links = Links.of(gap, spacing, 0), Links.of(gap, spacing, 1)
@@ -126,12 +124,10 @@ def cell_flow(
     residual = max(column.residual for column in every)
     out_of_time = any(column.residual > tolerance and column.iterations >= max_iterations for column in every)
     unmet = Status.MAX_ITERATIONS if out_of_time else Status.STALLED
-    thick = (gap > 0) & (gap >= least_shear_gap)
     return CellFlow(
         pressure_flow=np.stack([column.flow for column in columns], axis=1),
         dragged_flow=np.stack([column.dragged for column in columns], axis=1),
         sliding_shear=float(sliding.flow[0]),
-        inverse_gap=float((1 / gap[thick]).sum() / gap.size),
         mean_gap=float(gap.mean()),
         open_fraction=float((gap > 0).mean()),
         through_x=bool(pieces.around_x.any()),

@@ -16,7 +16,7 @@ of variance, (s1^2 - s2^2)/s^2, as in the 1979 paper: exact to second order in s
 
 tau is on the smooth wall, where it is also the friction force by equilibrium; on the rough wall the pressure on its
 slopes carries the rest. <1/h> grows without bound as contact opens; it and phi_fs leave out gaps below
-s/100, Patir and Cheng's own cut.
+s/100, Patir and Cheng's own cut, the former between the centres of cells, too (`bem.flow.inverse_gap`).
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ from bem.convolution import DisplacementOperator, displacement_operator
 from bem.errors import InputError, Status
 from bem.flow.cell_problem import CellFlow, cell_flow
 from bem.flow.curve import Curve
+from bem.flow.inverse_gap import mean_inverse_gap, mean_inverse_opening
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.representation import readable
@@ -59,6 +60,8 @@ class FlowFactors:
     shear_x : phi_s, of roughness on wall 1 alone; see the module for both.
     friction_sliding, friction_shear, friction_pressure : phi_f, phi_fs and phi_fp of the stress on the smooth wall.
     mean_gap : [m], of the deformed gap. contact_area_fraction : of the patch.
+    mean_gap_scatter : [m], by how much the mean gap over cells scatters with where heights that are cut off lie between
+        their centres, as a standard deviation; 0 of bodies that deform.
     flows_through_x, flows_through_y : whether fluid hangs together from patch to patch.
     pressure_x_error, pressure_y_error, shear_x_error : what cells twice as large say, over 3 (second order); NaN where
         not asked for.
@@ -78,6 +81,7 @@ class FlowFactors:
     friction_shear: FloatArray
     friction_pressure: FloatArray
     mean_gap: FloatArray
+    mean_gap_scatter: FloatArray
     contact_area_fraction: FloatArray
     flows_through_x: FloatArray
     flows_through_y: FloatArray
@@ -259,15 +263,29 @@ class _Patch:
         """All factors at one separation [m], by name, and the worst status."""
         gap, area, residual, status = self.deformed(separation)
         # of order one, so that nothing depends on the unit
-        flow = cell_flow(
-            gap / separation,
-            self.grid.spacing,
-            tolerance=self.tolerance,
-            least_shear_gap=LEAST_SHEAR_GAP * self.rms / separation,
-        )
-        return self._named(flow, separation, area, max(residual, flow.residual)), (
-            status if status is not Status.CONVERGED else flow.status
-        )
+        gap, least = gap / separation, LEAST_SHEAR_GAP * self.rms / separation
+        flow = cell_flow(gap, self.grid.spacing, tolerance=self.tolerance, least_shear_gap=least)
+        named = self._named(flow, separation, area, max(residual, flow.residual))
+        named["friction_sliding"] = self._inverse(gap, separation, least)
+        named["mean_gap_scatter"] = 0.0 if self.operator is not None else self._scatter(separation)
+        return named, status if status is not Status.CONVERGED else flow.status
+
+    def _inverse(self, gap: FloatArray, separation: float, least: float) -> float:
+        """Mean of the separation over the gap where this (nx, ny), over the separation, is at least so much."""
+        if self.rms == 0:
+            return 1.0
+        if self.operator is None:
+            return mean_inverse_opening(1 - self.heights / separation, least)
+        return mean_inverse_gap(gap, least)
+
+    def _scatter(self, separation: float) -> float:
+        """Of the mean of max(separation - heights, 0) over cells [m]. The middle of a cell with a kink of slope a per
+        cell, u from it, misses its mean by a (u^2/2 - 1/24): with u drawn from -1/2 to 1/2, a/sqrt(720)."""
+        opening, squares = separation - self.heights, []
+        for axis in (0, 1):
+            beside = np.roll(opening, -1, axis)
+            squares.append(float((np.square(beside - opening)[(beside > 0) != (opening > 0)]).sum()))
+        return math.sqrt(max(squares) / 720) / opening.size
 
     def deformed(self, separation: float) -> tuple[FloatArray, float, float, Status]:
         """The gap (nx, ny) [m], zero in contact; contact area over the patch; the contact's residual and status."""
@@ -289,7 +307,6 @@ class _Patch:
             "pressure_y": flow.pressure_flow[1, 1],
             "pressure_xy": flow.pressure_flow[0, 1],
             "shear_x": (flow.mean_gap - dragged) * separation / self.rms if self.rms > 0 else 0.0,
-            "friction_sliding": flow.inverse_gap,
             "friction_shear": 3 * flow.sliding_shear,
             "friction_pressure": dragged,
             "mean_gap": flow.mean_gap * separation,

@@ -4,7 +4,8 @@ Two more lives tell of cells and positions: one on the grid of twice the cell, a
 take a quarter and an eighth of the life's work. Films have half their points in a round on the surfaces of the start
 and in one on those of the end: what wears follows the share of the load in contact. A bar is the sum of what the jumps
 leave open (`bem.life.bars`) and of these differences, times factors; where those of positions happen to pass zero, what
-the positions of the last round scatter stays. Factors are set by experiment and judged by
+the positions of the last round scatter stays. Of heights and of the film over them what positions leave open is known
+better than by half of them (`bem.life.sampling`). Factors are set by experiment and judged by
 `reports/experiments/life_error_bars.py`: an estimate, no proved bound.
 """
 
@@ -20,7 +21,8 @@ from bem.accuracy.bars import GRID, POINTS, ErrorBars
 from bem.grid import FloatArray
 from bem.life.bars import bars_of_jumps
 from bem.life.march import LifeState
-from bem.life.passes import Pass
+from bem.life.passes import Pass, Passing
+from bem.life.sampling import missed_ratio, missed_roughness
 from bem.life.surfaces import LifeCase, round_of
 
 JUMPS, POSITIONS = "cycle jumps", "positions"
@@ -53,8 +55,25 @@ _SAMPLED = {
     "lambda_ratio": ("lambda_ratio",),
 }
 """Columns that are means over positions, and what of a pass they are the means of."""
-_POSITIONS = dict.fromkeys(("friction_final", "friction_initial", "upper_Sq_final", "contact_share_final"), 2.0)
+_POSITIONS = {
+    "friction_initial": 0.7,
+    "contact_share_initial": 0.5,
+    "contact_share_final": 1.3,
+    "contact_area_fraction": 0.75,
+}
 """Factors on what half the positions change; 1 elsewhere, and on what cells and points of films change."""
+_SCATTERED = {
+    "friction_final": 0.5,
+    "friction_initial": 0.35,
+    "contact_share_final": 0.65,
+    "contact_share_initial": 0.5,
+    "contact_area_fraction": 0.75,
+}
+"""Factors on what positions scatter, which are spread evenly and not drawn; 1 elsewhere."""
+_MINIMUM_FILM = 0.6
+"""On what half the points change of it."""
+_HEIGHTS = {"Sq_final": 0.75, "upper_Sq_final": 1.0}
+"""Factors on what `missed_roughness` tells."""
 _NONE = (
     "no error bars: a life on the grid of twice the cell needs even numbers of cells, 24 at least (or, along y, "
     "surfaces that do not change), and contacts that converge there"
@@ -80,8 +99,10 @@ def life_figures(end: LifeState) -> dict[str, float]:
 class OtherLives:
     """What a life is compared with: its end on the grid of twice the cell, and there with `fewer_positions`; and means
     of a round by column of the march on the surfaces of (start, end), as it is and with half the points of its films.
+    passing : of the life itself.
     """
 
+    passing: Passing
     coarser: LifeState
     fewer: LifeState
     rounds: tuple[dict[str, float], dict[str, float]]
@@ -102,18 +123,47 @@ def life_bars(end: LifeState, other: OtherLives | None) -> ErrorBars:
     found = life_figures(end)
     if other is None:
         return ErrorBars.unknown(found, _NONE)
-    one, two, scatter = life_figures(other.coarser), life_figures(other.fewer), _scatter(end)
-    positions = {
-        name: max(_POSITIONS.get(name, 1.0) * abs(one[name] - two[name]), scatter.get(name, 0.0)) for name in found
-    }
+    one = life_figures(other.coarser)
+    cells = {name: abs(found[name] - one[name]) for name in found}
     return ErrorBars.together(
         {
             JUMPS: jump_bars(end),
-            POSITIONS: positions,
-            GRID: {name: abs(found[name] - one[name]) for name in found},
+            POSITIONS: _of_positions(end, other),
+            GRID: cells | _grown(found, cells, cells),
             POINTS: _of_films(end, other),
         }
     )
+
+
+def _of_positions(end: LifeState, other: OtherLives) -> dict[str, float]:
+    """Differences that half the positions make, and no less than positions scatter; heights and films over them by what
+    is known of positions without others."""
+    found, scatter = life_figures(end), _scatter(end)
+    one, two = life_figures(other.coarser), life_figures(other.fewer)
+    bars = {
+        name: max(
+            _POSITIONS.get(name, 1.0) * abs(one[name] - two[name]), _SCATTERED.get(name, 1.0) * scatter.get(name, 0.0)
+        )
+        for name in found
+    }
+    bars |= _grown(found, bars, scatter)
+    heights = missed_roughness(end, other.passing)
+    if heights is not None:
+        bars |= {name: factor * off for (name, factor), off in zip(_HEIGHTS.items(), heights, strict=True)}
+    first, last = missed_ratio(end, other.passing)
+    squares = [found[name] ** 2 for name in _HEIGHTS]
+    rougher = sum(found[name] * bars[name] for name in _HEIGHTS) / sum(squares) if sum(squares) > 0 else 0.0
+    bars["lambda_ratio_initial"] = first * abs(found["lambda_ratio_initial"])
+    bars["lambda_ratio"] = (last + rougher) * abs(found["lambda_ratio"])
+    return bars
+
+
+def _grown(found: dict[str, float], bars: dict[str, float], of_area: dict[str, float]) -> dict[str, float]:
+    """The bar of a tribofilm, which grows where surfaces touch: no smaller a part than that of the area in contact."""
+    film, area = "tribofilm_thickness", "contact_area_fraction"
+    if film not in found or not found[area] > 0:
+        return {}
+    return {film: max(bars[film], found[film] * of_area.get(area, 0.0) / found[area])}
 
 
 def _of_films(end: LifeState, other: OtherLives) -> dict[str, float]:
@@ -130,6 +180,7 @@ def _of_films(end: LifeState, other: OtherLives) -> dict[str, float]:
     }
     for which, figures in zip(apart, (START, END), strict=True):
         found |= {name: which[column] for name, column in figures.items() if column in which}
+    found["minimum_film"] *= _MINIMUM_FILM
     for name, start in (("Sq_final", "Sq_initial"), ("upper_Sq_final", "upper_Sq_initial")):
         found[name] = part * abs(float(end.over(END[name])[-1]) - float(end.over(START[start])[0]))
     return found

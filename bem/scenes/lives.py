@@ -137,7 +137,7 @@ def bars(scene: Any, initial: tuple[FloatArray, FloatArray], end: LifeState) -> 
         two_rounds(_alone(with_keys(scene, {"sharing.film_points": count})), end)
         for count in (scene.sharing.film_points, points)
     ]
-    return life_bars(end, OtherLives(coarser, fewer, rounds[0], rounds[1]))
+    return life_bars(end, OtherLives(_alone(scene).passing, coarser, fewer, rounds[0], rounds[1]))
 
 
 def _alone(scene: Any) -> LifeCase:

@@ -102,7 +102,7 @@ def rows_of(table: dict[str, Any]) -> list[dict[str, Any]]:
 
 def main() -> None:
     """Judge the bars of so many."""
-    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=12, seed=1711)
+    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=24, seed=1712)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from mixed_case import steel_line
 
 from bem import Grid, Lubricant
 from bem.accuracy import MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
-from bem.accuracy.mixed import half_grid
+from bem.accuracy.mixed import CoarserShares, half_grid
 from bem.errors import Status
 from bem.friction.balance import Regime
 from bem.friction.films import films_of
@@ -108,6 +108,8 @@ def test_bars_of_a_ball_hold_how_far_its_film_goes_on():
     assert 6 * films_of(setup, speeds).solved_load < case.solution.film_load < films_of(fine, speeds).solved_load
     bars, there = mixed_bars(case, solve_coarser_mixed(case)), mixed_figures(solve_setup(fine, height, speeds))
     found = mixed_figures(case.solution)
+    # nor has a run without bars any of temperatures that it has not
+    assert dict(mixed_bars(case, CoarserShares(None, None, why="none")).values) == dict.fromkeys(found)
     assert bars.parts["film points"]["friction"] > abs(found["friction"] - there["friction"])
     for name in ("minimum_film", "lambda_ratio"):
         assert found[name] == pytest.approx(there[name], rel=0.2)

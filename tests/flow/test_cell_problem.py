@@ -95,7 +95,7 @@ def test_bounds_symmetry_and_conservation(seed, nx, ny, separation, ratio):
     assert (flow[0, 0] > 0) == found.through_x
     assert (flow[1, 1] > 0) == found.through_y
     # a saving of energy: both means over one positive field
-    assert found.sliding_shear >= -1e-9 * found.inverse_gap
+    assert found.sliding_shear >= -1e-9 * (1 / gap[gap > 0]).sum() / gap.size
     turned = cell_flow(np.ascontiguousarray(gap.T), (ratio, 1.0))
     assert turned.pressure_flow == pytest.approx(flow.T[::-1, ::-1].T, rel=1e-6, abs=1e-9)
 
