@@ -78,4 +78,4 @@ def rows_of(rng: np.random.Generator) -> list[dict[str, Any]]:
 
 
 if __name__ == "__main__":
-    judge(rows_of, RESULT, 60, seed=2615)
+    judge(rows_of, RESULT, 60, seed=2616)
