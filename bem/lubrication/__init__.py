@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from bem.lubrication.oils import Oil, find_oil
     from bem.lubrication.point.film import PointFilmSolution
     from bem.lubrication.point.moving import Dent, MeasuredHeights, MovingSurface, Waves
+    from bem.lubrication.point.rough_film import RoughPointFilm, solve_rough_point_film
     from bem.lubrication.point.solve import solve_point_film
     from bem.lubrication.point.transient import march_point_film
     from bem.lubrication.steady import solve_line_film
@@ -46,6 +47,7 @@ __all__ = [
     "Oil",
     "OilLayer",
     "PointFilmSolution",
+    "RoughPointFilm",
     "ThermalFilm",
     "Waves",
     "find_oil",
@@ -54,6 +56,7 @@ __all__ = [
     "solve_full_thermal_line_film",
     "solve_line_film",
     "solve_point_film",
+    "solve_rough_point_film",
     "solve_thermal_line_film",
 ]
 
@@ -66,6 +69,7 @@ __getattr__ = loader(
         "oils": ["Oil", "find_oil"],
         "point.film": ["PointFilmSolution"],
         "point.moving": ["Dent", "MeasuredHeights", "MovingSurface", "Waves"],
+        "point.rough_film": ["RoughPointFilm", "solve_rough_point_film"],
         "point.solve": ["solve_point_film"],
         "point.transient": ["march_point_film"],
         "steady": ["solve_line_film"],

@@ -42,7 +42,8 @@ class PointProblem:
     their unit; None of rigid bodies. typical_film : what is expected in the middle. heights : (nx, ny) of both surfaces
     out of the bodies, None of smooth ones. in_time : None of a steady film. walls : flow factors, of steady films
     alone; None of smooth walls, and far away walls count as smooth. layer : oil that the surfaces bring along, in
-    films, of steady ones alone, less than there is room for on the inlet's outermost cells; None of a flooded contact.
+    films, of steady ones alone, less than there is room for on the inlet's outermost cells; infinite of a flooded one
+    where account is kept of the oil everywhere, None where it is not.
     """
 
     load: float
@@ -56,6 +57,11 @@ class PointProblem:
     in_time: InTime | None = None
     walls: PlaneWalls | None = None
     layer: float | None = None
+
+    @property
+    def starved(self) -> bool:
+        """Whether the gap is not full far away."""
+        return self.layer is not None and self.layer < np.inf
 
     @property
     def storing(self) -> float:
@@ -76,7 +82,7 @@ class PointProblem:
 
     def outside(self, datum: float) -> tuple[float, float]:
         """Load outside the rectangle, and its derivative with H0."""
-        if self.layer is not None:
+        if self.starved:
             return 0.0, 0.0
         lifting = 0.0 if self.operator is None else self.load
         return far_load(self.rectangle, self.far(datum), datum, lifting, self.squeeze_slope)
@@ -124,7 +130,7 @@ class Level:
 
     def far_source(self, datum: float) -> FloatArray:
         """Pressure times film squared far away (nx, ny); zero in the ruptured film and where the gap is not full."""
-        if self.problem.layer is not None:
+        if self.problem.starved:
             return np.zeros(self.shape)
         if self.problem.in_time is None:
             return self._steady_source

@@ -62,9 +62,18 @@ class Linear:
         slope = self.level.problem.squeeze_slope
         return np.where(self.level.border & (self.far > 0), -slope / self.film**2, 0.0)
 
+    @property
+    def not_full(self) -> BoolArray:
+        """Cells whose oil is carried on to those downstream."""
+        return self.held
+
     @cached_property
     def kinds(self) -> NDArray[np.int8]:
         """Of relaxation, see `lines.relax`."""
+        return self.flowing_kinds()
+
+    def flowing_kinds(self) -> NDArray[np.int8]:
+        """Of cells that have a balance."""
         free = ~(self.held | self.level.border)
         inside = free.copy()
         inside[1:-1, 1:-1] &= free[:-2, 1:-1] & free[2:, 1:-1] & free[1:-1, :-2] & free[1:-1, 2:]
@@ -94,7 +103,7 @@ class Linear:
         problem = level.problem
         loops.applied(self.stencil, level.spacing, problem.drag, problem.storing, pressure, film, out)
         if problem.layer is not None:
-            supply_loops.carried(self.held, problem.drag, level.spacing, out)
+            supply_loops.carried(self.not_full, problem.drag, level.spacing, out)
         return out
 
     def relaxed(self, residual: FloatArray, back: bool) -> FloatArray:
@@ -173,6 +182,10 @@ class Linear:
         found = lu_solve((lu, pivots), right, check_finite=False)
         return Change(found[:-1].reshape(self.level.shape), float(found[-1]))
 
+    def restricted(self, rest: FloatArray) -> FloatArray:
+        """What is left of balances, on the coarser grid."""
+        return self.level.averaged(rest)
+
     def cycle(self, residual: FloatArray, load: float) -> Change:
         """About the solution: one multigrid cycle from nothing."""
         coarse = self.coarser
@@ -183,7 +196,7 @@ class Linear:
         done, carried = self.applied(Change(pressure, 0.0))
         rest = residual - done
         rest[level.border | self.held] = 0.0
-        mean = level.averaged(rest)
+        mean = self.restricted(rest)
         mean[coarse.level.border] = 0.0
         correction = coarse.cycle(mean, load - carried)
         fine = level.refined(correction.pressure)

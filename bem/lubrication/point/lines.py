@@ -18,14 +18,16 @@ from bem.lubrication.point.loops import COMPILE, fill_row
 
 BAND = 3
 """Cells on either side whose coupling along a line is solved for."""
+TOUCHES, OWN_FILM = 3, 7
+"""Kinds of cells from which on surfaces touch; of what `_derivatives` gives, that with the cell's own film."""
 REACH = BAND + 2
 """Cells along a line from one that changes to the furthest that a balance within the band hears of."""
 
 
 @nb.njit(**COMPILE)
 def _changes(near: FloatArray, weights: tuple[float, float], oblique: bool, tables: FloatArray) -> None:
-    """Tables (3, 11, 7): what a unit change of either kind, of the cell so far along the line, makes of what
-    `_derivatives` puts beside it; nothing of one that is held."""
+    """Tables (5, 11, 7): what a unit change of each kind, of the cell so far along the line, makes of what
+    `_derivatives` puts beside it; nothing of one that is held, and of one that touches films alone."""
     tables[:, :, :] = 0.0
     for s in range(-BAND, BAND + 1):
         for kind in range(1, 3):
@@ -42,6 +44,7 @@ def _changes(near: FloatArray, weights: tuple[float, float], oblique: bool, tabl
             if oblique:
                 table[9] = near[kind - 1, abs(s), 1]
                 table[10] = near[kind - 1, abs(s), 2]
+            tables[kind + 2, 5:, BAND + s] = table[5:]
 
 
 @nb.njit(**COMPILE)
@@ -80,8 +83,12 @@ def _solve_line(  # reason: Numba compiles plain arrays; they are the parts of o
         m0 = m1 = m2 = m3 = m4 = m5 = m6 = r = 0.0
         p = 1.0
         if kinds[BAND + i] != 0:
-            fill_row(stencil, spacing, drag, storing, i, j, rows)
-            _derivatives(rows, by)
+            if kinds[BAND + i] < TOUCHES:
+                fill_row(stencil, spacing, drag, storing, i, j, rows)
+                _derivatives(rows, by)
+            else:
+                rows[:, :], by[:] = 0.0, 0.0
+                by[OWN_FILM] = 1.0
             k0, k1, k2, k3 = kinds[i], kinds[i + 1], kinds[i + 2], kinds[i + 3]
             k4, k5, k6 = kinds[i + 4], kinds[i + 5], kinds[i + 6]
             for c in range(11):
@@ -127,13 +134,14 @@ def relax(  # reason: Numba compiles plain arrays; they are the parts of one equ
     """One sweep of line relaxation along x: `dp` is what it adds to the pressures for a residual.
 
     kinds : 0 held, 1 a change of its own, 2 a change with its counterpart on the four neighbours, so that what is
-    far away hardly feels it (distributive relaxation; Brandt and Lubrecht 1990, Venner and Lubrecht 2000).
+    far away hardly feels it (distributive relaxation; Brandt and Lubrecht 1990, Venner and Lubrecht 2000). 3 and 4 the
+    same where surfaces touch: the residual is one of the film there, and the oil does not feel the change.
     near : (2, n, 3) films under a unit change of either kind at distances 0 .. along and 0 .. 2 across the line.
     """
     nx, ny = residual.shape
     dx, dy = spacing
     weights = (0.5 * dy * dy / (dx * dx + dy * dy), 0.5 * dx * dx / (dx * dx + dy * dy))
-    tables = np.empty((3, 11, 2 * BAND + 1))
+    tables = np.empty((5, 11, 2 * BAND + 1))
     _changes(near, weights, drag[1] != 0.0, tables)
     line, upper = np.zeros(nx + 2 * BAND, np.int64), np.empty((nx, BAND))
     before, right = np.empty(nx), np.empty(nx)
@@ -143,12 +151,13 @@ def relax(  # reason: Numba compiles plain arrays; they are the parts of one equ
         j = ny - 1 - count if downwards else count
         for i in range(nx):
             line[BAND + i] = kinds[i, j]
-            right[i], before[i] = residual[i, j], dp[i, j + 1 if downwards else j - 1]
+            last = j + 1 if downwards else j - 1
+            right[i], before[i] = residual[i, j], 0.0 if kinds[i, last] >= TOUCHES else dp[i, last]
         _solve_line(stencil, spacing, drag, storing, tables, line, j, beside, before, right, upper)
         for i in range(1, nx - 1):
-            if line[BAND + i] == 1:
+            if line[BAND + i] == 1 or line[BAND + i] == 3:
                 dp[i, j] += damping[0] * right[i]
-            elif line[BAND + i] == 2:
+            elif line[BAND + i] != 0:
                 change = damping[1] * right[i]
                 dp[i, j] += change
                 dp[i - 1, j] -= weights[0] * change
