@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars, Rule
+from bem.accuracy.sharp import is_sharp
 from bem.contact import ContactSolution, solve_contact
 from bem.contact.cascade import sample
 from bem.contact.edge import count_spots, plastic_region
@@ -48,10 +49,6 @@ _TOUCH = 2.0
 """Factor on the height by which a parabola rises above first touch."""
 _PEAK, _ROUGH_PEAK = 0.3, 0.7
 """Factors on what lies between the highest pressure and that of a cell, on a surface that is resolved or not."""
-_STEP, _STEPS = 5.0, 0.25
-"""An edge is sharp where the undeformed gap changes by so many times what it does on both sides; a contact has sharp
-edges where that holds for this share of all edges (by chance on a surface of white noise: 0.05)."""
-
 _BENT = 1 / 3
 """Of what bent surfaces lose in cells (`_bend_in_cells`): the rest the edge gives back, which ends on whole cells. Left
 were 0.34 (scatter over the place of the centre 0.2 to 0.3) in 200 contacts 3 to 9 cells wide: balls, ellipses, lines,
@@ -68,7 +65,7 @@ grid of twice the cell has the same one or four cells in contact. On three and f
 _COARSE = "no error bars: the grid is too small to be compared with one of twice the cell"
 _UNSOLVED = "no error bars: the contact on the grid of twice the cell did not converge"
 _IMPOSSIBLE = "no error bars: what is prescribed cannot be met on the grid of twice the cell"
-_SHARP = "the highest pressure has no error bar: the contact has sharp edges, where the pressure has no limit"
+_SHARP = "the highest pressure has no error bar: the contact has sharp edges or ridges, where the pressure has no limit"
 
 
 @dataclass(frozen=True)
@@ -211,8 +208,11 @@ def contact_bars(case: ContactCase, coarser: Coarser) -> ErrorBars:
         for name, rule in RULES.items()
         if name not in given
     }
+    sharp = is_sharp(case.undeformed, case.solution.pressure, case.grid)
+    if sharp and case.hardness is not None:  # the cap is the limit, which finer cells would come to
+        grid["max_pressure"] = max(case.hardness - fine["max_pressure"], 0.0)
     bars = ErrorBars.together({GRID: grid | dict.fromkeys(given, 0.0), RESIDUAL: algebraic})
-    return bars.without("max_pressure", _SHARP) if has_sharp_edges(case) else bars
+    return bars.without("max_pressure", _SHARP) if sharp and case.hardness is None else bars
 
 
 def is_resolved(case: ContactCase) -> bool:
@@ -232,20 +232,6 @@ def surface_is_resolved(gap: FloatArray, grid: Grid) -> bool:
         bends += float(np.mean(second**2))
         turns += float(np.mean(np.diff(second, axis=axis) ** 2))
     return turns <= _RESOLVED**2 * bends
-
-
-def has_sharp_edges(case: ContactCase) -> bool:
-    """Whether the contact ends at steps of the undeformed gap, as under a punch."""
-    inside = case.solution.pressure > 0
-    edges, sharp = 0, 0
-    for axis in (0, 1):
-        if case.grid.shape[axis] < 4:
-            continue
-        steps = np.moveaxis(np.abs(np.diff(case.undeformed, axis=axis)), axis, 0)
-        ends = np.moveaxis(np.diff(inside.astype(np.int8), axis=axis) != 0, axis, 0)[1:-1]
-        edges += int(ends.sum())
-        sharp += int((ends & (steps[1:-1] > _STEP * np.maximum(steps[:-2], steps[2:]))).sum())
-    return sharp > _STEPS * edges
 
 
 def mean_opening(gap: FloatArray) -> float:
@@ -282,12 +268,13 @@ def _further(case: ContactCase, *, resolved: bool) -> dict[str, float]:
     spot = math.pi * case.solution.contact_area / perimeter if perimeter > 0 else math.sqrt(case.grid.cell_area)
     stiffness = case.operator.modulus_at(1 / spot) * perimeter / math.pi
     missed = touch + _BENT * _bend_in_cells(case)
-    return {
-        "max_pressure": min(peak, cap - highest),
-        "approach": missed,
-        "load": stiffness * missed if case.approach is not None else 0.0,
-        "mean_gap": _ends(case),
-    }
+    found = {"max_pressure": min(peak, cap - highest), "approach": missed, "mean_gap": _ends(case)}
+    if case.approach is not None:
+        found |= {"load": stiffness * missed, "mean_gap": found["mean_gap"] + missed}
+        if case.solution.load > 0:  # under rough surfaces areas grow with the load
+            grown = min(stiffness * touch / case.solution.load, 1.0) * case.solution.contact_area
+            found |= {"contact_area": grown, "contact_area_fraction": grown / case.grid.area}
+    return found
 
 
 def _bend_in_cells(case: ContactCase) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 
 from bem.accuracy.bars import DEPTHS, GRID, PRESSING, PRESSING_FACTOR, ErrorBars, Rule
 from bem.accuracy.contact import Coarser, ContactCase, is_resolved, share_at_edge
+from bem.accuracy.sharp import is_sharp
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.stress import StressBelow, stress_below, von_mises_planes
@@ -41,6 +42,10 @@ _FAR = 0.8
 
 _CAPPED = (
     "the highest von Mises stress has no error bar: it lies at the surface of a capped contact, where it has no limit"
+)
+_SHARP = (
+    "the highest von Mises stress has no error bar: it lies at the surface of a contact with sharp edges or ridges, "
+    "where it has no limit"
 )
 _SHALLOWEST = (
     "the highest von Mises stress has no error bar: it lies at the shallowest depth; begin outputs.depths nearer the "
@@ -106,6 +111,8 @@ def _of_stress(
     near = depths[k] < np.sqrt(case.grid.cell_area)
     if case.hardness is not None and near and (case.solution.pressure >= case.hardness).any():
         return ErrorBars.unknown(NAMES, _CAPPED)
+    if near and is_sharp(case.undeformed, case.solution.pressure, case.grid):
+        return ErrorBars.unknown(NAMES, _SHARP)
     if k == 0 and depths[0] > 0 and not few:
         return ErrorBars.unknown(NAMES, _SHALLOWEST)
     kept = depths[sorted({*range(k % 2, len(depths), 2), max(k - 1, 0), min(k + 1, len(depths) - 1)})]

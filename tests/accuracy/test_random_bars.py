@@ -17,3 +17,16 @@ def test_bars_cover_nine_errors_in_ten_and_are_not_far_too_large():
     assert np.mean(ratios >= 1) >= 0.9
     # asked for: five; of so few contacts the median scatters by a half
     assert np.median(ratios) < 7
+
+
+def test_at_a_given_approach_the_mean_gap_has_what_first_touch_between_cells_moves_it_by():
+    """The highest summit lies between cells: an approach that counts from first touch is another on finer ones. Of 79
+    rough contacts 71 % were covered without that part, 92 % with it."""
+    rng, rows = np.random.default_rng(5), []
+    while len(rows) < 16:
+        problem = draw(rng)
+        if "approach" in problem.given and problem.heights.any():
+            rows += [row for row in rows_of(replace(problem, depths=0)) if row["figure"] == "mean_gap"]
+    ratios = ratios_of(rows, 12)
+    assert np.mean(ratios >= 1) >= 0.85
+    assert np.median(ratios) < 7
