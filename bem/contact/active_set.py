@@ -6,8 +6,10 @@ The pressure minimises p.Kp/2 + p.(gap - approach) over 0 <= p <= cap, with its 
    there led well beyond its lowest point, goes back to it: its displacement follows without another application;
 2. takes in the free cells that overlap and the capped cells that open;
 3. runs preconditioned conjugate gradients on the cells in contact (single precision transforms, the symmetric part of
-   the operator); where step 4 will undo most of it, a single step of a length known beforehand, without any; and
-4. sets free what came out below zero, caps what came out above, and restores the load.
+   the operator); the last step, which step 4 will undo most of or which is to reach the tolerance, has a length known
+   beforehand and costs none; and
+4. sets free what came out below zero, caps what came out above, region by region at the same load, and restores the
+   load of all.
 
 Where the way leads upwards from its beginning a round is free to raise the energy while the largest violation falls.
 Once it has not for a few rounds, such a round is taken back for a projected gradient step, which always lowers it.
@@ -234,8 +236,7 @@ def _next(level: Level, control: Control, now: _Round, effort: Effort) -> _Step 
     clipped = clip(level, control, iterate, raw)
     if clipped.cells.size <= _FEW * clipped.capped.size and clipped.cells.size < 0.5 * iterate.cells.size:
         # fully plastic: bounds matter, elasticity hardly does, and unbounded pressures say nothing
-        length = 1 / float(level.operator.near_field(0)[0, 0])
-        clipped = gradient_step(level, control, iterate, now.approach, length)
+        clipped = gradient_step(level, control, iterate, now.approach, 1 / level.self_response)
     return _Step(clipped, lifted)
 
 

@@ -14,6 +14,9 @@ from bem.contact.level import Iterate, Level
 FloatArray = NDArray[np.float64]
 Control = LoadControl | ApproachControl
 
+_REGION = 8
+"""Cells along a region that keeps its load where pressures are clipped; 4 to 16 count alike."""
+
 
 def first_pressure(level: Level, control: Control, start: FloatArray | None) -> Iterate:
     """A feasible pressure to begin with."""
@@ -35,7 +38,12 @@ def first_pressure(level: Level, control: Control, start: FloatArray | None) -> 
 
 
 def clip(level: Level, control: Control, iterate: Iterate, raw: FloatArray) -> Iterate:
-    """Back into the bounds, with the load restored."""
+    """Back into the bounds, with the load restored; `raw` is overwritten.
+
+    What the bounds give to a region, or take from it, its other cells make up for: of load moved across the surface the
+    elastic bodies make waves far longer, and higher, than the cells at the bounds are.
+    """
+    passes.settle(iterate.cells, raw, level.cap, level.operator.grid.shape, _REGION)
     if isinstance(control, LoadControl):
         return restore_load(level, control, iterate, raw)
     below = raw <= 0

@@ -135,19 +135,28 @@ def _advance(start, stop, result, state, way, mean, step, cap):  # type: ignore[
 
 
 def stride(
-    pressure: FloatArray, way: FloatArray, step: float, cap: float, residual: FloatArray, out: FloatArray
+    pressure: FloatArray,
+    way: tuple[FloatArray, FloatArray, float],
+    step: float,
+    cap: float,
+    residual: FloatArray,
+    out: FloatArray,
 ) -> tuple[float, float]:
-    """out = p - step t; returns how far that leaves the bounds, and max |r|."""
+    """out = p - step (z + beta t); returns how far that leaves the bounds, and max |r|. way : (z, t, beta)."""
     partial = passes.in_blocks(pressure.size, 2, _stride, pressure, way, step, cap, residual, out)
+    if partial.shape[0] == 1:
+        outside, largest = partial[0].tolist()
+        return outside, largest
     return float(partial[:, 0].max()), float(partial[:, 1].max())
 
 
 @_fast
 def _stride(start, stop, result, pressure, way, step, cap, residual, out):  # type: ignore[no-untyped-def]
+    preconditioned, direction, beta = way
     outside = 0.0
     largest = 0.0
     for k in range(start, stop):
-        p = pressure[k] - step * way[k]
+        p = pressure[k] - step * (preconditioned[k] + beta * direction[k])
         out[k] = p
         outside = max(outside, max(-p, p - cap))
         largest = max(largest, abs(residual[k]))

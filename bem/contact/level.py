@@ -127,6 +127,7 @@ class Level:
         names = ("pressure", "displacement", "before", "quick_in", "quick_out")
         self.flat: dict[str, NDArray[Any]] = {name: getattr(self, name).reshape(-1) for name in names}
         self.kept = False
+        self.self_response = float(operator.near_field(0)[0, 0])
         self.stride = Stride()
         self.sparse: SparseInverse | None = None
         self.sparse_cells: Indices | None = None

@@ -264,6 +264,36 @@ def positive(cells, values):  # type: ignore[no-untyped-def]
     return kept_cells, kept_values, total
 
 
+_MOST = 0.5
+"""Of its pressure between the bounds: the most that a region makes up for. At 0.9 free contacts of 512 cells take a
+convolution more, and a region that hardly touches loses its pressure for rounds."""
+
+
+@_fast
+def settle(cells, values, cap, shape, side):  # type: ignore[no-untyped-def]
+    """What clipping to the bounds will add to each square of `side` cells, its values between the bounds make up for in
+    proportion to themselves."""
+    across = (shape[1] - 1) // side + 1
+    excess = np.zeros(((shape[0] - 1) // side + 1) * across)
+    inside = np.zeros(excess.size)
+    for k in range(cells.size):
+        i, j = divmod(cells[k], shape[1])
+        b = (i // side) * across + j // side
+        value = values[k]
+        if value <= 0:
+            excess[b] -= value
+        elif value >= cap:
+            excess[b] += cap - value
+        else:
+            inside[b] += value
+    for b in range(excess.size):
+        excess[b] = 1 - max(-_MOST, min(_MOST, excess[b] / inside[b])) if inside[b] > 0 else 1.0
+    for k in range(cells.size):
+        if 0 < values[k] < cap:
+            i, j = divmod(cells[k], shape[1])
+            values[k] *= excess[(i // side) * across + j // side]
+
+
 def shifted_sum(values: FloatArray, shift: float, cap: float) -> tuple[float, int]:
     """Sum of clip(values + shift, 0, cap) and how many of them are strictly inside."""
     total, inside = sums(values.size, 2, _shifted_sum, values, shift, cap)

@@ -66,14 +66,39 @@ def test_stride_and_positive(fields):
     _, way, cells, values = fields
     way = way[: cells.size]
     out = np.empty(cells.size)
-    outside, largest = gradients.stride(values, way, 0.7, 0.9, way, out)
-    assert np.allclose(out, values - 0.7 * way, rtol=0, atol=1e-15)
+    outside, largest = gradients.stride(values, (way, values, 0.2), 0.7, 0.9, way, out)
+    assert np.allclose(out, values - 0.7 * (way + 0.2 * values), rtol=0, atol=1e-15)
     assert outside == pytest.approx(max(-out.min(), out.max() - 0.9), rel=1e-14)
     assert largest == np.abs(way).max()
     kept, raw, total = passes.positive(cells, out)
     assert np.array_equal(kept, cells[out > 0])
     assert np.array_equal(raw, out[out > 0])
     assert total == pytest.approx(raw.sum(), rel=1e-13)
+
+
+def test_regions_keep_their_load_where_pressures_are_clipped():
+    cap, side, shape = 0.7, 8, (21, 35)  # regions at the ends are cut off
+    rng = np.random.default_rng(5)
+    cells = np.sort(rng.choice(shape[0] * shape[1], 600, replace=False))
+    raw = rng.uniform(-0.1, 0.8, cells.size)
+    raw[cells // shape[1] < 4] -= 0.5  # more below zero there than half of what is left can make up for
+    values = raw.copy()
+    passes.settle(cells, values, cap, shape, side)
+    inside = (raw > 0) & (raw < cap)
+    assert np.array_equal(values[~inside], raw[~inside])
+    region = cells // shape[1] // side * 100 + cells % shape[1] // side
+    made_up = 0
+    for name in np.unique(region):
+        here = region == name
+        share = values[here & inside] / raw[here & inside]
+        assert np.ptp(share) <= 1e-14
+        if 0.51 < share[0] < 1.49:
+            made_up += 1
+            clipped = np.where(inside, values, np.clip(raw, 0, cap))
+            assert clipped[here].sum() == pytest.approx(raw[here].sum(), rel=1e-13)
+        else:
+            assert share[0] == pytest.approx(0.5, rel=1e-14)
+    assert 5 < made_up < np.unique(region).size
 
 
 @pytest.mark.parametrize("periodic", [FREE, PERIODIC])

@@ -12,7 +12,7 @@ import pytest
 from contact_oracles import FREE, HALF_Y, PERIODIC, body, notes_surface, operator, rough
 
 from bem import threads
-from bem.contact import face, passes, solve_contact
+from bem.contact import face, feasible, passes, solve_contact
 from bem.convolution import displacement_operator
 from bem.errors import InfeasibleError, InputError
 from bem.grid import Grid
@@ -35,11 +35,11 @@ def _count(cells, periodic, hardness=None):
     return solution.convolutions
 
 
-# Limits: the most that was counted over five seeds (512 and 1024; three at 2048), and a fifth more, since one round
+# Limits: the most that was counted over five seeds (two or three at 2048), and a fifth more, since one round
 # more or less is two or three convolutions. A set of cells that swings from round to round would double the count.
 @pytest.mark.parametrize(
     ("cells", "periodic", "hardness", "most"),
-    [(256, FREE, None, 24), (512, PERIODIC, None, 22), (512, FREE, None, 24), (512, PERIODIC, 0.05, 29)],
+    [(256, FREE, None, 19), (512, PERIODIC, None, 16), (512, FREE, None, 16), (512, PERIODIC, 0.05, 18)],
 )
 def test_convolutions_to_the_tolerance(cells, periodic, hardness, most):
     assert _count(cells, periodic, hardness) <= most
@@ -49,11 +49,11 @@ def test_convolutions_to_the_tolerance(cells, periodic, hardness, most):
 @pytest.mark.parametrize(
     ("cells", "periodic", "hardness", "most"),
     [
-        (1024, PERIODIC, None, 24),
-        (1024, FREE, None, 29),
-        (1024, PERIODIC, 0.05, 33),
-        (2048, PERIODIC, None, 31),
-        (2048, FREE, None, 35),
+        (1024, PERIODIC, None, 18),
+        (1024, FREE, None, 19),
+        (1024, PERIODIC, 0.05, 23),
+        (2048, PERIODIC, None, 20),
+        (2048, FREE, None, 25),
     ],
 )
 def test_convolutions_to_the_tolerance_on_large_grids(cells, periodic, hardness, most):
@@ -261,7 +261,7 @@ def test_semi_periodic_contact_of_a_wide_slice_is_the_free_one_far_from_the_ends
     assert np.abs(a.pressure - b.pressure).max() <= 0.02 * a.pressure.max()
 
 
-@pytest.mark.parametrize(("cells", "convolutions", "most"), [(128, 13.3, 4300), (256, 14.9, 5300)])
+@pytest.mark.parametrize(("cells", "convolutions", "most"), [(128, 11.4, 4300), (256, 12.2, 5300)])
 def test_convolutions_and_python_calls_of_the_surface_they_are_quoted_for(cells, convolutions, most):
     """Small grids are what wear cycles and load sharing run on: there the calls between convolutions are the cost."""
     op = operator((cells, cells), (1 / cells, 1 / cells), PERIODIC)
@@ -281,3 +281,15 @@ def test_a_first_step_without_a_convolution_saves_them_and_leaves_the_answer(mon
     plain = solve_contact(gap, op, load=0.0035)
     assert quick.convolutions < plain.convolutions
     assert np.abs(quick.pressure - plain.pressure).max() <= 1e-5 * plain.pressure.max()  # both certified to 1e-8
+
+
+def test_regions_that_keep_their_load_save_convolutions_and_leave_the_answer(monkeypatch):
+    """Load that clipping moves across the surface makes long waves: contacts of 40 % took 30 convolutions."""
+    gap = -notes_surface(512)
+    op = operator((512, 512), (1 / 512, 1 / 512), FREE)
+    kept = solve_contact(gap, op, load=0.022)
+    monkeypatch.setattr(feasible, "_REGION", 512)  # one region: the load of all is restored anyway
+    moved = solve_contact(gap, op, load=0.022)
+    assert kept.convolutions <= 21  # the most over five seeds is 17.5
+    assert kept.convolutions < 0.7 * moved.convolutions
+    assert np.abs(kept.pressure - moved.pressure).max() <= 1e-5 * moved.pressure.max()  # both certified to 1e-8
