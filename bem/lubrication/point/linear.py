@@ -109,27 +109,36 @@ class Linear:
     def relaxed(self, residual: FloatArray, back: bool) -> FloatArray:
         """Pressures that a sweep over lines adds, there or back; of oil that comes at an angle the way back is along
         the other axis."""
-        level = self.level
-        drag, storing = level.problem.drag, level.problem.storing
-        out = np.zeros(level.shape)
-        if back and drag[1] > 0:
+        level, out = self.level, np.zeros(self.level.shape)
+        if back and level.problem.drag[1] > 0:
             crossed = np.zeros(level.shape[::-1])
             right = np.ascontiguousarray(residual.T)
-            steps, near = level.spacing[::-1], level.near_across
-            kinds = self.kinds.T.copy()
-            lines.relax(self._crossed, steps, drag[::-1], storing, near, kinds, right, DAMPING, True, crossed)
+            lines.relax(self._lines_across, level.spacing[::-1], self.kinds.T.copy(), right, DAMPING, True, crossed)
             out[:] = crossed.T
         else:
-            steps, near = level.spacing, level.near
-            lines.relax(self.stencil, steps, drag, storing, near, self.kinds, residual, DAMPING, back, out)
+            lines.relax(self._lines, level.spacing, self.kinds, residual, DAMPING, back, out)
         np.copyto(out, residual, where=level.border)
         out[self.held] = 0.0
         return out
 
     @cached_property
-    def _crossed(self) -> FloatArray:
-        """The stencil with the axes exchanged."""
-        return np.ascontiguousarray(self.stencil[[4, 5, 6, 7, 0, 1, 2, 3, 8, 9, 10, 12, 11]].transpose(0, 2, 1))
+    def _lines(self) -> NDArray[np.float32]:
+        """Factors of the lines along x; half the digits are enough for what GMRES puts right."""
+        level, problem = self.level, self.level.problem
+        factors = np.zeros((level.shape[1], level.shape[0], lines.KEPT), np.float32)
+        steps, near = level.spacing, level.near
+        lines.factorise(self.stencil, steps, problem.drag, problem.storing, near, self.kinds, factors)
+        return factors
+
+    @cached_property
+    def _lines_across(self) -> NDArray[np.float32]:
+        """Those of the lines along y."""
+        level, problem = self.level, self.level.problem
+        crossed = np.ascontiguousarray(self.stencil[[4, 5, 6, 7, 0, 1, 2, 3, 8, 9, 10, 12, 11]].transpose(0, 2, 1))
+        factors = np.zeros((*level.shape, lines.KEPT), np.float32)
+        steps, drag, kinds = level.spacing[::-1], problem.drag[::-1], self.kinds.T.copy()
+        lines.factorise(crossed, steps, drag, problem.storing, level.near_across, kinds, factors)
+        return factors
 
     @cached_property
     def coarser(self) -> Linear | None:
