@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from reports import starved_point
 from reports.builder import figure, table, text
 from reports.experiments.kept import age, found
 
@@ -51,6 +52,7 @@ def body() -> str:
         + age("point_table")
         + text(_survey(found("point_films")))
         + age("point_films")
+        + starved_point.body()
     )
 
 

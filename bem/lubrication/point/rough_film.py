@@ -73,6 +73,8 @@ class RoughPointFilm:
     iterations : Newton steps. cycles : of multigrid. residual : largest relative error of balances of oil, film
         against deflection, complementarity and load, recomputed from both pressures and H0 alone. complementarity :
         that of films alone, over the least film. mass_imbalance : as of `PointFilmSolution`, empty cells left out.
+    status : converged where residual and complementarity, recomputed, meet what was asked for. notes : why there is no
+        film, and what bears on its figures. speeds, lubricant : as given.
     """
 
     x: FloatArray
