@@ -184,5 +184,15 @@ def speed_axis(axes: Axes, speed: NDArray[Any]) -> None:
     """An axis of speeds, logarithmic where it can be, over values from zero."""
     axes.set_xlabel("speed (m/s)")
     if (speed > 0).all() and len(speed) > 1:
-        axes.set_xscale("log")
+        logarithmic_axis(axes, speed)
     axes.set_ylim(0)
+
+
+def logarithmic_axis(axes: Axes, values: NDArray[Any]) -> None:
+    """A logarithmic axis along x; over less than two decades, too few for a readable label at each, some of the values
+    are labelled."""
+    axes.set_xscale("log")
+    if values.max() < 100 * values.min():
+        shown_at = np.sort(values)[:: -(-len(values) // 6)]
+        axes.set_xticks(shown_at, [f"{value:.3g}" for value in shown_at])
+        axes.minorticks_off()

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.plots.style import label, prefix, style
+from bem.plots.style import label, logarithmic_axis, prefix, style
 from bem.results.atomic import replacing
 from bem.scenes.context import Variable
 
@@ -132,11 +132,7 @@ def _panel(
     if ticks:
         axes.set_xticks(position, ticks, rotation=30 if max(map(len, ticks)) > 6 else 0)
     elif spacings.get(along) == "logarithmic" or (along == "speed" and np.min(position) > 0):
-        axes.set_xscale("log")
-        if np.max(position) < 100 * np.min(position):  # too few decades for a readable label at each
-            shown_at = position[:: -(-len(position) // 6)]
-            axes.set_xticks(shown_at, [f"{value:.3g}" for value in shown_at])
-            axes.minorticks_off()
+        logarithmic_axis(axes, np.asarray(position))
     axes.set_xlabel(label(words, unit))
     axes.set_ylabel(label(_spelt(name, variable.units), shown))
 

@@ -273,6 +273,9 @@ class WornRecord(RubbedRecord, ThirdBodyRecord):
     """What every wear loop tells besides its own."""
 
     convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle", unjudged=True)]
+    truncated_particles: Annotated[
+        int, Figure("", "particles of the settled cycles cut off by the deepest depth", unjudged=True)
+    ]
     cycle: Annotated[IntArray, Series(("cycle",), "1", "cycle")]
 
 
@@ -315,6 +318,7 @@ class WornSurface:
             "cycle": np.arange(1, len(cycles) + 1),
             "particles_per_cycle": float(late.size / len(settled)),
             "convolutions_per_cycle": float(cycles["convolutions"].mean()),
+            "truncated_particles": int(late["truncated"].sum()),
             "step_error": step_error(result.state.memories[result.wearing[0]])
             if isinstance(scene.wear.criterion, LocalWear)
             else None,

@@ -433,6 +433,28 @@ OUTCOMES = {
 }
 
 
+def test_particles_of_running_in_that_the_depths_cut_are_told():
+    facts = facts_of("running-in-stribeck")
+    cut = Outcome({"truncated_particles": [0, 40], "particles_per_cycle": [1.0, 10.0]}, {})
+    share = 40 / (10.0 * facts.scene.cycles.settled)
+    (words,) = OUTCOME_CHECKS["particles_cut_by_the_depths"](facts, cut)
+    assert words.startswith(f"{100 * share:.2g} % of the settled particles")
+
+
+def test_roughness_does_not_drift_where_nothing_came_off():
+    """The strip in contact moves, and its roughness with it."""
+    worn = loop_outcome(100.0)
+    rough = Variable(("speed", "cycle"), np.array([[1.0, 1.1, 1.4, 1.5], [1.0, 1.0, 1.0, 1.0]]) * 1e-7, "m", "Sq")
+    facts, check = facts_of("running-in-stribeck"), OUTCOME_CHECKS["drifting_at_the_last_cycle"]
+    for volume, told in ((0.0, False), (1e-18, True)):
+        volumes = Variable(("speed", "cycle"), np.array([[0.0, 0.0, 0.0, volume], [0.0] * 4]), "m^3", "volume")
+        series = {**worn.variables, "rms_height_over_cycles": rough, "volume_over_cycles": volumes}
+        words = list(check(facts, Outcome(worn.summary, series)))
+        assert [("Sq of the worn surface" in word, "in 1 of 2 loops" in word) for word in words] == [
+            (True, True)
+        ] * told
+
+
 @pytest.mark.parametrize("name", OUTCOMES)
 def test_a_check_of_results_fires_where_it_should_and_not_next_to_it(name):
     scene, (bad, words), good = OUTCOMES[name]

@@ -72,16 +72,26 @@ def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[str]:
             continue
         if name.startswith("rms_height") and not _with_pieces(facts):
             continue
-        found = [drift(series) for series in variable.values.reshape(-1, variable.values.shape[-1])]
+        rows = variable.values.reshape(-1, variable.values.shape[-1])
+        counts = _worn(outcome, len(rows)) if name.startswith("rms_height") else [True] * len(rows)
+        found = [drift(series) for series, counted in zip(rows, counts, strict=True) if counted]
         still = [value for value in found if value is not None]
         if still:
-            told.append(f"{words} by {percent(max(map(abs, still)))}{_of(len(still), len(found))}")
+            told.append(f"{words} by {percent(max(map(abs, still)))}{_of(len(still), len(rows))}")
     if told:
         yield (
             f"not settled: {joined(told)}, the mean of the last cycles (25, or half of all) against that of as many "
             "before them; what is told of the end is that of this number of cycles: take more cycles.count, or read "
             "the curves over cycles"
         )
+
+
+def _worn(outcome: Outcome, loops: int) -> list[bool]:
+    """Whether anything came off in each of so many loops: where nothing did, roughness follows the rows that touch."""
+    volume = outcome.variables.get("volume_over_cycles", outcome.variables.get("volume"))
+    if volume is None:
+        return [True] * loops
+    return [bool((row > 0).any()) for row in volume.values.reshape(loops, -1)]
 
 
 _STEPS = 0.1

@@ -282,7 +282,7 @@ def _what_it_takes(case: Case) -> str:
 def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """A piece that reaches the last depth goes on below it."""
     cut, number = outcome.summary.get("truncated_particles"), outcome.summary.get("particles_per_cycle")
-    if cut is None or number is None or not facts.of_kind("wear"):
+    if cut is None or number is None or not facts.of_kind("wear", "running-in"):
         return
     settled = facts.scene.cycles.settled
     shares = [c / (n * settled) for c, n in zip(numbers(cut), numbers(number), strict=False) if n > 0]

@@ -145,7 +145,6 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
         float | None, Figure("mm3_Nm", "wear rate of the criterion itself, by load and distance", headline=True)
     ]
     cycles: Annotated[int, Figure("", "cycles", headline=True, unjudged=True)]
-    truncated_particles: Annotated[int, Figure("", "particles cut off by the deepest depth", unjudged=True)]
     cell: Annotated[float, Figure("nm", "root of the cell's area", unjudged=True)]
     contact_seconds: Annotated[float, Figure("", "seconds in contacts", unjudged=True)]
     stress_seconds: Annotated[float, Figure("", "seconds in stresses", unjudged=True)]
@@ -269,7 +268,6 @@ def _record(
         third_body_friction=between and (1 - borne) * scene.cylinder.friction + borne * between.friction,
         first_cycles_radius=volume_mean_radius(particles[particles["cycle"] <= 5]["volume"]),
         cycles=len(cycles),
-        truncated_particles=int(late["truncated"].sum()),
         cell=float(np.sqrt(grid.cell_area)),
         depths_computed_per_cycle=float(cycles["depths_computed"].mean()),
         radius=radius,
