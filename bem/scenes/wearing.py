@@ -30,6 +30,7 @@ from bem.scenes.units import Length
 from bem.wear.criterion import WearCriterion
 
 if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars
     from bem.wear import RunningIn, RunningInState
     from bem.wear.film_defect import FilmDefect
     from bem.wear.third_bodies import ThirdBodies
@@ -218,6 +219,26 @@ def on_twice_the_cell(
     return on_every_second_cell(
         heights, grid, lambda coarser, across: loop(at(scene, 0.5, across), coarser, PlainContext(scene.seed))
     )
+
+
+def with_least_area(bars: ErrorBars, found: Any, cap: float | None) -> ErrorBars:
+    """Bars of the contact area and the mean pressure where the area is the least that carries the load at the hardness
+    [Pa], in every loop alike: what is touched may be as large as the cells in contact of the last cycle."""
+    from bem.accuracy.bars import GRID
+
+    area, bar = found.contact_area_fraction, bars.values.get("contact_area_fraction")
+    least = 0.0 if cap is None else float(found.pressure.mean()) / cap
+    if bar is None or not 0 < area <= _LEAST * least:
+        return bars
+    wider = bar + max(np.count_nonzero(found.pressure) / found.pressure.size - area, 0.0)
+    parts = {"contact_area_fraction": wider}
+    if bars.values.get("mean_contact_pressure") is not None:
+        parts["mean_contact_pressure"] = found.mean_contact_pressure / area * wider
+    return bars | bars.together({GRID: parts})
+
+
+_LEAST = 1.01
+"""Of the least area: loads on the contact change a little from cycle to cycle."""
 
 
 def wear_loop(

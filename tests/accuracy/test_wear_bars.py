@@ -2,6 +2,7 @@
 
 import json
 import tomllib
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,11 +10,12 @@ from small_scenes import WEAR
 
 from bem import Grid
 from bem.accuracy import wear_bars
+from bem.accuracy.bars import GRID, ErrorBars
 from bem.accuracy.wear import RULES
 from bem.runs import plan_scene, run_scene
 from bem.scenes import load_scene
 from bem.scenes.kinds.wear import at_resolution
-from bem.scenes.wearing import on_every_second_cell
+from bem.scenes.wearing import on_every_second_cell, with_least_area
 from reports.experiments.wear_error_bars import RESULT, draw, rows_of
 
 SCENE = tomllib.loads(WEAR)
@@ -118,3 +120,18 @@ def test_the_stored_experiment_meets_nine_in_ten():
     assert set(figures) <= set(RULES)
     bars = sum(row["bars"] for row in figures.values())
     assert sum(row["bars"] * row["covered"] for row in figures.values()) >= 0.9 * bars
+
+
+def test_an_area_that_is_the_least_under_a_cap_may_be_as_large_as_its_cells():
+    """Two loops at the same bound differ by nothing, and tell nothing of the area."""
+    pressure = np.zeros((4, 4))
+    pressure[:2] = 0.5e9
+    bars = ErrorBars.together(
+        {GRID: {"contact_area_fraction": 0.01, "mean_contact_pressure": 0.04e9, "Sq_final": 1e-9}}
+    )
+    for area, wider in ((0.25, 0.26), (0.4, 0.01)):
+        found = SimpleNamespace(pressure=pressure, contact_area_fraction=area, mean_contact_pressure=1e9)
+        judged = with_least_area(bars, found, 1e9).values
+        assert judged["contact_area_fraction"] == pytest.approx(wider)
+        assert judged["Sq_final"] == 1e-9
+    assert with_least_area(bars, found, None) is bars

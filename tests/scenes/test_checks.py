@@ -332,6 +332,14 @@ def loop_outcome(sq, friction=(0.1, 0.1, 0.1, 0.1)):
     return Outcome(sizes, variables)
 
 
+def least_area_outcome(area):
+    """Half of the cells touch, at half the hardness each: a quarter of the area would carry that at the hardness."""
+    cap = facts_of("running-in-stribeck").cases[0].cap
+    pressure = np.zeros((1, 8, 8))
+    pressure[0, :4] = 0.5 * cap
+    return Outcome({"contact_area_fraction": [area]}, {"pressure": Variable(("speed", "x", "y"), pressure, "Pa", "p")})
+
+
 CELL = 50.5e-9
 MIRRORED = with_(
     ROUGH,
@@ -411,6 +419,11 @@ OUTCOMES = {
         "running-in-stribeck",
         (loop_outcome(100.0, (0.13, 0.12, 0.11, 0.1)), "not settled: friction by 16 % in 1 of 2 loops"),
         loop_outcome(100.0),
+    ),
+    "least_area_of_worn_surfaces": (
+        "running-in-stribeck",
+        (least_area_outcome(0.25), "the cells in contact of the last cycle are 2.00 times as many"),
+        least_area_outcome(0.4),
     ),
     "long_steps_of_wear_by_pressure": (
         "wear-cylinder-scar",

@@ -94,6 +94,31 @@ def _worn(outcome: Outcome, loops: int) -> list[bool]:
     return [bool((row > 0).any()) for row in volume.values.reshape(loops, -1)]
 
 
+_MANY = 1.1
+"""Cells in contact over the least area: as of a single contact (`bem.contact.certificate`)."""
+
+
+@outcome_check
+def least_area_of_worn_surfaces(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """Holes have walls, and spots beside them a cell or two: the edge of contact is then not known."""
+    caps, maps = {case.cap for case in facts.cases}, outcome.variables.get("pressure")
+    areas = numbers(outcome.summary.get("contact_area_fraction"))
+    if not facts.of_kind("wear", "running-in") or len(caps) != 1 or None in caps or maps is None:
+        return
+    planes, cap = maps.values.reshape(-1, *maps.values.shape[-2:]), caps.pop()
+    if len(planes) != len(areas) or cap is None:
+        return
+    least = [float(plane.mean()) / cap for plane in planes]
+    counted = [float((plane > 0).mean()) for plane in planes]
+    many = [c / low for area, low, c in zip(areas, least, counted, strict=True) if area <= 1.01 * low < c / _MANY]
+    if many:
+        yield (
+            "spots of contact are too small for these cells: the contact area shown is the least that carries the load "
+            f"at the hardness{_of(len(many), len(areas))}, the cells in contact of the last cycle are {max(many):.2f} "
+            "times as many: take a finer grid"
+        )
+
+
 _STEPS = 0.1
 """Of the mean depth: below that the error of the steps is beside those that bars have."""
 

@@ -192,6 +192,7 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
 
     coarse, finer_points = (None if one is None else figures(one) for one in (there, finer_film))
     bars = running_in_bars(figures(found), coarse, finer_points, full_heat=scene.thermal == "full")
+    bars = wearing.with_least_area(bars, found, scene.contact.hardness)
     return bars if there is None else bars | _of_heights(scene, found)
 
 

@@ -197,7 +197,8 @@ def bars(scene: WearScene, initial: tuple[FloatArray, FloatArray], found: WearRe
 
     there = wearing.on_twice_the_cell(scene, initial, _slice(scene)[0], wear_down, at_resolution)
     reported = {f"{scene.sizes.report}_mean_{size}": f"reported_{size}" for size in pieces.QUANTITIES}
-    return wear_bars(vars(found), None if there is None else vars(there), reported)
+    judged = wear_bars(vars(found), None if there is None else vars(there), reported)
+    return wearing.with_least_area(judged, found, scene.cylinder.hardness)
 
 
 def _slice(scene: WearScene) -> tuple[Grid, float]:
