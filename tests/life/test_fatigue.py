@@ -61,9 +61,10 @@ def test_damage_adds_up_and_comes_up_with_the_material():
     rate = first.damage[3]
     still = replace(case, rates=(0.0, 0.0))
     steady = model.after(still, first, advance(still, replace(first, step=4000.0, cycles=0.0)))
-    # the same stresses all along: cycles times the damage of one; jumps leave nothing open
-    assert steady.damage[0] == pytest.approx(4000 * rate, rel=1e-6)
-    assert steady.damage[1] == pytest.approx(steady.damage[0], rel=1e-6)
+    # the same stresses all along: cycles times the damage of one; jumps leave nothing open. Contacts from other starts
+    # differ by rounding, balls around paths by 1e-6, lives by ln(10) * 700/43 = 37 times that: 2.0e-5 seen
+    assert steady.damage[0] == pytest.approx(4000 * rate, rel=4e-5)
+    assert steady.damage[1] == pytest.approx(steady.damage[0], rel=4e-5)
     assert steady.damage[2] == pytest.approx(4000 * first.damage[4], rel=1e-6)
     so_far = np.ones_like(rate) * np.array([0.1, 0.4, 0.8])[:, None, None]
     deep = replace(first, damage=np.stack([so_far] * 3 + [0 * rate] * 2))
