@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLUE, VERMILION, field_axes, label, map_of, prefix
+from bem.plots.style import BLUE, OPEN, VERMILION, field_axes, label, map_of, prefix
 
 _INDEX = 1.5
 """Refractive index of oils."""
@@ -57,10 +58,43 @@ def _interferogram(run: Any, figure: Figure) -> None:
     axes.imshow(colours.transpose(1, 0, 2), extent=extent, origin="lower", aspect=axes.get_aspect())
 
 
+def _typical(run: Any, thickness: NDArray[np.float64]) -> float:
+    """Film [m] of the middle; between rough bodies the median where the pressure is above half its highest."""
+    if "contact_pressure" not in run.dataset:
+        x, y = (_array(run, name) for name in ("x", "y"))
+        return float(thickness[np.abs(x).argmin(), np.abs(y).argmin()])
+    pressure = _array(run, "pressure")
+    return float(np.median(thickness[pressure > 0.5 * pressure.max()]))
+
+
+def _touching(run: Any, figure: Figure) -> None:
+    """Film with spots in contact on it, the oil's pressure, and that of the surfaces."""
+    x, y, thickness, oil, surfaces = (
+        _array(run, name) for name in ("x", "y", "thickness", "oil_pressure", "contact_pressure")
+    )
+    left, middle, right = figure.subplots(1, 3)
+    most = _THICK * _typical(run, thickness)
+    film = np.where(thickness < most, thickness, np.nan)
+    drawn = map_of(figure, left, x, y, film, "film thickness", "m", ends=(0.0, most))
+    spots = surfaces > 0
+    if spots.any():
+        red = ListedColormap([VERMILION])
+        left.imshow(np.where(spots, 1.0, np.nan).T, extent=drawn.get_extent(), origin="lower", cmap=red)
+    map_of(figure, middle, x, y, np.where(oil > 0, oil, np.nan), "pressure of the oil", "Pa", vmin=0)
+    if spots.any():
+        map_of(figure, right, x, y, np.where(spots, surfaces, np.nan), "pressure of the surfaces", "Pa", vmin=0)
+    else:
+        field_axes(right, x, y)
+        right.set_facecolor(OPEN)
+        right.set_xlim(*drawn.get_extent()[:2])
+        right.set_ylim(*drawn.get_extent()[2:])
+        right.set_title("nothing touches")
+
+
 def _maps(run: Any, figure: Figure) -> None:
     x, y, thickness, pressure = (_array(run, name) for name in ("x", "y", "thickness", "pressure"))
     left, right = figure.subplots(1, 2)
-    most = _THICK * float(thickness[np.abs(x).argmin(), np.abs(y).argmin()])
+    most = _THICK * _typical(run, thickness)
     shown = np.where(thickness < most, thickness, np.nan)
     map_of(figure, left, x, y, shown, "film thickness", "m", ends=(0.0, most))
     map_of(figure, right, x, y, np.where(pressure > 0, pressure, np.nan), "film pressure", "Pa", vmin=0)
@@ -70,7 +104,7 @@ def _sections(run: Any, figure: Figure) -> None:
     """Along x and along y through the middle: the film above, the pressure below."""
     x, y, thickness, pressure = (_array(run, name) for name in ("x", "y", "thickness", "pressure"))
     i, j = np.abs(x).argmin(), np.abs(y).argmin()
-    most = 4 * float(thickness[i, j])
+    most = 4 * _typical(run, thickness)
     film, film_unit = prefix([most], "m")
     force, force_unit = prefix(pressure, "Pa")
     panels = figure.subplots(2, 2, sharex="col", sharey="row", height_ratios=(3, 2))
@@ -120,6 +154,14 @@ FIGURES = (
         _NEEDS,
         _maps,
         (9.0, 3.8),
+    ),
+    FigureKind(
+        "touching-film-maps",
+        "A rough body's film up to three times that of its middle, with what touches in red; pressure of the oil, "
+        "and of the surfaces where they touch.",
+        (*_NEEDS, "oil_pressure", "contact_pressure"),
+        _touching,
+        (12.0, 3.6),
     ),
     FigureKind(
         "point-film-sections",
