@@ -270,15 +270,24 @@ convolution more, and a region that hardly touches loses its pressure for rounds
 
 
 @_fast
+def _region(cell, shape, side):  # type: ignore[no-untyped-def]
+    """The square of `side` cells that a cell is in, and the first cell of its row beyond that square."""
+    i, j = divmod(cell, shape[1])
+    column = j // side
+    return (i // side) * ((shape[1] - 1) // side + 1) + column, cell - j + min(shape[1], (column + 1) * side)
+
+
+@_fast
 def settle(cells, values, cap, shape, side):  # type: ignore[no-untyped-def]
     """What clipping to the bounds will add to each square of `side` cells, its values between the bounds make up for in
-    proportion to themselves."""
-    across = (shape[1] - 1) // side + 1
-    excess = np.zeros(((shape[0] - 1) // side + 1) * across)
+    proportion to themselves. `cells` ascend: a square is looked up once for all that follow in its row."""
+    excess = np.zeros(((shape[0] - 1) // side + 1) * ((shape[1] - 1) // side + 1))
     inside = np.zeros(excess.size)
+    b = 0
+    stop = 0
     for k in range(cells.size):
-        i, j = divmod(cells[k], shape[1])
-        b = (i // side) * across + j // side
+        if cells[k] >= stop:
+            b, stop = _region(cells[k], shape, side)
         value = values[k]
         if value <= 0:
             excess[b] -= value
@@ -288,10 +297,14 @@ def settle(cells, values, cap, shape, side):  # type: ignore[no-untyped-def]
             inside[b] += value
     for b in range(excess.size):
         excess[b] = 1 - max(-_MOST, min(_MOST, excess[b] / inside[b])) if inside[b] > 0 else 1.0
+    stop = 0
+    factor = 1.0
     for k in range(cells.size):
+        if cells[k] >= stop:
+            b, stop = _region(cells[k], shape, side)
+            factor = excess[b]
         if 0 < values[k] < cap:
-            i, j = divmod(cells[k], shape[1])
-            values[k] *= excess[(i // side) * across + j // side]
+            values[k] *= factor
 
 
 def shifted_sum(values: FloatArray, shift: float, cap: float) -> tuple[float, int]:

@@ -1,4 +1,4 @@
-"""Partial slip costs at most three normal contacts, and finds what a slow method finds."""
+"""Partial slip costs some twenty convolutions of both tractions, and finds what a slow method finds."""
 
 import numpy as np
 import pytest
@@ -30,15 +30,16 @@ def rough(cells, pressure=2e7):
     return grid, solve_contact(height.max() - height, operator, load=pressure * SIDE**2)
 
 
-@pytest.mark.parametrize("contact_of", [ball, rough])
-def test_three_normal_contacts_at_most(contact_of):
-    """Transforms at one residual, of vectors two for one: 2.3 to 2.9 times counted for 0.3 to 0.9 of gross slip, on
-    balls and rough contacts, periodic and free. It was six to eleven times."""
+# Limits: three normal contacts in transforms of one vector, as these were when they were counted (13.7 and 15.3
+# convolutions). Rough ones take 12.1 since, so that what slip costs is no longer measured by them.
+@pytest.mark.parametrize(("contact_of", "most"), [(ball, 20.4), (rough, 22.8)])
+def test_convolutions_of_a_first_push(contact_of, most):
+    """Of vectors at one residual: 16.8 to 20.9 for 0.3 to 0.9 of gross slip. It was more than twice as many."""
     grid, contact = contact_of(512)
     solution = solve_partial_slip(contact, grid, BODIES, friction=0.4, force=(0.6 * 0.4 * contact.load, 0.0))
     assert solution.status == contact.status == "converged"
     assert solution.residual <= 1e-8
-    assert 2 * solution.convolutions <= 3 * contact.convolutions
+    assert solution.convolutions <= most
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.7, 2.0])
