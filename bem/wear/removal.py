@@ -28,6 +28,12 @@ class RemovalLaw(Law):
     follows_pieces: ClassVar[bool] = False
     """Whether runs that nothing joins to the surface are never looked at, so that they need not be found."""
 
+    def __init_subclass__(cls) -> None:
+        """A law with a way of its own says so itself, whatever it is derived from."""
+        super().__init_subclass__()
+        if "remove" in vars(cls) and "follows_pieces" not in vars(cls):
+            cls.follows_pieces = False
+
     @abstractmethod
     def remove(self, runs: Runs, parent: NDArray[np.int64], labels: NDArray[np.int32], thickness: FloatArray) -> int:
         """Fill the labels (1, 2, ... of pieces, 0 where nothing leaves) and the thickness [m] that leaves, of all

@@ -14,7 +14,7 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.stress import reached_stress, subsurface_stress, von_mises_limit, von_mises_planes
-from bem.wear.criterion import VonMises, WearCriterion
+from bem.wear.criterion import WearCriterion
 from bem.wear.loads import Removal, SurfaceLoad
 from bem.wear.removal import RemovalLaw
 from bem.wear.segmentation import Segmentation, refine_depths, segment
@@ -35,7 +35,7 @@ def equivalent_stress_planes(
     when it is asked for.
     """
     grid, solid = setup.grid, setup.bodies[body]
-    if isinstance(criterion, VonMises) and len(loads) == 1:
+    if criterion.is_von_mises and len(loads) == 1:
         (load,) = loads
         yield from von_mises_planes(load.pressure, grid, solid, depths, **load.shear(body), out=out)
         return
@@ -133,7 +133,8 @@ def piece_stress(
     loads = (SurfaceLoad(load, setup.friction),) if isinstance(load, np.ndarray) else load
     law, removal, (first, *others) = model.law, model.removal, loads
     assert isinstance(removal, RemovalLaw)
-    if not isinstance(law, VonMises) or others or first.traction is not None or not removal.follows_pieces:
+    assert isinstance(law, WearCriterion)
+    if not law.is_von_mises or others or first.traction is not None or not removal.follows_pieces:
         return yielded_stress(loads, setup, model, body)
     start = time.perf_counter()
     depths, strength = depths_for(setup, model, body), setup.yield_stress(body)

@@ -9,6 +9,7 @@ from bem import Body, Grid, Material, transforms
 from bem.stress import reached_stress, set_stress_memory, von_mises_field
 from bem.threads import set_threads
 from bem.wear import WearModel, WearSetup, yielded_pieces
+from bem.wear.criterion import VonMises
 from bem.wear.removal import Cap
 from bem.wear.yielding import piece_stress, pieces_above, yielded_stress
 
@@ -122,8 +123,9 @@ def test_packed_spectra_and_several_threads_give_the_same():
 
 
 def test_a_law_that_looks_at_all_runs_gets_all_of_them():
-    class Everything(Cap):
-        follows_pieces = False
+    class Everything(Cap):  # does not say that it follows pieces, though Cap does
+        def remove(self, *given):
+            return super().remove(*given)
 
     fixed = setup((64, 48), (False, True))
     pressure = rough_pressure(fixed.grid.shape, 0)
@@ -131,3 +133,16 @@ def test_a_law_that_looks_at_all_runs_gets_all_of_them():
     object.__setattr__(model, "removal", Everything())
     whole, asked = yielded_stress(pressure, fixed, model, 0), piece_stress(pressure, fixed, model, 0)
     assert np.array_equal(whole.stress, asked.stress)
+
+
+def test_a_criterion_derived_from_von_mises_with_a_stress_of_its_own_is_asked_for_it():
+    class Twice(VonMises):
+        def equivalent_stress(self, stress):
+            return 2 * super().equivalent_stress(stress)
+
+    fixed, pressure, model = setup((64, 48), (False, True)), rough_pressure((64, 48), 0), WearModel()
+    once = yielded_stress(pressure, fixed, model, 0).stress
+    object.__setattr__(model, "criterion", Twice())
+    twice = piece_stress(pressure, fixed, model, 0).stress
+    # the same transforms in other portions
+    assert twice[: len(once)] == pytest.approx(2 * once, rel=1e-10, abs=1e-10 * once.max())

@@ -81,6 +81,11 @@ class WearCriterion(Detachment):
     """What exceeds the yield stress by an equivalent stress and reaches the surface comes off."""
 
     @property
+    def is_von_mises(self) -> bool:
+        """Whether the equivalent stress is von Mises' own, so that it need not be asked of all six components."""
+        return False
+
+    @property
     def von_mises_factor(self) -> float | None:
         """The largest ratio of this equivalent stress to the von Mises stress of the same state, so that a bound on
         von Mises bounds it too; None where there is none and nothing may be skipped by that bound."""

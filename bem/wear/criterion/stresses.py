@@ -39,9 +39,14 @@ class VonMises(WearCriterion):
     name: ClassVar[str] = "von_mises"
 
     @property
-    def von_mises_factor(self) -> float:
+    def is_von_mises(self) -> bool:
+        """But in a law that is derived from this one and has a stress of its own."""
+        return type(self).equivalent_stress is VonMises.equivalent_stress
+
+    @property
+    def von_mises_factor(self) -> float | None:
         """One."""
-        return 1.0
+        return 1.0 if self.is_von_mises else None
 
     def equivalent_stress(self, stress: FloatArray) -> FloatArray:
         """Of the deviator."""
