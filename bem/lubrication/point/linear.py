@@ -22,6 +22,7 @@ from bem.lubrication.point.levels import Level
 from bem.lubrication.point.rough_loops import rough_flows
 
 BoolArray = NDArray[np.bool_]
+HalfArray = NDArray[np.float32]
 
 SPREADING = 1.0
 """Pressure flow over what deflection drags, below which a cell is relaxed with a counterpart around it."""
@@ -40,14 +41,14 @@ class Change:
 @dataclass(frozen=True)
 class Linear:
     """The equations on one grid, around pressures and films there. held : cells without a balance (nx, ny), where the
-    pressure stays; stencil : see `loops`; far : pressure times film squared far away (nx, ny); tail_slope : derivative
-    of the load outside the rectangle, less what accelerates, with H0."""
+    pressure stays; stencil : see `loops`, in half the digits (`shortened`); far : pressure times film squared far away
+    (nx, ny); tail_slope : derivative of the load outside the rectangle, less what accelerates, with H0."""
 
     level: Level
     pressure: FloatArray
     film: FloatArray
     held: BoolArray
-    stencil: FloatArray
+    stencil: HalfArray
     far: FloatArray
     tail_slope: float
 
@@ -122,7 +123,7 @@ class Linear:
         return out
 
     @cached_property
-    def _lines(self) -> NDArray[np.float32]:
+    def _lines(self) -> HalfArray:
         """Factors of the lines along x; half the digits are enough for what GMRES puts right."""
         level, problem = self.level, self.level.problem
         factors = np.zeros((level.shape[1], level.shape[0], lines.KEPT), np.float32)
@@ -131,7 +132,7 @@ class Linear:
         return factors
 
     @cached_property
-    def _lines_across(self) -> NDArray[np.float32]:
+    def _lines_across(self) -> HalfArray:
         """Those of the lines along y."""
         level, problem = self.level, self.level.problem
         crossed = np.ascontiguousarray(self.stencil[[4, 5, 6, 7, 0, 1, 2, 3, 8, 9, 10, 12, 11]].transpose(0, 2, 1))
@@ -151,7 +152,7 @@ class Linear:
         stencil = flows(coarse, pressure, film)[1]
         if level.problem.layer is not None:
             supply_loops.nothing_dragged(held, stencil)
-        return Linear(coarse, pressure, film, held, stencil, level.averaged(self.far), self.tail_slope)
+        return Linear(coarse, pressure, film, held, shortened(stencil), level.averaged(self.far), self.tail_slope)
 
     @cached_property
     def _factors(self) -> tuple[FloatArray, NDArray[np.int32], FloatArray]:
@@ -229,6 +230,12 @@ def flows(level: Level, pressure: FloatArray, film: FloatArray) -> tuple[FloatAr
         walls = problem.walls.on(film)
         rough_flows(pressure, film, oil, walls, level.spacing, problem.drag, flow, stencil)
     return flow, stencil
+
+
+def shortened(stencil: FloatArray) -> HalfArray:
+    """Derivatives as `Linear` has them: a step's equations are solved to a thousandth, and what is right is judged by
+    flows of all digits."""
+    return stencil.astype(np.float32)
 
 
 @dataclass(frozen=True)

@@ -70,7 +70,7 @@ def _derivatives(rows: FloatArray, out: FloatArray) -> None:
 
 @nb.njit(**COMPILE)
 def _eliminate(  # reason: Numba compiles plain arrays; they are the parts of one equation
-    stencil: FloatArray,
+    stencil: Any,
     spacing: tuple[float, float],
     drag: tuple[float, float],
     storing: float,
@@ -140,7 +140,7 @@ def _solve_line(kept: Any, beside: int, before: FloatArray, right: FloatArray) -
 
 @nb.njit(**COMPILE)
 def factorise(
-    stencil: FloatArray,
+    stencil: Any,
     spacing: tuple[float, float],
     drag: tuple[float, float],
     storing: float,
@@ -148,7 +148,7 @@ def factorise(
     kinds: Any,
     factors: Any,
 ) -> None:
-    """Factors (ny, nx, KEPT) of all lines along x, of any precision.
+    """Factors (ny, nx, KEPT) of all lines along x, of any precision as the derivatives are.
 
     kinds : 0 held, 1 a change of its own, 2 a change with its counterpart on the four neighbours, so that what is
     far away hardly feels it (distributive relaxation; Brandt and Lubrecht 1990, Venner and Lubrecht 2000). 3 and 4 the

@@ -15,7 +15,7 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.lubrication.point import loops, supply_loops
 from bem.lubrication.point.levels import Level
-from bem.lubrication.point.linear import BoolArray, Change, Linear, flows, solve
+from bem.lubrication.point.linear import BoolArray, Change, Linear, flows, shortened, solve
 
 LEAST_FILM = 0.3
 """Of a film, what a step leaves of it at least."""
@@ -79,7 +79,7 @@ class Balance:
         drag, (dx, dy) = level.problem.drag, level.spacing
         # of bodies at rest, whose film is only looked at, nothing is carried along: shares of the film as it is
         carried = drag[0] / dx + drag[1] / dy + level.problem.storing or 1.0
-        weight = 1 / (6 * self.linear.stencil[8] * carried)
+        weight = 1 / (6 * self.linear.stencil[8].astype(np.float64) * carried)
         x0, x1, y0, y1 = level.problem.rectangle
         mean = level.problem.load / ((x1 - x0) * (y1 - y0))  # where there is no pressure yet
         weight[level.border] = 1 / max(float(self.state.pressure.max()), mean)
@@ -124,7 +124,7 @@ def balance(level: Level, state: State, mismatch: FloatArray) -> Balance:
     load = float(pressure.sum()) * level.cell + outside - wanted
     totals = (np.abs(flow[axis, 1:-1, 1:-1].sum(axis=1 - axis)).max() for axis in (0, 1))
     first, second = (float(total) * step + stored for total, step in zip(totals, level.spacing[::-1], strict=True))
-    linear = Linear(level, pressure, film, held, stencil, far, tail_slope - inertia)
+    linear = Linear(level, pressure, film, held, shortened(stencil), far, tail_slope - inertia)
     return Balance(state, mismatch, out, load, linear, (max(first, 1e-300), max(second, 1e-300)))
 
 

@@ -22,14 +22,14 @@ from scipy.sparse.linalg import SuperLU, splu
 
 from bem.grid import FloatArray
 from bem.lubrication.point import loops, supply_loops
-from bem.lubrication.point.linear import BoolArray, Change, Linear, flows
+from bem.lubrication.point.linear import BoolArray, Change, HalfArray, Linear, flows, shortened
 
 IntArray = NDArray[np.int64]
 
 
 @nb.njit(**loops.COMPILE)
 def _oil_rows(  # reason: Numba compiles plain arrays; they are the parts of one equation
-    stencil: FloatArray,
+    stencil: HalfArray,
     spacing: tuple[float, float],
     drag: tuple[float, float],
     number: IntArray,
@@ -178,8 +178,8 @@ class TouchingLinear(Linear):
         if level.problem.layer is not None:
             supply_loops.nothing_dragged(held, stencil)
         return TouchingLinear(
-            coarse, pressure, film, held & ~touching, stencil, far, self.tail_slope, touching & ~coarse.border,
-            np.zeros(coarse.shape, dtype=bool), True,
+            coarse, pressure, film, held & ~touching, shortened(stencil), far, self.tail_slope,
+            touching & ~coarse.border, np.zeros(coarse.shape, dtype=bool), True,
         )  # fmt: skip
 
     @cached_property

@@ -17,7 +17,7 @@ from numpy.linalg import LinAlgError
 from bem.grid import FloatArray
 from bem.lubrication.point import loops
 from bem.lubrication.point.levels import Level
-from bem.lubrication.point.linear import BoolArray, flows, solve
+from bem.lubrication.point.linear import BoolArray, flows, shortened, solve
 from bem.lubrication.point.newton import CYCLES, FORCING, LEAST_FILM, SHORTEST_STEP, own_film, partly_filled
 from bem.lubrication.point.touching import TouchingLinear
 
@@ -107,7 +107,8 @@ def balance(level: Level, state: TouchingState, mismatch: FloatArray) -> Touchin
     totals = (np.abs(flow[axis, 1:-1, 1:-1].sum(axis=1 - axis)).max() for axis in (0, 1))
     first, second = (float(total) * step for total, step in zip(totals, level.spacing[::-1], strict=True))
     dry, held = empty & state.touching, empty & ~state.touching
-    linear = TouchingLinear(level, state.oil, state.film, held, stencil, far, tail_slope, state.touching, dry)
+    half = shortened(stencil)
+    linear = TouchingLinear(level, state.oil, state.film, held, half, far, tail_slope, state.touching, dry)
     return TouchingBalance(state, mismatch, out, load, linear, (max(first, 1e-300), max(second, 1e-300)))
 
 

@@ -45,22 +45,25 @@ def test_a_line_alone_leaves_nothing_of_its_balances(drag, downwards):
     np.testing.assert_allclose(out[1:4, j], residual[1:4, j], rtol=1e-11)
 
 
-def test_a_grid_keeps_fewer_than_a_hundred_bytes_a_cell():
-    """Of derivatives, for which there is nothing shorter; oil that comes at an angle needs eight bytes more.
-    The factors of its lines, 36 bytes, take a third of a film's time away."""
+@pytest.mark.parametrize(("drag", "most", "cycles"), [((1.0, 0.0), 84, 51), ((0.8, 0.6), 124, 95)])
+def test_a_grid_keeps_84_bytes_a_cell_and_124_of_oil_at_an_angle(drag, most, cycles):
+    """Derivatives and the factors of its lines; of oil that comes at an angle, lines along both axes. With all digits
+    of the derivatives, 132 and 176 bytes, a film takes as many cycles."""
     film = solve_point_film(
         load=20.0,
         radii=(0.01, 0.01),
         contact_modulus=1.15e11,
-        speeds=(0.5, 0.5),
+        speeds=((0.5 * drag[0], 0.5 * drag[1]),) * 2,
         lubricant=Lubricant(0.04, pressure_viscosity=22e-9),
         shape=(48, 48),
     )
     kept = film.state
     linear = balance(kept.level, kept.state, np.zeros(kept.level.shape)).linear
-    assert linear.stencil.nbytes < 100 * linear.film.size
-    assert linear._lines.nbytes <= 36 * linear.film.size
-    assert film.cycles <= 60  # 51, the cascade and all
+    for back in (False, True):
+        linear.relaxed(np.ones(linear.film.shape), back)
+    made = [one for one in vars(linear).values() if isinstance(one, np.ndarray) and one.ndim == 3]
+    assert sum(one.nbytes for one in made) == most * linear.film.size
+    assert film.cycles <= 1.1 * cycles  # the cascade and all
 
 
 @pytest.mark.parametrize("drag", [(1.0, 0.0), (0.8, 0.6)])
