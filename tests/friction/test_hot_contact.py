@@ -126,7 +126,9 @@ def test_heat_of_a_starved_contact():
     """More surfaces touch and more heat is made; plenty of oil is the flooded one."""
     flooded, plenty, starved = (hot(supply=supply) for supply in (None, 1e-3, 1e-7))
     assert {flooded.status, plenty.status, starved.status} == {Status.CONVERGED}
-    assert plenty.friction == pytest.approx(flooded.friction, rel=1e-6)
+    # each film lays its 250 points from a start of its own, 0.03 mm apart at the inlet: 1.3e-6, where twice the points
+    # change friction by 7e-4
+    assert plenty.friction == pytest.approx(flooded.friction, rel=1e-5)
     assert starved.film.starvation.reduction < 0.5
     assert starved.contact_load > flooded.contact_load
     assert starved.contact_temperature > flooded.contact_temperature
