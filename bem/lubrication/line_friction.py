@@ -16,6 +16,8 @@ from bem.lubrication.line_scales import Scales
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import middle_stress
 
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
+
 
 def upstream_of_mesh(state: State) -> tuple[float, float]:
     """Integrals of 1/H and 1/H^2 upstream of the mesh, where H = X^2/2 + c with c small against X^2/2; upstream of a
@@ -72,8 +74,7 @@ def friction_forces(
 
     # streamers behind the exit cover the fraction h_e/h: integral of (h_e/h) tau(h), out to where it no longer counts
     span = math.log(1e3) - math.log(1e-6)
-    points, weights = np.polynomial.legendre.leggauss(64)
-    near, far = 1e-6 * max(state.exit, math.sqrt(2 * film[-1])), 0.5 * span * (points + 1)
+    near, far = 1e-6 * max(state.exit, math.sqrt(2 * film[-1])), 0.5 * span * (_NODES + 1)
     reach = np.concatenate([[0.0], near * np.exp(far)])
     behind = (
         state.datum
@@ -82,5 +83,5 @@ def friction_forces(
     )
     ambient = lubricant.shear_stress(lubricant.viscosity * difference / (behind * scales.film), 0.0)
     ambient = ambient * film[-1] / behind
-    streamers = near * ambient[0] + 0.5 * span * float(np.sum(weights * ambient[1:] * reach[1:]))
+    streamers = near * ambient[0] + 0.5 * span * float(np.sum(_WEIGHTS * ambient[1:] * reach[1:]))
     return Friction(full, rolling, full + streamers * scales.length)

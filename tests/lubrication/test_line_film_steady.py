@@ -527,3 +527,11 @@ def test_a_start_under_several_times_the_load_between_bodies_as_much_stiffer(rat
     assert found.status is anew.status is Status.CONVERGED
     # meshes are made of where each comes from: 400 cells are good to 1e-3
     assert found.minimum_thickness == pytest.approx(anew.minimum_thickness, rel=1e-3)
+
+
+def test_a_film_makes_no_quadrature_rule(monkeypatch):
+    """The rule of the striated exit's friction was made anew in each film: a tenth of a point in mixed lubrication."""
+    orders, rule = [], np.polynomial.legendre.leggauss
+    monkeypatch.setattr(np.polynomial.legendre, "leggauss", lambda order: orders.append(order) or rule(order))
+    assert solve_line_film(**THESIS, speeds=(0.1, 0.0), points=400).status is Status.CONVERGED
+    assert orders == []
