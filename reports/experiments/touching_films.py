@@ -2,7 +2,7 @@
 
     nice python -m reports.experiments.touching_films
 
-Minutes on one core; prints a row a speed. Bumps of 50 nm rms, 0.74 of Hertz' radius long, under the ball of
+Minutes on one core; a row a speed into `reports/results/touching_films.json`. Bumps of 50 nm rms, 0.74 of Hertz' radius long, under the ball of
 `rough_films`: `solve_rough_point_film` (oil kept account of, least film 1 nm) on two grids, and `solve_mixed` of the
 same heights with the oil counted where the film is loaded.
 """
@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from bem import Grid, solve_point_film, solve_rough_point_film
+from reports.experiments.kept import keep, result_of, rounded
 from reports.experiments.rough_films import (
     BALL_CELLS,
     BALL_LOAD,
@@ -40,21 +41,33 @@ def row(speed: float) -> dict[str, Any]:
     ball = {"load": BALL_LOAD, "radii": (RADIUS, RADIUS)}
     shared: dict[str, Any] = {"contact_modulus": MODULUS, "speeds": (0.0, speed), "lubricant": OIL, **ball}
     smooth = solve_point_film(shape=SHAPES[0], **shared).central_thickness
-    found: dict[str, Any] = {"speed": speed, "lambda": smooth / RMS}
+    films = []
     for shape in SHAPES:
         film = solve_rough_point_film(heights=lambda x, y: RMS * surface(x, y), shape=shape, errors=False, **shared)
-        found[f"on {shape[0]} cells"] = (film.status.value, film.contact_share, film.friction(BOUNDARY))
+        films.append(
+            {
+                "cells": list(shape),
+                "status": film.status.value,
+                "share": film.contact_share,
+                "area": film.contact_area / (np.pi * half**2),
+                "friction": film.friction(BOUNDARY),
+                "mean": film.mean_thickness,
+                "minimum": film.minimum_thickness,
+            }
+        )
     spacing = 2 * PATCH * half / BALL_CELLS[0]
     grid = Grid(BALL_CELLS, (spacing, spacing))
     height = RMS * surface(grid.x[:, None], grid.y[None, :])
     mixed = load_shared(np.asarray(height), speed, "loaded", ball | {"grid": grid})
-    return found | {"load sharing": (mixed["status"], mixed["share"], mixed["friction"])}
+    return {"speed": speed, "lambda": smooth / RMS, "films": films, "loaded": mixed}
 
 
 def main() -> None:
-    """A row a speed."""
+    """A row a speed, stored after each, so that what was cut short says so."""
+    rows = []
     for speed in SPEEDS:
-        print(row(speed), flush=True)
+        rows.append(rounded(row(speed)))
+        keep(result_of("touching_films"), {"asked": len(SPEEDS), "rms": RMS, "wavelength": WAVELENGTH, "rows": rows})
 
 
 if __name__ == "__main__":
