@@ -18,7 +18,7 @@ from bem.stress import set_stress_memory
 from bem.verification import registry, stored
 from bem.verification.rows import DISPLACEMENT_LIMIT, STRESS_LIMIT, Curve, Gate, Row, judge
 from fem_reference import results as fem_results
-from reports import line_film, point_film, rolling_waves, rough_films, sketches
+from reports import line_film, point_film, rolling_waves, rough_films, sketches, touching_films
 from reports.builder import COLOURS, Page, Section, picture, table, text
 from reports.prose import prose
 
@@ -54,6 +54,7 @@ def build() -> Page:
     sections.append(Section("Point-contact film", point_film.body()))
     sections.append(Section("Waves that roll through a film", rolling_waves.body()))
     sections.append(Section("Films with the roughness in them, and load sharing", rough_films.body()))
+    sections.append(Section("Contact inside a rough ball's film, and load sharing", touching_films.body()))
     sections.append(Section("Elastic-plastic indentation (reported, not gated)", _plasticity()))
     versions = next((c.document["versions"] for c in stored.cases()), {})
     rows = [row for d in done for row in d.rows]

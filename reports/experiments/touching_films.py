@@ -2,9 +2,9 @@
 
     nice python -m reports.experiments.touching_films
 
-Minutes on one core; a row a speed into `reports/results/touching_films.json`. Bumps of 50 nm rms, 0.74 of Hertz' radius long, under the ball of
-`rough_films`: `solve_rough_point_film` (oil kept account of, least film 1 nm) on two grids, and `solve_mixed` of the
-same heights with the oil counted where the film is loaded.
+A minute or two of one core; a row a speed into `reports/results/touching_films.json`. Bumps of 50 nm rms, 0.74 of
+Hertz' radius long, under the ball of `rough_films`: `solve_rough_point_film` (oil kept account of, least film 1 nm) on
+three grids, and `solve_mixed` of the same heights with the oil counted where the film is loaded.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ RMS, WAVELENGTH = 50e-9, 0.74
 """[m], and over Hertz' radius."""
 SPEEDS = (1.0, 0.3, 0.1, 0.03, 0.01, 0.003)
 """[m/s]."""
-SHAPES = ((64, 64), (96, 96))
+SHAPES = ((64, 64), (96, 96), (144, 144))
 
 
 def row(speed: float) -> dict[str, Any]:

@@ -10,7 +10,16 @@ import numpy as np
 import pytest
 
 from bem.verification import registry
-from reports import builder, lumped_heat, point_film, rolling_waves, rough_films, starved_point, verification
+from reports import (
+    builder,
+    lumped_heat,
+    point_film,
+    rolling_waves,
+    rough_films,
+    starved_point,
+    touching_films,
+    verification,
+)
 from reports.experiments import kept, point_table
 from reports.experiments import starved_point as experiment_of_starved
 from reports.prose import prose
@@ -78,9 +87,15 @@ def test_a_point_film_that_stalled_is_shown_as_none(monkeypatch):
 @pytest.mark.parametrize("state", ["", "stale: code changed since"])
 def test_results_of_older_code_say_so(monkeypatch, state):
     monkeypatch.setattr(kept, "stale", lambda name: state)
-    shown = point_film.body() + rolling_waves.body() + rough_films.body() + lumped_heat.chapter().body
+    shown = (
+        point_film.body()
+        + rolling_waves.body()
+        + rough_films.body()
+        + touching_films.body()
+        + lumped_heat.chapter().body
+    )
     own = ("point_table", "point_films", "starved_point", "long_ellipse")
-    for name in (*own, "waviness_reduction", "rough_films", "lumped_heat"):
+    for name in (*own, "waviness_reduction", "rough_films", "touching_films", "lumped_heat"):
         assert (f"Result of {name}: {state}." in shown) is bool(state), name
 
 
