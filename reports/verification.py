@@ -53,8 +53,7 @@ def build() -> Page:
     sections.append(Section("Line-contact film", line_film.body()))
     sections.append(Section("Point-contact film", point_film.body()))
     sections.append(Section("Waves that roll through a film", rolling_waves.body()))
-    sections.append(Section("Films with the roughness in them, and load sharing", rough_films.body()))
-    sections.append(Section("Contact inside a rough ball's film, and load sharing", touching_films.body()))
+    sections.append(Section("Films with roughness in them, load sharing", rough_films.body() + touching_films.body()))
     sections.append(Section("Elastic-plastic indentation (reported, not gated)", _plasticity()))
     versions = next((c.document["versions"] for c in stored.cases()), {})
     rows = [row for d in done for row in d.rows]
