@@ -131,10 +131,17 @@ def _panel(
             )
     if ticks:
         axes.set_xticks(position, ticks, rotation=30 if max(map(len, ticks)) > 6 else 0)
-    elif spacings.get(along) == "logarithmic" or (along == "speed" and np.min(position) > 0):
+    elif spacings.get(along) == "logarithmic" or (along == "speed" and np.min(position) > 0) or _crowded(position):
         logarithmic_axis(axes, np.asarray(position))
     axes.set_xlabel(label(words, unit))
     axes.set_ylabel(label(_spelt(name, variable.units), shown))
+
+
+def _crowded(position: Any) -> bool:
+    """Whether positive values over more than a decade would lie on one another at the low end of a linear axis."""
+    values = np.sort(np.asarray(position, float))
+    steps = np.diff(values)
+    return bool(values[0] > 0 and values[-1] > 10 * values[0] and steps[0] < 0.05 * (values[-1] - values[0]))
 
 
 def _axis(variables: Mapping[str, Variable], dimensions: Sequence[str], keys: Sequence[str]) -> str:

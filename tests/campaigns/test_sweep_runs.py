@@ -320,3 +320,20 @@ def test_curves_have_the_speed_as_a_dimension_and_overlay_by_the_swept_value(tmp
         np.testing.assert_array_equal(
             axes.lines[0].get_xdata() / axes.lines[0].get_xdata()[0], [1, 0.05 / 0.003, 0.5 / 0.003]
         )
+
+
+@pytest.mark.parametrize(
+    ("values", "scale"),
+    [((0.003, 0.01, 0.03, 0.3), "log"), ((1.0, 4.0, 8.0, 20.0), "linear"), ((0.0, 1.0, 90.0), "linear")],
+)
+def test_values_that_crowd_at_the_low_end_lie_on_a_logarithmic_axis(values, scale):
+    from matplotlib.figure import Figure
+
+    from bem.plots.sweep import fill
+    from bem.scenes.context import Variable
+
+    along = Variable(("load",), np.array(values), "N", "load")
+    found = Variable(("load",), np.arange(float(len(values))), "1", "friction")
+    figure = Figure()
+    fill(figure, {"load": along, "friction": found}, {"load": "list"}, ("friction",))
+    assert figure.axes[0].get_xscale() == scale
