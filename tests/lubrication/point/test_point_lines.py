@@ -5,6 +5,7 @@ import pytest
 
 from bem import Lubricant, solve_point_film
 from bem.lubrication.point import lines, loops
+from bem.lubrication.point.linear import shortened
 from bem.lubrication.point.newton import balance
 
 SPACING, STORING = (0.3, 0.2), 0.7
@@ -97,3 +98,10 @@ def test_lines_are_eliminated_once_for_all_sweeps(drag, monkeypatch):
     factorise(linear.stencil, steps, problem.drag, problem.storing, near, linear.kinds, whole)
     vars(linear)["_lines"] = whole
     np.testing.assert_allclose(half, linear.relaxed(right, back=False), rtol=0, atol=1e-5 * np.abs(half).max())
+
+
+def test_derivatives_beyond_half_the_digits_are_the_most_these_hold():
+    """Oil that hardly resists, in a trial: no infinity, which the next product would make not a number."""
+    half = shortened(np.array([1.0, -2e38, 1e39, -1e300]))
+    most = np.finfo(np.float32).max
+    np.testing.assert_array_equal(half, np.array([1.0, -2e38, most, -most], np.float32))
