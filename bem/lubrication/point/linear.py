@@ -154,10 +154,9 @@ class Linear:
             supply_loops.nothing_dragged(held, stencil)
         return Linear(coarse, pressure, film, held, shortened(stencil), level.averaged(self.far), self.tail_slope)
 
-    @cached_property
-    def _factors(self) -> tuple[FloatArray, NDArray[np.int32], FloatArray]:
-        level = self.level
-        n = self.film.size
+    def dense_rows(self) -> tuple[FloatArray, FloatArray]:
+        """Derivatives of the equations with pressures and with films, (n, n) of all cells, on a grid small enough."""
+        level, n = self.level, self.film.size
         rows, by_film = np.zeros((n, n)), np.zeros((n, n))
         problem = level.problem
         loops.fill_rows(self.stencil, level.spacing, problem.drag, problem.storing, rows, by_film)
@@ -166,6 +165,12 @@ class Linear:
         index = np.flatnonzero(border)
         rows[index, index] = 1.0
         by_film[index, index] = self.far_slope.ravel()[index]
+        return rows, by_film
+
+    @cached_property
+    def _factors(self) -> tuple[FloatArray, NDArray[np.int32], FloatArray]:
+        level, n = self.level, self.film.size
+        rows, by_film = self.dense_rows()
         matrix = np.zeros((n + 1, n + 1))
         matrix[:n, :n] = rows
         deflection = level.dense_deflection

@@ -7,8 +7,10 @@ and becomes smaller with each step, so that films are reasonable from the first 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 
@@ -24,6 +26,8 @@ FORCING = (1e-3, 1e-2)
 """Least and largest share of the errors that a step's equations are solved to."""
 CYCLES = 60
 """Most of a step."""
+HISTORY = 2
+"""Steps back to the errors that one must stay below."""
 
 
 @dataclass(frozen=True)
@@ -63,10 +67,20 @@ class Balance:
     through: tuple[float, float]
 
     @property
+    def empty(self) -> BoolArray:
+        """Cells (nx, ny) whose oil has no balance."""
+        return self.linear.held
+
+    @property
+    def oil(self) -> FloatArray:
+        """Pressure of the oil (nx, ny)."""
+        return self.state.pressure
+
+    @property
     def mass(self) -> float:
         """Largest difference in oil through lines across the flow, with what leaves at the sides, over all of it."""
         level = self.linear.level
-        lost = np.where(self.linear.held | level.border, 0.0, self.right) * level.cell
+        lost = np.where(self.empty | level.border, 0.0, self.right) * level.cell
         found = float(np.abs(np.cumsum(lost.sum(axis=1))).max()) / self.through[0]
         if level.problem.drag[1] == 0 and level.problem.in_time is None:
             return found
@@ -82,13 +96,13 @@ class Balance:
         weight = 1 / (6 * self.linear.stencil[8].astype(np.float64) * carried)
         x0, x1, y0, y1 = level.problem.rectangle
         mean = level.problem.load / ((x1 - x0) * (y1 - y0))  # where there is no pressure yet
-        weight[level.border] = 1 / max(float(self.state.pressure.max()), mean)
+        weight[level.border] = 1 / max(float(self.oil.max()), mean)
         return weight
 
     @cached_property
     def wrong(self) -> FloatArray:
         """Errors of the cells (nx, ny): of free ones the balance."""
-        return np.where(self.linear.held, 0.0, self.right) * self.weight
+        return np.where(self.empty, 0.0, self.right) * self.weight
 
     @property
     def largest(self) -> float:
@@ -142,10 +156,18 @@ def own_film(level: Level, pressure: FloatArray, datum: float) -> FloatArray:
     return level.gap + level.deflection(pressure) + datum
 
 
-@np.errstate(over="ignore", invalid="ignore")  # of iterates that are refused
-def newton(level: Level, start: State, tolerance: float, most: int = 40) -> Outcome:
-    """Solve on a grid from a start with positive films."""
-    at = balance(level, start, start.film - own_film(level, start.pressure, start.datum))
+B = TypeVar("B", bound=Balance)
+
+
+def iterate(
+    at: B, step: Callable[[B, float, float], tuple[B | None, int]], tolerance: float, most: int, history: int
+) -> tuple[B, int, int, float, bool]:
+    """Steps from a balance to one within the tolerance: the last one, steps, cycles, its largest relative error, and
+    whether that is so.
+
+    step : of a balance, the share of errors that its equations are solved to, and the size its errors are to stay
+    below, the next balance, None where there is none, and cycles. history : steps back to the largest size allowed.
+    """
     steps = cycles = 0
     sizes = [at.size]
     while True:
@@ -153,17 +175,41 @@ def newton(level: Level, start: State, tolerance: float, most: int = 40) -> Outc
         converged = steps > 0 and largest <= tolerance
         if converged or steps == most or not np.isfinite(largest):
             break
-        change, spent = _change(at, float(np.clip(0.3 * tolerance / largest, *FORCING)))
-        cycles += spent
         # a meniscus moves by what is wrong at it, cell by cell: errors there are as large until it is in its place
-        wanted = max(sizes[-2:]) if level.problem.layer is None else np.inf
-        following = _improved(at, change, wanted)
+        wanted = max(sizes[-history:]) if at.linear.level.problem.layer is None else np.inf
+        following, spent = step(at, float(np.clip(0.3 * tolerance / largest, *FORCING)), wanted)
+        cycles += spent
         if following is None:
             break
         at = following
         sizes.append(at.size)
         steps += 1
-    return Outcome(at.state, steps, cycles, largest, bool(converged))
+    return at, steps, cycles, largest, bool(converged)
+
+
+def line_search(trial: Callable[[float], B], size: float) -> B | None:
+    """The longest step, of halves of a whole one, whose errors are smaller than `size`; None where there is none.
+    trial : the balance after a step of some length."""
+    length = 1.0
+    while length > SHORTEST_STEP:
+        after = trial(length)
+        if np.isfinite(after.size) and after.size < (1 - 0.05 * length) ** 2 * size:
+            return after
+        length *= 0.5
+    return None
+
+
+@np.errstate(over="ignore", invalid="ignore")  # of iterates that are refused
+def newton(level: Level, start: State, tolerance: float, most: int = 40) -> Outcome:
+    """Solve on a grid from a start with positive films."""
+    at = balance(level, start, start.film - own_film(level, start.pressure, start.datum))
+    at, steps, cycles, largest, converged = iterate(at, _step, tolerance, most, HISTORY)
+    return Outcome(at.state, steps, cycles, largest, converged)
+
+
+def _step(at: Balance, forcing: float, size: float) -> tuple[Balance | None, int]:
+    change, cycles = _change(at, forcing)
+    return _improved(at, change, size), cycles
 
 
 def _change(at: Balance, forcing: float) -> tuple[Change, int]:
@@ -186,8 +232,8 @@ def _improved(at: Balance, change: Change, size: float) -> Balance | None:
     """A step as long as errors become smaller than `size`; None where there is none."""
     level, state = at.linear.level, at.state
     film_change = level.deflection(change.pressure) + change.datum - at.mismatch
-    length = 1.0
-    while length > SHORTEST_STEP:
+
+    def trial(length: float) -> Balance:
         wanted = state.pressure + length * change.pressure
         film = state.film + length * film_change
         pressure = np.maximum(wanted, 0.0)
@@ -196,8 +242,6 @@ def _improved(at: Balance, change: Change, size: float) -> Balance | None:
         # a film that would vanish stays, as mismatch
         kept = np.maximum(film, LEAST_FILM * state.film)
         mismatch = (1 - length) * at.mismatch + (kept - film)
-        trial = balance(level, State(pressure, kept, state.datum + length * change.datum), mismatch)
-        if np.isfinite(trial.size) and trial.size < (1 - 0.05 * length) ** 2 * size:
-            return trial
-        length *= 0.5
-    return None
+        return balance(level, State(pressure, kept, state.datum + length * change.datum), mismatch)
+
+    return line_search(trial, size)

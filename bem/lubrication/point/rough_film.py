@@ -271,13 +271,13 @@ def _dry(level: Level, least: float) -> TouchingState:
     touching = (contact.pressure > 0) & ~level.border
     pressure = np.where(touching, contact.pressure, 0.0)
     film = np.where(touching, least, np.maximum(contact.gap * factor, 0.0) + least)
-    return TouchingState(pressure, 0 * pressure, film, touching, least - float(contact.approach) * factor)
+    return TouchingState(pressure, film, least - float(contact.approach) * factor, 0 * pressure, touching)
 
 
 def _lifted(level: Level, least: float, lift: float) -> TouchingState:
     start = from_dry(level, lift)
     nowhere = np.zeros(level.shape, dtype=bool)
-    return TouchingState(start.pressure, start.pressure, np.maximum(start.film, 1.01 * least), nowhere, start.datum)
+    return TouchingState(start.pressure, np.maximum(start.film, 1.01 * least), start.datum, start.pressure, nowhere)
 
 
 def _slowed(level: Level, least: float, goal: float, last: TouchingOutcome) -> tuple[TouchingOutcome, list[int]]:

@@ -8,7 +8,6 @@ film (`lines`), coarser grids do not feel the oil there.
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -16,8 +15,7 @@ from typing import Any
 import numba as nb
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import LinAlgWarning, lu_factor
-from scipy.sparse import csc_matrix, csr_matrix
+from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import SuperLU, splu
 
 from bem.grid import FloatArray
@@ -182,33 +180,10 @@ class TouchingLinear(Linear):
             touching & ~coarse.border, np.zeros(coarse.shape, dtype=bool), True,
         )  # fmt: skip
 
-    @cached_property
-    def _factors(self) -> tuple[FloatArray, NDArray[np.int32], FloatArray]:
-        level = self.level
-        n = self.film.size
-        rows, by_film = np.zeros((n, n)), np.zeros((n, n))
-        loops.fill_rows(self.stencil, level.spacing, level.problem.drag, 0.0, rows, by_film)
-        border, touching = np.flatnonzero(level.border.ravel()), np.flatnonzero(self.touching.ravel())
-        rows[:, touching] = 0.0
-        for index in (border, touching):
-            rows[index], by_film[index] = 0.0, 0.0
-        rows[border, border] = 1.0
-        by_film[border, border] = self.far_slope.ravel()[border]
+    def dense_rows(self) -> tuple[FloatArray, FloatArray]:
+        """As `Linear`; of cells that touch the film."""
+        rows, by_film = super().dense_rows()
+        touching = np.flatnonzero(self.touching.ravel())
+        rows[:, touching], rows[touching], by_film[touching] = 0.0, 0.0, 0.0
         by_film[touching, touching] = self.scale.ravel()[touching]
-        matrix = np.zeros((n + 1, n + 1))
-        matrix[:n, :n] = rows
-        deflection = level.dense_deflection
-        if deflection is not None:
-            matrix[:n, :n] += csr_matrix(by_film) @ deflection
-        matrix[:n, n] = by_film.sum(axis=1)
-        matrix[n, :n] = level.cell
-        matrix[n, n] = self.tail_slope
-        held = np.flatnonzero(self.held.ravel())
-        matrix[held] = 0.0
-        matrix[:, held] = 0.0
-        matrix[held, held] = 1.0
-        scale = np.abs(matrix).max(axis=1)
-        with warnings.catch_warnings():  # of a singular matrix: nothing finite comes of it, and `solve` sees that
-            warnings.simplefilter("ignore", LinAlgWarning)
-            factors = lu_factor(matrix / scale[:, None], check_finite=False)
-        return *factors, scale
+        return rows, by_film

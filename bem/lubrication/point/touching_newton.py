@@ -9,7 +9,6 @@ of `newton`. Which cells touch and which carry no pressure is settled with each 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.linalg import LinAlgError
@@ -18,7 +17,17 @@ from bem.grid import FloatArray
 from bem.lubrication.point import loops
 from bem.lubrication.point.levels import Level
 from bem.lubrication.point.linear import BoolArray, flows, shortened, solve
-from bem.lubrication.point.newton import CYCLES, FORCING, LEAST_FILM, SHORTEST_STEP, own_film, partly_filled
+from bem.lubrication.point.newton import (
+    CYCLES,
+    LEAST_FILM,
+    Balance,
+    Outcome,
+    State,
+    iterate,
+    line_search,
+    own_film,
+    partly_filled,
+)
 from bem.lubrication.point.touching import TouchingLinear
 
 HISTORY = 4
@@ -26,70 +35,30 @@ HISTORY = 4
 
 
 @dataclass(frozen=True)
-class TouchingState:
-    """Whole pressures and the oil's, films and cells that touch, all (nx, ny); H0. Films are the least one where cells
-    touch, the oil's pressure is the whole one where they do not."""
+class TouchingState(State):
+    """Whole pressures, films and H0, as `State`; the oil's pressures and cells that touch, (nx, ny). Films are the
+    least one where cells touch, the oil's pressure is the whole one where they do not."""
 
-    pressure: FloatArray
     oil: FloatArray
-    film: FloatArray
     touching: BoolArray
-    datum: float
 
 
 @dataclass(frozen=True)
-class TouchingBalance:
-    """What the equations leave of a state, as `newton.Balance`; right : balances of the oil."""
+class TouchingBalance(Balance):
+    """As `Balance`; right : balances of the oil."""
 
     state: TouchingState
-    mismatch: FloatArray
-    right: FloatArray
-    load: float
     linear: TouchingLinear
-    through: tuple[float, float]
 
     @property
     def empty(self) -> BoolArray:
-        """Cells whose oil has no pressure and no balance."""
+        """Cells (nx, ny) whose oil has no pressure and no balance."""
         return self.linear.held | self.linear.dry
 
     @property
-    def mass(self) -> float:
-        """Largest difference in oil through lines across the flow, with what leaves at the sides, over all of it."""
-        level = self.linear.level
-        lost = np.where(self.empty | level.border, 0.0, self.right) * level.cell
-        found = float(np.abs(np.cumsum(lost.sum(axis=1))).max()) / self.through[0]
-        if level.problem.drag[1] == 0:
-            return found
-        return max(found, float(np.abs(np.cumsum(lost.sum(axis=0))).max()) / self.through[1])
-
-    @cached_property
-    def weight(self) -> FloatArray:
-        """From balances to shares of what is dragged along locally."""
-        level, linear = self.linear.level, self.linear
-        weight = 1 / (linear.scale * self.state.film)
-        x0, x1, y0, y1 = level.problem.rectangle
-        mean = level.problem.load / ((x1 - x0) * (y1 - y0))
-        weight[level.border] = 1 / max(float(self.state.oil.max()), mean)
-        return weight
-
-    @cached_property
-    def wrong(self) -> FloatArray:
-        """Errors of the balances (nx, ny)."""
-        return np.where(self.empty, 0.0, self.right) * self.weight
-
-    @property
-    def largest(self) -> float:
-        """Largest relative error of balances, mass, load and films."""
-        load = abs(self.load) / self.linear.level.problem.load
-        films = np.abs(self.mismatch / self.state.film).max()
-        return float(max(np.abs(self.wrong).max(), self.mass, load, films))
-
-    @property
-    def size(self) -> float:
-        """What a step must reduce: mean squares of the errors."""
-        load = self.load / self.linear.level.problem.load
-        return float((self.wrong**2).mean() + ((self.mismatch / self.state.film) ** 2).mean()) + load**2
+    def oil(self) -> FloatArray:
+        """Pressure of the oil (nx, ny)."""
+        return self.state.oil
 
 
 def balance(level: Level, state: TouchingState, mismatch: FloatArray) -> TouchingBalance:
@@ -109,7 +78,8 @@ def balance(level: Level, state: TouchingState, mismatch: FloatArray) -> Touchin
     dry, held = empty & state.touching, empty & ~state.touching
     half = shortened(stencil)
     linear = TouchingLinear(level, state.oil, state.film, held, half, far, tail_slope, state.touching, dry)
-    return TouchingBalance(state, mismatch, out, load, linear, (max(first, 1e-300), max(second, 1e-300)))
+    through = max(first, 1e-300), max(second, 1e-300)
+    return TouchingBalance(state, mismatch, out, load, linear, through)
 
 
 def _torn(level: Level, state: TouchingState, flow: FloatArray, stencil: FloatArray, full: BoolArray) -> BoolArray:
@@ -123,14 +93,10 @@ def _torn(level: Level, state: TouchingState, flow: FloatArray, stencil: FloatAr
 
 
 @dataclass(frozen=True)
-class TouchingOutcome:
-    """State, Newton steps, multigrid cycles, largest relative error, and whether the tolerance was met."""
+class TouchingOutcome(Outcome):
+    """As `Outcome`."""
 
     state: TouchingState
-    steps: int
-    cycles: int
-    residual: float
-    converged: bool
 
 
 @dataclass(frozen=True)
@@ -147,26 +113,16 @@ class TouchingChange:
 def newton(level: Level, start: TouchingState, least: float, tolerance: float, most: int = 60) -> TouchingOutcome:
     """Solve on a grid from a start, with a least film in its unit."""
     at = balance(level, start, start.film - own_film(level, start.pressure, start.datum))
-    steps = cycles = 0
-    sizes = [at.size]
-    while True:
-        largest = at.largest
-        converged = steps > 0 and largest <= tolerance
-        if converged or steps == most or not np.isfinite(largest):
-            break
+
+    def step(at: TouchingBalance, forcing: float, size: float) -> tuple[TouchingBalance | None, int]:
         try:
-            change, spent = _change(at, float(np.clip(0.3 * tolerance / largest, *FORCING)))
+            change, cycles = _change(at, forcing)
         except (RuntimeError, LinAlgError):  # a singular matrix: nothing more can be done from here
-            break
-        cycles += spent
-        wanted = max(sizes[-HISTORY:]) if level.problem.layer is None else np.inf
-        following = _improved(at, change, least, wanted)
-        if following is None:
-            break
-        at = following
-        sizes.append(at.size)
-        steps += 1
-    return TouchingOutcome(at.state, steps, cycles, largest, bool(converged))
+            return None, 0
+        return line_search(lambda length: _stepped(at, change, least, length), size), cycles
+
+    at, steps, cycles, largest, converged = iterate(at, step, tolerance, most, HISTORY)
+    return TouchingOutcome(at.state, steps, cycles, largest, converged)
 
 
 def _change(at: TouchingBalance, forcing: float) -> tuple[TouchingChange, int]:
@@ -195,17 +151,6 @@ def _change(at: TouchingBalance, forcing: float) -> tuple[TouchingChange, int]:
     return TouchingChange(pressure, oil, film_change, solved.change.datum), solved.cycles
 
 
-def _improved(at: TouchingBalance, change: TouchingChange, least: float, size: float) -> TouchingBalance | None:
-    """A step as long as errors become smaller than `size`; None where there is none."""
-    length = 1.0
-    while length > SHORTEST_STEP:
-        trial = _stepped(at, change, least, length)
-        if np.isfinite(trial.size) and trial.size < (1 - 0.05 * length) ** 2 * size:
-            return trial
-        length *= 0.5
-    return None
-
-
 def _stepped(at: TouchingBalance, change: TouchingChange, least: float, length: float) -> TouchingBalance:
     """The state after a step, with what touches then."""
     level, state = at.linear.level, at.state
@@ -222,5 +167,5 @@ def _stepped(at: TouchingBalance, change: TouchingChange, least: float, length: 
     touching = (stays | (kept <= least)) & ~level.border & ~left
     kept = np.where(touching, least, kept)
     mismatch = (1 - length) * at.mismatch + (kept - film)
-    after = TouchingState(pressure, oil, kept, touching, state.datum + length * change.datum)
+    after = TouchingState(pressure, kept, state.datum + length * change.datum, oil, touching)
     return balance(level, after, mismatch)
