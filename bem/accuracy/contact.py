@@ -211,6 +211,8 @@ def contact_bars(case: ContactCase, coarser: Coarser) -> ErrorBars:
     sharp = is_sharp(case.undeformed, case.solution.pressure, case.grid)
     if sharp and case.hardness is not None:  # the cap is the limit, which finer cells would come to
         grid["max_pressure"] = max(case.hardness - fine["max_pressure"], 0.0)
+    if fine["plastic_area_fraction"] > grid["plastic_area_fraction"]:  # some of it is at the hardness, beyond doubt
+        grid["max_pressure"] = 0.0
     bars = ErrorBars.together({GRID: grid | dict.fromkeys(given, 0.0), RESIDUAL: algebraic})
     return bars.without("max_pressure", _SHARP) if sharp and case.hardness is None else bars
 

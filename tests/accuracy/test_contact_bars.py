@@ -221,3 +221,14 @@ def test_a_contact_of_one_or_two_cells_has_no_bars(load, known):
     bars = contact_bars(case, coarser).values
     assert (bars["max_pressure"] is not None) == known
     assert ("one or two cells wide" in coarser.why) != known
+
+
+@pytest.mark.parametrize(("share", "known"), [(0.5, True), (1.0005, False)])
+def test_the_highest_pressure_is_the_hardness_where_more_than_the_bar_is_at_it(share, known):
+    """Its bar was that of a pressure that follows the edge of contact, of what is known exactly."""
+    free = ball(64)
+    hardness = share * float(free.solution.pressure.max())
+    case = case_of(free.undeformed, free.grid, load=1.0, hardness=hardness)
+    bars, found = contact_bars(case, solve_coarser(case)), figures_of(case.solution, case.grid.area)
+    assert (found["plastic_area_fraction"] > bars.values["plastic_area_fraction"]) is known
+    assert (bars.values["max_pressure"] < 1e-6 * hardness) is known

@@ -120,6 +120,10 @@ def test_the_plan_names_what_is_computed():
         ({"lower": ROUGH}, "both surfaces are rough"),
         ({"rolling": {"mean_speed": "5 mm/s", "slide_roll_ratio": 1}}, "the rough body moves"),
         ({"rolling": {"mean_speed": "5 mm/s", "slide_roll_ratio": -2}}, "the rough body moves"),
+        (
+            {"rolling": {"mean_speed": "5 mm/s", "slide_roll_ratio": 2, "direction": "30 deg"}},
+            "at an angle to the axes",
+        ),
         ({"supply": {"layer": "100 nm"}}, "supply of a rough body"),
         ({"roughness": "40 nm"}, "roughness beside"),
         ({"patch": None}, "without a patch"),

@@ -45,6 +45,11 @@ class BallRollingScene(Table):
     direction: Angle = 0.0
 
     @property
+    def at_an_angle(self) -> bool:
+        """Whether a body moves along neither axis."""
+        return any(all(speed) for speed in self.speeds)
+
+    @property
     def speeds(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Of flat and ball along x and y [m/s]."""
         # along an axis to rounding is along it
