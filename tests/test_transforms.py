@@ -316,3 +316,18 @@ def test_lengths_that_hold_no_field_are_refused():
         transforms.transform_of((6, 8), (12, 8), lengths=(12, 12, 8, 5, 6))
     with pytest.raises(InputError, match="must be 5, from 6 to 12"):
         transforms.transform_of((6, 8), (12, 8), lengths=(12, 12, 8))
+
+
+def test_both_precisions_take_turns_in_one_buffer():
+    shape, padded = (48, 131), (96, 270)
+    double, single = transforms.transform_of(shape, padded), transforms.transform_of(shape, padded, np.float32)
+    assert single is transforms.transform_of(shape, padded, np.float32)
+    assert np.shares_memory(double.room.half, single.room.half)
+    assert double.nbytes > 0
+    assert single.nbytes == 0
+    alone = transforms.PaddedTransform(shape, padded, np.float32)
+    field = np.random.default_rng(0).random(shape)
+    spectrum, narrow = double.forward(field), single.forward(field.astype(np.float32))
+    np.testing.assert_array_equal(narrow, alone.forward(field.astype(np.float32)))
+    np.testing.assert_allclose(double.inverse(spectrum), field, atol=1e-14)
+    np.testing.assert_array_equal(single.inverse(narrow), alone.inverse(narrow))

@@ -36,7 +36,7 @@ from bem.contact.controls import ApproachControl, LoadControl
 from bem.contact.energy import Accepted, best_share, lowest_point
 from bem.contact.face import Opening, solve_on_cells, take_in
 from bem.contact.feasible import between, clip, first_pressure, gradient_step, lift
-from bem.contact.level import Effort, Iterate, Level, LevelResult, Tolerance, Tuning
+from bem.contact.level import Begin, Effort, Iterate, Level, LevelResult, Tolerance, Tuning
 from bem.convolution import DisplacementOperator
 
 FloatArray = NDArray[np.float64]
@@ -54,7 +54,7 @@ def solve_level(
     gap: FloatArray,
     control: Control,
     cap: float,
-    start: FloatArray | None,
+    start: Begin,
     tolerance: Tolerance,
     effort: Effort,
     tuning: Tuning,

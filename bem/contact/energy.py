@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bem.contact import passes
 from bem.contact.controls import ApproachControl, LoadControl
-from bem.contact.feasible import everywhere
+from bem.contact.feasible import everywhere, held
 from bem.contact.level import Iterate, Level
 from bem.contact.passes import Survey
 
@@ -82,9 +82,7 @@ def lowest_point(level: Level, before: Accepted, iterate: Iterate, now: Survey) 
     full[iterate.capped] += share * level.cap
     # a cell at the cap at both ends must stay there whatever the rounding
     full[np.intersect1d(before.iterate.capped, iterate.capped, assume_unique=True)] = level.cap
-    capped = np.flatnonzero(full >= level.cap)
-    inside = np.flatnonzero((full > 0) & (full < level.cap))
-    return Iterate(inside, full[inside], capped)
+    return held(full, level.cap)
 
 
 def _work(level: Level, iterate: Iterate) -> float:

@@ -59,7 +59,9 @@ def solve_on_cells(
     if balance is None:
         return pressure
     tuning = level.tuning
-    quick_in, quick_out = level.flat["quick_in"], level.flat["quick_out"]
+    given, found = level.quick_fields
+    given.fill(0.0)
+    quick_in, quick_out = given.reshape(-1), found.reshape(-1)
     n = cells.size
     direction, preconditioned, response, previous = np.zeros(n), np.empty(n), np.empty(n), np.zeros(n)
     state, way = (pressure, residual, previous), (direction, response)
@@ -78,7 +80,7 @@ def solve_on_cells(
             pressure = response
             break
         slope = gradients.new_direction(direction, preconditioned, beta, cells, quick_in, residual)
-        level.quick.apply(level.quick_in, level.quick_out)
+        level.quick.apply(given, found)
         mean, curvature = gradients.gather_dot(quick_out, cells, response, direction)
         if not curvature > 0:
             break
@@ -90,7 +92,6 @@ def solve_on_cells(
         # clipping will bring back a residual of about this size: no use in going far below it
         if squares <= enough and largest <= tuning.clipping * level.self_response * outside:
             break
-    passes.clear(quick_in, cells)
     return pressure
 
 

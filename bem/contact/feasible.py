@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from bem.contact import passes
 from bem.contact.controls import ApproachControl, LoadControl
-from bem.contact.level import Iterate, Level
+from bem.contact.level import Begin, Iterate, Level
 
 FloatArray = NDArray[np.float64]
 Control = LoadControl | ApproachControl
@@ -18,7 +18,13 @@ _REGION = 8
 """Cells along a region that keeps its load where pressures are clipped; 4 to 16 count alike."""
 
 
-def first_pressure(level: Level, control: Control, start: FloatArray | None) -> Iterate:
+def held(pressure: FloatArray, cap: float) -> Iterate:
+    """A pressure within the bounds, without its zeros; its array may go."""
+    inside = np.flatnonzero((pressure > 0) & (pressure < cap))
+    return Iterate(inside, pressure[inside], np.flatnonzero(pressure >= cap))
+
+
+def first_pressure(level: Level, control: Control, start: Begin) -> Iterate:
     """A feasible pressure to begin with."""
     cells = level.gap.size
     nothing = np.empty(0, np.int64)
@@ -27,11 +33,9 @@ def first_pressure(level: Level, control: Control, start: FloatArray | None) -> 
             return Iterate(np.arange(cells), np.full(cells, control.force / cells), nothing)
         overlapping = np.flatnonzero(level.gap < control.approach)
         return Iterate(overlapping, np.zeros(overlapping.size), nothing)
-    capped = np.flatnonzero(start >= level.cap)
-    inside = np.flatnonzero((start > 0) & (start < level.cap))
-    iterate = Iterate(inside, start[inside].copy(), capped)
+    iterate = start if isinstance(start, Iterate) else held(start, level.cap)
     if isinstance(control, LoadControl):
-        if inside.size == 0 and capped.size == 0:
+        if iterate.cells.size == 0 and iterate.capped.size == 0:
             return first_pressure(level, control, None)
         return restore_load(level, control, iterate, iterate.values)
     return iterate
@@ -129,9 +133,7 @@ def project(level: Level, control: Control, raw: FloatArray) -> Iterate:
         values = shifted(raw, control.force, level.cap if math.isfinite(level.cap) else control.force)
     else:
         values = np.clip(raw, 0.0, level.cap)
-    capped = np.flatnonzero(values >= level.cap)
-    inside = np.flatnonzero((values > 0) & (values < level.cap))
-    return Iterate(inside, values[inside], capped)
+    return held(values, level.cap)
 
 
 def between(level: Level, control: Control, old: Iterate, new: Iterate, share: float) -> Iterate:

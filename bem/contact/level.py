@@ -92,6 +92,10 @@ class Iterate:
     capped: Indices
 
 
+Begin = FloatArray | Iterate | None
+"""What a level begins with: a pressure everywhere, or without its zeros; None for none."""
+
+
 @dataclass(slots=True)
 class Stride:
     """Steps along the preconditioned residual that cost no convolution: their length, and whether they still help."""
@@ -108,6 +112,12 @@ class Stride:
         self.taken, self.before = False, violation
 
 
+def _halves(field: FloatArray) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Two fields of single precision in the memory of one of double."""
+    both = field.reshape(-1).view(np.float32).reshape(2, *field.shape)
+    return both[0], both[1]
+
+
 class Level:
     """Operator, buffers and gap of one grid."""
 
@@ -119,13 +129,13 @@ class Level:
         self.cap = cap
         self.tuning = tuning
         self.state = np.zeros(gap.size, np.uint8)
-        self.pressure = self.exact.transform.zeros_field()
         self.displacement = self.exact.transform.empty_field()
         self.before = self.exact.transform.empty_field()
-        self.quick_in = self.quick.transform.zeros_field()
-        self.quick_out = self.quick.transform.empty_field()
-        names = ("pressure", "displacement", "before", "quick_in", "quick_out")
+        names = ("displacement", "before")
         self.flat: dict[str, NDArray[Any]] = {name: getattr(self, name).reshape(-1) for name in names}
+        # what the quick operator takes and gives is where the displacement before is: nobody asks for that between the
+        # end of one round and the beginning of the next
+        self.quick_fields, self._other_fields = _halves(self.before), _halves(self.displacement)
         self.kept = False
         self.self_response = float(operator.near_field(0)[0, 0])
         self.stride = Stride()
@@ -142,11 +152,8 @@ class Level:
 
     def displace(self, iterate: Iterate) -> None:
         """Write the displacement of a pressure into the buffer."""
-        pressure = self.flat["pressure"]
-        passes.place(pressure, iterate.cells, iterate.values, iterate.capped, self.cap)
-        self.exact.apply(self.pressure, self.displacement)
-        passes.clear(pressure, iterate.cells)
-        passes.clear(pressure, iterate.capped)
+        passes.place(self.flat["displacement"], iterate.cells, iterate.values, iterate.capped, self.cap)
+        self.exact.apply(self.displacement, self.displacement)
 
     def keep(self) -> None:
         """Make the displacement the one before, once a round; the next takes the other's buffer."""
@@ -155,6 +162,7 @@ class Level:
         self.kept = True
         self.displacement, self.before = self.before, self.displacement
         self.flat["displacement"], self.flat["before"] = self.flat["before"], self.flat["displacement"]
+        self.quick_fields, self._other_fields = self._other_fields, self.quick_fields
 
     def mark(self, iterate: Iterate) -> None:
         """Note the state of every cell."""
@@ -206,6 +214,6 @@ class Level:
 
     def result(self, iterate: Iterate, approach: float, violation: float, *, fresh: bool) -> LevelResult:
         """A pressure with the displacement in the buffer, handed over: the level is done with its buffers."""
-        pressure = self.flat["pressure"]
+        pressure = self.flat["before"]
         passes.place(pressure, iterate.cells, iterate.values, iterate.capped, self.cap)
         return LevelResult(pressure, self.flat["displacement"], approach, violation, fresh=fresh)

@@ -14,10 +14,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.contact import passes
 from bem.contact.active_set import solve_level
 from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl
 from bem.contact.least_gap import least_gap
-from bem.contact.level import Effort, LevelResult, Tolerance, Tuning
+from bem.contact.level import Begin, Effort, Iterate, LevelResult, Tolerance, Tuning
 from bem.contact.search import approach_by_load, mean_gap_by_approach, mean_gap_by_load, mean_opening
 from bem.convolution import DisplacementOperator
 
@@ -66,17 +67,17 @@ class Problem:
     cap: float
     report: Report | None = None
 
-    def level(self, control: Direct, start: FloatArray | None, allowed: Tolerance, tuning: Tuning) -> LevelResult:
+    def level(self, control: Direct, start: Begin, allowed: Tolerance, tuning: Tuning) -> LevelResult:
         """Rounds on this grid."""
         effort = self.shared.effort
         return solve_level(self.operator, self.gap, control, self.cap, start, allowed, effort, tuning, self.report)
 
-    def plain(self, control: Direct, start: FloatArray | None, tolerance: float) -> LevelResult:
+    def plain(self, control: Direct, start: Begin, tolerance: float) -> LevelResult:
         """Load or approach, from a start, without what is done where that fails."""
         tuning = self.shared.tuning if self.operator.symmetric else replace(self.shared.tuning, stall=25)
         return self.level(control, start, self.shared.allowed(tolerance), tuning)
 
-    def direct(self, control: Direct, start: FloatArray | None, tolerance: float) -> LevelResult:
+    def direct(self, control: Direct, start: Begin, tolerance: float) -> LevelResult:
         """Load or approach, from a start; see `search.Solve`."""
         shared, allowed = self.shared, self.shared.allowed(tolerance)
         result = self.plain(control, start, tolerance)
@@ -98,7 +99,7 @@ class Problem:
 class Start:
     """Pressure (flat) and approach to begin with."""
 
-    pressure: FloatArray | None
+    pressure: Begin
     approach: float
 
 
@@ -186,7 +187,7 @@ class _Change:
         self.last = coupling
 
 
-def _lagged(problem: Problem, control: Direct, start: FloatArray | None, allowed: Tolerance) -> LevelResult:
+def _lagged(problem: Problem, control: Direct, start: Begin, allowed: Tolerance) -> LevelResult:
     """Friction's part of the displacement taken from the last pressure, over and over: each contact is then without it.
 
     Slower than friction in every round, but it gets there where the rounds swing: what friction adds varies less from
@@ -194,7 +195,7 @@ def _lagged(problem: Problem, control: Direct, start: FloatArray | None, allowed
     """
     operator, alone, shape = problem.operator, problem.operator.frictionless, problem.operator.grid.shape
     displacement, part = np.empty(shape), np.empty(shape)
-    pressure = np.zeros(problem.gap.size) if start is None else start
+    pressure = _everywhere(problem, start)
     change = _Change()
     result: LevelResult | None = None
     for _ in range(_LAGS):
@@ -219,6 +220,15 @@ def _lagged(problem: Problem, control: Direct, start: FloatArray | None, allowed
         pressure = start = result.pressure
     assert result is not None
     return replace(result, converged=False, fresh=False)
+
+
+def _everywhere(problem: Problem, start: Begin) -> FloatArray:
+    """What a grid begins with as a field."""
+    if not isinstance(start, Iterate):
+        return np.zeros(problem.gap.size) if start is None else start
+    full = np.empty(problem.gap.size)
+    passes.place(full, start.cells, start.values, start.capped, problem.cap)
+    return full
 
 
 def without_contact(control: Control, gap: FloatArray) -> LevelResult | None:

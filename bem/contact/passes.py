@@ -219,18 +219,12 @@ def _work(start, stop, result, displacement, gap, cells, values):  # type: ignor
 
 @_fast
 def place(field, cells, values, capped, cap):  # type: ignore[no-untyped-def]
-    """field[cells] = values, field[capped] = cap."""
+    """field[cells] = values, field[capped] = cap, zero elsewhere."""
+    field[:] = 0
     for k in range(cells.size):
         field[cells[k]] = values[k]
     for k in range(capped.size):
         field[capped[k]] = cap
-
-
-@_fast
-def clear(field, cells):  # type: ignore[no-untyped-def]
-    """field[cells] = 0."""
-    for k in range(cells.size):
-        field[cells[k]] = 0
 
 
 @_fast

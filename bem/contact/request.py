@@ -16,6 +16,13 @@ from bem.errors import InfeasibleError, InputError
 FloatArray = NDArray[np.float64]
 
 
+LARGE = 1 << 22
+"""Cells from which on a gap is not copied where that can be helped."""
+
+_FAR = 1e-15
+"""Lengths [m] below this, or above its inverse, get near to what single precision can hold beside their errors."""
+
+
 @dataclass(frozen=True)
 class Request:
     """What was asked for, in SI units: gap (nx, ny), one of three quantities, the cap (infinite for none)."""
@@ -66,8 +73,11 @@ class Units:
 
     @classmethod
     def of(cls, request: Request, roughness: float, datum: float) -> Units:
-        """A power of two [m] near the roughness, or near the displacement to come where the gap is flat."""
+        """A power of two [m] near the roughness, or near the displacement to come where the gap is flat; one where a
+        large gap is zero at its lowest, so that it need not be copied: the same but for round-off."""
         length = _length_unit(request, roughness, datum)
+        if request.gap.size >= LARGE and datum == 0.0 and _FAR < length < 1 / _FAR:
+            length = 1.0
         return cls(length, length / request.operator.unit, datum)
 
     def control(self, request: Request) -> Control:

@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact.controls import ApproachControl, LoadControl
-from bem.contact.level import LevelResult
+from bem.contact.level import Begin, LevelResult
 
 FloatArray = NDArray[np.float64]
-Solve = Callable[[ApproachControl | LoadControl, FloatArray | None, float], LevelResult]
+Solve = Callable[[ApproachControl | LoadControl, Begin, float], LevelResult]
 
 _CLOSE = 0.05
 """Share of what is still missing that a solution need be precise to."""
@@ -40,7 +40,7 @@ def mean_opening(gap: FloatArray, result: LevelResult) -> float:
 def mean_gap_by_approach(
     mean_gap: float,
     gap: FloatArray,
-    start: FloatArray | None,
+    start: Begin,
     scale: float,
     tolerance: float,
     solve: Solve,
@@ -116,9 +116,7 @@ class _Quest:
     patient: bool = True
 
 
-def _search(
-    quest: _Quest, x: float, bracket: tuple[float, float], step: float, start: FloatArray | None
-) -> LevelResult:
+def _search(quest: _Quest, x: float, bracket: tuple[float, float], step: float, start: Begin) -> LevelResult:
     """Zero of an excess that rises with x, from a pressure; `step` is a first step of x."""
     tolerance, (low, high) = quest.tolerance, bracket
     precision = max(tolerance, 0.03 * quest.length)

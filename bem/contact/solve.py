@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from bem.contact import cascade, passes
 from bem.contact.certificate import certify, elastic_length, is_flat
 from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl
+from bem.contact.feasible import held
 from bem.contact.level import Effort, LevelResult
 from bem.contact.one_grid import (
     COARSE_TOLERANCE,
@@ -90,9 +91,13 @@ def solve_contact(  # reason: a promise to users' scripts, each of them a choice
     units = Units.of(request, roughness, datum)
     rough = roughness / units.length
     shared = Shared(_TIGHTER * tolerance * rough if rough > 0 else tolerance, rough, Effort(max_iterations))
-    scaled = np.empty(operator.grid.cells)
-    passes.rescale(request.gap.reshape(-1), datum, 1 / units.length, scaled)
-    problem = Problem(shared, operator, scaled, request.cap / units.pressure, _report(callback, shared, operator))
+    problem = Problem(
+        shared,
+        operator,
+        _scaled(request.gap.reshape(-1), units),
+        request.cap / units.pressure,
+        _report(callback, shared, operator),
+    )
     start = None if initial_pressure is None else initial_pressure.reshape(-1) / units.pressure
     flat = is_flat(roughness, elastic_length(request))
     result = _solution(problem, units.control(request), start, flat=flat)
@@ -105,6 +110,15 @@ def solve_contact(  # reason: a promise to users' scripts, each of them a choice
         iterations=shared.effort.iterations,
         convolutions_before=before,
     )
+
+
+def _scaled(gap: FloatArray, units: Units) -> FloatArray:
+    """The gap (flat) in the solver's units, lowest at zero: not copied where those are its own."""
+    if units.datum == 0.0 and units.length == 1.0:
+        return gap
+    scaled = np.empty(gap.size)
+    passes.rescale(gap, units.datum, 1 / units.length, scaled)
+    return scaled
 
 
 def _solution(problem: Problem, control: Control, start: FloatArray | None, *, flat: bool) -> LevelResult:
@@ -182,7 +196,7 @@ def _from_coarser(problem: Problem, control: Control) -> Start:
         periodic,
     )
     fine /= factor
-    return Start(fine.reshape(-1), result.approach)
+    return Start(held(fine.reshape(-1), problem.cap), result.approach)
 
 
 def _on_coarser(control: Control, fine: Problem, coarse: Problem, factor: float) -> Control:

@@ -116,8 +116,9 @@ def contact(grid: Grid, why: str, *, capped: bool = False) -> Step:
         why,
         transforms=CONVOLUTION * convolutions(grid, capped),
         points=points,
-        # measured from 2048 to 4096 cells: fields of the solver and of its coarser grids, spectra and buffers
-        memory=_LIBRARIES + 8.0 * grid.cells * 9.5 + 20.0 * points,
+        # measured from 2048 to 4096 cells without the gap: fields of the solver and of its coarser grids, 190 bytes of
+        # every cell in contact (an eighth of all is planned for); buffers of transforms and spectra
+        memory=_LIBRARIES + 8.0 * grid.cells * 6.0 + 12.0 * points,
         kept=_LIBRARIES + 8.0 * grid.cells * 4.2 + 8.0 * points,
         seconds=1.0,
         precision=SEARCHED_IN_SINGLE,

@@ -35,7 +35,8 @@ def transform_of(
     if lengths is not None and not (len(lengths) == waves and shape[0] <= min(lengths) <= max(lengths) <= padded[0]):
         raise InputError(f"transform_of: lengths {lengths!r} must be {waves}, from {shape[0]} to {padded[0]}")
     shapes = (int(shape[0]), int(shape[1])), (int(padded[0]), int(padded[1]))
-    return _CACHE.of((*shapes, kind.char, lengths), lambda: PaddedTransform(*shapes, kind, lengths))
+    found = _CACHE.of((*shapes, lengths), lambda: PaddedTransform(*shapes, np.float64, lengths))
+    return found if kind == np.float64 else found.single
 
 
 def set_transform_memory(limit: int) -> None:

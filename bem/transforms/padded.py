@@ -57,6 +57,7 @@ def _blocks_of_columns(lengths: Sequence[int], largest: int) -> NDArray[np.int64
 class PaddedTransform:
     """Transforms of fields of one shape, padded with zeros to another, in one precision. Get it from `transform_of`.
 
+    beside : the same transform in double precision, of which this is the `single`: the two take turns in its buffer.
     lengths : of the transforms along x, for each wavenumber along y, where not all are padded alike (`narrow`). Of a
         spectrum's row (px,) only the first so many numbers mean something then, and of a multiplier's half of them.
     """
@@ -67,6 +68,7 @@ class PaddedTransform:
         padded: tuple[int, int],
         dtype: DTypeLike = np.float64,
         lengths: tuple[int, ...] | None = None,
+        beside: PaddedTransform | None = None,
     ) -> None:
         self.shape = shape
         self.padded = padded
@@ -86,14 +88,15 @@ class PaddedTransform:
         self._ends: list[int] = columns.tolist()
         """Columns in the first so many blocks, none first; and below how many numbers they are together."""
         self._numbers = [0, *np.cumsum(np.diff(columns) * [given[start] for start in columns[:-1]]).tolist()]
-        self.lock = threading.RLock()
+        self.lock: Any = threading.RLock() if beside is None else beside.lock
         self._unit = unit_factor(self.dtype)
         self._scratch: list[Scratch] = []
         self._prepared = 0
-        half = pyfftw.empty_aligned((self.spectrum_shape[0], self._half_stride), self.complex_dtype, n=ALIGNMENT)
+        half = self._half_way(beside)
         block_lengths = np.array([given[start] for start in columns[:-1]], np.int64)
-        self.nbytes = int(half.nbytes)
-        """Memory of buffers."""
+        self.nbytes = int(half.nbytes) if beside is None else 0
+        """Memory of buffers, those of `single` included."""
+        self._beside, self._lengths = beside, lengths
         self.room = Room(
             nx=shape[0],
             ny=shape[1],
@@ -111,6 +114,18 @@ class PaddedTransform:
             scales=(1.0 / (block_lengths * padded[1])).astype(self.dtype),
             half=half,
         )
+
+    @cached_property
+    def single(self) -> PaddedTransform:
+        """The same transform in single precision; no buffer more than this one's."""
+        return PaddedTransform(self.shape, self.padded, np.float32, self._lengths, self)
+
+    def _half_way(self, beside: PaddedTransform | None) -> ComplexArray:
+        """The array between rows and columns: its own, or the memory of another's, which is larger."""
+        shape = (self.spectrum_shape[0], self._half_stride)
+        if beside is None:
+            return cast(ComplexArray, pyfftw.empty_aligned(shape, self.complex_dtype, n=ALIGNMENT))
+        return beside.room.half.reshape(-1).view(self.complex_dtype)[: shape[0] * shape[1]].reshape(shape)
 
     def empty_spectrum(self) -> ComplexArray:
         """An uninitialised array for a spectrum, aligned and strided so that no copy is needed."""
@@ -289,7 +304,7 @@ class PaddedTransform:
             if not self._scratch:
                 self._plan(scratch)
             self._scratch.append(scratch)
-            self.nbytes += sum(array.nbytes for array in scratch)
+            (self._beside or self).nbytes += sum(array.nbytes for array in scratch)
         self._prepared = len(self._scratch)
 
     def _plan(self, scratch: Scratch) -> None:

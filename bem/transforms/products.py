@@ -74,7 +74,8 @@ def multiplier(parts: list[tuple[FloatArray, tuple[int, int], float]]) -> Multip
     parities = [1, -1]
     for spectrum, (along_x, along_y), factor in parts:
         odd = (along_x == -1) + (along_y == -1)
-        term = (-factor if odd == 2 else factor) * spectrum
+        sign = -factor if odd == 2 else factor
+        term = spectrum if sign == 1 else sign * spectrum  # large: taken as it is where it may be
         previous = imaginary if odd == 1 else real
         if previous is not None and parities[odd % 2] != along_x:
             raise InputError("multiplier: parts of different parity along x cannot share one quarter array")

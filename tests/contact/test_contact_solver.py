@@ -12,9 +12,9 @@ import pytest
 from contact_oracles import FREE, HALF_Y, PERIODIC, body, notes_surface, operator, rough
 
 from bem import threads
-from bem.contact import face, feasible, passes, solve_contact
+from bem.contact import face, feasible, passes, request, solve_contact
 from bem.convolution import displacement_operator
-from bem.errors import InfeasibleError, InputError
+from bem.errors import InfeasibleError, InputError, Status
 from bem.grid import Grid
 from bem.kernels.coefficients import Load, surface_coefficients
 
@@ -293,3 +293,18 @@ def test_regions_that_keep_their_load_save_convolutions_and_leave_the_answer(mon
     assert kept.convolutions <= 21  # the most over five seeds is 17.5
     assert kept.convolutions < 0.7 * moved.convolutions
     assert np.abs(kept.pressure - moved.pressure).max() <= 1e-5 * moved.pressure.max()  # both certified to 1e-8
+
+
+def test_a_large_gap_that_touches_zero_is_not_copied(monkeypatch):
+    """Its scale is a power of two, so only round-off differs; and the user's gap stays as it is."""
+    gap = -notes_surface(128)
+    gap -= gap.min()
+    before, op = gap.copy(), operator((128, 128), (1 / 128, 1 / 128), PERIODIC)
+    copied = solve_contact(gap, op, load=0.0035)
+    monkeypatch.setattr(request, "LARGE", 1)
+    monkeypatch.delattr(passes, "rescale")
+    taken = solve_contact(gap, op, load=0.0035)
+    assert taken.status is copied.status is Status.CONVERGED
+    np.testing.assert_array_equal(gap, before)
+    assert taken.convolutions == copied.convolutions
+    np.testing.assert_allclose(taken.pressure, copied.pressure, rtol=0, atol=1e-7 * copied.pressure.max())

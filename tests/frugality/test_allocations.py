@@ -88,3 +88,19 @@ def test_a_contact_solve_holds_a_bounded_number_of_fields():
     # pressure, displacement, gap of the result and of each grid (a third more), the scaled gap, states, a few on the
     # cells in contact
     assert fields < 14
+
+
+@pytest.mark.parametrize("periodic", [(False, False), (True, True)])
+def test_a_contact_takes_less_than_52_bytes_a_cell_besides_its_gap(periodic):
+    """Displacement and the one before (8 each, the search's fields in the second), state and number of each cell (5),
+    results, what coarser grids take (a third), and 190 bytes a cell in contact; buffers of transforms (8 bytes, 16 with
+    padding) and spectra stay from one contact to the next. 16384 x 16384 cells with a surface are to fit in 20 GB."""
+    cells = 512
+    grid = Grid((cells, cells), (1e-3 / cells, 1e-3 / cells), periodic=periodic)
+    operator = displacement_operator(grid, STEEL)
+    waves = {"hurst": 0.8, "rolloff_wavelength": 2.5e-4, "cutoff_wavelength": 8e-6}
+    heights = generate_surface(grid, rms_height=1e-6, seed=3, **waves)
+    gap = heights.max() - heights
+    solution = solve_contact(gap, operator, load=500.0, tolerance=1e-6)
+    assert solution.counted_area == pytest.approx(0.074 * grid.area, rel=0.1)
+    assert peak_of(lambda: solve_contact(gap, operator, load=500.0, tolerance=1e-6)) < 52 * grid.cells
