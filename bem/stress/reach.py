@@ -86,13 +86,24 @@ def reached_stress(  # reason: a request as of `von_mises_planes`, its limit and
             if (wanted[other] & ~computed[other]).any():
                 waiting.add(other)
     used = int(computed.any(axis=1).sum())
-    stress[:used][~computed[:used]] = 0.0
+    _clear(stress[:used], computed)
     return ReachedStress(stress[:used], computed[:used], passes)
 
 
 def _starts(grid: Grid) -> NDArray[np.intp]:
     """The first row of each group."""
     return np.arange(0, grid.shape[0], GROUP)
+
+
+@njit(cache=True, nogil=True)
+def _clear(stress, computed):  # type: ignore[no-untyped-def]
+    """Zeros in rows that were not computed."""
+    nz, nx, ny = stress.shape
+    for k in range(nz):
+        for i in range(nx):
+            if not computed[k, i]:
+                for j in range(ny):
+                    stress[k, i, j] = 0.0
 
 
 def _along_x(part: Part, depth: float, squares: Squares, out: FloatArray) -> None:
@@ -126,10 +137,10 @@ def _spread(room, singles, squares, out, limit, wraps, wanted, computed):  # typ
             done += stop - start
             for i in range(start, stop):
                 computed[i] = True
-                highest = 0.0
+                above = 0
                 for j in range(room.ny):
-                    highest = max(highest, out[i, j])
-                if highest > limit:
+                    above += out[i, j] > limit
+                if above > 0:
                     for k in range(i - 1, i + 2):
                         if wraps or 0 <= k < nx:
                             beside[k % nx] = wanted[k % nx] = True

@@ -260,9 +260,13 @@ class Part:
     def _scratch(self) -> FloatArray:
         return self.transform.empty_field()
 
+    @cached_property
+    def _elastic(self) -> tuple[float, ...]:
+        return elastic(self.body)
+
     def factors(self, depth: float) -> Factors:
         """Spectra of t, d, e, yz, xz, xy at a depth."""
-        key = (self.grid, elastic(self.body), depth, self.acting)
+        key = (self.grid, self._elastic, depth, self.acting)
         found: Factors | None = SPECTRA.get(key, self.number)
         if found is None:
             found = factors_of(self.grid, self.body, depth, self.acting)
