@@ -16,6 +16,10 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shuti
 PATIENCE = 60.0  # seconds: the machine may be busy; nothing waits longer than it has to
 
 
+class Navigated(Exception):
+    """The page went elsewhere while it was looked at."""
+
+
 class Browser:
     """Chromium; a `with` block ends it."""
 
@@ -69,6 +73,8 @@ class Tab:
             message = json.loads(self._socket.recv(PATIENCE))
             self._hear(message)
             if message.get("id") == self._number:
+                if "navigated" in message.get("error", {}).get("message", ""):
+                    raise Navigated(method)
                 assert "error" not in message, message["error"]
                 return message["result"]
 
@@ -92,8 +98,9 @@ class Tab:
         """Until a piece of script gives something true."""
         end = time.monotonic() + PATIENCE
         while True:
-            if self.look(f"(() => {{ try {{ return Boolean({script}) }} catch (e) {{ return false }} }})()"):
-                return
+            with contextlib.suppress(Navigated):  # where it is now, it is looked for again
+                if self.look(f"(() => {{ try {{ return Boolean({script}) }} catch (e) {{ return false }} }})()"):
+                    return
             assert time.monotonic() < end, f"not within {PATIENCE:g} s: {script}\n{self.text()[:3000]}\n{self.errors}"
             time.sleep(0.1)
 
@@ -109,9 +116,9 @@ class Tab:
         self.look(f"document.querySelector({json.dumps(selector)}).click()")
 
     def type(self, key, words):
-        """Into the field of a key, as a person would: select what is there, and type."""
+        """Into the field of a key once it takes them, as a person would: select what is there, and type."""
         where = f"input[data-key={json.dumps(key)}]"
-        self.wait(f"document.querySelector({json.dumps(where)}) !== null")
+        self.wait(f"document.querySelector({json.dumps(where)}).closest('[inert]') === null")
         self.look(f"(() => {{ const i = document.querySelector({json.dumps(where)}); i.focus(); i.select() }})()")
         if words:
             self._do("Input.insertText", text=words)
