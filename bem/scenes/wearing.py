@@ -28,6 +28,7 @@ from bem.scenes.tables.film_defect import film_defect
 from bem.scenes.third_bodies import ThirdBodyRecord, third_bodies, third_body_figures
 from bem.scenes.units import Length
 from bem.wear.criterion import WearCriterion
+from bem.wear.loads import wearing_bodies
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
@@ -98,6 +99,8 @@ def cycle_steps(
     scene.wear.criterion.check_length(grid)
     points, cycles = padded_points(grid.shape, grid.periodic), scene.cycles.count
     depths, deepest = min(scene.depths.count, usual), min(scene.depths.count, first)
+    bodies = wearing_bodies((scene.lower.build(), scene.upper.build()), scene.wear.wears)
+    transformed = points * (1.0 if all(grid.periodic) or not any(grid.periodic) else _NARROWED)
     return (
         plans.contacts(grid, convolutions * cycles, f"{cycles} cycles a case, {contacts}"),
         rubbing_step(scene.wear.traction, grid, cycles),
@@ -106,14 +109,33 @@ def cycle_steps(
         else Step(
             "stresses",
             "from the surface down to the first depth at which nothing yields",
-            transforms=7.0 * depths * cycles,
-            points=points,
+            transforms=len(bodies) * stress_transforms(scene.wear, depths) * cycles,
+            points=transformed * _ROWS,
             seconds=stress_kernel_seconds(grid.cells, deepest),
             memory=8.0 * (points / 4 * 12 * deepest + grid.cells * (deepest + 8)),
             precision="" if all(grid.periodic) else PACKED_SPECTRA,
         ),
         Step("pieces", "runs of yielded voxels along depth", seconds=0.004 * cycles, memory=8.0 * grid.cells * 8),
     )
+
+
+_ROWS = 0.7
+"""Work of a transform of which half of the rows are left out, and no column, in whole ones."""
+_NARROWED = 2 / 3
+"""Points of a transform along x, over twice the cells, where short waves of a periodic y need less padding."""
+
+
+def stress_transforms(wear: Any, depths: int) -> float:
+    """Transforms of the stresses of one body in a cycle whose pieces take so many depths: of what acts, once, and five
+    at a depth for von Mises stress under one load, whatever its tractions; else for each load and depth of what acts,
+    and six.
+
+    wear : criterion, stress_range and traction of a wear model.
+    """
+    fields = 1 if wear.traction.slides else 3
+    if wear.criterion.is_von_mises and not wear.stress_range:
+        return fields * (5.0 * depths + 1)
+    return (2 if wear.stress_range else 1) * fields * 7.0 * depths
 
 
 def bars_step(scene: Any, grid: Grid, convolutions: int) -> Step:

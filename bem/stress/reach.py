@@ -32,12 +32,14 @@ _TERMS = len(_WEIGHTS)
 class ReachedStress:
     """Von Mises stress (nz, nx, ny) [Pa] of the first depths, zero in rows that were left out.
 
-    computed : (nz, nx) rows that were computed. passes : depths whose transforms along x were made, those made twice,
-    for rows that only a deeper one led to, counted twice.
+    computed : (nz, nx) rows that were computed. exceeding : (nx, ny) whether the limit is exceeded at any depth.
+    passes : depths whose transforms along x were made, those made twice, for rows that only a deeper one led to,
+    counted twice.
     """
 
     stress: FloatArray
     computed: NDArray[np.bool_]
+    exceeding: NDArray[np.bool_]
     passes: int
 
 
@@ -67,6 +69,7 @@ def reached_stress(  # reason: a request as of `von_mises_planes`, its limit and
     transform, number, wraps = part.transform, len(sweep.depths), grid.periodic[0]
     stress = np.empty((number, *grid.shape))
     wanted, computed = np.zeros((2, number, grid.shape[0]), np.bool_)
+    exceeding = np.zeros(grid.shape, np.bool_)
     wanted[:1] = True
     squares = transform.empty_squares(_WEIGHTS)
     passes, waiting = 0, {0} if number else set()
@@ -78,7 +81,7 @@ def reached_stress(  # reason: a request as of `von_mises_planes`, its limit and
             squares.begun[:] = np.logical_or.reduceat(asked, _starts(grid))
         _along_x(part, sweep.depths[index], squares, stress[index])
         passes += 1
-        rows = wanted[index], computed[index]
+        rows = wanted[index], computed[index], exceeding
         done, beside = _spread(transform.room, transform.singles, squares, stress[index], limit, wraps, *rows)
         COUNT.rows += done * _TERMS
         for other in range(max(index - reach, 0), min(index + reach + 1, number)):
@@ -87,7 +90,7 @@ def reached_stress(  # reason: a request as of `von_mises_planes`, its limit and
                 waiting.add(other)
     used = int(computed.any(axis=1).sum())
     _clear(stress[:used], computed)
-    return ReachedStress(stress[:used], computed[:used], passes)
+    return ReachedStress(stress[:used], computed[:used], exceeding, passes)
 
 
 def _starts(grid: Grid) -> NDArray[np.intp]:
@@ -119,9 +122,11 @@ def _along_x(part: Part, depth: float, squares: Squares, out: FloatArray) -> Non
 
 
 @njit(cache=True, nogil=True)
-def _spread(room, singles, squares, out, limit, wraps, wanted, computed):  # type: ignore[no-untyped-def]
-    """Compute the groups with a row that is wanted, then those beside rows above the limit: how many rows, and which
-    are, or are beside, rows above the limit."""
+def _spread(  # type: ignore[no-untyped-def]  # reason: compiled, so each array is an argument
+    room, singles, squares, out, limit, wraps, wanted, computed, exceeding
+):
+    """Compute the groups with a row that is wanted, then those beside rows above the limit, which is noted point by
+    point: how many rows, and which are, or are beside, rows above the limit."""
     nx, done, again = room.nx, 0, True
     beside = np.zeros(nx, np.bool_)
     while again:
@@ -139,7 +144,9 @@ def _spread(room, singles, squares, out, limit, wraps, wanted, computed):  # typ
                 computed[i] = True
                 above = 0
                 for j in range(room.ny):
-                    above += out[i, j] > limit
+                    over = out[i, j] > limit
+                    above += over
+                    exceeding[i, j] |= over
                 if above > 0:
                     for k in range(i - 1, i + 2):
                         if wraps or 0 <= k < nx:

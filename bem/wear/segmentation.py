@@ -53,6 +53,7 @@ def segment(
     refinement: str = "monotone_cubic",
     connectivity: int = 6,
     removal: str | RemovalLaw = "cap",
+    columns: NDArray[np.int64] | None = None,
 ) -> Segmentation:
     """Find the connected regions above yield that reach the free surface.
 
@@ -69,6 +70,8 @@ def segment(
     removal : "cap": a piece takes with it all that lies above its yielded part in the same column; two pieces that meet
         in a column leave as one. "top_run": only the part connected to the surface within the column leaves. Or a law
         of `bem.wear.removal`.
+    columns : numbers in the flattened map, rising, of all columns in which anything yields, from whoever has computed
+        the stress and looked at it; None to look for them, and for numbers that are not finite.
 
     Raises
     ------
@@ -76,7 +79,7 @@ def segment(
     """
     stack = np.asarray(equivalent_stress, dtype=np.float64)
     levels = np.asarray(depths, dtype=np.float64)
-    _check(stack, levels, refine, refinement, connectivity)
+    _check(stack, levels, refine, refinement, connectivity, looked_at=columns is not None)
     law = make_laws("segment", {"removal": removal}, {})["removal"]
     assert isinstance(law, RemovalLaw)
     nz, nx, ny = stack.shape
@@ -85,14 +88,16 @@ def segment(
         raise InputError(f"yield_stress {yield_stress!r} must be positive and finite [Pa]")
 
     flat, limits = stack.reshape(nz, -1), np.ascontiguousarray(strength).ravel()
-    candidates = yielding_columns(flat, limits) if (stack[0] > strength).any() else np.empty(0, np.int64)
+    candidates = columns if columns is not None else yielding_columns(flat, limits)
+    if not (stack[0] > strength).any():
+        candidates = candidates[:0]
     labels = np.zeros((nx, ny), dtype=np.int32)
     thickness = np.zeros((nx, ny))
     if candidates.size == 0:
         return Segmentation(labels, thickness, 0, np.zeros(1, dtype=np.bool_))
 
-    columns, cubic = gather_columns(flat, candidates), REFINEMENTS[refinement] == 3
-    runs = find_runs(candidates, columns, levels, limits[candidates], refine, cubic)
+    values, cubic = gather_columns(flat, candidates), REFINEMENTS[refinement] == 3
+    runs = find_runs(candidates, values, levels, limits[candidates], refine, cubic)
     parent = connect(runs, (nx, ny), (bool(periodic[0]), bool(periodic[1])), connectivity)
     count = law.remove(runs, parent, labels.reshape(-1), thickness.reshape(-1))
     reaches_bottom = np.zeros(count + 1, dtype=np.bool_)
@@ -190,7 +195,9 @@ def refine_depths(depths: FloatArray, refine: int) -> FloatArray:
     return fine
 
 
-def _check(stack: FloatArray, depths: FloatArray, refine: int, refinement: str, connectivity: int) -> None:
+def _check(
+    stack: FloatArray, depths: FloatArray, refine: int, refinement: str, connectivity: int, *, looked_at: bool
+) -> None:
     messages = []
     if stack.ndim != 3:
         messages.append(f"equivalent stress: expected (depths, nx, ny), got shape {stack.shape}")
@@ -200,7 +207,7 @@ def _check(stack: FloatArray, depths: FloatArray, refine: int, refinement: str, 
         messages.append("depths: at least two are needed to tell how thick a particle is")
     if depths.ndim == 1 and depths.size and not (depths[0] >= 0 and (np.diff(depths) > 0).all()):
         messages.append("depths: must be >= 0 and increasing [m]")
-    if not all(_is_finite(plane.ravel()) for plane in stack):
+    if not looked_at and not all(_is_finite(plane.ravel()) for plane in stack):
         messages.append("equivalent stress: some values are not finite")
     if refine != int(refine) or refine < 1:
         messages.append(f"refine {refine!r} must be an integer >= 1")

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bem.grid import FloatArray
 from bem.stress import reached_stress, subsurface_stress, von_mises_limit, von_mises_planes
@@ -79,12 +80,14 @@ def depths_for(setup: WearSetup, model: WearModel, body: int) -> FloatArray:
 @dataclass(frozen=True, eq=False)
 class YieldedStress:
     """Equivalent stress (nz, nx, ny) [Pa] at depths (nz,) [m] from the surface down, as far as pieces can reach; no
-    depth where nothing yields at the surface. computed : depths that were. seconds : it took."""
+    depth where nothing yields at the surface. computed : depths that were. seconds : it took. yielding : (nx, ny)
+    whether anything there yields, where that was found on the way."""
 
     stress: FloatArray
     depths: FloatArray
     computed: int
     seconds: float
+    yielding: NDArray[np.bool_] | None = None
 
 
 def yielded_stress(
@@ -143,26 +146,36 @@ def piece_stress(
         return YieldedStress(none, depths[:0], 0, time.perf_counter() - start)
     reach = 2 if model.refinement == "monotone_cubic" else 1
     solid, shear = setup.bodies[body], first.shear(body)
-    found = reached_stress(first.pressure, grid, solid, depths, strength, reach=reach, **shear).stress
+    reached = reached_stress(first.pressure, grid, solid, depths, strength, reach=reach, **shear)
+    found = reached.stress
     used = len(found) if len(found) > 1 else 0  # of the first depth alone where nothing yields in it
-    return YieldedStress(found[:used], depths[:used], len(found), time.perf_counter() - start)
+    return YieldedStress(found[:used], depths[:used], len(found), time.perf_counter() - start, reached.exceeding)
 
 
 def yielded_pieces(load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearModel, body: int) -> Removal:
     """The pieces that come off one body where its stress exceeds the yield stress; arguments as in `yielded_stress`."""
     found = piece_stress(load, setup, model, body)
     start = time.perf_counter()
-    pieces = pieces_above(found.stress, found.depths, setup.yield_stress(body), setup, model)
+    pieces = pieces_above(found.stress, found.depths, setup.yield_stress(body), setup, model, found.yielding)
     return Removal(body, pieces, found.computed, found.seconds, time.perf_counter() - start)
 
 
 def pieces_above(
-    stack: FloatArray, depths: FloatArray, limit: float, setup: WearSetup, model: WearModel
+    stack: FloatArray,
+    depths: FloatArray,
+    limit: float,
+    setup: WearSetup,
+    model: WearModel,
+    exceeding: NDArray[np.bool_] | None = None,
 ) -> Segmentation:
-    """The pieces in which a stack (nz, nx, ny), refined as the model says, exceeds a limit; none without depths."""
+    """The pieces in which a stack (nz, nx, ny), refined as the model says, exceeds a limit; none without depths.
+
+    exceeding : (nx, ny) whether it does so in a column, where that is known: the stack is not searched for it then.
+    """
     if len(depths) == 0:
         return no_pieces(setup.grid.shape)
     exact = model.refinement == "exact"
+    columns = None if exceeding is None else np.flatnonzero(exceeding)
     return segment(
         stack,
         depths,
@@ -172,6 +185,7 @@ def pieces_above(
         refinement="linear" if exact else model.refinement,
         connectivity=model.connectivity,
         removal=model.removal,
+        columns=columns,
     )
 
 

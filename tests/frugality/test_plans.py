@@ -18,6 +18,8 @@ from bem.scenes.planner import PACKED_SPECTRA, SEARCHED_IN_SINGLE
 from bem.scenes.plans import convolutions
 from bem.surfaces import generate_surface
 from bem.transforms import COUNT
+from bem.wear import WearModel, WearSetup, yielded_pieces
+from bem.wear.loads import SurfaceLoad
 
 SCENES = sorted(name for name, tables in library().items() if '"kind": "measured"' not in json.dumps(tables))
 """Those that need no file of the user's."""
@@ -211,6 +213,47 @@ def test_kernels_of_a_wear_scene_are_planned_once_for_a_grid_not_for_a_cycle():
     few, many = seconds("cycles.count=60"), seconds("cycles.count=240")
     assert many["stresses"] == few["stresses"] > 0
     assert many["pieces"] == pytest.approx(4 * few["pieces"])
+
+
+@pytest.mark.parametrize(
+    "choice",
+    [
+        {},
+        {"criterion": "tresca"},
+        {"criterion": "maximum_tension"},
+        {"traction": {"kind": "oscillating_force", "share": 0.5}},
+        {"traction": {"kind": "oscillating_force", "share": 0.5}, "criterion": "tresca"},
+        {"stress_range": True},
+    ],
+)
+def test_stresses_of_a_wear_cycle_take_as_many_transforms_as_are_planned(choice):
+    """Seven were planned for each depth, whatever the criterion, the tractions and the loads."""
+    from bem.scenes.wearing import stress_transforms
+
+    grid = Grid((48, 40), (1e-7, 1e-7), periodic=(False, True))
+    solid = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9))
+    setup = WearSetup(grid, (solid, solid), np.zeros(grid.shape), 1.0, 0.2, np.arange(12) * 1e-7)
+    pressure, model = np.zeros(grid.shape), WearModel(**choice)
+    pressure[20:30, 14:24] = 1.7e9
+    loads = [SurfaceLoad(pressure, 0.2, None if model.tractions.slides else np.stack([0.2 * pressure, 0.1 * pressure]))]
+    if model.stress_range:
+        loads.append(SurfaceLoad(0.5 * pressure, 0.2))
+    COUNT.reset()
+    found = yielded_pieces(loads, setup, model, 0)
+    assert found.depths_computed > 2
+    planned, counted = stress_transforms(model, found.depths_computed), COUNT.forward + COUNT.inverse
+    # a depth to which only a deeper one led is gone through twice
+    assert counted == planned or (model == WearModel() and counted == planned + 5)
+
+
+def test_depths_of_a_wear_scene_are_planned_within_a_factor_of_two_and_of_both_bodies_where_both_wear():
+    scene, plan = plan_scene("wear-steel-steel", SMALL["wear-steel-steel"])
+    (step,) = (step for step in plan.steps if step.name == "stresses")
+    depths = compute(campaign_of(scene)).outcome.variables["depths_computed"].values
+    counted = 5 * depths.sum() + depths.size
+    assert counted / 2 <= step.transforms <= 2 * counted
+    _, both = plan_scene("wear-steel-steel", [*SMALL["wear-steel-steel"], "wear.wears=both"])
+    assert [s.transforms for s in both.steps if s.name == "stresses"] == [2 * step.transforms]
 
 
 def test_depths_of_the_first_cycle_are_within_what_memory_is_planned_for():

@@ -50,6 +50,7 @@ def test_rows_that_are_computed_are_those_of_whole_planes_and_what_exceeds_the_l
     assert found.computed[0].all()
     above = (found.stress > limit).any(axis=2)
     assert above.any()
+    assert np.array_equal(found.exceeding, (found.stress > limit).any(axis=0))
     for depth, row in np.argwhere(above):
         for other, beside in itertools.product(range(depth - 2, depth + 3), range(row - 1, row + 2)):
             if 0 <= other < DEPTHS.size and (periodic[0] or 0 <= beside < shape[0]):
