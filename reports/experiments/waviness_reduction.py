@@ -28,7 +28,6 @@ from bem import (
     march_point_film,
     solve_point_film,
 )
-from bem.lubrication.point import loops
 from bem.lubrication.point.kept import KeptPoint, central_film
 from bem.lubrication.point.linear import Linear
 from bem.lubrication.point.newton import balance
@@ -114,11 +113,10 @@ def point_response(kept: KeptPoint, wavelength: float, ratio: float = 0.0) -> fl
     linear: Linear = balance(level, state, np.zeros(level.shape)).linear
     shape, n = level.shape, level.shape[0] * level.shape[1]
     rows, by_film = np.zeros((n, n)), np.zeros((n, n))
-    loops.fill_rows(linear.stencil, level.spacing, level.problem.drag, 0.0, rows, by_film)
+    places, values = linear.dense_rows(rows)
+    np.add.at(by_film, (np.arange(n)[:, None], places), values)
     border = level.border.ravel()
-    index, inner = np.flatnonzero(border), np.flatnonzero(~border)
-    rows[border], by_film[border] = 0.0, 0.0
-    rows[index, index], by_film[index, index] = 1.0, linear.far_slope.ravel()[index]
+    inner = np.flatnonzero(~border)
     upper = np.flatnonzero(np.broadcast_to(np.arange(shape[1]) >= shape[1] // 2, shape).ravel())
     deflection = level.dense_deflection
     assert deflection is not None

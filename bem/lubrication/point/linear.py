@@ -14,7 +14,6 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import LinAlgWarning, lu_factor, lu_solve
-from scipy.sparse import csr_matrix
 
 from bem.grid import FloatArray
 from bem.lubrication.point import lines, loops, supply_loops
@@ -154,28 +153,26 @@ class Linear:
             supply_loops.nothing_dragged(held, stencil)
         return Linear(coarse, pressure, film, held, shortened(stencil), level.averaged(self.far), self.tail_slope)
 
-    def dense_rows(self) -> tuple[FloatArray, FloatArray]:
-        """Derivatives of the equations with pressures and with films, (n, n) of all cells, on a grid small enough."""
+    def dense_rows(self, matrix: FloatArray | HalfArray) -> tuple[NDArray[np.int64], FloatArray]:
+        """Derivatives of the equations with pressures, films held, into a matrix (n, n) or more of zeros, on a grid
+        small enough; cells and derivatives (n, 7) with their films."""
         level, n = self.level, self.film.size
-        rows, by_film = np.zeros((n, n)), np.zeros((n, n))
+        places, by_film = np.zeros((n, 7), np.int64), np.zeros((n, 7))
         problem = level.problem
-        loops.fill_rows(self.stencil, level.spacing, problem.drag, problem.storing, rows, by_film)
-        border = level.border.ravel()
-        rows[border], by_film[border] = 0.0, 0.0
-        index = np.flatnonzero(border)
-        rows[index, index] = 1.0
-        by_film[index, index] = self.far_slope.ravel()[index]
-        return rows, by_film
+        loops.fill_rows(self.stencil, level.spacing, problem.drag, problem.storing, matrix, places, by_film)
+        index = np.flatnonzero(level.border)
+        matrix[index, index] = 1.0
+        places[index, 0], by_film[index, 0] = index, self.far_slope.ravel()[index]
+        return places, by_film
 
     @cached_property
-    def _factors(self) -> tuple[FloatArray, NDArray[np.int32], FloatArray]:
+    def _factors(self) -> tuple[FloatArray | HalfArray, NDArray[np.int32], FloatArray]:
+        """Of all equations, in half the digits where they only help a finer grid."""
         level, n = self.level, self.film.size
-        rows, by_film = self.dense_rows()
-        matrix = np.zeros((n + 1, n + 1))
-        matrix[:n, :n] = rows
-        deflection = level.dense_deflection
-        if deflection is not None:
-            matrix[:n, :n] += csr_matrix(by_film) @ deflection
+        matrix = np.zeros((n + 1, n + 1), np.float32 if level.part else np.float64)
+        places, by_film = self.dense_rows(matrix)
+        if level.deflections is not None:
+            loops.add_deflected(places, by_film, level.deflections, matrix)
         matrix[:n, n] = by_film.sum(axis=1) + self.squeezed.ravel()
         matrix[n, :n] = level.cell
         matrix[n, n] = self.tail_slope
@@ -184,17 +181,18 @@ class Linear:
         matrix[:, held] = 0.0
         matrix[held, held] = 1.0
         # rows of one size: they are of different kinds
-        scale = np.abs(matrix).max(axis=1)
+        scale = np.maximum(matrix.max(axis=1), -matrix.min(axis=1))
+        matrix /= scale[:, None]
         with warnings.catch_warnings():  # of a singular matrix: nothing finite comes of it, and `solve` sees that
             warnings.simplefilter("ignore", LinAlgWarning)
-            factors = lu_factor(matrix / scale[:, None], check_finite=False)
-        return *factors, scale
+            lu, pivots = lu_factor(matrix.T, overwrite_a=True, check_finite=False)
+        return lu, pivots, scale
 
     def solved(self, residual: FloatArray, load: float) -> Change:
         """The solution, on a grid small enough."""
         lu, pivots, scale = self._factors
-        right = np.append(np.where(self.held, 0.0, residual).ravel(), load) / scale
-        found = lu_solve((lu, pivots), right, check_finite=False)
+        right = (np.append(np.where(self.held, 0.0, residual).ravel(), load) / scale).astype(lu.dtype)
+        found = lu_solve((lu, pivots), right, trans=1, check_finite=False).astype(np.float64)
         return Change(found[:-1].reshape(self.level.shape), float(found[-1]))
 
     def restricted(self, rest: FloatArray) -> FloatArray:
@@ -269,30 +267,31 @@ def solve(linear: Linear, right: FloatArray, load: float, weight: FloatArray, to
     size = float(np.linalg.norm(first))
     if size == 0:
         return Solved(Change(np.zeros(level.shape), 0.0), 0, 0.0)
-    basis, steps = [first / size], []
+    basis, steps = [(first / size).astype(np.float32)], []
     hessenberg = np.zeros((most + 1, most))
     wanted = np.zeros(most + 1)
     wanted[0] = size
     count, left = 0, 1.0
     y: FloatArray = np.zeros(0)
     while count < most and left > tolerance:
-        v = basis[-1]
+        v = basis[-1].astype(np.float64)
         step = linear.cycle(v[:-1].reshape(level.shape) / weight, float(v[-1]) * total)
-        w: FloatArray = vector(*linear.applied(step))
+        half = step.pressure.astype(np.float32)
+        w: FloatArray = vector(*linear.applied(Change(half.astype(np.float64), step.datum)))
         if not np.isfinite(w).all():  # lines or a coarse grid without a solution: what there is must do
             break
-        steps.append(step)
+        steps.append((half, step.datum))
         for k, b in enumerate(basis):
             hessenberg[k, count] = w @ b
             w -= hessenberg[k, count] * b
         hessenberg[count + 1, count] = np.linalg.norm(w)
-        basis.append(w / hessenberg[count + 1, count])
+        basis.append((w / hessenberg[count + 1, count]).astype(np.float32))
         count += 1
         h = hessenberg[: count + 1, :count]
         y = np.linalg.lstsq(h, wanted[: count + 1], rcond=None)[0].astype(np.float64)
         left = float(np.linalg.norm(wanted[: count + 1] - h @ y)) / size
     pressure, datum = np.zeros(level.shape), 0.0
-    for share, step in zip(y, steps, strict=True):
-        pressure += share * step.pressure
-        datum += share * step.datum
+    for share, (half, by) in zip(y, steps, strict=True):
+        pressure += share * half
+        datum += share * by
     return Solved(Change(pressure, datum), count, left)

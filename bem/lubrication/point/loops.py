@@ -238,10 +238,12 @@ def fill_rows(
     spacing: tuple[float, float],
     drag: tuple[float, float],
     storing: float,
-    by_pressure: FloatArray,
+    matrix: Any,
+    places: Any,
     by_film: FloatArray,
 ) -> None:
-    """Matrices (n, n) of `applied` for changes of pressures and of films; they are zero before."""
+    """Derivatives of `applied`: with pressures added to `matrix`, (n, n) or more; with films `by_film` (n, 7), of the
+    cells `places` (n, 7); both are zero before."""
     _, nx, ny = stencil.shape
     rows = np.zeros((2, 7))
     for i in range(1, nx - 1):
@@ -251,8 +253,25 @@ def fill_rows(
                 k = i + t - 2 if t < 4 else i
                 m = j if t < 4 else j + (t - 6 if t < 6 else 1)
                 if k >= 0 and m >= 0:
-                    by_pressure[i * ny + j, k * ny + m] += rows[0, t]
-                    by_film[i * ny + j, k * ny + m] += rows[1, t]
+                    matrix[i * ny + j, k * ny + m] += rows[0, t]
+                    places[i * ny + j, t] = k * ny + m
+                    by_film[i * ny + j, t] = rows[1, t]
+
+
+@nb.njit(**COMPILE)
+def add_deflected(places: Any, by_film: FloatArray, table: FloatArray, matrix: Any) -> None:
+    """Add what pressures make of equations through films: derivatives with films (n, 7) of the cells `places` (n, 7),
+    films `table` (nx, ny) under a unit pressure at distances 0 .. along x and y."""
+    nx, ny = table.shape
+    for row in range(places.shape[0]):
+        for t in range(places.shape[1]):
+            value = by_film[row, t]
+            if value == 0.0:
+                continue
+            i, j = places[row, t] // ny, places[row, t] % ny
+            for k in range(nx):
+                for m in range(ny):
+                    matrix[row, k * ny + m] += value * table[abs(i - k), abs(j - m)]
 
 
 @nb.njit(**COMPILE)

@@ -23,7 +23,12 @@ LEAST_FILM = 0.3
 """Of a film, what a step leaves of it at least."""
 SHORTEST_STEP = 1e-3
 FORCING = (1e-3, 1e-2)
-"""Least and largest share of the errors that a step's equations are solved to."""
+"""Least and largest share of the errors that a step's equations are solved to where the last ones are wanted."""
+ROUGHLY, QUADRATIC = 0.1, 0.9
+"""Largest share anywhere, and share over by how much the last step reduced the squares of the errors (choice 2 of
+Eisenstat and Walker 1996, whose factor this is): steps further from the film are not as good as their equations.
+Contacts of M 20 to 20,000 on 128 cells a side take two thirds of the cycles that 1e-3 throughout takes, in as many
+steps."""
 CYCLES = 60
 """Most of a step."""
 HISTORY = 2
@@ -177,7 +182,9 @@ def iterate(
             break
         # a meniscus moves by what is wrong at it, cell by cell: errors there are as large until it is in its place
         wanted = max(sizes[-history:]) if at.linear.level.problem.layer is None else np.inf
-        following, spent = step(at, float(np.clip(0.3 * tolerance / largest, *FORCING)), wanted)
+        last = float(np.clip(0.3 * tolerance / largest, *FORCING))
+        share = max(min(QUADRATIC * sizes[-1] / sizes[-2], ROUGHLY), last) if steps else ROUGHLY
+        following, spent = step(at, share, wanted)
         cycles += spent
         if following is None:
             break
@@ -202,8 +209,9 @@ def line_search(trial: Callable[[float], B], size: float) -> B | None:
 @np.errstate(over="ignore", invalid="ignore")  # of iterates that are refused
 def newton(level: Level, start: State, tolerance: float, most: int = 40) -> Outcome:
     """Solve on a grid from a start with positive films."""
-    at = balance(level, start, start.film - own_film(level, start.pressure, start.datum))
-    at, steps, cycles, largest, converged = iterate(at, _step, tolerance, most, HISTORY)
+    mismatch = start.film - own_film(level, start.pressure, start.datum)
+    # no name for the first balance: it and its factors would be kept to the end
+    at, steps, cycles, largest, converged = iterate(balance(level, start, mismatch), _step, tolerance, most, HISTORY)
     return Outcome(at.state, steps, cycles, largest, converged)
 
 

@@ -180,10 +180,10 @@ class TouchingLinear(Linear):
             touching & ~coarse.border, np.zeros(coarse.shape, dtype=bool), True,
         )  # fmt: skip
 
-    def dense_rows(self) -> tuple[FloatArray, FloatArray]:
+    def dense_rows(self, matrix: FloatArray | HalfArray) -> tuple[IntArray, FloatArray]:
         """As `Linear`; of cells that touch the film."""
-        rows, by_film = super().dense_rows()
+        places, by_film = super().dense_rows(matrix)
         touching = np.flatnonzero(self.touching.ravel())
-        rows[:, touching], rows[touching], by_film[touching] = 0.0, 0.0, 0.0
-        by_film[touching, touching] = self.scale.ravel()[touching]
-        return rows, by_film
+        matrix[:, touching], matrix[touching], by_film[touching] = 0.0, 0.0, 0.0
+        places[touching, 0], by_film[touching, 0] = touching, self.scale.ravel()[touching]
+        return places, by_film

@@ -112,7 +112,7 @@ class TouchingChange:
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of iterates that are refused
 def newton(level: Level, start: TouchingState, least: float, tolerance: float, most: int = 60) -> TouchingOutcome:
     """Solve on a grid from a start, with a least film in its unit."""
-    at = balance(level, start, start.film - own_film(level, start.pressure, start.datum))
+    mismatch = start.film - own_film(level, start.pressure, start.datum)
 
     def step(at: TouchingBalance, forcing: float, size: float) -> tuple[TouchingBalance | None, int]:
         try:
@@ -121,7 +121,7 @@ def newton(level: Level, start: TouchingState, least: float, tolerance: float, m
             return None, 0
         return line_search(lambda length: _stepped(at, change, least, length), size), cycles
 
-    at, steps, cycles, largest, converged = iterate(at, step, tolerance, most, HISTORY)
+    at, steps, cycles, largest, converged = iterate(balance(level, start, mismatch), step, tolerance, most, HISTORY)
     return TouchingOutcome(at.state, steps, cycles, largest, converged)
 
 

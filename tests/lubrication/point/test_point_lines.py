@@ -1,10 +1,12 @@
 """Line relaxation of point contacts: a line is solved with the films that its own changes make; memory of a grid."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
 from bem import Lubricant, solve_point_film
-from bem.lubrication.point import lines, loops
+from bem.lubrication.point import lines, loops, newton
 from bem.lubrication.point.linear import shortened
 from bem.lubrication.point.newton import balance
 
@@ -58,7 +60,7 @@ def rolling(drag, cells):
     )
 
 
-@pytest.mark.parametrize(("drag", "most", "cycles"), [((1.0, 0.0), 84, 51), ((0.8, 0.6), 124, 95)])
+@pytest.mark.parametrize(("drag", "most", "cycles"), [((1.0, 0.0), 84, 29), ((0.8, 0.6), 124, 56)])
 def test_a_grid_keeps_84_bytes_a_cell_and_124_of_oil_at_an_angle(drag, most, cycles):
     """Derivatives and the factors of its lines; of oil that comes at an angle, lines along both axes. With all digits
     of the derivatives, 132 and 176 bytes, a film takes as many cycles."""
@@ -85,7 +87,7 @@ def test_lines_are_eliminated_once_for_all_sweeps(drag, monkeypatch):
     monkeypatch.setattr(lines, "factorise", counted)
     film = rolling(drag, 64)
     ways = 1 if drag[1] == 0 else 2
-    assert len(made) <= ways * film.iterations < film.cycles
+    assert made.count((64, 64)) <= ways * film.iterations < film.cycles
     kept = film.state
     linear = balance(kept.level, kept.state, np.zeros(kept.level.shape)).linear
     right = np.random.default_rng(7).normal(size=kept.level.shape) * np.abs(linear.stencil[8])
@@ -103,3 +105,22 @@ def test_derivatives_beyond_half_the_digits_are_the_most_these_hold():
     half = shortened(np.array([1.0, -2e38, 1e39, -1e300]))
     most = np.finfo(np.float32).max
     np.testing.assert_array_equal(half, np.array([1.0, -2e38, most, -most], np.float32))
+
+
+def test_a_film_takes_950_bytes_a_cell_at_most():
+    """The dense matrix of the coarsest grid, seven of it in all digits, and both bases of GMRES took 4,790."""
+    rolling((1.0, 0.0), 48)
+    tracemalloc.start()
+    rolling((1.0, 0.0), 128)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 950 * 128**2
+
+
+def test_equations_are_solved_as_well_as_their_step_is_good(monkeypatch):
+    """Two thirds of the cycles of equations that are all solved to a thousandth, and the same film."""
+    film = rolling((1.0, 0.0), 64)
+    monkeypatch.setattr(newton, "ROUGHLY", 1e-3)
+    strict = rolling((1.0, 0.0), 64)
+    assert film.cycles < 0.75 * strict.cycles
+    np.testing.assert_allclose(film.thickness, strict.thickness, rtol=1e-8)
