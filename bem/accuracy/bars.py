@@ -94,15 +94,22 @@ class Rule:
     rough : on it elsewhere.
     edge, rough_edge : of the share of a contact that lies within a cell of its edge: what stays where a difference
         happens to pass zero.
+    sampled, sampled_edge : both where the coarser grid does not resolve the surface but has all its waves, none shorter
+        than two of its cells: it is the same surface there, and what is left is the grid's error; where it has not,
+        heights in between are lost, and the difference is that of another surface. As elsewhere if None.
     """
 
     resolved: float
     rough: float
     edge: float = 0.0
     rough_edge: float = 0.0
+    sampled: float | None = None
+    sampled_edge: float = 0.0
 
-    def bar(self, difference: float, at_edge: float, *, resolved: bool) -> float:
+    def bar(self, difference: float, at_edge: float, *, resolved: bool, sampled: bool = False) -> float:
         """The discretisation error of the finer of the two; `at_edge` is the figure times the share at the edge."""
         if resolved:
             return self.resolved * abs(difference) + self.edge * abs(at_edge)
+        if sampled and self.sampled is not None:
+            return self.sampled * abs(difference) + self.sampled_edge * abs(at_edge)
         return self.rough * abs(difference) + self.rough_edge * abs(at_edge)

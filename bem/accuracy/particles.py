@@ -4,12 +4,18 @@ Every second pixel along both axes makes four maps, each as if scanned with twic
 them, times a factor, is what pixels leave: sides of particles are whole pixels, so that it is of first order. The
 scatter is that of the sample: the standard error of a weighted mean, and of a count that of Poisson's distribution
 (particles land on a plate independently of one another), so that it says how far another map of the same plate may be.
-Set by `reports/experiments/particle_error_bars.py`: an estimate, no proved bound.
+What one large particle decides, as means weighted with the volume, a sample tells little of by itself: most have too
+few large ones. Where logarithms of sizes are as skewed as normal ones may be, these figures have the scatter of those
+of log-normal sizes, which sizes from breaking tend to (Kolmogorov, Dokl. Akad. Nauk SSSR 31 (1941) 99), from what
+chance leaves of mean and variance of the logarithms; where large sizes are more frequent, the larger of both. Set by
+`reports/experiments/particle_error_bars.py`: an estimate, no proved bound.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -27,6 +33,10 @@ _GRID = 1.0
 _LEVEL = 0.96
 """Of Student's distribution, with as many degrees of freedom as particles count: nine in ten errors within it, and
 what weights that hang on the sizes themselves leave out."""
+_SKEWED, _JUDGED = 1.5, 8
+"""Logarithms of sizes pass as normal where their skewness is within so many times the root of 6 / count (its standard
+error), and with so many of them: fewer do not say. Of samples of log-normal sizes 92 to 95 % were covered then, where
+these were 86 to 90 %; of gamma's, Weibull's and uniform ones as many as before or more."""
 _FEW = "no error bars: fewer than two particles"
 
 
@@ -74,19 +84,73 @@ def _scatter(found: Sequence[Particle], figures: Mapping[str, float]) -> dict[st
     radius = np.array([p.equivalent_radius for p in found])
     area = np.array([p.length * p.width for p in found])
     volume = np.array([p.volume for p in found])
+    logarithms = _Logarithms.of(radius)
     # the upper end of Garwood's interval of Poisson's mean (Biometrika 28 (1936) 437), which is the farther one
     scatter = {"count": float(stats.chi2.ppf(_LEVEL, 2 * len(found) + 2)) / 2 - len(found)}
-    for name, weights in zip(WEIGHTS, (np.ones_like(radius), area, volume), strict=True):
-        mean, std = figures[f"{name}_mean_radius"], figures[f"{name}_std_radius"]
-        scatter[f"{name}_mean_radius"] = _scattered(radius, weights, mean)
-        if name == "number":  # by the variance, whose root it is
-            scatter["number_mean_radius"] += _of_skewness(radius)
-            squares = _scattered((radius - mean) ** 2, weights, std**2)
-            scatter["number_std_radius"] = squares / (2 * std) if std > 0 else 0.0
+    mean, std = figures["number_mean_radius"], figures["number_std_radius"]
+    scatter["number_mean_radius"] = _scattered(radius, np.ones_like(radius), mean) + _of_skewness(radius)
+    # by the variance, whose root it is
+    squares = _scattered((radius - mean) ** 2, np.ones_like(radius), std**2)
+    by_itself = squares / (2 * std) if std > 0 else 0.0
+    scatter["number_std_radius"] = logarithms.chosen(by_itself, std * logarithms.of_deviation())
+    for name, weights, power in (("area", area, 2), ("volume", volume, 3)):
+        mean = figures[f"{name}_mean_radius"]
+        # the mean of r weighted by r^p is exp(m + (p + 1/2) v), m and v the mean and variance of the logarithms
+        of_logarithms = mean * logarithms.of_mean(1.0, power + 0.5)
+        scatter[f"{name}_mean_radius"] = logarithms.chosen(_scattered(radius, weights, mean), of_logarithms)
     for name in ("length", "width", "thickness", "volume"):
         values = np.array([getattr(p, name) for p in found])
         scatter[name] = _scattered(values, np.ones_like(values), figures[name]) + _of_skewness(values)
+    # and that of r^3 exp(3 m + 9/2 v)
+    scatter["volume"] = logarithms.chosen(scatter["volume"], figures["volume"] * logarithms.of_mean(3.0, 4.5))
     return scatter
+
+
+@dataclass(frozen=True)
+class _Logarithms:
+    """Of sizes: how many, their variance, skewness; and what chance leaves of them at the level."""
+
+    count: int
+    variance: float
+    skewness: float
+
+    @classmethod
+    def of(cls, sizes: FloatArray) -> _Logarithms:
+        about = np.log(sizes / sizes.mean())
+        about -= about.mean()
+        spread = float((about**2).mean())
+        skewness = float((about**3).mean()) / spread**1.5 if spread > 0 else 0.0
+        return cls(sizes.size, float(about.var(ddof=1)), skewness)
+
+    def chosen(self, by_itself: float, of_logarithms: float) -> float:
+        """Which of two scatters a figure has: that of its sample by itself, or of log-normal sizes."""
+        skewed = self.skewness / math.sqrt(6 / self.count)
+        if self.count < _JUDGED or self.variance == 0 or skewed < -_SKEWED:
+            return by_itself
+        return max(by_itself, of_logarithms) if skewed > _SKEWED else of_logarithms
+
+    @property
+    def mean_scatter(self) -> float:
+        """How far the mean may lie: Student's."""
+        return float(stats.t.ppf(_LEVEL, self.count - 1)) * math.sqrt(self.variance / self.count)
+
+    @property
+    def largest_variance(self) -> float:
+        """The variance may be: by the chi-square distribution."""
+        return self.variance * (self.count - 1) / float(stats.chi2.ppf(1 - _LEVEL, self.count - 1))
+
+    def of_mean(self, mean: float, variance: float) -> float:
+        """Relative scatter of exp(mean m + variance v); m and v of a normal sample are independent."""
+        if self.count < _JUDGED:
+            return math.inf
+        return math.expm1(math.hypot(mean * self.mean_scatter, variance * (self.largest_variance - self.variance)))
+
+    def of_deviation(self) -> float:
+        """That of the standard deviation of sizes, their mean times the root of exp(v) - 1."""
+        if self.count < _JUDGED or self.variance == 0:
+            return math.inf
+        wider = math.sqrt(math.expm1(self.largest_variance) / math.expm1(self.variance)) - 1
+        return math.hypot(wider, self.mean_scatter)
 
 
 def _of_skewness(values: FloatArray) -> float:

@@ -15,8 +15,8 @@ from bem.stress import StressBelow, stress_below, von_mises_planes
 from bem.stress.below import yield_stresses
 
 NAMES = ("max_von_mises", "max_von_mises_depth")
-_VON_MISES = Rule(0.5, 0.67, edge=0.01, rough_edge=0.02)
-_VOLUME = Rule(1.0, 1.1)
+_VON_MISES = Rule(0.33, 0.67, edge=0.008, rough_edge=0.025)
+_VOLUME = Rule(0.95, 1.1)
 """On the difference to the volume of the coarser pressure, on twice the cell and at every second depth."""
 _RUBBED_EDGE = 0.25
 """Of the highest stress at the surface, times the share of the contact within a cell of its edge: friction makes it

@@ -28,6 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.errors import Status
+from bem.flow.inverse_gap import InverseGap
 from bem.flow.multigrid import Network, solve
 from bem.flow.percolation import open_pieces
 from bem.grid import FloatArray
@@ -103,7 +104,7 @@ def cell_flow(
     spacing: tuple[float, float],
     *,
     tolerance: float = 1e-8,
-    least_shear_gap: float = 0.0,
+    inverse: InverseGap | None = None,
     max_iterations: int = 300,
     shear: bool = True,
 ) -> CellFlow:
@@ -113,13 +114,14 @@ def cell_flow(
     ----------
     gap : (nx, ny), >= 0, zero in contact; any unit (of order one is best). spacing : (dx, dy), any unit.
     tolerance, max_iterations : of the solver, relative to the flow.
-    least_shear_gap : cells with less have no part in the mean of shear, which has no limit as the gap vanishes.
+    inverse : of the gap, for `sliding_shear`, where centres do not say it: next to contact, towards which it has no
+        limit; one over the gap of each open cell if None.
     shear : whether to solve for `sliding_shear`, which is not-a-number otherwise.
     """
     links = Links.of(gap, spacing, 0), Links.of(gap, spacing, 1)
     pieces = open_pieces(gap > 0)
     columns = [_pressure_flow(links, pieces.around(axis), axis, tolerance, max_iterations) for axis in (0, 1)]
-    sliding = _sliding_shear(gap, links, least_shear_gap, tolerance, max_iterations) if shear else _Column.without()
+    sliding = _sliding_shear(gap, links, inverse, tolerance, max_iterations) if shear else _Column.without()
     every = (*columns, sliding)
     residual = max(column.residual for column in every)
     out_of_time = any(column.residual > tolerance and column.iterations >= max_iterations for column in every)
@@ -179,8 +181,16 @@ def _pressure_flow(
     return _Column(flow, dragged, iterations, left / through(potential[inside]))
 
 
-def _sliding_shear(gap: FloatArray, links: tuple[Links, Links], least: float, tolerance: float, most: int) -> _Column:
-    """Mean of h d(chi_s)/dx in all open cells, of which the shear stress on the smooth wall needs thrice."""
+def _sliding_shear(
+    gap: FloatArray, links: tuple[Links, Links], inverse: InverseGap | None, tolerance: float, most: int
+) -> _Column:
+    """Mean of h d(chi_s)/dx in all open cells, of which the shear stress on the smooth wall needs thrice.
+
+    With the flow q = h - h^3 dchi_s/dx it is that of 1/h (1 - q/h). Towards contact 1/h has no limit, but 1 - q/h has:
+    what flows across the edge vanishes like h s, s the distance from it, and what flows along it is what the wall drags
+    there, as h^3 vanishes faster. It comes to n_x^2, n being the edge's normal. Cells beside the edge, which
+    is steps for them, have that; others what they have at their centre; closed ones what those beside have.
+    """
     inside = gap > 0
     if not inside.any():
         return _Column.without(0.0)
@@ -188,12 +198,26 @@ def _sliding_shear(gap: FloatArray, links: tuple[Links, Links], least: float, to
     dragged = gap.mean() * gap.shape[1] * along.width
     potential, iterations, left = _solved(links, inside, -along.net(along.gap), lambda _: tolerance * dragged, most)
     flow = along.gap - along.cube * along.difference(potential) / along.step
-    thick = inside & (gap >= least)
-    safe = np.where(thick, gap, 1.0)
-    # each half of a cell has the flow of its link: dchi_s/dx = (h - flow)/h^3 there
-    both_halves = flow + np.roll(flow, 1, 0)
-    mean = np.where(thick, 1 / safe - both_halves / (2 * safe**2), 0.0).mean()
+    safe = np.where(inside, gap, 1.0)
+    # each half of a cell has the flow of its link
+    held = np.where(inside, 1 - (flow + np.roll(flow, 1, 0)) / (2 * safe), 0.0)
+    if inverse is None:
+        mean = np.where(inside, held / safe, 0.0).mean()
+    else:
+        held = np.where(np.isnan(inverse.normal_x), held, inverse.normal_x)
+        mean = (_gone_on(held, inside) * inverse.means).mean()
     return _Column(np.array([mean, 0.0]), np.zeros(2), iterations, left / dragged)
+
+
+def _gone_on(field: FloatArray, known: NDArray[np.bool_]) -> FloatArray:
+    """A field with the mean of the known cells beside in cells where it is not known; 0 where there are none."""
+    total, count = np.zeros(field.shape), np.zeros(field.shape)
+    for axis in (0, 1):
+        for way in (-1, 1):
+            beside = np.roll(known, way, axis)
+            total += np.where(beside, np.roll(field, way, axis), 0.0)
+            count += beside
+    return np.where(known, field, total / np.maximum(count, 1))
 
 
 def _solved(

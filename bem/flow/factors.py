@@ -16,7 +16,7 @@ of variance, (s1^2 - s2^2)/s^2, as in the 1979 paper: exact to second order in s
 
 tau is on the smooth wall, where it is also the friction force by equilibrium; on the rough wall the pressure on its
 slopes carries the rest. <1/h> grows without bound as contact opens; it and phi_fs leave out gaps below
-s/100, Patir and Cheng's own cut, the former between the centres of cells, too (`bem.flow.inverse_gap`).
+s/100, Patir and Cheng's own cut, between the centres of cells, too (`bem.flow.inverse_gap`).
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from bem.convolution import DisplacementOperator, displacement_operator
 from bem.errors import InputError, Status
 from bem.flow.cell_problem import CellFlow, cell_flow
 from bem.flow.curve import Curve
-from bem.flow.inverse_gap import mean_inverse_gap, mean_inverse_opening
+from bem.flow.inverse_gap import InverseGap, inverse_gap, inverse_opening
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.representation import readable
@@ -264,19 +264,20 @@ class _Patch:
         gap, area, residual, status = self.deformed(separation)
         # of order one, so that nothing depends on the unit
         gap, least = gap / separation, LEAST_SHEAR_GAP * self.rms / separation
-        flow = cell_flow(gap, self.grid.spacing, tolerance=self.tolerance, least_shear_gap=least)
+        inverse = self._inverse(gap, separation, least)
+        flow = cell_flow(gap, self.grid.spacing, tolerance=self.tolerance, inverse=inverse)
         named = self._named(flow, separation, area, max(residual, flow.residual))
-        named["friction_sliding"] = self._inverse(gap, separation, least)
+        named["friction_sliding"] = float(inverse.means.mean())
         named["mean_gap_scatter"] = 0.0 if self.operator is not None else self._scatter(separation)
         return named, status if status is not Status.CONVERGED else flow.status
 
-    def _inverse(self, gap: FloatArray, separation: float, least: float) -> float:
-        """Mean of the separation over the gap where this (nx, ny), over the separation, is at least so much."""
+    def _inverse(self, gap: FloatArray, separation: float, least: float) -> InverseGap:
+        """Of the gap (nx, ny) over the separation, where it is at least so much."""
         if self.rms == 0:
-            return 1.0
+            return InverseGap(np.ones(gap.shape), np.full(gap.shape, np.nan))
         if self.operator is None:
-            return mean_inverse_opening(1 - self.heights / separation, least)
-        return mean_inverse_gap(gap, least)
+            return inverse_opening(1 - self.heights / separation, least, self.grid.spacing)
+        return inverse_gap(gap, least, self.grid.spacing)
 
     def _scatter(self, separation: float) -> float:
         """Of the mean of max(separation - heights, 0) over cells [m]. The middle of a cell with a kink of slope a per

@@ -1,4 +1,4 @@
-"""The mean of one over the gap, where a patch is partly in contact.
+"""The mean of one over the gap in every cell of a patch that is partly in contact.
 
 Its sum over the centres of cells is exact to all orders where the gap is smooth, but of half an order next to contact:
 beside elastic contact the gap h rises with the power 3/2 of the distance (Johnson, *Contact Mechanics*, section 5.1),
@@ -17,6 +17,8 @@ to the shortest wave that is 0.2 to 0.8 % from four times the cells where centre
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,18 +30,45 @@ _THINNEST = 1e-2
 """The smaller of a and b, over the larger: at less the mean differs from that at none by 1e-5, and digits get lost."""
 
 
-def mean_inverse_gap(gap: FloatArray, least: float) -> float:
-    """Mean over a periodic patch of 1/gap where the gap (nx, ny), >= 0 and 0 in contact, is at least `least` > 0;
-    contact is elastic."""
+@dataclass(frozen=True, eq=False)
+class InverseGap:
+    """Of every cell of a patch (nx, ny): `means`, of 1/gap where there is enough gap, 0 elsewhere; `normal_x`, beside
+    contact the square of the x component of the normal of its edge, not-a-number elsewhere."""
+
+    means: FloatArray
+    normal_x: FloatArray
+
+
+def inverse_gap(gap: FloatArray, least: float, spacing: tuple[float, float] = (1.0, 1.0)) -> InverseGap:
+    """Of a periodic patch with the gap (nx, ny), >= 0 and 0 in contact, which is elastic; of gaps less than `least` > 0
+    there is no inverse."""
     free = gap > 0
     measure, known = _gone_on(np.where(free, gap, 0.0) ** (2 / 3), free)
-    return _mean(measure, known, free, least ** (2 / 3), 1.5)
+    means = _means(measure, known, free, least ** (2 / 3), 1.5)
+    return InverseGap(means, _normal_x(measure, free, free, spacing))
 
 
-def mean_inverse_opening(opening: FloatArray, least: float) -> float:
+def inverse_opening(opening: FloatArray, least: float, spacing: tuple[float, float] = (1.0, 1.0)) -> InverseGap:
     """The same of bodies that are not deformed but cut off, from separation less height (nx, ny), of either sign."""
     everywhere = np.ones(opening.shape, dtype=np.bool_)
-    return _mean(opening, everywhere, everywhere, least, 1.0)
+    means = _means(opening, everywhere, everywhere, least, 1.0)
+    return InverseGap(means, _normal_x(opening, everywhere, opening > 0, spacing))
+
+
+def _normal_x(
+    g: FloatArray, known: NDArray[np.bool_], free: NDArray[np.bool_], spacing: tuple[float, float]
+) -> FloatArray:
+    """From the slopes of the measure between cells where it is known, in free cells beside others,
+    along axes or across a corner."""
+    near, squares = ~free, []
+    for axis in (0, 1):
+        near = near | np.roll(near, 1, axis) | np.roll(near, -1, axis)
+    for axis in (0, 1):
+        behind, ahead = (np.roll(known, way, axis) for way in (1, -1))
+        rise = np.where(ahead, np.roll(g, -1, axis) - g, 0.0) + np.where(behind, g - np.roll(g, 1, axis), 0.0)
+        squares.append((rise / np.maximum(ahead.astype(np.float64) + behind, 1.0) / spacing[axis]) ** 2)
+    slope = squares[0] + squares[1]
+    return np.where(near & free & (slope > 0), squares[0] / np.where(slope > 0, slope, 1.0), np.nan)
 
 
 def _gone_on(measure: FloatArray, free: NDArray[np.bool_]) -> tuple[FloatArray, NDArray[np.bool_]]:
@@ -54,7 +83,7 @@ def _gone_on(measure: FloatArray, free: NDArray[np.bool_]) -> tuple[FloatArray, 
     return np.where(free, measure, total / np.maximum(count, 1)), free | (count > 0)
 
 
-def _mean(g: FloatArray, known: NDArray[np.bool_], free: NDArray[np.bool_], least: float, power: float) -> float:
+def _means(g: FloatArray, known: NDArray[np.bool_], free: NDArray[np.bool_], least: float, power: float) -> FloatArray:
     """Of 1/g^power where g is at least `least`; g is linear in cells where it changes much, and `known` there."""
     changes, bend, inside = [], np.zeros(g.shape), free.copy()
     for axis in (0, 1):
@@ -66,11 +95,14 @@ def _mean(g: FloatArray, known: NDArray[np.bool_], free: NDArray[np.bool_], leas
         bend += behind + ahead - 2 * g
     a, b = np.maximum(*changes), np.minimum(*changes)
     smooth = a + b < _SMOOTH * g
-    total = float((g[smooth & (g >= least)] ** -power).sum())
+    centred = smooth & (g >= least)
+    means = np.zeros(g.shape)
+    means[centred] = g[centred] ** -power
     cut = known & ~smooth & (a > 0)
     # the cell's mean and not its centre, where all around is open: what contact bends is the edge itself
     middle = g[cut] + np.where(inside[cut], bend[cut] / 24, 0.0)
-    return (total + float(_over_cells(middle, a[cut], b[cut], least, power).sum())) / g.size
+    means[cut] = _over_cells(middle, a[cut], b[cut], least, power)
+    return means
 
 
 def _over_cells(g: FloatArray, a: FloatArray, b: FloatArray, least: float, power: float) -> FloatArray:

@@ -56,6 +56,20 @@ def test_a_sharp_contact_has_no_bar_of_its_highest_pressure_and_says_why(shape):
     assert bars.values["contact_area"] > 0
 
 
+@pytest.mark.parametrize("cells", [12, 16, 20, 24])
+def test_a_cone_is_sharp_on_few_cells_wherever_its_tip_lies(cells):
+    """Its curvature, the inverse distance, is nowhere small there; of a ball, and of rough surfaces, it is even."""
+    grid, rng = Grid((cells, cells), (1e-6, 1e-6)), np.random.default_rng(6)
+    for tip in [(0.0, 0.0), (0.5e-6, 0.5e-6), *rng.uniform(-1e-6, 1e-6, (10, 2))]:
+        away = np.hypot(grid.x[:, None] - tip[0], grid.y[None, :] - tip[1])
+        assert is_sharp(0.05 * away, (away < 4e-6).astype(np.float64), grid)
+        assert not is_sharp(away**2, (away < 4e-6).astype(np.float64), grid)
+    periodic = Grid((cells, cells), (1e-7, 1e-7), periodic=(True, True))
+    for seed in range(10):
+        heights = generate_surface(periodic, seed=seed, hurst=0.8, cutoff_wavelength=4e-7, rms_slope=0.05)
+        assert not is_sharp(-heights, np.ones(grid.shape), periodic)
+
+
 @pytest.mark.parametrize("shape", SMOOTH)
 def test_a_smooth_contact_keeps_the_bar(shape):
     case = pressed(SMOOTH[shape])

@@ -6,8 +6,8 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from bem import Body, Grid, Material
-from bem.flow import flow_factors
-from bem.flow.inverse_gap import mean_inverse_gap, mean_inverse_opening
+from bem.flow import cell_flow, flow_factors
+from bem.flow.inverse_gap import inverse_gap, inverse_opening
 from bem.reference_solutions.westergaard import SinusoidalContact
 
 BODY = Body(Material("steel", youngs_modulus=200e9, poissons_ratio=0.3))
@@ -27,7 +27,7 @@ def test_a_smooth_gap_is_met_to_all_orders(cells):
     """<1/(1 + a cos)> = 1/sqrt(1 - a^2): centres of cells meet it to rounding, and cells count with theirs where the
     gap is this well resolved."""
     gap = 1 + 0.8 * np.cos(2 * np.pi * centres(cells))[:, None] * np.ones((1, 4))
-    for mean in (mean_inverse_gap(gap, 1e-3), mean_inverse_opening(gap, 1e-3)):
+    for mean in (inverse_gap(gap, 1e-3).means.mean(), inverse_opening(gap, 1e-3).means.mean()):
         assert mean == pytest.approx(1 / 0.6, rel=1e-12)
 
 
@@ -41,7 +41,7 @@ def test_a_wedge_is_exact_wherever_its_edge_lies(shift, axis):
     exact = np.log((1 - sixth) / least)  # slope 2 up and down over a period of 1
     field = np.repeat(opening[:, None], 4, 1)
     field = field if axis == 0 else field.T
-    assert mean_inverse_opening(np.ascontiguousarray(field), least) == pytest.approx(exact, rel=5e-4)
+    assert inverse_opening(np.ascontiguousarray(field), least).means.mean() == pytest.approx(exact, rel=5e-4)
 
 
 def ring(cells, shift, least):
@@ -62,7 +62,7 @@ def test_a_round_contact_is_met_where_centres_scatter():
         found, counts = [], []
         for shift in np.linspace(0, 0.5, 9):
             gap, exact = ring(cells, shift, least)
-            found.append(mean_inverse_gap(gap, least) / exact - 1)
+            found.append(inverse_gap(gap, least).means.mean() / exact - 1)
             counts.append(counted(gap, least) / exact - 1)
         errors.append(np.sqrt(np.mean(np.square(found))))
         scatter.append(np.sqrt(np.mean(np.square(counts))))
@@ -96,6 +96,38 @@ def test_a_wave_in_contact_is_westergaards(share, largest):
 
 
 def test_no_gap_has_no_inverse():
-    assert mean_inverse_gap(np.zeros((8, 8)), 1e-3) == 0.0
-    assert mean_inverse_opening(np.full((8, 8), -1.0), 1e-3) == 0.0
-    assert mean_inverse_gap(np.full((8, 1), 2.0), 1e-3) == 0.5
+    assert inverse_gap(np.zeros((8, 8)), 1e-3).means.mean() == 0.0
+    assert inverse_opening(np.full((8, 8), -1.0), 1e-3).means.mean() == 0.0
+    assert inverse_gap(np.full((8, 1), 2.0), 1e-3).means.mean() == 0.5
+
+
+@pytest.mark.parametrize("share", [0.1, 0.4])
+def test_across_grooves_in_contact_nothing_flows_and_all_is_held(share):
+    """Between closed lines the flow is none, so that the wall's shear is four times that of Couette flow: phi_fs is
+    thrice phi_f, on any grid; along them nothing is held."""
+    apart, _ = wave_in_contact(share)
+    heights = 1e-6 * np.cos(2 * np.pi * centres(64))[:, None] * np.ones((1, 8))
+    grid = Grid((64, 8), (1e-4 / 64, 1e-4 / 64), periodic=(True, True))
+    found = flow_factors(heights, grid, BODY, separations=[apart])
+    assert found.friction_shear == pytest.approx(3 * found.friction_sliding, rel=1e-4)
+    turned = Grid((8, 64), grid.spacing, periodic=(True, True))
+    along = flow_factors(np.ascontiguousarray(heights.T), turned, BODY, separations=[apart])
+    assert abs(along.friction_shear[0]) < 1e-6 * along.friction_sliding[0]
+
+
+def oval(cells, shift):
+    """The wall's shear that is held where the gap rises with the power 3/2 of the distance from an oval contact."""
+    x, y = np.meshgrid(centres(cells, shift) - 0.5, centres(cells, 0.6 * shift) - 0.5, indexing="ij")
+    gap = np.clip(np.hypot(x, 1.3 * y) - 0.2, 0.0, 0.25) ** 1.5
+    spacing = (1 / cells, 1 / cells)
+    return cell_flow(gap, spacing, inverse=inverse_gap(gap, 1e-3, spacing)).sliding_shear
+
+
+def test_what_is_held_round_a_spot_is_met_where_centres_are_not():
+    """Against 768 cells (7.446), where the least gap that counts is seven of them off the edge. At 24, 48 and 128 cells
+    9.9, 10.7 and 7.0 % are left, whatever the place of the edge; by centres 39, 27 and 8 % with a scatter of 12, 4 and
+    1 %."""
+    for cells, largest in ((24, 0.13), (48, 0.12), (128, 0.08)):
+        errors = [oval(cells, shift) / 7.446 - 1 for shift in (0.0, 0.13, 0.31, 0.45)]
+        assert np.ptp(errors) < 0.04
+        assert np.max(np.abs(errors)) < largest
