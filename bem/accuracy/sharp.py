@@ -21,8 +21,8 @@ cells in four of the grid are below: the largest of 20 surfaces of 64 x 64 cells
 _UNUSUAL_TIP = 4.5
 """The same where second differences along both axes stand alone in one cell: under a tip. A cone's fall like the
 inverse distance, so that few cells have few that are small: of 300 cones with their tip anywhere in the middle the
-least was 4.9, 6.4 and 9.6 times them on 12, 16 and 24 cells a side; of 1200 surfaces of 12 to 32 cells with waves of two
-and more the largest was 3.4, of 60 of 64 cells 3.5."""
+least was 4.9, 6.4 and 9.6 times them on 12, 16 and 24 cells a side; of 1200 surfaces of 12 to 32 cells with waves of
+two and more the largest was 3.4, of 60 of 64 cells 3.5."""
 _ROUND_OFF = 1e-9
 """Of the gap's range: below it second differences say nothing."""
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from bem.plots.draw import Drawn
-from bem.plots.tables import accuracy_tables, figure_tables, is_error, is_list, name_and_unit, origin_table, short
+from bem.plots.tables import accuracy_tables, figure_tables, is_error, is_list, name_and_unit, origin_table, within
 from bem.results.atomic import write_text
 from bem.results.directory import REPORT
 
@@ -70,7 +70,7 @@ def summary_rows(summary: dict[str, Any], names: Sequence[str]) -> list[tuple[st
 
 
 def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
-    """Name and value of a figure as `spelled`, with its error where it has one: `1.2 GPa ± 0.013`, in the same unit."""
+    """Name and value of a figure as `spelled`, with its error where it has one: `1.2 ± 0.013 GPa`."""
     value, error = _only(summary[name]), _only(summary.get(f"{name}_error"))
     text, shown = spelled(name, value)
     if not isinstance(error, float) or not isinstance(value, float) or value == 0:
@@ -79,7 +79,7 @@ def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     number, *unit = shown.split(" ")
     factor = float(number.rstrip("%")) / value if float(number.rstrip("%")) else 1.0
     percent = "%" if number.endswith("%") else ""
-    return text, " ".join([f"{number} ± {short(error * abs(factor))}{percent}", *unit])
+    return text, " ".join([number, within(name, value, error, factor, percent), *unit])
 
 
 def _only(value: Any) -> Any:

@@ -37,6 +37,42 @@ def name_and_unit(name: str) -> tuple[str, str]:
     return " ".join(words.split("_")).replace("von mises", "von Mises"), unit
 
 
+_SHARES = ("fraction", "share")
+_WITHOUT_SIGN = frozenset(
+    (
+        "area",
+        "volume",
+        "perimeter",
+        "thickness",
+        "pressure",
+        "radius",
+        "load",
+        "depth",
+        "gap",
+        "sq",
+        "count",
+        "particles",
+    )
+)
+
+
+def within(name: str, value: float, error: float, factor: float = 1.0, sign: str = "") -> str:
+    """An error as it stands behind a value: `± 0.2`, or, where that would leave what the figure can be, the interval
+    that is left: `(0 to 1.3)`, of what has no sign, and `(0.7 to 1)`, of a share of a whole. The error itself, beside
+    the figure in summary and dataset, is that of either side.
+
+    factor, sign : of the unit that is shown, and what follows each number.
+    """
+    words = name_and_unit(name)[0].lower().split(" ")
+    is_share = any(word in _SHARES for word in words)
+    least = 0.0 if value >= 0 and (is_share or not _WITHOUT_SIGN.isdisjoint(words)) else -np.inf
+    most = 1.0 if value <= 1 and is_share else np.inf
+    if least <= value - error and value + error <= most:
+        return f"± {short(error * abs(factor))}{sign}"
+    low, high = max(value - error, least) * factor, min(value + error, most) * factor
+    return f"({low:.3g}{sign} to {high:.3g}{sign})"
+
+
 def is_list(value: Any) -> bool:
     """Whether a figure is a list that wants a table: of several values, or of cases."""
     return isinstance(value, list) and (len(value) > 1 or any(isinstance(item, Mapping) for item in value))
@@ -125,7 +161,11 @@ def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str) -> li
     length = len(summary[names[0]])
     step = -(-length // _MOST_ROWS)
     leading = _leading(summary, length) or list(names[:1])
-    rest = [_column(name, summary[name], _beside(name, summary)) for name in names if name not in leading]
+    rest = [
+        _column(name, summary[name], _beside(name, summary), bars=f"{name}{_ERROR}" in summary)
+        for name in names
+        if name not in leading
+    ]
     first = [_column(name, summary[name], None) for name in leading]
     wide = max(1, _MOST_COLUMNS - len(first))
     found = []
@@ -144,7 +184,7 @@ def _leading(summary: Mapping[str, Any], length: int) -> list[str]:
     return [n for n in telling if len(set(summary[n])) > 1]
 
 
-def _column(name: str, values: Sequence[Any], spread: Any) -> tuple[str, list[str]]:
+def _column(name: str, values: Sequence[Any], spread: Any, *, bars: bool = False) -> tuple[str, list[str]]:
     """Head with its unit, and the values in it; not-a-number and nothing are a dash."""
     words, unit = name_and_unit(name)
     numbers = [v for v in values if isinstance(v, int | float) and not isinstance(v, bool)]
@@ -156,7 +196,9 @@ def _column(name: str, values: Sequence[Any], spread: Any) -> tuple[str, list[st
     cells = [_cell(value, factor) for value in values]
     if isinstance(spread, list) and len(spread) == len(values):
         cells = [
-            cell if cell == "–" or not s or s < _ROUND_OFF * abs(value) else f"{cell} ± {short(s * factor)}"
+            cell
+            if cell == "–" or not s or s < _ROUND_OFF * abs(value)
+            else f"{cell} {within(name, value, s, factor) if bars else f'± {short(s * factor)}'}"
             for cell, s, value in zip(cells, spread, values, strict=True)
         ]
     return label(words, unit), cells

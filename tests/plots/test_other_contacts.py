@@ -116,3 +116,14 @@ def test_errors_of_hundreds_are_written_without_a_power_of_ten():
     assert [cells[-1] for cells in table.rows] == ["300 ± 110", "500 ± 2.5"]
     film = {"film_load_N": 0.3145, "film_load_N_error": 0.114}
     assert with_error("film_load_N", film) == ("film load", "314.5 ± 110 mN")
+
+
+def test_an_interval_ends_where_what_a_figure_can_be_ends():
+    """Areas have no sign, shares are no more than one, friction may be negative; the summary keeps the error."""
+    shown = {"worn_depth_nm": "2 (0 to 5) nm", "stick_fraction": "90.0000% (70% to 100%)", "friction": "0.002 ± 0.003"}
+    figures = {"worn_depth_nm": 2.0, "stick_fraction": 0.9, "friction": 0.002, "contact_share": [0.05, 0.5]}
+    errors = {"worn_depth_nm": 3.0, "stick_fraction": 0.2, "friction": 0.003, "contact_share": [0.1, 0.1]}
+    summary = {**figures, **{f"{name}_error": error for name, error in errors.items()}, "speed_m_s": [1.0, 2.0]}
+    assert {name: with_error(name, summary)[1] for name in shown} == shown
+    (table,) = figure_tables(summary, ["speed_m_s", "contact_share"])
+    assert [cells[-1] for cells in table.rows] == ["0.05 (0 to 0.15)", "0.5 ± 0.1"]
