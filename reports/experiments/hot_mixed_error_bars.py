@@ -3,8 +3,8 @@
     python -m reports.experiments.hot_mixed_error_bars [CASES]
 
 Contacts of `mixed_error_bars` with full heat: steel, ISO VG 10 to 320 at 40 to 100 degrees Celsius, 1 to 10 m/s,
-roughness of 80 to 400 nm, so that most touch. References have 2.5 times the points, columns and layers on the same rough patch, whose cells
-are judged there; what they leave themselves is added. The result is stored in
+roughness of 80 to 400 nm, so that most touch. References have 2.5 times the points, columns and layers on the same
+rough patch, whose cells are judged there; what they leave themselves is added. The result is stored in
 `reports/results/hot_mixed_error_bars.json`.
 """
 
