@@ -98,9 +98,10 @@ def test_what_bounds_the_figures_is_said(tmp_path):
 
 
 def test_a_film_that_is_not_found_is_not_converged_and_says_what_to_do(tmp_path, monkeypatch):
-    from bem.lubrication.point import rough_film
+    from bem.lubrication.point import touching_start
 
-    monkeypatch.setattr(rough_film, "STEPS", 2)
+    for name in ("FIRST", "STEPS"):
+        monkeypatch.setattr(touching_start, name, 2)
     run = run_scene(scene(), tmp_path / "run", figures=False)
     assert run.summary["status"] == "stalled"
     assert REMEDY in run.summary["where"]

@@ -8,27 +8,26 @@ Knows what `solve` knows; verified in tests/lubrication/point/test_rough_film.py
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from bem.arguments import is_positive
-from bem.contact import solve_contact
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point import loops
-from bem.lubrication.point.cascade import from_dry
 from bem.lubrication.point.levels import Level
 from bem.lubrication.point.linear import BoolArray, flows
 from bem.lubrication.point.moving import Heights
 from bem.lubrication.point.newton import own_film
 from bem.lubrication.point.setting import Rectangle, Setting, default_rectangle, setting_of
 from bem.lubrication.point.solve import Speeds, check_extent, checked, edges, entrainment
-from bem.lubrication.point.touching_newton import TouchingBalance, TouchingOutcome, TouchingState, balance, newton
+from bem.lubrication.point.touching_newton import TouchingBalance, TouchingOutcome, TouchingState, balance
+from bem.lubrication.point.touching_start import reached
 from bem.materials import Body
 from bem.representation import readable
 from bem.threads import one_blas_thread
@@ -38,14 +37,6 @@ LEAST_FILM = 1e-9
 """[m], of a few molecules: below, no oil is a continuum."""
 INSIDE = 0.2
 """Share of the tolerance that Newton's method aims at: the certificate counts errors of films in balances, too."""
-DRY = 1e-10
-"""Tolerance of the dry contact that a film begins from."""
-LIFTS = (1.0, 2.0)
-"""Films to start with over those expected of smooth bodies."""
-FASTEST, SLOWER, SLOWEST_STEP = 8.0, 0.6, 0.96
-"""Speed over the one asked for at which it is begun where no start leads to it, and from one to the next."""
-STEPS, ON_THE_WAY = 40, 1e-5
-"""Newton steps from one start; largest error of speeds on the way."""
 CREATED = 0.01
 """Of the oil through the contact, what may come from nowhere without a note."""
 
@@ -226,7 +217,7 @@ def _reach(setting: Setting, heights: Heights) -> Rectangle:
 
 
 def _solved(setting: Setting, shape: tuple[int, int], asked: _Asked) -> tuple[Level, TouchingOutcome]:
-    """The film on a grid: from a dry contact with a film in it, from the dry contact, from higher speeds."""
+    """The film on a grid."""
     smooth = Level(setting.problem, shape)
     unit, frame = setting.scales.length, setting.frame
     x, y = frame.axes(smooth.x * unit, smooth.y * unit)
@@ -236,68 +227,7 @@ def _solved(setting: Setting, shape: tuple[int, int], asked: _Asked) -> tuple[Le
         raise InputError(f"heights: not {wide[0].shape[0]} x {wide[0].shape[1]} finite heights [m] on the grid")
     layer = math.inf if asked.cavitation is Cavitation.MASS_CONSERVING else None
     level = Level(replace(setting.problem, heights=frame.inner(found) / setting.scales.film, layer=layer), shape)
-    least = asked.least_film / setting.scales.film
-    goal = INSIDE * asked.tolerance
-    spent = [0, 0]
-    outcome = None
-    for start in _starts(level, least):
-        outcome = newton(level, start, least, goal, STEPS)
-        spent = [spent[0] + outcome.steps, spent[1] + outcome.cycles]
-        if outcome.converged:
-            break
-    assert outcome is not None
-    if not outcome.converged:
-        outcome, more = _slowed(level, least, goal, outcome)
-        spent = [a + b for a, b in zip(spent, more, strict=True)]
-    return level, replace(outcome, steps=spent[0], cycles=spent[1])
-
-
-def _starts(level: Level, least: float) -> Iterator[TouchingState]:
-    """In the order in which they are tried: the dry contact first where smooth bodies would touch, too."""
-    slow = level.problem.typical_film < least
-    if slow:
-        yield _dry(level, least)
-    for lift in LIFTS:
-        yield _lifted(level, least, lift)
-    if not slow:
-        yield _dry(level, least)
-
-
-def _dry(level: Level, least: float) -> TouchingState:
-    assert level.kernel is not None
-    operator, factor = level.kernel
-    load = level.problem.load * operator.grid.cell_area / level.cell
-    contact = solve_contact(level.gap / factor, operator, load=load, tolerance=DRY)
-    touching = (contact.pressure > 0) & ~level.border
-    pressure = np.where(touching, contact.pressure, 0.0)
-    film = np.where(touching, least, np.maximum(contact.gap * factor, 0.0) + least)
-    return TouchingState(pressure, film, least - float(contact.approach) * factor, 0 * pressure, touching)
-
-
-def _lifted(level: Level, least: float, lift: float) -> TouchingState:
-    start = from_dry(level, lift)
-    nowhere = np.zeros(level.shape, dtype=bool)
-    return TouchingState(start.pressure, np.maximum(start.film, 1.01 * least), start.datum, start.pressure, nowhere)
-
-
-def _slowed(level: Level, least: float, goal: float, last: TouchingOutcome) -> tuple[TouchingOutcome, list[int]]:
-    """From a higher speed down to the one asked for; the last outcome where that leads nowhere."""
-    spent, at, before, factor = [0, 0], FASTEST, FASTEST, SLOWER
-    state = _lifted(level, least, 2.0)
-    while True:
-        drag = level.problem.drag
-        there = Level(replace(level.problem, drag=(at * drag[0], at * drag[1])), level.shape)
-        outcome = newton(there, state, least, goal if at == 1 else ON_THE_WAY, STEPS)
-        spent = [spent[0] + outcome.steps, spent[1] + outcome.cycles]
-        if outcome.converged:
-            if at == 1:
-                return outcome, spent
-            state, before = outcome.state, at
-        else:
-            factor = math.sqrt(factor)
-            if before == at or factor > SLOWEST_STEP:
-                return last, spent
-        at = max(before * factor, 1.0)
+    return level, reached(level, asked.least_film / setting.scales.film, INSIDE * asked.tolerance)
 
 
 def _said(setting: Setting, level: Level, outcome: TouchingOutcome, asked: _Asked) -> RoughPointFilm:

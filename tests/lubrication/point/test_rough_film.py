@@ -16,6 +16,7 @@ from bem import (
     solve_point_film,
     solve_rough_point_film,
 )
+from bem.lubrication.point import touching_start
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 MODULUS = contact_modulus(STEEL, STEEL)
@@ -29,6 +30,13 @@ SHAPE = (64, 56)
 def bumps(rms, wavelength=0.74):
     wave = 2 * np.pi / (wavelength * HALF)
     return lambda x, y: 2 * rms * np.cos(wave * x) * np.cos(wave * y)
+
+
+def random_bumps(seed, rms, shortest=0.45):
+    rng = np.random.default_rng(seed)
+    number = 2 * np.pi / (shortest * HALF) * 4 ** rng.uniform(-1, 0, (64, 1, 1))
+    angle, phase = rng.uniform(0, 2 * np.pi, (2, 64, 1, 1))
+    return lambda x, y: rms / np.sqrt(32) * np.cos(number * (np.cos(angle) * x + np.sin(angle) * y) + phase).sum(0)
 
 
 def elastic(film):
@@ -162,6 +170,17 @@ def test_oil_from_nowhere_is_said_and_gone_where_account_is_kept():
     assert kept.created_oil == 0
     assert not kept.notes
     assert kept.contact_share > torn.contact_share
+
+
+@pytest.mark.parametrize(("rms", "speed"), [(60e-9, 5e-4), (40e-9, 2e-3)])
+def test_films_among_steep_bumps_at_creeping_speeds_are_found_by_way_of_oil_from_nowhere(rms, speed):
+    film = solve_rough_point_film(**BALL, speeds=(0.0, speed), heights=random_bumps(2, rms), shape=SHAPE, errors=False)
+    assert film.status.value == "converged"
+    assert film.created_oil == 0
+    assert film.residual < 1e-8
+    assert 0.01 < film.contact_share < 0.99
+    # the likeliest start, from which Newton's method goes round in circles, is not the only one that was tried
+    assert film.iterations > touching_start.FIRST
 
 
 @pytest.mark.parametrize(
