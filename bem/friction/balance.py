@@ -38,6 +38,8 @@ ONE_LOAD = 0.1
 COARSE_TRIALS, FINEST_CONTACT = 20, 1e-9
 """Films after which a contact is solved more finely, down to that tolerance: openings that jump with its own tolerance
 keep film and contact from their balance."""
+CONTACT_SHARE = 0.1
+"""Of the goal with coarse films: what their contacts are solved to, relative to the gap that they flatten."""
 NEGLIGIBLE = 0.1
 """Share of the load, over the tolerance of the balance, below which a film is left with nothing that counts."""
 LEAST_REST = 1e-12
@@ -95,7 +97,7 @@ def share_load(
     film: Film, rough: RoughContact, load: float, tolerance: float, whole: PatchFilm, start: BalanceStart
 ) -> Balance:
     """The balance of a load [N] to `tolerance`; `whole` is the film under all of it, or under the largest there is."""
-    effort = _Effort(contact_tolerance=rough.tolerance, film=whole, pressure=start.pressure)
+    effort = _Effort(film=whole, pressure=start.pressure)
     if whole.load >= load and rough.clears(whole):
         trial = _Trial(math.log(load), whole, None, _excess(whole, None, load))
         return _certified(trial, rough, load, tolerance, Regime.FULL_FILM, effort, start.slope)
@@ -106,10 +108,13 @@ def share_load(
         at = top  # where the last one was at the boundary since the film's model ends, its end says so again
     for level, error in enumerate(film.errors):
         search = _Search(film, rough, load, max(tolerance, error), level, bottom, top, effort)
+        effort.contact_tolerance = min(effort.contact_tolerance, search.contact_tolerance)
         trial, slope, regime = search.run(at, slope)
         at = trial.logarithm
         if search.too_little(trial):
+            effort.contact_tolerance = min(effort.contact_tolerance, rough.tolerance)
             if not search.is_no_film(trial):
+                trial = search.under_the_rest(at)
                 return _certified(trial, rough, load, tolerance, regime, effort, slope, short=True)
             trial = replace(search, level=len(film.errors) - 1).under_the_rest()
             return _certified(trial, rough, load, tolerance, Regime.BOUNDARY, effort, slope)
@@ -130,7 +135,7 @@ class _Trial:
 class _Effort:
     """What all levels share: the last film and pressure as starts, the contact's tolerance, and counts."""
 
-    contact_tolerance: float = 0.0
+    contact_tolerance: float = math.inf
     film: PatchFilm | None = None
     pressure: FloatArray | None = None
     films: int = 0
@@ -155,6 +160,16 @@ class _Search:
     bottom: float
     top: float
     effort: _Effort
+
+    @property
+    def contact_tolerance(self) -> float:
+        """What a contact is solved to at first: as was asked for with the last films, before them no better than the
+        balance needs of an opening as small as the film's oil."""
+        asked, film = self.rough.tolerance, self.effort.film
+        if self.level == len(self.film.errors) - 1 or asked == 0 or film is None:
+            return asked
+        share = _oil(film, self.rough) / max(float(film.gap.std()), 1e-300)
+        return max(asked, CONTACT_SHARE * self.goal * min(share, 1.0))
 
     def run(self, at: float, slope: float) -> tuple[_Trial, float, Regime]:
         """Last trial, slope there and regime, from a film load by its logarithm and `BalanceStart.slope`."""

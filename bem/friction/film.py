@@ -25,6 +25,8 @@ HOT_SHARE = 0.9
 """Of the largest load that an oil carries, while heat in the inlet thins it by less than a fifth."""
 COARSE_FILM = 1e-3
 """Relative error of films of `BALANCE_POINTS`: the balance is met no better with them."""
+TOLERANCE, COARSE_TOLERANCE = 1e-8, 1e-5
+"""Largest residual of films, and of those of `BALANCE_POINTS`: a hundredth of what their points leave."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,11 +93,13 @@ def solved_line_film(
     *,
     initial: FilmSolution | None = None,
     position: FloatArray | None = None,
+    tolerance: float = TOLERANCE,
 ) -> FilmSolution:
     """The film under a load on the whole width [N] up to the largest.
 
     Where the load is so small that the elastic film is outside its range, the surfaces are rigid: pressures that small
-    move them by less than 1e-5 of the film.
+    move them by less than 1e-5 of the film. tolerance : as of `solve_line_film`, without heat: rounds of heat have
+    their own.
     """
     modulus, heat = contact.film_modulus(load), contact.heat
     lowest, _ = load_range(contact.radius, modulus, speeds, contact.lubricant)
@@ -110,7 +114,7 @@ def solved_line_film(
         "flow_factors": contact.flow_factors,
     }
     if heat is None:
-        return solve_line_film(**asked, position=position, supply=contact.supply)
+        return solve_line_film(**asked, position=position, supply=contact.supply, tolerance=tolerance)
     unheated = {"position": position is not None, "supply": contact.supply is not None and heat.model == "full"}
     return film_with_heat(heat.model, asked | {"bodies": heat.bodies}, contact.supply, unheated, heat.mesh)
 
@@ -121,7 +125,7 @@ class SolvedFilm:
 
     position : (nx,) abscissae of the patch [m]. speeds : (u1, u2) of flat and cylinder [m/s]. points : of the film's
     own mesh. striated_exit : whether the oil behind the exit adds to the shear force. initial : a film of a similar
-    case, where the first one starts.
+    case, where the first one starts. tolerance : of the films on the wanted mesh.
     """
 
     contact: LineContact
@@ -130,6 +134,7 @@ class SolvedFilm:
     points: int
     striated_exit: bool = False
     initial: FilmSolution | None = None
+    tolerance: float = TOLERANCE
 
     step = 0.125  # cubic interpolation is then good to about 1e-4 of the film (tested)
     growth = 0.5
@@ -151,7 +156,9 @@ class SolvedFilm:
         """As `Film`."""
         points = self.points if level == len(self.errors) - 1 else BALANCE_POINTS
         initial = self.initial if start is None else line_solution(start.solution)
-        return self.sampled(solved_line_film(self.contact, self.speeds, load, points, initial=initial), load)
+        tolerance = self.tolerance if level == len(self.errors) - 1 else COARSE_TOLERANCE
+        film = solved_line_film(self.contact, self.speeds, load, points, initial=initial, tolerance=tolerance)
+        return self.sampled(film, load)
 
     @property
     def parabola(self) -> FloatArray:

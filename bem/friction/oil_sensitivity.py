@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from bem.errors import Status
 from bem.friction.balance import Balance, BalanceStart, Regime, share_load
-from bem.friction.film import BALANCE_CELLS, BALANCE_POINTS, PatchFilm
+from bem.friction.film import BALANCE_CELLS, BALANCE_POINTS, COARSE_TOLERANCE, PatchFilm, SolvedFilm
 from bem.friction.films import films_of
 from bem.friction.forces import friction_forces
 from bem.friction.oil_beside import OilBeside
@@ -51,6 +51,8 @@ def oil_beside(
     )
     few = BALANCE_POINTS if setup.radii is None else BALANCE_CELLS
     film = films_of(counted, speeds, resolution=min(setup.film_resolution, few))
+    if isinstance(film, SolvedFilm):
+        film = replace(film, tolerance=COARSE_TOLERANCE)
     start = BalanceStart(_first_load(found.film.load, setup.load, before), found.slope, found.contact.pressure)
     other = share_load(
         film, rough_contact(counted, height, speeds), setup.load, max(setup.tolerance, TOLERANCE), whole, start

@@ -19,6 +19,10 @@ from bem import (
     solve_mixed,
     stribeck_curve,
 )
+from bem.friction import balance as balance_model
+from bem.friction import film as film_model
+from bem.friction import oil_sensitivity
+from bem.friction import rough_contact as rough_model
 from bem.friction.balance import BalanceStart, Regime, share_load
 from bem.friction.film import PatchFilm
 from bem.friction.rough_contact import boundary_traction, rough_contact
@@ -241,3 +245,38 @@ def test_steep_balances_take_few_evaluations():
         # by the volume of the returned film, as the balance by loads would have it
         thickness = point.film.at(GRID.x)[1].mean()
         assert np.maximum(point.contact.gap, 0).mean() == pytest.approx(thickness, rel=5e-4)
+
+
+def test_what_lies_on_the_way_is_solved_no_better_than_the_balance_needs(monkeypatch):
+    """Coarse films and contacts under them: fewer Newton steps and convolutions, and the same point."""
+    spent = {"steps": 0.0, "convolutions": 0.0}
+    solve_film, press = film_model.solve_line_film, rough_model.solve_contact
+
+    def counted_film(**asked):
+        film = solve_film(**asked)
+        spent["steps"] += film.iterations
+        return film
+
+    def counted_contact(*gap, **asked):
+        contact = press(*gap, **asked)
+        spent["convolutions"] += contact.convolutions
+        return contact
+
+    monkeypatch.setattr(film_model, "solve_line_film", counted_film)
+    monkeypatch.setattr(rough_model, "solve_contact", counted_contact)
+    case = CASE | {"film_points": 800, "contact_tolerance": 1e-8, "tolerance": 1e-6}
+    found = []
+    for _ in range(2):
+        point = solve_mixed(height=HEIGHT, speeds=(0.03, 0.0), **case)
+        assert point.status is Status.CONVERGED
+        assert point.regime is Regime.MIXED
+        found.append((point, dict(spent)))
+        spent |= {"steps": 0.0, "convolutions": 0.0}
+        monkeypatch.setattr(film_model, "COARSE_TOLERANCE", film_model.TOLERANCE)
+        monkeypatch.setattr(oil_sensitivity, "COARSE_TOLERANCE", film_model.TOLERANCE)
+        monkeypatch.setattr(balance_model, "CONTACT_SHARE", 0.0)
+    (point, fewer), (exact, more) = found
+    assert point.film_load == pytest.approx(exact.film_load, rel=1e-5)
+    assert point.friction == pytest.approx(exact.friction, rel=1e-5)
+    assert fewer["steps"] <= 0.9 * more["steps"]
+    assert fewer["convolutions"] <= 0.9 * more["convolutions"]
