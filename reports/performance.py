@@ -31,7 +31,7 @@ from bem.benchmarks.show import (
 from bem.benchmarks.show import (
     work_precision as residual_curves,
 )
-from reports import work_precision
+from reports import large, work_precision
 from reports.builder import Page, Section, figure, table, text
 from reports.experiments.kept import age, found, result_of
 from reports.validation_origin import changed_since_stored
@@ -380,7 +380,7 @@ def _threads_and_memory(run: Run) -> str:
     )
     body = text(words) + table(THREAD_HEADERS, thread_rows(run))
     caption = "Beyond what the process held before, arrays that are asked for included."
-    return body + table(MEMORY_HEADERS, memory_rows(run), caption=caption)
+    return body + table(MEMORY_HEADERS, memory_rows(run), caption=caption) + large.contacts() + large.slabs()
 
 
 def _changes(old: Run, new: Run) -> str:

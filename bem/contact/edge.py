@@ -116,9 +116,7 @@ def plastic_region(
     """The cells at the hardness [Pa], as in `contact_region`; there the gap is minus the overlap. Where plastic contact
     meets no contact at all, the edge lies half-way between centres."""
     elastic = pressure < hardness
-    # seen from the elastic part of the contact, contact turns plastic as it opens: with the signs turned
-    strength = np.where(pressure > 0, hardness - pressure, 0.0)
-    rest = _region(elastic, strength, -gap, undeformed, grid, modulus)
+    rest = _region(elastic, pressure, gap, undeformed, grid, modulus, hardness=hardness)
     area = grid.area - rest.area
     return replace(rest, counted_area=grid.area - rest.counted_area).of_area(area)
 
@@ -131,11 +129,17 @@ def _region(
     grid: Grid,
     modulus: float,
     ends: tuple[float, float] | None = None,
+    hardness: float = 0.0,
 ) -> Region:
     constants, fitted = (_WAVES, _WAVES_ENDS) if all(grid.periodic) else (_CELLS, _CELLS_ENDS)
     count = int(inside.sum())
     excess, length, sides, chords, cubes, turns = _sum_squares(
-        (inside, strength, opening, undeformed), grid.spacing, grid.periodic, 0.75 * modulus, constants, ends or fitted
+        (inside, strength, opening, undeformed),
+        grid.spacing,
+        grid.periodic,
+        (0.75 * modulus, hardness),
+        constants,
+        ends or fitted,
     )
     # chords cut off curvature x chord^3 / 12; the curvature of all edges adds up to 2 pi a piece, less that of holes;
     # chords that run back count as well, or what is left of a jagged edge's length makes any area
@@ -205,13 +209,15 @@ def _root(parent, cell):  # type: ignore[no-untyped-def]
 
 
 @_strict
-def _sum_squares(given, spacing, wraps, factor, constants, ends):  # type: ignore[no-untyped-def]
+def _sum_squares(given, spacing, wraps, factors, constants, ends):  # type: ignore[no-untyped-def]
     """Over the squares between four centres: area within the polygons beyond a quarter of a cell for each centre inside
     [m^2], length of the edge [m], that of sides between cells inside and not [m], sums of chords [m] and of their cubes
     [m^3], Euler's number of the region.
 
     given : (inside, strength, opening, shape). strength : vanishes like the root of the distance to the edge inside;
-    opening : grows with its power 3/2 outside. shape : the undeformed gap.
+    opening : grows with its power 3/2 outside. shape : the undeformed gap. factors : of the opening, and the hardness
+    where contact turns plastic as it opens, seen from its elastic part: strength is then what the pressure that is
+    given is below it, and the opening has its sign turned. Zero for none.
     """
     inside = given[0]
     dx, dy = spacing
@@ -219,7 +225,7 @@ def _sum_squares(given, spacing, wraps, factor, constants, ends):  # type: ignor
     nx, ny = inside.shape
     blurred = _blur(inside, wraps_x, wraps_y)
     fields = (*given, blurred)
-    place = (spacing, wraps, factor, ends)
+    place = (spacing, wraps, factors, ends)
     area, length, sides, chords, cubes, corners = 0.0, 0.0, 0.0, 0.0, 0.0, 0
     # each link is cut once: a square's upper sides are the lower ones of the next
     rights = np.full(ny, 0.5)
@@ -310,18 +316,22 @@ def _chord(u, v, along, across):  # type: ignore[no-untyped-def]
 def _cut(fields, i, j, axis, place, constants):  # type: ignore[no-untyped-def]
     """Where the edge crosses the link from (i, j) along `axis`, as a fraction of it; 0.5 where it does not."""
     inside, strength, opening, shape, blurred = fields
-    (dx, dy), (wraps_x, wraps_y), factor, (within, beyond) = place
+    (dx, dy), (wraps_x, wraps_y), (factor, hardness), (within, beyond) = place
     k, m = _step(inside, i, j, axis, 1, wraps_x, wraps_y)
     first = inside[i, j]
     if first == inside[k, m]:
         return 0.5
     held = strength[i, j] if first else strength[k, m]
+    if hardness > 0.0 and held > 0.0:
+        held = hardness - held
     before, behind = _step(inside, i, j, axis, -1, wraps_x, wraps_y), _step(inside, i, j, axis, 2, wraps_x, wraps_y)
     jump = abs(shape[k, m] - shape[i, j])
     beside = max(abs(shape[i, j] - shape[before]), abs(shape[behind] - shape[k, m]))
     if held <= 0.0 or jump > _STEP * beside:
         return 0.5
     opened = opening[k, m] if first else opening[i, j]
+    if hardness > 0.0:
+        opened = -opened
     step, side = (dx, dy) if axis == 0 else (dy, dx)
     along = (float(blurred[behind]) + blurred[k, m] - blurred[i, j] - blurred[before]) / step
     across = 0.0

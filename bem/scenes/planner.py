@@ -172,9 +172,18 @@ def check_memory(plan: Plan) -> None:
     free = available_memory()
     if plan.memory > free:
         raise InputError(
-            f"memory: this scene needs about {show_bytes(plan.memory)} and {show_bytes(free)} are available; "
+            f"memory: this scene needs about {show_bytes(plan.memory)} and {show_bytes(free)} are available"
+            f"{_fitting(plan, free)}; "
             "allowed: a smaller grid.shape, fewer depths or fewer outputs (`bem plan` shows what takes how much)"
         )
+
+
+def _fitting(plan: Plan, free: float) -> str:
+    """How much of its grid would fit; empty where not even the process does."""
+    share = (free - _PROCESS) / (plan.memory - _PROCESS)
+    if not share > 0:
+        return ""
+    return f" (grids of {100 * share:.2g} % of the cells fit, {100 * math.sqrt(share):.2g} % of them along each side)"
 
 
 def machine_rate(threads: int = 1) -> float:

@@ -1,0 +1,82 @@
+"""Large contacts on the page of run times: bytes a cell, and why there is no operator in slabs; from stored results.
+
+Knows the two experiments; nothing is measured here. Verified in tests/reports/test_large.py.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from reports.builder import table, text
+from reports.experiments.large_contact import RESULT as CONTACTS
+from reports.experiments.slab_transforms import RESULT as SLABS
+
+_NAMES = {
+    "bem": "this project's passes, product included",
+    "fftw": "FFTW, measured plans",
+    "scipy": "scipy",
+    "slabs_of": "scipy in processes with slabs",
+    "dask": "Dask, blocks",
+    "mpi4py_fft": "mpi4py-fft (ranks that wait work)",
+}
+
+
+def contacts() -> str:
+    """What a large periodic contact takes."""
+    rows: dict[str, dict[str, Any]] = json.loads(CONTACTS.read_text("utf-8"))
+    body = text(
+        "A rough surface on a flat, periodic, elastic, 7 to 8 % of the cells in contact: most memory of a fresh "
+        "process, the gap counted with the contact. Gap, pressure and residual are in double throughout; the search is "
+        "in single precision and costs no accuracy (`bem plan`). With a quarter of 2048 x 2048 cells in contact it is "
+        "94 bytes a cell. At 65 bytes 16384 x 16384 cells take 17.5 GB, their surface 15 GB before it. On free axes "
+        "transforms have four times the points: 90 bytes a cell, 15,000 cells along each side in 20 GB. "
+        "`python -m reports.experiments.large_contact --size 16384` measures it where there is room."
+    )
+    headers = ("cells a side", "surface, bytes a cell", "contact, bytes a cell", "surface, s", "contact, s")
+    found = [
+        (
+            size,
+            f"{row['surface_bytes_a_cell']:.0f}",
+            f"{row['contact_bytes_a_cell']:.0f}",
+            f"{row['surface_processor_s']:.3g}",
+            f"{row['contact_processor_s']:.3g}",
+            f"{row['convolutions']:.1f}",
+            f"{row['residual']:.1e}",
+        )
+        for size, row in rows.items()
+    ]
+    caption = "Seconds of processor time on two threads. Small grids have the libraries' memory in theirs."
+    return body + table((*headers, "convolutions", "residual"), found, caption=caption)
+
+
+def _seconds(value: float | None) -> str:
+    return "" if value is None else f"{value:.3g}"
+
+
+def slabs() -> str:
+    """Why there is no operator in slabs."""
+    rows: dict[str, dict[str, dict[str, float]]] = json.loads(SLABS.read_text("utf-8"))
+    size, largest = list(rows.items())[-1]
+    spent, moved = largest["processor_s"], largest["transposed_s"]["2"]
+    ratio = {name: spent["slabs_of_2"] / spent[name] for name in ("scipy_2", "bem_2")}
+    body = text(
+        "A contact beyond one machine would need its transforms in slabs, a process for each, with two transpositions "
+        f"a pair. On {size} x {size} cells two slabs of scipy's transforms work {ratio['scipy_2']:.2f} times as long "
+        f"as scipy's two threads, {100 * moved / spent['slabs_of_2']:.0f} % of it to move what threads share, and "
+        f"{ratio['bem_2']:.1f} times as long as two threads of this project's passes; what messages between machines "
+        "cost comes on top. As 16384 x 16384 cells fit on one, threads are kept and no operator in slabs is built. "
+        "`python -m reports.experiments.slab_transforms` repeats it."
+    )
+    ways = list(dict.fromkeys(name.rsplit("_", 1)[0] for name in spent))
+    found = [
+        (
+            cells,
+            _NAMES[way],
+            *(f"{row['processor_s'].get(f'{way}_{n}', float('nan')):.3g}".replace("nan", "") for n in (1, 2)),
+        )
+        for cells, row in rows.items()
+        for way in ways
+    ]
+    headers = ("cells a side", "one pair of transforms", "one, s", "two, s")
+    return body + table(headers, found, caption="Processor time of all threads or processes together.")
