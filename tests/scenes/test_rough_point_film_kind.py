@@ -47,7 +47,7 @@ def test_a_scene_has_what_the_solver_says(tmp_path):
     # 0.007: the surfaces do touch
     assert film.contact_share > 1e-4
     assert summary["contact_load_share"] == pytest.approx(film.contact_share, rel=1e-6)
-    assert summary["contact_load_share_error"] >= film.contact_share_error * (1 - 1e-6)
+    assert summary["contact_load_share_error"] >= 1.5 * film.contact_share_error * (1 - 1e-6)
     assert summary["contact_area_share"] == pytest.approx(film.contact_area / (math.pi * half**2), rel=1e-6)
     assert summary["traction_coefficient"] == pytest.approx(film.friction(0.2), rel=1e-6)
     assert summary["friction_power_W"] == pytest.approx(film.friction(0.2) * film.load * 0.01, rel=1e-6)
