@@ -17,7 +17,7 @@ from scipy.linalg import LinAlgWarning, lu_factor, lu_solve
 
 from bem.grid import FloatArray
 from bem.lubrication.point import lines, loops, supply_loops
-from bem.lubrication.point.levels import Level
+from bem.lubrication.point.levels import LIGHT, Level
 from bem.lubrication.point.rough_loops import rough_flows
 
 BoolArray = NDArray[np.bool_]
@@ -200,14 +200,20 @@ class Linear:
         return self.level.averaged(rest)
 
     def cycle(self, residual: FloatArray, load: float) -> Change:
-        """About the solution: one multigrid cycle from nothing."""
+        """About the solution: one multigrid cycle from nothing, two sweeps before and two behind for heavy contacts
+        and oil at an angle (half the cycles then, in five sixths of the time on 256 cells a side; light ones lose)."""
         coarse = self.coarser
         if coarse is None:
             return self.solved(residual, load)
         level = self.level
-        pressure = self.relaxed(residual, back=False)
-        done, carried = self.applied(Change(pressure, 0.0))
-        rest = residual - done
+        problem = level.problem
+        hard = problem.heights is None and (problem.load > LIGHT or problem.drag[1] > 0)
+        sweeps = 2 if hard else 1
+        pressure, rest, carried = np.zeros(level.shape), residual, 0.0
+        for back in (False, True)[:sweeps]:
+            pressure += self.relaxed(rest, back)
+            done, carried = self.applied(Change(pressure, 0.0))
+            rest = residual - done
         rest[level.border | self.held] = 0.0
         mean = self.restricted(rest)
         mean[coarse.level.border] = 0.0
@@ -215,8 +221,9 @@ class Linear:
         fine = level.refined(correction.pressure)
         fine[self.held | level.border] = 0.0
         pressure += fine
-        done, _ = self.applied(Change(pressure, correction.datum))
-        pressure += self.relaxed(residual - done, back=True)
+        for back in (True, False)[:sweeps]:
+            done, _ = self.applied(Change(pressure, correction.datum))
+            pressure += self.relaxed(residual - done, back)
         return Change(pressure, correction.datum)
 
 
