@@ -2,11 +2,15 @@
 
 The square of the pressure falls linearly to zero at the edge of a contact, and the gap outside grows like the distance
 to the power 3/2: phi = p^2 inside and -c gap^(2/3) outside is smooth across the edge, and is what is interpolated.
+
+That gives a region more load or less, by its edges, and of load moved across the surface the bodies make long waves:
+each region then gets the load that it has on the coarser grid.
 """
 
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -18,6 +22,20 @@ from bem.threads import share
 FloatArray = NDArray[np.float64]
 Table = tuple[NDArray[np.int64], FloatArray]
 
+_REGION = 8
+"""Coarse cells along a region that keeps its load. Rough free contacts of 512 cells with a third in contact took 17.9
+convolutions without, 14.0 with regions of 4 cells, 13.6 with 8, 15.2 with 16."""
+
+_MOST = 0.5
+"""Of its pressure between the bounds: the most that a region gets or gives."""
+
+
+def _spacing(cells: int, onto: int, periodic: bool) -> float:
+    """Of `onto` points in that of `cells`, on the same axis."""
+    if periodic:
+        return cells / onto
+    return 0.5 if onto > cells else 2.0 if onto < cells else 1.0
+
 
 @lru_cache(maxsize=64)
 def interpolation(cells: int, onto: int, periodic: bool) -> Table:
@@ -25,10 +43,7 @@ def interpolation(cells: int, onto: int, periodic: bool) -> Table:
 
     Periodic axes have the same length on both grids; on a free axis point k of the coarser is point 2k of the finer.
     """
-    if periodic:
-        position = np.arange(onto) * (cells / onto)
-    else:
-        position = np.arange(onto) * (0.5 if onto > cells else 2.0 if onto < cells else 1.0)
+    position = np.arange(onto) * _spacing(cells, onto, periodic)
     base = np.floor(position).astype(np.int64)
     t = position - base
     weights = np.stack(
@@ -85,7 +100,32 @@ def prolong(
         _prolong_phi(phi, rows[0][part], rows[1][part], *columns, cap, fine[part])
 
     share(work, -(-shape[0] // lines))
+    along = [_regions(n, m, wraps) for n, m, wraps in zip(pressure.shape, shape, periodic, strict=True)]
+    _keep_loads(pressure, fine, along[0], along[1], cap)
     return fine
+
+
+class _Regions(NamedTuple):
+    """Along an axis: how many regions, the one that each point of the coarser grid is in, the two that each of the
+    finer is in, its share in the second, and its length in the coarser's spacings."""
+
+    count: int
+    coarse: NDArray[np.int64]
+    first: NDArray[np.int64]
+    second: NDArray[np.int64]
+    share: FloatArray
+    length: float
+
+
+@lru_cache(maxsize=64)
+def _regions(cells: int, onto: int, periodic: bool) -> _Regions:
+    """A point of the finer grid between two of the coarser belongs to both, as in linear interpolation."""
+    spacing = _spacing(cells, onto, periodic)
+    position = np.arange(onto) * spacing
+    below = np.floor(position).astype(np.int64)
+    above = (below + 1) % cells if periodic else np.minimum(below + 1, cells - 1)
+    coarse = np.arange(cells) // _REGION
+    return _Regions(int(coarse[-1]) + 1, coarse, coarse[below], coarse[above], position - below, spacing)
 
 
 def _edge_scale(pressure: FloatArray, displacement: FloatArray, gap: FloatArray, approach: float, cap: float) -> float:
@@ -157,3 +197,35 @@ def _prolong_phi(phi, rows, row_weights, columns, column_weights, cap, fine):  #
             )
             if value > 0:
                 fine[i, j] = min(np.sqrt(value), cap)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _keep_loads(pressure, fine, rows, columns, cap):  # type: ignore[no-untyped-def]
+    """Multiply what lies between the bounds so that each region has the load that it has on the coarser grid."""
+    missing = np.zeros((rows.count, columns.count))
+    inside = np.zeros(missing.shape)
+    for i in range(pressure.shape[0]):
+        for j in range(pressure.shape[1]):
+            missing[rows.coarse[i], columns.coarse[j]] += pressure[i, j]
+    cell = rows.length * columns.length
+    for i in range(fine.shape[0]):
+        a, b, s = rows.first[i], rows.second[i], rows.share[i]
+        for j in range(fine.shape[1]):
+            p = fine[i, j] * cell
+            if p == 0:
+                continue
+            c, d, t = columns.first[j], columns.second[j], columns.share[j]
+            missing[a, c] -= (1 - s) * (1 - t) * p
+            missing[a, d] -= (1 - s) * t * p
+            missing[b, c] -= s * (1 - t) * p
+            missing[b, d] -= s * t * p
+            if fine[i, j] < cap:
+                inside[a, c] += p
+    for i in range(rows.count):
+        for j in range(columns.count):
+            more = missing[i, j] / inside[i, j] if inside[i, j] > 0 else 0.0
+            missing[i, j] = 1 + max(-_MOST, min(_MOST, more))
+    for i in range(fine.shape[0]):
+        for j in range(fine.shape[1]):
+            if 0 < fine[i, j] < cap:
+                fine[i, j] = min(fine[i, j] * missing[rows.first[i], columns.first[j]], cap)
