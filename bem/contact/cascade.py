@@ -109,7 +109,7 @@ class _Regions(NamedTuple):
     """Along an axis: how many regions, the one that each point of the coarser grid is in, the two that each of the
     finer is in, its share in the second, and its length in the coarser's spacings."""
 
-    count: int
+    number: int
     coarse: NDArray[np.int64]
     first: NDArray[np.int64]
     second: NDArray[np.int64]
@@ -201,8 +201,8 @@ def _prolong_phi(phi, rows, row_weights, columns, column_weights, cap, fine):  #
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _keep_loads(pressure, fine, rows, columns, cap):  # type: ignore[no-untyped-def]
-    """Multiply what lies between the bounds so that each region has the load that it has on the coarser grid."""
-    missing = np.zeros((rows.count, columns.count))
+    """Multiply each region without a cell at the cap so that it has the load that it has on the coarser grid."""
+    missing = np.zeros((rows.number, columns.number))
     inside = np.zeros(missing.shape)
     for i in range(pressure.shape[0]):
         for j in range(pressure.shape[1]):
@@ -219,13 +219,12 @@ def _keep_loads(pressure, fine, rows, columns, cap):  # type: ignore[no-untyped-
             missing[a, d] -= (1 - s) * t * p
             missing[b, c] -= s * (1 - t) * p
             missing[b, d] -= s * t * p
-            if fine[i, j] < cap:
-                inside[a, c] += p
-    for i in range(rows.count):
-        for j in range(columns.count):
+            inside[a, c] += p if fine[i, j] < cap else -np.inf
+    for i in range(rows.number):
+        for j in range(columns.number):
             more = missing[i, j] / inside[i, j] if inside[i, j] > 0 else 0.0
             missing[i, j] = 1 + max(-_MOST, min(_MOST, more))
     for i in range(fine.shape[0]):
         for j in range(fine.shape[1]):
-            if 0 < fine[i, j] < cap:
+            if fine[i, j] > 0:
                 fine[i, j] = min(fine[i, j] * missing[rows.first[i], columns.first[j]], cap)
