@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from bem.contact import passes
 from bem.contact.edge import Region, contact_region, plastic_region
-from bem.contact.level import LevelResult
+from bem.contact.level import LevelResult, is_flat
 from bem.contact.peak import highest_pressure
 from bem.contact.request import Request, Units
 from bem.contact.solution import ContactSolution
@@ -22,19 +22,11 @@ from bem.grid import Grid
 
 FloatArray = NDArray[np.float64]
 
-_FLAT = 1e-6
-"""A gap whose roughness is below this times the displacement is called flat; the residual is then of the latter."""
-
 
 def elastic_length(request: Request) -> float:
     """By how much a cell gives way under the mean pressure asked for [m]; zero where no load is. On a doubly periodic
     grid an even pressure displaces nothing, and yet displacements are rounded as if by this."""
     return 0.0 if request.load is None else request.load / request.operator.grid.area * request.operator.unit
-
-
-def is_flat(roughness: float, reach: float) -> bool:
-    """Whether a gap is flat beside displacements [m] that reach so far."""
-    return roughness <= _FLAT * reach
 
 
 def certify(

@@ -123,13 +123,16 @@ def _strides(
 class _Balance:
     """The preconditioner; under load control with directions whose sum is zero.
 
-    `rise` : the pressures for a rise of the approach, what brings the sum of a direction to zero; `total` is its sum.
+    `rise` : pressures near those for a rise of the approach, what brings the sum of a direction to zero; `total` is
+    its sum. `shifted` : room for a residual less its mean weighed by them, which keeps the preconditioner symmetric
+    whatever they are.
     """
 
     inverse: Callable[[FloatArray, FloatArray], float]
     kept: bool
     rise: FloatArray
     total: float
+    shifted: FloatArray
 
     @classmethod
     def of(cls, level: Level, cells: Indices, opening: Opening, control: Control) -> _Balance | None:
@@ -141,15 +144,34 @@ class _Balance:
             if cells.size == 1:
                 return None
         inverse = level.preconditioner(cells)
-        rise, total = np.empty(cells.size), 1.0
-        if kept:
-            total = inverse(np.ones(cells.size), rise)
-            if not total > 0:
-                rise[:] = 1.0
-                total = float(cells.size)
-        return cls(inverse, kept, rise, total)
+        if not kept:
+            return cls(inverse, kept, np.empty(0), 1.0, np.empty(0))
+        rise = _rise(level, cells, inverse)
+        return cls(inverse, kept, rise, float(rise.sum()), np.empty(cells.size))
 
     def precondition(self, residual: FloatArray, out: FloatArray, previous: FloatArray) -> tuple[float, float]:
         """Write the preconditioned residual z; returns z.r and z.(r - r_previous)."""
-        total = self.inverse(residual, out)
-        return gradients.turn(out, self.rise, total / self.total if self.kept else 0.0, residual, previous)
+        if not self.kept:
+            self.inverse(residual, out)
+            return gradients.turn(out, self.rise, 0.0, residual, previous)
+        gradients.weighed_free(residual, self.rise, self.total, self.shifted)
+        total = self.inverse(self.shifted, out)
+        return gradients.turn(out, self.rise, total / self.total, residual, previous)
+
+
+def _rise(level: Level, cells: Indices, inverse: Callable[[FloatArray, FloatArray], float]) -> FloatArray:
+    """The pressures for a rise of the approach: the preconditioner's in the first round on a grid. Later rounds have
+    them from the one before, with their mean on new cells, while these are the fewer and all sum up to more than half
+    of what their number would have: another application of the preconditioner would change no count."""
+    rise = np.empty(cells.size)
+    if level.rise is not None:
+        before, values = level.rise
+        known, total = gradients.carry(before, values, cells, rise)
+        if 2 * known > cells.size and 2 * total * values.size > values.sum() * known > 0:
+            rise[np.isnan(rise)] = total / known
+            level.rise = cells, rise
+            return rise
+    if not inverse(np.ones(cells.size), rise) > 0:
+        rise[:] = 1.0
+    level.rise = cells, rise
+    return rise

@@ -31,6 +31,55 @@ def _squares(start, stop, result, values):  # type: ignore[no-untyped-def]
     result[0] = total
 
 
+def weighed_free(values: FloatArray, weights: FloatArray, total: float, out: FloatArray) -> None:
+    """out = values less their mean with these weights, `total` their sum."""
+    if values.size <= passes.BLOCK:
+        _weighed_free(values, weights, total, out)
+        return
+    mean = passes.sums(values.size, 1, _weighed, values, weights)[0] / total
+    passes.in_blocks(values.size, 0, _less, values, mean, out)
+
+
+@_fast
+def _weighed_free(values, weights, total, out):  # type: ignore[no-untyped-def]
+    mean = np.zeros(1)
+    _weighed(0, values.size, mean, values, weights)
+    _less(0, values.size, mean, values, mean[0] / total, out)
+
+
+@_fast
+def _weighed(start, stop, result, values, weights):  # type: ignore[no-untyped-def]
+    total = 0.0
+    for k in range(start, stop):
+        total += weights[k] * values[k]
+    result[0] = total
+
+
+@_fast
+def _less(start, stop, result, values, shift, out):  # type: ignore[no-untyped-def]
+    for k in range(start, stop):
+        out[k] = values[k] - shift
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def carry(before, values, cells, out):  # type: ignore[no-untyped-def]
+    """out = the values on the cells `before` where these are among `cells` (both ascend), elsewhere not a number;
+    returns how many are and their sum."""
+    a = 0
+    known = 0
+    total = 0.0
+    for k in range(cells.size):
+        while a < before.size and before[a] < cells[k]:
+            a += 1
+        if a < before.size and before[a] == cells[k]:
+            out[k] = values[a]
+            known += 1
+            total += values[a]
+        else:
+            out[k] = np.nan
+    return known, total
+
+
 def turn(
     preconditioned: FloatArray, rise: FloatArray, share: float, residual: FloatArray, previous: FloatArray
 ) -> tuple[float, float]:

@@ -25,6 +25,18 @@ Indices = NDArray[np.int64]
 _RESOLUTION = 4e-16
 """Violations below this share of the lengths they are differences of are round-off."""
 
+_FLAT = 1e-6
+"""A gap whose roughness is below this times the displacement is called flat; the residual is then of the latter."""
+
+_FLAT_RESOLUTION = 1e-13
+"""Share of the displacement that a flat gap is closed to, unless more is asked for: near what transforms can. Rounds
+that went after the roughness itself, at 1e-7 of the displacement, took 460 convolutions in place of some twenty."""
+
+
+def is_flat(roughness: float, reach: float) -> bool:
+    """Whether a gap is flat beside displacements [m] that reach so far."""
+    return roughness <= _FLAT * reach
+
 
 @dataclass
 class Effort:
@@ -48,7 +60,10 @@ class Tolerance:
 
     def of(self, approach: float, reach: float) -> float:
         """The length that holds where displacements reach so far; never below what double precision can resolve."""
-        return max(min(self.length, self.relative * reach), _RESOLUTION * (abs(approach) + reach))
+        goal = min(self.length, self.relative * reach)
+        if is_flat(self.length, self.relative * reach):
+            goal = min(self.relative, _FLAT_RESOLUTION) * reach
+        return max(goal, _RESOLUTION * (abs(approach) + reach))
 
 
 @dataclass(frozen=True)
@@ -139,6 +154,7 @@ class Level:
         self.kept = False
         self.self_response = float(operator.near_field(0)[0, 0])
         self.stride = Stride()
+        self.rise: tuple[Indices, FloatArray] | None = None
         self.sparse: SparseInverse | None = None
         self.sparse_cells: Indices | None = None
         self.smooth: LongWaves | None = None

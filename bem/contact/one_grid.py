@@ -33,7 +33,8 @@ _LAGS = 60
 """Limit on contacts with friction taken from the one before; ten are usual."""
 
 COARSE_TOLERANCE = 6e-2
-"""Violation over roughness that coarse grids are solved to: more is lost in the interpolation anyway."""
+"""Violation over roughness that coarse grids are solved to: more is lost in the interpolation anyway. With 0.15 rough
+contacts of 128 to 1024 cells take two hundredths fewer convolutions, layered and smaller ones as many more."""
 
 
 @dataclass(frozen=True)

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import cascade, passes
-from bem.contact.certificate import certify, elastic_length, is_flat
+from bem.contact.certificate import certify, elastic_length
 from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl
 from bem.contact.feasible import held
-from bem.contact.level import Effort, LevelResult
+from bem.contact.level import Effort, LevelResult, is_flat
 from bem.contact.one_grid import (
     COARSE_TOLERANCE,
     Problem,

@@ -154,3 +154,19 @@ def test_entries_that_leave_a_block_are_told_from_the_rest(monkeypatch):
             assert (near.outside.inner < np.minimum(300 * np.arange(1, 10), cells.size)).any()
     assert np.allclose(results[0][0], results[1][0], rtol=0, atol=1e-13)
     assert results[0][1] == pytest.approx(results[1][1], abs=1e-11)
+
+
+def test_values_are_carried_from_cells_to_cells():
+    before, values = np.array([2, 3, 7, 9]), np.array([1.0, 2.0, 3.0, 4.0])
+    cells = np.array([0, 3, 4, 9, 11])
+    out = np.empty(5)
+    assert gradients.carry(before, values, cells, out) == (2, 6.0)
+    np.testing.assert_array_equal(out, [np.nan, 2.0, np.nan, 4.0, np.nan])
+
+
+@pytest.mark.parametrize("size", [1, 1000, 2 * passes.BLOCK + 5])
+def test_a_weighed_mean_is_taken_off(size):
+    rng = np.random.default_rng(size)
+    values, weights, out = rng.standard_normal(size), rng.random(size), np.empty(size)
+    gradients.weighed_free(values, weights, weights.sum(), out)
+    np.testing.assert_allclose(out, values - (weights @ values) / weights.sum(), rtol=0, atol=1e-13)

@@ -12,7 +12,7 @@ import pytest
 from contact_oracles import FREE, HALF_Y, PERIODIC, body, notes_surface, operator, rough
 
 from bem import threads
-from bem.contact import face, feasible, passes, request, solve_contact
+from bem.contact import cascade, face, feasible, passes, request, solve_contact
 from bem.convolution import displacement_operator
 from bem.errors import InfeasibleError, InputError, Status
 from bem.grid import Grid
@@ -261,15 +261,17 @@ def test_semi_periodic_contact_of_a_wide_slice_is_the_free_one_far_from_the_ends
     assert np.abs(a.pressure - b.pressure).max() <= 0.02 * a.pressure.max()
 
 
-@pytest.mark.parametrize(("cells", "convolutions", "most"), [(128, 11.4, 4300), (256, 12.2, 5300)])
-def test_convolutions_and_python_calls_of_the_surface_they_are_quoted_for(cells, convolutions, most):
-    """Small grids are what wear cycles and load sharing run on: there the calls between convolutions are the cost."""
+@pytest.mark.parametrize(("cells", "convolutions", "most"), [(128, 11.69, 4300), (256, 11.41, 5300)])
+def test_convolutions_and_python_calls_of_the_surfaces_they_are_quoted_for(cells, convolutions, most):
+    """Small grids are what wear cycles and load sharing run on: there the calls between convolutions are the cost. The
+    mean of eight surfaces was 11.81 and 11.59 when each grid began with what interpolation made of its load."""
     op = operator((cells, cells), (1 / cells, 1 / cells), PERIODIC)
     gap = -notes_surface(cells)
     solve_contact(gap, op, load=0.0035)  # spectra and plans
     with cProfile.Profile() as profile:
-        solution = solve_contact(gap, op, load=0.0035)
-    assert solution.convolutions <= convolutions + 0.05
+        solve_contact(gap, op, load=0.0035)
+    counts = [solve_contact(-notes_surface(cells, seed), op, load=0.0035).convolutions for seed in range(8)]
+    assert np.mean(counts) <= convolutions + 0.05
     assert pstats.Stats(profile).total_calls <= most
 
 
@@ -289,8 +291,11 @@ def test_regions_that_keep_their_load_save_convolutions_and_leave_the_answer(mon
     op = operator((512, 512), (1 / 512, 1 / 512), FREE)
     kept = solve_contact(gap, op, load=0.022)
     monkeypatch.setattr(feasible, "_REGION", 512)  # one region: the load of all is restored anyway
+    monkeypatch.setattr(cascade, "_REGION", 512)
+    cascade._regions.cache_clear()
     moved = solve_contact(gap, op, load=0.022)
-    assert kept.convolutions <= 21  # the most over five seeds is 17.5
+    cascade._regions.cache_clear()
+    assert kept.convolutions <= 17.5  # the most over five seeds is 14.6
     assert kept.convolutions < 0.7 * moved.convolutions
     assert np.abs(kept.pressure - moved.pressure).max() <= 1e-5 * moved.pressure.max()  # both certified to 1e-8
 
