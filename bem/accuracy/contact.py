@@ -31,7 +31,7 @@ RULES: dict[str, Rule] = {
     "plastic_area_fraction": Rule(1.0, 1.3, edge=0.02, rough_edge=0.05, sampled=0.67, sampled_edge=0.03),
     "mean_contact_pressure": _AREA,
     "max_pressure": Rule(0.15, 1.3, edge=0.004, rough_edge=0.03, sampled=0.2, sampled_edge=0.008),
-    "load": Rule(0.33, 0.4, edge=0.005, rough_edge=0.01, sampled=0.4, sampled_edge=0.005),
+    "load": Rule(0.5, 0.5, edge=0.005, rough_edge=0.01, sampled=0.5, sampled_edge=0.005),
     "approach": Rule(0.33, 0.33, edge=0.005, rough_edge=0.01, sampled=0.33, sampled_edge=0.005),
     "mean_gap": Rule(0.4, 0.25, edge=0.001, rough_edge=0.002, sampled=0.33, sampled_edge=0.001),
 }
