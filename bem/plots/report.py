@@ -73,7 +73,7 @@ def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     """Name and value of a figure as `spelled`, with its error where it has one: `1.2 ± 0.013 GPa`."""
     value, error = _only(summary[name]), _only(summary.get(f"{name}_error"))
     text, shown = spelled(name, value)
-    if not isinstance(error, float) or not isinstance(value, float) or value == 0:
+    if not isinstance(error, float) or not isinstance(value, int | float) or isinstance(value, bool) or value == 0:
         none = f"{name}_error" in summary and error is None and value is not None
         return text, f"{shown} (no error bar)" if none else shown
     number, *unit = shown.split(" ")

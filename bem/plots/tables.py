@@ -65,12 +65,13 @@ def within(name: str, value: float, error: float, factor: float = 1.0, sign: str
     """
     words = name_and_unit(name)[0].lower().split(" ")
     is_share = any(word in _SHARES for word in words)
-    least = 0.0 if value >= 0 and (is_share or not _WITHOUT_SIGN.isdisjoint(words)) else -np.inf
+    signed = "xy" in words  # flow across what drives it
+    least = 0.0 if value >= 0 and not signed and (is_share or not _WITHOUT_SIGN.isdisjoint(words)) else -np.inf
     most = 1.0 if value <= 1 and is_share else np.inf
     if least <= value - error and value + error <= most:
         return f"± {short(error * abs(factor))}{sign}"
     low, high = max(value - error, least) * factor, min(value + error, most) * factor
-    return f"({low:.3g}{sign} to {high:.3g}{sign})"
+    return f"({short(low, 3)}{sign} to {short(high, 3)}{sign})"
 
 
 def is_list(value: Any) -> bool:
@@ -111,9 +112,9 @@ def _parts(name: str, summary: Mapping[str, Any]) -> dict[str, Any]:
     return {" ".join(key.removeprefix(start).split("_")): v for key, v in summary.items() if key.startswith(start)}
 
 
-def short(number: float) -> str:
-    """Of two digits, as an error: 110, not 1.1e+02."""
-    return "–" if not np.isfinite(number) else f"{float(f'{number:.2g}'):g}"
+def short(number: float, digits: int = 2) -> str:
+    """Of so many digits, two as an error: 110, not 1.1e+02."""
+    return "–" if not np.isfinite(number) else f"{float(f'{number:.{digits}g}'):g}"
 
 
 def figure_tables(summary: Mapping[str, Any], names: Sequence[str], title: str = "") -> list[FigureTable]:

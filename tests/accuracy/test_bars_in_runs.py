@@ -89,6 +89,11 @@ def test_figures_are_spelt_with_their_errors():
     summary = {"max_pressure_Pa": 1.2346e9, "max_pressure_Pa_error": 2.34e7, "load_N": 1.0, "approach_m": 3e-9}
     assert with_error("max_pressure_Pa", summary) == ("max pressure", "1.235 ± 0.023 GPa")
     assert with_error("load_N", summary) == ("load", "1 N")
+    assert with_error("count", {"count": 10, "count_error": 7.43})[1] == "10 ± 7.4"
+    nanometres = {"thickness_m": 313.3e-9, "thickness_m_error": 1.26e-6}
+    assert with_error("thickness_m", nanometres)[1] == "313.3 (0 to 1570) nm"
+    signed = {"pressure_xy": 0.01, "pressure_xy_error": 0.02}  # flow across what drives it, either way
+    assert with_error("pressure_xy", signed)[1] == "0.01 ± 0.02"
     assert with_error("approach_m", {**summary, "approach_m_error": None})[1] == "3 nm (no error bar)"
     assert with_error(
         "contact_area_fraction", {"contact_area_fraction": 0.1, "contact_area_fraction_error": 0.002}
