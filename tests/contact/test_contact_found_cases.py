@@ -157,9 +157,23 @@ def test_a_gap_flat_beside_its_displacement_is_closed_in_a_few_rounds(periodic):
     solution = solve_contact(gap, op, load=load)
     assert solution.status == "converged"
     assert solution.convolutions <= 35  # 24 and 29 counted
-    assert solution.residual <= 1e-13
+    assert solution.residual <= 1e-12  # what it is closed to
     # the same by elimination: closed everywhere at one approach, at this load
     matrix = np.array([op(one.reshape(shape)).ravel() for one in np.eye(gap.size)]).T
     bordered = np.block([[matrix, -np.ones((gap.size, 1))], [np.ones((1, gap.size)), np.zeros((1, 1))]])
     exact = np.linalg.solve(bordered, np.append(-gap.ravel(), load))[:-1]
     assert np.abs(solution.pressure.ravel() - exact).max() <= 1e-11 * exact.max()
+
+
+@pytest.mark.parametrize("ratio", [1e6, 1e8])
+@pytest.mark.parametrize("periodic", [FREE, HALF_X])
+@pytest.mark.parametrize("cells", [80, 256])
+def test_larger_flat_gaps_are_closed_in_as_few_rounds(cells, periodic, ratio):
+    """What transforms of many cells resolve is more than 1e-13 of the displacement: where rounds went after that, they
+    took 408 to 504 convolutions at 256 cells."""
+    op = operator((cells, cells), (1.0, 0.7), periodic)
+    gap = np.random.default_rng(1).random((cells, cells))
+    load = ratio / op(np.ones(gap.shape)).max() * gap.size * 0.7
+    solution = solve_contact(gap, op, load=load)
+    assert solution.status == "converged"
+    assert solution.convolutions <= 30  # 20 to 25 counted
