@@ -94,9 +94,9 @@ def test_a_cycle_of_any_criterion_costs_little_more_than_the_source_s_on_the_sam
         return [row["ratio"] for row in chosen]
 
     names = wear_lengths.criteria()
-    assert 0.645 < min(ratios("same", *names)) <= max(ratios("same", *names)) < 1.075
-    assert 0.9 < min(ratios("own", "averaged_von_mises", "sphere")) <= max(ratios("own", "averaged_von_mises")) < 1.1
-    assert 1.5 < min(ratios("own", "low_cycle_fatigue")) <= max(ratios("own", "averaged_fatigue")) < 2.45
+    assert 0.645 < min(ratios("same", *names)) <= max(ratios("same", *names)) < 1.15
+    assert 0.8 < min(ratios("own", "averaged_von_mises", "sphere")) <= max(ratios("own", "averaged_von_mises")) < 1.05
+    assert 1.5 < min(ratios("own", "low_cycle_fatigue")) <= max(ratios("own", "averaged_fatigue")) < 2.55
     depths = {(r["criterion"], r["seed"]): r["depths_computed"] for r in stored if r["surfaces"] == "own"}
     for seed in (1, 2):
         assert 2.5 < depths["low_cycle_fatigue", seed] / depths["von_mises", seed] < 4.5
