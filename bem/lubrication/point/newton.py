@@ -31,6 +31,8 @@ Contacts of M 20 to 20,000 on 128 cells a side take two thirds of the cycles tha
 steps."""
 CYCLES = 60
 """Most of a step."""
+MOST = 60
+"""Steps at the outside, where they go on beyond what was asked for."""
 HISTORY = 2
 """Steps back to the errors that one must stay below."""
 
@@ -165,25 +167,38 @@ B = TypeVar("B", bound=Balance)
 
 
 def iterate(
-    at: B, step: Callable[[B, float, float], tuple[B | None, int]], tolerance: float, most: int, history: int
+    at: B,
+    step: Callable[[B, float, float], tuple[B | None, int]],
+    tolerance: float,
+    most: int,
+    history: int,
+    *,
+    roughly: float | None = None,
+    patience: int = 0,
 ) -> tuple[B, int, int, float, bool]:
     """Steps from a balance to one within the tolerance: the last one, steps, cycles, its largest relative error, and
     whether that is so.
 
     step : of a balance, the share of errors that its equations are solved to, and the size its errors are to stay
     below, the next balance, None where there is none, and cycles. history : steps back to the largest size allowed.
+    roughly : largest share that equations are solved to, as of smooth bodies if None. patience : beyond `most`, steps
+    go on while errors or sizes had a new minimum in so many steps, to `MOST` at the outside.
     """
     steps = cycles = 0
-    sizes = [at.size]
+    roughly = ROUGHLY if roughly is None else roughly
+    sizes, errors = [at.size], []
     while True:
         largest = at.largest
+        errors.append(largest)
         converged = steps > 0 and largest <= tolerance
-        if converged or steps == most or not np.isfinite(largest):
+        if converged or not np.isfinite(largest):
+            break
+        if steps >= most and (steps >= MOST or not (_falls(errors, patience) or _falls(sizes, patience))):
             break
         # a meniscus moves by what is wrong at it, cell by cell: errors there are as large until it is in its place
         wanted = max(sizes[-history:]) if at.linear.level.problem.layer is None else np.inf
         last = float(np.clip(0.3 * tolerance / largest, *FORCING))
-        share = max(min(QUADRATIC * sizes[-1] / sizes[-2], ROUGHLY), last) if steps else ROUGHLY
+        share = max(min(QUADRATIC * sizes[-1] / sizes[-2], roughly), last) if steps else roughly
         following, spent = step(at, share, wanted)
         cycles += spent
         if following is None:
@@ -192,6 +207,11 @@ def iterate(
         sizes.append(at.size)
         steps += 1
     return at, steps, cycles, largest, bool(converged)
+
+
+def _falls(values: list[float], patience: int) -> bool:
+    """Whether there was a new minimum among so many last ones."""
+    return patience > 0 and min(values[-patience:]) < min(values[:-patience], default=np.inf)
 
 
 def line_search(trial: Callable[[float], B], size: float) -> B | None:
