@@ -113,11 +113,10 @@ def share_load(
         at = trial.logarithm
         if search.too_little(trial):
             effort.contact_tolerance = min(effort.contact_tolerance, rough.tolerance)
-            if not search.is_no_film(trial):
-                trial = search.under_the_rest(at)
-                return _certified(trial, rough, load, tolerance, regime, effort, slope, short=True)
-            trial = replace(search, level=len(film.errors) - 1).under_the_rest()
-            return _certified(trial, rough, load, tolerance, Regime.BOUNDARY, effort, slope)
+            finest = replace(search, level=len(film.errors) - 1)  # a film as good as was asked for
+            if search.is_no_film(trial):
+                return _certified(finest.under_the_rest(), rough, load, tolerance, Regime.BOUNDARY, effort, slope)
+            return _certified(finest.under_the_rest(at), rough, load, tolerance, regime, effort, slope, short=True)
     return _certified(trial, rough, load, tolerance, regime, effort, slope)
 
 

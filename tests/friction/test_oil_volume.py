@@ -194,6 +194,23 @@ def test_where_the_films_model_ends_before_the_oil_fits_it_is_infeasible(counted
     assert "thicker there than the surfaces leave open" in said
 
 
+def test_the_film_at_the_end_of_its_model_is_as_good_as_was_asked_for():
+    """Those on the way to a balance are solved no better than that needs."""
+    case, asked = bearing(64), []
+    load = case["load"]
+
+    class Levels(FlatFilm):
+        def under(self, load, level, start):
+            asked.append(level)
+            return super().under(load, level, start)
+
+    film = Levels(1e-2, (64, 32), 0.1 * load, (1e-3, 0.0))
+    rough = rough_contact(setup_of(case), case["height"], (0.1, 0.0))
+    balance = share_load(film, rough, load, 1e-4, film.under(0.1 * load, 1, None), BalanceStart(0.05 * load))
+    assert balance.status is Status.INFEASIBLE
+    assert asked[-1] == 1
+
+
 def test_a_contact_that_does_not_hold_the_oil_is_not_converged():
     """Loads alone do not say it."""
     case = bearing(64, oil_volume="loaded")
