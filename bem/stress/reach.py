@@ -144,7 +144,7 @@ def _spread(  # type: ignore[no-untyped-def]  # reason: compiled, so each array 
                 computed[i] = True
                 above = 0
                 for j in range(room.ny):
-                    over = out[i, j] > limit
+                    over = not out[i, j] <= limit  # what is no number, too
                     above += over
                     exceeding[i, j] |= over
                 if above > 0:

@@ -25,6 +25,7 @@ from bem.wear.yielded_runs import connect, find_runs, gather_columns, yielding_c
 
 REFINEMENTS = {"linear": 1, "monotone_cubic": 3}
 CONNECTIVITIES = (6, 18, 26)
+_NOT_FINITE = "equivalent stress: some values are not finite"
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +72,7 @@ def segment(
         in a column leave as one. "top_run": only the part connected to the surface within the column leaves. Or a law
         of `bem.wear.removal`.
     columns : numbers in the flattened map, rising, of all columns in which anything yields, from whoever has computed
-        the stress and looked at it; None to look for them, and for numbers that are not finite.
+        the stress and looked at it, those with what is no number among them; None to look for them.
 
     Raises
     ------
@@ -88,15 +89,18 @@ def segment(
         raise InputError(f"yield_stress {yield_stress!r} must be positive and finite [Pa]")
 
     flat, limits = stack.reshape(nz, -1), np.ascontiguousarray(strength).ravel()
-    candidates = columns if columns is not None else yielding_columns(flat, limits)
-    if not (stack[0] > strength).any():
-        candidates = candidates[:0]
+    at_surface = bool((stack[0] > strength).any())
+    candidates = columns
+    if candidates is None:
+        candidates = yielding_columns(flat, limits) if at_surface else np.empty(0, np.int64)
+    values, cubic = gather_columns(flat, candidates), REFINEMENTS[refinement] == 3
+    if columns is not None and not _is_finite(values.ravel()):
+        raise InputError(_NOT_FINITE)
     labels = np.zeros((nx, ny), dtype=np.int32)
     thickness = np.zeros((nx, ny))
-    if candidates.size == 0:
+    if candidates.size == 0 or not at_surface:
         return Segmentation(labels, thickness, 0, np.zeros(1, dtype=np.bool_))
 
-    values, cubic = gather_columns(flat, candidates), REFINEMENTS[refinement] == 3
     runs = find_runs(candidates, values, levels, limits[candidates], refine, cubic)
     parent = connect(runs, (nx, ny), (bool(periodic[0]), bool(periodic[1])), connectivity)
     count = law.remove(runs, parent, labels.reshape(-1), thickness.reshape(-1))
@@ -208,7 +212,7 @@ def _check(
     if depths.ndim == 1 and depths.size and not (depths[0] >= 0 and (np.diff(depths) > 0).all()):
         messages.append("depths: must be >= 0 and increasing [m]")
     if not looked_at and not all(_is_finite(plane.ravel()) for plane in stack):
-        messages.append("equivalent stress: some values are not finite")
+        messages.append(_NOT_FINITE)
     if refine != int(refine) or refine < 1:
         messages.append(f"refine {refine!r} must be an integer >= 1")
     for key, value, allowed in (

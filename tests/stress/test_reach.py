@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from bem import Body, Grid, Material, transforms
+from bem import Body, Grid, InputError, Material, transforms
 from bem.stress import reached_stress, set_stress_memory, von_mises_field
 from bem.threads import set_threads
 from bem.wear import WearModel, WearSetup, yielded_pieces
@@ -103,6 +103,22 @@ def test_half_of_the_rows_are_left_out_and_each_depth_takes_five_transforms_alon
     assert transforms.COUNT.rows < 0.5 * all_rows
     first = piece_stress(pressure, fixed, WearModel(), 0).stress
     assert np.count_nonzero(first[1].any(axis=1)) <= 32  # eight rows loaded, groups of eight on either side
+
+
+def test_a_pressure_that_is_no_number_is_refused_as_whole_planes_of_it_are():
+    """What is noted to yield is not searched again: it must have what compares with nothing among it."""
+    fixed = setup((96, 48), (False, True))
+    pressure = np.zeros(fixed.grid.shape)
+    pressure[40:48, 20:28] = 1.8e9
+    pressure[44, 24] = np.nan
+    with np.errstate(invalid="ignore"), pytest.raises(InputError, match="finite"):
+        yielded_pieces(pressure, fixed, WearModel(), 0)
+    strength = fixed.yield_stress(0)
+    stack = np.full((3, 4, 4), 2 * strength)
+    stack[1, 2, 2] = np.nan
+    columns = np.ones((4, 4), np.bool_)
+    with pytest.raises(InputError, match="not finite"):
+        pieces_above(stack, np.arange(3) * 1e-7, strength, fixed, WearModel(), columns)
 
 
 def test_packed_spectra_and_several_threads_give_the_same():
