@@ -69,6 +69,10 @@ def summary_rows(summary: dict[str, Any], names: Sequence[str]) -> list[tuple[st
     return [with_error(name, summary) for name in names]
 
 
+_PREFIXED = {"m": 1, "Pa": 1, "N": 1, "s": 1, "m²": 2, "m³": 3}
+"""Units that are shown with a prefix, and its power."""
+
+
 def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     """Name and value of a figure as `spelled`, with its error where it has one: `1.2 ± 0.013 GPa`."""
     value, error = _only(summary[name]), _only(summary.get(f"{name}_error"))
@@ -103,10 +107,11 @@ def _with_unit(value: Any, unit: str) -> str:
         return ", ".join(shown) + (", ..." if len(value) > 12 else "") + (f" {unit}" if unit else "")
     if isinstance(value, dict):
         return json.dumps(value)
-    if isinstance(value, float) and unit in ("m", "Pa", "N", "s") and value != 0:
-        power = min(max(math.floor(math.log10(abs(value) * 1.0000001) / 3), -4), 4)
+    if isinstance(value, float) and unit in _PREFIXED and value != 0:
+        step = 3 * _PREFIXED[unit]
+        power = min(max(math.floor(math.log10(abs(value) * 1.0000001) / step), -4), 4 if step == 3 else 0)
         prefix = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}[power]
-        return f"{value * 10.0 ** (-3 * power):.4g} {prefix}{unit}"
+        return f"{value * 10.0 ** (-step * power):.4g} {prefix}{unit}"
     number = f"{value:.4g}" if isinstance(value, float) else str(value)
     return f"{number} {unit}".rstrip()
 
