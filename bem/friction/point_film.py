@@ -22,6 +22,7 @@ from bem.grid import FloatArray
 from bem.lubrication import Lubricant, PointFilmSolution, solve_point_film
 from bem.lubrication.point.scales import nijenbanning_film, point_scales
 from bem.lubrication.point.solve import MOES_LOADS
+from bem.lubrication.point.validity import but_unknown
 from bem.lubrication.validity import THINNEST_FILM
 from bem.reference_solutions.hertz import ellipse_contact
 
@@ -228,7 +229,7 @@ def _fitted_film(contact: PointContact, speeds: Sequence[float], load: float) ->
 
 def solved_point_film(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:
     """The film under a load [N] up to the largest, without the solver's state; of rigid bodies where the load is so
-    small that the elastic film is outside its range."""
+    small that the elastic film is outside its range. What its error is a balance finds by itself."""
     modulus = contact.film_modulus(load)
     scales = point_scales(load, contact.radii, modulus, abs(sum(speeds)), contact.lubricant.viscosity)
     film = solve_point_film(
@@ -240,7 +241,7 @@ def solved_point_film(contact: PointContact, speeds: Sequence[float], load: floa
         shape=(cells, cells),
         flow_factors=contact.flow_factors,
     )
-    return replace(film, state=None)
+    return replace(film, notes=but_unknown(film.notes), state=None)
 
 
 def sampled_point(

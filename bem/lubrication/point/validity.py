@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -12,7 +12,7 @@ import numpy as np
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.lubrication import validity
-from bem.lubrication.point.cascade import shapes_up_to
+from bem.lubrication.point.cascade import COARSEST, shapes_up_to
 from bem.lubrication.point.far import far_shear
 from bem.lubrication.point.kept import rise_beside_lowest
 from bem.lubrication.point.levels import Level
@@ -29,6 +29,8 @@ STEEPEST = 1.5
 barrels, 64 to 240 cells a side against 480)."""
 LARGEST_ERROR = 0.02
 """Of a film, above which its error is said, and of friction, what the inlet may add."""
+UNKNOWN = "the error of the film is unknown: "
+"""How notes begin that say so, and of which cells to see it."""
 
 
 @dataclass(frozen=True)
@@ -101,6 +103,11 @@ def notes_on_point(film: PointFilmSolution, setting: Setting, level: Level, cont
     return notes + _on_grid(film, frame.inner(film.thickness), setting, level)
 
 
+def but_unknown(notes: Iterable[str]) -> tuple[str, ...]:
+    """Notes without those on an unknown error, for results that have errors of their own, from other grids."""
+    return tuple(note for note in notes if not note.startswith(UNKNOWN))
+
+
 def inlet_shear(film: PointFilmSolution, setting: Setting) -> float:
     """Sliding force that would be added by oil in the inlet up to twice the distance [N]: Couette flow of h = r^2 g/2,
     mu |u2 - u1| integral dx dy/h, which grows with the logarithm of the distance."""
@@ -151,7 +158,8 @@ def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, l
         )
     unknown = film.time is None and film.status is Status.CONVERGED and errors[0][0] is None
     if unknown and len(shapes_up_to(level.shape)) > 1:
-        notes.append(
-            "the error of the film is unknown: on half as many cells there is none; take twice as many to see it"
-        )
+        notes.append(f"{UNKNOWN}on half as many cells there is none; take twice as many to see it")
+    elif unknown:
+        nx, ny = (max(n, 2 * COARSEST) for n in film.pressure.shape)
+        notes.append(f"{UNKNOWN}half as many cells are too few to compare with; take {nx} x {ny} to see it")
     return tuple(notes)

@@ -169,12 +169,13 @@ def run(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     if scene.patch is not None:
         return _rough(scene, context)
     from bem.accuracy.point import point_bars, point_figures
+    from bem.lubrication.point.validity import but_unknown
 
     case = _case(scene)
     with context.timer("film"):
         film = case.on(case.cells)
     assert film.state is not None
-    tell(context, film.notes)
+    tell(context, but_unknown(film.notes))  # bars are of grids of their own, and say where they are unknown
     if scene.roughness is not None and film.minimum_thickness < scene.roughness:
         context.note(_ROUGH)
     wanted = scene.outputs.errors and film.status is Status.CONVERGED

@@ -11,7 +11,7 @@ from scipy.sparse.linalg import spsolve
 from bem import Body, InputError, Layer, Lubricant, Material, solve_line_film, solve_point_film
 from bem.lubrication.point import cascade
 from bem.lubrication.point.kept import certificate, least_film
-from bem.lubrication.point.validity import inlet_shear
+from bem.lubrication.point.validity import UNKNOWN, inlet_shear
 from bem.reference_solutions.hertz import ellipse_contact
 
 MODULUS, RADIUS, ALPHA, VISCOSITY = 1.15e11, 0.01, 22e-9, 0.04
@@ -302,6 +302,20 @@ def test_an_error_that_no_coarser_grid_gives_is_said_to_be_unknown(monkeypatch):
     assert film.minimum_thickness_error is None
     assert any("error of the film is unknown" in note for note in film.notes)
     assert any("constriction is narrower than the cells" in note for note in film.notes)
+
+
+@pytest.mark.parametrize(("shape", "wanted"), [((96, 64), (112, 112)), ((128, 64), (128, 112))])
+def test_cells_too_few_to_halve_are_said_with_those_that_tell_the_error(shape, wanted):
+    """Along y the solver's axes are exchanged, not those of the note."""
+    case = moes(60, 4, angle=math.pi / 2)
+    few = solve_point_film(**case, shape=shape)
+    assert few.status == "converged"
+    assert few.central_thickness_error is few.minimum_thickness_error is None
+    (note,) = (note for note in few.notes if note.startswith(UNKNOWN))
+    assert f"take {wanted[0]} x {wanted[1]}" in note
+    enough = solve_point_film(**case, shape=wanted)
+    assert enough.central_thickness_error > 0
+    assert not any(note.startswith(UNKNOWN) for note in enough.notes)
 
 
 def test_errors_cover_films_that_are_far_from_second_order():
