@@ -118,10 +118,45 @@ def _generated(body: str, table: GeneratedSurface, grid: Grid, seed: int) -> Rou
         height, slope, _ = (0.0, 0.0, 0.0) if marks is None else _described(marks, marked)
         both = math.hypot(table.rms_height, height), math.hypot(2 * table.rms_height / length, slope)
         return RoughSurface(body, table, grid, (made,), *both, length)
-    plain = {"skewness": 0.0, "kurtosis": 3.0, "feed_marks": None, "cross_hatch": None}
+    plain: dict[str, object] = {"skewness": 0.0, "kurtosis": 3.0, "feed_marks": None, "cross_hatch": None}
+    if patch != grid:
+        # a part of a self-affine surface has not its long waves, and coarser cells have not its short ones
+        coarse = Grid(patch.shape, _divided(grid.lengths, patch.shape), periodic=grid.periodic)
+        shortest = table.cutoff_wavelength or 0.0
+        plain |= {"drawn_on": None, "cutoff_wavelength": shortest if shortest >= 2 * max(coarse.spacing) else None}
+        _, _, length = _described(build.heights_of(table.model_copy(update=plain), coarse, seed), coarse)
+        height, slope, _ = (0.0, 0.0, 0.0) if marks is None else _described(marks, marked)
+        own = table.rms_height * _slope_of_waves(table, grid)
+        return RoughSurface(
+            body, table, grid, (made,), math.hypot(table.rms_height, height), math.hypot(own, slope), length
+        )
     heights = build.heights_of(table.model_copy(update=plain), patch, seed)
     found = _described(heights, patch) if marks is None else _described(heights + (marks - marks.mean()), marked)
     return RoughSurface(body, table, grid, (made,), *found)
+
+
+def _divided(lengths: tuple[float, float], shape: tuple[int, int]) -> tuple[float, float]:
+    return lengths[0] / shape[0], lengths[1] / shape[1]
+
+
+def _slope_of_waves(table: GeneratedSurface, grid: Grid) -> float:
+    """Rms slope over rms height [1/m] of a self-affine surface: the root of m2 / m0, moments of a power spectrum that
+    is even up to the roll-off and falls with k^(-2 - 2H) beyond, from the longest to the shortest wave of the grid."""
+    hurst = table.hurst
+    assert hurst is not None
+    cells = table.drawn_on or grid.shape
+    finest = max(_divided(grid.lengths, cells))
+    longest, shortest = max(grid.lengths), max(table.cutoff_wavelength or 0.0, 2 * finest)
+    rolloff = min(max(table.rolloff_wavelength or longest, shortest), longest)
+    low, knee, high = (2 * math.pi / wave for wave in (longest, rolloff, shortest))
+
+    def moment(power: int) -> float:
+        even = (knee**power - low**power) / power
+        rest = power - 2 - 2 * hurst  # of k, integrated
+        falling = math.log(high / knee) if abs(rest) < 1e-9 else (high**rest - knee**rest) / rest
+        return even + knee ** (2 + 2 * hurst) * falling
+
+    return math.sqrt(moment(4) / moment(2)) if high > low else 0.0
 
 
 def _marks_said(table: GeneratedSurface, grid: Grid) -> str:
