@@ -277,8 +277,11 @@ def _further(case: ContactCase, *, resolved: bool) -> dict[str, float]:
     perimeter = case.solution.contact_perimeter
     spot = math.pi * case.solution.contact_area / perimeter if perimeter > 0 else math.sqrt(case.grid.cell_area)
     stiffness = case.operator.modulus_at(1 / spot) * perimeter / math.pi
-    missed = touch + _BENT * _bend_in_cells(case)
+    bent = _BENT * _bend_in_cells(case)
+    missed = touch + bent
     found = {"max_pressure": min(peak, cap - highest), "approach": missed, "mean_gap": _ends(case)}
+    if case.mean_gap is not None:
+        found |= _at_mean_gap(case, found["mean_gap"], bent, touch)
     if case.approach is not None:
         found |= {"load": stiffness * missed, "mean_gap": found["mean_gap"] + missed}
         if case.solution.load > 0:  # under rough surfaces areas grow with the load
@@ -329,6 +332,36 @@ def _ends(case: ContactCase) -> float:
         turn = (opened[-1] - opened[-2] - opened[1] + opened[0]) / spacing
         error += abs(float(turn.mean())) * spacing**2 / 24 / (n * spacing)
     return error
+
+
+def _at_mean_gap(case: ContactCase, ends: float, bent: float, touch: float) -> dict[str, float]:
+    """What load, pressure, contact and approach miss at a given mean gap, [m] of `_ends` and `_bend_in_cells` known.
+
+    Where a load P pushes the contact in by u = c P and the whole grid by U = C P in the mean, an approach greater by t
+    takes a load greater by t / c and closes the mean gap by t (1 - C / c). A mean that is wrong by `ends`, and cells
+    that are too soft by `bent`, thus leave (ends + bent) / (c - C) of the load, and (c ends + C bent) / (c - C) of the
+    approach: several times as much where contact takes up most of the grid. c and C are those of an even pressure on
+    what touches, at which u is 8 % more than under a rigid circle (Johnson, *Contact Mechanics*, section 3.4). Where
+    first touch lies moves only the approach.
+    """
+    solution = case.solution
+    inside = solution.pressure > 0
+    if not ends + bent > 0 or not inside.any():
+        return {"approach": touch}
+    even = inside.astype(np.float64)
+    displaced = case.operator(even)
+    pushed, mean = float(displaced[inside].mean()), float(displaced.mean())
+    load = (ends + bent) / (pushed - mean) * float(even.sum()) * case.grid.cell_area
+    share = min(load / solution.load, 1.0) if solution.load > 0 else 0.0
+    # of a ball's load P its contact area goes as P^(2/3) and pressures as P^(1/3), of a cylinder's as P and P^(1/2)
+    grown = share * solution.contact_area
+    return {
+        "load": load,
+        "approach": touch + (abs(pushed) * ends + abs(mean) * bent) / (pushed - mean),
+        "contact_area": grown,
+        "contact_area_fraction": grown / case.grid.area,
+        "mean_contact_pressure": 0.5 * share * solution.load / solution.contact_area,
+    }
 
 
 def _algebraic(case: ContactCase, fine: Mapping[str, float]) -> dict[str, float]:
