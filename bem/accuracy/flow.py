@@ -9,6 +9,8 @@ which another grid says nothing of: its bar is a multiple of that scatter. Facto
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars, Rule
@@ -32,6 +34,9 @@ RULES: dict[str, Rule] = {
     "contact_area_fraction": Rule(0.6, 0.6, edge=0.006, rough_edge=0.02),
 }
 """On the difference, 1/3 of which order two would leave; and of how far the factor is from that of smooth walls."""
+_FEW, _FEW_EDGE = 4.0, (0.12, 0.2)
+"""Where fewer cells than that touch, neither grid knows how many: twice the share of `friction_shear`, resolved or not.
+A spot of a cell or two is there or not with where it lies between centres."""
 _SCATTER = 3.2
 """On the scatter of a mean gap: the largest of 25 errors was 3.1 times it, the median one 0.9."""
 _RESIDUAL = 10.0
@@ -44,11 +49,16 @@ def flow_bars(found: FlowFactors, heights: FloatArray, grid: Grid) -> ErrorBars:
     if found.coarser is None:
         return ErrorBars.unknown(RULES, _NONE)
     resolved = surface_is_resolved(heights, grid)
+    touching = found.contact_area_fraction * heights.size
+    few = dict.fromkeys(RULES, np.zeros(touching.shape, dtype=bool))
+    few["friction_shear"] = (touching > 0) & (touching < _FEW)
     cells, residual = {}, {}
     for name, rule in RULES.items():
         value = getattr(found, name)
         changed = np.abs(value - _SMOOTH.get(name, 0.0))
-        bars = [rule.bar(*pair, resolved=resolved) for pair in zip(value - found.coarser[name], changed, strict=True)]
+        rules = [replace(rule, edge=_FEW_EDGE[0], rough_edge=_FEW_EDGE[1]) if each else rule for each in few[name]]
+        pairs = zip(rules, value - found.coarser[name], changed, strict=True)
+        bars = [each.bar(*pair, resolved=resolved) for each, *pair in pairs]
         scatter = found.mean_gap_scatter if name == "mean_gap" else np.zeros(len(bars))
         cells[name] = np.where(scatter > 0, _SCATTER * scatter, bars)
         residual[name] = _RESIDUAL * found.residual * np.abs(value)
