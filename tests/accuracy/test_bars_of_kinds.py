@@ -63,3 +63,26 @@ def test_more_particles_have_a_smaller_scatter_and_smaller_pixels_a_smaller_erro
     none = particle_bars(one, np.zeros((16, 16)), (pixel, pixel), seen)
     assert set(none.values.values()) == {None}
     assert "fewer than two" in none.notes[0]
+
+
+def test_particles_whose_large_ones_are_more_frequent_than_log_normal_say_so():
+    """Pareto's sizes have them (areas of half of such samples were covered); log-normal ones do not."""
+    rng, pixel, seen = np.random.default_rng(3), 20e-9, {"threshold": 8e-9, "background": "none"}
+    told = []
+    for sizes in (3 + np.minimum(3 * rng.pareto(1.2, 40), 30), 5 * np.exp(0.3 * rng.standard_normal(40))):
+        heights = particle_error_bars.plate(rng, 320, 1, sizes)
+        found = particles_from_height_map(heights, (pixel, pixel), **seen)
+        told.append(any("more frequent" in note for note in particle_bars(found, heights, (pixel, pixel), seen).notes))
+    assert told == [True, False]
+
+
+def test_a_bar_of_several_times_its_figure_is_a_reason_instead():
+    """Eight small particles and one of ten times their size: the mean volume is that one's, or not."""
+    rng, pixel, seen = np.random.default_rng(3), 20e-9, {"threshold": 2e-9, "background": "none"}
+    heights = particle_error_bars.plate(rng, 160, 1, np.array([4.0] * 8 + [40.0]))
+    found = particles_from_height_map(heights, (pixel, pixel), **seen)
+    bars = particle_bars(found, heights, (pixel, pixel), seen)
+    assert bars.values["volume"] is None
+    assert "volume" not in bars.parts["sample"]
+    assert any("9 particles" in note and "volume" in note for note in bars.notes)
+    assert bars.values["count"] > 0
