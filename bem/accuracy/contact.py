@@ -27,7 +27,7 @@ _AREA = Rule(0.33, 0.4, edge=0.02, rough_edge=0.05, sampled=0.33, sampled_edge=0
 RULES: dict[str, Rule] = {
     "contact_area": _AREA,
     "contact_area_fraction": _AREA,
-    "contact_perimeter": Rule(0.5, 3.0, edge=0.01, rough_edge=0.02, sampled=0.67, sampled_edge=0.02),
+    "contact_perimeter": Rule(0.5, 3.0, edge=0.02, rough_edge=0.02, sampled=0.67, sampled_edge=0.02),
     "plastic_area_fraction": Rule(1.0, 1.3, edge=0.02, rough_edge=0.05, sampled=0.67, sampled_edge=0.03),
     "mean_contact_pressure": _AREA,
     "max_pressure": Rule(0.15, 1.3, edge=0.004, rough_edge=0.03, sampled=0.2, sampled_edge=0.008),
