@@ -98,14 +98,15 @@ def test_what_bounds_the_figures_is_said(tmp_path):
 
 
 def test_a_film_that_is_not_found_is_not_converged_and_says_what_to_do(tmp_path, monkeypatch):
-    from bem.lubrication.point import touching_start
+    from bem.lubrication.point import newton, touching_start
 
-    for name in ("FIRST", "STEPS"):
-        monkeypatch.setattr(touching_start, name, 2)
+    for module, name in ((touching_start, "FIRST"), (touching_start, "STEPS"), (newton, "MOST")):
+        monkeypatch.setattr(module, name, 2)
     run = run_scene(scene(), tmp_path / "run", figures=False)
     assert run.summary["status"] == "stalled"
     assert REMEDY in run.summary["where"]
     assert "contact_load_share_error" not in run.summary
+    assert any("figures are of the least wrong" in note for note in run.summary["notes"])
 
 
 def test_the_plan_names_what_is_computed():

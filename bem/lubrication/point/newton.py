@@ -181,15 +181,18 @@ def iterate(
 
     step : of a balance, the share of errors that its equations are solved to, and the size its errors are to stay
     below, the next balance, None where there is none, and cycles. history : steps back to the largest size allowed.
-    roughly : largest share that equations are solved to, as of smooth bodies if None. patience : beyond `most`, steps
-    go on while errors or sizes had a new minimum in so many steps, to `MOST` at the outside.
+    roughly : largest share that equations are solved to, as of smooth bodies if None. patience : errors may grow on the
+    way. Beyond `most`, steps go on while errors or sizes had a new minimum in so many steps, to `MOST` at the outside;
+    without an end the balance is the least wrong one, not the last.
     """
     steps = cycles = 0
     roughly = ROUGHLY if roughly is None else roughly
-    sizes, errors = [at.size], []
+    sizes, errors, least_wrong = [at.size], [], None
     while True:
         largest = at.largest
         errors.append(largest)
+        if patience > 0 and largest <= min(errors):
+            least_wrong = at
         converged = steps > 0 and largest <= tolerance
         if converged or not np.isfinite(largest):
             break
@@ -206,6 +209,8 @@ def iterate(
         at = following
         sizes.append(at.size)
         steps += 1
+    if not converged and least_wrong is not None:
+        at, largest = least_wrong, min(errors)
     return at, steps, cycles, largest, bool(converged)
 
 

@@ -154,7 +154,8 @@ def solve_rough_point_film(  # reason: those of `solve_point_film`, the surface 
     Returns
     -------
     RoughPointFilm. `status` is `converged` only where what is recomputed from the result meets the tolerance, else
-    `stalled` with the last iterate: films much thinner than heights on few cells a wavelength are not always found.
+    `stalled` with the least wrong iterate: films much thinner than heights on few cells a wavelength are not always
+    found.
 
     Raises
     ------
@@ -273,7 +274,7 @@ def _said(setting: Setting, level: Level, outcome: TouchingOutcome, asked: _Aske
         status=Status.CONVERGED if judged.right else Status.STALLED,
         speeds=asked.speeds,
         lubricant=asked.lubricant,
-        notes=_notes(judged.right, created),
+        notes=_notes(judged, created),
     )
 
 
@@ -303,13 +304,16 @@ def _judged(level: Level, state: TouchingState, least: float, tolerance: float) 
     pulled = float(np.minimum(state.oil, state.pressure - state.oil).min()) < 0
     residual = max(float(np.abs(of.wrong).max()), share, complementarity)
     right = sound and not pulled and max(residual, of.mass) <= tolerance
-    return _Judged(film, touching, of, complementarity, residual, right)
+    return _Judged(shown.film, touching, of, complementarity, residual, right)
 
 
-def _notes(right: bool, created: float) -> tuple[str, ...]:
+def _notes(judged: _Judged, created: float) -> tuple[str, ...]:
     notes = []
-    if not right:
-        notes.append("no film was found: take more cells a wavelength, a higher speed or a lower surface")
+    if not judged.right:
+        notes.append(
+            f"no film was found: figures are of the least wrong of all tried (residual {judged.residual:.1g}), "
+            "and may be far off; take more cells a wavelength, a higher speed or a lower surface"
+        )
     if created > CREATED:
         notes.append(
             f"oil comes from nowhere, {created:.2g} times what goes through the contact: behind summits it ruptures "

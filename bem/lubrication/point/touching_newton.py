@@ -36,7 +36,8 @@ ROUGHLY = 1e-2
 """Largest share that a step's equations are solved to: with a tenth, as of smooth bodies, some films in which account
 is kept of the oil are lost, with 1e-3 others (11 hard ones of random balls: 6, 6 and 5 found)."""
 PATIENCE = 8
-"""Steps in which errors or their size must have had a new minimum for more to be taken than asked for."""
+"""Steps in which errors or their size must have had a new minimum for more to be taken than asked for: of 21 films of
+random balls that took some of these (40 to 56 cells a side), 7 were lost without."""
 
 
 @dataclass(frozen=True)

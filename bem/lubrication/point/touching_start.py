@@ -1,15 +1,16 @@
 """From nothing to the film of a point contact whose surfaces touch: starts, and ways to it where none leads there.
 
 Where account is kept of the oil no errors need become smaller (`newton.iterate`), and among steep bumps at creeping
-speeds Newton's method goes round in circles: cells that are full, and those that touch, change back and forth. Swift
-and Stieber's condition, which lets oil come from nowhere, has a film within a dozen steps there, and from it there
-are few to the film with account of the oil. What has none then (steep bumps that rub, a few cells a wavelength) still
-goes round in circles of a few cells. Knows what `touching_newton` knows; verified in
-tests/lubrication/point/test_rough_film.py.
+speeds Newton's method goes round in circles, cells that are full, and those that touch, changing back and forth, or
+away to errors without bounds. Swift and Stieber's condition, which lets oil come from nowhere, has a film within a
+dozen steps there, and from it there are few to the film with account of the oil. What has none then (steep bumps that
+rub, a few cells a wavelength) goes the same two ways, and the least wrong of all that was tried is handed back. Knows
+what `touching_newton` knows; verified in tests/lubrication/point/test_rough_film.py.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -37,25 +38,34 @@ Film = Callable[[PointProblem, TouchingState, float, int], TouchingOutcome]
 
 
 def reached(level: Level, least: float, goal: float) -> TouchingOutcome:
-    """The film on a grid, with a least film in its unit; the outcome from the likeliest start where nothing leads to
-    it. Steps and cycles are those of all that was tried."""
+    """The film on a grid, with a least film in its unit; the least wrong outcome where nothing leads to it. Steps and
+    cycles are those of all that was tried."""
     tried: list[TouchingOutcome] = []
+    asked: list[TouchingOutcome] = []
 
     def film(problem: PointProblem, start: TouchingState, tolerance: float, most: int) -> TouchingOutcome:
-        there = level if problem is level.problem else Level(problem, level.shape)
-        tried.append(newton(there, start, least, tolerance, most))
+        own = problem is level.problem
+        tried.append(newton(level if own else Level(problem, level.shape), start, least, tolerance, most))
+        if own:
+            asked.append(tried[-1])
         return tried[-1]
 
     # dry contact is likeliest where smooth bodies would touch, too
     slow = level.problem.typical_film < least
     found = film(level.problem, _dry(level, least) if slow else _lifted(level, least, LIFTS[0]), goal, FIRST)
     if not found.converged:
-        found = _led(level, least, goal, film) or found
+        _led(level, least, goal, film)
+        found = min(asked, key=lambda one: (not one.converged, _wrong(one)))
     return replace(found, steps=sum(one.steps for one in tried), cycles=sum(one.cycles for one in tried))
 
 
-def _led(level: Level, least: float, goal: float, film: Film) -> TouchingOutcome | None:
-    """From a film without account of the oil: from any start, else from other speeds."""
+def _wrong(outcome: TouchingOutcome) -> float:
+    """Its largest error, of what is no number without bounds."""
+    return math.inf if math.isnan(outcome.residual) else outcome.residual
+
+
+def _led(level: Level, least: float, goal: float, film: Film) -> None:
+    """Try from a film without account of the oil, found from any start, else from other speeds."""
     free = replace(level.problem, layer=None)
     dry, *lifted = _dry(level, least), *(_lifted(level, least, lift) for lift in LIFTS)
     starts = [dry, *lifted] if level.problem.typical_film < least else [*lifted, dry]
@@ -63,7 +73,8 @@ def _led(level: Level, least: float, goal: float, film: Film) -> TouchingOutcome
     for speed in OTHER_SPEEDS:
         if torn is None:
             torn = _from_speed(free, speed, dry if speed < 1 else lifted[-1], film)
-    return None if torn is None else film(level.problem, torn.state, goal, STEPS)
+    if torn is not None:
+        film(level.problem, torn.state, goal, STEPS)
 
 
 def _from_speed(problem: PointProblem, speed: float, state: TouchingState, film: Film) -> TouchingOutcome | None:

@@ -16,7 +16,7 @@ from bem import (
     solve_point_film,
     solve_rough_point_film,
 )
-from bem.lubrication.point import touching_start
+from bem.lubrication.point import newton, touching_newton, touching_start
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 MODULUS = contact_modulus(STEEL, STEEL)
@@ -181,6 +181,30 @@ def test_films_among_steep_bumps_at_creeping_speeds_are_found_by_way_of_oil_from
     assert 0.01 < film.contact_share < 0.99
     # the likeliest start, from which Newton's method goes round in circles, is not the only one that was tried
     assert film.iterations > touching_start.FIRST
+
+
+def test_a_film_is_found_by_steps_beyond_those_asked_for_while_errors_fall(monkeypatch):
+    """Without patience no way leads to it."""
+    given = BALL | {"speeds": (0.0, 4e-4), "heights": random_bumps(5, 89e-9, 0.44), "shape": (40, 40)}
+    film = solve_rough_point_film(**given, errors=False)
+    assert film.status.value == "converged"
+    assert 0.9 < film.contact_share < 0.999
+    # from the first start
+    assert touching_start.FIRST < film.iterations <= newton.MOST
+    monkeypatch.setattr(touching_newton, "PATIENCE", 0)
+    assert solve_rough_point_film(**given, errors=False).status.value == "stalled"
+
+
+def test_of_a_film_that_is_not_found_the_least_wrong_is_shown():
+    """High bumps at a crawl on few cells: the last iterate of the last start is 45 times as wrong as it can be."""
+    given = BALL | {"speeds": (0.0, 1e-5), "heights": random_bumps(2, 160e-9, 0.38), "shape": (48, 48)}
+    film = solve_rough_point_film(**given)
+    assert film.status.value == "stalled"
+    assert film.contact_share_error is None
+    assert film.residual < 1
+    assert film.thickness.min() > 0
+    assert film.contact_share == pytest.approx(1.0, abs=1e-3)
+    assert any("no film was found" in note and "may be far off" in note for note in film.notes)
 
 
 @pytest.mark.parametrize(
