@@ -211,7 +211,7 @@ def contact_bars(case: ContactCase, coarser: Coarser) -> ErrorBars:
         for name, rule in RULES.items()
         if name not in given
     }
-    sharp = is_sharp(case.undeformed, case.solution.pressure, case.grid)
+    sharp = touches_sharply(case)
     if sharp and case.hardness is not None:  # the cap is the limit, which finer cells would come to
         grid["max_pressure"] = max(case.hardness - fine["max_pressure"], 0.0)
     if fine["plastic_area_fraction"] > grid["plastic_area_fraction"]:  # some of it is at the hardness, beyond doubt
@@ -242,6 +242,12 @@ def _is_smooth(gap: FloatArray, grid: Grid, share: float) -> bool:
         bends += float(np.mean(second**2))
         turns += float(np.mean(np.diff(second, axis=axis) ** 2))
     return turns <= share**2 * bends
+
+
+def touches_sharply(case: ContactCase) -> bool:
+    """Whether the highest pressure may have no limit: at a sharp edge, ridge or tip."""
+    modulus = case.operator.modulus_at(math.pi / math.sqrt(case.grid.cell_area))
+    return is_sharp(case.undeformed, case.solution.pressure, case.grid, modulus)
 
 
 def mean_opening(gap: FloatArray) -> float:

@@ -8,6 +8,8 @@ cell, of a sharp one they stand alone. Knows no contact but its pressure. Verifi
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from bem.grid import FloatArray, Grid
@@ -23,13 +25,19 @@ _UNUSUAL_TIP = 4.5
 inverse distance, so that few cells have few that are small: of 300 cones with their tip anywhere in the middle the
 least was 4.9, 6.4 and 9.6 times them on 12, 16 and 24 cells a side; of 1200 surfaces of 12 to 32 cells with waves of
 two and more the largest was 3.4, of 60 of 64 cells 3.5."""
+_FINER = 4.0
+"""Kinks count whose pressure may pass the highest one's on cells so many times finer, which bars are judged by."""
 _ROUND_OFF = 1e-9
 """Of the gap's range: below it second differences say nothing."""
 
 
-def is_sharp(undeformed: FloatArray, pressure: FloatArray, grid: Grid) -> bool:
-    """Whether a contact with that undeformed gap [m] and pressure (both nx, ny) ends at steps or touches at kinks."""
-    return _ends_at_steps(undeformed, pressure, grid) or _touches_at_kinks(undeformed, pressure, grid)
+def is_sharp(undeformed: FloatArray, pressure: FloatArray, grid: Grid, modulus: float = math.inf) -> bool:
+    """Whether a contact with that undeformed gap [m] and pressure [Pa] (both nx, ny) ends at steps or touches at kinks.
+
+    modulus : contact modulus of the bodies for waves of two cells [Pa], which says how far pressures at kinks may rise;
+        infinite, all kinks count.
+    """
+    return _ends_at_steps(undeformed, pressure, grid) or _touches_at_kinks(undeformed, pressure, grid, modulus)
 
 
 def _ends_at_steps(undeformed: FloatArray, pressure: FloatArray, grid: Grid) -> bool:
@@ -45,8 +53,12 @@ def _ends_at_steps(undeformed: FloatArray, pressure: FloatArray, grid: Grid) -> 
     return sharp > _STEPS * edges
 
 
-def _touches_at_kinks(undeformed: FloatArray, pressure: FloatArray, grid: Grid) -> bool:
-    inside = pressure > 0
+def _touches_at_kinks(undeformed: FloatArray, pressure: FloatArray, grid: Grid, modulus: float) -> bool:
+    """Whether there are kinks that may have the highest pressure. Johnson: a wedge of slope t has E* t/pi arcosh(a/x),
+    a cone E* t/2 arcosh(a/r); slopes change by 2 t there, in a cell or two."""
+    inside, missing = pressure > 0, float(pressure.max()) - pressure
+    rise = modulus * math.log(_FINER)
+    ridges: list[FloatArray] = []
     round_off = _ROUND_OFF * float(np.ptp(undeformed))
     over: list[FloatArray] = []
     for axis in (0, 1):
@@ -63,6 +75,11 @@ def _touches_at_kinks(undeformed: FloatArray, pressure: FloatArray, grid: Grid) 
         if not usual > 0:  # flat
             continue
         # towards the other body: what is grooved bears nothing
-        over.append(np.where(inside & (bend > _ALONE * beside), bend / usual, 0.0))
-    ridge = any(bool((each > _UNUSUAL).any()) for each in over)
+        alone = inside & (bend > _ALONE * beside)
+        next_to = np.maximum(np.roll(bend, 1, axis), np.roll(bend, -1, axis))
+        turns = np.where(alone, (bend + np.maximum(next_to, 0.0)) / grid.spacing[axis], 0.0)
+        reached = np.full(turns.shape, math.inf) if math.isinf(rise) else rise * turns
+        over.append(np.where(alone & (reached / 4 >= missing), bend / usual, 0.0))
+        ridges.append(np.where(alone & (reached / (2 * math.pi) >= missing), bend / usual, 0.0))
+    ridge = any(bool((each > _UNUSUAL).any()) for each in ridges)
     return ridge or (len(over) == 2 and bool((np.minimum(*over) > _UNUSUAL_TIP).any()))

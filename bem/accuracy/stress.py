@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 
 from bem.accuracy.bars import DEPTHS, GRID, PRESSING, PRESSING_FACTOR, ErrorBars, Rule
-from bem.accuracy.contact import Coarser, ContactCase, is_resolved, share_at_edge
-from bem.accuracy.sharp import is_sharp
+from bem.accuracy.contact import Coarser, ContactCase, is_resolved, share_at_edge, touches_sharply
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.stress import StressBelow, stress_below, von_mises_planes
@@ -111,7 +110,7 @@ def _of_stress(
     near = depths[k] < np.sqrt(case.grid.cell_area)
     if case.hardness is not None and near and (case.solution.pressure >= case.hardness).any():
         return ErrorBars.unknown(NAMES, _CAPPED)
-    if near and is_sharp(case.undeformed, case.solution.pressure, case.grid):
+    if near and touches_sharply(case):
         return ErrorBars.unknown(NAMES, _SHARP)
     if k == 0 and depths[0] > 0 and not few:
         return ErrorBars.unknown(NAMES, _SHALLOWEST)

@@ -76,6 +76,21 @@ def test_a_smooth_contact_keeps_the_bar(shape):
     assert contact_bars(case, solve_coarser(case)).values["max_pressure"] > 0
 
 
+def test_a_ridge_far_below_the_highest_pressure_does_not_count():
+    """Its own rises on finer cells, from 0.7 of the highest, which stays."""
+
+    def ridged(x, y):
+        return (x**2 + y**2) / 2e-3 - 30e-9 * np.maximum(0, 1 - abs(x - 26.25e-6) / 4.5e-6)
+
+    case = pressed(ridged, load=6.0)
+    assert is_sharp(case.undeformed, case.solution.pressure, case.grid)
+    bar = contact_bars(case, solve_coarser(case)).values["max_pressure"]
+    finer = Grid((256, 256), (0.375e-6, 0.375e-6))
+    gap, operator = ridged(finer.x[:, None], finer.y), displacement_operator(finer, Body(STEEL))
+    error = abs(solve_contact(gap, operator, load=6.0).maximum_pressure - case.solution.maximum_pressure)
+    assert error <= bar < 0.05 * case.solution.maximum_pressure
+
+
 @pytest.mark.parametrize("cutoff", [2.0, 4.0, 8.0])
 def test_rough_surfaces_are_not_sharp_by_chance(cutoff):
     """Of ten surfaces of 64 x 64 cells with waves down to so many cells, none; all of them touches."""
