@@ -21,7 +21,7 @@ _KINDS = {
     "film": "friction", "mixed": "friction", "mixed_ball": "friction", "heated_mixed": "friction",
     "hot_mixed": "friction",
     "march": "film",
-    "point": "point-film",
+    "point": "point-film", "rough_point": "point-film",
     "asperities": "asperities", "flow": "flow-factors", "rubbing": "surface-temperature", "tribofilm": "tribofilm",
     "wear": "wear", "running_in": "running-in", "particle": "particles", "sticking": "partial-slip",
     "life": "running-in-life",

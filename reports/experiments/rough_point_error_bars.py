@@ -7,8 +7,7 @@ Drawn from a seed: balls of 5 to 20 mm at Hertz' pressures of 0.4 to 1.5 GPa, sp
 to 150 nm rms of 64 waves in all directions, the shortest of 0.35 to 1 Hertz' radius and the longest four times as long,
 on 64 to 68 cells a side: the waves are functions, so that all grids have the same surface. What the reference differs
 by counts as two thirds of the error, as in first order. Cases where no film is found on one of the grids are left out.
-`bem.accuracy.rough_point` has its factors from seed 77; no run of this one's seed was stored yet, which goes into
-`reports/results/rough_point_error_bars.json`.
+`bem.accuracy.rough_point` has its factors from seeds 77 and 2611 to 2613, and is judged by another one.
 """
 
 from __future__ import annotations
@@ -86,4 +85,4 @@ def rows_of(words: str, case: RoughPointCase, cells: tuple[int, int], half: floa
 
 
 if __name__ == "__main__":
-    judge(lambda rng: rows_of(*draw(rng)), RESULT, cases=30)
+    judge(lambda rng: rows_of(*draw(rng)), RESULT, cases=30, seed=2614)

@@ -1,0 +1,67 @@
+"""Error bars of films with contact inside: what they have where half as many cells differ by chance in little."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem import Lubricant
+from bem.accuracy.rough_point import FACTORS, STEEP, RoughPointCase, rough_point_bars
+from bem.reference_solutions.hertz import ellipse_contact
+
+RADIUS, LOAD, MODULUS = 0.01, 20.0, 115e9
+AREA = np.pi * np.prod(ellipse_contact(radii=(RADIUS, RADIUS), contact_modulus=MODULUS, load=LOAD).semi_axes)
+HALF = np.sqrt(AREA / np.pi)
+CASE = RoughPointCase(
+    load=LOAD,
+    radii=(RADIUS, RADIUS),
+    contact_modulus=MODULUS,
+    speeds=((0.0, 0.0), (1e-3, 0.0)),
+    lubricant=Lubricant(0.03, pressure_viscosity=18e-9, shear_law="eyring", shear_stress_limit=5e6),
+    heights=lambda x, y: 80e-9 * np.cos(8 * x / HALF) * np.cos(8 * y / HALF),
+    least_film=1e-9,
+    boundary_friction=0.12,
+)
+
+
+@pytest.fixture(scope="module")
+def film():
+    found = CASE.on((64, 64))
+    assert found.status == "converged"
+    assert 0.02 < found.contact_share < 0.98
+    return found
+
+
+def bars_beside(film, monkeypatch, **changes):
+    """With a film on half as many cells that differs in these figures alone."""
+    monkeypatch.setattr(RoughPointCase, "on", lambda case, cells: replace(film, **changes))
+    return rough_point_bars(CASE, film, AREA).values
+
+
+def test_shares_have_what_the_film_above_the_least_one_may_move_them_by(film, monkeypatch):
+    share, over = film.contact_share, film.mean_thickness - CASE.least_film
+    bars = bars_beside(film, monkeypatch, mean_thickness=film.mean_thickness + 0.1 * over)
+    assert bars["mean_thickness"] == pytest.approx(0.1 * FACTORS["mean_thickness"] * over, rel=1e-6)
+    wanted = STEEP * share * (1 - share) * 0.1 * FACTORS["mean_thickness"]
+    assert bars["contact_load_share"] == pytest.approx(wanted, rel=1e-6)
+    # rubbed by the share alone, at least
+    assert bars["traction_coefficient"] >= 0.12 * bars["contact_load_share"] * (1 - 1e-9)
+    assert bars["friction_power"] >= 1e-3 * film.load * 0.12 * bars["contact_load_share"] * (1 - 1e-9)
+
+
+def test_areas_have_what_whole_cells_scatter(film, monkeypatch):
+    bars = bars_beside(film, monkeypatch)
+    cell = (film.x[1] - film.x[0]) * (film.y[1] - film.y[0])
+    touching = int(film.touching.sum())
+    # some cells of every spot lie at its edge, and no more than there are
+    assert 0.6 * cell / AREA < bars["contact_area_share"] < 0.6 * np.sqrt(touching) * cell / AREA * (1 + 1e-9)
+
+
+def test_a_least_film_is_met_only_where_contact_is_sure(film, monkeypatch):
+    thinner = 0.9 * film.mean_thickness
+    sure = bars_beside(film, monkeypatch, mean_thickness=0.9999 * film.mean_thickness)
+    assert sure["minimum_thickness"] < 1e-6 * CASE.least_film
+    barely = replace(film, contact_share=1e-4)
+    bars = bars_beside(barely, monkeypatch, mean_thickness=thinner, contact_share=2e-4)
+    assert bars["minimum_thickness"] == pytest.approx(bars["mean_thickness"], rel=1e-9)
+    assert bars["mean_thickness"] == pytest.approx(FACTORS["mean_thickness"] * 0.1 * film.mean_thickness, rel=1e-6)
