@@ -65,7 +65,8 @@ def _wrong(outcome: TouchingOutcome) -> float:
 
 
 def _led(level: Level, least: float, goal: float, film: Film) -> None:
-    """Try from a film without account of the oil, found from any start, else from other speeds."""
+    """Try from a film without account of the oil, found from any start, else from other speeds; then from the starts
+    that were not tried."""
     free = replace(level.problem, layer=None)
     dry, *lifted = _dry(level, least), *(_lifted(level, least, lift) for lift in LIFTS)
     starts = [dry, *lifted] if level.problem.typical_film < least else [*lifted, dry]
@@ -73,8 +74,11 @@ def _led(level: Level, least: float, goal: float, film: Film) -> None:
     for speed in OTHER_SPEEDS:
         if torn is None:
             torn = _from_speed(free, speed, dry if speed < 1 else lifted[-1], film)
-    if torn is not None:
-        film(level.problem, torn.state, goal, STEPS)
+    if torn is not None and film(level.problem, torn.state, goal, STEPS).converged:
+        return
+    for start in starts:
+        if film(level.problem, start, goal, STEPS).converged:
+            return
 
 
 def _from_speed(problem: PointProblem, speed: float, state: TouchingState, film: Film) -> TouchingOutcome | None:
