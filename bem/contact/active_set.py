@@ -5,9 +5,9 @@ The pressure minimises p.Kp/2 + p.(gap - approach) over 0 <= p <= cap, with its 
 1. applies the operator in double precision, which gives the true gap, its violations and the energy; if the way
    there led well beyond its lowest point, goes back to it: its displacement follows without another application;
 2. takes in the free cells that overlap and the capped cells that open;
-3. runs preconditioned conjugate gradients on the cells in contact (single precision transforms, the symmetric part of
-   the operator); the last step, which step 4 will undo most of or which is to reach the tolerance, has a length known
-   beforehand and costs none; and
+3. runs preconditioned conjugate gradients (`face`; with friction conjugate residuals, `coupled`) on the cells in
+   contact, by single precision transforms; the last step, which step 4 will undo most of or which is to reach the
+   tolerance, has a length known beforehand and costs none; and
 4. sets free what came out below zero, caps what came out above, region by region at the same load, and restores the
    load of all.
 
@@ -18,8 +18,8 @@ From there on the energy falls, or the violation is the least so far, until a te
 Where nearly all cells that touch are at the cap, pressures without bounds say nothing: a projected gradient step with
 the load restored by one shift takes their place and needs a handful of rounds.
 
-With strong coupling of friction (friction times Dundurs' beta above about 0.5) the symmetric part alone may lead
-nowhere; `solve` then takes friction's part of the displacement from one contact to the next.
+Friction that couples into the gap leaves no energy to go by. Where the sets then swing `one_grid` takes its part of the
+displacement from one contact to the next.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ from numpy.typing import NDArray
 
 from bem.contact import passes
 from bem.contact.controls import ApproachControl, LoadControl
+from bem.contact.coupled import solve_coupled
 from bem.contact.energy import Accepted, best_share, lowest_point
 from bem.contact.face import Opening, solve_on_cells, take_in
 from bem.contact.feasible import between, clip, first_pressure, gradient_step, lift
@@ -232,7 +233,8 @@ def _next(level: Level, control: Control, now: _Round, effort: Effort) -> _Step 
         opening = Opening(opening.values - opening.mean, 0.0)
         if iterate.cells.size < level.gap.size:
             return _Step(iterate, lifted)
-    raw = solve_on_cells(level, iterate, opening, control, now.goal, effort)
+    solve = solve_on_cells if level.operator.symmetric else solve_coupled
+    raw = solve(level, iterate, opening, control, now.goal, effort)
     clipped = clip(level, control, iterate, raw)
     if clipped.cells.size <= _FEW * clipped.capped.size and clipped.cells.size < 0.5 * iterate.cells.size:
         # fully plastic: bounds matter, elasticity hardly does, and unbounded pressures say nothing

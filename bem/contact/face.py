@@ -55,7 +55,7 @@ def solve_on_cells(
 ) -> FloatArray:
     """Unbounded pressures on the iterate's cells that bring the gap there (overwritten) nearer to zero."""
     cells, pressure, residual = iterate.cells, iterate.values.copy(), opening.values
-    balance = _Balance.of(level, cells, opening, control)
+    balance = Balance.of(level, cells, opening, control)
     if balance is None:
         return pressure
     tuning = level.tuning
@@ -120,7 +120,7 @@ def _strides(
 
 
 @dataclass(frozen=True)
-class _Balance:
+class Balance:
     """The preconditioner; under load control with directions whose sum is zero.
 
     `rise` : pressures near those for a rise of the approach, what brings the sum of a direction to zero; `total` is
@@ -135,7 +135,7 @@ class _Balance:
     shifted: FloatArray
 
     @classmethod
-    def of(cls, level: Level, cells: Indices, opening: Opening, control: Control) -> _Balance | None:
+    def of(cls, level: Level, cells: Indices, opening: Opening, control: Control) -> Balance | None:
         """For these cells; frees the residual of its mean under load control. None if a load leaves nothing to do."""
         kept = isinstance(control, LoadControl)
         if kept:

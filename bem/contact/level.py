@@ -140,7 +140,7 @@ class Level:
     def __init__(self, operator: DisplacementOperator, gap: FloatArray, cap: float, tuning: Tuning) -> None:
         self.operator = operator
         self.exact = operator.scaled()
-        self.quick = operator.scaled(np.float32, symmetric_part=True)
+        self.quick = operator.scaled(np.float32)
         self.gap = gap
         self.cap = cap
         self.tuning = tuning
