@@ -41,7 +41,8 @@ class Change:
 class Linear:
     """The equations on one grid, around pressures and films there. held : cells without a balance (nx, ny), where the
     pressure stays; stencil : see `loops`, in half the digits (`shortened`); far : pressure times film squared far away
-    (nx, ny); tail_slope : derivative of the load outside the rectangle, less what accelerates, with H0."""
+    (nx, ny); tail_slope : derivative of the load outside the rectangle, less what accelerates, with H0; split : share
+    (nx, ny) that leaves cells that are not full along x (`supply_loops`), None where no account is kept of them."""
 
     level: Level
     pressure: FloatArray
@@ -50,6 +51,7 @@ class Linear:
     stencil: HalfArray
     far: FloatArray
     tail_slope: float
+    split: FloatArray | None
 
     @cached_property
     def far_slope(self) -> FloatArray:
@@ -102,8 +104,8 @@ class Linear:
         level, out = self.level, np.zeros(self.level.shape)
         problem = level.problem
         loops.applied(self.stencil, level.spacing, problem.drag, problem.storing, pressure, film, out)
-        if problem.layer is not None:
-            supply_loops.carried(self.not_full, problem.drag, level.spacing, out)
+        if self.split is not None:
+            supply_loops.carried(self.not_full, self.split, out)
         return out
 
     def relaxed(self, residual: FloatArray, back: bool) -> FloatArray:
@@ -149,9 +151,12 @@ class Linear:
         held = level.averaged(self.held.astype(float)) > 0.5
         pressure, film = level.averaged(self.pressure), level.averaged(self.film)
         stencil = flows(coarse, pressure, film)[1]
-        if level.problem.layer is not None:
+        split = None
+        if self.split is not None:
             supply_loops.nothing_dragged(held, stencil)
-        return Linear(coarse, pressure, film, held, shortened(stencil), level.averaged(self.far), self.tail_slope)
+            split = level.averaged(self.split)
+        far = level.averaged(self.far)
+        return Linear(coarse, pressure, film, held, shortened(stencil), far, self.tail_slope, split)
 
     def dense_rows(self, matrix: FloatArray | HalfArray) -> tuple[NDArray[np.int64], FloatArray]:
         """Derivatives of the equations with pressures, films held, into a matrix (n, n) or more of zeros, on a grid

@@ -129,9 +129,9 @@ def balance(level: Level, state: State, mismatch: FloatArray) -> Balance:
     """What the equations leave of a state."""
     problem, pressure, film = level.problem, state.pressure, state.film
     flow, stencil = flows(level, pressure, film)
-    out, empty = np.zeros(level.shape), None
+    out, empty, split = np.zeros(level.shape), None, None
     if problem.layer is not None:
-        empty, _ = partly_filled(level, pressure, flow, stencil)
+        empty, _, split = partly_filled(level, pressure, flow, stencil)
     loops.divergence(flow, level.spacing, out)
     far, stored = level.far_source(state.datum), 0.0
     if problem.in_time is not None:
@@ -145,17 +145,21 @@ def balance(level: Level, state: State, mismatch: FloatArray) -> Balance:
     load = float(pressure.sum()) * level.cell + outside - wanted
     totals = (np.abs(flow[axis, 1:-1, 1:-1].sum(axis=1 - axis)).max() for axis in (0, 1))
     first, second = (float(total) * step + stored for total, step in zip(totals, level.spacing[::-1], strict=True))
-    linear = Linear(level, pressure, film, held, shortened(stencil), far, tail_slope - inertia)
+    linear = Linear(level, pressure, film, held, shortened(stencil), far, tail_slope - inertia, split)
     return Balance(state, mismatch, out, load, linear, (max(first, 1e-300), max(second, 1e-300)))
 
 
 def partly_filled(
-    level: Level, pressure: FloatArray, flow: FloatArray, stencil: FloatArray
-) -> tuple[BoolArray, FloatArray]:
-    """Cells of a starved contact that are not full, and contents (nx, ny); flow and stencil become theirs."""
-    problem, empty, content = level.problem, np.zeros(level.shape, dtype=bool), np.zeros(level.shape)
-    supply_loops.contents(pressure, problem.layer, problem.drag, level.spacing, flow, stencil, empty, content)
-    return empty, content
+    level: Level, pressure: FloatArray, flow: FloatArray, stencil: FloatArray, full: BoolArray | None = None
+) -> tuple[BoolArray, FloatArray, FloatArray]:
+    """Cells of a starved contact that are not full, contents, and the share of what leaves those along x (nx, ny);
+    flow and stencil become theirs. full : outermost cells that bring as much as there is room for."""
+    problem, empty, (content, split) = level.problem, np.zeros(level.shape, dtype=bool), np.zeros((2, *level.shape))
+    full = np.zeros(level.shape, dtype=bool) if full is None else full
+    supply_loops.contents(
+        pressure, problem.layer, problem.drag, level.spacing, full, flow, stencil, empty, content, split
+    )
+    return empty, content, split
 
 
 def own_film(level: Level, pressure: FloatArray, datum: float) -> FloatArray:

@@ -333,8 +333,8 @@ def _stresses(setting: Setting, state: TouchingState, touching: BoolArray, asked
 
 
 def _created(setting: Setting, level: Level, state: TouchingState) -> float:
-    """Oil from nowhere in Hertz' contact over what goes through its middle: where ruptured films form again (along the
-    frame's x)."""
+    """Oil from nowhere in Hertz' contact over what goes through its middle (across the frame's x): where ruptured films
+    form again, through faces along either axis."""
     assert setting.hertz is not None
     if level.problem.layer is not None:
         return 0.0
@@ -342,7 +342,10 @@ def _created(setting: Setting, level: Level, state: TouchingState) -> float:
     flow, stencil = flows(level, state.oil, state.film)
     full, share = state.oil > 0, np.ones(level.shape)
     loops.carry_on(flow, stencil[8], full, level.problem.drag, level.spacing, share)
-    inside = (level.x[1:, None] / a) ** 2 + (level.y / b) ** 2 < 1
-    dragged = np.where(full[1:] & ~full[:-1] & inside, flow[0, :-1] * (1 - share[:-1]), 0.0)
+    forms = full & ((level.x[:, None] / a) ** 2 + (level.y / b) ** 2 < 1)
+    missing = np.where(full, 0.0, flow * (1 - share))
+    along = float(missing[0, :-1][forms[1:]].sum())
+    if level.problem.drag[1] > 0:
+        along += float(missing[1, :, :-1][forms[:, 1:]].sum()) * level.spacing[0] / level.spacing[1]
     middle = flow[0, int(np.searchsorted(level.x, 0.0)), np.abs(level.y) < b]
-    return float(dragged.sum() / np.abs(middle.sum()))
+    return along / abs(float(middle.sum()))

@@ -31,6 +31,7 @@ def _oil_rows(  # reason: Numba compiles plain arrays; they are the parts of one
     spacing: tuple[float, float],
     drag: tuple[float, float],
     number: IntArray,
+    split: FloatArray,
     wet: Any,
     carries: Any,
     at: IntArray,
@@ -41,8 +42,6 @@ def _oil_rows(  # reason: Numba compiles plain arrays; they are the parts of one
     unknown of a cell that is not full is the change of its balance, which it passes on (`supply_loops.carried`)."""
     nx, ny = number.shape
     rows = np.zeros((2, 7))
-    along, across = drag[0] / spacing[0], drag[1] / spacing[1]
-    share = along / (along + across)
     count = 0
     for i in range(1, nx - 1):
         for j in range(1, ny - 1):
@@ -60,10 +59,10 @@ def _oil_rows(  # reason: Numba compiles plain arrays; they are the parts of one
                 at[0, count], at[1, count], values[count] = n, n, -1.0
                 count += 1
             if carries[i - 1, j] and number[i - 1, j] >= 0:
-                at[0, count], at[1, count], values[count] = n, number[i - 1, j], share
+                at[0, count], at[1, count], values[count] = n, number[i - 1, j], split[i - 1, j]
                 count += 1
-            if carries[i, j - 1] and number[i, j - 1] >= 0 and share < 1.0:
-                at[0, count], at[1, count], values[count] = n, number[i, j - 1], 1.0 - share
+            if carries[i, j - 1] and number[i, j - 1] >= 0 and split[i, j - 1] < 1.0:
+                at[0, count], at[1, count], values[count] = n, number[i, j - 1], 1.0 - split[i, j - 1]
                 count += 1
     return count
 
@@ -111,15 +110,15 @@ class TouchingLinear(Linear):
         if self.coarse or not wet.any():
             return None
         level = self.level
-        carries = np.zeros(level.shape, dtype=bool)
-        if level.problem.layer is not None:
-            carries = self.not_full & ~level.border
+        carries, split = np.zeros(level.shape, dtype=bool), np.ones(level.shape)
+        if self.split is not None:
+            carries, split = self.not_full & ~level.border, self.split
         some = wet | carries
         count = int(some.sum())
         number = np.full(level.shape, -1, dtype=np.int64)
         number[some] = np.arange(count)
         at, values = np.zeros((2, 10 * count), dtype=np.int64), np.zeros(10 * count)
-        n = _oil_rows(self.stencil, level.spacing, level.problem.drag, number, wet, carries, at, values)
+        n = _oil_rows(self.stencil, level.spacing, level.problem.drag, number, split, wet, carries, at, values)
         matrix = csc_matrix((values[:n], (at[0, :n], at[1, :n])), shape=(count, count))
         return splu(matrix), wet, some
 
@@ -173,10 +172,12 @@ class TouchingLinear(Linear):
         pressure, film = level.averaged(self.pressure), level.averaged(self.film)
         stencil = flows(coarse, pressure, film)[1]
         far = level.averaged(self.far)
-        if level.problem.layer is not None:
+        split = None
+        if self.split is not None:
             supply_loops.nothing_dragged(held, stencil)
+            split = level.averaged(self.split)
         return TouchingLinear(
-            coarse, pressure, film, held & ~touching, shortened(stencil), far, self.tail_slope,
+            coarse, pressure, film, held & ~touching, shortened(stencil), far, self.tail_slope, split,
             touching & ~coarse.border, np.zeros(coarse.shape, dtype=bool), True,
         )  # fmt: skip
 

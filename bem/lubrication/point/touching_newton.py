@@ -73,7 +73,9 @@ def balance(level: Level, state: TouchingState, mismatch: FloatArray) -> Touchin
     flow, stencil = flows(level, state.oil, state.film)
     out = np.zeros(level.shape)
     far = level.far_source(state.datum)
-    torn = None if problem.layer is None else _torn(level, state, flow, stencil, far > 0)
+    torn, split = None, None
+    if problem.layer is not None:
+        torn, _, split = partly_filled(level, state.oil, flow, stencil, level.border & (far > 0))
     loops.divergence(flow, level.spacing, out)
     np.copyto(out, state.oil - far / state.film**2, where=level.border)
     outside, tail_slope = problem.outside(state.datum)
@@ -83,19 +85,9 @@ def balance(level: Level, state: TouchingState, mismatch: FloatArray) -> Touchin
     first, second = (float(total) * step for total, step in zip(totals, level.spacing[::-1], strict=True))
     dry, held = empty & state.touching, empty & ~state.touching
     half = shortened(stencil)
-    linear = TouchingLinear(level, state.oil, state.film, held, half, far, tail_slope, state.touching, dry)
+    linear = TouchingLinear(level, state.oil, state.film, held, half, far, tail_slope, split, state.touching, dry)
     through = max(first, 1e-300), max(second, 1e-300)
     return TouchingBalance(state, mismatch, out, load, linear, through)
-
-
-def _torn(level: Level, state: TouchingState, flow: FloatArray, stencil: FloatArray, full: BoolArray) -> BoolArray:
-    """Cells that are not full, as `newton.partly_filled`; outermost ones that are `full` go on as they were."""
-    before = flow.copy(), stencil[11:].copy()
-    empty, _ = partly_filled(level, state.oil, flow, stencil)
-    full = full & level.border
-    for now, then in zip((flow, stencil[11:]), before, strict=True):
-        now[:, full] = then[:, full]
-    return empty
 
 
 @dataclass(frozen=True)

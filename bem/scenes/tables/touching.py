@@ -66,8 +66,6 @@ def check_touching(scene: Any) -> None:
         raise problem("supply of a rough body", "no supply: its inlet is flooded; or smooth surfaces")
     if scene.roughness is not None:
         raise problem("roughness beside a rough surface", "one of them: roughness is of surfaces that are taken smooth")
-    if scene.rolling.at_an_angle:
-        raise problem("rolling.direction: at an angle to the axes films of rough bodies stall", '"0 deg" and "90 deg"')
     flat, ball = scene.rolling.speeds
     if any(flat if rough == "lower" else ball):
         at_rest = "-2: the flat stands still" if rough == "lower" else "2: the ball stands still"
