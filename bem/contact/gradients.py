@@ -25,8 +25,9 @@ def squares(values: FloatArray) -> float:
 
 @_fast
 def _squares(start, stop, result, values):  # type: ignore[no-untyped-def]
+    values = values[start:stop]
     total = 0.0
-    for k in range(start, stop):
+    for k in range(values.size):
         total += values[k] * values[k]
     result[0] = total
 
@@ -49,15 +50,17 @@ def _weighed_free(values, weights, total, out):  # type: ignore[no-untyped-def]
 
 @_fast
 def _weighed(start, stop, result, values, weights):  # type: ignore[no-untyped-def]
+    values, weights = values[start:stop], weights[start:stop]
     total = 0.0
-    for k in range(start, stop):
+    for k in range(values.size):
         total += weights[k] * values[k]
     result[0] = total
 
 
 @_fast
 def _less(start, stop, result, values, shift, out):  # type: ignore[no-untyped-def]
-    for k in range(start, stop):
+    values, out = values[start:stop], out[start:stop]
+    for k in range(values.size):
         out[k] = values[k] - shift
 
 
@@ -90,11 +93,15 @@ def turn(
 
 @_fast
 def _turn(start, stop, result, preconditioned, rise, share, residual, previous):  # type: ignore[no-untyped-def]
+    residual, previous, preconditioned = residual[start:stop], previous[start:stop], preconditioned[start:stop]
+    if share:
+        rise = rise[start:stop]
+        for k in range(rise.size):
+            preconditioned[k] -= share * rise[k]
     full = 0.0
     change = 0.0
-    for k in range(start, stop):
-        z = preconditioned[k] - share * rise[k] if share else preconditioned[k]
-        preconditioned[k] = z
+    for k in range(residual.size):
+        z = preconditioned[k]
         full += z * residual[k]
         change += z * (residual[k] - previous[k])
     result[0] = full
@@ -115,12 +122,15 @@ def new_direction(
 
 @_fast
 def _new_direction(start, stop, result, direction, preconditioned, beta, cells, field, residual):  # type: ignore[no-untyped-def]
+    cells, residual = cells[start:stop], residual[start:stop]
+    preconditioned, direction = preconditioned[start:stop], direction[start:stop]
     slope = 0.0
-    for k in range(start, stop):
+    for k in range(cells.size):
         t = preconditioned[k] + beta * direction[k]
         direction[k] = t
-        field[cells[k]] = t
         slope += t * residual[k]
+    for k in range(cells.size):
+        field[np.uint64(cells[k])] = direction[k]
     result[0] = slope
 
 
@@ -134,8 +144,9 @@ def gather_dot(field: NDArray[Any], cells: NDArray[Any], out: FloatArray, direct
 def _gather_dot(start, stop, result, field, cells, out, direction):  # type: ignore[no-untyped-def]
     total = 0.0
     product = 0.0
-    for k in range(start, stop):
-        value = np.float64(field[cells[k]])
+    cells, out, direction = cells[start:stop], out[start:stop], direction[start:stop]
+    for k in range(cells.size):
+        value = np.float64(field[np.uint64(cells[k])])
         out[k] = value
         total += value
         product += value * direction[k]
@@ -168,7 +179,9 @@ def _advance(start, stop, result, state, way, mean, step, cap):  # type: ignore[
     squares = 0.0
     largest = 0.0
     outside = 0.0
-    for k in range(start, stop):
+    pressure, residual, previous = pressure[start:stop], residual[start:stop], previous[start:stop]
+    direction, response = direction[start:stop], response[start:stop]
+    for k in range(pressure.size):
         p = pressure[k] - step * direction[k]
         pressure[k] = p
         outside = max(outside, max(-p, p - cap))
@@ -204,7 +217,9 @@ def _stride(start, stop, result, pressure, way, step, cap, residual, out):  # ty
     preconditioned, direction, beta = way
     outside = 0.0
     largest = 0.0
-    for k in range(start, stop):
+    pressure, residual, out = pressure[start:stop], residual[start:stop], out[start:stop]
+    preconditioned, direction = preconditioned[start:stop], direction[start:stop]
+    for k in range(pressure.size):
         p = pressure[k] - step * (preconditioned[k] + beta * direction[k])
         out[k] = p
         outside = max(outside, max(-p, p - cap))

@@ -90,8 +90,9 @@ def _survey(start, stop, result, displacement, gap, cells, values):  # type: ign
     size = 0.0
     force = 0.0
     work = 0.0
-    for k in range(start, stop):
-        c = cells[k]
+    cells, values = cells[start:stop], values[start:stop]
+    for k in range(cells.size):
+        c = np.uint64(cells[k])
         p = values[k]
         g = gap[c]
         u = displacement[c]
@@ -137,9 +138,10 @@ def _find_violations(start, stop, result, displacement, gap, state, approach, fo
     # most stretches have none: these are only counted, without branches
     for first in range(start, stop, 256):
         last = min(first + 256, stop)
+        own_state, own_gap, own_displacement = state[first:last], gap[first:last], displacement[first:last]
         count = 0
-        for c in range(first, last):
-            count += (1.0 - state[c]) * (approach - gap[c] - displacement[c]) > 0
+        for k in range(last - first):
+            count += (1.0 - own_state[k]) * (approach - own_gap[k] - own_displacement[k]) > 0
         if count == 0:
             continue
         for c in range(first, last):
@@ -211,9 +213,11 @@ def work(displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], values:
 
 @_fast
 def _work(start, stop, result, displacement, gap, cells, values):  # type: ignore[no-untyped-def]
+    cells, values = cells[start:stop], values[start:stop]
     total = 0.0
-    for k in range(start, stop):
-        total += values[k] * (gap[cells[k]] + displacement[cells[k]])
+    for k in range(cells.size):
+        c = np.uint64(cells[k])
+        total += values[k] * (gap[c] + displacement[c])
     result[0] = total
 
 
@@ -311,7 +315,8 @@ def shifted_sum(values: FloatArray, shift: float, cap: float) -> tuple[float, in
 def _shifted_sum(start, stop, result, values, shift, cap):  # type: ignore[no-untyped-def]
     total = 0.0
     inside = 0
-    for k in range(start, stop):
+    values = values[start:stop]
+    for k in range(values.size):
         p = values[k] + shift
         if p >= cap:
             total += cap
@@ -335,7 +340,8 @@ def moments(values: FloatArray) -> tuple[float, float, float]:
 def _least_and_sum(start, stop, result, values, first):  # type: ignore[no-untyped-def]
     lowest = values[start]
     total = 0.0
-    for k in range(start, stop):
+    values = values[start:stop]
+    for k in range(values.size):
         total += values[k] - first
         lowest = min(lowest, values[k])
     result[0] = lowest
@@ -344,8 +350,9 @@ def _least_and_sum(start, stop, result, values, first):  # type: ignore[no-untyp
 
 @_fast
 def _squares_about(start, stop, result, values, first, mean):  # type: ignore[no-untyped-def]
+    values = values[start:stop]
     total = 0.0
-    for k in range(start, stop):
+    for k in range(values.size):
         d = values[k] - first - mean
         total += d * d
     result[0] = total
@@ -358,7 +365,8 @@ def rescale(values: FloatArray, datum: float, factor: float, out: FloatArray) ->
 
 @_fast
 def _rescale(start, stop, result, values, datum, factor, out):  # type: ignore[no-untyped-def]
-    for k in range(start, stop):
+    values, out = values[start:stop], out[start:stop]
+    for k in range(values.size):
         out[k] = (values[k] - datum) * factor
 
 

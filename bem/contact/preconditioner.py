@@ -198,7 +198,7 @@ def _connect(start, stop, result, cells, position, grid, offsets, columns, patte
         # a missing neighbour is the cell itself, with a zero in the table: no branch where it is used
         if i >= reach and j >= reach and j < ny - reach:
             for a in range(m):
-                neighbour = position[cell + shifts[a]]
+                neighbour = position[np.uint64(cell + shifts[a])]
                 present = neighbour >= 0
                 column = neighbour if present else k
                 columns[k, a] = column
@@ -301,10 +301,10 @@ def _spread(start, stop, result, rows, residual, out):  # type: ignore[no-untype
     m = columns.shape[1]
     if m == 10:  # the usual stencil, unrolled
         for k in range(start, stop):
-            bits = pattern[k]
+            bits = np.uint64(pattern[k])
             s = table[bits, 10] * residual[k]
             for a in range(10):
-                s += table[bits, a] * residual[columns[k, a]]
+                s += table[bits, a] * residual[np.uint64(columns[k, a])]
             out[k] = s
         return
     for k in range(start, stop):
@@ -338,10 +338,10 @@ def _collect(start, stop, result, rows, values, out, outside, block):  # type: i
         out[k] += table[bits, m] * s
     if m == 10:  # the usual stencil, unrolled
         for k in range(first, stop):
-            bits = pattern[k]
+            bits = np.uint64(pattern[k])
             s = values[k]
             for a in range(10):
-                out[columns[k, a]] += table[bits, a] * s
+                out[np.uint64(columns[k, a])] += table[bits, a] * s
             out[k] += table[bits, 10] * s
     else:
         for k in range(first, stop):
