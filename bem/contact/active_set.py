@@ -5,9 +5,9 @@ The pressure minimises p.Kp/2 + p.(gap - approach) over 0 <= p <= cap, with its 
 1. applies the operator in double precision, which gives the true gap, its violations and the energy; if the way
    there led well beyond its lowest point, goes back to it: its displacement follows without another application;
 2. takes in the free cells that overlap and the capped cells that open;
-3. runs preconditioned conjugate gradients (`face`; with friction conjugate residuals, `coupled`) on the cells in
-   contact, by single precision transforms; the last step, which step 4 will undo most of or which is to reach the
-   tolerance, has a length known beforehand and costs none; and
+3. runs preconditioned conjugate gradients (`face`; with friction or a mean gap conjugate residuals, `coupled`) on the
+   cells in contact, by single precision transforms; the last step, which step 4 will undo most of or which is to reach
+   the tolerance, has a length known beforehand and costs none; and
 4. sets free what came out below zero, caps what came out above, region by region at the same load, and restores the
    load of all.
 
@@ -18,8 +18,8 @@ From there on the energy falls, or the violation is the least so far, until a te
 Where nearly all cells that touch are at the cap, pressures without bounds say nothing: a projected gradient step with
 the load restored by one shift takes their place and needs a handful of rounds.
 
-Friction that couples into the gap leaves no energy to go by. Where the sets then swing `one_grid` takes its part of the
-displacement from one contact to the next.
+Friction that couples into the gap, and a mean gap, leave no energy to go by. Where the sets then swing `one_grid` has
+another way.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import passes
-from bem.contact.controls import ApproachControl, LoadControl
+from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl
 from bem.contact.coupled import solve_coupled
 from bem.contact.energy import Accepted, best_share, lowest_point
 from bem.contact.face import Opening, solve_on_cells, take_in
@@ -41,7 +41,9 @@ from bem.contact.level import Begin, Effort, Iterate, Level, LevelResult, Tolera
 from bem.convolution import DisplacementOperator
 
 FloatArray = NDArray[np.float64]
-Control = LoadControl | ApproachControl
+
+Close = Callable[[Level, Iterate, Opening, Control, float, Effort], FloatArray]
+"""Closes the gap on the cells in contact."""
 
 _FALL = 1e-9
 """Fall of the energy, relative to the sum of its terms, that counts as progress where no round may raise it."""
@@ -69,6 +71,8 @@ def solve_level(
     level = Level(operator, gap, cap, tuning)
     progress, guard = _Progress(tuning), _Guard()
     iterate = first_pressure(level, control, start)
+    # a mean gap adds to each displacement what that of all others gives the approach: no energy either
+    energetic = operator.symmetric and not isinstance(control, MeanGapControl)
     before: Accepted | None = None
     while True:
         level.begin_round(iterate, keep=before is not None)
@@ -84,16 +88,16 @@ def solve_level(
         current = now.reached
         if progress.stalls(now.violation, current.potential(control), current.size):
             return now.result(level)
-        before = current if operator.symmetric else None
+        before = current if energetic else None
         improved = progress.improves(now.violation)
-        progress.set_release(now.violation, guarded=operator.symmetric)
+        progress.set_release(now.violation, guarded=energetic)
         if progress.release == 0.0:
             guard.accepted = None
         elif guard.accepted is not None and not improved and current.above(guard.accepted, now.approach):
             iterate = guard.take_back(level, control, guard.accepted, current)
             continue
         guard.accepted, guard.refused = current, 0
-        step = _next(level, control, now, effort)
+        step = _next(level, control, now, effort, solve_on_cells if energetic else solve_coupled)
         if step is None:
             return now.result(level)
         iterate = step.iterate
@@ -212,17 +216,20 @@ def _judge(level: Level, control: Control, iterate: Iterate, before: Accepted | 
 
 def _approach(level: Level, control: Control, iterate: Iterate, total: float) -> float:
     """The approach that goes with the displacement in the buffer."""
+    cells, capped = iterate.cells, iterate.capped
+    if isinstance(control, LoadControl):
+        if cells.size > _FEW * capped.size:
+            return total / cells.size
+        # hardly any cell says what the approach is: take the one that is violated least by all others
+        deepest, nearest = passes.separations(level.flat["displacement"], level.gap, level.state)
+        return deepest if deepest <= nearest else 0.5 * (deepest + nearest)
     if isinstance(control, ApproachControl):
         return control.approach
-    cells, capped = iterate.cells, iterate.capped
-    if cells.size > _FEW * capped.size:
-        return total / cells.size
-    # hardly any cell says what the approach is: take the one that is violated least by all others
-    deepest, nearest = passes.separations(level.flat["displacement"], level.gap, level.state)
-    return deepest if deepest <= nearest else 0.5 * (deepest + nearest)
+    opening = level.outside_cap(level.gap + level.flat["displacement"], capped)
+    return opening - control.mean_gap * level.gap.size / max(1, level.gap.size - capped.size)
 
 
-def _next(level: Level, control: Control, now: _Round, effort: Effort) -> _Step | None:
+def _next(level: Level, control: Control, now: _Round, effort: Effort, close: Close) -> _Step | None:
     """Take in the cells that violate their state, close the gap, and go back into the bounds; None without a cell."""
     iterate, opening = take_in(level, now.iterate, now.found, now.approach)
     if iterate.cells.size == 0:
@@ -233,8 +240,7 @@ def _next(level: Level, control: Control, now: _Round, effort: Effort) -> _Step 
         opening = Opening(opening.values - opening.mean, 0.0)
         if iterate.cells.size < level.gap.size:
             return _Step(iterate, lifted)
-    solve = solve_on_cells if level.operator.symmetric else solve_coupled
-    raw = solve(level, iterate, opening, control, now.goal, effort)
+    raw = close(level, iterate, opening, control, now.goal, effort)
     clipped = clip(level, control, iterate, raw)
     if clipped.cells.size <= _FEW * clipped.capped.size and clipped.cells.size < 0.5 * iterate.cells.size:
         # fully plastic: bounds matter, elasticity hardly does, and unbounded pressures say nothing

@@ -24,7 +24,11 @@ class ApproachControl:
 
 @dataclass(frozen=True)
 class MeanGapControl:
-    """Mean of the positive part of the deformed gap given; the approach follows from it."""
+    """Mean of the positive part of the deformed gap given; the approach follows from it.
+
+    Where bodies touch below the cap the gap is zero: it is the mean of gap + displacement over the cells that are not
+    at the cap, less the approach, times their share of all.
+    """
 
     mean_gap: float
 

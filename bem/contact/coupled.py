@@ -1,22 +1,29 @@
-"""The pressures that close the gap on a given set of cells where friction couples into it: generalised conjugate
+"""The pressures that close the gap on a given set of cells where the equations are not symmetric: generalised conjugate
 residuals, bounds left aside.
 
-The kernel is S + A there, with A skew: the tractions along x that the pressures bring. The preconditioned S is close to
-one, so that residuals that are least over all directions so far fall by a / (1 + sqrt(1 + a^2)) an iteration, where a
-is the most that the preconditioned A does to any: 0.24 where friction times Dundurs' beta is a half. Conjugate
-gradients on S alone would leave a to the next round, and lead nowhere where a is above one.
+Friction that couples into the gap: the kernel is S + A, with A skew: the tractions along x that the pressures bring.
+The preconditioned S is close to one, so that residuals that are least over all directions so far fall by
+a / (1 + sqrt(1 + a^2)) an iteration, where a is the most that the preconditioned A does to any: 0.24 where friction
+times Dundurs' beta is a half. Conjugate gradients on S alone would leave a to the next round, and lead nowhere where a
+is above one.
+
+A mean gap: the approach is the mean of gap + displacement less it, so that each pressure moves all cells. A convolution
+gives that mean beside the gap on the cells, and the pressures that go with a rise of the approach precondition it.
+
 Eisenstat, Elman & Schultz, SIAM J. Numer. Anal. 20, 1983; the rate is that of Concus & Golub, 1976.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact.face import Balance, Control, Opening
+from bem.contact.controls import Control, MeanGapControl
+from bem.contact.face import Balance, Opening
 from bem.contact.level import Effort, Iterate, Level
 
 FloatArray = NDArray[np.float64]
@@ -70,7 +77,7 @@ def solve_coupled(
     level: Level, iterate: Iterate, opening: Opening, control: Control, tolerance: float, effort: Effort
 ) -> FloatArray:
     """Unbounded pressures on the iterate's cells that bring the gap there (overwritten) nearer to zero."""
-    balance = Balance.of(level, iterate.cells, opening, control)
+    balance = Balance.of(level, iterate, opening, control)
     if balance is None:
         return iterate.values.copy()
     tuning, residual = level.tuning, opening.values
@@ -86,6 +93,7 @@ def solve_coupled(
         outside = float(np.maximum(-pressure, pressure - level.cap).max())
         return squares <= enough and largest <= tuning.clipping * level.self_response * outside
 
+    respond = _response(level, iterate, control, balance)
     for _ in range(min(tuning.iterations_per_round, effort.left)):
         direction = np.empty(residual.size)
         balance.precondition(residual, direction, residual)
@@ -95,18 +103,26 @@ def solve_coupled(
             if ends(trial, now.left, _SURE):
                 level.stride.taken = True
                 return trial
-        if not now.go(direction, _response(level, iterate, direction, balance)) or ends(now.pressure, 1.0, 1.0):
+        if not now.go(direction, respond(direction)) or ends(now.pressure, 1.0, 1.0):
             break
     return now.pressure
 
 
-def _response(level: Level, iterate: Iterate, direction: FloatArray, balance: Balance) -> FloatArray:
-    """Of the gap on the cells to a direction; less its mean where the approach is free."""
+def _response(level: Level, iterate: Iterate, control: Control, balance: Balance) -> Callable[[FloatArray], FloatArray]:
+    """Of the gap on the cells to a direction: less its mean under load control, less what the approach follows by
+    where the mean gap is given."""
     given, found = level.quick_fields
     given.fill(0.0)
-    given.reshape(-1)[iterate.cells] = direction
-    level.quick.apply(given, found)
-    response = found.reshape(-1)[iterate.cells].astype(np.float64)
-    if balance.kept:
-        response -= response.mean()
-    return response
+    sunk = found.reshape(-1)
+
+    def respond(direction: FloatArray) -> FloatArray:
+        given.reshape(-1)[iterate.cells] = direction
+        level.quick.apply(given, found)
+        response = sunk[iterate.cells].astype(np.float64)
+        if balance.kept:
+            response -= response.mean()
+        elif isinstance(control, MeanGapControl):
+            response -= level.outside_cap(sunk, iterate.capped)
+        return response
+
+    return respond

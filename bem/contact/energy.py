@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import passes
-from bem.contact.controls import ApproachControl, LoadControl
+from bem.contact.controls import ApproachControl, Control
 from bem.contact.feasible import everywhere, held
 from bem.contact.level import Iterate, Level
 from bem.contact.passes import Survey
@@ -45,7 +45,7 @@ class Accepted:
         """A pressure with what was seen of it."""
         return cls(iterate, approach, seen.energy, seen.size, seen.force, seen.work)
 
-    def potential(self, control: LoadControl | ApproachControl) -> float:
+    def potential(self, control: Control) -> float:
         """The energy that falls under a control: at the approach where that is given."""
         return self.energy - (control.approach * self.force if isinstance(control, ApproachControl) else 0.0)
 

@@ -9,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import gradients, passes
-from bem.contact.controls import ApproachControl, LoadControl
+from bem.contact.controls import ApproachControl, Control, LoadControl
 from bem.contact.level import Effort, Indices, Iterate, Level
 from bem.contact.passes import CAPPED, CONTACT
 
 FloatArray = NDArray[np.float64]
-Control = LoadControl | ApproachControl
 
 _LEFT = 0.05
 """Share of the largest gap that a step without a convolution is taken to leave. Over a hundred contacts (rough, Hertz,
@@ -23,6 +22,9 @@ all edges and controls, capped, coated) convolutions fell by 18 % in sum with th
 
 _LEFT_AT_LAST = 0.1
 """The same where the tolerance is to be met: a round more costs what a convolution less saves."""
+
+_STEEPEST = 0.02
+"""Fall of the mean gap with the approach, without contact one, that is counted on at least."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ def solve_on_cells(
 ) -> FloatArray:
     """Unbounded pressures on the iterate's cells that bring the gap there (overwritten) nearer to zero."""
     cells, pressure, residual = iterate.cells, iterate.values.copy(), opening.values
-    balance = Balance.of(level, cells, opening, control)
+    balance = Balance.of(level, iterate, opening, control)
     if balance is None:
         return pressure
     tuning = level.tuning
@@ -123,40 +125,45 @@ def _strides(
 class Balance:
     """The preconditioner; under load control with directions whose sum is zero.
 
-    `rise` : pressures near those for a rise of the approach, what brings the sum of a direction to zero; `total` is
-    its sum. `shifted` : room for a residual less its mean weighed by them, which keeps the preconditioner symmetric
-    whatever they are.
+    `rise` : pressures near those for a rise of the approach. `share` : of them, in the sum of what the preconditioner
+    gives, that is taken off: all of it under load control; at a given mean gap less than none, since the approach
+    follows the mean displacement. `shifted` : room for a residual less its mean weighed by them, which keeps the
+    preconditioner symmetric whatever they are.
     """
 
     inverse: Callable[[FloatArray, FloatArray], float]
     kept: bool
     rise: FloatArray
-    total: float
+    share: float
     shifted: FloatArray
 
     @classmethod
-    def of(cls, level: Level, cells: Indices, opening: Opening, control: Control) -> Balance | None:
+    def of(cls, level: Level, iterate: Iterate, opening: Opening, control: Control) -> Balance | None:
         """For these cells; frees the residual of its mean under load control. None if a load leaves nothing to do."""
-        kept = isinstance(control, LoadControl)
-        if kept:
+        cells = iterate.cells
+        if isinstance(control, LoadControl):
             values = opening.values
             values -= opening.mean
             if cells.size == 1:
                 return None
+            inverse = level.preconditioner(cells)
+            rise = _rise(level, cells, inverse)
+            return cls(inverse, True, rise, 1 / float(rise.sum()), np.empty(cells.size))
         inverse = level.preconditioner(cells)
-        if not kept:
-            return cls(inverse, kept, np.empty(0), 1.0, np.empty(0))
+        if isinstance(control, ApproachControl):
+            return cls(inverse, False, np.empty(0), 0.0, np.empty(0))
         rise = _rise(level, cells, inverse)
-        return cls(inverse, kept, rise, float(rise.sum()), np.empty(cells.size))
+        follows = level.follows(iterate)
+        return cls(inverse, False, rise, -follows / max(1 - follows * float(rise.sum()), _STEEPEST), np.empty(0))
 
     def precondition(self, residual: FloatArray, out: FloatArray, previous: FloatArray) -> tuple[float, float]:
         """Write the preconditioned residual z; returns z.r and z.(r - r_previous)."""
-        if not self.kept:
-            self.inverse(residual, out)
-            return gradients.turn(out, self.rise, 0.0, residual, previous)
-        gradients.weighed_free(residual, self.rise, self.total, self.shifted)
-        total = self.inverse(self.shifted, out)
-        return gradients.turn(out, self.rise, total / self.total, residual, previous)
+        given = residual
+        if self.kept:
+            gradients.weighed_free(residual, self.rise, 1 / self.share, self.shifted)
+            given = self.shifted
+        total = self.inverse(given, out)
+        return gradients.turn(out, self.rise, self.share * total, residual, previous)
 
 
 def _rise(level: Level, cells: Indices, inverse: Callable[[FloatArray, FloatArray], float]) -> FloatArray:

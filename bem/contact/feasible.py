@@ -8,11 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import passes
-from bem.contact.controls import ApproachControl, LoadControl
+from bem.contact.controls import Control, LoadControl, MeanGapControl
 from bem.contact.level import Begin, Iterate, Level
 
 FloatArray = NDArray[np.float64]
-Control = LoadControl | ApproachControl
 
 _REGION = 8
 """Cells along a region that keeps its load where pressures are clipped; 4 to 16 count alike."""
@@ -31,7 +30,9 @@ def first_pressure(level: Level, control: Control, start: Begin) -> Iterate:
     if start is None:
         if isinstance(control, LoadControl):
             return Iterate(np.arange(cells), np.full(cells, control.force / cells), nothing)
-        overlapping = np.flatnonzero(level.gap < control.approach)
+        # the mean displacement is not known, nor negative
+        least = float(level.gap.mean()) - control.mean_gap if isinstance(control, MeanGapControl) else control.approach
+        overlapping = np.flatnonzero(level.gap < least)
         return Iterate(overlapping, np.zeros(overlapping.size), nothing)
     iterate = start if isinstance(start, Iterate) else held(start, level.cap)
     if isinstance(control, LoadControl):

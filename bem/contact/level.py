@@ -167,6 +167,18 @@ class Level:
         assert real is not None
         return float(np.abs(real).max())
 
+    def outside_cap(self, field: NDArray[Any], capped: Indices) -> float:
+        """Mean of a field (flat) over the cells that are not at the cap."""
+        total = float(field.sum(dtype=np.float64) - field[capped].sum(dtype=np.float64))
+        return total / max(1, field.size - capped.size)
+
+    def follows(self, iterate: Iterate) -> float:
+        """By how much the mean displacement outside the cap rises with the sum of pressures, as in the buffer."""
+        force = float(iterate.values.sum())
+        if iterate.capped.size:
+            force += self.cap * iterate.capped.size
+        return self.outside_cap(self.flat["displacement"], iterate.capped) / force if force > 0 else 0.0
+
     def displace(self, iterate: Iterate) -> None:
         """Write the displacement of a pressure into the buffer."""
         passes.place(self.flat["displacement"], iterate.cells, iterate.values, iterate.capped, self.cap)

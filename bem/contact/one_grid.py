@@ -1,8 +1,9 @@
 """A contact on one grid under any control, and what is done where the plain way fails.
 
-The load and the approach are solved for directly (`active_set`). If that fails: with every round on the guard of the
-energy; with friction's part of the displacement taken from the contact before (`_lagged`); an approach by way of the
-load. A mean gap is reached by way of the approach, or the load; where it is not, `least_gap` says whether it exists.
+The load, the approach and the mean gap are solved for directly (`active_set`). If that fails: with every round on the
+guard of the energy; with friction's part of the displacement taken from the contact before (`_lagged`); an approach by
+way of the load; a mean gap by way of the approach, or the load, and where it is not reached so either, `least_gap` says
+whether it exists.
 """
 
 from __future__ import annotations
@@ -24,13 +25,15 @@ from bem.convolution import DisplacementOperator
 
 FloatArray = NDArray[np.float64]
 Report = Callable[[int, float, int], None]
-Direct = ApproachControl | LoadControl
 
 _WARY_ROUNDS = 400
 """Limit on rounds that may not raise the energy; a hundred were counted under a layer 38 times as stiff."""
 
 _LAGS = 60
 """Limit on contacts with friction taken from the one before; ten are usual."""
+
+_FOLLOWED = 12
+"""Rounds without progress before the approach of a mean gap is searched for instead."""
 
 COARSE_TOLERANCE = 6e-2
 """Violation over roughness that coarse grids are solved to: more is lost in the interpolation anyway. With 0.15 rough
@@ -68,17 +71,22 @@ class Problem:
     cap: float
     report: Report | None = None
 
-    def level(self, control: Direct, start: Begin, allowed: Tolerance, tuning: Tuning) -> LevelResult:
+    def level(self, control: Control, start: Begin, allowed: Tolerance, tuning: Tuning) -> LevelResult:
         """Rounds on this grid."""
         effort = self.shared.effort
         return solve_level(self.operator, self.gap, control, self.cap, start, allowed, effort, tuning, self.report)
 
-    def plain(self, control: Direct, start: Begin, tolerance: float) -> LevelResult:
+    def plain(self, control: Control, start: Begin, tolerance: float) -> LevelResult:
         """Load or approach, from a start, without what is done where that fails."""
         tuning = self.shared.tuning if self.operator.symmetric else replace(self.shared.tuning, stall=25)
         return self.level(control, start, self.shared.allowed(tolerance), tuning)
 
-    def direct(self, control: Direct, start: Begin, tolerance: float) -> LevelResult:
+    def followed(self, mean_gap: float, start: Begin, tolerance: float) -> LevelResult:
+        """Mean gap, the approach following the displacement."""
+        tuning = replace(self.shared.tuning, stall=_FOLLOWED)
+        return self.level(MeanGapControl(mean_gap), start, self.shared.allowed(tolerance), tuning)
+
+    def direct(self, control: Control, start: Begin, tolerance: float) -> LevelResult:
         """Load or approach, from a start; see `search.Solve`."""
         shared, allowed = self.shared, self.shared.allowed(tolerance)
         result = self.plain(control, start, tolerance)
@@ -128,10 +136,13 @@ def solve_on_grid(problem: Problem, control: Control, start: Start, tolerance: f
 
 
 def _with_mean_gap(problem: Problem, mean_gap: float, start: Start, tolerance: float) -> LevelResult:
-    """The mean gap by way of the approach; else by way of the load, or by looking for the least there is."""
+    """The mean gap, else by way of the approach; else by way of the load, or by looking for the least there is."""
     gap, cap, scale = problem.gap, problem.cap, problem.shared.scale
     # displacements are not negative on average, so this approach is not enough
     least = float(gap.mean()) - mean_gap
+    result = problem.followed(mean_gap, start.pressure, tolerance)
+    if result.converged or problem.shared.effort.left <= 0:
+        return result
     result = mean_gap_by_approach(
         mean_gap,
         gap,
@@ -188,7 +199,7 @@ class _Change:
         self.last = coupling
 
 
-def _lagged(problem: Problem, control: Direct, start: Begin, allowed: Tolerance) -> LevelResult:
+def _lagged(problem: Problem, control: Control, start: Begin, allowed: Tolerance) -> LevelResult:
     """Friction's part of the displacement taken from the last pressure, over and over: each contact is then without it.
 
     Slower than friction in every round, but it gets there where the rounds swing: what friction adds varies less from

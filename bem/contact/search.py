@@ -1,4 +1,5 @@
-"""Prescribed quantities reached by way of another: the mean gap by the approach, a hard approach by the load.
+"""Prescribed quantities reached by way of another, where their own way fails: the mean gap by the approach, a hard
+approach by the load.
 
 Both pairs depend on one another monotonically, but for the mean gap below stiff layers (see `least_gap`). A safeguarded
 secant iteration starts each solution from the pressure of the one before and asks of it no more precision than the next

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from bem.contact import cascade, passes
 from bem.contact.certificate import certify, elastic_length
-from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl
+from bem.contact.controls import ApproachControl, Control, LoadControl
 from bem.contact.feasible import held
 from bem.contact.level import Effort, LevelResult, is_flat
 from bem.contact.one_grid import (
@@ -132,8 +132,7 @@ def _solution(problem: Problem, control: Control, start: FloatArray | None, *, f
     if start is None:
         begin = _from_coarser(problem, control)
     else:
-        pressure = np.clip(start, 0.0, problem.cap)
-        begin = Start(pressure, _approach_of(problem, pressure, control))
+        begin = Start(np.clip(start, 0.0, problem.cap), -math.inf)
     return solve_on_grid(problem, control, begin, problem.shared.tolerance)
 
 
@@ -153,19 +152,6 @@ def _report(callback: Callback | None, shared: Shared, operator: DisplacementOpe
         callback(iterations, violation / shared.scale, cells / operator.grid.cells)
 
     return report
-
-
-def _approach_of(problem: Problem, pressure: FloatArray, control: Control) -> float:
-    """The approach that a given pressure belongs to; needed only where the approach is searched for.
-
-    Bodies overlap where the pressure is at its cap, and the mean over a plastic contact says nothing.
-    """
-    touching = pressure > 0
-    if not isinstance(control, MeanGapControl) or not touching.any() or (pressure >= problem.cap).any():
-        return -math.inf
-    shape = problem.operator.grid.shape
-    displacement = problem.operator.scaled().apply(pressure.reshape(shape), np.empty(shape)).reshape(-1)
-    return float((problem.gap + displacement)[touching].mean())
 
 
 def _from_coarser(problem: Problem, control: Control) -> Start:

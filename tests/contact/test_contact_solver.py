@@ -272,6 +272,27 @@ def test_friction_coupling_takes_few_convolutions(shape, periodic, share, hardne
     assert solution.convolutions <= most
 
 
+@pytest.mark.parametrize(
+    ("shape", "periodic", "mean_gap", "hardness", "most"),
+    [
+        ((128, 128), FREE, 1.0, None, 23),
+        ((128, 128), PERIODIC, 1.0, 0.08, 20),
+        ((96, 150), HALF_Y, 0.5, None, 25),
+        ((128, 128), FREE, 0.5, 0.08, 28),
+        ((48, 48), FREE, 0.1, None, 46),
+    ],
+)
+def test_a_mean_gap_takes_few_convolutions(shape, periodic, mean_gap, hardness, most):
+    """19, 17, 21, 23 and 39 counted; 44, 29, 53, 48 and 104 where the approach was searched for."""
+    op = operator(shape, (1 / 128, 1 / 128), periodic)
+    gap = -0.01 * rough(*shape)
+    solution = solve_contact(gap, op, mean_gap=0.01 * mean_gap, hardness=hardness)
+    assert solution.status == "converged"
+    open_gap = np.maximum(gap + op(solution.pressure) - solution.approach, 0)[solution.pressure == 0]
+    assert open_gap.sum() / gap.size == pytest.approx(0.01 * mean_gap, abs=1e-8 * gap.std())
+    assert solution.convolutions <= most
+
+
 def test_semi_periodic_contact_of_a_wide_slice_is_the_free_one_far_from_the_ends():
     # a sphere in a strip that repeats every 12 contact radii: the neighbours change the peak pressure by little
     cells, spacing = 96, 0.125
