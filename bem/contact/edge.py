@@ -26,10 +26,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numba import njit
+from numba import carray, njit
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray, Grid
+from bem.transforms.addresses import numbers
 
 _strict: Any = njit(cache=True, nogil=True, error_model="numpy")
 
@@ -132,9 +133,11 @@ def _region(
     hardness: float = 0.0,
 ) -> Region:
     constants, fitted = (_WAVES, _WAVES_ENDS) if all(grid.periodic) else (_CELLS, _CELLS_ENDS)
-    count = int(inside.sum())
+    marks = np.ascontiguousarray(inside).view(np.uint8)
+    blurred = _blur(marks, *grid.periodic)
+    count = int(np.count_nonzero(inside))
     excess, length, sides, chords, cubes, turns = _sum_squares(
-        (inside, strength, opening, undeformed),
+        (marks, *(np.ascontiguousarray(field) for field in (strength, opening, undeformed)), blurred),
         grid.spacing,
         grid.periodic,
         (0.75 * modulus, hardness),
@@ -175,7 +178,7 @@ def _join_spots(inside, wraps, parent):  # type: ignore[no-untyped-def]
                 continue
             count += 1
             for axis in range(2):
-                k, m = _step(inside, i, j, axis, 1, wraps[0], wraps[1])
+                k, m = _step(inside.shape, i, j, axis, 1, wraps)
                 if inside[k, m]:
                     first, second = _root(parent, i * ny + j), _root(parent, k * ny + m)
                     count -= first != second
@@ -209,22 +212,28 @@ def _root(parent, cell):  # type: ignore[no-untyped-def]
 
 
 @_strict
+def _bare(field):  # type: ignore[no-untyped-def]
+    """A contiguous field by its address: counted by none of its holders (`transforms.addresses`)."""
+    return carray(numbers(field.ctypes.data, field[0, 0]), field.shape)
+
+
+@_strict
 def _sum_squares(given, spacing, wraps, factors, constants, ends):  # type: ignore[no-untyped-def]
     """Over the squares between four centres: area within the polygons beyond a quarter of a cell for each centre inside
     [m^2], length of the edge [m], that of sides between cells inside and not [m], sums of chords [m] and of their cubes
     [m^3], Euler's number of the region.
 
-    given : (inside, strength, opening, shape). strength : vanishes like the root of the distance to the edge inside;
-    opening : grows with its power 3/2 outside. shape : the undeformed gap. factors : of the opening, and the hardness
+    given : (inside, strength, opening, shape, inside blurred), which the caller keeps. strength : vanishes like the
+    root of the distance to the edge inside; opening : grows with its power 3/2 outside. shape : the undeformed gap.
+    factors : of the opening, and the hardness
     where contact turns plastic as it opens, seen from its elastic part: strength is then what the pressure that is
     given is below it, and the opening has its sign turned. Zero for none.
     """
-    inside = given[0]
+    inside, strength, opening, shape = _bare(given[0]), _bare(given[1]), _bare(given[2]), _bare(given[3])
+    blurred = _bare(given[4])
     dx, dy = spacing
     wraps_x, wraps_y = wraps
     nx, ny = inside.shape
-    blurred = _blur(inside, wraps_x, wraps_y)
-    fields = (*given, blurred)
     place = (spacing, wraps, factors, ends)
     area, length, sides, chords, cubes, corners = 0.0, 0.0, 0.0, 0.0, 0.0, 0
     # each link is cut once: a square's upper sides are the lower ones of the next
@@ -243,13 +252,13 @@ def _sum_squares(given, spacing, wraps, factors, constants, ends):  # type: igno
             # where the edge crosses the four sides, from their lower end; 0.5 where it does not
             sides += dy * (c != d) + dx * (b != c)
             if j == 0:
-                low = _cut(fields, i, j, 0, place, constants)
+                low = _cut(inside, strength, opening, shape, blurred, (i, j, 0), place, constants)
                 sides += 0.0 if wraps_y else dy * (a != b)
-            high = _cut(fields, i, m, 0, place, constants)
+            high = _cut(inside, strength, opening, shape, blurred, (i, m, 0), place, constants)
             if i == 0:
-                left = _cut(fields, i, j, 1, place, constants)
+                left = _cut(inside, strength, opening, shape, blurred, (i, j, 1), place, constants)
                 sides += 0.0 if wraps_x else dx * (a != d)
-            right = _cut(fields, k, j, 1, place, constants)
+            right = _cut(inside, strength, opening, shape, blurred, (k, j, 1), place, constants)
             rights[j] = right
             share, u, v, turn = _polygon((a, b, c, d), number, (low, high, left, right))
             corners += turn
@@ -313,18 +322,23 @@ def _chord(u, v, along, across):  # type: ignore[no-untyped-def]
 
 
 @_strict
-def _cut(fields, i, j, axis, place, constants):  # type: ignore[no-untyped-def]
-    """Where the edge crosses the link from (i, j) along `axis`, as a fraction of it; 0.5 where it does not."""
-    inside, strength, opening, shape, blurred = fields
-    (dx, dy), (wraps_x, wraps_y), (factor, hardness), (within, beyond) = place
-    k, m = _step(inside, i, j, axis, 1, wraps_x, wraps_y)
+def _cut(inside, strength, opening, shape, blurred, link, place, constants):  # type: ignore[no-untyped-def]
+    """Where the edge crosses the link from (i, j) along an axis, as a fraction of it; 0.5 where it does not.
+
+    Fields are arguments of their own, by address: others are counted as held, and as no longer, at every call.
+    link : (i, j, axis).
+    """
+    i, j, axis = link
+    (dx, dy), wraps, (factor, hardness), (within, beyond) = place
+    size = inside.shape
+    k, m = _step(size, i, j, axis, 1, wraps)
     first = inside[i, j]
     if first == inside[k, m]:
         return 0.5
     held = strength[i, j] if first else strength[k, m]
     if hardness > 0.0 and held > 0.0:
         held = hardness - held
-    before, behind = _step(inside, i, j, axis, -1, wraps_x, wraps_y), _step(inside, i, j, axis, 2, wraps_x, wraps_y)
+    before, behind = _step(size, i, j, axis, -1, wraps), _step(size, i, j, axis, 2, wraps)
     jump = abs(shape[k, m] - shape[i, j])
     beside = max(abs(shape[i, j] - shape[before]), abs(shape[behind] - shape[k, m]))
     if held <= 0.0 or jump > _STEP * beside:
@@ -336,8 +350,8 @@ def _cut(fields, i, j, axis, place, constants):  # type: ignore[no-untyped-def]
     along = (float(blurred[behind]) + blurred[k, m] - blurred[i, j] - blurred[before]) / step
     across = 0.0
     for u, v in ((i, j), (k, m)):
-        across += float(blurred[_step(inside, u, v, 1 - axis, 1, wraps_x, wraps_y)])
-        across -= float(blurred[_step(inside, u, v, 1 - axis, -1, wraps_x, wraps_y)])
+        across += float(blurred[_step(size, u, v, 1 - axis, 1, wraps)])
+        across -= float(blurred[_step(size, u, v, 1 - axis, -1, wraps)])
     across /= side
     norm = np.hypot(along, across)
     cosine = max(abs(along) / norm, _LEAST_COSINE) if norm > 0 else 1.0
@@ -345,8 +359,8 @@ def _cut(fields, i, j, axis, place, constants):  # type: ignore[no-untyped-def]
     a = ((constants[0, 0] * cosine + constants[0, 1]) * cosine + constants[0, 2]) * cosine + constants[0, 3]
     b = ((constants[1, 0] * cosine + constants[1, 1]) * cosine + constants[1, 2]) * cosine + constants[1, 3]
     c = ((constants[2, 0] * cosine + constants[2, 1]) * cosine + constants[2, 2]) * cosine + constants[2, 3]
-    wraps = wraps_x if axis == 0 else wraps_y
-    ahead, back = _count_like(inside, k, m, axis, 1, wraps), _count_like(inside, i, j, axis, -1, wraps)
+    closed = wraps[axis]
+    ahead, back = _count_like(inside, k, m, axis, 1, closed), _count_like(inside, i, j, axis, -1, closed)
     held_cells, open_cells = (back, ahead) if first else (ahead, back)
     crossing = (a - b * ratio) / (c + ratio) + within / held_cells - beyond / open_cells
     crossing = min(max(crossing, _BEFORE), _BEYOND)
@@ -355,19 +369,29 @@ def _cut(fields, i, j, axis, place, constants):  # type: ignore[no-untyped-def]
 
 @_strict
 def _count_like(inside, i, j, axis, way, wraps):  # type: ignore[no-untyped-def]
-    """How many cells from (i, j) on, along `axis` one way, are like it; a gap that reaches a free edge has no end."""
-    place, most = (i, inside.shape[0]) if axis == 0 else (j, inside.shape[1])
-    like, count = inside[i, j], 1
-    while count < most:
-        place += way
-        if not 0 <= place < most:
-            if not wraps:
-                return float(count) if like else np.inf
-            place -= way * most
-        if (inside[place, j] if axis == 0 else inside[i, place]) != like:
-            break
+    """How many cells from (i, j) on, along `axis` one way, are like it, of a line with others on it; a gap that reaches
+    a free edge has no end."""
+    nx, ny = inside.shape
+    flat, (place, most, stride) = inside.reshape(-1), (i, nx, way * ny) if axis == 0 else (j, ny, way)
+    cell = i * ny + j
+    like, left = flat[cell], most - place if way > 0 else place + 1
+    count = _run(flat, cell, stride, like, left)
+    if count < left:
+        return float(count)
+    if not wraps:
+        return float(count) if like else np.inf
+    cell -= (place if way > 0 else place - most + 1) * abs(stride)
+    return float(count + _run(flat, cell, stride, like, most - left))
+
+
+@_strict
+def _run(flat, cell, stride, like, most):  # type: ignore[no-untyped-def]
+    """How many cells from one on, at a stride, are like `like`, at most so many."""
+    count = 0
+    while count < most and flat[np.uint64(cell)] == like:
+        cell += stride
         count += 1
-    return float(count)
+    return count
 
 
 @_strict
@@ -393,10 +417,9 @@ def _blur(inside, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
 
 
 @_strict
-def _step(field, i, j, axis, ahead, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
-    """The cell at an offset along `axis`; beyond a free edge the last one."""
-    nx, ny = field.shape
-    return (_place(i + ahead, nx, wraps_x), j) if axis == 0 else (i, _place(j + ahead, ny, wraps_y))
+def _step(size, i, j, axis, ahead, wraps):  # type: ignore[no-untyped-def]
+    """The cell at an offset along `axis` of a field of that size; beyond a free edge the last one."""
+    return (_place(i + ahead, size[0], wraps[0]), j) if axis == 0 else (i, _place(j + ahead, size[1], wraps[1]))
 
 
 @_strict

@@ -5,6 +5,7 @@ import pytest
 from test_contact_closed_forms import order
 
 from bem import Body, Grid, Layer, Material, displacement_operator, generate_surface, solve_contact
+from bem.contact import edge
 from bem.contact.edge import contact_region, count_spots
 from bem.reference_solutions.hertz import sphere_contact
 
@@ -251,3 +252,20 @@ def test_spots_too_small_for_the_cells_are_told():
         found = solve_contact(height.max() - height, steel, load=0.1e9 * grid.area, hardness=6e9)
         assert any("too small for these cells" in note for note in found.notes) == told
         assert (found.contact_area <= found.load / 6e9 * (1 + 1e-12)) == told
+
+
+@pytest.mark.parametrize("wraps", [True, False])
+def test_like_cells_are_counted_from_link_to_link(wraps):
+    inside = (np.random.default_rng(7).random((5, 9)) < 0.6).astype(np.uint8)
+    inside[:, 0], inside[:, 1] = 1, 0
+    inside[0, :2], inside[2] = (0, 1), 1 - inside[4]  # no line is all alike
+    for axis in (0, 1):
+        for (i, j), like in np.ndenumerate(inside):
+            line, place = (inside[:, j], i) if axis == 0 else (inside[i], j)
+            for way in (1, -1):
+                ahead = np.roll(line[::way], -(place if way > 0 else line.size - 1 - place))
+                expected = np.argmax(ahead != like)
+                room = line.size - place if way > 0 else place + 1
+                if expected >= room and not wraps:
+                    expected = room if like else np.inf
+                assert edge._count_like(inside, i, j, axis, way, wraps) == expected
