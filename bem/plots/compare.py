@@ -11,7 +11,6 @@ import numpy as np
 
 from bem.plots.overlay import Panel, cut_at, panel
 from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, prefix, style
-from bem.results.atomic import replacing
 
 _MOST_PANELS = 6
 _FIRST = ("friction", "contact_load", "pressure", "von_mises", "thickness", "film", "equivalent_radius", "gap")
@@ -34,26 +33,23 @@ def draw_comparison(
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
+    from bem.plots.pictures import DOTS, settle, write
+
     groups = _groups(datasets)
     if not groups:
         return []
     columns = min(2, len(groups))
     rows = -(-len(groups) // columns)
-    written = []
     with style():
-        figure = Figure(figsize=(3.6 * columns, 2.5 * rows + 0.3), layout="constrained")
+        figure = Figure(figsize=(3.6 * columns, 2.5 * rows + 0.3), dpi=DOTS, layout="constrained")
         FigureCanvasAgg(figure)
         cases = dict.fromkeys(line.case for group in groups for item in group for line in item.lines if line.case)
         dashes = {"": "-"} | {case: _DASHES[i % len(_DASHES)] for i, case in enumerate(cases)}
         for i, group in enumerate(groups):
             _draw(figure.add_subplot(rows, columns, i + 1), group, dashes)
         _legend(figure, labels, dashes)
-        for ending in formats:
-            target = path.with_name(f"{path.name}.{ending}")
-            with replacing(target) as temporary:
-                figure.savefig(temporary, format=ending)
-            written.append(target)
-    return written
+        settle(figure)
+        return write(figure, path.parent, path.name, formats)
 
 
 def _groups(datasets: Sequence[Any]) -> list[list[Panel]]:

@@ -19,7 +19,6 @@ from bem.results.read import FinishedRun
 from bem.scenes.validate import nearest
 
 FORMATS = ("png", "pdf", "svg")
-_DOTS = 200  # per inch
 
 
 @dataclass(frozen=True)
@@ -98,7 +97,7 @@ def draw_all(
 
 def load_what_draws() -> None:
     """Load what every figure needs, before copies of this process are made."""
-    for name in ("matplotlib.backends.backend_agg", "matplotlib.figure", "bem.plots.style"):
+    for name in ("matplotlib.backends.backend_agg", "matplotlib.figure", "bem.plots.style", "bem.plots.pictures"):
         importlib.import_module(name)
 
 
@@ -113,26 +112,17 @@ def draw(
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
+    from bem.plots.pictures import DOTS, settle, write
     from bem.plots.style import named_axes, style
 
-    run, paths = _for(_seen(run), kind), []
+    run = _for(_seen(run), kind)
     with style(), named_axes(run.dataset), collecting():
         # at the dots of the file from the start: sizes of texts that the layout asks for serve the picture too
-        figure = Figure(figsize=size or kind.size, dpi=_DOTS, layout="constrained")
-        canvas = FigureCanvasAgg(figure)
+        figure = Figure(figsize=size or kind.size, dpi=DOTS, layout="constrained")
+        FigureCanvasAgg(figure)
         kind.draw(run, figure)
-        engine = figure.get_layout_engine()
-        assert engine is not None
-        engine.execute(figure)
-        figure.set_layout_engine("none")  # the layout is found once for all formats
-        for ending in formats:
-            path = folder / f"{kind.name}.{ending}"
-            with replacing(path) as temporary:
-                if ending == "png":
-                    canvas.print_png(temporary)  # `savefig` would draw it twice
-                else:
-                    figure.savefig(temporary, format=ending)
-            paths.append(path)
+        settle(figure)
+        paths = write(figure, folder, kind.name, formats)
         if kind.animate is not None:
             path = folder / f"{kind.name}.gif"
             with replacing(path) as temporary:

@@ -19,7 +19,7 @@ from bem.threads import cores
 
 _MOST = 4
 """Copies and this process together: each holds a picture in memory."""
-_INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
+INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
 
 
 def side_by_side(work: Callable[[int], Any], count: int, processes: int | None = None) -> dict[int, Any]:
@@ -28,8 +28,8 @@ def side_by_side(work: Callable[[int], Any], count: int, processes: int | None =
     Results must be picklable. Whoever is free takes the next number. Missing are the numbers whose work raised, or all
     where nothing can be gained: the caller does these.
     """
-    number = min(processes or cores(), count, _MOST)
-    if number < 2 or not _alone():
+    number = min(at_once(processes), count)
+    if number < 2:
         return {}
     tasks, fill = os.pipe()
     os.write(fill, bytes(range(min(count, 256))))
@@ -38,11 +38,11 @@ def side_by_side(work: Callable[[int], Any], count: int, processes: int | None =
     found: dict[int, Any] = {}
     try:
         # an interrupt between a copy's start and its place in the list would leave it behind, or let it return
-        usual = signal.pthread_sigmask(signal.SIG_BLOCK, _INTERRUPTS)
+        usual = signal.pthread_sigmask(signal.SIG_BLOCK, INTERRUPTS)
         try:
             with suppress(OSError):  # the system allows no further process: this one does what is left
                 for _ in range(number - 1):
-                    copies.append(_copy(work, tasks, usual))
+                    copies.append(copied(lambda: _do(work, tasks), usual))
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, usual)
         found = _do(work, tasks)
@@ -51,12 +51,24 @@ def side_by_side(work: Callable[[int], Any], count: int, processes: int | None =
                 found |= pickle.load(stream)
     finally:
         os.close(tasks)
-        for process, answers in copies:
-            os.close(answers)
-            with suppress(ProcessLookupError):
-                os.kill(process, signal.SIGKILL)  # it has answered, or nobody waits for it any more
-            os.waitpid(process, 0)
+        for copy in copies:
+            ended(*copy)
     return found
+
+
+def at_once(processes: int | None) -> int:
+    """How many processes can draw at once, this one among them, where so many are asked for; 1 where it may not be
+    copied."""
+    number = min(processes or cores(), _MOST)
+    return number if number > 1 and _alone() else 1
+
+
+def ended(process: int, answers: int) -> None:
+    """End a copy that has answered, or that nobody waits for any more."""
+    os.close(answers)
+    with suppress(ProcessLookupError):
+        os.kill(process, signal.SIGKILL)
+    os.waitpid(process, 0)
 
 
 def _alone() -> bool:
@@ -71,8 +83,9 @@ def _alone() -> bool:
         return False
 
 
-def _copy(work: Callable[[int], Any], tasks: int, signals: Iterable[int]) -> tuple[int, int]:
-    """Start a copy of this process that does tasks; its number, and the pipe that its answers come through.
+def copied(work: Callable[[], Any], signals: Iterable[int]) -> tuple[int, int]:
+    """Start a copy of this process that does `work()`; its number, and the pipe that what it gives comes through,
+    pickled.
 
     Interrupts are held back meanwhile; `signals` are those that are held back in the copy.
     """
@@ -93,7 +106,7 @@ def _copy(work: Callable[[int], Any], tasks: int, signals: Iterable[int]) -> tup
         signal.pthread_sigmask(signal.SIG_SETMASK, signals)
         if os.getppid() == parent:  # else it ended before it could be watched
             with os.fdopen(theirs, "wb") as stream:
-                pickle.dump(_do(work, tasks), stream)
+                pickle.dump(work(), stream)
     finally:
         os._exit(0)
 

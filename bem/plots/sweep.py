@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from bem.plots.style import label, logarithmic_axis, prefix, style
-from bem.results.atomic import replacing
 from bem.scenes.context import Variable
 
 _MOST_PANELS, _MOST_LINES = 4, 8
@@ -42,20 +41,16 @@ def draw_sweep(
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
+    from bem.plots.pictures import DOTS, settle, write
+
     if not _chosen(variables, list(spacings), headline):
         return []
-    paths = []
     with style():
-        figure = Figure(layout="constrained")
+        figure = Figure(dpi=DOTS, layout="constrained")
         FigureCanvasAgg(figure)
         fill(figure, variables, spacings, headline)
-        for ending in formats:
-            target = path.with_name(f"{path.name}.{ending}")
-            with replacing(target) as temporary:
-                figure.savefig(temporary, format=ending)
-            figure.set_layout_engine("none")  # the layout is found once for all formats
-            paths.append(target)
-    return paths
+        settle(figure)
+        return write(figure, path.parent, path.name, formats)
 
 
 def fill(figure: Any, variables: Mapping[str, Variable], spacings: Mapping[str, str], headline: Sequence[str]) -> None:

@@ -87,6 +87,25 @@ def to_arrays(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) 
     return Arrays({name: entry(item) for name, item in variables.items()}, attributes)
 
 
+Described = dict[str, tuple[tuple[str, ...], tuple[int, ...], dict[str, Any]]]
+"""Axes, shape and attributes of arrays by name, without their values."""
+
+
+def described(arrays: Arrays) -> Described:
+    """What arrays are, to be sent to another process."""
+    return {name: (item.dims, item.shape, item.attrs) for name, item in arrays.items()}
+
+
+def stored_arrays(path: Path, known: Described, attributes: Mapping[str, Any]) -> Arrays:
+    """The arrays of a file of which it is known what they are, each read when first asked for; what reads netCDF as
+    such takes longer to load than many arrays do."""
+
+    def entry(name: str) -> Array:
+        return Array(*known[name], lambda: _values(path, name))
+
+    return Arrays({name: entry(name) for name in known}, attributes)
+
+
 def read_arrays(path: Path) -> Arrays:
     """The arrays in the file, each read when first asked for; ResultsError if it is missing or damaged."""
     import h5netcdf

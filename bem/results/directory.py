@@ -138,12 +138,7 @@ class RunDirectory:
     @property
     def figures(self) -> Path:
         """Folder of the figures, made when first asked for."""
-        folder = self.path / FIGURES
-        try:
-            folder.mkdir(exist_ok=True)
-        except OSError as error:
-            raise ResultsError(f"{folder}: cannot be made ({reason(error)})") from error
-        return folder
+        return figures_folder(self.path)
 
     def save_checkpoint(self, state: Mapping[str, Any]) -> None:
         """Replace the checkpoint, whole or not at all."""
@@ -260,6 +255,16 @@ class RunDirectory:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def figures_folder(run: Path) -> Path:
+    """Folder of a run's figures, made when first asked for; ResultsError where it cannot be."""
+    folder = run / FIGURES
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        raise ResultsError(f"{folder}: cannot be made ({reason(error)})") from error
+    return folder
 
 
 def names_of_files(folder: Path) -> list[str]:

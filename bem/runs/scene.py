@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import closing, contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bem
 from bem.campaigns import Computed, campaign_of, compute, plan
@@ -22,6 +22,9 @@ from bem.scenes.common import SceneModel
 from bem.scenes.kind import get_kind
 from bem.scenes.load import dump_scene, load_scene, scene_table
 from bem.scenes.planner import Plan, check_memory
+
+if TYPE_CHECKING:
+    from bem.plots.pages import Ahead
 
 
 def plan_scene(
@@ -88,15 +91,19 @@ def run_scene(  # reason: a promise to users' scripts; each is an option of the 
     ResultsError : the results cannot be written.
     KeyboardInterrupt : passed on; the folder can be resumed.
     """
+    from bem.plots.pages import drawing_ahead
+
     check_workers(workers)
-    scene, planned = plan_scene(source, settings, accuracy)
-    check_memory(planned)
     formats = ("vtu", *(("png", "pdf") if pdf else ("png",))) if figures else ("vtu",)
-    with RunDirectory.start(
-        None if out is None else Path(out), scene.name, dump_scene(scene), resume=resume, overwrite=overwrite
-    ) as directory:
-        if not (directory.resumed and directory.finished):
-            run_planned(directory, scene, planned, Staff(workers, scheduler), formats, watcher or Silent())
+    with drawing_ahead(figures, workers) as ahead:
+        scene, planned = plan_scene(source, settings, accuracy)
+        check_memory(planned)
+        held = RunDirectory.start(
+            None if out is None else Path(out), scene.name, dump_scene(scene), resume=resume, overwrite=overwrite
+        )
+        with held as directory, closing(ahead):  # nobody draws into a folder that is given back
+            if not (directory.resumed and directory.finished):
+                run_planned(directory, scene, planned, Staff(workers, scheduler), formats, watcher or Silent(), ahead)
     return open_run(directory.path)
 
 
@@ -113,8 +120,10 @@ def run_planned(
     staff: Staff,
     formats: tuple[str, ...],
     watcher: Watcher,
+    ahead: Ahead | None = None,
 ) -> dict[str, Any]:
-    """Compute and write all of a run; pictures as named in `formats` ("vtu", "png", "pdf"). Its summary.
+    """Compute and write all of a run; pictures as named in `formats` ("vtu", "png", "pdf"), by the copy `ahead` where
+    there is one. Its summary.
 
     Raises as `run_scene`.
     """
@@ -144,7 +153,7 @@ def run_planned(
     for text in outcome_warnings(facts, computed.outcome):
         computed.notes.append(text)
         watcher.note(text)
-    return _write(directory, scene, computed, formats, watcher, staff.workers)
+    return _write(directory, scene, computed, formats, watcher, staff.workers, ahead)
 
 
 def _write(
@@ -154,8 +163,10 @@ def _write(
     formats: tuple[str, ...],
     watcher: Watcher,
     processes: int | None,
+    ahead: Ahead | None,
 ) -> dict[str, Any]:
     """Arrays, volumes, figures with the report (neither without a format of figures); the summary last."""
+    from bem.plots.pages import Pages, make
     from bem.results.arrays import to_arrays
     from bem.results.dataset import write_variables
     from bem.results.vtk import write_volumes
@@ -166,8 +177,6 @@ def _write(
     attributes["axes"] = " ".join(outcome.axes)
     with _timed(seconds, "writing results"):
         write_variables(directory.path / RESULTS, outcome.variables, attributes)
-        if outcome.volumes and not outcome.axes and "vtu" in formats:
-            write_volumes(directory.path, outcome.variables, outcome.volumes)
     summary = {
         **about,
         "wall_time_s": 0.0,
@@ -179,26 +188,28 @@ def _write(
     }
     kind = get_kind(scene.kind)
     headline = (*(scene.over or ()), *kind.headline)
+    drawn_as = tuple(ending for ending in formats if ending != "vtu")
+    pages = Pages(
+        directory.path, scene_table(scene), summary, kind.figures, drawn_as, headline, computed.epoch, processes
+    )
+    arrays = to_arrays(outcome.variables, attributes)
+    if drawn_as and ahead is not None:
+        ahead.begin(pages, arrays)
     tell = getattr(watcher, "numbers", None)
     if tell is not None:
         with suppress(OSError):  # nobody may be listening any more; the run goes on
             tell({**summary, "wall_time_s": time.time() - computed.epoch}, headline)
-    if drawn_as := [ending for ending in formats if ending != "vtu"]:
-        from bem.plots.draw import draw_all
-        from bem.plots.report import write_report
-
-        run = FinishedRun(directory.path, scene_table(scene), summary)
-        run.__dict__["arrays"] = to_arrays(outcome.variables, attributes)  # no need to read it back
-
-        def failed(name: str, error: Exception) -> None:
-            text = f"figure {name} could not be drawn: {error!r}"
+    if outcome.volumes and not outcome.axes and "vtu" in formats:
+        with _timed(seconds, "writing results"):
+            write_volumes(directory.path, outcome.variables, outcome.volumes)
+    if drawn_as:
+        with _timed(seconds, "figures and report"):
+            missing = None if ahead is None else ahead.result()
+            if missing is None:
+                missing = make(pages, arrays)
+        for text in missing:
             computed.notes.append(text)
             watcher.note(text)
-
-        with _timed(seconds, "figures and report"):
-            drawn = draw_all(run, kind.figures, directory.figures, drawn_as, failed, processes)
-            summary["wall_time_s"] = time.time() - computed.epoch
-            write_report(run, drawn, headline)
     summary["wall_time_s"] = time.time() - computed.epoch
     directory.finish(summary)
     return summary

@@ -293,7 +293,7 @@ def test_watcher_is_told(tmp_path, counting):
 
 def test_numbers_are_told_before_pictures_are_drawn(tmp_path, monkeypatch):
     told = []
-    monkeypatch.setattr("bem.plots.draw.draw_all", lambda *_, **__: told.append("pictures") or [])
+    monkeypatch.setattr("bem.plots.pages.draw_all", lambda *_, **__: told.append("pictures") or [])
 
     def numbers(summary, headline):
         assert (tmp_path / "results.nc").is_file()
@@ -304,5 +304,5 @@ def test_numbers_are_told_before_pictures_are_drawn(tmp_path, monkeypatch):
         raise BrokenPipeError("nobody listens any more")
 
     watcher = SimpleNamespace(progress=lambda *_: None, note=lambda _: None, numbers=numbers)
-    run_scene(SCENE, tmp_path, watcher=watcher)
+    run_scene(SCENE, tmp_path, watcher=watcher, workers=1)
     assert told == ["numbers", "pictures"]

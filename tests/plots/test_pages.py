@@ -1,0 +1,133 @@
+"""Pages made by a copy that was started before the run: same bytes, nothing left over, and what fails is done here."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from bem.plots.pictures import PlainPowers
+
+LINUX = pytest.mark.skipif(sys.platform != "linux", reason="copies are made on Linux only")
+
+RUN = """
+import os, sys
+import bem.plots.pages as pages
+import bem.plots.side_by_side as module
+module.cores = lambda: 2
+real, started = os.fork, []
+os.fork = lambda: started.append(real()) or started[-1]
+from bem.runs import run_scene
+def run(folder, **more):
+    settings = ["grid.shape=32", "outputs.depths=[0.0]"]
+    return run_scene("hertz-sphere", folder, settings=settings, **more)
+def none_left():
+    try:
+        os.waitpid(-1, os.WNOHANG)
+    except ChildProcessError:
+        return True
+"""
+
+
+def told(code, folder):
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}  # a process of several threads is not copied
+    done = subprocess.run(
+        [sys.executable, "-c", RUN + code, folder], capture_output=True, text=True, timeout=400, env=environment
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@LINUX
+def test_a_run_loads_nothing_that_draws_and_its_pictures_are_the_same(tmp_path):
+    code = """
+run(sys.argv[1] + "/ahead")
+assert "matplotlib" not in sys.modules and "jinja2" not in sys.modules
+assert len(started) == 1 and none_left()
+run(sys.argv[1] + "/alone", workers=1)
+assert "matplotlib" in sys.modules
+assert len(started) == 1
+run(sys.argv[1] + "/bare", figures=False)
+assert len(started) == 1
+"""
+    told(code, tmp_path)
+    ahead, alone = tmp_path / "ahead" / "figures", tmp_path / "alone" / "figures"
+    names = sorted(os.listdir(alone))
+    assert len(names) >= 5
+    assert sorted(os.listdir(ahead)) == names
+    for name in names:
+        assert (ahead / name).read_bytes() == (alone / name).read_bytes(), name
+    assert (tmp_path / "ahead" / "report.html").is_file()
+    assert not (tmp_path / "bare" / "figures").exists()
+
+
+@LINUX
+@pytest.mark.parametrize(
+    "what",
+    [
+        "pages.load_what_draws = lambda: os._exit(1)",
+        "pages.stored_arrays = lambda *_: os._exit(1)",
+        "pages.stored_arrays = lambda *_: 1 / 0",
+        "pages._MOST_READ = 1000",
+    ],
+)
+def test_what_the_copy_does_not_do_is_done_here(tmp_path, what):
+    code = f"""
+{what}
+done = run(sys.argv[1] + "/run")
+assert "matplotlib" in sys.modules
+assert none_left()
+assert not [note for note in done.summary["notes"] if "drawn" in note]
+"""
+    told(code, tmp_path)
+    assert len(os.listdir(tmp_path / "run" / "figures")) >= 5
+    assert (tmp_path / "run" / "report.html").is_file()
+
+
+@LINUX
+def test_what_goes_wrong_in_the_copy_is_said_here(tmp_path):
+    code = """
+from bem.errors import InputError, ResultsError
+real_make = pages.make
+def refused(*_):
+    raise ResultsError("figures: cannot be made (disk full)")
+pages.make = refused
+try:
+    run(sys.argv[1] + "/full")
+except ResultsError as error:
+    print(error)
+assert none_left()
+try:
+    run_scene("hertz-sphere", sys.argv[1] + "/bad", settings=["contact.load=-1 N"])
+except InputError:
+    print("bad scene")
+assert none_left() and len(started) == 2
+pages.make = real_make
+real_figures = pages.draw_all
+def one_fails(run, names, folder, formats, failed, processes):
+    failed("pressure-map", ZeroDivisionError("no"))
+    return real_figures(run, names[1:], folder, formats, failed, processes)
+pages.draw_all = one_fails
+print(run(sys.argv[1] + "/one").summary["notes"])
+"""
+    full, bad, notes = told(code, tmp_path).splitlines()
+    assert full == "figures: cannot be made (disk full)"
+    assert bad == "bad scene"
+    assert "figure pressure-map could not be drawn: ZeroDivisionError('no')" in notes
+    assert "pressure-map could not be drawn" in (tmp_path / "one" / "report.html").read_text()
+    assert not (tmp_path / "bad").exists()
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(1e-3, "10⁻³"), (1.0, "10⁰"), (1e12, "10¹²"), (0.002, "2×10⁻³"), (-1e-3, "−10⁻³")]
+)
+def test_powers_of_ten_are_plain_text(value, text):
+    from matplotlib.figure import Figure
+
+    axes = Figure().add_subplot()
+    axes.set_yscale("symlog" if value < 0 else "log")
+    axes.set_ylim(value / 2, value * 3)
+    formatter = PlainPowers(labelOnlyBase=False)
+    formatter.set_axis(axes.yaxis)
+    formatter.set_locs([value])
+    assert formatter(value).replace("-", "−") == text
