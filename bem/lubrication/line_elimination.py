@@ -22,8 +22,8 @@ from bem.grid import FloatArray
 from bem.lubrication.line_equations import Equations
 from bem.lubrication.line_kernel import DEFLECTION, Level, LineOperator
 
-BORDER = 4
-"""Columns that are solved for besides those of the levels: right side, datum, exit, the exit's film."""
+BORDER = 3
+"""Columns that are solved for besides those of the levels: datum, exit, the exit's film."""
 
 
 @dataclass(frozen=True)
@@ -51,17 +51,75 @@ class Rows:
         return out
 
 
-def eliminate(operator: LineOperator, equations: Equations, right: FloatArray) -> FloatArray:
-    """The solution (n+1,), in the equations' units, of the equations with another right side."""
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """What joins the pairs of neighbours of a level: their columns (clusters, size, rank), the rows of their neighbour
+    solved for (clusters, size, rank), and the inverse of what both make of one another."""
+
+    columns: FloatArray
+    solved: FloatArray
+    inverse: FloatArray
+
+    def seen(self, values: FloatArray) -> FloatArray:
+        """What values (clusters, size, k) are worth to the neighbour: of both of a pair, (pairs, 2 rank, k)."""
+        own = self.columns.transpose(0, 2, 1) @ values
+        return np.concatenate([own[1::2], own[0::2]], axis=1)
+
+    def corrected(self, values: FloatArray, seen: FloatArray) -> None:
+        """Make of values solved for with the clusters alone those solved for with the pairs."""
+        clusters, _, rank = self.columns.shape
+        values -= self.solved @ (self.inverse @ seen).reshape(clusters, rank, -1)
+
+
+@dataclass(frozen=True, eq=False)
+class Elimination:
+    """Newton's equations taken apart once, for any right side.
+
+    leaves : inverses of the diagonal blocks. joints : from the leaves up. border : its columns solved for
+    (n-1, BORDER). last_rows : of the border (3, n-1). closing : what they leave of datum, exit and the exit's film
+    (3, 3).
+    """
+
+    operator: LineOperator
+    leaves: FloatArray
+    joints: tuple[Joint, ...]
+    border: FloatArray
+    last_rows: FloatArray
+    closing: FloatArray
+
+    def solve(self, right: FloatArray) -> FloatArray:
+        """The solution (n+1,), in the equations' units, of a right side (n+1,)."""
+        inner, clusters = len(right) - 2, len(self.leaves)
+        values = np.zeros((clusters * self.operator.leaf, 1))
+        values[:inner, 0] = right[1:-1]
+        values = (self.leaves @ values.reshape(clusters, -1, 1)).reshape(-1, 1)
+        for joint in self.joints:
+            of_level = values.reshape(len(joint.columns), -1, 1)
+            joint.corrected(of_level, joint.seen(of_level))
+        solved = values[:inner, 0]
+        known = np.array([right[0], right[-1], 0.0]) - self.last_rows @ solved
+        scalars = np.linalg.solve(self.closing, known)
+        return np.concatenate([solved - self.border @ scalars, scalars[:2]])
+
+
+def eliminate(operator: LineOperator, equations: Equations) -> Elimination:
+    """Take the equations apart."""
     rows = _rows(operator, equations)
     answers = _answers(operator, equations)
-    border = _border(operator, equations, right, answers)
-    factors = [_coupling(level, rows) for level in reversed(operator.levels)]
-    columns = np.concatenate([border, *(left for left, _ in factors)], axis=1)
-    columns = _leaves(operator, rows, columns)
-    for _, transposed in factors:
-        columns = _joined(transposed, columns)
-    return _closed(operator, equations, right, answers, columns[: len(equations.here) - 1])
+    ranks = [level.short + 1 for level in operator.levels]
+    ends = BORDER + np.concatenate([[0], np.cumsum(ranks)])  # of the columns of each level, the leaves' last
+    columns = np.empty((operator.leaf * 2**operator.depth, ends[-1]))
+    columns[:, :BORDER] = _border(operator, equations, answers)
+    rights = []
+    for level, start, end in zip(operator.levels, ends[:-1], ends[1:], strict=True):
+        columns[:, start:end], right = _coupling(level, rows)
+        rights.append(right)
+    leaves = np.asarray(np.linalg.inv(_blocks(operator, rows)), dtype=np.float64)
+    columns = np.matmul(leaves, columns.reshape(len(leaves), operator.leaf, -1)).reshape(columns.shape)
+    joints = tuple(_joined(rights[k], columns, ends[k]) for k in reversed(range(len(rights))))
+    border = np.ascontiguousarray(columns[: len(equations.here) - 1, :BORDER])
+    last_rows, closing = _closing(operator, equations, answers)
+    return Elimination(operator, leaves, joints, border, last_rows, closing - last_rows @ border)
 
 
 def _rows(operator: LineOperator, e: Equations) -> Rows:
@@ -88,16 +146,15 @@ def _answers(operator: LineOperator, e: Equations) -> FloatArray:
     return out
 
 
-def _border(operator: LineOperator, e: Equations, right: FloatArray, answers: FloatArray) -> FloatArray:
-    """The columns of right side, datum, exit and the exit's film: (slots, BORDER)."""
+def _border(operator: LineOperator, e: Equations, answers: FloatArray) -> FloatArray:
+    """The columns of datum, exit and the exit's film: (slots, BORDER)."""
     inner = len(e.here) - 1
     out = np.zeros((operator.leaf * 2**operator.depth, BORDER))
-    out[:inner, 0] = right[1:-1]
-    out[:inner, 1:3] = (
+    out[:inner, :2] = (
         e.here[1:, None] * answers[1:-1] + e.after[1:, None] * answers[2:] + e.before[1:, None] * answers[:-2]
     )
-    out[0, 2] += e.low[1] * e.inlet_slope * e.units[2]
-    out[:inner, 3] = e.exit[1:]
+    out[0, 1] += e.low[1] * e.inlet_slope * e.units[2]
+    out[:inner, 2] = e.exit[1:]
     return out
 
 
@@ -121,45 +178,42 @@ def _coupling(level: Level, rows: Rows) -> tuple[FloatArray, FloatArray]:
     return left.reshape(-1, rank + 1), right
 
 
-def _leaves(operator: LineOperator, rows: Rows, columns: FloatArray) -> FloatArray:
-    """The columns solved for with the diagonal blocks alone."""
+def _blocks(operator: LineOperator, rows: Rows) -> FloatArray:
+    """The diagonal blocks (leaves, leaf, leaf)."""
     leaves, size = 2**operator.depth, operator.leaf
     blocks = rows.of_films(operator.blocks, leaves)
     index = np.arange(size)
     blocks[:, index, index] += rows.diagonal.reshape(leaves, size)
     blocks[:, index[:-1], index[1:]] += rows.high.reshape(leaves, size)[:, :-1]
     blocks[:, index[1:], index[:-1]] += rows.low.reshape(leaves, size)[:, 1:]
-    return np.asarray(np.linalg.solve(blocks, columns.reshape(leaves, size, -1)).reshape(leaves * size, -1))
+    return blocks
 
 
-def _joined(right: FloatArray, columns: FloatArray) -> FloatArray:
-    """The columns, solved for with the clusters of a level alone, solved for with its pairs; without those of the
-    level, which come next after the border."""
+def _joined(right: FloatArray, columns: FloatArray, start: int) -> Joint:
+    """The columns (slots, k) before those of a level, solved for with its clusters alone, are then solved for with its
+    pairs; those of the level begin at `start`."""
     clusters, width, rank = right.shape
-    own = np.ascontiguousarray(columns[:, BORDER : BORDER + rank]).reshape(clusters, width, rank)
-    kept = np.concatenate([columns[:, :BORDER], columns[:, BORDER + rank :]], axis=1).reshape(clusters, width, -1)
-    transposed = right.transpose(0, 2, 1)
-    coupling, seen = transposed @ own, transposed @ kept
+    of_level = columns.reshape(clusters, width, -1)
+    kept, own = of_level[:, :, :start], np.ascontiguousarray(of_level[:, :, start : start + rank])
+    coupling = right.transpose(0, 2, 1) @ own
     system = np.zeros((clusters // 2, 2 * rank, 2 * rank))
     unit = np.arange(2 * rank)
     system[:, unit, unit] = 1.0
     # z_1 = V_2' x_2 multiplies the left cluster's factor, z_2 = V_1' x_1 the right one's
     system[:, :rank, rank:] = coupling[1::2]
     system[:, rank:, :rank] = coupling[0::2]
-    known = np.concatenate([seen[1::2], seen[0::2]], axis=1)
-    mixed = np.linalg.solve(system, known).reshape(clusters, rank, -1)
-    return np.asarray((kept - own @ mixed).reshape(clusters * width, -1))
+    joint = Joint(right, own, np.linalg.inv(system))
+    joint.corrected(kept, joint.seen(kept))
+    return joint
 
 
-def _closed(
-    operator: LineOperator, e: Equations, right: FloatArray, answers: FloatArray, solved: FloatArray
-) -> FloatArray:
-    """The border: flow through the first cell, the load, and what the exit's film is."""
+def _closing(operator: LineOperator, e: Equations, answers: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The border's rows: flow through the first cell, the load, and what the exit's film is, of the pressures (3, n-1)
+    and of datum, exit and that film (3, 3)."""
     unit_p, _, unit_x = e.units
     rows = -DEFLECTION * unit_p * operator.factor * operator.rows[:, 1:-1]
     first_row = e.here[0] * rows[0] + e.after[0] * rows[1]
     first_row[0] += e.high[0] * unit_p
-    last_rows = np.stack([first_row, e.load[1:-1] * unit_p, rows[2]])
     corner = np.zeros((3, 3))
     corner[0, :2] = e.here[0] * answers[0] + e.after[0] * answers[1]
     corner[0, 1] += e.diagonal[0] * e.inlet_slope * unit_x
@@ -167,6 +221,4 @@ def _closed(
     corner[1, 1] = e.load_exit * unit_x
     corner[2, :2] = answers[-1]
     corner[2, 2] = -1.0
-    product = last_rows @ solved
-    scalars = np.linalg.solve(corner - product[:, 1:], np.array([right[0], right[-1], 0.0]) - product[:, 0])
-    return np.concatenate([solved[:, 0] - solved[:, 1:] @ scalars, scalars[:2]])
+    return np.stack([first_row, e.load[1:-1] * unit_p, rows[2]]), corner

@@ -32,6 +32,10 @@ UNIT_REACH = 4.0
 """Distances are measured in this many lengths of the mesh: -ln is then positive everywhere, every block definite."""
 
 
+_OF_MOMENTS = tuple(1 / (k * (k + 1) * (k + 2)) for k in range(1, 14))
+"""What the k-th powers of a hat's half-widths over a distance are worth of ln, seen from there."""
+
+
 @njit(cache=True)
 def _primitive(t: float) -> float:
     """Second primitive of ln|t|: t^2/2 ln|t| - 3 t^2/4."""
@@ -54,17 +58,16 @@ def _weight(t: float, left: float, right: float) -> float:
             total -= (_primitive(t) - _primitive(t + left)) / left + first
         return total
     total = 0.5 * (left + right) * math.log(abs(t))
-    ratio_right, ratio_left = right / t, -left / t
-    power_right, power_left = right, left
-    size = width / abs(t)
-    reach = 1.0
-    for k in range(1, 14):
+    inverse = 1 / t
+    ratio_right, ratio_left, size = right * inverse, -left * inverse, width * abs(inverse)
+    power_right, power_left, reach = right, left, 1.0
+    for share in _OF_MOMENTS:
         power_right *= ratio_right
         power_left *= ratio_left
         reach *= size
-        if reach < 1e-17:
+        if reach * share < 1e-17:
             break
-        total -= (power_right + power_left) / (k * (k + 1) * (k + 2))
+        total -= (power_right + power_left) * share
     return total
 
 
@@ -93,10 +96,10 @@ def _missing_row(
 ) -> None:
     """Node i's row of the kernel over columns first, first + 1, ... less what the products have of it."""
     for j in range(len(out)):
-        value = _mean(nodes, i, first + j, log_unit)
-        for r in range(len(of_row)):
-            value -= of_row[r] * right[r, j]
-        out[j] = value
+        out[j] = _mean(nodes, i, first + j, log_unit)
+    for r in range(len(of_row)):
+        for j in range(len(out)):
+            out[j] -= of_row[r] * right[r, j]
 
 
 @njit(cache=True)
@@ -105,10 +108,25 @@ def _missing_column(
 ) -> None:
     """Node k's column of the kernel at rows first, first + 1, ... less what the products have of it."""
     for i in range(len(out)):
-        value = _mean(nodes, first + i, k, log_unit)
-        for r in range(len(of_column)):
-            value -= left[r, i] * of_column[r]
-        out[i] = value
+        out[i] = _mean(nodes, first + i, k, log_unit)
+    for r in range(len(of_column)):
+        for i in range(len(out)):
+            out[i] -= left[r, i] * of_column[r]
+
+
+@njit(cache=True)
+def _dot(one: FloatArray, other: FloatArray) -> float:
+    """In four sums, which a processor adds up side by side."""
+    a, b, c, d = 0.0, 0.0, 0.0, 0.0
+    whole = len(one) - len(one) % 4
+    for i in range(0, whole, 4):
+        a += one[i] * other[i]
+        b += one[i + 1] * other[i + 1]
+        c += one[i + 2] * other[i + 2]
+        d += one[i + 3] * other[i + 3]
+    for i in range(whole, len(one)):
+        a += one[i] * other[i]
+    return (a + b) + (c + d)
 
 
 @njit(cache=True)
@@ -153,10 +171,10 @@ def _cross(
             break
         _missing_column(left[done], nodes, col0 + col, row0, log_unit, left, right[:done, col])
         left[done] /= top
-        new = np.sum(left[done] ** 2) * np.sum(right[done] ** 2)
+        new = _dot(left[done], left[done]) * _dot(right[done], right[done])
         squared += new
         for r in range(done):
-            squared += 2 * np.sum(left[r] * left[done]) * np.sum(right[r] * right[done])
+            squared += 2 * _dot(left[r], left[done]) * _dot(right[r], right[done])
         done += 1
         if short == 0 and new <= tolerances[1] ** 2 * squared:
             short = done
@@ -187,6 +205,55 @@ def logarithmic_weights(targets: FloatArray, nodes: FloatArray) -> FloatArray:
     weights = np.empty((len(targets), len(nodes)))
     _fill(weights, np.ascontiguousarray(targets, dtype=np.float64), np.ascontiguousarray(nodes, dtype=np.float64), 0)
     return weights
+
+
+GROUP = 64
+"""Cells that are seen as one from far away."""
+MOMENTS = 30
+"""Of a group, seen from three times its half-width or farther: 3^-30 is below rounding."""
+
+
+@njit(cache=True)
+def _group_seen(targets: FloatArray, nodes: FloatArray, pressure: FloatArray, out: FloatArray) -> None:
+    """Add the integral of the pressure between the first and the last of the nodes times ln|t - s| at the targets t."""
+    last = len(nodes) - 1
+    centre, half = 0.5 * (nodes[0] + nodes[last]), 0.5 * (nodes[last] - nodes[0])
+    moments, below, above = np.zeros(MOMENTS), np.empty(MOMENTS + 2), np.empty(MOMENTS + 2)
+    for k in range(len(nodes)):
+        u, above[0] = (nodes[k] - centre) / half, 1.0
+        for m in range(1, MOMENTS + 2):
+            above[m] = above[m - 1] * u
+        if k > 0:
+            slope = (pressure[k] - pressure[k - 1]) * half / (nodes[k] - nodes[k - 1])
+            constant = pressure[k] - slope * u
+            for m in range(MOMENTS):
+                moments[m] += constant * (above[m + 1] - below[m + 1]) / (m + 1)
+                moments[m] += slope * (above[m + 2] - below[m + 2]) / (m + 2)
+        below[:] = above
+    for i in range(len(targets)):
+        away = (targets[i] - centre) / half
+        if abs(away) >= 3:
+            total, power = moments[0] * math.log(abs(away) * half), 1.0
+            for m in range(1, MOMENTS):
+                power /= away
+                total -= moments[m] * power / m
+            out[i] += half * total
+        else:
+            for k in range(len(nodes)):
+                left = nodes[k] - nodes[k - 1] if k > 0 else 0.0
+                right = nodes[k + 1] - nodes[k] if k < last else 0.0
+                out[i] += pressure[k] * _weight(targets[i] - nodes[k], left, right)
+
+
+@njit(cache=True)
+def logarithmic_integral(targets: FloatArray, nodes: FloatArray, pressure: FloatArray) -> FloatArray:
+    """`logarithmic_weights(targets, nodes) @ pressure`, groups of cells by their moments where they are far away: to
+    rounding the same, and for many nodes a tenth of the work."""
+    out = np.zeros(len(targets))
+    for first in range(0, len(nodes) - 1, GROUP):
+        last = min(first + GROUP, len(nodes) - 1) + 1
+        _group_seen(targets, nodes[first:last], pressure[first:last], out)
+    return out
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,13 +3,13 @@ there are few nodes. Verified in tests/lubrication/test_line_operator.py."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
 from bem.grid import FloatArray
-from bem.lubrication.line_elimination import eliminate
+from bem.lubrication.line_elimination import Elimination, eliminate
 from bem.lubrication.line_equations import Equations, by_film
 from bem.lubrication.line_kernel import DEFLECTION, LineOperator
 
@@ -27,17 +27,38 @@ class Change:
     film: FloatArray
 
 
-def solve(operator: LineOperator, equations: Equations) -> Change:
-    """The Newton step."""
-    right = equations.right.copy()
-    right[:-1] += by_film(equations, equations.mismatch)
+@dataclass(frozen=True, eq=False)
+class Linear:
+    """Newton's equations at an iterate, taken apart."""
+
+    equations: Equations
+    elimination: Elimination
+
+
+def solve(operator: LineOperator, equations: Equations) -> tuple[Change, Linear | None]:
+    """The Newton step, and what `again` gives the next ones by without taking the equations apart once more; None of it
+    where that is done densely."""
+    right = _right(equations)
     if operator.hierarchical:
-        solution = eliminate(operator, equations, right)
-        change, missing = _applied(operator, equations, solution, right)
+        linear = Linear(equations, eliminate(operator, equations))
+        change, missing = _applied(operator, equations, linear.elimination.solve(right), right)
         size = float(np.linalg.norm(right))
         if np.isfinite(missing).all() and np.linalg.norm(missing) <= LARGEST_LINEAR_RESIDUAL * size:
-            return change
-    return _applied(operator, equations, _dense(operator, equations, right), right)[0]
+            return change, linear
+    return _applied(operator, equations, _dense(operator, equations, right), right)[0], None
+
+
+def again(linear: Linear, error: FloatArray, mismatch: FloatArray) -> Change:
+    """A step by equations that were taken apart at an iterate nearby, for other errors (n+1,) and mismatch (n+1,)."""
+    equations = replace(linear.equations, right=-error, mismatch=mismatch)
+    right = _right(equations)
+    return _applied(linear.elimination.operator, equations, linear.elimination.solve(right), right)[0]
+
+
+def _right(equations: Equations) -> FloatArray:
+    right = equations.right.copy()
+    right[:-1] += by_film(equations, equations.mismatch)
+    return right
 
 
 def _applied(

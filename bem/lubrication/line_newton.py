@@ -25,7 +25,7 @@ from bem.grid import FloatArray
 from bem.lubrication.line_equations import Equations
 from bem.lubrication.line_flow import Flow, Parts, Problem, eased, longest_step
 from bem.lubrication.line_kernel import DEFLECTION, LineOperator
-from bem.lubrication.line_linear import Change, solve
+from bem.lubrication.line_linear import Change, Linear, again, solve
 from bem.lubrication.line_mesh import (
     FAR_INLET,
     cell_densities,
@@ -39,6 +39,10 @@ from bem.monotone import MonotoneCubic
 SHARP_FROM = 1500
 """Cells from which a spike is solved for by itself first: a step of them all costs more than ten of those."""
 SHORTEST_STEP = 1e-3
+CHORDS = 2
+"""Steps with the equations of an earlier one that together cost less than half a step with equations of their own."""
+CHORD_RATE, LEAST_RATE = 3e-3, 0.1
+"""By how much such a step reduces the errors at most, the equations being solved roughly, and must at least."""
 
 
 FEWEST_NODES = 8
@@ -131,16 +135,26 @@ class Iterate:
 
 @np.errstate(over="ignore", invalid="ignore")  # of iterates that are refused
 def newton(problem: Problem, start: State, tolerance: float, max_iterations: int = 40) -> Outcome:
-    """Solve from `start`, whose film (positive) and pressure need not belong together."""
+    """Solve from `start`, whose film (positive) and pressure need not belong together.
+
+    A step with the equations of the one before reduces the errors by as much again as that did: where one or two of
+    them are enough, they are tried first, each for a tenth of the work (chords).
+    """
     mesh, at = _begun(problem, start)
     iterations = 0
+    linear: Linear | None = None
+    before = largest = np.inf
     while True:
-        relative = _relative_mismatch(mesh, at)
-        largest = max(float(np.abs(at.error).max()), float(np.abs(relative).max()))
+        before, largest = largest, _largest(mesh, at)
         converged = iterations > 0 and largest <= tolerance
         if converged or iterations == max_iterations or not np.isfinite(largest):
             break
-        following = _improved(mesh, at)
+        following = None
+        rate = max(largest / before, CHORD_RATE)
+        if linear is not None and largest * rate**CHORDS <= tolerance:
+            following = _chord(mesh, at, linear, max(tolerance, LEAST_RATE * largest))
+        if following is None:
+            following, linear = _improved(mesh, at)
         if following is None:
             break
         at = following
@@ -176,18 +190,24 @@ def _relative_mismatch(mesh: Discretisation, at: Iterate) -> FloatArray:
     return at.mismatch / mesh.scale
 
 
+def _largest(mesh: Discretisation, at: Iterate) -> float:
+    """The largest error or mismatch."""
+    return max(float(np.abs(at.error).max()), float(np.abs(_relative_mismatch(mesh, at)).max()))
+
+
 def _size(mesh: Discretisation, at: Iterate) -> float:
     """What a step must reduce: squares of the errors and of the mismatch."""
     relative = _relative_mismatch(mesh, at)
     return float(at.error @ at.error + relative @ relative)
 
 
-def _improved(mesh: Discretisation, at: Iterate) -> Iterate | None:
-    """A Newton step, as long as films stay positive and the errors become smaller; None where there is none."""
-    change = solve(mesh.operator, _equations(mesh, at))
+def _improved(mesh: Discretisation, at: Iterate) -> tuple[Iterate | None, Linear | None]:
+    """A Newton step, as long as films stay positive and the errors become smaller, None where there is none; and the
+    equations it was taken from."""
+    change, linear = solve(mesh.operator, _equations(mesh, at))
     film_change = change.film - at.mismatch
     if not (np.isfinite(film_change).all() and np.isfinite(change.pressure).all()):
-        return None
+        return None, None
     size = _size(mesh, at)
     length = longest_step(at.film, film_change, 0.9)
     easing = len(mesh.flow.width) >= SHARP_FROM
@@ -197,9 +217,15 @@ def _improved(mesh: Discretisation, at: Iterate) -> Iterate | None:
             if easing:
                 trial, easing = _spike_eased(mesh, trial)
             if _size(mesh, trial) < (1 - 0.05 * length) ** 2 * size:
-                return trial
+                return trial, linear
         length *= 0.5
-    return None
+    return None, None
+
+
+def _chord(mesh: Discretisation, at: Iterate, linear: Linear, allowed: float) -> Iterate | None:
+    """A whole step by the equations of an earlier iterate; None where it leaves larger errors than allowed."""
+    trial = _moved(mesh, at, again(linear, at.error, at.mismatch), 1.0)
+    return None if trial is None or not _largest(mesh, trial) <= allowed else trial
 
 
 def _equations(mesh: Discretisation, at: Iterate) -> Equations:

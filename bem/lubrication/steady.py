@@ -17,7 +17,7 @@ from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_continuation import from_neighbour, from_newtonian, from_scratch
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_friction import friction_forces
-from bem.lubrication.line_kernel import DEFLECTION, logarithmic_weights
+from bem.lubrication.line_kernel import DEFLECTION, logarithmic_integral
 from bem.lubrication.line_newton import Outcome, State, is_start
 from bem.lubrication.line_scales import Scales, line_scales, scaled_problem
 from bem.lubrication.line_starved import Neighbour, Wanted, WantedDistance, WantedLayer, starved, through
@@ -398,8 +398,8 @@ def _sampled(at: FloatArray, state: State, scales: Scales) -> tuple[FloatArray, 
     film[far] = 0.5 * target[far] ** 2 + MonotoneCubic(x, state.film - 0.5 * x**2)(target[far])
     if not inside.all():
         out = target[~inside]
-        weights = logarithmic_weights(out - state.exit, state.offset)
-        film[~inside] = state.datum + 0.5 * out**2 - DEFLECTION * (weights @ state.pressure)
+        deflection = DEFLECTION * logarithmic_integral(out - state.exit, state.offset, state.pressure)
+        film[~inside] = state.datum + 0.5 * out**2 - deflection
     return pressure * scales.pressure, film * scales.film
 
 

@@ -13,7 +13,7 @@ from bem import solve_line_film
 from bem.benchmarks.line_film import similarity_case
 from bem.lubrication.line_elimination import eliminate
 from bem.lubrication.line_equations import by_film
-from bem.lubrication.line_kernel import LineOperator, logarithmic_weights
+from bem.lubrication.line_kernel import LineOperator, logarithmic_integral, logarithmic_weights
 
 
 def graded(cells):
@@ -44,6 +44,19 @@ def test_weights_are_integrals_of_hats(target, node):
             exact -= (second(t) - second(t + h)) / h + first(t)
     # rounding of a sum of a few terms; the near formula cancels (12 cells)^2 of it
     assert weight == pytest.approx(float(exact), rel=1e-13)
+
+
+@pytest.mark.parametrize("cells", [1, 64, 65, 1999])
+def test_groups_of_cells_are_seen_as_all_their_hats(cells):
+    nodes = graded(2000)[-cells - 1 :]
+    reach = nodes[-1] - nodes[0]
+    targets = np.concatenate([nodes[0] - reach * np.geomspace(1e-6, 10, 40), reach * np.geomspace(1e-9, 10, 60), nodes])
+    pressure = np.random.default_rng(0).random(len(nodes))
+    wanted = logarithmic_weights(targets, nodes) @ pressure
+    # rounding of sums of two thousand terms
+    np.testing.assert_allclose(
+        logarithmic_integral(targets, nodes, pressure), wanted, rtol=0, atol=1e-13 * np.abs(wanted).max()
+    )
 
 
 @pytest.mark.parametrize("cells", [301, 777, 2000, 2059])
@@ -94,7 +107,7 @@ def test_hierarchical_newton_steps_are_the_dense_ones(monkeypatch, load, piezo, 
         if operator.hierarchical:
             right = equations.right.copy()
             right[:-1] += by_film(equations, equations.mismatch)
-            one = eliminate(operator, equations, right)
+            one = eliminate(operator, equations).solve(right)
             other = line_linear._dense(operator, equations, right)
             compared.append(float(np.abs(one - other).max() / np.abs(other).max()))
         return plain(operator, equations)
@@ -112,8 +125,37 @@ def test_hierarchical_newton_steps_are_the_dense_ones(monkeypatch, load, piezo, 
 
 def test_dense_equations_stand_in_where_the_hierarchical_ones_fail(monkeypatch):
     case, _ = similarity_case(3, 2)
+    monkeypatch.setattr(line_newton, "CHORDS", -1)  # of hierarchical equations alone
     right = solve_line_film(**case, points=401)
-    monkeypatch.setattr(line_linear, "eliminate", lambda operator, equations, right: np.zeros_like(right))
+    monkeypatch.setattr(line_linear.Elimination, "solve", lambda elimination, right: np.zeros_like(right))
     film = solve_line_film(**case, points=401)
     assert film.iterations == right.iterations
     assert film.minimum_thickness == pytest.approx(right.minimum_thickness, rel=1e-9)  # rounding, conditioned
+
+
+def test_last_steps_take_the_equations_of_the_one_before(monkeypatch):
+    """The same film, the last steps to it without taking the equations apart."""
+    case, _ = similarity_case(10, 5)
+    taken = []
+    plain = line_linear.eliminate
+
+    def counted(operator, equations):
+        taken.append(len(operator.nodes))
+        return plain(operator, equations)
+
+    monkeypatch.setattr(line_linear, "eliminate", counted)
+
+    def films():
+        first = solve_line_film(**case, points=2000)
+        taken.clear()
+        other = solve_line_film(**{**case, "load": 1.001 * case["load"]}, points=2000, initial=first)
+        return first, other, taken.count(2000)
+
+    first, other, few = films()
+    monkeypatch.setattr(line_newton, "CHORDS", -1)
+    first_plain, other_plain, many = films()
+    assert (few, many) == (1, 2)
+    assert (other.iterations, other_plain.iterations) == (3, 2)
+    for one, wanted in ((first, first_plain), (other, other_plain)):
+        assert one.residual <= 1e-8  # the tolerance
+        np.testing.assert_allclose(one.thickness, wanted.thickness, rtol=1e-7)
