@@ -20,7 +20,7 @@ of.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -40,6 +40,9 @@ COARSE_TRIALS, FINEST_CONTACT = 20, 1e-9
 keep film and contact from their balance."""
 CONTACT_SHARE = 0.1
 """Of the goal with coarse films: what their contacts are solved to, relative to the gap that they flatten."""
+AHEAD = 0.3
+"""Of the goal with coarse films: what a secant must be expected to leave, the product of the mismatches it is through,
+for its place to be tried with finer ones at once."""
 NEGLIGIBLE = 0.1
 """Share of the load, over the tolerance of the balance, below which a film is left with nothing that counts."""
 LEAST_REST = 1e-12
@@ -109,9 +112,10 @@ def share_load(
     for level, error in enumerate(film.errors):
         search = _Search(film, rough, load, max(tolerance, error), level, bottom, top, effort)
         effort.contact_tolerance = min(effort.contact_tolerance, search.contact_tolerance)
-        trial, slope, regime = search.run(at, slope)
-        at = trial.logarithm
+        found = search.run(at, slope)
+        trial, slope, regime, at = found.trial, found.slope, found.regime, found.ahead
         if search.too_little(trial):
+            at = trial.logarithm
             effort.contact_tolerance = min(effort.contact_tolerance, rough.tolerance)
             finest = replace(search, level=len(film.errors) - 1)  # a film as good as was asked for
             if search.is_no_film(trial):
@@ -128,6 +132,16 @@ class _Trial:
     film: PatchFilm
     contact: Pressed | None
     excess: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """Last trial of a level, slope there, regime, and logarithm of the film load where the next level begins."""
+
+    trial: _Trial
+    slope: float
+    regime: Regime
+    ahead: float
 
 
 @dataclass
@@ -170,17 +184,20 @@ class _Search:
         share = _oil(film, self.rough) / max(float(film.gap.std()), 1e-300)
         return max(asked, CONTACT_SHARE * self.goal * min(share, 1.0))
 
-    def run(self, at: float, slope: float) -> tuple[_Trial, float, Regime]:
-        """Last trial, slope there and regime, from a film load by its logarithm and `BalanceStart.slope`."""
+    def run(self, at: float, slope: float) -> _Found:
+        """From a film load by its logarithm and `BalanceStart.slope`."""
         beyond = self.load - self.rough.largest_load  # what surfaces that yield everywhere leave to the film at least
         yielded = math.log(beyond) + 1e-9 if beyond > 0 else -math.inf
         ends = self.odds(max(self.bottom, yielded)), self.odds(self.top)
         last: list[tuple[_Trial, bool]] = []
         sides: dict[bool, _Trial] = {}
+        missed: list[float] = []
 
         def evaluate(place: float) -> tuple[float, bool]:
-            trial = self.under_the_rest(math.log(self.load) - math.log1p(math.exp(-place)))
-            value, met = self.mismatch(trial), _holds_oil(trial, self.rough, self.goal)
+            trial = self.under_the_rest(self.under_odds(place))
+            value = self.mismatch(trial)
+            met = _holds_oil(trial, self.rough, self.goal) or self.next_will_do(value, missed)
+            missed.append(value)
             last[:], sides[value > 0] = [(trial, met)], trial
             return value, met or self.one_load(sides)
 
@@ -192,17 +209,28 @@ class _Search:
             if not met and self.one_load(sides):
                 pressed = self.between(sides[True], sides[False])
                 if _holds_oil(pressed, self.rough, self.goal) or not coarse:
-                    return pressed, slope, Regime.MIXED
+                    return _Found(pressed, slope, Regime.MIXED, pressed.logarithm)
                 sides.clear()
             at, inside = trial.logarithm, ends[0] < self.odds(trial.logarithm) < ends[1]
             if met or not (coarse and inside):
                 break
             self.effort.contact_tolerance *= 0.01  # what it makes of the opening may be too much
-        slope = found / max(1 - trial.film.load / self.load, LEAST_REST)
-        if trial.logarithm >= math.log(self.load) - _SAME and self.mismatch(trial) > self.goal:
-            return self.trial(trial.logarithm, trial.film, None), slope, Regime.FULL_FILM
-        at_bottom = trial.logarithm <= self.bottom + _SAME and self.is_boundary(trial)
-        return trial, slope, Regime.BOUNDARY if at_bottom else Regime.MIXED
+            missed.clear()
+        slope = found.slope / max(1 - trial.film.load / self.load, LEAST_REST)
+        if at >= math.log(self.load) - _SAME and self.mismatch(trial) > self.goal:
+            return _Found(self.trial(at, trial.film, None), slope, Regime.FULL_FILM, at)
+        at_bottom = at <= self.bottom + _SAME and self.is_boundary(trial)
+        ahead = self.under_odds(found.ahead) if met and inside else at
+        return _Found(trial, slope, Regime.BOUNDARY if at_bottom else Regime.MIXED, ahead)
+
+    def next_will_do(self, mismatch: float, before: Sequence[float]) -> bool:
+        """Whether, by a secant, the next trial would meet the goal; with finer films to come it is made with those."""
+        finest = self.level == len(self.film.errors) - 1
+        return not finest and any(abs(mismatch * one) <= AHEAD * self.goal for one in before)
+
+    def under_odds(self, place: float) -> float:
+        """Logarithm of the film load of a place of `odds`."""
+        return math.log(self.load) - math.log1p(math.exp(-place))
 
     def one_load(self, sides: Mapping[bool, _Trial]) -> bool:
         """Whether trials with films that are too thick (True) and too thin are under loads as good as one: the opening

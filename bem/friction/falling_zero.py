@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 LONGEST_STEP = 3.0
 """Upwards, until there is a bracket; a longer one down goes to the lower end at once, which often is the answer."""
@@ -17,14 +18,22 @@ below which the slope is good enough for the first to need none."""
 NARROWEST = 1e-10
 
 
+@dataclass(frozen=True)
+class Zero:
+    """Where a zero was looked for last: the slope there, as a positive number, and the place to be tried next."""
+
+    slope: float
+    ahead: float
+
+
 def falling_zero(
     evaluate: Callable[[float], tuple[float, bool]],
     start: float,
     slope: float,
     ends: tuple[float, float],
     trials: int,
-) -> float:
-    """Look for the zero of a falling function between two ends; returns its slope there, as a positive number.
+) -> Zero:
+    """Look for the zero of a falling function between two ends.
 
     Parameters
     ----------
@@ -45,7 +54,7 @@ def falling_zero(
         value, met = evaluate(place)
         if before is not None and (value - before[1]) * (place - before[0]) < 0:
             slope = (before[1] - value) / (place - before[0])
-        if met or (place <= first and value <= 0) or (place >= last and value > 0):
+        if (place <= first and value <= 0) or (place >= last and value > 0):
             break
         before = (place, value)
         tried.append(before)
@@ -55,18 +64,20 @@ def falling_zero(
             high, low = before, (low[0], low[1] / 2) if low and side < 0 else low
         side = 1 if value > 0 else -1
         if low is None or high is None:
-            step = BEYOND ** (trial + (abs(value) > NEAR)) * value / slope
+            step = (1.0 if met else BEYOND ** (trial + (abs(value) > NEAR))) * value / slope
             place = first if step < -LONGEST_STEP else min(max(place + min(step, LONGEST_STEP), first), last)
-            continue
-        width = high[0] - low[0]
-        if width < NARROWEST:
+        else:
+            width = high[0] - low[0]
+            if width < NARROWEST:
+                break
+            share = low[1] / (low[1] - high[1])
+            smooth = _parabola(tried, high[0] if value > 0 else low[0])
+            if smooth is not None:
+                share = (smooth - low[0]) / width
+            place = low[0] + width * min(max(share, 0.02), 0.98)
+        if met:
             break
-        share = low[1] / (low[1] - high[1])
-        smooth = _parabola(tried, high[0] if value > 0 else low[0])
-        if smooth is not None:
-            share = (smooth - low[0]) / width
-        place = low[0] + width * min(max(share, 0.02), 0.98)
-    return slope
+    return Zero(slope, place)
 
 
 def _parabola(tried: Sequence[tuple[float, float]], across: float) -> float | None:

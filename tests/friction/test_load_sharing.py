@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from mixed_case import STEEL, mixed_case
 
+import bem.friction.balance as balance
 from bem import Grid, InputError, Lubricant, Status, solve_mixed, stribeck_curve
 from bem.convolution import COUNT
 from bem.friction import largest_difference
@@ -124,6 +125,20 @@ def test_balance_along_a_curve_takes_few_evaluations():
     # the whole load, two or three on the coarse film, two on the fine one; a few more at the knee of the curve
     assert np.mean([point.evaluations for point in curve[1:]]) <= 6.5
     assert np.mean([point.contact_solves for point in curve[1:]]) <= 5.5
+
+
+def test_the_last_coarse_trial_is_made_with_the_finer_film(monkeypatch):
+    """Once a secant will do, its place is tried on the mesh asked for: fewer films and contacts, the same balances."""
+    case, speeds = {**CASE, "film_points": 800, "tolerance": 1e-4}, (0.001, 0.03, 0.05)
+    points = [solve_mixed(**case, speeds=(speed, 0.0)) for speed in speeds]
+    monkeypatch.setattr(balance, "AHEAD", 0.0)
+    plain = [solve_mixed(**case, speeds=(speed, 0.0)) for speed in speeds]
+    for one, other in zip(points, plain, strict=True):
+        assert one.status is other.status is Status.CONVERGED
+        assert max(abs(one.oil_imbalance), abs(other.oil_imbalance)) <= 1e-4
+        assert one.friction == pytest.approx(other.friction, rel=2e-4)  # both balances within 1e-4
+    assert sum(one.evaluations for one in points) <= sum(one.evaluations for one in plain) - 3
+    assert sum(one.contact_solves for one in points) <= sum(one.contact_solves for one in plain) - 3
 
 
 def test_order_of_speeds_does_not_matter(curve):

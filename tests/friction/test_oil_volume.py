@@ -297,8 +297,10 @@ def test_zero_of_a_falling_function(zero, start, steepness, slope):
         tried.append((place, value))
         return value, abs(value) < 1e-9
 
-    falling_zero(evaluate, start, slope, (-10.0, 10.0), 60)
+    found = falling_zero(evaluate, start, slope, (-10.0, 10.0), 60)
     assert tried[-1][0] == pytest.approx(zero, abs=1e-8)
+    # what would be tried next is no worse than what will do, whatever the arc's curvature
+    assert found.ahead == pytest.approx(zero, abs=1e-7)
     assert len(tried) < 30
 
 
@@ -329,10 +331,11 @@ def test_the_balance_compared_with_begins_with_the_slope_found(monkeypatch):
 @pytest.mark.parametrize(("zero", "end"), [(-20, -10.0), (20, 10.0)])
 def test_a_zero_beyond_the_ends_gives_the_end(zero, end):
     tried = []
-    slope = falling_zero(lambda x: (tried.append(x) or zero - x, False), 1.0, 1.0, (-10.0, 10.0), 60)
+    found = falling_zero(lambda x: (tried.append(x) or zero - x, False), 1.0, 1.0, (-10.0, 10.0), 60)
     assert tried[-1] == end
     assert len(tried) <= 6
-    assert slope == pytest.approx(1.0, rel=1e-12)
+    assert found.slope == pytest.approx(1.0, rel=1e-12)
+    assert found.ahead == end
 
 
 def test_what_is_said_of_one_result_and_of_a_curve():
