@@ -15,6 +15,8 @@ LONGEST_STEP = 3.0
 BEYOND, NEAR = 1.2, 0.1
 """By how much each step without a bracket is longer than the slope says, to get one, more each time; and the value
 below which the slope is good enough for the first to need none."""
+LEAST_SHARE = 0.02
+"""Of a bracket, that is always cut off."""
 NARROWEST = 1e-10
 
 
@@ -70,11 +72,12 @@ def falling_zero(
             width = high[0] - low[0]
             if width < NARROWEST:
                 break
-            share = low[1] / (low[1] - high[1])
+            share = (place + value / slope - low[0]) / width if met else low[1] / (low[1] - high[1])
             smooth = _parabola(tried, high[0] if value > 0 else low[0])
             if smooth is not None:
                 share = (smooth - low[0]) / width
-            place = low[0] + width * min(max(share, 0.02), 0.98)
+            least = 0.0 if met else LEAST_SHARE
+            place = low[0] + width * min(max(share, least), 1 - least)
         if met:
             break
     return Zero(slope, place)
