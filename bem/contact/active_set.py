@@ -3,7 +3,9 @@
 The pressure minimises p.Kp/2 + p.(gap - approach) over 0 <= p <= cap, with its sum given under load control. A round
 
 1. applies the operator in double precision, which gives the true gap, its violations and the energy; if the way
-   there led well beyond its lowest point, goes back to it: its displacement follows without another application;
+   there led well beyond its lowest point, goes back to it: its displacement follows without another application; and
+   from there to where that share of the way leads whose bounds are only then imposed, since all cells that either end
+   has in contact are so in between;
 2. takes in the free cells that overlap and the capped cells that open;
 3. runs preconditioned conjugate gradients (`face`; with friction or a mean gap conjugate residuals, `coupled`) on the
    cells in contact, by single precision transforms; the last step, which step 4 will undo most of or which is to reach
@@ -74,6 +76,7 @@ def solve_level(
     # a mean gap adds to each displacement what that of all others gives the approach: no energy either
     energetic = operator.symmetric and not isinstance(control, MeanGapControl)
     before: Accepted | None = None
+    step: _Step | None = None
     while True:
         level.begin_round(iterate, keep=before is not None)
         now = _judge(level, control, iterate, before, tolerance)
@@ -94,9 +97,13 @@ def solve_level(
         if progress.release == 0.0:
             guard.accepted = None
         elif guard.accepted is not None and not improved and current.above(guard.accepted, now.approach):
-            iterate = guard.take_back(level, control, guard.accepted, current)
+            iterate, step = guard.take_back(level, control, guard.accepted, current), None
             continue
         guard.accepted, guard.refused = current, 0
+        part = step.part(level, control, now.share) if step is not None and now.share < 1 else None
+        if part is not None:
+            iterate, step = part, None
+            continue
         step = _next(level, control, now, effort, solve_on_cells if energetic else solve_coupled)
         if step is None:
             return now.result(level)
@@ -109,11 +116,11 @@ def solve_level(
 class _Round:
     """A pressure with its energy and its true gap: cells that violate their state, and by how much all do at most.
 
-    `fresh` as in `LevelResult`: false where the round was taken back to its lowest point.
+    share : of the way of the round to where it was taken back, one where it was not.
     """
 
     reached: Accepted
-    fresh: bool
+    share: float
     found: NDArray[np.int32]
     violation: float
     goal: float
@@ -130,7 +137,7 @@ class _Round:
 
     def result(self, level: Level) -> LevelResult:
         """As where the level ends."""
-        return level.result(self.iterate, self.approach, self.violation, fresh=self.fresh)
+        return level.result(self.iterate, self.approach, self.violation, fresh=self.share == 1)
 
 
 @dataclass(slots=True)
@@ -194,24 +201,36 @@ class _Guard:
 
 @dataclass(frozen=True)
 class _Step:
-    """The next pressure; `lifted` if the way there is not one along which energies may be compared."""
+    """The next pressure; `lifted` if the way there is not one along which energies may be compared. `begun`, `raw` :
+    where it began and the pressures without bounds that it was to reach."""
 
     iterate: Iterate
     lifted: bool = False
+    begun: Iterate | None = None
+    raw: FloatArray | None = None
+
+    def part(self, level: Level, control: Control, share: float) -> Iterate | None:
+        """Within the bounds from a share of the way to the pressures without. A cell in contact at either end is so all
+        along the way between both: rounds that went back there would long keep cells that were let go."""
+        if self.begun is None or self.raw is None:
+            return None
+        values = self.begun.values
+        return clip(level, control, self.begun, values + share * (self.raw - values))
 
 
 def _judge(level: Level, control: Control, iterate: Iterate, before: Accepted | None, tolerance: Tolerance) -> _Round:
     """The true gap of a pressure, or of the lowest point on the way to it; the displacement is in the buffer."""
-    seen = level.survey(iterate)
+    seen, share = level.survey(iterate), 1.0
     lowest = None if before is None else lowest_point(level, before, iterate, seen)
     if lowest is not None:
-        iterate, seen = lowest, level.survey(lowest)
+        iterate, share = lowest
+        seen = level.survey(iterate)
     level.mark(iterate)
     approach = _approach(level, control, iterate, seen.total)
     found, largest = passes.find_violations(level.flat["displacement"], level.gap, level.state, approach)
     violation = max(largest, seen.deepest - approach, approach - seen.nearest)
     goal = tolerance.of(approach, seen.reach)
-    return _Round(Accepted.of(iterate, approach, seen), lowest is None, found, violation, goal)
+    return _Round(Accepted.of(iterate, approach, seen), share, found, violation, goal)
 
 
 def _approach(level: Level, control: Control, iterate: Iterate, total: float) -> float:
@@ -241,11 +260,11 @@ def _next(level: Level, control: Control, now: _Round, effort: Effort, close: Cl
         if iterate.cells.size < level.gap.size:
             return _Step(iterate, lifted)
     raw = close(level, iterate, opening, control, now.goal, effort)
-    clipped = clip(level, control, iterate, raw)
+    clipped = clip(level, control, iterate, raw.copy())
     if clipped.cells.size <= _FEW * clipped.capped.size and clipped.cells.size < 0.5 * iterate.cells.size:
         # fully plastic: bounds matter, elasticity hardly does, and unbounded pressures say nothing
-        clipped = gradient_step(level, control, iterate, now.approach, 1 / level.self_response)
-    return _Step(clipped, lifted)
+        return _Step(gradient_step(level, control, iterate, now.approach, 1 / level.self_response), lifted)
+    return _Step(clipped, lifted, iterate, raw)
 
 
 def _at_full_contact(level: Level, control: Control, iterate: Iterate, mean: float, goal: float) -> bool:

@@ -55,9 +55,10 @@ class Accepted:
         return rise > _ROUND_OFF * max(self.size, other.size)
 
 
-def lowest_point(level: Level, before: Accepted, iterate: Iterate, now: Survey) -> Iterate | None:
+def lowest_point(level: Level, before: Accepted, iterate: Iterate, now: Survey) -> tuple[Iterate, float] | None:
     """The lowest point between a round's ends, if the round went well beyond it; the displacement there replaces the
-    one in the buffer, without a convolution. None where the round's end, which is `now`, will do.
+    one in the buffer, without a convolution; and its share of the way. None where the round's end, which is `now`, will
+    do.
 
     Changes of the sets that are each right by themselves can be too many together: without this they swing ever wider,
     or for long.
@@ -82,7 +83,7 @@ def lowest_point(level: Level, before: Accepted, iterate: Iterate, now: Survey) 
     full[iterate.capped] += share * level.cap
     # a cell at the cap at both ends must stay there whatever the rounding
     full[np.intersect1d(before.iterate.capped, iterate.capped, assume_unique=True)] = level.cap
-    return held(full, level.cap)
+    return held(full, level.cap), share
 
 
 def _work(level: Level, iterate: Iterate) -> float:

@@ -73,11 +73,9 @@ def test_friction_on_a_stiff_layer_under_a_load_that_sinks_it_far_deeper_than_it
 
 
 def test_stiff_layer_under_a_load_that_sinks_it_far_deeper_than_its_roughness():
-    """The energy falls from round to round long before the largest violation does: no reason to give up.
-
-    How many rounds that takes hangs on the last digits: of loads that differ there eleven took 324 to 392 convolutions
-    and one 3037, so that the middle one of three is held.
-    """
+    """Rounds go back to their lowest point many times: cells in contact at either end of them are so there, and were
+    kept for ten rounds each time (113 convolutions) before pressures were brought into their bounds on the way.
+    Of twelve loads that differ in the last digits all take 61 or 62."""
     counted = []
     for digits in range(3):
         load = 0.477 * (1 + digits * 1e-14)
@@ -89,4 +87,4 @@ def test_stiff_layer_under_a_load_that_sinks_it_far_deeper_than_its_roughness():
         assert opening.min() >= -1e-6 * gap.std()
         assert solution.load == pytest.approx(load, rel=1e-12)
         counted.append(solution.convolutions)
-    assert np.median(counted) <= 700
+    assert max(counted) <= 75
