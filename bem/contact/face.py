@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from bem.contact import gradients, passes
 from bem.contact.controls import ApproachControl, Control, LoadControl
+from bem.contact.inverse import Descent, Inverse, Step
 from bem.contact.level import Effort, Indices, Iterate, Level
 from bem.contact.passes import CAPPED, CONTACT
 
@@ -69,16 +70,15 @@ def solve_on_cells(
     state, way = (pressure, residual, previous), (direction, response)
     squares = gradients.squares(residual)
     lowest, enough = squares * tuning.reduction**2, squares * tuning.least_reduction**2
-    last = 1.0
-    for iteration in range(min(tuning.iterations_per_round, effort.left)):
-        full, change = balance.precondition(residual, preconditioned, previous)
-        if not full > 0:
+    last = math.inf  # the first direction is the residual's own
+    for _ in range(min(tuning.iterations_per_round, effort.left)):
+        known = Step(last, level.stride.length, level.cap)
+        descent = balance.descend(state, (preconditioned, direction, response), known)
+        if not descent.full > 0:
             break
-        beta = max(0.0, change / last) if iteration else 0.0
-        last = full
+        beta, last = known.beta(descent.change), descent.full
         effort.iterations += 1
-        turned = (preconditioned, direction, beta)
-        if _strides(level, state, turned, tolerance, response, closing=_LEFT**2 * squares <= lowest):
+        if _strides(level, descent, tolerance, closing=_LEFT**2 * squares <= lowest):
             pressure = response
             break
         slope = gradients.new_direction(direction, preconditioned, beta, cells, quick_in, residual)
@@ -97,25 +97,16 @@ def solve_on_cells(
     return pressure
 
 
-def _strides(
-    level: Level,
-    state: tuple[FloatArray, FloatArray, FloatArray],
-    way: tuple[FloatArray, FloatArray, float],
-    tolerance: float,
-    out: FloatArray,
-    *,
-    closing: bool,
-) -> bool:
-    """Whether a step of a length known beforehand ends the round; the pressure it leads to is written to `out`.
+def _strides(level: Level, descent: Descent, tolerance: float, *, closing: bool) -> bool:
+    """Whether a step of a length known beforehand ends the round.
 
     The preconditioned kernel is close to one, so the convolution that would tell the length says little: the round to
     come applies the operator anyway, and goes back along the way if it was too long. The step is the last where it is
     to reach the tolerance, what clipping will undo, or (`closing`) what single precision can.
     """
-    stride, (pressure, residual, _) = level.stride, state
+    stride, largest, outside = level.stride, descent.largest, descent.outside
     if not stride.trusted:
         return False
-    outside, largest = gradients.stride(pressure, way, stride.length, level.cap, residual, out)
     clipped = _LEFT * largest <= level.tuning.clipping * level.self_response * outside
     stride.taken = clipped or closing or _LEFT_AT_LAST * largest <= level.tuning.final * tolerance
     return stride.taken
@@ -131,7 +122,7 @@ class Balance:
     preconditioner symmetric whatever they are.
     """
 
-    inverse: Callable[[FloatArray, FloatArray], float]
+    inverse: Inverse
     kept: bool
     rise: FloatArray
     share: float
@@ -165,8 +156,22 @@ class Balance:
         total = self.inverse(given, out)
         return gradients.turn(out, self.rise, self.share * total, residual, previous)
 
+    def descend(
+        self,
+        state: tuple[FloatArray, FloatArray, FloatArray],
+        way: tuple[FloatArray, FloatArray, FloatArray],
+        step: Step,
+    ) -> Descent:
+        """The preconditioned residual, and where the step known beforehand leads; as `Inverse.descend` takes them."""
+        (pressure, residual, previous), (preconditioned, direction, out) = state, way
+        if residual.size <= passes.BLOCK:
+            return self.inverse.descend(state, way, (self.rise, self.share, self.shifted), step)
+        full, change = self.precondition(residual, preconditioned, previous)
+        turned = (preconditioned, direction, step.beta(change))
+        return Descent(full, change, *gradients.stride(pressure, turned, step.length, step.cap, residual, out))
 
-def _rise(level: Level, cells: Indices, inverse: Callable[[FloatArray, FloatArray], float]) -> FloatArray:
+
+def _rise(level: Level, cells: Indices, inverse: Inverse) -> FloatArray:
     """The pressures for a rise of the approach: the preconditioner's in the first round on a grid. Later rounds have
     them from the one before, with their mean on new cells, while these are the fewer and all sum up to more than half
     of what their number would have: another application of the preconditioner would change no count."""

@@ -6,7 +6,6 @@ Pressures and gaps are flat and in the solver's units.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import passes
+from bem.contact.inverse import Inverse
 from bem.contact.long_waves import LongWaves, long_waves
 from bem.contact.passes import Survey
 from bem.contact.preconditioner import SparseInverse, sparse_inverse
@@ -210,8 +210,8 @@ class Level:
             *(first + second for first, second in zip(seen[4:], more[4:], strict=True)),
         )
 
-    def preconditioner(self, cells: Indices) -> Callable[[FloatArray, FloatArray], float]:
-        """Approximate inverse of the kernel on the cells: (residual, out) -> sum of out."""
+    def preconditioner(self, cells: Indices) -> Inverse:
+        """Approximate inverse of the kernel on the cells."""
         if self.sparse is None:
             reach = 2 * math.isqrt(self.tuning.squared_radius)
             self.sparse = sparse_inverse(
@@ -224,15 +224,7 @@ class Level:
         near = self.sparse.on(cells, self.sparse_cells)
         self.sparse_cells = cells
         far = None if self.smooth is None else self.smooth.on(cells, near.row_sums())
-        values = np.empty(cells.size)
-
-        def inverse(residual: FloatArray, out: FloatArray) -> float:
-            near.spread(residual, values)
-            if far is not None:
-                far.apply(values)
-            return near.collect(values, out)
-
-        return inverse
+        return Inverse(near, far, np.empty(cells.size))
 
     def begin_round(self, iterate: Iterate, *, keep: bool) -> None:
         """Displace, with the last displacement kept as the one before if so asked."""

@@ -76,19 +76,20 @@ class LongWavesOnCells:
     def apply(self, values: FloatArray) -> None:
         """values = (1 + W F W^T)^-1 values, approximately, in place; one thread, transforms included."""
         convolution = self.smooth.convolution
-        transform = convolution.transform
-        factor = convolution.multiplier.factor(transform.dtype)
-        with transform.lock:
-            applications = _apply(
-                values,
-                (self.blocks, self.weights),
-                (self.root, self.inverse_root),
-                self.smooth.workspace,
-                (transform.room, transform.ready(1), factor),
-                _REDUCTION,
-                _ITERATIONS,
-            )
+        with convolution.transform.lock:
+            applications = _apply(values, self.compiled(), _REDUCTION, _ITERATIONS)
         convolution.counted(applications)
+
+    def compiled(self) -> tuple[Any, ...]:
+        """What the compiled loop takes; the caller holds the transform's lock while it runs."""
+        convolution = self.smooth.convolution
+        transform = convolution.transform
+        return (
+            (self.blocks, self.weights),
+            (self.root, self.inverse_root),
+            self.smooth.workspace,
+            (transform.room, transform.ready(1), convolution.multiplier.factor(transform.dtype)),
+        )
 
 
 def long_waves(operator: DisplacementOperator, near: float) -> LongWaves | None:
@@ -138,8 +139,9 @@ def _assign(cells, rows, columns, width, weights, size):  # type: ignore[no-unty
 
 
 @njit(cache=True, nogil=True)
-def _apply(values, cells, diagonal, workspace, transform, reduction, limit):  # type: ignore[no-untyped-def]
+def _apply(values, far, reduction, limit):  # type: ignore[no-untyped-def]
     """The middle factor; returns how many convolutions it took."""
+    cells, diagonal, workspace, transform = far
     blocks, weights = cells
     root, inverse_root = diagonal
     given, solution = workspace.given, workspace.solution

@@ -4,12 +4,15 @@ import numpy as np
 import pytest
 from contact_oracles import FREE, PERIODIC, notes_surface, operator
 
-from bem.contact import gradients, long_waves, passes, preconditioner
-from bem.contact.level import Level, Tuning
+from bem.contact import face, gradients, long_waves, passes, preconditioner
+from bem.contact.controls import ApproachControl, LoadControl
+from bem.contact.inverse import Step
+from bem.contact.level import Iterate, Level, Tuning
 
 SIZE = 500
 # sums of a few hundred numbers of order one in another order
 ROUND_OFF = 1e-12
+BALANCE = ("kept", "rise", "share", "shifted")
 
 
 @pytest.fixture(params=[1 << 15, 77], ids=["one block", "many blocks"])
@@ -170,3 +173,29 @@ def test_a_weighed_mean_is_taken_off(size):
     values, weights, out = rng.standard_normal(size), rng.random(size), np.empty(size)
     gradients.weighed_free(values, weights, weights.sum(), out)
     np.testing.assert_allclose(out, values - (weights @ values) / weights.sum(), rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("n", [24, 96])  # the smaller has no long waves
+@pytest.mark.parametrize("control", [LoadControl(30.0), ApproachControl(0.1)])
+def test_a_descent_in_one_call_is_its_passes(n, control, monkeypatch):
+    op = operator((n, n), (1 / n, 1 / n), PERIODIC)
+    level = Level(op, np.zeros(n * n), np.inf, Tuning())
+    height = notes_surface(n, rolloff=4).ravel()
+    cells = np.flatnonzero(height > np.quantile(height, 0.8))
+    rng = np.random.default_rng(6)
+    pressure, residual, previous, direction = rng.random((4, cells.size))
+    iterate = Iterate(cells, pressure, cells[:0])
+    balance = face.Balance.of(level, iterate, face.Opening(residual, float(residual.mean())), control)
+    assert (balance.inverse.far is None) == (n == 24)
+    results = []
+    for block in (passes.BLOCK, 100):
+        monkeypatch.setattr(passes, "BLOCK", block)
+        level.sparse_cells = None
+        own = face.Balance(level.preconditioner(cells), *[getattr(balance, name) for name in BALANCE])
+        out, ahead = np.empty((2, cells.size))
+        before = op.count.applications
+        found = own.descend((pressure, residual, previous), (out, direction, ahead), Step(2.0, 0.3, 0.9))
+        results.append((*found, op.count.applications - before, out, ahead))
+    assert results[0][4] == results[1][4]
+    for one, plain in zip(*results, strict=True):
+        np.testing.assert_allclose(one, plain, rtol=0, atol=ROUND_OFF * cells.size)

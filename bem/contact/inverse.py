@@ -1,0 +1,101 @@
+"""The approximate inverse of the kernel on the cells in contact: near neighbours by rows, long waves between them.
+
+It knows the sparse inverse and the long waves' factor on given cells, and no contact. Where the cells fit one block of
+`passes`, what conjugate gradients ask of it between two transforms is one compiled call, of the same passes in the same
+order; verified against them in tests/contact/test_contact_passes.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from bem.contact import gradients, long_waves, preconditioner
+from bem.contact.long_waves import LongWavesOnCells
+from bem.contact.preconditioner import SparseInverseOnCells
+
+FloatArray = NDArray[np.float64]
+
+
+class Descent(NamedTuple):
+    """What a preconditioned residual z says: z.r, z.(r - r_previous); how far the step known beforehand leaves the
+    bounds, and max |r|."""
+
+    full: float
+    change: float
+    outside: float
+    largest: float
+
+
+class Step(NamedTuple):
+    """A step known beforehand: t = z + beta t, beta from z.(r - r_previous) over `last`; its length, the cap."""
+
+    last: float
+    length: float
+    cap: float
+
+    def beta(self, change: float) -> float:
+        """Of the direction before, by the formula of Polak and Ribiere; none where `last` is infinite."""
+        return max(0.0, change / self.last)
+
+
+@dataclass(frozen=True)
+class Inverse:
+    """Rows of the near neighbours, the long waves (None on grids too small for them), and room for values."""
+
+    near: SparseInverseOnCells
+    far: LongWavesOnCells | None
+    values: FloatArray
+
+    def __call__(self, residual: FloatArray, out: FloatArray) -> float:
+        """Write the inverse times a residual to `out`; returns its sum."""
+        self.near.spread(residual, self.values)
+        if self.far is not None:
+            self.far.apply(self.values)
+        return self.near.collect(self.values, out)
+
+    def descend(
+        self,
+        state: tuple[FloatArray, FloatArray, FloatArray],
+        way: tuple[FloatArray, FloatArray, FloatArray],
+        balance: tuple[FloatArray, float, FloatArray],
+        step: Step,
+    ) -> Descent:
+        """The preconditioned residual, and where the step known beforehand leads, of cells that fit one block.
+
+        state : (p, r, r before). way : (z, written; t; p after the step, written). balance : as `face.Balance` has
+        them, rise, share and room, that of none where the residual's mean is let be.
+        """
+        own = (self.near.rows, self.near.outside, self.values)
+        if self.far is None:
+            return Descent(*_descend(own, None, state, way, balance, step)[:4])
+        convolution = self.far.smooth.convolution
+        with convolution.transform.lock:
+            *found, applications = _descend(own, self.far.compiled(), state, way, balance, step)
+        convolution.counted(applications)
+        return Descent(*found)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _descend(own, far, state, way, balance, step):  # type: ignore[no-untyped-def]
+    """`Inverse.descend` in one block; last comes how many convolutions the long waves took."""
+    rows, outside, values = own
+    (pressure, residual, previous), (preconditioned, direction, out), (rise, share, shifted) = state, way, balance
+    size, found, applications = values.size, np.zeros(2), 0
+    if shifted.size:
+        gradients._weighed_free(residual, rise, 1 / share, shifted)
+        preconditioner._spread(0, size, found, rows, shifted, values)
+    else:
+        preconditioner._spread(0, size, found, rows, residual, values)
+    if far is not None:
+        applications = long_waves._apply(values, far, long_waves._REDUCTION, long_waves._ITERATIONS)
+    preconditioner._collect(0, size, found, rows, values, preconditioned, outside, size)
+    gradients._turn(0, size, found, preconditioned, rise, share * found[0], residual, previous)
+    full, change = found[0], found[1]
+    turned = (preconditioned, direction, max(0.0, change / step.last))
+    gradients._stride(0, size, found, pressure, turned, step.length, step.cap, residual, out)
+    return full, change, found[0], found[1], applications
