@@ -14,7 +14,6 @@ from numpy.typing import ArrayLike
 
 from bem.errors import Status
 from bem.friction.oil_beside import OilBeside
-from bem.lubrication import FilmSolution
 
 if TYPE_CHECKING:
     from bem.friction.solution import MixedSolution
@@ -61,8 +60,7 @@ class CurvePoint:
     def of(cls, solution: MixedSolution) -> CurvePoint:
         """Those of a solution."""
         area = 0.0 if solution.contact is None else solution.contact.contact_area
-        line = solution.film if isinstance(solution.film, FilmSolution) else None
-        starved = None if line is None else line.starvation
+        starved = solution.film.starvation
         return cls(
             speed=solution.speeds[0],
             friction=solution.friction,

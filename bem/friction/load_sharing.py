@@ -101,7 +101,8 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     oil_volume : where the rough surfaces hold as much oil as the smooth film: on the whole "patch", as the thesis has
         it, or where the film is "loaded", weighted by its pressure (`bem.friction.oil_volume`). The first follows the
         patch's length where nearly all oil lies beside Hertz' contact; `MixedSolution.oil` says how far.
-    supply : oil that reaches the contact, as of `solve_line_film`: `MixedSolution.film.starvation` says what it does.
+    supply : oil that reaches the contact, as of `solve_line_film`; of a ball a layer of it, without flow factors.
+        `MixedSolution.film.starvation` says what it does.
     thermal : "off", "lumped" or "full": the film with its heat, as of `solve_line_film`; the contact's surfaces as
         warm as rubbing makes them (`bem.friction.contact_heat`), which boundary friction over temperature is told. Far
         away both bodies are as warm as the oil that comes. No supply with "full", which is not there under a ball.

@@ -23,6 +23,7 @@ from bem.lubrication import Lubricant, PointFilmSolution, solve_point_film
 from bem.lubrication.point.scales import nijenbanning_film, point_scales
 from bem.lubrication.point.solve import MOES_LOADS
 from bem.lubrication.point.validity import but_unknown
+from bem.lubrication.supply import OilLayer
 from bem.lubrication.validity import THINNEST_FILM
 from bem.reference_solutions.hertz import ellipse_contact
 
@@ -41,11 +42,18 @@ THINNED = 3.0
 """Ratio of the loads at which it is found how thin inlet heating makes the oil."""
 _TRIED = (1.0, 0.5, 0.25)
 """Shares of a load under which a film is looked for, one after the other."""
+_HEAVIER = tuple(2.0**k for k in range(11))
+"""The same of films whose flooded ones are `DEEP` layers thick: heavier ones are found."""
+DEEP = 30.0
 _DECADES = 12.0
 THIN_NOTE = (
     "the film is thinner than its cells can show: taken is that of a smaller load, its pressure going on as Hertz' and "
     "its thickness by the fit of Nijenbanning, Venner and Moes, its minimum not to be trusted (its oil was found up to "
     "12 % too much at 2.5 times that load, up to 40 % at 6 times); more cells of the film put that off"
+)
+LAYER_NOTE = (
+    "under so light a load no film of so thin a layer was found: taken is that of a larger load, its pressure going on "
+    "as Hertz', its film as thick as the layer leaves it"
 )
 FACTORS_NOTE = "flow factors go on there as at that smaller load, where the film is thicker"
 
@@ -129,7 +137,8 @@ def point_film(
 ) -> PointFilmSolution:
     """The film under a load [N], with its heat where that is asked for.
 
-    How much thinner the oil must be is found at the nearest of loads `THINNED` times apart; `thinnings` keeps it.
+    How much thinner the oil must be is found at the nearest of loads `THINNED` times apart, of a flooded film, of which
+    a supply then lets as much through as there is, as of line films; `thinnings` keeps it.
     """
     if contact.heat is None:
         return cold_film(contact, speeds, load, cells)
@@ -142,7 +151,8 @@ def point_film(
         at = THINNED**place
 
         def central(lubricant: Lubricant) -> float:
-            film = cold_film(_of_oil(contact, lubricant), speeds, at, min(cells, BALANCE_CELLS))
+            flooded = replace(_of_oil(contact, lubricant), supply=None)
+            film = cold_film(flooded, speeds, at, min(cells, BALANCE_CELLS))
             return film.central_thickness if film.status is Status.CONVERGED else math.nan
 
         known[place] = thinning(oil, _inlet(contact, speeds, at), central, _fitted_exponent(contact, speeds, at))
@@ -180,11 +190,18 @@ def _fitted_exponent(contact: PointContact, speeds: Sequence[float], load: float
 def cold_film(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:
     """The film under a load [N] without heat: solved, or from one under a smaller load where none is found."""
     largest = min(load, largest_point_load(contact, speeds, cells))
-    for share in _TRIED:
+    for share in _HEAVIER if _deep(contact, speeds, largest) else _TRIED:
         film = solved_point_film(contact, speeds, share * largest, cells)
         if film.status is Status.CONVERGED:
             break
     return film if share * largest == load else thin_film(film, contact, speeds, share * largest, load)
+
+
+def _deep(contact: PointContact, speeds: Sequence[float], load: float) -> bool:
+    """Whether a layer of oil is so thin that under a load [N] the film is the layer, but for compression."""
+    if not isinstance(contact.supply, OilLayer):
+        return False
+    return _fitted_film(contact, speeds, load) > DEEP * contact.supply.thickness
 
 
 def thin_film(
@@ -195,14 +212,16 @@ def thin_film(
     (`nijenbanning_film`). Against films solved on 128 cells (M 5800; 24 cases with L 4 to 15, Rx/Ry 0.3 and 1, p0 1.1
     to 2.5 GPa): the centre within 10 % at 2.5 to 20 times the load; the mean by pressure, whose inlet stays as wide, 5
     to 12 % too thick at 2.5, 9 to 40 % at 6, 20 to 230 % at 20 times; sliding friction within 13 %; the minimum up to
-    20 times too thick.
+    20 times too thick. Of a layer of oil far thinner than a flooded film the film stays as it is, also under smaller
+    loads.
     """
     stretch = 1.0 if contact.deforming_load is not None else (load / solved) ** (1 / 3)
-    thinner = _fitted_film(contact, speeds, load) / _fitted_film(contact, speeds, solved)
+    as_it_is = solved > load or _deep(contact, speeds, solved)
+    thinner = 1.0 if as_it_is else _fitted_film(contact, speeds, load) / _fitted_film(contact, speeds, solved)
     dry = ellipse_contact(radii=contact.radii, contact_modulus=contact.film_modulus(solved), load=solved)
     opening = contact.parabola(film.x, film.y) + dry.displacement(film.x[:, None], film.y[None, :]) - dry.approach
     opening = np.maximum(opening, 0.0)
-    least = thinner * film.minimum_thickness
+    least, note = thinner * film.minimum_thickness, LAYER_NOTE if solved > load else THIN_NOTE
     made = replace(
         film,
         x=stretch * film.x,
@@ -214,7 +233,7 @@ def thin_film(
         central_thickness_error=None,
         minimum_thickness_error=None,
         load=film.load * (load / solved),
-        notes=(*film.notes, THIN_NOTE if contact.flow_factors == "off" else f"{THIN_NOTE}; {FACTORS_NOTE}"),
+        notes=(*film.notes, note if contact.flow_factors == "off" else f"{note}; {FACTORS_NOTE}"),
     )
     forces, rolling = made.forces()
     return replace(made, shear_force=forces, rolling_force=rolling)
@@ -240,6 +259,7 @@ def solved_point_film(contact: PointContact, speeds: Sequence[float], load: floa
         lubricant=contact.lubricant,
         shape=(cells, cells),
         flow_factors=contact.flow_factors,
+        supply=contact.supply,
     )
     return replace(film, notes=but_unknown(film.notes), state=None)
 

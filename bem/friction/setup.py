@@ -16,6 +16,7 @@ from bem.friction.smooth import FilmHeat, LineContact, PointContact
 from bem.grid import FloatArray, Grid
 from bem.heat.bodies import conductors_of
 from bem.lubrication import Lubricant
+from bem.lubrication.point.starved import checked_layer
 from bem.lubrication.rough_walls import WallFactors
 from bem.lubrication.supply import InletDistance, Supply, checked_supply, inside_hertz
 from bem.lubrication.with_heat import HEAT
@@ -109,7 +110,7 @@ class MixedSetup:
         if len(radii) != 2:
             return [f"radii: {self.radii!r} must be two positive, finite radii (Rx, Ry) [m]"]
         messages = _not_positive({"radii": radii[0]}) or _not_positive({"radii": radii[1]})
-        left = {"supply": self.supply or "off", "striated_exit": self.striated_exit or "off"}
+        left = {"striated_exit": self.striated_exit or "off"}
         left |= {"film_position": "off" if self.film_position is None else "given"}
         for name, value in left.items():
             if not (isinstance(value, str) and value == "off"):
@@ -162,7 +163,10 @@ class MixedSetup:
 
     def _supply(self) -> list[str]:
         try:
-            checked_supply(self.supply)
+            if self.radii is None:
+                checked_supply(self.supply)
+            else:
+                checked_layer(self.supply, self.flow_factors)
         except InputError as error:
             return list(error.messages)
         return []
@@ -243,12 +247,14 @@ class MixedSetup:
         bodies = (self.bodies,) if isinstance(self.bodies, Body) else self.bodies
         modulus = contact_modulus(*(body.material for body in bodies))
         deforming = self.load if self.counted is OilVolume.LOADED else None
+        supply = checked_supply(self.supply)
         if self.radii is not None:
             radii = (self.radii[0], self.radii[1])
-            return PointContact(radii, modulus, self.lubricant, deforming, self.flow_factors, self._film_heat(bodies))
+            return PointContact(
+                radii, modulus, self.lubricant, deforming, self.flow_factors, supply, self._film_heat(bodies)
+            )
         assert self.radius is not None
         assert self.width is not None
-        supply = checked_supply(self.supply)
         return LineContact(
             self.radius, self.width, modulus, self.lubricant, self.flow_factors, deforming, supply,
             self._film_heat(bodies),

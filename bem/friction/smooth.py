@@ -116,13 +116,14 @@ class LineContact:
 @dataclass(frozen=True)
 class PointContact:
     """A ball or ellipsoid on a flat, and the oil: radii (Rx, Ry) [m], E* of the pair [Pa]; how roughness changes the
-    flow; otherwise as `SmoothContact`. Its films are flooded."""
+    flow; the layer of oil that reaches it, None where the inlet is flooded; otherwise as `SmoothContact`."""
 
     radii: tuple[float, float]
     contact_modulus: float
     lubricant: Lubricant
     deforming_load: float | None = None
     flow_factors: WallFactors | str = "off"
+    supply: Supply | None = None
     heat: FilmHeat | None = None
 
     def film_modulus(self, load: float) -> float:

@@ -35,7 +35,7 @@ from bem.scenes.laws import LawOrNumber
 from bem.scenes.oil import OilScene
 from bem.scenes.records import Figure
 from bem.scenes.tables.smooth import SmoothShapeScene
-from bem.scenes.tables.supply import SupplyScene, build_supply
+from bem.scenes.tables.supply import SupplyScene, build_supply, check_layer
 from bem.scenes.units import Pressure, Ratio, Speed
 
 if TYPE_CHECKING:
@@ -209,9 +209,8 @@ class MixedScene(SceneModel):
 
     @model_validator(mode="after")
     def _film_of_a_ball(self) -> Self:
-        if self.contact.point_radii is not None and self.supply is not None:
-            raise problem("supply of a ball's film", "a flooded one: leave supply out, or take a cylinder")
         if self.contact.point_radii is not None:
+            check_layer(self.supply)
             self.oil.check_point_film()
         return self
 

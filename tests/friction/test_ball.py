@@ -198,7 +198,6 @@ def test_table_is_the_film(counted):
         ({"grid": Grid((64, 64), (5e-6, 5e-6), periodic=(False, True))}, "make it periodic nowhere"),
         ({"grid": Grid((64, 16), (5e-6, 5e-6))}, "half-axis along y"),
         ({"thermal": "full"}, 'thermal: "full" is not there for the film of a ball'),
-        ({"supply": 1e-6}, "supply: the film of a ball has none"),
         ({"film_cells": 16}, "film_cells: 16 must be an integer from 32"),
     ],
 )

@@ -8,7 +8,7 @@ from bem import InputError, Status, load_scene, solve_mixed
 from bem.campaigns.collect import outcome_of
 from bem.reference_solutions.starved_inlet import starved_film
 from bem.runs import run_scene
-from bem.scenes import PlainContext, get_kind
+from bem.scenes import PlainContext, get_kind, library
 
 TRACTION = {
     "kind": "traction",
@@ -107,6 +107,27 @@ def test_friction_of_a_starved_contact(tmp_path):
     assert again.film.starvation.reduction == pytest.approx(found["film_reduction"][1], rel=1e-3)
 
 
+def test_friction_of_a_starved_ball(tmp_path):
+    """Half the oil of the flooded film: more contact; as much as there is room for, the flooded ball's."""
+    bench = library()["stribeck-ball-on-disc"]
+    small = {
+        "grid": {"shape": 64, "lengths": "320 um"}, "film": {"cells": 48}, "speeds": {"values": ["0.3 m/s"]},
+        "outputs": {"errors": False},
+    }  # fmt: skip
+
+    def found(layer):
+        changes = small if layer is None else small | {"supply": {"layer": layer}}
+        return run_scene(bench | changes, tmp_path / str(layer), figures=False).summary
+
+    flooded, plenty, starved = (found(layer) for layer in (None, "1 mm", "30 nm"))
+    assert {one["status"] for one in (flooded, plenty, starved)} == {"converged"}
+    assert plenty["contact_load_N"] == flooded["contact_load_N"]
+    assert plenty["film_reduction"] == [1.0]
+    assert starved["film_reduction"][0] < 0.6
+    assert starved["meniscus_position_um"][0] < -100  # before Hertz' contact, 109 um in radius
+    assert starved["contact_load_N"][0] > 1.5 * flooded["contact_load_N"][0]
+
+
 def run_grid(loaded):
     from bem.scenes import build
 
@@ -140,6 +161,11 @@ def test_a_film_in_time_has_less_oil_after_it_turned():
             BALL,
             {"supply": {"layer": "1 um"}, "rolling": BALL["rolling"] | {"direction": "20 deg"}},
             "rolling.direction: at an angle to the axes",
+        ),
+        (
+            library()["stribeck-ball-on-disc"],
+            {"supply": {"layer": "1 um"}, "sharing": {"flow_factors": "surfaces"}},
+            "a supply of a ball's film with sharing.flow_factors",
         ),
         (TRACTION, {"supply": {"layer": "1 um"}, "thermal": "full"}, "a supply of oil with thermal"),
         (IN_TIME, {"supply": {"distance": "1 mm"}}, "in time the meniscus moves"),

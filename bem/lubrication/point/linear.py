@@ -187,6 +187,7 @@ class Linear:
         matrix[held, held] = 1.0
         # rows of one size: they are of different kinds
         scale = np.maximum(matrix.max(axis=1), -matrix.min(axis=1))
+        scale[scale == 0] = 1.0  # where no cell is full the load has no equation
         matrix /= scale[:, None]
         with warnings.catch_warnings():  # of a singular matrix: nothing finite comes of it, and `solve` sees that
             warnings.simplefilter("ignore", LinAlgWarning)

@@ -111,7 +111,7 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
     flooded = reached = solved(setting.problem, along, tolerance, max_iterations)
     lacking = None
     if layer is not None:
-        setting, reached = starved(setting, flooded, layer, tolerance, max_iterations)
+        setting, reached = starved(setting, flooded, layer, tolerance, max_iterations, free=extent is None)
         lacking = starvation(setting, reached, flooded)
     asked = Request(pair, lubricant, tolerance, contact_modulus, model, starvation=lacking)
     film = result_of(setting, reached, asked)

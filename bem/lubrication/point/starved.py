@@ -2,7 +2,9 @@
 
 With the content m of cells that are not full (`supply_loops`) the balance of oil holds everywhere, at the meniscus as
 behind the contact (Jakobsson and Floberg 1957, Olsson 1965), and where the meniscus is comes out with the pressure.
-Films are found by Newton's method from the flooded one, on coarse grids first; at once, or over thicker layers.
+Films are found by Newton's method from the flooded one, on coarse grids first; at once, or over thicker layers. Light
+contacts whose flooded film is very many layers thick (M 0.2 to 2, a hundred layers and more, 48 cells a side) stall so:
+they are looked for on a grid as small as the layer's own film wants, from the dry contact.
 Verified in tests/lubrication/point/test_point_supply.py.
 """
 
@@ -15,12 +17,12 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.lubrication.point.cascade import ON_THE_WAY, Reached, interpolated
+from bem.lubrication.point.cascade import ON_THE_WAY, Reached, interpolated, solved
 from bem.lubrication.point.kept import central_film
 from bem.lubrication.point.levels import Level
 from bem.lubrication.point.linear import flows
 from bem.lubrication.point.newton import Outcome, State, newton, partly_filled
-from bem.lubrication.point.setting import Setting
+from bem.lubrication.point.setting import Operators, Setting, default_rectangle
 from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply
 
 HALVINGS = 3
@@ -29,7 +31,9 @@ PER_CELL = 8
 """Samples of a cell along a line."""
 
 
-def checked_layer(supply: object, flow_factors: object, entrainment: tuple[float, float]) -> OilLayer | None:
+def checked_layer(
+    supply: object, flow_factors: object, entrainment: tuple[float, float] = (1.0, 0.0)
+) -> OilLayer | None:
     """The layer that reaches a point contact.
 
     Raises
@@ -52,10 +56,11 @@ def checked_layer(supply: object, flow_factors: object, entrainment: tuple[float
 
 
 def starved(
-    setting: Setting, flooded: Reached, layer: OilLayer, tolerance: float, most: int
+    setting: Setting, flooded: Reached, layer: OilLayer, tolerance: float, most: int, *, free: bool = False
 ) -> tuple[Setting, Reached]:
     """From the flooded film to that with a layer; the flooded one where the layer is thicker than the gap somewhere on
-    the edge of the grid: oil beyond would be wanted, of which it knows nothing."""
+    the edge of the grid: oil beyond would be wanted, of which it knows nothing. free : whether the edges of the grid
+    may be others."""
     wanted = layer.thickness / setting.scales.film
     level, state = flooded.level, flooded.outcome.state
     inlet = level.far_source(state.datum) > 0
@@ -76,8 +81,32 @@ def starved(
         spent = (0, 0) if outcome is None else (outcome.steps, outcome.cycles)
         outcome = _lowered(own, state, wanted, tolerance, most)
         steps, cycles = steps + spent[0], cycles + spent[1]
-    final = replace(outcome, steps=steps + outcome.steps, cycles=cycles + outcome.cycles)
-    return replace(setting, problem=problem), Reached(own, final, coarse, work + own.convolutions)
+    work += own.convolutions
+    if not outcome.converged and free and setting.hertz is not None:
+        near = _as_small_as(setting, wanted)
+        again = solved(near.problem, level.shape, tolerance, most)
+        if again.outcome.converged:
+            return near, _with_effort(again, steps + outcome.steps, cycles + outcome.cycles, work)
+    return replace(setting, problem=problem), _with_effort(Reached(own, outcome, coarse, 0.0), steps, cycles, work)
+
+
+def _as_small_as(setting: Setting, layer: float) -> Setting:
+    """On a grid around the film that a layer makes, in films."""
+    problem = setting.problem
+    rectangle = default_rectangle(setting.hertz, setting.scales.ratio, layer, problem.drag)
+    assert isinstance(problem.operator, Operators)
+    operator = replace(problem.operator, rectangle=rectangle)
+    return replace(
+        setting,
+        problem=replace(problem, rectangle=rectangle, operator=operator, typical_film=layer, layer=layer),
+    )
+
+
+def _with_effort(reached: Reached, steps: int, cycles: int, work: float) -> Reached:
+    """With what was spent before."""
+    one = reached.outcome
+    outcome = replace(one, steps=steps + one.steps, cycles=cycles + one.cycles)
+    return replace(reached, outcome=outcome, convolutions=work + reached.convolutions)
 
 
 def _lowered(level: Level, flooded: State, wanted: float, tolerance: float, most: int) -> Outcome:

@@ -126,6 +126,11 @@ class CurveScene(HotMixedScene):
             return self
         if self.sharing.striated_exit:
             raise problem(_of_a_ball("sharing.striated_exit"), _NOT_OF_A_BALL)
+        if self.sharing.flow_factors != "off" and self.supply is not None:
+            raise problem(
+                f'{_of_a_ball("a supply")} with sharing.flow_factors = "{self.sharing.flow_factors}"',
+                'flow_factors = "off" with it, or no supply',
+            )
         return self
 
     @model_validator(mode="after")

@@ -37,8 +37,8 @@ class SupplyScene(Table):
         return InletDistance(self.distance)
 
 
-def check_layer(scene: SupplyScene | None, rolling: BallRollingScene) -> None:
-    """Refuse a distance of a point contact, and entrainment at an angle to its axes.
+def check_layer(scene: SupplyScene | None, rolling: BallRollingScene | None = None) -> None:
+    """Refuse a distance of a point contact, and entrainment at an angle to its axes; without `rolling` it is along x.
 
     Raises
     ------
@@ -46,7 +46,7 @@ def check_layer(scene: SupplyScene | None, rolling: BallRollingScene) -> None:
     """
     if scene is not None and scene.layer is None:
         raise problem("supply.distance: the meniscus of a point contact is curved and is found", "supply.layer")
-    if scene is not None and rolling.at_an_angle:
+    if scene is not None and rolling is not None and rolling.at_an_angle:
         raise problem("rolling.direction: at an angle to the axes there is no supply yet", '"0 deg" and "90 deg"')
 
 

@@ -49,6 +49,17 @@ def test_a_thin_layer_goes_through_as_it_comes(flooded):
     assert film.starvation.meniscus_position == pytest.approx(-dry, abs=cell)
 
 
+def test_light_contacts_whose_flooded_film_is_many_layers_thick_are_found():
+    """A flooded film of ninety and of nine thousand layers: from it Newton's method stalled."""
+    for load in (0.2, 0.02):
+        film = solve_point_film(**BALL | {"load": load, "speeds": (1.0, 0.5)}, supply=2e-8)
+        assert film.status is Status.CONVERGED
+        assert film.starvation.flooded_layer > 80 * 2e-8
+        assert film.central_thickness == pytest.approx(2e-8, rel=0.02)
+        cell = (film.x[1] - film.x[0]) * (film.y[1] - film.y[0])
+        assert film.pressure.sum() * cell == pytest.approx(load, rel=1e-7)  # none of it in the inlet, which is empty
+
+
 def test_a_compressed_film_is_the_layer_over_its_density():
     oil = Lubricant(0.05, pressure_viscosity=18e-9, density_law="dowson_higginson")
     film = solve_point_film(**BALL | {"lubricant": oil}, supply=2e-8)

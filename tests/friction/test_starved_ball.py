@@ -1,0 +1,81 @@
+"""Load sharing under a ball that gets little oil: limits, and what a line contact has."""
+
+import math
+
+import pytest
+
+from bem import Body, Grid, InputError, Lubricant, Material, generate_surface, solve_mixed
+from bem.errors import Status
+from bem.friction.setup import MixedSetup
+from bem.lubrication.supply import InletDistance
+
+STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
+GRID = Grid((64, 64), (5e-6, 5e-6))
+OIL = Lubricant(0.03, pressure_viscosity=18e-9)
+BALL = {
+    "grid": GRID,
+    "bodies": (STEEL, STEEL),
+    "radii": (0.01, 0.01),
+    "load": 20.0,  # 0.79 GPa on 110 um
+    "lubricant": OIL,
+    "boundary_friction": 0.12,
+    "film_cells": 48,
+    "oil_volume": "loaded",
+}
+ROUGH = generate_surface(
+    Grid((64, 64), (5e-6, 5e-6), periodic=(True, True)), rms_height=40e-9, correlation_length=20e-6, seed=3
+)
+
+
+def shared(layer, speeds=(1.0, 0.5), **changes):
+    return solve_mixed(**BALL | changes, height=ROUGH, speeds=speeds, supply=layer)
+
+
+@pytest.mark.parametrize("counted", ["loaded", "patch"])
+def test_plenty_of_oil_is_a_flooded_ball_and_less_has_more_contact(counted):
+    flooded, plenty, some, little = (shared(layer, oil_volume=counted) for layer in (None, 1e-4, 5e-8, 2e-8))
+    assert {one.status for one in (flooded, plenty, some, little)} == {Status.CONVERGED}
+    assert plenty.contact_load == flooded.contact_load
+    assert plenty.film.starvation.flooded
+    assert flooded.contact_load < some.contact_load < little.contact_load
+    assert 1 > some.film.starvation.reduction > little.film.starvation.reduction
+    assert little.contact_load + little.film_load == pytest.approx(20.0, rel=1e-4)  # the balance's own tolerance
+
+
+def test_a_thin_layer_goes_through_as_it_comes_whatever_the_speed():
+    """The film is the layer then, and speed has no say in what the surfaces carry; a flooded ball's share falls to a
+    quarter where speed doubles."""
+    slow, fast = (shared(1e-8, (u, u)) for u in (0.1, 2.0))
+    assert {slow.status, fast.status} == {Status.CONVERGED}
+    for one in (slow, fast):
+        assert one.film.central_thickness == pytest.approx(1e-8, rel=0.01)
+    assert fast.contact_load == pytest.approx(slow.contact_load, rel=0.01)
+    flooded = [shared(None, (u, u)).contact_load for u in (0.1, 0.2)]
+    assert 0 < flooded[1] < 0.3 * flooded[0]
+
+
+def test_a_layer_thinner_than_what_rough_surfaces_leave_open_is_boundary_lubrication():
+    """Films of next to no load were not found, and one of millimetres was taken in their place."""
+    rougher = Grid((64, 64), (5e-6, 5e-6), periodic=(True, True))
+    height = generate_surface(rougher, rms_height=400e-9, correlation_length=20e-6, seed=3)
+    found = solve_mixed(**BALL, height=height, speeds=(1.0, 0.5), supply=1e-8)
+    assert found.status is Status.CONVERGED
+    assert found.regime.value == "boundary"
+    assert found.contact_load == pytest.approx(20.0, rel=1e-3)
+    # the film that is left shears as a layer in the Hertz contact, 109 um in radius
+    sheared = 0.03 * 0.5 / 1e-8 * math.pi * (1.09e-4) ** 2 / 20.0
+    assert 0.12 < found.friction < 0.12 + sheared
+    assert found.film.central_thickness == pytest.approx(1e-8, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"supply": InletDistance(2e-4)}, "supply: an InletDistance is a line contact's"),
+        ({"supply": -1e-6}, "OilLayer.thickness: -1e-06 must be positive"),
+        ({"supply": "much"}, "supply: 'much' must be an OilLayer"),
+    ],
+)
+def test_bad_supplies_are_said(wrong, said):
+    with pytest.raises(InputError, match=said):
+        MixedSetup(**BALL | wrong)
