@@ -35,6 +35,12 @@ _LAGS = 60
 _FOLLOWED = 12
 """Rounds without progress before the approach of a mean gap is searched for instead."""
 
+_COUPLED = 10
+"""The same with friction in every round: with conjugate residuals they get there or swing, and 25 found no more."""
+
+_SHORT = 5
+"""Rounds without progress before friction's part of the displacement is again taken from the contact before."""
+
 COARSE_TOLERANCE = 6e-2
 """Violation over roughness that coarse grids are solved to: more is lost in the interpolation anyway. With 0.15 rough
 contacts of 128 to 1024 cells take two hundredths fewer convolutions, layered and smaller ones as many more."""
@@ -78,7 +84,7 @@ class Problem:
 
     def plain(self, control: Control, start: Begin, tolerance: float) -> LevelResult:
         """Load or approach, from a start, without what is done where that fails."""
-        tuning = self.shared.tuning if self.operator.symmetric else replace(self.shared.tuning, stall=25)
+        tuning = self.shared.tuning if self.operator.symmetric else replace(self.shared.tuning, stall=_COUPLED)
         return self.level(control, start, self.shared.allowed(tolerance), tuning)
 
     def followed(self, mean_gap: float, start: Begin, tolerance: float) -> LevelResult:
@@ -203,12 +209,14 @@ def _lagged(problem: Problem, control: Control, start: Begin, allowed: Tolerance
     """Friction's part of the displacement taken from the last pressure, over and over: each contact is then without it.
 
     Slower than friction in every round, but it gets there where the rounds swing: what friction adds varies less from
-    one pressure to the next than the sets of cells do.
+    one pressure to the next than the sets of cells do. The rounds are tried again from where it hardly changes.
     """
     operator, alone, shape = problem.operator, problem.operator.frictionless, problem.operator.grid.shape
     displacement, part = np.empty(shape), np.empty(shape)
     pressure = _everywhere(problem, start)
     change = _Change()
+    ready = COARSE_TOLERANCE * problem.shared.scale
+    short = replace(problem.shared.tuning, stall=_SHORT)
     result: LevelResult | None = None
     for _ in range(_LAGS):
         operator.scaled().apply(pressure.reshape(shape), displacement)
@@ -226,7 +234,14 @@ def _lagged(problem: Problem, control: Control, start: Begin, allowed: Tolerance
                 return replace(
                     result, displacement=displacement.reshape(-1), violation=violation, converged=violation <= goal
                 )
-            tolerance = Tolerance(max(0.3 * allowed.length, 0.1 * change.size), 0.3 * allowed.relative)
+            if change.size <= ready:
+                # near the contact the sets no longer swing
+                ended = problem.level(control, pressure, allowed, short)
+                if ended.converged or problem.shared.effort.left <= 0:
+                    return ended
+                ready = 0.1 * change.size
+            share = 0.1 * change.size / float(np.abs(displacement).max())
+            tolerance = Tolerance(max(0.3 * allowed.length, 0.1 * change.size), max(0.3 * allowed.relative, share))
         without = replace(problem, operator=alone, gap=problem.gap + coupling)
         result = without.level(control, start, tolerance, problem.shared.tuning)
         pressure = start = result.pressure

@@ -47,17 +47,18 @@ def _stiff_layer(shape, poisson, friction, surface, layer, load, hardness):
 
 
 @pytest.mark.parametrize(
-    ("shape", "poisson", "friction", "surface", "layer", "load", "hardness"),
+    ("shape", "poisson", "friction", "surface", "layer", "load", "hardness", "most"),
     [
-        ((71, 30), 0.49, 1.0, (0.474, 5.317, 653512), (5.229, 0.1024), 0.133, None),
-        ((99, 83), 0.49, 0.3, (0.3477, 6.19, 371707), (15.69, 0.132), 0.1158, 0.2908),
+        ((71, 30), 0.49, 1.0, (0.474, 5.317, 653512), (5.229, 0.1024), 0.133, None, 32),
+        ((99, 83), 0.49, 0.3, (0.3477, 6.19, 371707), (15.69, 0.132), 0.1158, 0.2908, 95),
     ],
     ids=["elastic", "capped"],
 )
 def test_friction_on_a_stiff_layer_under_a_load_that_sinks_it_far_deeper_than_its_roughness(
-    shape, poisson, friction, surface, layer, load, hardness
+    shape, poisson, friction, surface, layer, load, hardness, most
 ):
-    """With friction in every round the cells in contact swing from round to round for ever."""
+    """With friction in every round the cells in contact of the capped one swing for ever, as those of the elastic one
+    did where the rounds had its symmetric part alone."""
     gap, operator, solution = _stiff_layer(shape, poisson, friction, surface, layer, load, hardness)
     opening = gap + operator(solution.pressure) - solution.approach
     allowed = 1e-6 * gap.std()
@@ -68,8 +69,8 @@ def test_friction_on_a_stiff_layer_under_a_load_that_sinks_it_far_deeper_than_it
     if hardness is not None:
         assert opening[pressure >= hardness].max() <= allowed
     assert solution.load == pytest.approx(load, rel=1e-12)  # round-off of a sum over the cells
-    # 205 and 156 counted; without a limit on the rounds before the fallback they would be 270
-    assert solution.convolutions <= 240
+    # 25 and 71 counted (205 and 156 by the symmetric part, and all of friction from the contact before)
+    assert solution.convolutions <= most
 
 
 def test_stiff_layer_under_a_load_that_sinks_it_far_deeper_than_its_roughness():
