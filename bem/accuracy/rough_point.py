@@ -14,9 +14,11 @@ At a place between bumps (the centre) and for the highest pressure there is none
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import brentq
 
 from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars
 from bem.accuracy.point import FEWEST
@@ -26,6 +28,7 @@ from bem.lubrication import Lubricant, RoughPointFilm, solve_rough_point_film
 from bem.lubrication.point.linear import BoolArray
 from bem.lubrication.point.moving import Heights
 from bem.materials import Body
+from bem.reference_solutions.hertz import ellipse_contact
 
 COUNTED = (
     "error bars of films of rough bodies are of half as many cells a side, where bumps show no order: on random balls "
@@ -41,6 +44,10 @@ STEEP = 5.0
 where that is a few tenths of the least film, half as many cells may by chance have the same share (2 of 8 films)."""
 COUNT = 0.6
 """Cells that a count of whole ones is off by, over the root of those at edges: twice 1/sqrt(12)."""
+SMALL, NARROW = 0.1, 1.0
+"""Share of the load up to which surfaces touch at the rim of the contact alone, and cells that the opening there has
+from which on shares are not multiples of their limit: 3 to 13 times on 0.2 to 0.5 cells, 1.4 and 2.3 times on 0.7 and
+0.9, 1.1 and 1.35 times on 1.3 and 1.7 (reports/experiments/touching_cells.py)."""
 MET = 1e-6
 """Of a least film, what a thinnest one may lie above it and still be it."""
 _ALGEBRAIC = 10.0
@@ -126,6 +133,7 @@ def _cell(film: RoughPointFilm) -> float:
 def rough_point_bars(case: RoughPointCase, film: RoughPointFilm, hertz_area: float) -> ErrorBars:
     """Bars of the figures of a film."""
     figures = rough_point_figures(case, film, hertz_area)
+    told = tuple(narrow_notes(case, film))
     missing = ("central_thickness", "central_pressure")
     nx, ny = film.thickness.shape
     if min(nx, ny) < 2 * FEWEST:
@@ -136,5 +144,35 @@ def rough_point_bars(case: RoughPointCase, film: RoughPointFilm, hertz_area: flo
     there = rough_point_figures(case, other, hertz_area)
     grid = _grid(case, film, figures, there, hertz_area)
     residual = {name: _ALGEBRAIC * film.residual * abs(value) for name, value in figures.items()}
-    bars = ErrorBars.together({GRID: grid, RESIDUAL: residual}, notes=(COUNTED,))
+    bars = ErrorBars.together({GRID: grid, RESIDUAL: residual}, notes=(COUNTED, *told))
     return bars | ErrorBars.unknown(missing, CENTRE)
+
+
+def opening(case: RoughPointCase, film: float) -> tuple[float, float]:
+    """Lengths [m] beside Hertz' contact, along x and y, over which its dry gap opens to a film [m]: the scale of what
+    is narrow at its rim."""
+    dry = ellipse_contact(radii=case.radii, contact_modulus=case.contact_modulus, load=case.load)
+
+    def length(half: float, gap: Callable[[float], float]) -> float:
+        further = 2.0
+        while gap(further * half) < film:
+            further *= 2
+        return half * (float(brentq(lambda s: gap(s * half) - film, 1 + 1e-9, further)) - 1)
+
+    a, b = dry.semi_axes
+    return length(a, lambda s: float(dry.gap(s, 0.0))), length(b, lambda s: float(dry.gap(0.0, s)))
+
+
+def narrow_notes(case: RoughPointCase, film: RoughPointFilm) -> list[str]:
+    """What a reader must know of a share in contact that lies in constrictions as narrow as a cell."""
+    if not 0 < film.contact_share < SMALL:
+        return []
+    steps = film.x[1] - film.x[0], film.y[1] - film.y[0]
+    cells = min(width / float(step) for width, step in zip(opening(case, film.mean_thickness), steps, strict=True))
+    if cells >= NARROW:
+        return []
+    return [
+        "surfaces touch at the rim of the contact alone, beside which the gap opens to the film within "
+        f"{cells:.2g} cells: films there come out too thin, so their share of the load is a bound from above; take "
+        f"{math.ceil(NARROW / cells * max(film.pressure.shape))} cells a side or more"
+    ]

@@ -224,8 +224,8 @@ def _rows(
 
 def load_shared(height: FloatArray, speed: float, oil_volume: str, shared: dict[str, Any]) -> dict[str, Any]:
     """Of load sharing of heights (nx, ny) [m]: share of the load on the surfaces, friction, as it is and with the shear
-    stress of the film on cells in contact, and the share that the film carries on these, where its load counts and its
-    shear stress does not."""
+    stress of the film on cells in contact, the share that the film carries on these, where its load counts and its
+    shear stress does not, and its film [m] where it carries and at the thinnest."""
     found = solve_mixed(
         bodies=(Body(STEEL),) * 2,
         lubricant=OIL,
@@ -244,6 +244,8 @@ def load_shared(height: FloatArray, speed: float, oil_volume: str, shared: dict[
         "friction": found.friction,
         "with_oil_on_contact": found.friction + found.oil_on_contact,
         "film_on_contact": covered * found.film_load / load,
+        "thickness": found.patch_film.carrying_thickness,
+        "minimum": found.patch_film.minimum_thickness,
     }
 
 

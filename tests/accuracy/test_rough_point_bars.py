@@ -6,7 +6,15 @@ import numpy as np
 import pytest
 
 from bem import Lubricant
-from bem.accuracy.rough_point import FACTORS, STEEP, RoughPointCase, rough_point_bars
+from bem.accuracy.rough_point import (
+    FACTORS,
+    SMALL,
+    STEEP,
+    RoughPointCase,
+    narrow_notes,
+    opening,
+    rough_point_bars,
+)
 from bem.reference_solutions.hertz import ellipse_contact
 
 RADIUS, LOAD, MODULUS = 0.01, 20.0, 115e9
@@ -65,3 +73,26 @@ def test_a_least_film_is_met_only_where_contact_is_sure(film, monkeypatch):
     bars = bars_beside(barely, monkeypatch, mean_thickness=thinner, contact_share=2e-4)
     assert bars["minimum_thickness"] == pytest.approx(bars["mean_thickness"], rel=1e-9)
     assert bars["mean_thickness"] == pytest.approx(FACTORS["mean_thickness"] * 0.1 * film.mean_thickness, rel=1e-6)
+
+
+def test_contact_in_constrictions_narrower_than_a_cell_is_said():
+    """Bumps that touch at the rim alone."""
+    heights = lambda x, y: 100e-9 * np.cos(8.5 * x / HALF) * np.cos(8.5 * y / HALF)  # noqa: E731
+    case = replace(CASE, speeds=((0.0, 0.0), (0.03, 0.0)), heights=heights, least_film=4.3e-9)
+    coarse, fine = case.on((48, 48)), case.on((128, 128))
+    assert 0 < fine.contact_share < 0.7 * coarse.contact_share < SMALL
+    (note,) = narrow_notes(case, coarse)
+    assert "bound from above" in note
+    assert narrow_notes(case, fine) == []
+    # nothing touches, or nearly all
+    assert narrow_notes(case, replace(coarse, contact_share=0.0)) == []
+    assert narrow_notes(case, replace(coarse, contact_share=0.9)) == []
+
+
+def test_the_gap_opens_to_a_film_as_its_power_two_thirds():
+    (thin, same), (thick, _) = (opening(CASE, film) for film in (1e-10, 8e-10))
+    assert same == pytest.approx(thin, rel=1e-9)
+    # the gap beside a ball goes as the distance to 3/2, next to its edge
+    assert thick / thin == pytest.approx(4, rel=0.02)
+    gap = 8 * np.sqrt(2) / (3 * np.pi) * (HALF**2 / RADIUS) * (thin / HALF) ** 1.5
+    assert gap == pytest.approx(1e-10, rel=0.02)

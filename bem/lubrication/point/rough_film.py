@@ -146,7 +146,8 @@ def solve_rough_point_film(  # reason: those of `solve_point_film`, the surface 
     speeds : as there; one of them must be zero: the body at rest is the rough one, else no film is steady.
     heights : out of the rough body [m], a function of arrays x and y [m] of one shape: `Waves`, `MeasuredHeights`, any.
     least_film : [m], 1 nm by default.
-    shape : (nx, ny) cells; 128 x 128 by default. Take eight cells a wavelength or more.
+    shape : (nx, ny) cells; 128 x 128 by default. Take eight cells a wavelength or more; a small share of the
+        surfaces lies in constrictions at the contact's rim and takes more, see `contact_share_error`.
     cavitation : a `Cavitation` or its name; with SWIFT_STIEBER a film that forms again behind a summit is full at once,
         of oil from nowhere (`created_oil`).
     errors : also solve on half as many cells a side, for `contact_share_error`.

@@ -5,7 +5,16 @@ import math
 import numpy as np
 import pytest
 
-from bem import Lubricant, solve_point_film, solve_rough_point_film
+from bem import (
+    Body,
+    Grid,
+    Lubricant,
+    Material,
+    displacement_operator,
+    solve_point_film,
+    solve_rough_point_film,
+)
+from bem.reference_solutions.hertz import ellipse_contact
 
 MODULUS = 115e9
 OIL = Lubricant(0.03, pressure_viscosity=18e-9)
@@ -39,7 +48,7 @@ def oblique():
 def balances(film):
     """Of cells (nx - 3, ny - 3), in plain SI numbers as `loops` words them: what flows out, over what is dragged."""
     pressure, h = film.oil_pressure, film.thickness
-    log_viscosity = np.log(OIL.viscosity_at(pressure))
+    log_viscosity = np.log(film.lubricant.viscosity_at(pressure))
     speed = np.add(*film.speeds)
     at, weight = np.polynomial.legendre.leggauss(16)
     flows, out = [], 0.0
@@ -61,6 +70,13 @@ def balances(film):
     return out / (h[2:-1, 2:-1] * sum(abs(speed)) / 2 / (film.x[1] - film.x[0]))
 
 
+def whole_balances(film):
+    """Cells (nx - 3, ny - 3) with pressure all around, whose upstream ones are full."""
+    wet = film.oil_pressure > 0
+    along = wet[1:-2, 2:-1] & wet[:-3, 2:-1] & wet[3:, 2:-1]
+    return wet[2:-1, 2:-1] & along & wet[2:-1, 1:-2] & wet[2:-1, :-3] & wet[2:-1, 3:]
+
+
 def test_what_is_said_of_an_oblique_film_holds_in_si_units_alone(oblique):
     assert oblique.status.value == "converged"
     assert 0.01 < oblique.contact_share < 0.1
@@ -72,15 +88,52 @@ def test_what_is_said_of_an_oblique_film_holds_in_si_units_alone(oblique):
     cell = (oblique.x[1] - oblique.x[0]) * (oblique.y[1] - oblique.y[0])
     # what lies outside of the grid is thousandths here
     assert float(oblique.pressure.sum()) * cell == pytest.approx(20.0, rel=5e-3)
-    wet = oblique.oil_pressure > 0
-    # cells with pressure all around have a whole balance: those upstream are full
-    whole = (
-        wet[2:-1, 2:-1] & wet[1:-2, 2:-1] & wet[:-3, 2:-1] & wet[3:, 2:-1]
-        & wet[2:-1, 1:-2] & wet[2:-1, :-3] & wet[2:-1, 3:]
-    )  # fmt: skip
+    whole = whole_balances(oblique)
     assert whole.sum() > 1000
     # solved to 1e-8 of what is dragged; viscosities of 1e3 times the least magnify rounding of pressures
     assert np.abs(balances(oblique)[whole]).max() < 1e-7
+
+
+@pytest.mark.parametrize(
+    ("radii", "load", "modulus", "rms", "viscosity", "speed", "share"),
+    [
+        # gear teeth with crowning at 1.5 GPa: with a film, and creeping
+        ((0.012, 0.06), 780.0, 115e9, 60e-9, 0.012, 0.3, (0.0, 0.01)),
+        ((0.012, 0.06), 780.0, 115e9, 60e-9, 0.012, 1e-3, (0.9, 1.0)),
+        # a polymer ball that creeps
+        ((0.01, 0.01), 5.0, 3.3e9, 300e-9, 0.05, 5e-5, (0.5, 1.0)),
+    ],
+)
+def test_other_contacts_keep_load_oil_and_least_film(radii, load, modulus, rms, viscosity, speed, share):
+    a, b = ellipse_contact(radii=radii, contact_modulus=modulus, load=load).semi_axes
+    rng = np.random.default_rng(3)
+    number = 2 * np.pi / (0.5 * min(a, b)) * 4 ** rng.uniform(-1, 0, (64, 1, 1))
+    angle, phase = rng.uniform(0, 2 * np.pi, (2, 64, 1, 1))
+    film = solve_rough_point_film(
+        load=load,
+        radii=radii,
+        contact_modulus=modulus,
+        speeds=((0.0, 0.0), (0.8 * speed, 0.6 * speed)),
+        lubricant=Lubricant(viscosity, pressure_viscosity=16e-9),
+        heights=lambda x, y: (
+            rms / np.sqrt(32) * np.cos(number * (np.cos(angle) * x + np.sin(angle) * y) + phase).sum(0)
+        ),
+        shape=(64, 64),
+        errors=False,
+    )
+    assert film.status.value == "converged"
+    assert share[0] <= film.contact_share <= share[1]
+    grid = Grid(film.pressure.shape, (film.x[1] - film.x[0], film.y[1] - film.y[0]))
+    operator = displacement_operator(grid, Body(Material("both", youngs_modulus=modulus, poissons_ratio=0.0)))
+    gap = film.x[:, None] ** 2 / (2 * radii[0]) + film.y**2 / (2 * radii[1]) - film.heights
+    thickness = gap + operator(film.pressure) + film.approach_datum
+    np.testing.assert_allclose(thickness, film.thickness, rtol=1e-7, atol=1e-7 * film.least_film)
+    np.testing.assert_allclose(thickness[film.touching], film.least_film, rtol=1e-7)
+    assert thickness.min() > film.least_film * (1 - 1e-7)
+    assert film.contact_pressure.min() >= 0
+    # what lies outside of the grid is thousandths
+    assert float(film.pressure.sum()) * grid.cell_area == pytest.approx(load, rel=2e-3)
+    assert np.abs(balances(film)[whole_balances(film)]).max() < 1e-7
 
 
 def test_a_quarter_turn_of_surface_and_oil_turns_the_film(oblique):
