@@ -7,13 +7,14 @@ most of that oil lies beside Hertz' contact. How far is told by the balance with
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from bem.errors import Status
 from bem.friction.balance import Balance, BalanceStart, Regime, share_load
 from bem.friction.film import BALANCE_CELLS, BALANCE_POINTS, COARSE_TOLERANCE, PatchFilm, SolvedFilm
 from bem.friction.films import films_of
-from bem.friction.forces import friction_forces
+from bem.friction.forces import Forces, friction_forces
 from bem.friction.oil_beside import OilBeside
 from bem.friction.oil_volume import OilVolume
 from bem.friction.rough_contact import rough_contact
@@ -21,7 +22,9 @@ from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 
 TOLERANCE = 1e-3
-"""Of the balance that is compared with: a tenth of the least change that is told."""
+"""Of what is compared with: a tenth of the least change that is told."""
+SEARCHED = 5e-3
+"""Of its balance: the slope there, known to a tenth, says where it is met to a tenth of that."""
 
 
 def oil_beside(
@@ -55,14 +58,27 @@ def oil_beside(
         film = replace(film, tolerance=COARSE_TOLERANCE)
     start = BalanceStart(_first_load(found.film.load, setup.load, before), found.slope, found.contact.pressure)
     other = share_load(
-        film, rough_contact(counted, height, speeds), setup.load, max(setup.tolerance, TOLERANCE), whole, start
+        film, rough_contact(counted, height, speeds), setup.load, max(setup.tolerance, SEARCHED), whole, start
     )
     if other.status is not Status.CONVERGED:
         return own
     forces = friction_forces(other.film, other.contact, counted, speeds)
     carried = 0.0 if other.contact is None else other.contact.load / setup.load
-    other_friction = float(forces.boundary + forces.film) / setup.load
-    return replace(own, loaded_contact_share=carried, loaded_friction=other_friction)
+    more = _left_to_surfaces(other, setup.load) - carried if other.regime is Regime.MIXED else 0.0
+    other_friction = float(forces.boundary + forces.film) / setup.load + more * _slides(forces, other)
+    return replace(own, loaded_contact_share=carried + more, loaded_friction=other_friction)
+
+
+def _left_to_surfaces(found: Balance, load: float) -> float:
+    """Share of the load on the surfaces where they would hold the film's oil exactly, by the slope of a balance."""
+    film_load = found.film.load * math.exp(-math.log1p(found.oil_imbalance) / found.slope)
+    return 1 - min(film_load / load, 1.0)
+
+
+def _slides(forces: Forces, found: Balance) -> float:
+    """What a share of the load more on the surfaces adds to friction; that the film rubs less adds next to nothing."""
+    assert found.contact is not None
+    return forces.boundary / found.contact.load
 
 
 def _first_load(found: float, load: float, before: OilBeside | None) -> float:

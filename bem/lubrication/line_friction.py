@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.lubrication.line_kernel import logarithmic_weights
+from bem.lubrication.line_kernel import logarithmic_integral
 from bem.lubrication.line_linear import DEFLECTION
 from bem.lubrication.line_newton import State
 from bem.lubrication.line_scales import Scales
@@ -79,7 +79,7 @@ def friction_forces(
     behind = (
         state.datum
         + 0.5 * (state.exit + reach) ** 2
-        - DEFLECTION * (logarithmic_weights(reach, state.offset) @ state.pressure)
+        - DEFLECTION * logarithmic_integral(reach, state.offset, state.pressure)
     )
     ambient = lubricant.shear_stress(lubricant.viscosity * difference / (behind * scales.film), 0.0)
     ambient = ambient * film[-1] / behind

@@ -15,14 +15,17 @@ _HEAT = {
 }
 """What is found, and seconds at a speed, whatever the grid."""
 
+_HELD = 1e4
+"""Bytes a node of a line film's weights and of its equations taken apart, 500 to 8000 nodes."""
+
 
 def of_curve(speeds: int, points: int, cells: int | None) -> Step:
     """Films of a curve of so many speeds, of a cylinder on so many points or of a ball on so many cells along an axis:
     a ball's films take longer, and have no start."""
     what = f"for each of {speeds} speeds of a curve, most of them on "
     if cells is None:
-        seconds = speeds * (0.3 + 5e-8 * points**2)
-        return Step("films", f"about 8 {what}a coarser mesh", seconds=seconds, memory=16.0 * points**2)
+        seconds = speeds * (0.05 + 2e-5 * points)
+        return Step("films", f"about 6 {what}a coarser mesh", seconds=seconds, memory=_HELD * points)
     seconds = speeds * (2.0 + 2e-4 * cells**2)
     return Step("films", f"about 10 {what}fewer cells", seconds=seconds, memory=900.0 * cells**2)
 
@@ -45,7 +48,7 @@ def oil_beside(oil_volume: str, speeds: int) -> Step:
     return Step(
         "balance without the oil beside the contact",
         why,
-        seconds=speeds * 0.2,
+        seconds=speeds * 0.03,
         skipped=loaded,
         precision=SEARCHED_IN_SINGLE,
     )
@@ -54,8 +57,8 @@ def oil_beside(oil_volume: str, speeds: int) -> Step:
 def tables(points: int, shared_by: str) -> Step:
     """Films over the load they carry, tabulated once for each speed."""
     what = f"about 20 films for each speed, shared by all {shared_by}"
-    seconds = 20 * 2e-7 * points**2
-    return Step("film tables", what, per="grid", seconds=seconds, memory=16.0 * points**2)
+    seconds = 20 * (0.005 + 1.5e-5 * points)
+    return Step("film tables", what, per="grid", seconds=seconds, memory=20 * _HELD * points)
 
 
 def of_ball(cells: int, *, wanted: bool) -> Step:

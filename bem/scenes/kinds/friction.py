@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from bem.friction.curves import Curve
     from bem.friction.setup import MixedSetup
 
-_CONVOLUTIONS = 70  # of the contacts of one speed
+_CONVOLUTIONS = 45  # of the contacts of one speed: 19 to 57 were counted
 _SEPARATIONS = 10  # of the flow factors' table
 _FILMS_AGAIN = 0.6
 """Of the time of films and their heat, for both balances of error bars: 0.4 to 0.8 was measured, heat or none."""

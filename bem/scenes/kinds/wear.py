@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from bem.scenes.checks.hertz import SmoothContact
     from bem.wear import RunningIn
 
-_CONVOLUTIONS = 28  # of one warm-started contact solve, coarse levels included
+_CONVOLUTIONS = 18  # of one warm-started contact solve, coarse levels included
 _SHARING = 7  # contacts until particles that stay have their share of the load
 _DEPTHS_NEEDED = 8  # before a depth is met at which nothing yields, on average
 _DEPTHS_AT_FIRST = 40  # the same in the first cycle, of sharp asperities
