@@ -1,4 +1,8 @@
-"""Files that are written whole or not at all: into a neighbour first, forced to disk, then renamed."""
+"""Files that are written whole or not at all: into a neighbour first, forced to disk, then renamed.
+
+A new name is on disk once its folder has been forced there (`force_names`): until then a computer that stops may show
+the old file, whole. Whoever writes many files does so once for all of them, a third of what waiting for a disk cost.
+"""
 
 from __future__ import annotations
 
@@ -25,8 +29,6 @@ def replacing(path: Path) -> Iterator[Path]:
         yield temporary
         _sync(temporary)
         os.replace(temporary, path)
-        with suppress(OSError):  # the rename itself; not every file system can
-            _sync(path.parent)
     except OSError as error:
         if isinstance(error, ResultsError):
             raise
@@ -45,6 +47,12 @@ def write_bytes(path: Path, data: bytes) -> None:
 def write_text(path: Path, text: str) -> None:
     """Replace the file's content by `text` in UTF-8; raises ResultsError as `replacing` does."""
     write_bytes(path, text.encode("utf-8"))
+
+
+def force_names(folder: Path) -> None:
+    """Force to disk which files a folder holds, where its file system can."""
+    with suppress(OSError):
+        _sync(folder)
 
 
 def reason(error: OSError) -> str:

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from bem.errors import InputError, ResultsError
-from bem.results.atomic import reason, write_text
+from bem.results.atomic import force_names, reason, write_text
 from bem.results.checkpoint import load_checkpoint, save_checkpoint
 
 SCENE, SUMMARY, RESULTS, REPORT = "scene.toml", "summary.json", "results.nc", "report.html"
@@ -154,7 +154,10 @@ class RunDirectory:
         text = summary_text(summary)
         known = checksums(self.path) | {SUMMARY: hashlib.sha256(text.encode()).hexdigest()}
         write_text(self.path / CHECKSUMS, json.dumps(known, indent=1) + "\n")
+        for folder in dict.fromkeys((self.path / name).parent for name in known):
+            force_names(folder)  # a summary must not be there before what it speaks of
         write_text(self.path / SUMMARY, text)
+        force_names(self.path)
         with suppress(OSError):
             (self.path / CHECKPOINT).unlink(missing_ok=True)
         shutil.rmtree(self.path / CASES, ignore_errors=True)

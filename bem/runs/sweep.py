@@ -20,7 +20,7 @@ from bem.campaigns.jobs import Staff, hand_out
 from bem.errors import InputError, ResultsError
 from bem.plots.sweep import draw_sweep
 from bem.results import RunDirectory
-from bem.results.atomic import reason, write_text
+from bem.results.atomic import force_names, reason, write_text
 from bem.results.dataset import read_dataset, write_variables
 from bem.results.directory import SCENE
 from bem.runs.point import Point, finished_summary, store
@@ -145,6 +145,7 @@ def run_sweep(  # reason: a promise to users' scripts
             spacings = {axis.key: axis.spacing for axis in swept}
             formats = ("png", "pdf") if pdf else ("png",)
             draw_sweep(variables, spacings, get_kind(scenes[0].kind).headline, folder / FIGURE, formats)
+        force_names(folder)
     stuck = [name for name, summary in summaries.items() if summary and summary.get("status") != "converged"]
     return FinishedSweep(folder, len(missing) - len(failed), failed, tuple(stuck))
 

@@ -306,3 +306,23 @@ def test_numbers_are_told_before_pictures_are_drawn(tmp_path, monkeypatch):
     watcher = SimpleNamespace(progress=lambda *_: None, note=lambda _: None, numbers=numbers)
     run_scene(SCENE, tmp_path, watcher=watcher, workers=1)
     assert told == ["numbers", "pictures"]
+
+
+def test_files_are_forced_to_disk_once_and_their_names_folder_by_folder(tmp_path, monkeypatch):
+    """Waiting for the disk was a third of a small point of a sweep: each file's folder was forced with it."""
+    forced, real = [], os.fsync
+
+    def fsync(descriptor):
+        forced.append(os.path.relpath(os.readlink(f"/proc/self/fd/{descriptor}"), tmp_path))
+        real(descriptor)
+
+    if not os.path.isdir("/proc/self/fd"):
+        pytest.skip("the system does not say which file a descriptor is of")
+    monkeypatch.setattr(os, "fsync", fsync)
+    run_scene(SCENE, tmp_path, workers=1)
+    files = [name for name in forced if ".writing-" in name and "checkpoint" not in name]
+    assert len(files) == len(set(files)) == len([item for item in tmp_path.rglob("*") if item.is_file()])
+    folders = [name for name in forced if ".writing-" not in name]
+    assert sorted(folders) == [".", ".", "figures"]
+    assert "summary.json" in forced[-2]
+    assert forced[-1] == "."
