@@ -59,7 +59,8 @@ class LongWaves:
     def on(self, cells: NDArray[Any], row_sums: FloatArray) -> LongWavesOnCells:
         """The middle factor on some cells (flat indices), for a G with these row sums there."""
         width = self.workspace.field.shape[1]
-        blocks, root, inverse_root = _assign(cells, self.rows, self.columns, width, row_sums, self.workspace.given.size)
+        blocks, (root, inverse_root) = np.empty(cells.size, np.int32), np.zeros((2, self.workspace.given.size))
+        _assign(cells, self.rows, self.columns, width, row_sums, blocks, root, inverse_root)
         return LongWavesOnCells(self, blocks, row_sums, root, inverse_root)
 
 
@@ -120,22 +121,18 @@ def long_waves(operator: DisplacementOperator, near: float) -> LongWaves | None:
 
 
 @njit(cache=True, nogil=True)
-def _assign(cells, rows, columns, width, weights, size):  # type: ignore[no-untyped-def]
+def _assign(cells, rows, columns, width, weights, blocks, root, inverse):  # type: ignore[no-untyped-def]
     """The coarse cell of each cell, the root of the sum of squared weights in each coarse cell, and its inverse."""
     ny = columns.size
-    blocks = np.empty(cells.size, np.int32)
-    root = np.zeros(size)
-    inverse = np.zeros(size)
     for k in range(cells.size):
         i = cells[k] // ny
         b = rows[i] * width + columns[cells[k] - i * ny]
         blocks[k] = b
         root[b] += weights[k] * weights[k]
-    for b in range(size):
+    for b in range(root.size):
         if root[b] > 0:
             root[b] = np.sqrt(root[b])
             inverse[b] = 1.0 / root[b]
-    return blocks, root, inverse
 
 
 @njit(cache=True, nogil=True)

@@ -268,24 +268,24 @@ convolution more, and a region that hardly touches loses its pressure for rounds
 
 
 @_fast
-def _region(cell, shape, side):  # type: ignore[no-untyped-def]
-    """The square of `side` cells that a cell is in, and the first cell of its row beyond that square."""
-    i, j = divmod(cell, shape[1])
-    column = j // side
-    return (i // side) * ((shape[1] - 1) // side + 1) + column, cell - j + min(shape[1], (column + 1) * side)
-
-
-@_fast
 def settle(cells, values, cap, shape, side):  # type: ignore[no-untyped-def]
     """What clipping to the bounds will add to each square of `side` cells, its values between the bounds make up for in
     proportion to themselves. `cells` ascend: a square is looked up once for all that follow in its row."""
-    excess = np.zeros(((shape[0] - 1) // side + 1) * ((shape[1] - 1) // side + 1))
+    ny, across = shape[1], (shape[1] - 1) // side + 1
+    excess = np.zeros(((shape[0] - 1) // side + 1) * across)
     inside = np.zeros(excess.size)
-    b = 0
-    stop = 0
+    squares = np.empty(cells.size, np.int32)
+    row, first, stop, b = 0, 0, 0, np.uint64(0)
     for k in range(cells.size):
-        if cells[k] >= stop:
-            b, stop = _region(cells[k], shape, side)
+        cell = cells[k]
+        if cell >= stop:
+            while cell >= first + ny:
+                row += 1
+                first += ny
+            column = np.uint64(cell - first) // np.uint64(side)
+            b = np.uint64(row // side * across) + column
+            stop = first + min(ny, np.int64(column + np.uint64(1)) * side)
+        squares[k] = b
         value = values[k]
         if value <= 0:
             excess[b] -= value
@@ -293,16 +293,12 @@ def settle(cells, values, cap, shape, side):  # type: ignore[no-untyped-def]
             excess[b] += cap - value
         else:
             inside[b] += value
-    for b in range(excess.size):
-        excess[b] = 1 - max(-_MOST, min(_MOST, excess[b] / inside[b])) if inside[b] > 0 else 1.0
-    stop = 0
-    factor = 1.0
+    for square in range(excess.size):
+        share = excess[square] / inside[square] if inside[square] > 0 else 0.0
+        excess[square] = 1 - max(-_MOST, min(_MOST, share))
     for k in range(cells.size):
-        if cells[k] >= stop:
-            b, stop = _region(cells[k], shape, side)
-            factor = excess[b]
         if 0 < values[k] < cap:
-            values[k] *= factor
+            values[k] *= excess[np.uint64(squares[k])]
 
 
 def shifted_sum(values: FloatArray, shift: float, cap: float) -> tuple[float, int]:

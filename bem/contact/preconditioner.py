@@ -128,7 +128,9 @@ class SparseInverseOnCells:
 
     def row_sums(self) -> FloatArray:
         """G applied to a constant."""
-        return np.asarray(_row_sums(self.rows))
+        out = np.empty(self.rows.pattern.size)
+        _row_sums(self.rows, out)
+        return out
 
     def spread(self, residual: FloatArray, out: FloatArray) -> None:
         """out = G residual."""
@@ -284,15 +286,13 @@ def _solve_patterns(pattern, offsets, near_field, table, solved):  # type: ignor
 
 
 @_fast
-def _row_sums(rows):  # type: ignore[no-untyped-def]
+def _row_sums(rows, out):  # type: ignore[no-untyped-def]
     columns, pattern, table = rows
-    out = np.empty(pattern.size)
     for k in range(pattern.size):
         s = 0.0
         for a in range(columns.shape[1] + 1):
-            s += table[pattern[k], a]
+            s += table[np.uint64(pattern[k]), a]
         out[k] = s
-    return out
 
 
 @_fast
