@@ -50,6 +50,9 @@ Close = Callable[[Level, Iterate, Opening, Control, float, Effort], FloatArray]
 _FALL = 1e-9
 """Fall of the energy, relative to the sum of its terms, that counts as progress where no round may raise it."""
 
+_RESOLVED = 5
+"""Rounds without progress that are made where all that is missed is round-off of the transforms."""
+
 _FEW = 0.1
 """Cells between the bounds over cells at the cap, below which the contact counts as fully plastic."""
 
@@ -89,8 +92,8 @@ def solve_level(
         if effort.left <= 0 or progress.rounds >= tuning.rounds:
             return now.result(level)
         current = now.reached
-        if progress.stalls(now.violation, current.potential(control), current.size):
-            return now.result(level)
+        if progress.stalls(now.violation, current.potential(control), current.size, resolved=now.resolved):
+            return replace(now.result(level), resolved=now.resolved)
         before = current if energetic else None
         improved = progress.improves(now.violation)
         progress.set_release(now.violation, guarded=energetic)
@@ -124,6 +127,7 @@ class _Round:
     found: NDArray[np.int32]
     violation: float
     goal: float
+    resolved: bool
 
     @property
     def iterate(self) -> Iterate:
@@ -157,12 +161,13 @@ class _Progress:
     unimproved: int = 0
     release: float = 0.0
 
-    def stalls(self, violation: float, potential: float, size: float) -> bool:
-        """Whether there is no use in going on: neither the violation nor, where it must, the energy falls."""
+    def stalls(self, violation: float, potential: float, size: float, *, resolved: bool) -> bool:
+        """Whether there is no use in going on: neither the violation nor, where it must, the energy falls. `resolved`
+        where that is round-off."""
         fell = self.tuning.patience == 0 and potential < self.lowest - _FALL * size
         self.waited = 0 if violation < 0.7 * self.mark or fell else self.waited + 1
         self.mark, self.lowest = min(self.mark, violation), min(self.lowest, potential)
-        return self.waited > self.tuning.stall
+        return self.waited > (min(_RESOLVED, self.tuning.stall) if resolved else self.tuning.stall)
 
     def improves(self, violation: float) -> bool:
         """Whether the violation is the least so far, by a tenth."""
@@ -230,7 +235,8 @@ def _judge(level: Level, control: Control, iterate: Iterate, before: Accepted | 
     found, largest = passes.find_violations(level.flat["displacement"], level.gap, level.state, approach)
     violation = max(largest, seen.deepest - approach, approach - seen.nearest)
     goal = tolerance.of(approach, seen.reach)
-    return _Round(Accepted.of(iterate, approach, seen), share, found, violation, goal)
+    resolved = tolerance.resolves(violation, seen.reach)
+    return _Round(Accepted.of(iterate, approach, seen), share, found, violation, goal, resolved)
 
 
 def _approach(level: Level, control: Control, iterate: Iterate, total: float) -> float:

@@ -59,6 +59,11 @@ class Tolerance:
     length: float
     relative: float
 
+    @staticmethod
+    def resolves(violation: float, reach: float) -> bool:
+        """Whether a violation is near what transforms resolve of displacements that reach so far."""
+        return violation <= _FLAT_RESOLUTION * reach
+
     def of(self, approach: float, reach: float) -> float:
         """The length that holds where displacements reach so far; never below what double precision can resolve."""
         goal = min(self.length, self.relative * reach)
@@ -72,6 +77,7 @@ class LevelResult:
     """Where a level ended: scaled pressure and displacement (flat), approach, largest violation, and how.
 
     `fresh` : the displacement is the operator applied to this very pressure, not put together from others.
+    `resolved` : not converged, and what is missed is round-off of the transforms: no use in trying another way.
     `least_mean_gap` : where less was asked for, a bound below which no mean gap exists.
     """
 
@@ -81,6 +87,7 @@ class LevelResult:
     violation: float
     converged: bool = False
     fresh: bool = True
+    resolved: bool = False
     least_mean_gap: float | None = None
 
 

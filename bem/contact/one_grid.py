@@ -96,7 +96,7 @@ class Problem:
         """Load or approach, from a start; see `search.Solve`."""
         shared, allowed = self.shared, self.shared.allowed(tolerance)
         result = self.plain(control, start, tolerance)
-        if result.converged or shared.effort.left <= 0:
+        if result.converged or result.resolved or shared.effort.left <= 0:
             return result
         if not self.operator.symmetric:
             return _lagged(self, control, start, allowed)
@@ -105,7 +105,7 @@ class Problem:
         for clipping in (shared.tuning.clipping, 0.0):
             wary = replace(shared.tuning, patience=0, rounds=_WARY_ROUNDS, clipping=clipping)
             result = self.level(control, result.pressure, allowed, wary)
-            if result.converged or shared.effort.left <= 0:
+            if result.converged or result.resolved or shared.effort.left <= 0:
                 break
         return result
 
@@ -135,7 +135,7 @@ def solve_on_grid(problem: Problem, control: Control, start: Start, tolerance: f
     # displacements without a mean: next to full contact an approach is far harder than a load, and the guard is dear
     first = problem.plain if problem.operator.mean_free else problem.direct
     result = first(control, start.pressure, tolerance)
-    if result.converged or problem.shared.effort.left <= 0:
+    if result.converged or result.resolved or problem.shared.effort.left <= 0:
         return result
     cells = problem.gap.size
     return approach_by_load(control.approach, problem.cap, None, cells, problem.shared.scale, tolerance, problem.direct)
@@ -147,7 +147,7 @@ def _with_mean_gap(problem: Problem, mean_gap: float, start: Start, tolerance: f
     # displacements are not negative on average, so this approach is not enough
     least = float(gap.mean()) - mean_gap
     result = problem.followed(mean_gap, start.pressure, tolerance)
-    if result.converged or problem.shared.effort.left <= 0:
+    if result.converged or result.resolved or problem.shared.effort.left <= 0:
         return result
     result = mean_gap_by_approach(
         mean_gap,
