@@ -19,6 +19,8 @@ from bem.laws import Law, register
 ROELANDS_PRESSURE = 1.962e8
 """Pole of Roelands' law [Pa]; Roelands, *Correlational aspects of the viscosity-temperature-pressure
 relationship of lubricating oils* (1966)."""
+LARGEST_EXPONENT = 10.0
+"""z of Roelands' law up to which it is taken: eight times that of any oil."""
 ROELANDS_VISCOSITY = 6.315e-5
 """Viscosity that all oils share at the pole [Pa s]: exp(-9.67)."""
 
@@ -95,9 +97,16 @@ class Roelands(ViscosityLaw):
         return span * (power - 1), pressure_viscosity * power / base
 
     def refusals(self, viscosity: float, pressure_viscosity: float) -> Iterable[str]:
-        """The oil must be more viscous than the pole."""
+        """The oil must be more viscous than the pole, and its exponent z one of a liquid: 0.2 to 1.2."""
         if viscosity <= 1.01 * ROELANDS_VISCOSITY:
             yield (
                 f"Roelands' law needs a viscosity above {ROELANDS_VISCOSITY:g} Pa s, not {viscosity!r}; "
                 'use viscosity_law="barus" or "isoviscous"'
+            )
+        elif (exponent := pressure_viscosity * ROELANDS_PRESSURE / math.log(viscosity / ROELANDS_VISCOSITY)) > (
+            LARGEST_EXPONENT
+        ):
+            yield (
+                f"pressure_viscosity {pressure_viscosity!r} 1/Pa makes Roelands' exponent {exponent:.3g}, that of oils "
+                f"is 0.2 to 1.2 and up to {LARGEST_EXPONENT:g} is taken; check the units: 20 1/GPa are 20e-9"
             )

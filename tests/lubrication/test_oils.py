@@ -259,3 +259,10 @@ def test_every_entry_has_a_source():
         assert oil.limits_source or not (oil.freezing_point or oil.flash_point or oil.boiling_point)
     assert all(len(correlation(name).source) > 20 for name in correlations())
     assert "mineral" in bases()
+
+
+def test_a_slip_of_units_in_the_pressure_coefficient_is_said():
+    """20 1/Pa for 20 1/GPa: films of it had no finite residual."""
+    with pytest.raises(InputError, match="20 1/GPa are 20e-9"):
+        Lubricant(0.1, pressure_viscosity=20.0)
+    assert Lubricant(0.1, pressure_viscosity=20e-9).pressure_viscosity == 20e-9

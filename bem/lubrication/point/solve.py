@@ -26,6 +26,8 @@ from bem.threads import one_blas_thread
 
 MOES_LOADS = (1e-2, 1e5)
 """Loads M for which a film is looked for: below, the bodies are rigid."""
+LARGEST_MATERIAL = 200.0
+"""Moes' L up to which a film is looked for: eight times that of the stiffest oils under hard bodies at speed."""
 RATIOS = (1e-3, 1e3)
 """Ratios of radii Rx/Ry for which a film is looked for; beyond, a contact is a line contact."""
 SHAPE = (256, 256)
@@ -106,7 +108,8 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
         edges(extent), both, lambda unit: plane_walls_of(flow_factors, unit, pair),
     )  # fmt: skip
     check_load(setting, load)
-    check_extent(setting)
+    check_oil(setting, lubricant)
+    check_extent(setting, cells)
     along = (cells[1], cells[0]) if setting.frame.exchanged else cells
     flooded = reached = solved(setting.problem, along, tolerance, max_iterations)
     lacking = None
@@ -213,16 +216,49 @@ def check_load(setting: Setting, load: float) -> None:
             f"load: {load!r} N is {scales.load:.3g} in Moes' units of a point contact; a film is looked for between "
             f"{low:g} and {high:g}. {advice}"
         )
+    if setting.hertz is None:
+        return
+    along, across = (half * scales.film / scales.length for half in setting.hertz.semi_axes)  # over the radius along
+    larger = max(along, across * scales.ratio)
+    if larger > 1:
+        raise InputError(
+            f"load: {load!r} N makes a contact {larger:.3g} times as large as the radius of the body: check the units "
+            "of load, radii and contact_modulus [N, m, Pa]"
+        )
 
 
-def check_extent(setting: Setting) -> None:
-    """Refuse grids without the contact."""
+def check_oil(setting: Setting, lubricant: Lubricant) -> None:
+    """Refuse an oil that no pressure lets flow."""
+    material = lubricant.pressure_viscosity * setting.scales.pressure
+    if not setting.scales.rigid and material > LARGEST_MATERIAL:
+        raise InputError(
+            f"lubricant: pressure_viscosity {lubricant.pressure_viscosity!r} 1/Pa is L = {material:.3g} in Moes' units "
+            f"of this contact; oils have 0 to 25, and up to {LARGEST_MATERIAL:g} a film is looked for; check the "
+            "units: 20 1/GPa are 20e-9"
+        )
+
+
+def check_extent(setting: Setting, cells: tuple[int, int] | None = None) -> None:
+    """Refuse grids without the contact, and cells larger than it and the film around it."""
     scales, frame = setting.scales, setting.frame
     x0, x1, y0, y1 = setting.problem.rectangle
     a, b = (0.0, 0.0) if setting.hertz is None else setting.hertz.semi_axes
     if not (x0 < -a and x1 > a and y0 < -b and y1 > b):
         size = " x ".join(f"{v * scales.length:.3g}" for v in frame.pair((a, b)))
         raise InputError(f"extent: must hold the contact, half-axes {size} m in x and y, with room for the inlet")
+    if cells is None:
+        return
+    film, curvatures = setting.problem.typical_film, setting.problem.curvatures
+    names = ("y", "x") if frame.exchanged else ("x", "y")
+    for name, half, curvature, length, n in zip(
+        names, (a, b), curvatures, (x1 - x0, y1 - y0), frame.pair(cells), strict=True
+    ):
+        room = half + math.sqrt(2 * film / curvature)
+        if length / n > room:
+            raise InputError(
+                f"extent: cells of {length / n * scales.length:.3g} m along {name} are larger than the contact and the "
+                f"film around it, {room * scales.length:.3g} m; make the grid smaller, or leave extent out"
+            )
 
 
 def checked(

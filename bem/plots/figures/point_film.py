@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from bem.plots.figures import FigureKind
@@ -20,6 +21,8 @@ _LIGHT = (630e-9, 532e-9, 465e-9)
 """Wavelengths of red, green and blue [m]."""
 _DOTS = 700
 """Of an interferogram along each axis, at least."""
+_TICKS = 6
+"""Of the longer horizontal axis of a surface, at most."""
 _THICK = 3.0
 """Central films at which a map's colours end."""
 
@@ -135,6 +138,9 @@ def _surface(run: Any, figure: Figure) -> None:
     axes.set_xlabel(label("x", unit))
     axes.set_ylabel(label("y", unit))
     axes.set_zlabel(label("pressure", force_unit))
+    for axis, length in ((axes.xaxis, x[-1] - x[0]), (axes.yaxis, y[-1] - y[0])):
+        ticks = max(2, round(_TICKS * length / max(x[-1] - x[0], y[-1] - y[0])))  # short axes have room for few
+        axis.set_major_locator(MaxNLocator(ticks))
     axes.view_init(elev=32, azim=-120)
 
 

@@ -66,6 +66,7 @@ def _pressure(run: Any, figure: Figure) -> None:
 def _maps(run: Any, figure: Figure, name: str, text: str, unit: str) -> None:
     chosen = [(film, np.where(maps[0] > 0, maps[0], np.nan)) for film, maps in grouped(run, name)][:4]
     values = np.array([shown for _, shown in chosen])
+    figure.set_size_inches(1 + 3.2 * len(chosen), figure.get_figheight())  # of few maps the rest was empty
     limit = float(np.nanmax(values)) if np.isfinite(values).any() else 1.0
     x, y = run.dataset["x"].values, run.dataset["y"].values
     for axes, (film, shown) in zip(np.atleast_1d(figure.subplots(1, len(chosen))), chosen, strict=True):

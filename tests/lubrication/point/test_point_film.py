@@ -420,6 +420,10 @@ def test_notes_say_where_the_model_ends():
         ({"load": 1e9}, "cannot carry"),
         ({"extent": (-1e-6, 1e-6, -1e-6, 1e-6)}, "must hold the contact"),
         ({"lubricant": 0.1}, "is not a Lubricant"),
+        # slips of units: a film of a millimetre was converged, and one of 0.9 m had no finite residual
+        ({"contact_modulus": 115.0}, "times as large as the radius of the body"),
+        ({"lubricant": Lubricant(0.1, pressure_viscosity=20.0, viscosity_law="barus")}, "20 1/GPa are 20e-9"),
+        ({"extent": (-0.1, 0.1, -0.1, 0.1)}, "larger than the contact and the film around it"),
     ],
 )
 def test_mistakes_are_named(change, words):
