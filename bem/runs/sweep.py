@@ -18,7 +18,7 @@ from bem.campaigns.cases import axes_of_keys
 from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.jobs import Staff, hand_out
 from bem.errors import InputError, ResultsError
-from bem.plots.sweep import draw_sweep
+from bem.plots.draw import load_what_draws
 from bem.results import RunDirectory
 from bem.results.atomic import force_names, reason, write_text
 from bem.results.dataset import read_dataset, write_variables
@@ -142,6 +142,8 @@ def run_sweep(  # reason: a promise to users' scripts
         variables = _collect(folder, scenes[0], axes, in_order)
         write_text(folder / TABLE, table_text(axes, in_order, names, failed))
         if any(in_order):
+            from bem.plots.sweep import draw_sweep
+
             spacings = {axis.key: axis.spacing for axis in swept}
             formats = ("png", "pdf") if pdf else ("png",)
             draw_sweep(variables, spacings, get_kind(scenes[0].kind).headline, folder / FIGURE, formats)
@@ -194,6 +196,7 @@ def _compute(
         watcher.progress(before, total, "points", {})
     with closing(hand_out(missing, staff, lambda index: Silent(), watcher.note)) as results:  # ends all work at once
         for _, done in results:
+            load_what_draws()  # once, while others compute
             if done.files and staff.folder is not None:
                 store(done, staff.folder / done.name)
             summaries[done.name] = done.summary

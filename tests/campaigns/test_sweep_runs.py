@@ -297,7 +297,7 @@ STRIBECK = {
 def test_curves_have_the_speed_as_a_dimension_and_overlay_by_the_swept_value(tmp_path, here, monkeypatch):
     drawn = []
     monkeypatch.setattr(
-        "bem.runs.sweep.draw_sweep", lambda variables, spacings, *_: drawn.append((variables, spacings))
+        "bem.plots.sweep.draw_sweep", lambda variables, spacings, *_: drawn.append((variables, spacings))
     )
     done = run_sweep(STRIBECK, ["oil.viscosity=0.18 Pa*s,0.36 Pa*s"], tmp_path / "s")
     data = done.dataset

@@ -175,3 +175,18 @@ assert not hasattr(pyfftw.interfaces, "nothing_of_this_name")
 def test_numbers_are_spelt_without_matplotlib():
     """They are on the terminal before anything that draws is loaded."""
     assert "matplotlib" not in loaded("from bem.plots.report import spelled, write_report; spelled('load_N', 1.0)")
+
+
+def test_a_sweep_loads_what_draws_once_a_point_is_there(tmp_path):
+    """Workers wait for what is loaded before them; a bad range needs no pictures."""
+    code = """
+import sys
+from bem.errors import InputError
+from bem.runs import run_sweep
+assert "matplotlib" not in sys.modules
+try:
+    run_sweep("hertz-sphere", ["contact.load=-1 N,2 N"], sys.argv[1])
+except InputError:
+    pass
+"""
+    assert "matplotlib" not in loaded(code, str(tmp_path / "sweep"))

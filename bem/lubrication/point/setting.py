@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from bem.convolution import DisplacementOperator, displacement_operator
 from bem.grid import FloatArray, Grid
@@ -180,6 +179,8 @@ def typical_film(scales: PointScales, drag: tuple[float, float], pressure_viscos
 def _film_between(walls: PlaneWalls, film: float) -> float:
     """Film to be expected between rough walls where it would be `film` between smooth ones: that of an oil of the
     viscosity over phi_x, with whose power 2/3 films go."""
+    from scipy.optimize import brentq
+
     least, most = film / 10, film * LEAST_FACTOR ** (-2 / 3)
 
     def missing(log: float) -> float:
@@ -193,6 +194,7 @@ def _film_between(walls: PlaneWalls, film: float) -> float:
 
 def default_rectangle(hertz: PointContact | None, ratio: float, film: float, drag: tuple[float, float]) -> Rectangle:
     """Edges where the dry gap has opened to some films."""
+    from scipy.optimize import brentq
 
     def reach(along_y: bool, films: float) -> float:
         opening, curvature = films * film, ratio if along_y else 1.0
