@@ -25,8 +25,9 @@ HalfArray = NDArray[np.float32]
 
 SPREADING = 1.0
 """Pressure flow over what deflection drags, below which a cell is relaxed with a counterpart around it."""
-DAMPING = (0.9, 0.7)
-"""Of changes of a cell's own, and of those with a counterpart."""
+DAMPING = (1.0, 1.0), (0.9, 0.7)
+"""Of changes of a cell's own, and of those with a counterpart, of smooth surfaces and of rough ones, whose lines hear
+less of each other (`lines.relax`): with films heard of, too, as many random rough balls are found, but not the same."""
 
 
 @dataclass(frozen=True)
@@ -109,16 +110,16 @@ class Linear:
         return out
 
     def relaxed(self, residual: FloatArray, back: bool) -> FloatArray:
-        """Pressures that a sweep over lines adds, there or back; of oil that comes at an angle the way back is along
-        the other axis."""
+        """Pressures that a sweep over lines adds, there or back; of oil that comes at an angle both go with it, the way
+        back over lines along the other axis."""
         level, out = self.level, np.zeros(self.level.shape)
-        if back and level.problem.drag[1] > 0:
-            crossed = np.zeros(level.shape[::-1])
-            right = np.ascontiguousarray(residual.T)
-            lines.relax(self._lines_across, level.spacing[::-1], self.kinds.T.copy(), right, DAMPING, True, crossed)
-            out[:] = crossed.T
-        else:
-            lines.relax(self._lines, level.spacing, self.kinds, residual, DAMPING, back, out)
+        problem = level.problem
+        along_y = int(back and problem.drag[1] > 0)
+        factors, near = (self._lines_across, level.near_across) if along_y else (self._lines, level.near)
+        lines.relax(
+            factors, self.stencil, level.spacing, problem.drag, problem.storing, along_y, near, self.kinds, residual,
+            back and not along_y, DAMPING[problem.heights is not None], out,
+        )  # fmt: skip
         np.copyto(out, residual, where=level.border)
         out[self.held] = 0.0
         return out
@@ -126,20 +127,17 @@ class Linear:
     @cached_property
     def _lines(self) -> HalfArray:
         """Factors of the lines along x; half the digits are enough for what GMRES puts right."""
-        level, problem = self.level, self.level.problem
-        factors = np.zeros((level.shape[1], level.shape[0], lines.KEPT), np.float32)
-        steps, near = level.spacing, level.near
-        lines.factorise(self.stencil, steps, problem.drag, problem.storing, near, self.kinds, factors)
-        return factors
+        return self._factorised(0, self.level.near)
 
     @cached_property
     def _lines_across(self) -> HalfArray:
         """Those of the lines along y."""
+        return self._factorised(1, self.level.near_across)
+
+    def _factorised(self, along_y: int, near: FloatArray) -> HalfArray:
         level, problem = self.level, self.level.problem
-        crossed = np.ascontiguousarray(self.stencil[[4, 5, 6, 7, 0, 1, 2, 3, 8, 9, 10, 12, 11]].transpose(0, 2, 1))
-        factors = np.zeros((*level.shape, lines.KEPT), np.float32)
-        steps, drag, kinds = level.spacing[::-1], problem.drag[::-1], self.kinds.T.copy()
-        lines.factorise(crossed, steps, drag, problem.storing, level.near_across, kinds, factors)
+        factors = np.zeros((level.shape[1 - along_y], level.shape[along_y], lines.KEPT), np.float32)
+        lines.factorise(self.stencil, level.spacing, problem.drag, problem.storing, along_y, near, self.kinds, factors)
         return factors
 
     @cached_property

@@ -190,36 +190,52 @@ def _shares(comes: float, leaves: float, first: bool) -> tuple[float, float, flo
 
 
 @nb.njit(**COMPILE)
-def fill_row(
+def fill_row(  # reason: Numba compiles plain arrays; they are the parts of one equation
     s: FloatArray,
     spacing: tuple[float, float],
     drag: tuple[float, float],
     storing: float,
+    along_y: int,
+    upwind: bool,
     i: int,
     j: int,
     rows: FloatArray,
 ) -> None:
-    """Derivatives (2, 7) of the balance of inner cell [i, j] with pressures, films held, and with films, at
-    [i - 2 .. i + 1, j], then at [i, j - 2], [i, j - 1], [i, j + 1]. Plain numbers: parts of arrays, which are counted
-    as they come and go, cost three times as much here."""
-    x, y = 1.0 / spacing[0], 1.0 / spacing[1]
-    back, up = max(i - 2, 0), max(j - 2, 0)  # shares of those before the first cell are zero
-    w0, w1, w2, w3 = _shares(s[11, i - 1, j] * x, s[11, i, j] * x, i == 1)
-    w2 += 6.0 * storing * s[8, i, j]
-    v0, v1, v3 = 0.0, 0.0, 0.0
-    if drag[1] != 0.0:
-        v0, v1, v2, v3 = _shares(s[12, i, j - 1] * y, s[12, i, j] * y, j == 1)
+    """Derivatives (2, 7) of the balance of an inner cell with pressures, films held, and with films, at the cells - 2
+    .. + 1 of its line, then at those - 2, - 1, + 1 across it: i along the line and j across, which is [i, j] of lines
+    along x and [j, i] of those along y. upwind : whether what is dragged across lines is of the cell before alone.
+    Plain numbers: parts of arrays, which are counted as they come and go, cost three times as much here."""
+    x, y = 1.0 / spacing[along_y], 1.0 / spacing[1 - along_y]
+    along, across = 4 * along_y, 4 - 4 * along_y
+    e, f = (j, i) if along_y else (i, j)
+    ei, ej, fi, fj = 1 - along_y, along_y, along_y, 1 - along_y
+    ahead_i, ahead_j, back_i, back_j = e + ei, f + ej, e - ei, f - ej
+    over_i, over_j, under_i, under_j = e + fi, f + fj, e - fi, f - fj
+    # shares of those before the first cell are zero
+    first_i, first_j = max(back_i - ei, 0), max(back_j - ej, 0)
+    last_i, last_j = max(under_i - fi, 0), max(under_j - fj, 0)
+    w0, w1, w2, w3, v0, v1, v3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    if drag[along_y] != 0.0:
+        w0, w1, w2, w3 = _shares(s[11 + along_y, back_i, back_j] * x, s[11 + along_y, e, f] * x, i == 1)
+    w2 += 6.0 * storing * s[8, e, f]
+    if drag[1 - along_y] != 0.0:
+        comes, leaves = s[12 - along_y, under_i, under_j] * y, s[12 - along_y, e, f] * y
+        v2 = leaves
+        if upwind:
+            v1 = -comes
+        else:
+            v0, v1, v2, v3 = _shares(comes, leaves, j == 1)
         w2 += v2
     for by in range(2):
-        flow, oil = 2 * by, 10 - by
-        rows[by, 0] = w0 * s[oil, back, j]
-        rows[by, 1] = w1 * s[oil, i - 1, j] - s[flow, i - 1, j] * x
-        own = (s[flow, i, j] - s[flow + 1, i - 1, j]) * x + (s[flow + 4, i, j] - s[flow + 5, i, j - 1]) * y
-        rows[by, 2] = w2 * s[oil, i, j] + own
-        rows[by, 3] = w3 * s[oil, i + 1, j] + s[flow + 1, i, j] * x
-        rows[by, 4] = v0 * s[oil, i, up]
-        rows[by, 5] = v1 * s[oil, i, j - 1] - s[flow + 4, i, j - 1] * y
-        rows[by, 6] = v3 * s[oil, i, j + 1] + s[flow + 5, i, j] * y
+        c, b, oil = along + 2 * by, across + 2 * by, 10 - by
+        rows[by, 0] = w0 * s[oil, first_i, first_j]
+        rows[by, 1] = w1 * s[oil, back_i, back_j] - s[c, back_i, back_j] * x
+        own = (s[c, e, f] - s[c + 1, back_i, back_j]) * x + (s[b, e, f] - s[b + 1, under_i, under_j]) * y
+        rows[by, 2] = w2 * s[oil, e, f] + own
+        rows[by, 3] = w3 * s[oil, ahead_i, ahead_j] + s[c + 1, e, f] * x
+        rows[by, 4] = v0 * s[oil, last_i, last_j]
+        rows[by, 5] = v1 * s[oil, under_i, under_j] - s[b, under_i, under_j] * y
+        rows[by, 6] = v3 * s[oil, over_i, over_j] + s[b + 1, e, f] * y
 
 
 @nb.njit(**COMPILE)
@@ -248,7 +264,7 @@ def fill_rows(
     rows = np.zeros((2, 7))
     for i in range(1, nx - 1):
         for j in range(1, ny - 1):
-            fill_row(stencil, spacing, drag, storing, i, j, rows)
+            fill_row(stencil, spacing, drag, storing, 0, False, i, j, rows)
             for t in range(7):
                 k = i + t - 2 if t < 4 else i
                 m = j if t < 4 else j + (t - 6 if t < 6 else 1)

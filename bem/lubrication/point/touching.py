@@ -48,7 +48,7 @@ def _oil_rows(  # reason: Numba compiles plain arrays; they are the parts of one
             n = number[i, j]
             if n < 0:
                 continue
-            loops.fill_row(stencil, spacing, drag, 0.0, i, j, rows)
+            loops.fill_row(stencil, spacing, drag, 0.0, 0, False, i, j, rows)
             for t in range(7):
                 k = i + t - 2 if t < 4 else i
                 m = j if t < 4 else j + (t - 6 if t < 6 else 1)

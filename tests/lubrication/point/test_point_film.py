@@ -250,6 +250,12 @@ def test_entrainment_across_is_the_same_as_axes_exchanged_and_backwards_the_same
     assert two.shear_force[0] == pytest.approx([-one.shear_force[0, 1], one.shear_force[0, 0]], rel=1e-6)
 
 
+@pytest.mark.parametrize(("load", "most"), [(100, 24), (10000, 32)])
+def test_oil_at_an_angle_takes_no_more_cycles_than_along_an_axis(load, most):
+    """66 and 170 where waves across the flow grew from sweep to sweep."""
+    assert solve_point_film(**moes(load, 10, 1.0, math.radians(35)), shape=(112, 112)).cycles <= most
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_any_contact_converges_from_nothing(seed):
     rng = np.random.default_rng(seed)
