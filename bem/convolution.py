@@ -276,18 +276,20 @@ class DisplacementOperator:
         return ScaledConvolution(transform, self._multipliers[key], self.count, self.weight)
 
     def scaled_inverse(self, dtype: DTypeLike = np.float64) -> ScaledConvolution:
-        """The inverse of the symmetric part with the grid taken as periodic in its padded lengths.
-
-        Exact on doubly periodic grids (but for the mean, which is dropped), a preconditioner on others.
-        """
+        """The inverse on a doubly periodic grid, with what friction couples; the mean is dropped."""
         key = (np.dtype(dtype).char, "inverse")
         if key not in self._multipliers:
-            even = self._spectra.even
-            inverse = np.zeros_like(even)
+            even, odd = self._spectra.even, self._spectra.odd
             # the spectrum of truncated coefficients may touch zero: bounded so that the inverse stays definite
             floor = 1e-3 * float(even.min(initial=math.inf, where=even > 0))
-            np.divide(1.0, np.maximum(np.abs(even), floor), out=inverse, where=even != 0)
-            self._multipliers[key] = Multiplier(inverse).astype(dtype)
+            bounded = np.maximum(np.abs(even), floor)
+            if odd is None:
+                parts = [(np.divide(1.0, bounded, out=np.zeros_like(even), where=even != 0), EVEN, 1.0)]
+            else:
+                # 1 / (S + iA) = (S - iA) / (S^2 + A^2)
+                share = np.divide(1.0, bounded**2 + odd**2, out=np.zeros_like(even), where=even != 0)
+                parts = [(share * bounded, EVEN, 1.0), (share * odd, ODD_IN_X, -1.0)]
+            self._multipliers[key] = multiplier(parts).astype(dtype)
         transform = transform_of(self.grid.shape, self.padded, dtype)
         return ScaledConvolution(transform, self._multipliers[key], self.count, self.weight)
 

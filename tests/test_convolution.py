@@ -150,9 +150,11 @@ def test_single_precision_twin_and_symmetric_part():
     assert np.abs(symmetric - expected).max() <= 1e-14 * np.abs(expected).max()
 
 
-def test_inverse_on_a_doubly_periodic_grid():
-    grid = Grid((12, 15), (1e-6, 1e-6), periodic=(True, True))
-    op = displacement_operator(grid, Body(STEEL))
+@pytest.mark.parametrize("shape", [(12, 15), (15, 12), (1, 12), (12, 1)])
+@pytest.mark.parametrize("friction", [0.0, -2.0])
+def test_inverse_on_a_doubly_periodic_grid(shape, friction):
+    grid = Grid(shape, (1e-6, 1e-6), periodic=(True, True))
+    op = displacement_operator(grid, Body(STEEL), friction=friction)
     pressure = np.random.default_rng(3).standard_normal(grid.shape)
     pressure -= pressure.mean()
     there = op.scaled().apply(pressure, np.empty(grid.shape))

@@ -95,6 +95,20 @@ def test_mean_gap_near_full_contact_below_a_high_cap(seed, share):
     np.testing.assert_allclose(capped.pressure, elastic.pressure, atol=1e-5 * elastic.pressure.max())
 
 
+@pytest.mark.parametrize("shape", [(17, 18), (22, 25), (18, 1)])
+def test_mean_gap_of_zero_with_friction_beside_a_rigid_body(shape):
+    """Full contact was written down without what friction adds to the gap, and stalled after two convolutions."""
+    grid = Grid(shape, (1.0, 1.0), periodic=PERIODIC)
+    body = Body(Material("cork", youngs_modulus=1.0, poissons_ratio=0.0))
+    op = displacement_operator(grid, body, friction=0.9)
+    gap = rough(*shape, seed=3)
+    solution = solve_contact(gap, op, mean_gap=0.0)
+    assert solution.status == "converged"
+    closed = gap + op(solution.pressure)
+    assert np.ptp(closed) <= 1e-12 * gap.std()
+    assert solution.pressure.min() == 0.0
+
+
 @pytest.mark.parametrize("low", [1, 6, 12])
 def test_approach_of_a_step_near_full_contact(low):
     """On the coarse grids the mean gap of the step is another: the approach was beyond it, where there is no answer."""
