@@ -344,6 +344,8 @@ def _certified(
         oil_imbalance, held = contact.opening / _oil(film, rough) - 1, _holds_oil(trial, rough, tolerance)
     if regime is Regime.BOUNDARY:
         notes.append(boundary_note(film.load / load))
+        if contact is not None:
+            film = film.left_in(contact.opening, _oil(film, rough))
     if short:
         notes.append(_short_note(film.load))
     status = Status.CONVERGED

@@ -63,6 +63,16 @@ class PatchFilm:
         """What the rough contact's own deflection adds to, but for a constant [m]."""
         return self.thickness if self.smooth_gap is None else self.smooth_gap
 
+    def left_in(self, opening: float, oil: float) -> PatchFilm:
+        """Of a starved film the same, sheared in a wider mean gap [m] than its own, the oil's mean thickness [m]: no
+        more oil comes, so it fills oil/opening of the gap, across which it is sheared as much more slowly. A flooded
+        gap is full, and its film keeps its shear stress, an upper bound."""
+        starvation = None if self.solution is None else self.solution.starvation
+        if starvation is None or starvation.flooded or not 0 < oil < opening:
+            return self
+        part = (oil / opening) ** 2
+        return replace(self, shear_stress=part * self.shear_stress, shear_force=part * self.shear_force)
+
 
 def middle_line(field: FloatArray) -> FloatArray:
     """Of a field (nx, ny), or (nx, 1) where it is the same along y, the line (nx,) through the middle."""

@@ -24,7 +24,7 @@ from bem.lubrication.line_starved import Neighbour, Wanted, WantedDistance, Want
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
 from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply, inside_hertz
-from bem.lubrication.validity import Case, notes_on
+from bem.lubrication.validity import Case, check_oil, notes_on
 from bem.lubrication.with_heat import film_with_heat
 from bem.materials import Body
 from bem.monotone import MonotoneCubic
@@ -283,6 +283,8 @@ def checked_case(
             f"load: {load!r} N/m is {scales.load:.3g} in Moes' units w / sqrt(2 E* R mu (u1+u2)); a film is looked for "
             f"between {low:g} and {high:g}. {advice}"
         )
+    if not rigid:
+        check_oil(lubricant, scales.pressure)
     return scales, entrainment < 0
 
 

@@ -133,11 +133,19 @@ def schedule_of(times: FloatArray, load: Callable[[float], float], speeds: Calla
 
 def load_messages(schedule: Schedule, unit: str) -> list[str]:
     """What is wrong with loads."""
-    return [
-        f"load: {w!r} at time {t:g} s must be positive and finite [{unit}]"
-        for t, w in zip(schedule.times, schedule.loads, strict=True)
-        if not is_positive(w)
-    ]
+    return first_of(
+        [
+            f"load: {w!r} at time {t:g} s must be positive and finite [{unit}]"
+            for t, w in zip(schedule.times, schedule.loads, strict=True)
+            if not is_positive(w)
+        ]
+    )
+
+
+def first_of(messages: Sequence[str]) -> list[str]:
+    """One message for one mistake that is there at several times: that of the first."""
+    more = f" (and at {len(messages) - 1} more of the times)" if len(messages) > 1 else ""
+    return [one + more for one in messages[:1]]
 
 
 def start_messages(initial: object, initial_thickness: float | None) -> list[str]:

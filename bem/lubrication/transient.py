@@ -32,7 +32,7 @@ from bem.lubrication.line_step import Film, FixedMesh, fixed_mesh
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.steady import check_speeds, solve_line_film
 from bem.lubrication.supply import OilLayer, checked_supply
-from bem.lubrication.time_steps import MarchState, Schedule, load_messages, schedule_of, start_messages
+from bem.lubrication.time_steps import MarchState, Schedule, first_of, load_messages, schedule_of, start_messages
 from bem.threads import one_blas_thread
 
 FAR = 50.0
@@ -135,8 +135,8 @@ def march_line_film(  # reason: the signature is a promise to users' scripts; fr
 def _messages(schedule: Schedule, contact: Contact, points: int) -> list[str]:
     """What is wrong with loads, speeds, bodies, oil and number of points."""
     messages = load_messages(schedule, "N/m")
-    for t, pair in zip(schedule.times, schedule.speeds, strict=True):
-        messages += [f"{m} at time {t:g} s" for m in check_speeds(pair)]
+    pairs = zip(schedule.times, schedule.speeds, strict=True)
+    messages += first_of([f"{m} at time {t:g} s" for t, pair in pairs for m in check_speeds(pair)])
     for name, value in (("radius", contact.radius), ("contact_modulus", contact.contact_modulus)):
         if not is_positive(value, finite=False):
             messages.append(f"{name}: {value!r} must be positive")

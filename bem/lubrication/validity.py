@@ -13,6 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
+from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear import LimitedShear
@@ -37,6 +38,10 @@ HEATING_NOTES = (
     "isothermal model then gives too much friction",
 )
 """What isothermal films say of heat."""
+LARGEST_MATERIAL = 200.0
+"""Moes' L up to which a film is looked for: eight times that of the stiffest oils under hard bodies at speed."""
+GLASS = 1e12
+"""[Pa s]: viscosity at which a liquid is said to be a glass (Angell, Science 267 (1995) 1924)."""
 THINNEST_FILM = 2e-9
 """[m]: four or five molecules; oil is layered below about 5 nm, Chan and Horn, J. Chem. Phys. 83 (1985) 5311."""
 OIL_CONDUCTIVITY = 0.13
@@ -130,14 +135,39 @@ def film_slips(case: Case) -> str | None:
 
 def viscosity_beyond_range(case: Case) -> str | None:
     """The viscosity law is used at pressures that it was not made for."""
-    largest = case.lubricant.viscosity_law.largest_pressure
-    if case.pressure.max(initial=0.0) <= largest:
-        return None
+    oil, highest = case.lubricant, case.pressure.max(initial=0.0)
+    largest = oil.viscosity_law.largest_pressure
+    if highest <= largest:
+        return _glass(oil) if oil.viscosity_at(np.array([highest]))[0] > GLASS else None
     return (
         f'the pressure exceeds {largest / 1e9:g} GPa, up to which viscosity_law "{case.lubricant.viscosity_law.name}" '
         "describes oils: viscosities in the middle of the contact are extrapolated (the film forms in the inlet, where "
         "pressures are lower)"
     )
+
+
+def _glass(oil: Lubricant) -> str:
+    return (
+        f'viscosity_law "{oil.viscosity_law.name}" makes this oil more viscous than {GLASS:g} Pa s within the contact, '
+        "which liquids are as glasses: they then flow by their limiting shear stress alone; check pressure_viscosity "
+        "(oils have 5 to 40 1/GPa)"
+    )
+
+
+def check_oil(lubricant: Lubricant, unit: float) -> None:
+    """Refuse an oil that no pressure lets flow, with Moes' unit of pressure [Pa].
+
+    Raises
+    ------
+    InputError : a slope of ln(viscosity) with pressure of more than `LARGEST_MATERIAL` of these units.
+    """
+    slope = float(lubricant.log_viscosity_ratio(np.zeros(1))[1][0])
+    if slope * unit > LARGEST_MATERIAL:
+        raise InputError(
+            f"lubricant: pressure_viscosity {slope!r} 1/Pa is L = {slope * unit:.3g} in Moes' units of this contact; "
+            f"oils have 0 to 25, and up to {LARGEST_MATERIAL:g} a film is looked for; check the units: 20 1/GPa are "
+            "20e-9"
+        )
 
 
 def spike_unresolved(case: Case) -> str | None:

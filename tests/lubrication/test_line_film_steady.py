@@ -410,6 +410,7 @@ def test_compressible_oil_has_a_bounded_spike():
         ({"speeds": 0.1}, "pair"),
         ({"speeds": (math.inf, 0.0)}, "finite"),
         ({"lubricant": 0.36}, "Lubricant"),
+        ({"lubricant": Lubricant(0.36, pressure_viscosity=20.0, viscosity_law="barus")}, "20 1/GPa are 20e-9"),
         ({"points": 10}, "points"),
         ({"tolerance": 0.0}, "tolerance"),
         ({"load": 1e12}, "cannot carry"),

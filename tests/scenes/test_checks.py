@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from small_scenes import oiled_ball
 
 from bem import Grid
 from bem.errors import InputError
@@ -202,7 +203,7 @@ CASES = {
         ("film-start-stop", 'oil.viscosity="360 cP"'),
     ),
     "implausible_pressure_viscosity": (
-        (("film-start-stop", 'oil.pressure_viscosity="25 1/MPa"'), "2.5e+04 1/GPa"),
+        (("film-start-stop", 'oil.pressure_viscosity="200 1/GPa"'), "200 1/GPa"),
         "film-start-stop",
     ),
     "oil_outside_its_range": (
@@ -236,6 +237,24 @@ def test_a_check_of_scenes_fires_where_it_should_and_not_next_to_it(name):
     assert found, "nothing is said"
     assert words in " ".join(found)
     assert fired(name, good) == []
+
+
+@pytest.mark.parametrize("kind", ["point-film", "point-film-time"])
+def test_a_ball_in_oil_that_yields_is_told_as_a_dry_one(kind):
+    """Under 20 kN it was solved at 8 GPa, and all that was said was about the oil."""
+    ball = {"radius": "10 mm", "load": "20 kN"}
+    oil = {"viscosity": "0.1 Pa s", "pressure_viscosity": "18 1/GPa"}
+    heavy = oiled_ball(kind, ball, oil, rolling={"mean_speed": "1 m/s"}, film={"cells": 64})
+    heavy |= {"march": {"duration": "1 ms", "steps": 4}} if kind == "point-film-time" else {}
+    dry = with_(BALL, contact__load="20 kN", grid__lengths="4 mm")
+    (told,) = fired("hertz_pressure_above_hardness", heavy)
+    (same,) = fired("hertz_pressure_above_hardness", dry)
+    assert told.split(": ")[0] == same.split(": ")[0]
+    assert fired("yield_below_the_surface", heavy) == []  # said once
+    light = with_(heavy, ball__load="19 N")
+    assert fired("hertz_pressure_above_hardness", light) == fired("yield_below_the_surface", light) == []
+    softer = with_(light, ball__load="100 N", lower__material="steel-disk")
+    assert "begins to yield" in " ".join(fired("yield_below_the_surface", softer))
 
 
 def test_cells_unlike_along_x_and_y_are_told_the_spacing_that_the_contact_asks_for():

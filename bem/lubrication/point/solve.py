@@ -21,13 +21,12 @@ from bem.lubrication.point.starved import checked_layer, starvation, starved
 from bem.lubrication.point.validity import notes_on_point
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors, plane_walls_of
 from bem.lubrication.supply import Starvation, Supply
+from bem.lubrication.validity import check_oil
 from bem.materials import Body
 from bem.threads import one_blas_thread
 
 MOES_LOADS = (1e-2, 1e5)
 """Loads M for which a film is looked for: below, the bodies are rigid."""
-LARGEST_MATERIAL = 200.0
-"""Moes' L up to which a film is looked for: eight times that of the stiffest oils under hard bodies at speed."""
 RATIOS = (1e-3, 1e3)
 """Ratios of radii Rx/Ry for which a film is looked for; beyond, a contact is a line contact."""
 SHAPE = (256, 256)
@@ -108,7 +107,8 @@ def solve_point_film(  # reason: the signature is a promise to users' scripts
         edges(extent), both, lambda unit: plane_walls_of(flow_factors, unit, pair),
     )  # fmt: skip
     check_load(setting, load)
-    check_oil(setting, lubricant)
+    if not setting.scales.rigid:
+        check_oil(lubricant, setting.scales.pressure)
     check_extent(setting, cells)
     along = (cells[1], cells[0]) if setting.frame.exchanged else cells
     flooded = reached = solved(setting.problem, along, tolerance, max_iterations)
@@ -224,17 +224,6 @@ def check_load(setting: Setting, load: float) -> None:
         raise InputError(
             f"load: {load!r} N makes a contact {larger:.3g} times as large as the radius of the body: check the units "
             "of load, radii and contact_modulus [N, m, Pa]"
-        )
-
-
-def check_oil(setting: Setting, lubricant: Lubricant) -> None:
-    """Refuse an oil that no pressure lets flow."""
-    material = lubricant.pressure_viscosity * setting.scales.pressure
-    if not setting.scales.rigid and material > LARGEST_MATERIAL:
-        raise InputError(
-            f"lubricant: pressure_viscosity {lubricant.pressure_viscosity!r} 1/Pa is L = {material:.3g} in Moes' units "
-            f"of this contact; oils have 0 to 25, and up to {LARGEST_MATERIAL:g} a film is looked for; check the "
-            "units: 20 1/GPa are 20e-9"
         )
 
 

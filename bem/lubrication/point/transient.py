@@ -18,7 +18,15 @@ from bem.lubrication.point.march import Moment, Operation, advance, film_start, 
 from bem.lubrication.point.march_setting import MarchCase, march_of
 from bem.lubrication.point.moving import MovingSurface, Roughness, Travel, heights_over
 from bem.lubrication.point.solve import checked, edges, entrainment, numbers, vectors
-from bem.lubrication.time_steps import MarchState, Reached, Schedule, load_messages, schedule_of, start_messages
+from bem.lubrication.time_steps import (
+    MarchState,
+    Reached,
+    Schedule,
+    first_of,
+    load_messages,
+    schedule_of,
+    start_messages,
+)
 from bem.materials import Body
 from bem.threads import one_blas_thread
 
@@ -155,17 +163,21 @@ def _messages(
 ) -> list[str]:
     """What is wrong with what acts, bodies, oil and grid."""
     messages = load_messages(schedule, "N")
-    for time, pair in zip(schedule.times, schedule.speeds, strict=True):
-        if vectors(pair) is None:
-            messages.append(
-                f"speeds: {pair!r} at time {time:g} s must be a pair (u1, u2) of finite speeds along x, or of vectors "
-                "((u1x, u1y), (u2x, u2y)) [m/s]"
-            )
+    messages += first_of(
+        [
+            f"speeds: {pair!r} at time {time:g} s must be a pair (u1, u2) of finite speeds along x, or of vectors "
+            "((u1x, u1y), (u2x, u2y)) [m/s]"
+            for time, pair in zip(schedule.times, schedule.speeds, strict=True)
+            if vectors(pair) is None
+        ]
+    )
+    wrong = []
     for time in schedule.times:
         one = radii(float(time))
         found = numbers(one, 2)
         if found is None or not all(r > 0 for r in found):
-            messages.append(f"radii: {one!r} at time {time:g} s must be two positive, finite radii (Rx, Ry) [m]")
+            wrong.append(f"radii: {one!r} at time {time:g} s must be two positive, finite radii (Rx, Ry) [m]")
+    messages += first_of(wrong)
     try:
         checked(1.0, (1.0, 1.0), contact_modulus, (1.0, 0.0), lubricant, shape, tolerance, extent)
     except InputError as error:

@@ -119,15 +119,32 @@ def inlet_shear(film: PointFilmSolution, setting: Setting) -> float:
     return film.lubricant.viscosity * slide * radius * far_shear(problem.drag, problem.curvatures) * math.log(2)
 
 
+def _not_found(film: PointFilmSolution, setting: Setting) -> str:
+    """Why there is no film, and what to do."""
+    (nx, ny), oil, unit = film.pressure.shape, film.lubricant, setting.scales.pressure
+    said = f"no film was found on {nx} x {ny} cells: "
+    if setting.scales.rigid and oil.log_viscosity_ratio(np.zeros(1))[1][0] > 0:
+        return (
+            f"{said}between rigid bodies an oil that pressure thickens carries any load at some gap, in a spike that "
+            'gets narrower with every cell; give contact_modulus, or viscosity_law = "isoviscous"'
+        )
+    highest = 0.0 if setting.hertz is None else setting.hertz.maximum_pressure * unit
+    if oil.viscosity_at(np.array([highest]))[0] > validity.GLASS:
+        return (
+            f"{said}under Hertz' pressure, {highest / 1e9:.3g} GPa, the viscosity law gives more than "
+            f"{validity.GLASS:g} Pa s, a glass; check pressure_viscosity and load, more cells do not help"
+        )
+    return (
+        f"{said}heavy loads of thin oils and narrow ellipses along the flow have constrictions of a few cells there; "
+        "take twice as many"
+    )
+
+
 def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, level: Level) -> tuple[str, ...]:
     """What the grid does to it."""
     notes = []
     if film.status is not Status.CONVERGED:
-        nx, ny = film.pressure.shape
-        notes.append(
-            f"no film was found on {nx} x {ny} cells: heavy loads of thin oils and narrow ellipses along the flow have "
-            "constrictions of a few cells there; take twice as many"
-        )
+        notes.append(_not_found(film, setting))
     begins = float(thickness[0].min())
     if setting.problem.drag[1] > 0.1:
         begins = min(begins, float(thickness[:, 0].min()))

@@ -10,6 +10,8 @@ from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.words import percent, si
 
 _SLOPE_AT_EDGE = 0.2
+_ELASTIC = ("contact", "film", "point-film", "point-film-time")
+"""Kinds whose smooth contact is as elastic as Hertz'."""
 
 
 @scene_check
@@ -35,10 +37,7 @@ def hertz_pressure_above_hardness(facts: Facts) -> Iterator[str]:
     values = (
         (case.smooth.maximum_pressure / case.softest, case)
         for case in facts.cases
-        if case.smooth is not None
-        and case.cap is None
-        and case.softest is not None
-        and facts.of_kind("contact", "film")
+        if case.smooth is not None and case.cap is None and case.softest is not None and facts.of_kind(*_ELASTIC)
     )
     found = worst(values)
     if found is not None and found[0] > 1:
@@ -61,7 +60,7 @@ def yield_below_the_surface(facts: Facts) -> Iterator[str]:
     for case in facts.cases:
         strengths = [body.material.yield_stress for body in case.bodies.values() if body.homogeneous]
         known = [value for value in strengths if value is not None]
-        if case.smooth is None or case.cap is not None or not known or not facts.of_kind("contact", "film"):
+        if case.smooth is None or case.cap is not None or not known or not facts.of_kind(*_ELASTIC):
             continue
         onset = (1.79 if case.smooth.line else 1.60) * min(known)
         if onset < case.smooth.maximum_pressure <= (case.softest or 0.0):

@@ -8,7 +8,7 @@ import pytest
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
 
-from bem import Body, InputError, Layer, Lubricant, Material, solve_line_film, solve_point_film
+from bem import Body, InputError, Layer, Lubricant, Material, Status, solve_line_film, solve_point_film
 from bem.lubrication.point import cascade
 from bem.lubrication.point.kept import certificate, least_film
 from bem.lubrication.point.validity import UNKNOWN, inlet_shear
@@ -412,6 +412,24 @@ def test_notes_say_where_the_model_ends():
     x = 1.1 * ellipse_contact(radii=(RADIUS, RADIUS), contact_modulus=MODULUS, load=plain.load).semi_axes[0]
     short = solve_point_film(**moes(60, 4), shape=(64, 64), extent=(-x, x, -2 * x, 2 * x))
     assert any("does not reach the inlet" in note for note in short.notes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"contact_modulus": math.inf}, "give contact_modulus, or viscosity_law"),
+        ({"lubricant": Lubricant(0.03, pressure_viscosity=3e-7)}, "a glass; check pressure_viscosity and load"),
+    ],
+)
+def test_where_more_cells_do_not_help_it_is_not_said_that_they_do(changes, words):
+    """Rigid bodies under 20 N on 128 cells a side, and an oil of z = 9.5 under 0.8 GPa."""
+    oil = Lubricant(0.03, pressure_viscosity=20e-9)
+    ball = {"load": 20.0, "radii": (0.01, 0.01), "contact_modulus": 115e9, "speeds": (1.0, 1.0), "shape": (64, 64)}
+    film = solve_point_film(**ball | {"lubricant": oil} | changes)
+    assert film.status is not Status.CONVERGED
+    (said,) = [note for note in film.notes if note.startswith("no film was found")]
+    assert words in said
+    assert "twice as many" not in said
 
 
 @pytest.mark.parametrize(

@@ -326,6 +326,15 @@ def test_mistakes_are_said(changes, words):
         march(changes.pop("times"), **changes)
 
 
+@pytest.mark.parametrize(
+    "changes", [{"load": lambda t: math.nan}, {"speeds": lambda t: "fast"}, {"radii": lambda t: (0.01, 0.0)}]
+)
+def test_one_mistake_at_all_times_is_one_message(changes):
+    with pytest.raises(InputError, match=r"at time 0 s .*and at 10 more of the times") as caught:
+        march(np.linspace(0, 1e-3, 11), **changes)
+    assert len(caught.value.messages) == 1
+
+
 def test_a_lightly_loaded_ball_that_lifts_goes_on():
     """Where it parts from the flat, far pressures vanish at once beside and behind it; a twentieth of a newton stalled
     while its speed doubled."""
