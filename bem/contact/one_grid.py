@@ -27,7 +27,8 @@ FloatArray = NDArray[np.float64]
 Report = Callable[[int, float, int], None]
 
 _WARY_ROUNDS = 400
-"""Limit on rounds that may not raise the energy; a hundred were counted under a layer 38 times as stiff."""
+"""Limit on rounds that may not raise the energy. Of 309 random contacts under layers 10 to 200 times as stiff as their
+base five came here, and took 13 to 322."""
 
 _LAGS = 60
 """Limit on contacts with friction taken from the one before; ten are usual."""

@@ -187,11 +187,12 @@ def plan_around(scene: PushedScene | RolledScene, steps: Callable[[Grid, float],
     stressed = (scene.lower if outputs.body == "lower" else scene.upper).build()
     points = padded_points(grid.shape, grid.periodic)
     own = tuple(steps(grid, points))
-    coarser = plans.coarser_contact(grid, len(outputs.wanted_depths()))
+    capped, stiffness = scene.contact.behaviour == "capped", plans.stiffest(scene.lower.build(), scene.upper.build())
+    coarser = plans.coarser_contact(grid, len(outputs.wanted_depths()), capped=capped, stiffness=stiffness)
     coarser["transforms"] += again * sum(step.transforms for step in own if not step.skipped)
     return Plan.of(
         *plans.of_bodies(scene, grid, 1.0),
-        plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}"),
+        plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}", capped=capped, stiffness=stiffness),
         *own,
         plans.stresses(grid, stressed, outputs.body, len(outputs.wanted_depths()), fields=1, loads=3),
         plans.error_bars(outputs.errors, "the same on the grid of twice the cell", **coarser),

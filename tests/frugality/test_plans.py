@@ -15,7 +15,7 @@ from bem.runs import plan_scene
 from bem.scenes import build, library
 from bem.scenes.kind import kind_names
 from bem.scenes.planner import PACKED_SPECTRA, SEARCHED_IN_SINGLE
-from bem.scenes.plans import convolutions
+from bem.scenes.plans import CONVOLUTION, convolutions, stiffest
 from bem.surfaces import generate_surface
 from bem.transforms import COUNT
 from bem.wear import WearModel, WearSetup, yielded_pieces
@@ -125,6 +125,23 @@ def test_convolutions_of_a_contact_are_as_many_as_planned_within_a_factor_of_two
     outcome = compute(campaign_of(scene)).outcome
     planned = convolutions(build.grid_of(scene.grid), scene.contact.behaviour == "capped")
     assert planned / 2 <= outcome.summary["convolutions"] <= 2 * planned
+
+
+@pytest.mark.parametrize("pressure", ["20 MPa", "100 MPa", "1 GPa"])
+def test_a_layer_stiffer_than_its_base_takes_what_is_planned_within_a_factor_of_two(pressure):
+    """The plan knew of no layer: 15 convolutions where up to 44 were counted under one ten times as stiff."""
+    settings = ["grid.shape=256", "outputs.von_mises=false", "outputs.errors=false", "contact.behaviour=elastic"]
+    settings += ["lower.surface.skewness=0", "lower.surface.kurtosis=3"]  # which take long to make
+    settings += ['lower.layer.material="dlc"', 'lower.layer.thickness="0.5 um"', f'contact.mean_pressure="{pressure}"']
+    settings += ['lower.material.name="base"', 'lower.material.youngs_modulus="20 GPa"']
+    scene, plan = plan_scene("rough-contact", [*settings, "lower.material.poissons_ratio=0.35"])
+    over = stiffest(scene.lower.build(), scene.upper.build())
+    assert over == pytest.approx(10.0)
+    planned = convolutions(build.grid_of(scene.grid), stiffness=over)
+    (step,) = [step for step in plan.steps if step.name == "contact"]
+    assert step.transforms == CONVOLUTION * planned
+    found = compute(campaign_of(scene)).outcome.summary["convolutions"]
+    assert planned / 2 <= found <= 2 * planned
 
 
 def test_a_capped_contact_of_many_cells_takes_what_is_planned_within_a_factor_of_two():

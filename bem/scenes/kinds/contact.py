@@ -48,10 +48,11 @@ def plan(scene: ContactScene) -> Plan:
     scene.contact.check_load(grid.area)
     stressed = (scene.lower if outputs.body == "lower" else scene.upper).build()
     depths, fields = len(outputs.wanted_depths()), 7 if outputs.stresses else 1
-    coarser, capped = plans.coarser_contact(grid, depths), scene.contact.behaviour == "capped"
+    capped, stiffness = scene.contact.behaviour == "capped", plans.stiffest(scene.lower.build(), scene.upper.build())
+    coarser = plans.coarser_contact(grid, depths, capped=capped, stiffness=stiffness)
     return Plan.of(
         *bodies,
-        plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}", capped=capped),
+        plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}", capped=capped, stiffness=stiffness),
         plans.stresses(grid, stressed, outputs.body, depths, fields=fields, loads=1 if friction == 0 else 2),
         plans.error_bars(outputs.errors, "the contact on the grid of twice the cell", **coarser),
         plans.vtk(outputs.vtk and depths > 0),

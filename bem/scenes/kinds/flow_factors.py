@@ -55,12 +55,13 @@ def plan(scene: FlowFactorsScene) -> Plan:
     """What will be computed."""
     grid, flow = build.grid_of(scene.grid), scene.flow
     count, pressed = len(flow.separations or flow.ratios or ()), flow.behaviour != "undeformed"
+    of_one = flow.behaviour == "capped", plans.stiffest(scene.lower.build(), scene.upper.build())
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
         plans.layered_kernels(grid, scene.lower.build(), scene.upper.build()),
         plans.contacts(
             grid,
-            1.25 * count * plans.convolutions(grid) if pressed else 0.0,
+            1.25 * count * plans.convolutions(grid, *of_one) if pressed else 0.0,
             f"{count} separations, {flow.behaviour}" if pressed else "overlap is cut off, nothing is deformed",
             name="contacts",
             skipped=not pressed,

@@ -1,0 +1,35 @@
+"""The stored convolutions of random contacts: all groups there, none without an answer, and what is counted now."""
+
+import numpy as np
+import pytest
+
+from reports.experiments import kept, random_contacts
+
+GROUPS = {
+    "all", "load", "approach", "mean_gap", "no layer", "soft layer", "stiff layer", "periodic",
+    "free along an axis or two", "friction", "hardness",
+}  # fmt: skip
+
+
+def test_every_group_is_stored_and_each_contact_has_an_answer():
+    stored = kept.found("random_contacts")
+    groups = {one["group"]: one for one in stored["groups"]}
+    assert set(groups) == GROUPS
+    assert groups["all"]["contacts"] == random_contacts.CONTACTS == len(stored["counts"])
+    assert groups["all"]["median"] == pytest.approx(np.median(stored["counts"]), rel=1e-3)
+    for one in groups.values():
+        # at this tolerance each is solved, or its mean gap is proved not to exist
+        assert one["converged"] + one["infeasible"] == one["contacts"]
+        assert one["median"] <= one["most"]
+    long = [one["convolutions"] for one in stored["long"]]
+    assert long
+    assert min(long) > random_contacts.LONG * groups["all"]["median"]
+
+
+def test_stored_counts_are_what_is_counted():
+    now = random_contacts.found(16)
+    stored = kept.found("random_contacts")["counts"][:16]
+    assert [one for one in now["long"] if one["status"] != "converged"] == []
+    # round-off of another machine moves a contact's count by a round or two, all of them hardly
+    np.testing.assert_allclose(now["counts"], stored, rtol=0.3, atol=3.0)
+    assert np.mean(now["counts"]) == pytest.approx(np.mean(stored), rel=0.1)
