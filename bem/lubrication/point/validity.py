@@ -27,6 +27,11 @@ SHORTEST_INLET = 8.0
 STEEPEST = 1.5
 """Film beside the lowest cell over that one's: from there on minima were off by 2 to 5 %, from 3.6 by 8 to 16 % (two
 barrels, 64 to 240 cells a side against 480)."""
+LONGEST_CELL, MORE_CELLS = 2.0, 1.5
+"""Length of cells along one axis over that along the other, from which a film that is not found is looked for on square
+ones, so many times as many along an axis: seven isoviscous contacts of Rx/Ry 9 to 17 and M 1700 to 7000 had none on 80
+x 80 cells four to six times as long along the flow, two of them none on 160 x 160 either; on square ones all had, two
+of them with 1.5 times as many only, the others with as many."""
 LARGEST_ERROR = 0.02
 """Of a film, above which its error is said, and of friction, what the inlet may add."""
 UNKNOWN = "the error of the film is unknown: "
@@ -133,6 +138,16 @@ def _not_found(film: PointFilmSolution, setting: Setting) -> str:
         return (
             f"{said}under Hertz' pressure, {highest / 1e9:.3g} GPa, the viscosity law gives more than "
             f"{validity.GLASS:g} Pa s, a glass; check pressure_viscosity and load, more cells do not help"
+        )
+    sides = tuple(float(np.ptp(one)) * n / (n - 1) for one, n in ((film.x, nx), (film.y, ny)))
+    longer = sides[0] / nx / (sides[1] / ny)
+    if not 1 / LONGEST_CELL < longer < LONGEST_CELL:
+        cell = math.sqrt(sides[0] * sides[1] / (nx * ny)) / MORE_CELLS
+        first, second = (min(max(2 * round(side / cell / 2), 32), 2048) for side in sides)
+        far, near = ("x", "y") if longer > 1 else ("y", "x")
+        return (
+            f"{said}they are {max(longer, 1 / longer):.2g} times as long along {far} as along {near}; about square "
+            f"ones, {first} x {second}, may find it"
         )
     return (
         f"{said}heavy loads of thin oils and narrow ellipses along the flow have constrictions of a few cells there; "

@@ -1,6 +1,7 @@
 """The film of circular and elliptical contacts: its equations written anew, its limits, its certificate."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -412,6 +413,19 @@ def test_notes_say_where_the_model_ends():
     x = 1.1 * ellipse_contact(radii=(RADIUS, RADIUS), contact_modulus=MODULUS, load=plain.load).semi_axes[0]
     short = solve_point_film(**moes(60, 4), shape=(64, 64), extent=(-x, x, -2 * x, 2 * x))
     assert any("does not reach the inlet" in note for note in short.notes)
+
+
+@pytest.mark.parametrize(("ratio", "load"), [(11.727, 20.93), (12.6, 42.86)])
+def test_an_ellipse_not_found_on_long_cells_is_found_on_those_that_are_named(ratio, load):
+    """Isoviscous, M 2400 and 5000, along its long axis: on 160 x 160 cells there was no film of the first either."""
+    oil = Lubricant(0.03, viscosity_law="isoviscous")
+    barrel = {"load": load, "radii": (0.01, 0.01 / ratio), "contact_modulus": 1e9, "speeds": (0.05, 0.05)}
+    barrel |= {"lubricant": oil}
+    film = solve_point_film(**barrel, shape=(80, 80))
+    assert film.status is not Status.CONVERGED
+    (said,) = [note for note in film.notes if note.startswith("no film was found")]
+    named = re.search(r"square ones, (\d+) x (\d+),", said)
+    assert solve_point_film(**barrel, shape=(int(named[1]), int(named[2]))).status is Status.CONVERGED
 
 
 @pytest.mark.parametrize(
