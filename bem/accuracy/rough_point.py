@@ -28,7 +28,7 @@ from bem.lubrication import Lubricant, RoughPointFilm, solve_rough_point_film
 from bem.lubrication.point.linear import BoolArray
 from bem.lubrication.point.moving import Heights
 from bem.materials import Body
-from bem.reference_solutions.hertz import ellipse_contact
+from bem.reference_solutions.hertz import PointContact, ellipse_contact
 
 COUNTED = (
     "error bars of films of rough bodies are of half as many cells a side, where bumps show no order: on random balls "
@@ -45,9 +45,11 @@ where that is a few tenths of the least film, half as many cells may by chance h
 COUNT = 0.6
 """Cells that a count of whole ones is off by, over the root of those at edges: twice 1/sqrt(12)."""
 SMALL, NARROW = 0.1, 1.0
-"""Share of the load up to which surfaces touch at the rim of the contact alone, and cells that the opening there has
+"""Share of the load up to which a share may be of the rim of the contact alone, and cells that the opening there has
 from which on shares are not multiples of their limit: 3 to 13 times on 0.2 to 0.5 cells, 1.4 and 2.3 times on 0.7 and
 0.9, 1.1 and 1.35 times on 1.3 and 1.7 (reports/experiments/touching_cells.py)."""
+RIM, MOSTLY = 0.85, 0.5
+"""Of Hertz' half-axes, where the rim begins; and of what surfaces bear, what is of the rim where it is said to be."""
 MET = 1e-6
 """Of a least film, what a thinnest one may lie above it and still be it."""
 _ALGEBRAIC = 10.0
@@ -133,7 +135,6 @@ def _cell(film: RoughPointFilm) -> float:
 def rough_point_bars(case: RoughPointCase, film: RoughPointFilm, hertz_area: float) -> ErrorBars:
     """Bars of the figures of a film."""
     figures = rough_point_figures(case, film, hertz_area)
-    told = tuple(narrow_notes(case, film))
     missing = ("central_thickness", "central_pressure")
     nx, ny = film.thickness.shape
     if min(nx, ny) < 2 * FEWEST:
@@ -144,14 +145,18 @@ def rough_point_bars(case: RoughPointCase, film: RoughPointFilm, hertz_area: flo
     there = rough_point_figures(case, other, hertz_area)
     grid = _grid(case, film, figures, there, hertz_area)
     residual = {name: _ALGEBRAIC * film.residual * abs(value) for name, value in figures.items()}
-    bars = ErrorBars.together({GRID: grid, RESIDUAL: residual}, notes=(COUNTED, *told))
+    bars = ErrorBars.together({GRID: grid, RESIDUAL: residual}, notes=(COUNTED,))
     return bars | ErrorBars.unknown(missing, CENTRE)
+
+
+def _dry(case: RoughPointCase) -> PointContact:
+    return ellipse_contact(radii=case.radii, contact_modulus=case.contact_modulus, load=case.load)
 
 
 def opening(case: RoughPointCase, film: float) -> tuple[float, float]:
     """Lengths [m] beside Hertz' contact, along x and y, over which its dry gap opens to a film [m]: the scale of what
     is narrow at its rim."""
-    dry = ellipse_contact(radii=case.radii, contact_modulus=case.contact_modulus, load=case.load)
+    dry = _dry(case)
 
     def length(half: float, gap: Callable[[float], float]) -> float:
         further = 2.0
@@ -163,16 +168,29 @@ def opening(case: RoughPointCase, film: float) -> tuple[float, float]:
     return length(a, lambda s: float(dry.gap(s, 0.0))), length(b, lambda s: float(dry.gap(0.0, s)))
 
 
+def at_rim(case: RoughPointCase, film: RoughPointFilm) -> float:
+    """Share of what the surfaces bear that lies at the rim of Hertz' contact (`RIM` of it) and beyond."""
+    a, b = _dry(case).semi_axes
+    outer = np.hypot(film.x[:, None] / a, film.y / b) > RIM
+    bears = film.contact_pressure
+    return float(bears[outer].sum() / max(float(bears.sum()), 1e-300))
+
+
 def narrow_notes(case: RoughPointCase, film: RoughPointFilm) -> list[str]:
     """What a reader must know of a share in contact that lies in constrictions as narrow as a cell."""
-    if not 0 < film.contact_share < SMALL:
+    if film.status is not Status.CONVERGED or not 0 < film.contact_share < SMALL:
         return []
-    steps = film.x[1] - film.x[0], film.y[1] - film.y[0]
-    cells = min(width / float(step) for width, step in zip(opening(case, film.mean_thickness), steps, strict=True))
-    if cells >= NARROW:
+    steps = float(film.x[1] - film.x[0]), float(film.y[1] - film.y[0])
+    widths = opening(case, film.mean_thickness)
+    cells = min(width / step for width, step in zip(widths, steps, strict=True))
+    if cells >= NARROW or at_rim(case, film) < MOSTLY:
         return []
+    wanted = (
+        max(n, math.ceil(n * NARROW * step / width))
+        for n, step, width in zip(film.pressure.shape, steps, widths, strict=True)
+    )
     return [
-        "surfaces touch at the rim of the contact alone, beside which the gap opens to the film within "
+        "surfaces touch at the rim of the contact, beside which the gap opens to the film within "
         f"{cells:.2g} cells: films there come out too thin, so their share of the load is a bound from above; take "
-        f"{math.ceil(NARROW / cells * max(film.pressure.shape))} cells a side or more"
+        f"{' x '.join(str(n) for n in wanted)} cells or more"
     ]

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.ndimage import label
 
 from bem import RoughPointFilm
-from bem.accuracy.rough_point import RoughPointCase, opening, rough_point_bars
+from bem.accuracy.rough_point import RoughPointCase, at_rim, opening, rough_point_bars
 from reports.experiments.kept import keep, result_of, rounded
 from reports.experiments.rough_films import BOUNDARY, MODULUS, OIL
 from reports.experiments.touching_films import BALL, HALF, SURFACES
@@ -26,21 +26,13 @@ from reports.experiments.touching_films import BALL, HALF, SURFACES
 CELLS = (36, 72, 144, 288)
 FILMS = ((0.003, 1e-9), (0.03, 4.3e-9), (0.03, 1e-9))
 """Speed [m/s] and least film [m]."""
-RIM = 0.85
-"""Of Hertz' radius."""
 
 
-def touching(film: RoughPointFilm) -> dict[str, float]:
-    """Share of what surfaces bear at the rim of the contact and beyond, and cells across the flow of a run of touching
-    ones, weighed by their number."""
-    bears = film.contact_pressure
-    at_rim = np.hypot(film.x[:, None], film.y) > RIM * HALF
+def cells_wide(film: RoughPointFilm) -> float:
+    """Cells across the flow of a run of touching ones, weighed by their number."""
     numbers, count = label(film.touching, structure=[[0, 0, 0], [1, 1, 1], [0, 0, 0]])
     sizes = np.bincount(numbers.ravel(), minlength=count + 1)[1:]
-    return {
-        "at_rim": float(bears[at_rim].sum() / max(float(bears.sum()), 1e-300)),
-        "cells_wide": float((sizes**2).sum() / max(int(sizes.sum()), 1)),
-    }
+    return float((sizes**2).sum() / max(int(sizes.sum()), 1))
 
 
 def row(speed: float, least_film: float, cells: int) -> dict[str, Any]:
@@ -71,7 +63,8 @@ def row(speed: float, least_film: float, cells: int) -> dict[str, Any]:
         "mean_bar": bars["mean_thickness"],
         "friction": film.friction(BOUNDARY),
         "opening": width / float(film.x[1] - film.x[0]),
-        **touching(film),
+        "at_rim": at_rim(case, film),
+        "cells_wide": cells_wide(film),
     }
 
 

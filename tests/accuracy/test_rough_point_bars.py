@@ -1,5 +1,6 @@
 """Error bars of films with contact inside: what they have where half as many cells differ by chance in little."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -11,10 +12,12 @@ from bem.accuracy.rough_point import (
     SMALL,
     STEEP,
     RoughPointCase,
+    at_rim,
     narrow_notes,
     opening,
     rough_point_bars,
 )
+from bem.errors import Status
 from bem.reference_solutions.hertz import ellipse_contact
 
 RADIUS, LOAD, MODULUS = 0.01, 20.0, 115e9
@@ -83,10 +86,39 @@ def test_contact_in_constrictions_narrower_than_a_cell_is_said():
     assert 0 < fine.contact_share < 0.7 * coarse.contact_share < SMALL
     (note,) = narrow_notes(case, coarse)
     assert "bound from above" in note
+    assert at_rim(case, coarse) > 0.7
+    # on as many cells as it says the opening has one of them, and a fortieth fewer do not
+    wanted = (int(n) for n in re.search(r"take (\d+) x (\d+) cells", note).groups())
+    for n, at, width in zip(wanted, (coarse.x, coarse.y), opening(case, coarse.mean_thickness), strict=True):
+        assert 1 <= width / ((at[1] - at[0]) * 48 / n) < 1 + 1 / 40
     assert narrow_notes(case, fine) == []
+    # a film that was not found has no share to speak of
+    assert narrow_notes(case, replace(coarse, status=Status.STALLED)) == []
     # nothing touches, or nearly all
     assert narrow_notes(case, replace(coarse, contact_share=0.0)) == []
     assert narrow_notes(case, replace(coarse, contact_share=0.9)) == []
+
+
+def test_only_the_axis_with_wide_cells_takes_more():
+    heights = lambda x, y: 100e-9 * np.cos(8.5 * x / HALF) * np.cos(8.5 * y / HALF)  # noqa: E731
+    case = replace(CASE, speeds=((0.0, 0.0), (0.03, 0.0)), heights=heights, least_film=4.3e-9)
+    film = case.on((48, 160))
+    (note,) = narrow_notes(case, film)
+    assert re.search(r"take \d+ x 160 cells", note)
+
+
+def test_contact_on_a_summit_inside_is_not_said_to_be_at_the_rim(film):
+    """The same share of the load on one cell in the middle: no finer cells were shown to lower it."""
+    small = replace(film, contact_share=0.5 * SMALL)
+    narrow = replace(CASE, radii=(RADIUS / 4, RADIUS / 4))  # its opening has less than a cell
+    summit = np.zeros_like(film.pressure)
+    summit[np.abs(film.x).argmin(), np.abs(film.y).argmin()] = 1e9
+    inside = replace(small, pressure=film.oil_pressure + summit)
+    assert at_rim(narrow, inside) == 0
+    assert narrow_notes(narrow, inside) == []
+    outside = replace(small, pressure=film.oil_pressure + np.roll(summit, 28, axis=0))
+    assert at_rim(narrow, outside) == 1
+    assert len(narrow_notes(narrow, outside)) == 1
 
 
 def test_the_gap_opens_to_a_film_as_its_power_two_thirds():

@@ -96,6 +96,8 @@ def test_what_bounds_the_figures_is_said(tmp_path):
     coarse = scene(film={"cells": 32}, outputs={"errors": False})
     notes = run_scene(coarse, tmp_path / "coarse", figures=False).summary["notes"]
     assert any("shortest wave" in note for note in notes)
+    # of the film, whether bars are asked for or not
+    assert any("bound from above" in note for note in notes)
 
 
 def test_a_film_that_is_not_found_is_not_converged_and_says_what_to_do(tmp_path, monkeypatch):

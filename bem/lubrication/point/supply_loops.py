@@ -56,10 +56,9 @@ def contents(  # reason: Numba compiles plain arrays; they are the parts of one 
                     content[i, j] = comes / carried
                     split[i, j] = stencil[11, i, j] / dx / leaves
             if held[i, j]:
-                one = split[i, j] / even
-                other = (1.0 - split[i, j]) / (1.0 - even) if across > 0.0 else 1.0
-                flow[0, i, j] += 6.0 * drag[0] * one * content[i, j] - stencil[11, i, j]
-                flow[1, i, j] += 6.0 * drag[1] * other * content[i, j] - stencil[12, i, j]
+                leaves = carried * content[i, j]
+                flow[0, i, j] += split[i, j] * leaves * dx - stencil[11, i, j]
+                flow[1, i, j] += (1.0 - split[i, j]) * leaves * dy - stencil[12, i, j]
                 stencil[11, i, j] = stencil[12, i, j] = 0.0
 
 

@@ -218,7 +218,7 @@ def _patch(scene: PointFilmScene) -> Grid:
 
 def _rough(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     """The film of a rough body at rest, and what it bears itself."""
-    from bem.accuracy.rough_point import RoughPointCase, rough_point_bars, rough_point_figures
+    from bem.accuracy.rough_point import RoughPointCase, narrow_notes, rough_point_bars, rough_point_figures
     from bem.lubrication import MeasuredHeights
     from bem.lubrication.point.setting import setting_of
     from bem.lubrication.point.solve import entrainment
@@ -241,7 +241,7 @@ def _rough(scene: PointFilmScene, context: Context) -> PointFilmRecord:
         case.load, case.radii, case.contact_modulus, entrainment(case.speeds), case.lubricant, None, case.bodies
     )
     given = _given(case, film, setting)
-    tell(context, [*film.notes, *rough_notes(scene, grid, dry.semi_axes, film)])
+    tell(context, [*film.notes, *rough_notes(scene, grid, dry.semi_axes, film), *narrow_notes(case, film)])
     if given["formula_central"] < case.least_film:
         context.note(SET_BY_LEAST)
     area = math.pi * dry.semi_axes[0] * dry.semi_axes[1]

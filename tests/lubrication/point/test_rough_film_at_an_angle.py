@@ -145,6 +145,16 @@ def test_a_quarter_turn_of_surface_and_oil_turns_the_film(oblique):
     assert other.contact_share == pytest.approx(oblique.contact_share, rel=1e-9)
 
 
+def test_an_angle_of_rounding_is_none():
+    """A cosine of 90 degrees is 6e-17: no share of the oil is divided by what is left of it."""
+    given = BALL | {"heights": bumps(50e-9), "shape": (64, 64), "errors": False}
+    speed = 3e-3 * math.cos(math.pi / 2), 3e-3
+    rounded, exact = (solve_rough_point_film(**given, speeds=((0.0, 0.0), one)) for one in (speed, (0.0, 3e-3)))
+    assert rounded.status.value == exact.status.value == "converged"
+    np.testing.assert_allclose(rounded.thickness, exact.thickness, rtol=1e-6)
+    assert rounded.contact_share == pytest.approx(exact.contact_share, rel=1e-6)
+
+
 def test_films_at_an_angle_and_along_the_grid_are_one_film_on_finer_cells():
     """Surface and oil turned together: only cells differ, and what they leave of the mean falls as their square."""
     apart = []
