@@ -106,8 +106,8 @@ def share_load(
         return _certified(trial, rough, load, tolerance, Regime.FULL_FILM, effort, start.slope)
     top = math.log(min(load, film.largest_load))
     bottom = min(math.log(NEGLIGIBLE * tolerance * load), top)
-    at, slope = min(max(math.log(start.film_load), bottom), top - _LEAST_BEGUN), start.slope
-    if at == bottom and top < math.log(load):
+    at, slope = min(max(math.log(start.film_load), bottom), top, math.log(load) - _LEAST_BEGUN), start.slope
+    if at <= bottom + _SAME and top < math.log(load):
         at = top  # where the last one was at the boundary since the film's model ends, its end says so again
     for level, error in enumerate(film.errors):
         search = _Search(film, rough, load, max(tolerance, error), level, bottom, top, effort)

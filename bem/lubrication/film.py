@@ -50,7 +50,7 @@ class FilmSolution:
         NaN with heat, which is not followed beyond the exit.
     exit_position : where the film ruptures [m].
     inlet_load_fraction : share of the load that lies upstream of the first position.
-    iterations : Newton steps in all, continuation included.
+    iterations : Newton steps in all, continuation and those with the equations of an earlier step included.
     residual : largest residual of the equations, relative to the local film.
     status : outcome.
     speeds, lubricant : as given.

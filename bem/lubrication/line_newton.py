@@ -73,7 +73,7 @@ class State:
 
 @dataclass(frozen=True)
 class Outcome:
-    """State, Newton steps taken, residual, and whether the tolerance was met."""
+    """State, Newton steps taken (chords as well), residual, and whether the tolerance was met."""
 
     state: State
     iterations: int

@@ -89,6 +89,25 @@ def test_a_cycle_at_the_boundary_end_starts_there():
     assert step.rows["evaluations"][1] == 1
 
 
+def test_where_the_films_end_first_the_slope_is_not_one_between_two_places_that_are_one():
+    """Heavy and creeping, 3 GPa: the slope from a step of a millionth at that end, of contacts known to a millionth,
+    was 540 and more, and the next speeds crept up to their end in 80 films."""
+    grid = Grid((32, 16), (32e-6, 32e-6), periodic=(False, True))
+    height = generate_surface(
+        Grid(grid.shape, grid.spacing, periodic=(True, True)), rms_height=50e-9, correlation_length=150e-6, seed=8
+    )
+    case = steel_line(
+        grid, radius=15e-3, load=6e3, film_points=150, lubricant=Lubricant(0.5), boundary_friction=0.1, hardness=6e9
+    )
+    speeds = (1e-7, 3e-7, 6e-7)
+    curve = stribeck_curve(speeds, height=height, oil_volume="loaded", **case)
+    assert [point.regime for point in curve] == [Regime.BOUNDARY] * 3
+    assert all(point.status is Status.CONVERGED for point in curve)
+    # the whole load's film, those at either end, and to the upper one by the longest steps
+    assert curve[0].evaluations == 3
+    assert max(point.evaluations for point in curve) <= 8
+
+
 def test_boundary_answer_joins_the_balance():
     """Speeds across the edge: contact load and friction pass from one rule to the other within the tolerance."""
     speeds = np.geomspace(1e-7, 1e-5, 5)

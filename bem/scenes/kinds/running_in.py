@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from bem.wear import RunningIn, RunningInState
     from bem.wear.mixed import MixedContact
 
-_CONVOLUTIONS = 80  # of the two or three contacts of a cycle
+_CONVOLUTIONS = 15  # of the two or three contacts of a cycle: 14 and 15 were counted
 _CONTACTS = "two or three contacts each, from the last pressure; none in full film"
 _DEPTHS_NEEDED = 6
 

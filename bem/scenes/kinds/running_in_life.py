@@ -33,8 +33,9 @@ if TYPE_CHECKING:
     from bem.life.march import LifeState
     from bem.life.passes import MixedPasses
 
-_CONVOLUTIONS = 60  # of the two or three contacts of a pass
-_JUMPS = 40  # steps of a life of a million cycles, each of three rounds
+_CONVOLUTIONS = 7  # of the contacts of a pass, each from the last: 2 to 7 were counted
+_SECONDS = 0.008  # of a pass besides: films from the table, friction, what wears
+_JUMPS = 25  # steps of a life of a million cycles, each of three rounds
 
 
 class RunningInLifeScene(OneLoadScene):
@@ -100,11 +101,14 @@ def plan(scene: RunningInLifeScene) -> Plan:
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
         film_plans.tables(scene.sharing.film_points, "passes"),
-        plans.contacts(
-            grid,
-            _CONVOLUTIONS * passes,
-            f"about {passes / scene.wear.positions / 3:.0f} jumps, each once whole and in two halves, of "
-            f"{scene.wear.positions} positions",
+        replace(
+            plans.contacts(
+                grid,
+                _CONVOLUTIONS * passes,
+                f"about {passes / scene.wear.positions / 3:.0f} jumps, each once whole and in two halves, of "
+                f"{scene.wear.positions} positions",
+            ),
+            seconds=_SECONDS * passes,
         ),
         Step("tribofilm", "grows cell by cell where surfaces touch", skipped=scene.tribofilm is None, seconds=0.1),
         Step(
@@ -125,6 +129,7 @@ def plan(scene: RunningInLifeScene) -> Plan:
             skipped=not life.coarser_lives,
             kept=0.0,
             transforms=3.0 * _CONVOLUTIONS * passes,
+            seconds=1.5 * _SECONDS * passes,
             points=padded_points(grid.shape, grid.periodic) // 4,
         ),
         plans.figures(grid.cells),
