@@ -25,9 +25,10 @@ HalfArray = NDArray[np.float32]
 
 SPREADING = 1.0
 """Pressure flow over what deflection drags, below which a cell is relaxed with a counterpart around it."""
-DAMPING = (1.0, 1.0), (0.9, 0.7)
-"""Of changes of a cell's own, and of those with a counterpart, of smooth surfaces and of rough ones, whose lines hear
-less of each other (`lines.relax`): with films heard of, too, as many random rough balls are found, but not the same."""
+SMOOTH, ROUGH = (1.0, 1.0), (0.9, 0.7)
+"""Damping of changes of a cell's own, and of those with a counterpart, of smooth surfaces and of rough ones, whose
+lines hear less of each other (`lines.relax`): with films heard of, too, as many random rough balls are found, but not
+the same."""
 
 
 @dataclass(frozen=True)
@@ -116,9 +117,10 @@ class Linear:
         problem = level.problem
         along_y = int(back and problem.drag[1] > 0)
         factors, near = (self._lines_across, level.near_across) if along_y else (self._lines, level.near)
+        smooth = problem.heights is None
         lines.relax(
             factors, self.stencil, level.spacing, problem.drag, problem.storing, along_y, near, self.kinds, residual,
-            back and not along_y, DAMPING[problem.heights is not None], out,
+            back and not along_y, SMOOTH if smooth else ROUGH, smooth, out,
         )  # fmt: skip
         np.copyto(out, residual, where=level.border)
         out[self.held] = 0.0

@@ -203,15 +203,15 @@ def relax(  # reason: Numba compiles plain arrays; they are the parts of one equ
     residual: FloatArray,
     downwards: bool,
     damping: tuple[float, float],
+    hears: bool,
     dp: FloatArray,
 ) -> None:
     """One sweep of line relaxation along x, or y: `dp` (nx, ny) is what it adds to the pressures for a residual;
     factors, kinds and near as of `factorise`. downwards : from the last line to the first, not of oil that flows across
-    lines. damping : of changes of a cell's own, and of those with a counterpart; below one, lines hear of the pressures
-    of the line before alone."""
+    lines. damping : of changes of a cell's own, and of those with a counterpart. hears : whether of all that lines
+    before have changed, films nearby included, or of the pressures of the last one alone."""
     count, cells = kinds.shape[1 - along_y], kinds.shape[along_y]
     weights = _weights((spacing[along_y], spacing[1 - along_y]))
-    hears = damping[0] == 1.0 and damping[1] == 1.0
     right, rows, changes = np.empty(cells), np.zeros((2, 7)), np.zeros((2, cells + 2 * BAND))
     pressure, oil, film = np.zeros((count, cells)), np.zeros((count, cells)), np.zeros((count, cells))
     for number in range(1, count - 1):

@@ -49,7 +49,7 @@ def test_a_line_alone_leaves_nothing_of_its_balances(drag, downwards):
     dp = np.full(shape, np.nan)
     factors = np.zeros((*shape, lines.KEPT))
     lines.factorise(stencil, SPACING, drag, STORING, 0, near, kinds, factors)
-    lines.relax(factors, stencil, SPACING, drag, STORING, 0, near, kinds, residual, downwards, (1.0, 1.0), dp)
+    lines.relax(factors, stencil, SPACING, drag, STORING, 0, near, kinds, residual, downwards, (1.0, 1.0), True, dp)
     squares = SPACING[0] ** 2 + SPACING[1] ** 2
     along, across = 0.5 * SPACING[1] ** 2 / squares, 0.5 * SPACING[0] ** 2 / squares
     middle = -dp[2, j - 1] / across
@@ -75,7 +75,7 @@ def test_the_last_line_of_a_sweep_is_solved_with_what_those_before_it_have_chang
     kinds[1:4, 1:4] = 1
     factors, dp = np.zeros((*shape, lines.KEPT)), np.full(shape, np.nan)
     lines.factorise(stencil, SPACING, drag, STORING, along_y, near, kinds, factors)
-    lines.relax(factors, stencil, SPACING, drag, STORING, along_y, near, kinds, residual, False, (1.0, 1.0), dp)
+    lines.relax(factors, stencil, SPACING, drag, STORING, along_y, near, kinds, residual, False, (1.0, 1.0), True, dp)
     film = np.zeros(shape)
     for i in range(1, 4):
         for j in range(1, 4):
