@@ -8,9 +8,13 @@ from pathlib import Path
 
 from bem.errors import BemError
 from bem.runs import run_scene
+from bem.threads import get_threads, set_threads
 
 _FEW = ("repetitions=1", "cycles.count=3", "cycles.settled=1", "depths.count=8")
 _SHORT = ("life.count=64", "wear.positions=2")
+
+_MANY = ("grid.shape=256", 'contact={mean_pressure = "40 GPa"}', "outputs={}")
+"""More cells in contact than one block of the passes has; run by two threads, whose loops are others than one's."""
 
 SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("hertz-sphere", ()),
@@ -38,6 +42,7 @@ SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("uniform-asperities", ('array.spacings=["20 um"]', 'array.interferences=["50 nm"]', "array.cell=1 um")),
     ("flow-factors", ("grid.shape=64", "flow.ratios=[1.0]")),
     ("particles-afm-map", ("synthetic.shape=[256, 256]",)),
+    ("rough-contact", _MANY),
 )
 """Built-in scenes and what makes them small; between them they pass through every compiled loop."""
 
@@ -50,11 +55,15 @@ def warm_up(say: Callable[[str], None]) -> list[str]:
     say : told in words how far it is.
     """
     failed = []
+    threads = get_threads()
     with tempfile.TemporaryDirectory() as folder:
         for number, (name, settings) in enumerate(SCENES):
             say(f"compiling, {number + 1} of {len(SCENES)}: {name}")
+            set_threads(2 if settings is _MANY else threads)
             try:
-                run_scene(name, Path(folder) / name, settings=settings, figures=False)
+                run_scene(name, Path(folder) / str(number), settings=settings, figures=False)
             except BemError as error:
                 failed.append(f"{name}: {error}")
+            finally:
+                set_threads(threads)
     return failed

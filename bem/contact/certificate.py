@@ -22,6 +22,10 @@ from bem.grid import Grid
 
 FloatArray = NDArray[np.float64]
 
+_ROUND_OFF = 1e-15
+"""Of the sum of lengths that an approach is made of: what units and datum leave of one that was asked for. Bodies that
+are flat and do not touch have no other length that it could be held against."""
+
 
 def elastic_length(request: Request) -> float:
     """By how much a cell gives way under the mean pressure asked for [m]; zero where no load is. On a doubly periodic
@@ -45,7 +49,7 @@ def certify(
     displacement = result.displacement.reshape(grid.shape)
     if not result.fresh:
         operator.scaled().apply(pressure, displacement)
-    approach = result.approach * units.length + units.datum
+    approach = _approach(request, units, result)
     deformed = np.empty(grid.shape)
     depth = np.empty(grid.shape)
     largest, reach, force, _, _, volume = passes.assemble(
@@ -86,6 +90,15 @@ def certify(
         status=Status.CONVERGED if residual <= request.tolerance else unmet,
         notes=_notes(grid, pressure) + doubt + _why(request, units, result),
     )
+
+
+def _approach(request: Request, units: Units, result: LevelResult) -> float:
+    """In SI units; the one asked for where only these are between."""
+    approach = result.approach * units.length + units.datum
+    asked = request.approach
+    if asked is not None and abs(approach - asked) <= _ROUND_OFF * (abs(asked) + abs(units.datum)):
+        return asked
+    return approach
 
 
 _SHORT, _MANY = 0.98, 1.1

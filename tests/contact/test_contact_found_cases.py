@@ -79,6 +79,18 @@ def test_flat_gap_held_apart_by_the_lubricant(periodic):
         assert solution.approach == pytest.approx(0.7e-9, rel=1e-12)
 
 
+@pytest.mark.parametrize("shape", [(1, 1), (1, 5), (4, 4)])
+@pytest.mark.parametrize("approach", [-1e-9, 0.3e-9])
+def test_flat_bodies_apart_at_an_approach_that_units_round(shape, approach):
+    """These stalled on the last digit of their approach, the only length there is."""
+    op = operator(shape, (1e-6, 1.3e-6), FREE, modulus=1e11)
+    for gap in (3.7e-9, 5.1e-9, 0.7e-9):
+        solution = solve_contact(np.full(shape, gap), op, approach=approach)
+        assert solution.status == "converged"
+        assert (solution.load, solution.residual) == (0, 0)
+        assert solution.approach == approach
+
+
 # all of these stalled by way of the approach: next to full contact the mean gap hangs on the last few cells
 @pytest.mark.parametrize("share", [0.017, 0.002])
 @pytest.mark.parametrize("seed", [0, 2, 4, 5])
