@@ -64,7 +64,8 @@ def write(figure: Figure, folder: Path, name: str, formats: Sequence[str]) -> li
             if ending == "png":
                 _write_png(figure, temporary)
             else:
-                figure.savefig(temporary, format=ending)
+                undated = {"CreationDate": None} if ending == "pdf" else None  # the same run gives the same bytes
+                figure.savefig(temporary, format=ending, metadata=undated)
         paths.append(path)
     return paths
 

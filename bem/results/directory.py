@@ -218,8 +218,9 @@ class RunDirectory:
                     leftover.unlink()
 
     def close(self) -> None:
-        """Give the folder back."""
+        """Give the folder back, without what a process that was ended while it wrote had begun."""
         if self._lock >= 0:
+            self.remove_leftovers()
             with suppress(OSError):
                 (self._home / LOCK).unlink(missing_ok=True)
             os.close(self._lock)

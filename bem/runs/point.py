@@ -12,7 +12,7 @@ from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.jobs import Staff, words_of
 from bem.errors import BemError, ResultsError
 from bem.results import open_run
-from bem.results.atomic import write_bytes
+from bem.results.atomic import force_names, write_bytes
 from bem.results.directory import SUMMARY, RunDirectory
 from bem.runs.scene import run_planned
 from bem.scenes.common import SceneModel
@@ -97,7 +97,11 @@ def store(done: Done, folder: Path) -> None:
     """Write what a worker on another disk sent; the summary last."""
     for name in sorted(done.files, key=lambda item: item == SUMMARY):
         path = folder / name
+        if name == SUMMARY:  # must not be there before what it speaks of
+            for item in dict.fromkeys((folder / other).parent for other in done.files):
+                force_names(item)
         if not path.resolve().is_relative_to(folder.resolve()):
             raise ResultsError(f"{name}: a worker sent a file outside its point's folder")
         path.parent.mkdir(parents=True, exist_ok=True)
         write_bytes(path, done.files[name])
+    force_names(folder)

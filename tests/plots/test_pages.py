@@ -41,10 +41,10 @@ def told(code, folder):
 @LINUX
 def test_a_run_loads_nothing_that_draws_and_its_pictures_are_the_same(tmp_path):
     code = """
-run(sys.argv[1] + "/ahead")
+run(sys.argv[1] + "/ahead", pdf=True)
 assert "matplotlib" not in sys.modules and "jinja2" not in sys.modules
 assert len(started) == 1 and none_left()
-run(sys.argv[1] + "/alone", workers=1)
+run(sys.argv[1] + "/alone", workers=1, pdf=True)
 assert "matplotlib" in sys.modules
 assert len(started) == 1
 run(sys.argv[1] + "/bare", figures=False)
@@ -53,7 +53,7 @@ assert len(started) == 1
     told(code, tmp_path)
     ahead, alone = tmp_path / "ahead" / "figures", tmp_path / "alone" / "figures"
     names = sorted(os.listdir(alone))
-    assert len(names) >= 5
+    assert len(names) >= 10
     assert sorted(os.listdir(ahead)) == names
     for name in names:
         assert (ahead / name).read_bytes() == (alone / name).read_bytes(), name
@@ -116,6 +116,54 @@ print(run(sys.argv[1] + "/one").summary["notes"])
     assert "figure pressure-map could not be drawn: ZeroDivisionError('no')" in notes
     assert "pressure-map could not be drawn" in (tmp_path / "one" / "report.html").read_text()
     assert not (tmp_path / "bad").exists()
+
+
+CUT = """
+import os, signal, sys, time
+import bem.plots.pages as pages
+import bem.plots.side_by_side as module
+module.cores = lambda: 2
+signal.signal(signal.SIGINT, signal.default_int_handler)  # may be ignored where tests run
+def cut(*given):
+    if given:  # in the middle of a picture
+        (given[0].path / "figures").mkdir()
+        (given[0].path / "figures" / ".writing-1-pressure-map.png").write_bytes(b"half")
+    open("copy", "w").write(str(os.getpid()))
+    {sent}
+    time.sleep(600)
+pages.{where} = cut
+sys.argv = ["bem", "run", "hertz-sphere", "--set", "grid.shape=32", "--out", "run"]
+from bem.cli import main
+main()
+"""
+
+
+@LINUX
+@pytest.mark.parametrize("sent", ["os.kill(os.getppid(), signal.SIGINT)", "os.killpg(0, signal.SIGINT)"])
+@pytest.mark.parametrize("where", ["load_what_draws", "make"])
+def test_an_interrupt_ends_the_copy_and_leaves_no_half_file(tmp_path, where, sent):
+    """The copy interrupts, as Ctrl-C would, and sleeps for longer than the test may take."""
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    done = subprocess.run(
+        [sys.executable, "-c", CUT.format(where=where, sent=sent)],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=400,
+        env=environment,
+        start_new_session=True,
+    )
+    assert done.returncode == 130, done.stderr
+    assert "Traceback" not in done.stderr
+    with pytest.raises(ProcessLookupError):
+        os.kill(int((tmp_path / "copy").read_text()), 0)
+    assert not list(tmp_path.rglob(".*"))
+    assert not (tmp_path / "run" / "summary.json").exists()
+    if where == "make":
+        assert "--resume goes on" in done.stderr
+        again = [sys.executable, "-m", "bem", "run", "hertz-sphere", "--set", "grid.shape=32", "--out", "run"]
+        subprocess.run([*again, "--resume"], cwd=tmp_path, capture_output=True, timeout=400, check=True)
+        assert (tmp_path / "run" / "summary.json").is_file()
 
 
 @pytest.mark.parametrize(
