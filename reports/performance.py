@@ -39,6 +39,7 @@ from reports.validation_origin import changed_since_stored
 RESULTS = Path(__file__).resolve().parent / "results" / "performance.json"
 SLIP = "slip_beside_aspher"
 COUNTS = "contact_convolutions"
+RANDOM = "random_contacts"
 FEM_RESULTS = Path(__file__).resolve().parents[1] / "bem" / "verification" / "fem_results"
 
 GROUPS = (
@@ -355,7 +356,28 @@ def convolutions() -> str:
         )
         for row in found(COUNTS)
     ]
-    return body + table(headers, rows) + age(COUNTS)
+    return body + table(headers, rows) + age(COUNTS) + random_convolutions()
+
+
+def random_convolutions() -> str:
+    """How many contacts drawn at random take, from the stored experiment."""
+    if not result_of(RANDOM).exists():
+        return text(f"Not run: python -m reports.experiments.{RANDOM}")
+    body = text(
+        "Contacts drawn at random, by group; each belongs to several. Surfaces of six kinds on grids of 8 to 160 cells "
+        "a side and of any axes, layers a hundredth to a hundred times as stiff as what is below them, friction up to "
+        "1, a hardness or none, from a thousandth of what would press them flat to more than that. "
+        f"`python -m reports.experiments.{RANDOM}` repeats it."
+    )
+    rows = [
+        (
+            *(group["group"].replace("_", " "), group["contacts"], f"{group['median']:.1f}", f"{group['most']:.0f}"),
+            f"{group['converged']} of {group['contacts']}",
+        )
+        for group in found(RANDOM)["groups"]
+    ]
+    headers = ("group", "contacts", "convolutions, median", "most", "converged")
+    return body + table(headers, rows) + age(RANDOM)
 
 
 def _split(run: Run) -> str:

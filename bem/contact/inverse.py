@@ -86,6 +86,8 @@ def _descend(own, far, state, way, balance, step):  # type: ignore[no-untyped-de
     rows, outside, values = own
     (pressure, residual, previous), (preconditioned, direction, out), (rise, share, shifted) = state, way, balance
     size, found, applications = values.size, np.zeros(2), 0
+    if size == 0:  # no cells, no block of them to read
+        return 0.0, 0.0, 0.0, 0.0, 0
     if shifted.size:
         gradients._weighed_free(residual, rise, 1 / share, shifted)
         preconditioner._spread(0, size, found, rows, shifted, values)

@@ -175,6 +175,16 @@ def test_a_weighed_mean_is_taken_off(size):
     np.testing.assert_allclose(out, values - (weights @ values) / weights.sum(), rtol=0, atol=1e-13)
 
 
+@pytest.mark.parametrize("n", [24, 96])
+def test_no_cells_have_no_descent(n):
+    level = Level(operator((n, n), (1 / n, 1 / n), PERIODIC), np.zeros(n * n), np.inf, Tuning())
+    inverse, nothing = level.preconditioner(np.empty(0, np.int64)), np.empty((6, 0))
+    before = level.operator.count.applications
+    balance = nothing[0], 0.0, nothing[1]
+    assert inverse.descend(tuple(nothing[:3]), tuple(nothing[3:]), balance, Step(2.0, 0.3, 0.9)) == (0, 0, 0, 0)
+    assert level.operator.count.applications == before
+
+
 @pytest.mark.parametrize("n", [24, 96])  # the smaller has no long waves
 @pytest.mark.parametrize("control", [LoadControl(30.0), ApproachControl(0.1)])
 def test_a_descent_in_one_call_is_its_passes(n, control, monkeypatch):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from reports import performance
 from reports.experiments import kept, random_contacts
 
 GROUPS = {
@@ -33,3 +34,17 @@ def test_stored_counts_are_what_is_counted():
     # round-off of another machine moves a contact's count by a round or two, all of them hardly
     np.testing.assert_allclose(now["counts"], stored, rtol=0.3, atol=3.0)
     assert np.mean(now["counts"]) == pytest.approx(np.mean(stored), rel=0.1)
+
+
+def test_each_group_is_shown_beside_the_counts_by_kind(monkeypatch, tmp_path):
+    shown = performance.random_convolutions()
+    assert shown.count("<tr>") == len(GROUPS) + 1
+    for one in kept.found("random_contacts")["groups"]:
+        cells = (one["group"].replace("_", " "), str(one["contacts"]), f"{one['median']:.1f}", f"{one['most']:.0f}")
+        row = next(row for row in shown.split("<tr>") if f">{cells[0]}<" in row)
+        assert all(f">{cell}<" in row for cell in cells)
+    assert shown in performance.convolutions()
+    monkeypatch.setattr(kept, "stale", lambda name: "stale: code changed since")
+    assert "Result of random_contacts: stale" in performance.random_convolutions()
+    monkeypatch.setattr(performance, "result_of", lambda name: tmp_path / "none.json")
+    assert "Not run: python -m reports.experiments.random_contacts" in performance.random_convolutions()
