@@ -97,7 +97,7 @@ def draw_all(
 
 def load_what_draws() -> None:
     """Load what every figure needs, before copies of this process are made."""
-    for name in ("matplotlib.backends.backend_agg", "matplotlib.figure", "bem.plots.style", "bem.plots.pictures"):
+    for name in ("bem.plots.style", "matplotlib.backends.backend_agg", "matplotlib.figure", "bem.plots.pictures"):
         importlib.import_module(name)
 
 

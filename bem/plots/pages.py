@@ -23,7 +23,7 @@ from bem.errors import ResultsError
 from bem.plots.draw import draw_all, load_what_draws
 from bem.plots.figures import all_figures
 from bem.plots.report import write_report
-from bem.plots.side_by_side import INTERRUPTS, at_once, copied, ended
+from bem.plots.side_by_side import INTERRUPTS, answer_of, at_once, copied, ended, taken
 from bem.results.arrays import Arrays, Described, described, stored_arrays
 from bem.results.directory import RESULTS, figures_folder
 from bem.results.read import FinishedRun
@@ -105,18 +105,15 @@ class Ahead:
         """Have them made, if the copy is there and the run's file, which holds the arrays, is small enough for it."""
         if self._copy is None or (pages.path / RESULTS).stat().st_size > _MOST_READ:
             return
-        with suppress(OSError), os.fdopen(os.dup(self._orders), "wb") as stream:  # the copy died: see `result`
-            pickle.dump(_Order(pages, described(arrays), arrays.attrs), stream)
-            self._busy = True
+        self._busy = taken(self._orders, pickle.dumps(_Order(pages, described(arrays), arrays.attrs)))
 
     def result(self) -> list[str] | None:
-        """What `make` gives, None where the copy did not make them; raises as it does."""
+        """What `make` gives, None where the copy did not make them, and is gone; raises as it does."""
         if self._copy is None or not self._busy:
             return None
-        answer: _Answer | None = None
-        with suppress(EOFError, pickle.UnpicklingError), os.fdopen(os.dup(self._copy[1]), "rb") as stream:
-            answer = pickle.load(stream)
+        answer: _Answer | None = answer_of(self._copy[1])
         if answer is None:
+            self.close()  # one that only hangs must not go on to write the same files
             return None
         if answer.error:
             raise ResultsError(answer.error)

@@ -1,10 +1,11 @@
-"""One self-contained HTML page about a run: figures embedded, nothing from a network."""
+"""One self-contained HTML page about a run: figures embedded, nothing from a network; animations are linked."""
 
 from __future__ import annotations
 
 import base64
 import json
 import math
+import os
 import platform
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
@@ -53,7 +54,7 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
         figures=summary_rows(summary, [name for name in rest if not is_list(summary[name])]),
         figure_tables=figure_tables(summary, rest),
         origins=origin_table(summary, [*first, *rest]),
-        pictures=[(item.kind, _embedded(item.paths)) for item in drawn],
+        pictures=[(item.kind, _embedded(item.paths), _animated(item.paths, Path(run.path))) for item in drawn],
         stages=sorted(summary.get("seconds_by_stage", {}).items(), key=lambda item: -item[1]),
         scene_text=scene_text,
         date=datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
@@ -114,6 +115,12 @@ def _with_unit(value: Any, unit: str) -> str:
         return f"{value * 10.0 ** (-step * power):.4g} {prefix}{unit}"
     number = f"{value:.4g}" if isinstance(value, float) else str(value)
     return f"{number} {unit}".rstrip()
+
+
+def _animated(paths: Sequence[Path], run: Path) -> str:
+    """Where the animation beside a figure is, as seen from the run's folder; "" for most, which have none."""
+    found = [path for path in paths if path.suffix == ".gif"]
+    return Path(os.path.relpath(found[0], run)).as_posix() if found else ""
 
 
 def _embedded(paths: Sequence[Path]) -> str:

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import os
 import pickle
+import select
 import signal
 import sys
+import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import Any
@@ -20,6 +22,9 @@ from bem.threads import cores
 _MOST = 4
 """Copies and this process together: each holds a picture in memory."""
 INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
+PATIENCE = 600.0
+"""Seconds after which a copy that is waited for counts as one that hangs: pictures of the largest runs take minutes.
+Whoever is only slow costs time, no picture: what it has not answered is done by the one who waits."""
 
 
 def side_by_side(work: Callable[[int], Any], count: int, processes: int | None = None) -> dict[int, Any]:
@@ -47,8 +52,7 @@ def side_by_side(work: Callable[[int], Any], count: int, processes: int | None =
             signal.pthread_sigmask(signal.SIG_SETMASK, usual)
         found = _do(work, tasks)
         for _, answers in copies:
-            with suppress(EOFError, pickle.UnpicklingError), os.fdopen(os.dup(answers), "rb") as stream:
-                found |= pickle.load(stream)
+            found |= answer_of(answers) or {}
     finally:
         os.close(tasks)
         for copy in copies:
@@ -61,6 +65,33 @@ def at_once(processes: int | None) -> int:
     copied."""
     number = min(processes or cores(), _MOST)
     return number if number > 1 and _alone() else 1
+
+
+def answer_of(answers: int) -> Any:
+    """What a copy sends through the pipe; None of one that dies, or hangs for `PATIENCE`."""
+    pieces: list[bytes] = []
+    until, waiting = time.monotonic() + PATIENCE, select.poll()
+    waiting.register(answers, select.POLLIN)
+    while waiting.poll(1e3 * max(0.0, until - time.monotonic())):
+        piece = os.read(answers, 1 << 20)
+        if not piece:
+            with suppress(EOFError, pickle.UnpicklingError):
+                return pickle.loads(b"".join(pieces))
+            return None
+        pieces.append(piece)
+    return None
+
+
+def taken(orders: int, order: bytes) -> bool:
+    """Whether what is sent through a pipe is taken at the other end: not where nobody is there, or hangs for
+    `PATIENCE`."""
+    until, waiting = time.monotonic() + PATIENCE, select.poll()
+    waiting.register(orders, select.POLLOUT)
+    os.set_blocking(orders, False)
+    with suppress(BrokenPipeError):
+        while order and waiting.poll(1e3 * max(0.0, until - time.monotonic())):
+            order = order[os.write(orders, order) :]
+    return not order
 
 
 def ended(process: int, answers: int) -> None:

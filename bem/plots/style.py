@@ -5,16 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import matplotlib
 import numpy as np
 from cycler import cycler
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from bem.plots.backend import load_matplotlib
 from bem.plots.labels import label, largest_of, prefix
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_MATPLOTLIB = load_matplotlib()
 
 BLUE, ORANGE, GREEN, PINK, SKY, VERMILION, YELLOW, BLACK = [
     "#0072B2",
@@ -82,8 +86,11 @@ def named_axes(dataset: Any) -> Iterator[None]:
 
 
 def style() -> AbstractContextManager[None]:
-    """The look, for a `with` block."""
-    return matplotlib.rc_context(_RC)  # type: ignore[arg-type]
+    """The look, for a `with` block: over matplotlib's own defaults, whatever the user's matplotlibrc or session says,
+    and after the block as they were."""
+    plain = {name: value for name, value in _MATPLOTLIB.rcParamsDefault.items() if name != "backend"}
+    found: AbstractContextManager[None] = _MATPLOTLIB.rc_context(plain | _RC)
+    return found
 
 
 def thinned(values: NDArray[Any]) -> NDArray[Any]:

@@ -11,7 +11,7 @@ from bem.plots.pictures import PlainPowers
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="copies are made on Linux only")
 
 RUN = """
-import os, sys
+import os, signal, sys
 import bem.plots.pages as pages
 import bem.plots.side_by_side as module
 module.cores = lambda: 2
@@ -69,6 +69,8 @@ assert len(started) == 1
         "pages.stored_arrays = lambda *_: os._exit(1)",
         "pages.stored_arrays = lambda *_: 1 / 0",
         "pages._MOST_READ = 1000",
+        "module.PATIENCE = 1; pages.stored_arrays = lambda *_: signal.pause()",  # hangs, drawing
+        "module.PATIENCE = 1; pages.load_what_draws = lambda: os.kill(os.getpid(), signal.SIGSTOP)",
     ],
 )
 def test_what_the_copy_does_not_do_is_done_here(tmp_path, what):

@@ -96,6 +96,46 @@ def test_an_interrupt_leaves_no_copy_and_one_right_after_a_start_waits(copies, m
 
 
 @ALONE
+def test_a_copy_that_hangs_is_not_waited_for(copies, monkeypatch):
+    monkeypatch.setattr(module, "PATIENCE", 0.5)
+    here = os.getpid()
+
+    def work(i):
+        if os.getpid() != here:
+            os.kill(os.getpid(), signal.SIGSTOP)
+        time.sleep(0.05)
+        return i
+
+    found = side_by_side(work, 6, 2)
+    assert len(found) >= 5
+    assert all(i == value for i, value in found.items())
+    with pytest.raises(ChildProcessError):
+        os.waitpid(copies[0], 0)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes that are waited for")
+def test_an_order_is_taken_where_somebody_reads_it(monkeypatch):
+    monkeypatch.setattr(module, "PATIENCE", 0.2)
+    much = bytes(1 << 20)  # more than a pipe holds
+    reads, writes = os.pipe()
+    assert module.taken(writes, b"little")
+    assert os.read(reads, 100) == b"little"
+    assert not module.taken(writes, much)
+    os.close(reads)
+    assert not module.taken(writes, much)
+    os.close(writes)
+    reads, writes = os.pipe()
+    got = []
+    reader = threading.Thread(target=lambda: got.extend(iter(lambda: os.read(reads, 1 << 16), b"")))
+    reader.start()
+    assert module.taken(writes, much)
+    os.close(writes)
+    reader.join()
+    os.close(reads)
+    assert b"".join(got) == much
+
+
+@ALONE
 @pytest.mark.parametrize("handler", ["signal.SIG_IGN", "lambda *_: None"])
 def test_who_waits_for_processes_of_its_own_is_not_copied(handler):
     code = f"""

@@ -36,6 +36,8 @@ def test_a_scene_from_tables_to_figures(tmp_path):
     for name in ("passing-interferogram", "passing-sections", "passing-over-time", "film-over-time"):
         assert (run.path / "figures" / f"{name}.png").stat().st_size > 5000
     assert (run.path / "figures" / "passing-interferogram.gif").stat().st_size > 5000
+    page = (run.path / "report.html").read_text("utf-8")
+    assert page.count('href="figures/') == page.count('href="figures/passing-interferogram.gif"') == 1
 
 
 def test_speed_and_load_change_over_time_with_bars(tmp_path):

@@ -20,6 +20,7 @@ from typing import Any
 
 from bem.errors import InputError
 from bem.extensions import load_extensions, same_origin
+from bem.plots.backend import load_matplotlib
 
 _NAME = re.compile(r"[a-z][a-z0-9-]{0,63}")
 
@@ -93,6 +94,7 @@ def all_figures() -> dict[str, FigureKind]:
 
 @cache
 def _of_the_package() -> dict[str, FigureKind]:
+    load_matplotlib()
     found: dict[str, FigureKind] = {}
     for module in sorted(item.name for item in pkgutil.iter_modules(__path__)):
         loaded = importlib.import_module(f"bem.plots.figures.{module}")
