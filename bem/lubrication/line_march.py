@@ -22,7 +22,7 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.steady import lowest_film
 from bem.lubrication.time_steps import Derivative, Reached
-from bem.lubrication.validity import Case, notes_on
+from bem.lubrication.validity import Case, notes_on, why_no_line_film
 
 SETTLING = (0.3, 0.03, 1e-3)
 """Times that a first film is given to settle on the march's mesh where its steady film is not found, in the time that
@@ -181,7 +181,10 @@ def _solution(march: March, film: Film, time: float, outcome: StepOutcome | None
     x = march.mesh.position * scales.length
     pressure, thickness = film.pressure * scales.pressure, film.film * scales.film
     first, second = (float(u) for u in march.operation.speeds(time))
-    case = Case(x, pressure, thickness, (first, second), contact.lubricant, contact.radius, contact.contact_modulus)
+    oil, radius, modulus = contact.lubricant, contact.radius, contact.contact_modulus
+    found = outcome is None or outcome.converged
+    why = None if found else why_no_line_film(oil, march.operation.load(time), radius, modulus)
+    case = Case(x, pressure, thickness, (first, second), oil, radius, modulus, not_found=why)
     upstream = 1 if first + second >= 0 else -2
     force, rolling = _full_force(case, flooded=math.isinf(march.layer) or bool(film.full[upstream]))
     exit_, streamers = _ruptured(march, film, case)
@@ -199,7 +202,7 @@ def _solution(march: March, film: Film, time: float, outcome: StepOutcome | None
         inlet_load_fraction=0.0,
         iterations=outcome.iterations if outcome else 0,
         residual=outcome.residual if outcome else 0.0,
-        status=Status.CONVERGED if outcome is None or outcome.converged else Status.STALLED,
+        status=Status.CONVERGED if found else Status.STALLED,
         speeds=(first, second),
         lubricant=contact.lubricant,
         time=time,

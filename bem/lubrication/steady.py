@@ -24,7 +24,7 @@ from bem.lubrication.line_starved import Neighbour, Wanted, WantedDistance, Want
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
 from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply, inside_hertz
-from bem.lubrication.validity import Case, check_oil, notes_on
+from bem.lubrication.validity import Case, check_oil, notes_on, why_no_line_film
 from bem.lubrication.with_heat import film_with_heat
 from bem.materials import Body
 from bem.monotone import MonotoneCubic
@@ -140,6 +140,7 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
         radius=radius,
         contact_modulus=contact_modulus,
         reduction=1.0 if starvation is None else starvation.reduction,
+        not_found=None if outcome.converged else why_no_line_film(lubricant, load, radius, contact_modulus),
     )
     film = replace(
         solution_of(outcome, flooded, problem, scales, speeds, reversed_, lubricant, position), starvation=starvation

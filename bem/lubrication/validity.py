@@ -59,7 +59,8 @@ class Case:
 
     position, pressure, thickness : (n,) [m], [Pa], [m]. speeds : of flat and cylinder [m/s]. lubricant : the oil.
     radius : [m]. contact_modulus : [Pa], infinite for rigid bodies. reduction : by a supply, of the film.
-    hot_stress : of a film with heat, mu (u1 - u2)/h at its temperatures (n,) [Pa].
+    hot_stress : of a film with heat, mu (u1 - u2)/h at its temperatures (n,) [Pa]. not_found : why there is none, of
+    the last iterate of a film that was not found.
     """
 
     position: FloatArray
@@ -71,6 +72,7 @@ class Case:
     contact_modulus: float
     reduction: float = 1.0
     hot_stress: FloatArray | None = None
+    not_found: str | None = None
 
     @cached_property
     def newtonian_stress(self) -> FloatArray:
@@ -89,6 +91,37 @@ class Case:
     def integral(self, values: FloatArray) -> float:
         """Of values at the nodes over x."""
         return float(np.trapezoid(values, self.position))
+
+
+def film_not_found(case: Case) -> str | None:
+    """There is no film, and the others say what they say of the last iterate."""
+    return case.not_found
+
+
+def why_not_found(oil: Lubricant, hertz: float, said: str, otherwise: str) -> str:
+    """Why there is no film, and what to do: `said` and what the oil and Hertz' pressure [Pa] show, infinite for rigid
+    bodies, else `otherwise`."""
+    if math.isinf(hertz) and oil.log_viscosity_ratio(np.zeros(1))[1][0] > 0:
+        return (
+            f"{said}between rigid bodies an oil that pressure thickens carries any load at some gap, in a spike that "
+            'gets narrower with every cell; give contact_modulus, or viscosity_law = "isoviscous"'
+        )
+    if math.isfinite(hertz) and oil.viscosity_at(np.array([hertz]))[0] > GLASS:
+        return (
+            f"{said}under Hertz' pressure, {hertz / 1e9:.3g} GPa, the viscosity law gives more than {GLASS:g} Pa s, a "
+            "glass; check pressure_viscosity and load, more cells do not help"
+        )
+    return said + otherwise
+
+
+def why_no_line_film(oil: Lubricant, load: float, radius: float, contact_modulus: float) -> str:
+    """The same of a line contact, its load per unit length [N/m], radius [m] and modulus [Pa]."""
+    hertz = math.inf
+    if math.isfinite(contact_modulus):
+        hertz = contact_modulus * hertz_over_modulus(load, radius, contact_modulus)
+    return why_not_found(
+        oil, hertz, "no film was found: ", "pressure or film is too steep for the mesh; take more points"
+    )
 
 
 def shear_beyond_measurements(case: Case) -> str | None:
@@ -138,12 +171,14 @@ def viscosity_beyond_range(case: Case) -> str | None:
     oil, highest = case.lubricant, case.pressure.max(initial=0.0)
     largest = oil.viscosity_law.largest_pressure
     if highest <= largest:
-        return _glass(oil) if oil.viscosity_at(np.array([highest]))[0] > GLASS else None
-    return (
-        f'the pressure exceeds {largest / 1e9:g} GPa, up to which viscosity_law "{case.lubricant.viscosity_law.name}" '
-        "describes oils: viscosities in the middle of the contact are extrapolated (the film forms in the inlet, where "
-        "pressures are lower)"
+        return _glass(oil) if case.not_found is None and oil.viscosity_at(np.array([highest]))[0] > GLASS else None
+    said = (
+        f'the pressure exceeds {largest / 1e9:g} GPa, up to which viscosity_law "{oil.viscosity_law.name}" describes '
+        "oils: viscosities in the middle of the contact are extrapolated"
     )
+    if math.isinf(case.contact_modulus):
+        return f"{said} (between rigid bodies the film forms there, under pressures that flatten real ones)"
+    return f"{said} (the film forms in the inlet, where pressures are lower)"
 
 
 def _glass(oil: Lubricant) -> str:
@@ -227,6 +262,7 @@ def molecular_film(case: Case) -> str | None:
 
 
 CHECKS: list[Callable[[Case], str | None]] = [
+    film_not_found,
     shear_beyond_measurements,
     shear_at_the_limit,
     film_slips,

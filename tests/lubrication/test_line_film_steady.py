@@ -44,6 +44,18 @@ def similarity_case(load, piezo, *, law="roelands", density="incompressible", ra
     return case, radius * math.sqrt(speed)
 
 
+@pytest.mark.parametrize("slope", [75e-9, 225e-9])
+def test_a_film_that_is_not_found_says_why(slope):
+    """Roelands' z of 2 and 6 under 0.4 GPa: the second stalled with nothing said at all."""
+    steel = {"load": 5e4, "radius": 0.01, "contact_modulus": 115e9, "speeds": (1.0, 1.0)}
+    oil = Lubricant(0.1, pressure_viscosity=slope)
+    film = solve_line_film(**steel, lubricant=oil, points=400, max_iterations=20)
+    assert film.status is Status.STALLED
+    (said,) = [note for note in film.notes if note.startswith("no film was found")]
+    assert "0.428 GPa" in said  # Hertz', sqrt(w E*/(pi R))
+    assert "a glass; check pressure_viscosity and load" in said
+
+
 def test_rigid_isoviscous_film_is_martins():
     case = {**THESIS, "contact_modulus": math.inf, "lubricant": Lubricant(0.36)}
     film = solve_line_film(**case, speeds=(0.02, 0.08), points=800)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from small_scenes import oiled_ball
+from small_scenes import PATCH, oiled_ball
 
 from bem import Grid
 from bem.errors import InputError
@@ -255,6 +255,22 @@ def test_a_ball_in_oil_that_yields_is_told_as_a_dry_one(kind):
     assert fired("hertz_pressure_above_hardness", light) == fired("yield_below_the_surface", light) == []
     softer = with_(light, ball__load="100 N", lower__material="steel-disk")
     assert "begins to yield" in " ".join(fired("yield_below_the_surface", softer))
+
+
+def test_a_friction_curve_is_told_of_yield_as_a_dry_contact_where_no_cap_is():
+    """By model: of a capped and an elastic one the elastic one is. The disk of 110 HV yields below its surface at
+    0.7 GPa and is indented at 1.1; 200 N make 0.8 GPa, 600 N 1.35."""
+    heavy = PATCH | {"kind": "friction", "speeds": {"values": ["1 m/s"]}, "sharing": {"models": ["elastic"]}}
+    heavy = with_(heavy, contact__loads=["600 N"], grid__shape=[320, 32])
+    (told,) = fired("hertz_pressure_above_hardness", heavy)
+    assert 'take sharing.models = ["capped"]' in told
+    (both,) = fired("hertz_pressure_above_hardness", with_(heavy, sharing__models=["capped", "elastic"]))
+    assert "(elastic)" in both
+    assert fired("hertz_pressure_above_hardness", with_(heavy, sharing__models=["capped"])) == []
+    lighter = with_(heavy, contact__loads=["200 N"])
+    assert fired("hertz_pressure_above_hardness", lighter) == fired("yield_below_the_surface", heavy) == []
+    assert "begins to yield" in " ".join(fired("yield_below_the_surface", lighter))
+    assert fired("yield_below_the_surface", with_(heavy, contact__loads=["100 N"])) == []
 
 
 def test_cells_unlike_along_x_and_y_are_told_the_spacing_that_the_contact_asks_for():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +16,7 @@ from bem.lubrication.point.cascade import COARSEST, shapes_up_to
 from bem.lubrication.point.far import far_shear
 from bem.lubrication.point.kept import rise_beside_lowest
 from bem.lubrication.point.levels import Level
+from bem.lubrication.point.scales import PointScales, point_scales
 from bem.lubrication.point.setting import Setting
 from bem.lubrication.thermal.inlet import inlet_heating_factor
 
@@ -34,6 +35,10 @@ x 80 cells four to six times as long along the flow, two of them none on 160 x 1
 of them with 1.5 times as many only, the others with as many."""
 LARGEST_ERROR = 0.02
 """Of a film, above which its error is said, and of friction, what the inlet may add."""
+STEEL = 115e9
+"""E* of two bodies of steel [Pa]."""
+RIGID_BOUND = 0.1
+"""Of a film's thickness, by which bodies may flatten to be taken as rigid."""
 UNKNOWN = "the error of the film is unknown: "
 """How notes begin that say so, and of which cells to see it."""
 
@@ -41,11 +46,13 @@ UNKNOWN = "the error of the film is unknown: "
 @dataclass(frozen=True)
 class PointCase(validity.Case):
     """A point film for the checks of line films: fields (nx, ny), speeds of the same sum and difference along one axis,
-    `radius` along the flow."""
+    `radius` along the flow; y beside the position [m]; `moes` of rigid bodies were they of steel, (M, L)."""
 
     cell: float = 0.0
     hertz_ratio: float = 0.0
     length: float = 0.0
+    across: FloatArray = field(default_factory=lambda: np.zeros(1))
+    moes: tuple[float, float] = (0.0, 0.0)
 
     def integral(self, values: FloatArray) -> float:
         """Of values over the plane."""
@@ -58,6 +65,26 @@ def inlet_heating(case: PointCase) -> str | None:
         case.lubricant.viscosity, validity.OIL_SOFTENING, validity.OIL_CONDUCTIVITY, case.speeds, case.hertz_ratio
     )
     return validity.HEATING_NOTES[0] if heating.factor < validity.LEAST_INLET_FACTOR * case.reduction else None
+
+
+def bodies_not_rigid(case: PointCase) -> str | None:
+    """Bodies taken as rigid would flatten under this pressure, were they of steel: by the deflection of a half-space
+    where it is highest, integral p/(pi E* r), cells as points but for that one (Johnson 1985, eq. 3.19)."""
+    if math.isfinite(case.contact_modulus) or case.not_found is not None or not case.pressure.any():
+        return None
+    i, j = np.unravel_index(int(case.pressure.argmax()), case.pressure.shape)
+    r = np.hypot((case.position - case.position[i])[:, None], case.across - case.across[j])
+    r[i, j] = math.sqrt(case.cell) / (4 * math.asinh(1))  # the mean of 1/r over a square
+    flattened = case.integral(case.pressure / r) / (math.pi * STEEL)
+    if flattened <= RIGID_BOUND * case.thickness[i, j]:
+        return None
+    load, material = case.moes
+    return (
+        f"bodies are not rigid: under {case.pressure.max() / 1e9:.2g} GPa those of steel (E* {STEEL / 1e9:g} GPa, "
+        f"Moes' M {load:.2g} and L {material:.2g}) would flatten by {flattened / case.thickness[i, j]:.2g} times the "
+        f"film, and the rigid regime ends where they do by {RIGID_BOUND:g}: this is no film of real bodies; give "
+        "contact_modulus"
+    )
 
 
 def film_heating(case: PointCase) -> str | None:
@@ -75,6 +102,8 @@ def film_heating(case: PointCase) -> str | None:
 
 
 CHECKS: list[Callable[[PointCase], str | None]] = [
+    validity.film_not_found,
+    bodies_not_rigid,
     validity.shear_beyond_measurements,
     validity.shear_at_the_limit,
     validity.viscosity_beyond_range,
@@ -103,6 +132,9 @@ def notes_on_point(film: PointFilmSolution, setting: Setting, level: Level, cont
         hertz_ratio=0.0 if hertz is None else hertz.maximum_pressure * scales.pressure / contact_modulus,
         length=0.0 if hertz is None else 2 * hertz.semi_axes[0] * scales.length,
         reduction=1.0 if film.starvation is None else film.starvation.reduction,
+        across=film.y,
+        moes=_moes_of_steel(film, setting.scales),
+        not_found=None if film.status is Status.CONVERGED else _not_found(film, setting),
     )
     notes = film.lubricant.notes + tuple(note for check in CHECKS if (note := check(case)) is not None)
     return notes + _on_grid(film, frame.inner(film.thickness), setting, level)
@@ -124,21 +156,30 @@ def inlet_shear(film: PointFilmSolution, setting: Setting) -> float:
     return film.lubricant.viscosity * slide * radius * far_shear(problem.drag, problem.curvatures) * math.log(2)
 
 
+def _moes_of_steel(film: PointFilmSolution, scales: PointScales) -> tuple[float, float]:
+    """Moes' M and L were the bodies of steel."""
+    radius = scales.length**2 / scales.film
+    speed = (scales.film / radius) ** 2
+    own = scales.pressure / speed**0.25
+    steel = point_scales(film.load, (radius, radius / scales.ratio), STEEL, speed * own * radius, 1.0)
+    return steel.load, float(film.lubricant.log_viscosity_ratio(np.zeros(1))[1][0]) * steel.pressure
+
+
 def _not_found(film: PointFilmSolution, setting: Setting) -> str:
     """Why there is no film, and what to do."""
-    (nx, ny), oil, unit = film.pressure.shape, film.lubricant, setting.scales.pressure
-    said = f"no film was found on {nx} x {ny} cells: "
-    if setting.scales.rigid and oil.log_viscosity_ratio(np.zeros(1))[1][0] > 0:
-        return (
-            f"{said}between rigid bodies an oil that pressure thickens carries any load at some gap, in a spike that "
-            'gets narrower with every cell; give contact_modulus, or viscosity_law = "isoviscous"'
-        )
-    highest = 0.0 if setting.hertz is None else setting.hertz.maximum_pressure * unit
-    if oil.viscosity_at(np.array([highest]))[0] > validity.GLASS:
-        return (
-            f"{said}under Hertz' pressure, {highest / 1e9:.3g} GPa, the viscosity law gives more than "
-            f"{validity.GLASS:g} Pa s, a glass; check pressure_viscosity and load, more cells do not help"
-        )
+    nx, ny = film.pressure.shape
+    hertz = 0.0 if setting.hertz is None else setting.hertz.maximum_pressure * setting.scales.pressure
+    return validity.why_not_found(
+        film.lubricant,
+        math.inf if setting.scales.rigid else hertz,
+        f"no film was found on {nx} x {ny} cells: ",
+        _other_cells(film),
+    )
+
+
+def _other_cells(film: PointFilmSolution) -> str:
+    """On which a film that is not found may be."""
+    nx, ny = film.pressure.shape
     sides = tuple(float(np.ptp(one)) * n / (n - 1) for one, n in ((film.x, nx), (film.y, ny)))
     longer = sides[0] / nx / (sides[1] / ny)
     if not 1 / LONGEST_CELL < longer < LONGEST_CELL:
@@ -146,11 +187,11 @@ def _not_found(film: PointFilmSolution, setting: Setting) -> str:
         first, second = (min(max(2 * round(side / cell / 2), 32), 2048) for side in sides)
         far, near = ("x", "y") if longer > 1 else ("y", "x")
         return (
-            f"{said}they are {max(longer, 1 / longer):.2g} times as long along {far} as along {near}; about square "
+            f"they are {max(longer, 1 / longer):.2g} times as long along {far} as along {near}; about square "
             f"ones, {first} x {second}, may find it"
         )
     return (
-        f"{said}heavy loads of thin oils and narrow ellipses along the flow have constrictions of a few cells there; "
+        "heavy loads of thin oils and narrow ellipses along the flow have constrictions of a few cells there; "
         "take twice as many"
     )
 
@@ -158,8 +199,6 @@ def _not_found(film: PointFilmSolution, setting: Setting) -> str:
 def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, level: Level) -> tuple[str, ...]:
     """What the grid does to it."""
     notes = []
-    if film.status is not Status.CONVERGED:
-        notes.append(_not_found(film, setting))
     begins = float(thickness[0].min())
     if setting.problem.drag[1] > 0.1:
         begins = min(begins, float(thickness[:, 0].min()))
@@ -169,7 +208,7 @@ def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, l
             f"the grid does not reach the inlet: it begins where the gap is less than {SHORTEST_INLET:g} central "
             "films; upstream of it the pressure of rigid bodies is taken, and the film is too thick or too thin"
         )
-    if rise_beside_lowest(thickness) > STEEPEST:
+    if film.status is Status.CONVERGED and rise_beside_lowest(thickness) > STEEPEST:
         notes.append(
             "the constriction is narrower than the cells: beside the lowest one the film is more than "
             f"{STEEPEST:g} times as thick, and its minimum may be off by tenths; take twice as many"

@@ -200,7 +200,7 @@ def solve_full_thermal_line_film(  # reason: the arguments of `solve_line_film`,
         found = replace(found, film=film)
     thermal = _result(found, cold, tolerance, kept.reversed)
     stress = found.made.across(found.field.oil).newtonian
-    notes = notes_of_film(found.film, lubricant, radius, contact_modulus, stress)
+    notes = notes_of_film(found.film, lubricant, radius, contact_modulus, stress, found=start.converged)
     notes += notes_on_factors(flow_factors, found.film.minimum_thickness)
     return replace(thermal, notes=notes + thermal.notes)
 

@@ -211,7 +211,8 @@ def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and 
     if supply is not None:
         thinned.starve(case, points, initial, supply)
     thermal = _heated(thinned, lubricant, conductors, cells)
-    notes = notes_of_film(thermal.film, lubricant, radius, contact_modulus)
+    found = thermal.film.status is Status.CONVERGED
+    notes = notes_of_film(thermal.film, lubricant, radius, contact_modulus, found=found)
     notes += notes_on_factors(flow_factors, thermal.minimum_thickness)
     return replace(thermal, notes=notes + _limits(thermal, lubricant) + thermal.notes)
 

@@ -10,16 +10,23 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.oils.oil import EXTRAPOLATED, HOTTEST, Oil
 from bem.lubrication.oils.over_temperature import CELSIUS
 from bem.lubrication.steady import KeptSteady
-from bem.lubrication.validity import HEATING_NOTES, Case, notes_on
+from bem.lubrication.validity import HEATING_NOTES, Case, notes_on, why_no_line_film
 
 
 def notes_of_film(
-    film: FilmSolution, lubricant: Lubricant, radius: float, contact_modulus: float, stress: FloatArray | None = None
+    film: FilmSolution,
+    lubricant: Lubricant,
+    radius: float,
+    contact_modulus: float,
+    stress: FloatArray | None = None,
+    *,
+    found: bool,
 ) -> tuple[str, ...]:
     """Those of the film, of the oil as it is, but for what they say of heat; stress : Newtonian at the nodes (n,) [Pa],
-    that of the oil at its own temperature where it is not given."""
+    that of the oil at its own temperature where it is not given; found : whether there is a film without heat."""
     kept = film.state
     assert isinstance(kept, KeptSteady)
+    load = kept.load * kept.scales.pressure * kept.scales.length
     case = Case(
         position=kept.state.position * kept.scales.length,
         pressure=np.maximum(kept.state.pressure, 0.0) * kept.scales.pressure,
@@ -29,6 +36,7 @@ def notes_of_film(
         radius=radius,
         contact_modulus=contact_modulus,
         hot_stress=stress,
+        not_found=None if found else why_no_line_film(lubricant, load, radius, contact_modulus),
     )
     return tuple(note for note in notes_on(case) if note not in HEATING_NOTES)
 

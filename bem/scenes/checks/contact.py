@@ -10,8 +10,9 @@ from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.words import percent, si
 
 _SLOPE_AT_EDGE = 0.2
-_ELASTIC = ("contact", "film", "point-film", "point-film-time")
-"""Kinds whose smooth contact is as elastic as Hertz'."""
+_LUBRICATED = ("friction", "running-in", "running-in-life")
+_ELASTIC = ("contact", "film", "point-film", "point-film-time", *_LUBRICATED)
+"""Kinds whose smooth contact is as elastic as Hertz' where nothing caps it."""
 
 
 @scene_check
@@ -43,7 +44,8 @@ def hertz_pressure_above_hardness(facts: Facts) -> Iterator[str]:
     if found is not None and found[0] > 1:
         ratio, case = found
         assert case.smooth is not None
-        how = 'take behaviour = "capped" or a smaller load' if facts.of_kind("contact") else "take a smaller load"
+        capped = {"contact": 'behaviour = "capped"', "friction": 'sharing.models = ["capped"]'}.get(facts.scene.kind)
+        how = "take a smaller load" if capped is None else f"take {capped} or a smaller load"
         yield (
             f"Hertz pressure {si(case.smooth.maximum_pressure, 'Pa')} is {ratio:.2g} times the softer "
             f"hardness{case.at}, and the contact is elastic: a real one would flow; {how}"

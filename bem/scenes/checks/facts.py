@@ -212,16 +212,17 @@ def _lubricated(scene: Any) -> list[Case]:
     modulus = contact_modulus(bodies["lower"].material, bodies["upper"].material)
     (load,) = contact.forces(modulus)
     depths = getattr(scene, "depths", None)
+    cap: float | None = getattr(scene, "cap", contact.hardness)  # a curve of several models has caps of its own
     cell = []
     if scene.cell_repeats:  # of the contact, and part of a flat
-        cell = [Case(grid=grid, load=contact.mean_pressure(load, modulus) * grid.area, cap=contact.hardness, **bodies)]
+        cell = [Case(grid=grid, load=contact.mean_pressure(load, modulus) * grid.area, cap=cap, **bodies)]
     return [
         *cell,
         Case(
             grid=None if cell else grid,
             load=contact.on_patch(load, grid.lengths),
             smooth=smooth_contact(bodies["lower"], bodies["upper"], contact.curvature, load=load / contact.length),
-            cap=contact.hardness,
+            cap=cap,
             friction=contact.nominal_friction(load, modulus, scene.speeds.build()[0], scene.oil.temperature),
             depths=() if depths is None else tuple(float(d) for d in depths.build()),
             width=contact.width,
