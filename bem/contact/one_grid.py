@@ -2,8 +2,8 @@
 
 The load, the approach and the mean gap are solved for directly (`active_set`). If that fails: with every round on the
 guard of the energy; with friction's part of the displacement taken from the contact before (`_lagged`); an approach by
-way of the load; a mean gap by way of the approach, or the load, and where it is not reached so either, `least_gap` says
-whether it exists.
+way of the load; a mean gap by way of the approach, below a hardness also of the load, and where elastic bodies do not
+reach it so, `least_gap` says whether it exists.
 """
 
 from __future__ import annotations
@@ -143,30 +143,39 @@ def solve_on_grid(problem: Problem, control: Control, start: Start, tolerance: f
 
 
 def _with_mean_gap(problem: Problem, mean_gap: float, start: Start, tolerance: float) -> LevelResult:
-    """The mean gap, else by way of the approach; else by way of the load, or by looking for the least there is."""
+    """The mean gap, else by way of the approach; below a hardness also of the load, and first where most cells that
+    touch are at it; without one by looking for the least there is."""
     gap, cap, scale = problem.gap, problem.cap, problem.shared.scale
     # displacements are not negative on average, so this approach is not enough
     least = float(gap.mean()) - mean_gap
     result = problem.followed(mean_gap, start.pressure, tolerance)
     if result.converged or result.resolved or problem.shared.effort.left <= 0:
         return result
-    result = mean_gap_by_approach(
-        mean_gap,
-        gap,
-        start.pressure,
-        scale,
-        tolerance,
-        problem.direct,
-        bracket=(least, math.inf),
-        guess=max(start.approach, least),
-        patient=not problem.operator.mean_free,
-    )
-    missed = not result.converged or abs(mean_opening(gap, result) - mean_gap) > tolerance
-    if not missed or problem.shared.effort.left <= 0:
-        return result
-    if problem.operator.mean_free:
-        return mean_gap_by_load(mean_gap, gap, cap, scale, tolerance, problem.direct)
+
+    def by_approach(_before: LevelResult) -> LevelResult:
+        guess, patient = max(start.approach, least), not problem.operator.mean_free
+        begin, bracket = start.pressure, (least, math.inf)
+        return mean_gap_by_approach(
+            mean_gap, gap, begin, scale, tolerance, problem.direct, bracket=bracket, guess=guess, patient=patient
+        )
+
+    def by_load(before: LevelResult) -> LevelResult:
+        return mean_gap_by_load(mean_gap, gap, cap, before.pressure, scale, tolerance, problem.direct)
+
+    ways: list[Callable[[LevelResult], LevelResult]] = [by_approach]
+    if math.isfinite(cap):
+        ways.insert(int(not _mostly_capped(result, cap)), by_load)
+    for way in ways:
+        result = way(result)
+        missed = not result.converged or abs(mean_opening(gap, result) - mean_gap) > tolerance
+        if not missed or problem.shared.effort.left <= 0:
+            return result
     return result if math.isfinite(cap) else _least_gap(problem, mean_gap, result, tolerance)
+
+
+def _mostly_capped(result: LevelResult, cap: float) -> bool:
+    """Whether more of the cells that touch are at the cap than below it."""
+    return 2 * int(np.count_nonzero(result.pressure >= cap)) > int(np.count_nonzero(result.pressure))
 
 
 def _least_gap(problem: Problem, mean_gap: float, missed: LevelResult, tolerance: float) -> LevelResult:

@@ -1,9 +1,9 @@
 """Prescribed quantities reached by way of another, where their own way fails: the mean gap by the approach, a hard
 approach by the load.
 
-Both pairs depend on one another monotonically, but for the mean gap below stiff layers (see `least_gap`). A safeguarded
-secant iteration starts each solution from the pressure of the one before and asks of it no more precision than the next
-step can use.
+Both pairs depend on one another monotonically, but for the mean gap below stiff layers (see `least_gap`), which below a
+hardness falls again as all yields. A safeguarded secant iteration starts each solution from the pressure of the one
+before and asks of it no more precision than the next step can use.
 """
 
 from __future__ import annotations
@@ -52,8 +52,8 @@ def mean_gap_by_approach(
 ) -> LevelResult:
     """Solution whose mean positive gap is `mean_gap`, to `tolerance`, between two approaches, the first not enough.
 
-    Without patience the search ends at the first contact that does not converge; in any case where the mean gap grows
-    with the approach.
+    Without patience the search ends at the first contact that does not converge; in any case, where no approach is
+    known to be enough, where the mean gap grows with it.
     """
 
     def excess(result: LevelResult) -> float:
@@ -64,13 +64,15 @@ def mean_gap_by_approach(
 
 
 def mean_gap_by_load(
-    mean_gap: float, gap: FloatArray, cap: float, scale: float, tolerance: float, solve: Solve
+    mean_gap: float, gap: FloatArray, cap: float, start: FloatArray, scale: float, tolerance: float, solve: Solve
 ) -> LevelResult:
-    """Solution whose mean positive gap is `mean_gap`, to `tolerance`, where it fails by the approach.
+    """Solution whose mean positive gap is `mean_gap`, to `tolerance`, below a finite cap, from a pressure.
 
-    Next to full contact that would have to be exact to far less than the mean gap.
+    The load is bounded, and at its most all cells are at the cap and none is open: there is such a solution, also where
+    the mean gap grows with the approach before it falls. Next to full contact an approach would have to be exact to far
+    less than the mean gap.
     """
-    return _by_load(lambda result: mean_gap - mean_opening(gap, result), cap, None, gap.size, scale, tolerance, solve)
+    return _by_load(lambda result: mean_gap - mean_opening(gap, result), cap, start, gap.size, scale, tolerance, solve)
 
 
 def approach_by_load(
@@ -130,8 +132,12 @@ def _search(quest: _Quest, x: float, bracket: tuple[float, float], step: float, 
             return result
         if len(points) >= _STEPS or not (quest.patient or result.converged):
             return result
-        if error < 0 and any(x > other and error < less - 2 * precision for other, less in points):
-            return result  # it falls: there is no zero beyond
+        if (
+            math.isinf(bracket[1])
+            and error < 0
+            and any(x > other and error < less - 2 * precision for other, less in points)
+        ):
+            return result  # it falls, and nothing says that there is a zero beyond
         if abs(error) <= 2 * precision and precision > tolerance:
             precision = max(tolerance, min(_CLOSE * abs(error), 0.1 * precision))
             points = points[-1:]

@@ -66,11 +66,16 @@ def test_less_than_a_moderate_layer_needs_is_said_without_running_off():
     np.testing.assert_allclose(elastic.load, solution.load, rtol=1e-4)
 
 
-def test_every_mean_gap_exists_below_a_hardness():
-    """Bodies that overlap where they yield close any gap: what is infeasible for elastic ones is not for these."""
+@pytest.mark.parametrize("hardness", [0.05, 20.0, 200.0])
+def test_every_mean_gap_exists_below_a_hardness(hardness):
+    """Bodies that overlap where they yield close any gap: what is infeasible for elastic ones is not for these, also
+    where the gap grows with the approach until most cells yield."""
     operator = stiff_layer(FREE, 0.0)
     gap = 2.5e-3 * rough(15, 8, seed=34)
-    least = least_mean_gap(operator, gap)
-    solution = solve_contact(gap, operator, mean_gap=0.5 * least, hardness=0.05, tolerance=1e-6)
+    wanted = 0.5 * least_mean_gap(operator, gap)
+    solution = solve_contact(gap, operator, mean_gap=wanted, hardness=hardness, tolerance=1e-6)
     assert solution.status == Status.CONVERGED
     assert solution.plastic_area > 0
+    opening = gap + (columns(operator) @ solution.pressure.ravel()).reshape(gap.shape) - solution.approach
+    assert np.maximum(opening, 0)[solution.pressure == 0].sum() / gap.size == pytest.approx(wanted, rel=1e-4)
+    assert 0 <= solution.pressure.min() <= solution.pressure.max() <= hardness * (1 + 1e-12)
