@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -23,6 +23,10 @@ DRY = 1e-4
 LIFTS = (1.0, 1.5, 3.0)
 """Films to start with over those expected, in the order in which they are tried: from thinner ones than there are the
 first step may lead nowhere, from thicker ones it takes longer."""
+MILDEST, BY, LEAST_BY = 0.2, 0.25, 0.03
+"""Where no film was found from the dry contact, one is led there through oils that thicken less: the share of
+ln(viscosity) to begin with, by how much more it is tried to go on, and the least of that. Where a light load meets an
+oil that thickens steeply (L > 15) Newton's method goes round in circles from films without its ridge."""
 RUPTURE = 0.5
 """x over |y| up to which a start has pressure: the true edge is found faster from outside."""
 LEAST_PRESSURE = 1e-12
@@ -96,19 +100,70 @@ def solved(problem: PointProblem, shape: tuple[int, int], tolerance: float, most
     for one in shapes_up_to(shape):
         level, before, coarse = Level(problem, one), coarse, None
         goal = tolerance if one == shape else ON_THE_WAY
-        for start in _starts(level, before):
-            outcome = newton(level, start(), goal, most)
-            steps, cycles = steps + outcome.steps, cycles + outcome.cycles
-            if outcome.converged:
-                coarse = (level, outcome.state)
-                break
+        outcome = _found(level, before, goal, most)
+        steps, cycles = steps + outcome.steps, cycles + outcome.cycles
+        if outcome.converged:
+            coarse = (level, outcome.state)
         work += level.convolutions * one[0] * one[1]
     assert outcome is not None
     final = replace(outcome, steps=steps, cycles=cycles)
     return Reached(level, final, before, work / (shape[0] * shape[1]))
 
 
-def _starts(level: Level, before: tuple[Level, State] | None) -> list[Callable[[], State]]:
-    """In the order in which they are tried."""
-    starts: list[Callable[[], State]] = [partial(from_dry, level, lift) for lift in LIFTS]
-    return starts if before is None else [partial(interpolated, level, *before), *starts]
+def _found(level: Level, before: tuple[Level, State] | None, goal: float, most: int) -> Outcome:
+    """The film from the first start from which there is one, else what the last left; steps and cycles are of all."""
+    first, *lifted = [partial(from_dry, level, lift) for lift in LIFTS]
+    nearest = [first] if before is None else [partial(interpolated, level, *before), first]
+    outcome = _first_found(level, nearest, goal, most)
+    for more in (_by_way_of_milder_oils, partial(_first_found, starts=lifted)):
+        if outcome.converged:
+            break
+        following = more(level, goal=goal, most=most)
+        spent = (outcome.steps + following.steps, outcome.cycles + following.cycles)
+        outcome = replace(following, steps=spent[0], cycles=spent[1])
+    return outcome
+
+
+def _first_found(level: Level, starts: Sequence[Callable[[], State]], goal: float, most: int) -> Outcome:
+    """The film from the first of some starts from which there is one, else what the last left."""
+    steps = cycles = 0
+    for start in starts:
+        outcome = newton(level, start(), goal, most)
+        steps, cycles = steps + outcome.steps, cycles + outcome.cycles
+        if outcome.converged:
+            break
+    return replace(outcome, steps=steps, cycles=cycles)
+
+
+def _by_way_of_milder_oils(level: Level, goal: float, most: int) -> Outcome:
+    """The film that follows from those of oils that thicken less, else what the last of them left."""
+    found, steps, cycles = None, 0, 0
+    reached, share, by = 0.0, MILDEST, BY
+    while True:
+        there = share >= 1.0
+        at = level if there else Level(_with_milder_oil(level.problem, share), level.shape)
+        if found is None:
+            starts = [partial(from_dry, at, lift) for lift in LIFTS]
+        else:
+            starts = [partial(State, found.pressure, found.film, found.datum)]
+        outcome = _first_found(at, starts, goal if there else ON_THE_WAY, most)
+        steps, cycles = steps + outcome.steps, cycles + outcome.cycles
+        if outcome.converged:
+            found, reached = outcome.state, share
+        else:
+            by *= 0.5
+        ended = there if outcome.converged else found is None or by < LEAST_BY
+        if ended:
+            return replace(outcome, steps=steps, cycles=cycles, converged=outcome.converged and there)
+        share = min(reached + by, 1.0)
+
+
+def _with_milder_oil(problem: PointProblem, share: float) -> PointProblem:
+    """Films go by about the root of how steeply oils thicken."""
+    film = problem.typical_film * share**0.5
+    return replace(problem, oil=partial(_milder, problem.oil, share), typical_film=film)
+
+
+def _milder(oil: Callable[[FloatArray], FloatArray], share: float, pressure: FloatArray) -> FloatArray:
+    """What `loops.flows` takes of an oil whose viscosity grows with a share of the exponent."""
+    return oil(pressure) * np.array([share, share, 1.0, 1.0]).reshape(4, *(1,) * np.ndim(pressure))

@@ -268,6 +268,41 @@ def test_any_contact_converges_from_nothing(seed):
     assert film.convolutions < 400
 
 
+def test_light_loads_on_oils_that_thicken_steeply_are_led_there_through_milder_ones():
+    """L 22: from the dry contact alone it stalled after 1,953 cycles, 33 steps with any of three lifts."""
+    oil = Lubricant(0.04, pressure_viscosity=55.1e-9)
+    film = solve_point_film(
+        load=7.5,
+        radii=(0.01, 0.0466),
+        contact_modulus=1.1e11,
+        speeds=((0.296, 0.0),) * 2,
+        lubricant=oil,
+        shape=(56, 56),
+    )
+    assert film.status == "converged"
+    assert max(film.residual, film.mass_imbalance) <= 1e-8
+    assert film.cycles < 500
+
+
+def test_the_oil_at_the_end_of_the_way_is_the_one_asked_for(monkeypatch):
+    """Where nothing is found from the dry contact; the film is the one that is."""
+    case = moes(30, 8) | {"shape": (48, 48)}
+    plain = solve_point_film(**case)
+    first = cascade._first_found
+
+    def fails_at_first(level, starts, goal, most):
+        outcome = first(level, starts, goal, most)
+        asked.append(starts)
+        return replace(outcome, converged=False) if len(asked) == 1 else outcome
+
+    asked: list[object] = []
+    monkeypatch.setattr(cascade, "_first_found", fails_at_first)
+    led = solve_point_film(**case)
+    assert led.status == plain.status == "converged"
+    assert len(asked) == 1 + 1 + 4  # of ln(viscosity) 0.2, then 0.45, 0.7, 0.95 and all
+    np.testing.assert_allclose(led.thickness, plain.thickness, rtol=1e-7)
+
+
 def test_what_is_not_met_is_not_called_converged():
     case = moes(150, 6)
     film = solve_point_film(**case, shape=(48, 48), max_iterations=2)
