@@ -88,9 +88,15 @@ def taken(orders: int, order: bytes) -> bool:
     until, waiting = time.monotonic() + PATIENCE, select.poll()
     waiting.register(orders, select.POLLOUT)
     os.set_blocking(orders, False)
-    with suppress(BrokenPipeError):
-        while order and waiting.poll(1e3 * max(0.0, until - time.monotonic())):
-            order = order[os.write(orders, order) :]
+    # whoever has given a broken pipe back to the system would be ended by it
+    usual = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGPIPE})
+    try:
+        with suppress(BrokenPipeError):
+            while order and waiting.poll(1e3 * max(0.0, until - time.monotonic())):
+                order = order[os.write(orders, order) :]
+    finally:
+        signal.sigtimedwait({signal.SIGPIPE}, 0)
+        signal.pthread_sigmask(signal.SIG_SETMASK, usual)
     return not order
 
 

@@ -113,7 +113,22 @@ def test_a_copy_that_hangs_is_not_waited_for(copies, monkeypatch):
         os.waitpid(copies[0], 0)
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="pipes that are waited for")
+@pytest.mark.skipif(sys.platform != "linux", reason="copies are made on Linux alone")
+def test_an_order_that_nobody_reads_ends_nobody():
+    """Whatever is to become of broken pipes in the user's program."""
+    code = """
+import os, signal
+from bem.plots.side_by_side import taken
+signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+reads, writes = os.pipe()
+os.close(reads)
+assert not taken(writes, b"order")
+assert signal.SIGPIPE not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+"""
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="copies are made on Linux alone")
 def test_an_order_is_taken_where_somebody_reads_it(monkeypatch):
     monkeypatch.setattr(module, "PATIENCE", 0.2)
     much = bytes(1 << 20)  # more than a pipe holds
