@@ -115,7 +115,10 @@ def _found(level: Level, before: tuple[Level, State] | None, goal: float, most: 
     first, *lifted = [partial(from_dry, level, lift) for lift in LIFTS]
     nearest = [first] if before is None else [partial(interpolated, level, *before), first]
     outcome = _first_found(level, nearest, goal, most)
-    for more in (_by_way_of_milder_oils, partial(_first_found, starts=lifted)):
+    others: list[Callable[..., Outcome]] = [partial(_first_found, starts=lifted)]
+    if level.problem.oil(np.ones(1))[0, 0] != 0.0:  # an isoviscous oil has none that is milder
+        others.insert(0, _by_way_of_milder_oils)
+    for more in others:
         if outcome.converged:
             break
         following = more(level, goal=goal, most=most)
