@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from bem.plots.style import label, logarithmic_axis, prefix, style
+from bem.plots.tables import name_and_unit
 from bem.scenes.context import Variable
 
 _MOST_PANELS, _MOST_LINES = 4, 8
@@ -129,7 +130,7 @@ def _panel(
     elif spacings.get(along) == "logarithmic" or (along == "speed" and np.min(position) > 0) or _crowded(position):
         logarithmic_axis(axes, np.asarray(position))
     axes.set_xlabel(label(words, unit))
-    axes.set_ylabel(label(_spelt(name, variable.units), shown))
+    axes.set_ylabel(label(name_and_unit(name)[0], shown))
 
 
 def _crowded(position: Any) -> bool:
@@ -163,9 +164,3 @@ def _value(variable: Variable | None, name: str, index: int) -> str:
         return f"{name} = {value}"
     factor, unit = prefix([value], variable.units if variable.units != "1" else "")
     return f"{name} = {value * factor:.4g} {unit}".rstrip()
-
-
-def _spelt(name: str, unit: str) -> str:
-    ending = "_" + unit.replace("/", "_")
-    words = name.removesuffix(ending) if unit != "1" else name
-    return words.replace("_", " ").replace("von mises", "von Mises")

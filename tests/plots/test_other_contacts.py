@@ -9,9 +9,11 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from bem.plots.cases import along
-from bem.plots.figures import friction, running_in, wear
+from bem.plots.figures import friction, point_film, running_in, wear
 from bem.plots.report import with_error
+from bem.plots.sweep import fill
 from bem.plots.tables import figure_tables
+from bem.scenes.context import Variable
 
 CURVES = ("stribeck-curve", "load-sharing", "contact-temperatures", "running-in-stribeck", "particle-radius-over-speed")
 CYCLES = {"cycles": {"settled": 2}}
@@ -127,3 +129,26 @@ def test_an_interval_ends_where_what_a_figure_can_be_ends():
     assert {name: with_error(name, summary)[1] for name in shown} == shown
     (table,) = figure_tables(summary, ["speed_m_s", "contact_share"])
     assert [cells[-1] for cells in table.rows] == ["0.05 (0 to 0.15)", "0.5 ± 0.1"]
+
+
+def test_sections_of_a_film_show_the_highest_pressure_of_either():
+    """The row's limit was set by the first; a bump beside its line was cut."""
+    x = y = 1e-6 * (np.arange(9) - 4.0)
+    pressure = np.full((9, 9), 0.5e9)
+    pressure[4, 7] = 1.0e9
+    run = run_of(x=x, y=y, thickness=(("x", "y"), np.full((9, 9), 1e-7)), pressure=(("x", "y"), pressure))
+    (kind,) = (each for each in point_film.FIGURES if each.name == "point-film-sections")
+    figure = drawn(kind.draw, run)
+    limits = {axes.get_ylim() for axes in figure.axes[2:]}
+    ((low, high),) = limits
+    assert low == 0
+    assert 1.0 < high < 1.2
+
+
+def test_panels_over_keys_name_each_unit_once():
+    """The summary's key ends in nm, the array beside it is in m."""
+    films = Variable(("speed",), np.array([1e-7, 2e-7]), "m", "film at the centre")
+    speeds = Variable(("speed",), np.array([0.1, 0.2]), "m/s", "speed")
+    figure = Figure()
+    fill(figure, {"central_thickness_nm": films, "speed": speeds}, {"speed": "list"}, ("central_thickness_nm",))
+    assert figure.axes[0].get_ylabel() == "central thickness (nm)"

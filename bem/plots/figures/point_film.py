@@ -118,7 +118,7 @@ def _sections(run: Any, figure: Figure) -> None:
         panels[0, column].plot(along * factor, film_row * film, color=BLUE)
         panels[0, column].set_ylim(0, most * film)
         panels[1, column].plot(along * factor, pressure_row * force, color=VERMILION)
-        panels[1, column].set_ylim(0)
+        panels[1, column].set_ylim(0, 1.05 * max(pressure[:, j].max(), pressure[i].max()) * force)
         panels[1, column].set_xlim(along[0] * factor, along[-1] * factor)
         panels[1, column].set_xlabel(label(f"{at}, through the middle", unit))
     panels[0, 0].set_ylabel(label("film thickness", film_unit))
