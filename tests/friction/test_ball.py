@@ -27,26 +27,14 @@ from bem.friction.point_film import SolvedPointFilm, sampled_point, solved_point
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
 from bem.reference_solutions.hertz import ellipse_contact
+from tests.mixed_case import BALL, STEEL, rough_patch
 
-STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 MODULUS = 210e9 / 2 / (1 - 0.3**2)
-OIL = Lubricant(0.03, pressure_viscosity=18e-9)
-GRID = Grid((64, 64), (5e-6, 5e-6))
-BALL = {
-    "grid": GRID,
-    "bodies": (Body(STEEL), Body(STEEL)),
-    "radii": (0.01, 0.01),
-    "load": 20.0,  # 0.79 GPa on 110 um
-    "lubricant": OIL,
-    "boundary_friction": 0.12,
-    "film_cells": 48,
-    "oil_volume": "loaded",
-}
+GRID, OIL = BALL["grid"], BALL["lubricant"]
 
 
 def rough(rms_height=50e-9, grid=GRID):
-    whole = Grid(grid.shape, grid.spacing, periodic=(True, True))
-    return generate_surface(whole, rms_height=rms_height, correlation_length=20e-6, seed=3)
+    return rough_patch(rms_height, grid)
 
 
 @pytest.mark.parametrize("speeds", [(0.6, 0.4), (0.4, 0.6), (1.0, 1.0)])

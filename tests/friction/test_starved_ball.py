@@ -5,28 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from bem import Body, Grid, InputError, Lubricant, Material, generate_surface, solve_mixed
+from bem import Grid, InputError, generate_surface, solve_mixed
 from bem.errors import Status
 from bem.friction.setup import MixedSetup
 from bem.lubrication.supply import InletDistance
 from bem.reference_solutions.hertz import ellipse_contact
+from tests.mixed_case import BALL, rough_patch
 
-STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
-GRID = Grid((64, 64), (5e-6, 5e-6))
-OIL = Lubricant(0.03, pressure_viscosity=18e-9)
-BALL = {
-    "grid": GRID,
-    "bodies": (STEEL, STEEL),
-    "radii": (0.01, 0.01),
-    "load": 20.0,  # 0.79 GPa on 110 um
-    "lubricant": OIL,
-    "boundary_friction": 0.12,
-    "film_cells": 48,
-    "oil_volume": "loaded",
-}
-ROUGH = generate_surface(
-    Grid((64, 64), (5e-6, 5e-6), periodic=(True, True)), rms_height=40e-9, correlation_length=20e-6, seed=3
-)
+STEEL, GRID, OIL = BALL["bodies"][0], BALL["grid"], BALL["lubricant"]
+ROUGH = rough_patch(40e-9)
 
 
 def shared(layer, speeds=(1.0, 0.5), **changes):
