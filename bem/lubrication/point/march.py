@@ -22,6 +22,7 @@ from bem.lubrication.point.newton import LEAST_FILM, Outcome, State, newton, own
 from bem.lubrication.point.scales import PointScales
 from bem.lubrication.point.setting import Frame, Operators, Rectangle, Setting, scaled_oil
 from bem.lubrication.point.solve import Request, entrainment, result_of, vectors
+from bem.lubrication.point.validity import coarse_heights
 from bem.lubrication.time_steps import Derivative, Reached
 from bem.reference_solutions.hertz import ellipse_contact
 
@@ -224,6 +225,7 @@ def _with_heights(
         solution,
         thickness=film * unit,
         heights=heights * unit,
+        notes=(*solution.notes, *coarse_heights(heights)),
         central_thickness=solution.central_thickness - float(middle) * unit,
         minimum_thickness=least_film(film) * unit,
     )
@@ -266,7 +268,8 @@ def _step(march: PointMarch, at: Reached[Moment], time: float) -> tuple[Moment, 
     moment = _moment(march, frame, outcome.state, leading * outcome.state.datum + datum_history)
     solution = _said(march, setting, Found(level, outcome, None, level.convolutions), time)
     if heights is not None:
-        solution = replace(solution, heights=heights * march.scales.film)
+        notes = (*solution.notes, *coarse_heights(heights))
+        solution = replace(solution, heights=heights * march.scales.film, notes=notes)
     return moment, solution
 
 

@@ -28,6 +28,7 @@ from bem.lubrication.point.setting import Rectangle, Setting, default_rectangle,
 from bem.lubrication.point.solve import Speeds, check_extent, checked, edges, entrainment
 from bem.lubrication.point.touching_newton import TouchingBalance, TouchingOutcome, TouchingState, balance
 from bem.lubrication.point.touching_start import reached
+from bem.lubrication.point.validity import coarse_heights
 from bem.materials import Body
 from bem.representation import readable
 from bem.threads import one_blas_thread
@@ -275,7 +276,7 @@ def _said(setting: Setting, level: Level, outcome: TouchingOutcome, asked: _Aske
         status=Status.CONVERGED if judged.right else Status.STALLED,
         speeds=asked.speeds,
         lubricant=asked.lubricant,
-        notes=_notes(judged, created),
+        notes=(*_notes(judged, created), *coarse_heights(heights)),
     )
 
 

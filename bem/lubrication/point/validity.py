@@ -39,8 +39,27 @@ STEEL = 115e9
 """E* of two bodies of steel [Pa]."""
 RIGID_BOUND = 0.1
 """Of a film's thickness, by which bodies may flatten to be taken as rigid."""
+FEWEST_CELLS = 8.0
+"""To a wave of heights, below which films and shares of the load follow the cells."""
 UNKNOWN = "the error of the film is unknown: "
 """How notes begin that say so, and of which cells to see it."""
+
+
+def coarse_heights(heights: FloatArray) -> tuple[str, ...]:
+    """A note on heights (nx, ny) of any unit that change too much from cell to cell: their rms change over their rms is
+    that of waves of n cells, 2 sin(pi/n)."""
+    rms = float(np.std(heights))
+    if not rms > 0:
+        return ()
+    change = max(float(np.sqrt(np.mean(np.diff(heights, axis=axis) ** 2))) for axis in range(2)) / rms
+    cells = math.pi / math.asin(min(change / 2, 1.0))
+    if cells >= FEWEST_CELLS:
+        return ()
+    return (
+        f"heights change from cell to cell by {change:.1f} of their rms, as waves of {cells:.2g} cells do: they are "
+        "taken at the centres of cells, not averaged over them, and what is found follows the cells; take "
+        f"{FEWEST_CELLS:g} cells to a wave, or filter the surface",
+    )
 
 
 @dataclass(frozen=True)

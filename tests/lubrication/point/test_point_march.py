@@ -7,6 +7,7 @@ import pytest
 
 from bem import Dent, InputError, Lubricant, MeasuredHeights, MovingSurface, Status, Waves, march_point_film
 from bem.lubrication.point.moving import Travel
+from bem.lubrication.point.validity import coarse_heights
 from bem.lubrication.point.waviness import amplitude_in_centre, amplitude_reduction
 
 RADIUS, LOAD, SPEED = 12.5e-3, 15.0, 0.09
@@ -234,6 +235,22 @@ def test_a_first_film_has_the_surfaces_in_it_and_says_so():
     assert first.central_thickness - smooth.central_thickness == pytest.approx(5e-8, rel=0.05)
     assert first.thickness == pytest.approx(smooth.thickness - first.heights, rel=1e-9)
     assert first.notes == ("surfaces that are in the contact at first lie in its film undeformed",)
+
+
+@pytest.mark.parametrize(("cells", "said"), [(6, "as waves of 6 cells do"), (9, "")])
+def test_heights_that_the_cells_do_not_resolve_are_told(cells, said):
+    """Exact of a cosine over whole waves; along the axis that changes more."""
+    x = np.arange(100 * cells)[:, None]
+    notes = coarse_heights(3e-8 * np.cos(2 * np.pi * x / cells) + 0 * np.arange(7))
+    assert bool(notes) == bool(said)
+    assert all(said in note for note in notes)
+    assert coarse_heights(np.zeros((5, 5))) == ()
+
+
+def test_a_measured_map_finer_than_the_cells_is_told_at_every_time():
+    heights = 1e-8 * np.random.default_rng(1).standard_normal((400, 400))
+    films = march([0, 1e-5], roughness=MovingSurface(MeasuredHeights(heights, (1e-6, 1e-6))))
+    assert all(sum("follows the cells" in note for note in film.notes) == 1 for film in films)
 
 
 def test_a_film_goes_on_from_one_that_is_given():
