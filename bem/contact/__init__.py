@@ -6,7 +6,7 @@ order from `edge`). `one_grid` solves on a grid under any control, by way of `se
 is not solved for directly. `active_set` makes the rounds: the true gap, the cells that change their state (`level`,
 `energy`), conjugate gradients on the cells in contact (`face`, or `coupled` by friction, with `preconditioner` and
 `long_waves`), and brings them back into the bounds (`feasible`). What runs over cells is compiled: `passes`,
-`gradients`.
+`gradients`, `crossings` of the edge.
 
 Knows grids, threads, transforms and the displacement operator; no materials, no surfaces' statistics, no lubricant,
 no scene. Units inside are the solver's own; users see SI.

@@ -1,13 +1,15 @@
 """Area and perimeter of contact against closed forms and finer grids: order and constant."""
 
+import edge_oracle
 import numpy as np
 import pytest
 from test_contact_closed_forms import order
 
 from bem import Body, Grid, Layer, Material, displacement_operator, generate_surface, solve_contact
-from bem.contact import edge
+from bem.contact import crossings, edge
 from bem.contact.edge import contact_region, count_spots
 from bem.reference_solutions.hertz import sphere_contact
+from bem.threads import set_threads
 
 UNIT = Material("unit", youngs_modulus=1.0, poissons_ratio=0.0)
 
@@ -254,18 +256,48 @@ def test_spots_too_small_for_the_cells_are_told():
         assert (found.contact_area <= found.load / 6e9 * (1 + 1e-12)) == told
 
 
-@pytest.mark.parametrize("wraps", [True, False])
+ENDS = [(False, False), (True, True), (True, False), (False, True)]
+
+
+@pytest.mark.parametrize("wraps", ENDS)
+@pytest.mark.parametrize("shape", [(24, 17), (1, 40), (40, 1), (2, 3), (16, 48)])
+@pytest.mark.parametrize("hardness", [0.0, 0.7])
+def test_the_edge_is_what_single_links_and_squares_make(wraps, shape, hardness, monkeypatch):
+    rng = np.random.default_rng(shape[0])
+    for share in (0.05, 0.5, 0.95):
+        inside = rng.random(shape) < share
+        inside[: shape[0] // 3] = False  # long gaps, and lines all alike
+        strength = np.where(inside, rng.random(shape), 0.0)
+        opening = (-1 if hardness > 0 else 1) * np.where(inside, 0.0, rng.random(shape))
+        field = crossings.Field(inside.view(np.uint8), strength, opening, 0.3 * rng.normal(size=shape).cumsum(0))
+        law = crossings.Law(0.75, hardness, edge._CELLS, (0.06, 0.42))
+        found = [crossings.sum_squares(field, (0.7, 1.1), wraps, law)]
+        monkeypatch.setattr(crossings.passes, "BLOCK", 5 * shape[1])
+        set_threads(2)
+        found.append(crossings.sum_squares(field, (0.7, 1.1), wraps, law))
+        set_threads(1)
+        monkeypatch.undo()
+        assert found[0] == found[1]
+        blurred = crossings.blur(field.inside, *wraps)
+        plain = edge_oracle.sum_squares((*field, blurred), (0.7, 1.1), wraps, (0.75, hardness), *law[2:])
+        # lengths of chords are rounded otherwise than by math.hypot
+        np.testing.assert_allclose(found[0], plain, rtol=1e-13, atol=1e-13 * inside.size)
+
+
+@pytest.mark.parametrize("wraps", ENDS)
 def test_like_cells_are_counted_from_link_to_link(wraps):
-    inside = (np.random.default_rng(7).random((5, 9)) < 0.6).astype(np.uint8)
-    inside[:, 0], inside[:, 1] = 1, 0
-    inside[0, :2], inside[2] = (0, 1), 1 - inside[4]  # no line is all alike
-    for axis in (0, 1):
+    inside = (np.random.default_rng(7).random((25, 19)) < 0.6).astype(np.uint8)
+    inside[:, 0], inside[:, 1], inside[3], inside[17:, 4] = 1, 0, 1, 1
+    links, _, starts = crossings._find_links(inside, *wraps)
+    for axis, (places, runs) in enumerate(links):
+        found = {}
+        for i in range(25):
+            for link in range(starts[i, axis], starts[i + 1, axis]):
+                found[i, int(places[link])] = tuple(runs[link])
+        expected = {}
         for (i, j), like in np.ndenumerate(inside):
-            line, place = (inside[:, j], i) if axis == 0 else (inside[i], j)
-            for way in (1, -1):
-                ahead = np.roll(line[::way], -(place if way > 0 else line.size - 1 - place))
-                expected = np.argmax(ahead != like)
-                room = line.size - place if way > 0 else place + 1
-                if expected >= room and not wraps:
-                    expected = room if like else np.inf
-                assert edge._count_like(inside, i, j, axis, way, wraps) == expected
+            k, m = edge_oracle.neighbour(inside.shape, i, j, axis, 1, wraps)
+            if inside[k, m] != like:
+                behind = edge_oracle.count_like(inside, i, j, axis, -1, wraps[axis])
+                expected[i, j] = behind, edge_oracle.count_like(inside, k, m, axis, 1, wraps[axis])
+        assert found == expected

@@ -1,0 +1,360 @@
+"""Where the edge of contact crosses the links between centres of cells, and what it cuts off the squares between four.
+
+The compiled part of `edge`, which says what is made of a link. Three passes: one over cells finds the links that join
+a cell inside to one that is not, and how far along the link's line the next ones are; one over links finds the
+crossings; one over squares adds up what lies inside. The last two take time by the length of the edge alone. Verified
+against every link by itself in plain Python (tests).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from bem.contact import passes
+from bem.grid import FloatArray
+from bem.threads import share
+from bem.transforms.addresses import fetch
+
+_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
+
+_LEAST_COSINE = 0.24
+_BEFORE, _BEYOND = -0.3, 1.0
+"""How far from the cell inside, in links, a crossing may lie: behind the centre of a cell that barely touches."""
+
+_ASLANT = 1.5
+"""A chord counts with its length, backwards where it runs against the smoothed edge; but no longer than this many times
+what it runs along it, for the chords that crossings at one place make lie in any direction."""
+
+_STEP = 5.0
+"""A parabola's steps grow by 3, 5/3, ...: on a smooth surface none is this many times both its neighbours."""
+
+_SOON = 12
+"""Links ahead whose numbers are asked for: nearly each is on a line of memory of its own (half the time at 1024 cells
+a side)."""
+
+
+class Field(NamedTuple):
+    """What decides where the edge lies, (nx, ny): cells inside (0 or 1), what vanishes like the root of the distance to
+    the edge inside, what grows with its power 3/2 outside, the undeformed gap."""
+
+    inside: NDArray[np.uint8]
+    strength: FloatArray
+    opening: FloatArray
+    shape: FloatArray
+
+
+class Law(NamedTuple):
+    """How the edge follows from them: the factor of the opening; the hardness where contact turns plastic as it opens,
+    seen from its elastic part (strength is then what the pressure given is below it, and the opening has its sign
+    turned), zero for none; the polynomials in the cosine; what narrow regions add inside and outside."""
+
+    factor: float
+    hardness: float
+    constants: FloatArray
+    ends: tuple[float, float]
+
+
+class Sums(NamedTuple):
+    """Area within the polygons beyond a quarter of a cell for each centre inside [m^2], length of the edge [m], that of
+    sides between cells inside and not [m], sums of chords [m] and of their cubes [m^3], Euler's number of the region.
+    """
+
+    area: float
+    length: float
+    sides: float
+    chords: float
+    cubes: float
+    turns: float
+
+
+def sum_squares(field: Field, spacing: tuple[float, float], wraps: tuple[bool, bool], law: Law) -> Sums:
+    """Over the squares between four centres."""
+    nx, ny = field.inside.shape
+    blurred = blur(field.inside, *wraps)
+    links, squares, starts = _find_links(field.inside, *wraps)
+    crossings = (np.empty(links[0][0].size), np.empty(links[1][0].size))
+    lines = max(1, passes.BLOCK // ny)
+
+    def work(_worker: int, block: int) -> None:
+        first, last = block * lines, min(nx, (block + 1) * lines)
+        _cut(first, last, links, starts, field, blurred, (spacing, wraps), law, crossings)
+
+    share(work, -(-nx // lines))
+    return Sums(*_add(squares, starts, crossings, blurred, spacing, wraps))
+
+
+@_strict
+def _find_links(inside, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
+    """Of the links along either axis the columns of their first cells, with how many cells are alike behind and ahead
+    (a gap that reaches a free edge has no end); of the squares those of their lowest cells, with a bit for each centre
+    inside, counter-clockwise from the lowest; and where each row begins among the three."""
+    nx, ny = inside.shape
+    down, down_runs = np.empty(ny, np.int32), np.empty((ny, 2))
+    across, across_runs = np.empty(ny, np.int32), np.empty((ny, 2))
+    squares, codes = np.empty(ny, np.int32), np.empty(ny, np.uint8)
+    starts = np.zeros((nx + 1, 3), np.int64)
+    first, last = np.full((2, ny), -1), np.full((2, ny), -1)  # of the links down each column: which, and its row
+    row = np.zeros(8 * ((ny + 7) // 8), np.uint8)
+    words = row.view(np.uint64)
+    u = v = w = 0
+    for i in range(nx):
+        starts[i, 0], starts[i, 1], starts[i, 2] = u, v, w
+        down, down_runs = _with_room(down, u + ny), _with_room(down_runs, u + ny)
+        across, across_runs = _with_room(across, v + ny), _with_room(across_runs, v + ny)
+        squares, codes = _with_room(squares, w + ny), _with_room(codes, w + ny)
+        ends = i + 1 == nx and not wraps_x
+        here = inside[i]
+        _tell_apart(here, inside[i if ends else (i + 1) % nx], wraps_y, row)
+        for word in range(words.size):
+            if words[word] == 0:
+                continue
+            for j in range(8 * word, 8 * word + 8):
+                code = row[j]
+                if code & 2:
+                    down[u] = j
+                    if last[0, j] < 0:
+                        first[0, j], first[1, j] = u, i
+                    else:
+                        down_runs[u, 0] = down_runs[last[0, j], 1] = i - last[1, j]
+                    last[0, j], last[1, j] = u, i
+                    u += 1
+                if code & 8:
+                    across[v] = j
+                    if v > starts[i, 1]:
+                        across_runs[v, 0] = across_runs[v - 1, 1] = j - across[v - 1]
+                    v += 1
+                if code != 0 and not ends and (wraps_y or j < ny - 1):
+                    squares[w], codes[w] = j, code ^ 15 if here[j] else code
+                    w += 1
+        if v > starts[i, 1]:
+            at, to = across[starts[i, 1]], across[v - 1]
+            across_runs[starts[i, 1], 0], across_runs[v - 1, 1] = _ends(here, at, to, wraps_y)
+    starts[nx, 0], starts[nx, 1], starts[nx, 2] = u, v, w
+    for j in range(ny):
+        if last[0, j] >= 0:
+            before, behind = _ends(inside[:, j], first[1, j], last[1, j], wraps_x)
+            down_runs[first[0, j], 0], down_runs[last[0, j], 1] = before, behind
+    return ((down, down_runs), (across, across_runs)), (squares, codes), starts
+
+
+@_strict
+def _tell_apart(here, above, wraps, row):  # type: ignore[no-untyped-def]
+    """In which of the other three centres a cell's square differs from the cell: bits 1, 2 and 3."""
+    n = here.size
+    for j in range(n - 1):
+        row[j] = (here[j] ^ above[j]) << 1 | (here[j] ^ above[j + 1]) << 2 | (here[j] ^ here[j + 1]) << 3
+    j, m = n - 1, 0 if wraps else n - 1
+    row[j] = (here[j] ^ above[j]) << 1 | (here[j] ^ above[m]) << 2 | (here[j] ^ here[m]) << 3
+
+
+@_strict
+def _ends(line, first, last, wraps):  # type: ignore[no-untyped-def]
+    """How many cells of a line are alike before its first link and behind its last one."""
+    if wraps:
+        return float(first + line.size - last), float(first + line.size - last)
+    before, behind = float(first + 1), float(line.size - 1 - last)
+    return before if line[first] else np.inf, behind if line[last + 1] else np.inf
+
+
+@_strict
+def _with_room(array, size):  # type: ignore[no-untyped-def]
+    """The array, or a copy of it with room for twice so many rows."""
+    if array.shape[0] >= size:
+        return array
+    larger = np.empty((2 * size, *array.shape[1:]), array.dtype)
+    larger[: array.shape[0]] = array
+    return larger
+
+
+@_strict
+def _cut(first, last, links, starts, field, blurred, where, law, crossings):  # type: ignore[no-untyped-def]
+    """Where the edge crosses the links of the rows from one to another, as a fraction of each."""
+    spacing, (wraps_x, wraps_y) = where
+    nx, ny = field[0].shape
+    inside, strength, opening = field[0].reshape(-1), field[1].reshape(-1), field[2].reshape(-1)
+    shape, blurred = field[3].reshape(-1), blurred.reshape(-1)
+    factor, hardness, constants, ends = law
+    addresses = strength.ctypes.data, opening.ctypes.data, shape.ctypes.data
+    for i in range(first, last):
+        # by their cells' numbers: rows before, here, beyond and behind those
+        before, here, beyond = place(i - 1, nx, wraps_x) * ny, i * ny, place(i + 1, nx, wraps_x) * ny
+        behind = place(i + 2, nx, wraps_x) * ny
+        for axis in range(2):
+            (places, runs), found = links[axis], crossings[axis]
+            for link in range(starts[i, axis], starts[i + 1, axis]):
+                j, soon = places[link], places[min(link + _SOON, starts[i + 1, axis] - 1)]
+                for address in addresses:
+                    fetch(address + 8 * (here + soon))
+                    if axis == 0:
+                        fetch(address + 8 * (beyond + soon))
+                if axis == 0:
+                    fetch(addresses[2] + 8 * (behind + soon))
+                left, right = place(j - 1, ny, wraps_y), place(j + 1, ny, wraps_y)
+                if axis == 0:
+                    a, b, c, d = before + j, here + j, beyond + j, behind + j
+                    e, f, g, h = here + left, here + right, beyond + left, beyond + right
+                else:
+                    a, b, c, d = here + left, here + j, here + right, here + place(j + 2, ny, wraps_y)
+                    e, f, g, h = before + j, beyond + j, before + right, beyond + right
+                lower = inside[b] != 0
+                back, ahead = runs[link, 0], runs[link, 1]
+                held, opened, cells = strength[b], opening[c], (back, ahead)
+                if not lower:
+                    held, opened, cells = strength[c], opening[b], (ahead, back)
+                if hardness > 0.0:
+                    held = hardness - held if held > 0.0 else held
+                    opened = -opened
+                jump = abs(shape[c] - shape[b])
+                if held <= 0.0 or jump > _STEP * max(abs(shape[b] - shape[a]), abs(shape[d] - shape[c])):
+                    found[link] = 0.5
+                    continue
+                along = np.int64(blurred[d]) + blurred[c] - blurred[b] - blurred[a]
+                across = np.int64(blurred[f]) + blurred[h] - blurred[e] - blurred[g]
+                normal = along / spacing[axis], across / spacing[1 - axis]
+                crossing = _crossing(held * spacing[axis], opened, cells, normal, factor, constants, ends)
+                found[link] = crossing if lower else 1 - crossing
+
+
+@_strict
+def _crossing(held, opened, cells, normal, factor, constants, ends):  # type: ignore[no-untyped-def]
+    """How far from the cell inside, in links; `held` is times the link's length, `cells` are alike inside and out."""
+    along, across = normal
+    norm = math.sqrt(along * along + across * across)
+    cosine = max(abs(along) / norm, _LEAST_COSINE) if norm > 0 else 1.0
+    ratio = factor * max(opened, 0.0) / (held * cosine)
+    a = ((constants[0, 0] * cosine + constants[0, 1]) * cosine + constants[0, 2]) * cosine + constants[0, 3]
+    b = ((constants[1, 0] * cosine + constants[1, 1]) * cosine + constants[1, 2]) * cosine + constants[1, 3]
+    c = ((constants[2, 0] * cosine + constants[2, 1]) * cosine + constants[2, 2]) * cosine + constants[2, 3]
+    crossing = (a - b * ratio) / (c + ratio) + ends[0] / cells[0] - ends[1] / cells[1]
+    return min(max(crossing, _BEFORE), _BEYOND)
+
+
+@_strict
+def _add(squares, starts, crossings, blurred, spacing, wraps):  # type: ignore[no-untyped-def]
+    """See `Sums`."""
+    dx, dy = spacing
+    wraps_x, wraps_y = wraps
+    (places, codes), (rows, columns) = squares, crossings
+    nx, ny = blurred.shape
+    area, length, sides, chords, cubes, corners = 0.0, 0.0, 0.0, 0.0, 0.0, 0
+    for i in range(nx):
+        k = i + 1 if i + 1 < nx else 0
+        # a row's squares have its links, and the next row's, on their sides in the order of both
+        row, column, above = starts[i, 0], starts[i, 1], starts[k, 1]
+        for square in range(starts[i, 2], starts[i + 1, 2]):
+            j, code = places[square], codes[square]
+            m = j + 1 if j + 1 < ny else 0
+            a, b, c, d = code & 1, code >> 1 & 1, code >> 2 & 1, code >> 3
+            # where the edge crosses the four sides, from their lower end; 0.5 where it does not
+            low, high, left, right = 0.5, 0.5, 0.5, 0.5
+            if a != b:
+                low = rows[row]
+                row += 1
+            if c != d:
+                high = rows[starts[i, 0] if m == 0 else row]
+            if a != d:
+                left = columns[column]
+                column += 1
+            if b != c:
+                right = columns[above]
+                above += 1
+            sides += dy * (c != d) + dx * (b != c)
+            if j == 0 and not wraps_y:
+                sides += dy * (a != b)
+            if i == 0 and not wraps_x:
+                sides += dx * (a != d)
+            number = a + b + c + d
+            share, u, v, turn = _polygon((a, b, c, d), number, (low, high, left, right))
+            corners += turn
+            # across the smoothed edge: where it runs at 45 degrees crossings change places and a chord runs back
+            lower, upper = np.int64(blurred[i, j]), np.int64(blurred[k, m])
+            ahead, aside = np.int64(blurred[k, j]), np.int64(blurred[i, m])
+            along, across = (upper + ahead - lower - aside) / dx, (upper + aside - lower - ahead) / dy
+            chord = _chord(u * dx, v * dy, along, across)
+            area += (share - 0.25 * number) * dx * dy
+            length += chord
+            chords += abs(chord)
+            cubes += abs(chord) ** 3
+    return area, length, sides, chords, cubes, 0.25 * corners
+
+
+@_strict
+def _polygon(centres, number, crossings):  # type: ignore[no-untyped-def]
+    """Of a square with some of its four centres inside: share of it inside, chord from crossing to crossing with the
+    region on the left [sides], and a quarter turn to the left (1), to the right (-1) or neither.
+
+    centres : whether inside, counter-clockwise from the lowest; `number` of them are. crossings : of the lower, upper,
+    left and right side, from their lower end.
+    """
+    a, b, c, d = centres
+    low, high, left, right = crossings
+    if number == 2 and a == c:
+        # a saddle: the mean of both centres joined and parted
+        first = 0.5 * (low * left + (1 - high) * (1 - right))
+        second = 0.5 * ((1 - low) * right + high * (1 - left))
+        return 0.5 * (first + 1 - second) if a else 0.5 * (second + 1 - first), 0.0, 0.0, 0
+    turn = 0
+    if number == 2 and a == b:
+        share, u, v = 0.5 * (left + right), -1.0, left - right
+    elif number == 2:
+        share, u, v = 0.5 * (low + high), high - low, 1.0
+    else:
+        one = number == 1
+        turn = 1 if one else -1
+        if a == one and b != one and c != one and d != one:
+            share, u, v = 0.5 * low * left, -low, left
+        elif b == one and a != one and c != one and d != one:
+            share, u, v = 0.5 * (1 - low) * right, low - 1, -right
+        elif c == one and a != one and b != one and d != one:
+            share, u, v = 0.5 * (1 - high) * (1 - right), 1 - high, right - 1
+        else:
+            share, u, v = 0.5 * high * (1 - left), high, 1 - left
+    if (number == 2 and not a) or number == 3:
+        share, u, v = 1 - share, -u, -v
+    return share, u, v, turn
+
+
+@_strict
+def _chord(u, v, along, across):  # type: ignore[no-untyped-def]
+    """Length of the chord (u, v) [m], negative where it runs backwards along an edge whose normal is (along, across);
+    that of a saddle is none."""
+    length, norm = math.sqrt(u * u + v * v), math.sqrt(along * along + across * across)
+    if not norm > 0:
+        return length
+    forward = (u * across - v * along) / norm
+    return math.copysign(min(length, _ASLANT * abs(forward)), forward)
+
+
+@_strict
+def blur(inside, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
+    """256 times the indicator, blurred twice by 1 2 1 along each axis; beyond a free edge that of the last cell."""
+    nx, ny = inside.shape
+    blurred = np.empty((nx, ny), np.uint16)
+    row = np.empty(ny, np.uint8)
+    for i in range(nx):
+        a, b = place(i - 2, nx, wraps_x), place(i - 1, nx, wraps_x)
+        c, d = place(i + 1, nx, wraps_x), place(i + 2, nx, wraps_x)
+        for j in range(ny):
+            row[j] = inside[a, j] + 4 * inside[b, j] + 6 * inside[i, j] + 4 * inside[c, j] + inside[d, j]
+        for j in range(2, ny - 2):  # apart from the ends, where places wrap: a loop without branches
+            blurred[i, j] = row[j - 2] + 4 * row[j - 1] + 6 * row[j] + 4 * row[j + 1] + row[j + 2]
+        for j in range(ny):
+            if 2 <= j < ny - 2:
+                continue
+            a, b = place(j - 2, ny, wraps_y), place(j - 1, ny, wraps_y)
+            c, d = place(j + 1, ny, wraps_y), place(j + 2, ny, wraps_y)
+            blurred[i, j] = row[a] + 4 * row[b] + 6 * row[j] + 4 * row[c] + row[d]
+    return blurred
+
+
+@_strict
+def place(i, n, wraps):  # type: ignore[no-untyped-def]
+    """The number of a cell along an axis of n; beyond a free end that of the last one."""
+    if 0 <= i < n:  # hardly any other: a remainder each time is what a certificate would spend its time on
+        return i
+    return i % n if wraps else min(max(i, 0), n - 1)

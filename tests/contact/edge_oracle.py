@@ -1,0 +1,162 @@
+"""The edge of contact square by square and link by link, in plain Python: for `bem.contact.crossings`."""
+
+import math
+
+import numpy as np
+
+from bem.contact import crossings
+
+
+def sum_squares(given, spacing, wraps, factors, constants, ends):
+    """See `crossings.Sums`; given : (inside, strength, opening, shape, inside blurred)."""
+    inside, strength, opening, shape, blurred = given
+    dx, dy = spacing
+    wraps_x, wraps_y = wraps
+    nx, ny = inside.shape
+    place = (spacing, wraps, factors, ends)
+    area, length, sides, chords, cubes, corners = 0.0, 0.0, 0.0, 0.0, 0.0, 0
+    # each link is cut once: a square's upper sides are the lower ones of the next
+    rights = np.full(ny, 0.5)
+    for i in range(nx if wraps_x else nx - 1):
+        k = i + 1 if i + 1 < nx else 0
+        high = 0.5
+        for j in range(ny if wraps_y else ny - 1):
+            m = j + 1 if j + 1 < ny else 0
+            low, high = high, 0.5
+            left, rights[j] = rights[j], 0.5
+            a, b, c, d = inside[i, j], inside[k, j], inside[k, m], inside[i, m]
+            number = int(a) + int(b) + int(c) + int(d)
+            if number == 0 or number == 4:
+                continue
+            # where the edge crosses the four sides, from their lower end; 0.5 where it does not
+            sides += dy * (c != d) + dx * (b != c)
+            if j == 0:
+                low = _cut(inside, strength, opening, shape, blurred, (i, j, 0), place, constants)
+                sides += 0.0 if wraps_y else dy * (a != b)
+            high = _cut(inside, strength, opening, shape, blurred, (i, m, 0), place, constants)
+            if i == 0:
+                left = _cut(inside, strength, opening, shape, blurred, (i, j, 1), place, constants)
+                sides += 0.0 if wraps_x else dx * (a != d)
+            right = _cut(inside, strength, opening, shape, blurred, (k, j, 1), place, constants)
+            rights[j] = right
+            share, u, v, turn = _polygon((a, b, c, d), number, (low, high, left, right))
+            corners += turn
+            # across the smoothed edge: where it runs at 45 degrees crossings change places and a chord runs back
+            lower, upper = float(blurred[i, j]), float(blurred[k, m])
+            ahead, aside = float(blurred[k, j]), float(blurred[i, m])
+            along, across = (upper + ahead - lower - aside) / dx, (upper + aside - lower - ahead) / dy
+            chord = _chord(u * dx, v * dy, along, across)
+            area += (share - 0.25 * number) * dx * dy
+            length += chord
+            chords += abs(chord)
+            cubes += abs(chord) ** 3
+    return area, length, sides, chords, cubes, 0.25 * corners
+
+
+def _polygon(centres, number, crossings):
+    """Of a square with some of its four centres inside: share of it inside, chord from crossing to crossing with the
+    region on the left [sides], and a quarter turn to the left (1), to the right (-1) or neither.
+
+    centres : whether inside, counter-clockwise from the lowest; `number` of them are. crossings : of the lower, upper,
+    left and right side, from their lower end.
+    """
+    a, b, c, d = centres
+    low, high, left, right = crossings
+    if number == 2 and a == c:
+        # a saddle: the mean of both centres joined and parted
+        first = 0.5 * (low * left + (1 - high) * (1 - right))
+        second = 0.5 * ((1 - low) * right + high * (1 - left))
+        return 0.5 * (first + 1 - second) if a else 0.5 * (second + 1 - first), 0.0, 0.0, 0
+    turn = 0
+    if number == 2 and a == b:
+        share, u, v = 0.5 * (left + right), -1.0, left - right
+    elif number == 2:
+        share, u, v = 0.5 * (low + high), high - low, 1.0
+    else:
+        one = number == 1
+        turn = 1 if one else -1
+        if a == one and b != one and c != one and d != one:
+            share, u, v = 0.5 * low * left, -low, left
+        elif b == one and a != one and c != one and d != one:
+            share, u, v = 0.5 * (1 - low) * right, low - 1, -right
+        elif c == one and a != one and b != one and d != one:
+            share, u, v = 0.5 * (1 - high) * (1 - right), 1 - high, right - 1
+        else:
+            share, u, v = 0.5 * high * (1 - left), high, 1 - left
+    if (number == 2 and not a) or number == 3:
+        share, u, v = 1 - share, -u, -v
+    return share, u, v, turn
+
+
+def _chord(u, v, along, across):
+    """Length of the chord (u, v) [m], negative where it runs backwards along an edge whose normal is (along, across);
+    that of a saddle is none."""
+    length, norm = np.hypot(u, v), np.hypot(along, across)
+    if not norm > 0:
+        return length
+    forward = (u * across - v * along) / norm
+    return math.copysign(min(length, crossings._ASLANT * abs(forward)), forward)
+
+
+def _cut(inside, strength, opening, shape, blurred, link, place, constants):
+    """Where the edge crosses the link from (i, j) along an axis, as a fraction of it; 0.5 where it does not.
+
+    Fields are arguments of their own, by address: others are counted as held, and as no longer, at every call.
+    link : (i, j, axis).
+    """
+    i, j, axis = link
+    (dx, dy), wraps, (factor, hardness), (within, beyond) = place
+    size = inside.shape
+    k, m = neighbour(size, i, j, axis, 1, wraps)
+    first = inside[i, j]
+    if first == inside[k, m]:
+        return 0.5
+    held = strength[i, j] if first else strength[k, m]
+    if hardness > 0.0 and held > 0.0:
+        held = hardness - held
+    before, behind = neighbour(size, i, j, axis, -1, wraps), neighbour(size, i, j, axis, 2, wraps)
+    jump = abs(shape[k, m] - shape[i, j])
+    beside = max(abs(shape[i, j] - shape[before]), abs(shape[behind] - shape[k, m]))
+    if held <= 0.0 or jump > crossings._STEP * beside:
+        return 0.5
+    opened = opening[k, m] if first else opening[i, j]
+    if hardness > 0.0:
+        opened = -opened
+    step, side = (dx, dy) if axis == 0 else (dy, dx)
+    along = (float(blurred[behind]) + blurred[k, m] - blurred[i, j] - blurred[before]) / step
+    across = 0.0
+    for u, v in ((i, j), (k, m)):
+        across += float(blurred[neighbour(size, u, v, 1 - axis, 1, wraps)])
+        across -= float(blurred[neighbour(size, u, v, 1 - axis, -1, wraps)])
+    across /= side
+    norm = np.hypot(along, across)
+    cosine = max(abs(along) / norm, crossings._LEAST_COSINE) if norm > 0 else 1.0
+    ratio = factor * max(opened, 0.0) / (held * step * cosine)
+    a = ((constants[0, 0] * cosine + constants[0, 1]) * cosine + constants[0, 2]) * cosine + constants[0, 3]
+    b = ((constants[1, 0] * cosine + constants[1, 1]) * cosine + constants[1, 2]) * cosine + constants[1, 3]
+    c = ((constants[2, 0] * cosine + constants[2, 1]) * cosine + constants[2, 2]) * cosine + constants[2, 3]
+    closed = wraps[axis]
+    ahead, back = count_like(inside, k, m, axis, 1, closed), count_like(inside, i, j, axis, -1, closed)
+    held_cells, open_cells = (back, ahead) if first else (ahead, back)
+    crossing = (a - b * ratio) / (c + ratio) + within / held_cells - beyond / open_cells
+    crossing = min(max(crossing, crossings._BEFORE), crossings._BEYOND)
+    return crossing if first else 1 - crossing
+
+
+def count_like(inside, i, j, axis, way, wraps):
+    """How many cells from (i, j) on, along `axis` one way, are like it, of a line with others on it; a gap that reaches
+    a free edge has no end."""
+    line, place = (inside[:, j], i) if axis == 0 else (inside[i], j)
+    ahead = np.roll(line[::way], -(place if way > 0 else line.size - 1 - place))
+    like = inside[i, j]
+    count, room = int(np.argmax(ahead != like)), line.size - place if way > 0 else place + 1
+    return count if count < room or wraps else room if like else np.inf
+
+
+def neighbour(size, i, j, axis, ahead, wraps):
+    """The cell at an offset along `axis` of a field of that size; beyond a free edge the last one."""
+    place = [i, j]
+    place[axis] += ahead
+    n = size[axis]
+    place[axis] = place[axis] % n if wraps[axis] else min(max(place[axis], 0), n - 1)
+    return tuple(place)
