@@ -43,8 +43,12 @@ CONTACT_SHARE = 0.1
 AHEAD = 0.3
 """Of the goal with coarse films: what a secant must be expected to leave, the product of the mismatches it is through,
 for its place to be tried with finer ones at once."""
+KNOWN_SLOPE = 0.1
+"""How well a slope is known from a similar balance."""
 NEGLIGIBLE = 0.1
 """Share of the load, over the tolerance of the balance, below which a film is left with nothing that counts."""
+KEPT_FILMS = 3
+"""As starts for others, besides the one under the whole load."""
 LEAST_REST = 1e-12
 """Share of the load left to the surfaces, below which nothing is looked for."""
 _LEAST_BEGUN = 1e-6
@@ -64,11 +68,22 @@ class Regime(StrEnum):
 @dataclass(frozen=True, eq=False)
 class BalanceStart:
     """Where to look first: film load [N], slope of ln(opening / film thickness) with ln(film load), and a pressure [Pa]
-    nearby."""
+    nearby. known : whether the slope is that of a similar balance. refinement : as of `Balance`, of that one."""
 
     film_load: float
     slope: float = 1.0
     pressure: FloatArray | None = None
+    known: bool = False
+    refinement: float = 0.0
+
+    @classmethod
+    def after(
+        cls, share: float, slope: float, load: float, film_load: float, pressure: FloatArray | None
+    ) -> BalanceStart:
+        """At a film load [N], from the slope where films had another share of the load: that with ln(film load / rest)
+        is about the same from full film to contact, that with ln(film load) goes like the inverse of the rest."""
+        rest, before = max(1 - film_load / load, LEAST_REST), max(1 - share, LEAST_REST)
+        return cls(film_load, slope * before / rest, pressure, known=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +91,8 @@ class Balance:
     """Film and contact that carry the load together.
 
     contact : None in full film. imbalance : (film + contact - load) / load, of these two. slope : of ln(opening / film
-    thickness) with ln(film load). oil_imbalance : (mean opening of the surfaces - mean thickness of the film) / the
+    thickness) with ln(film load). refinement : of ln(film load / rest), what the last films changed in the coarser
+    ones' balance. oil_imbalance : (mean opening of the surfaces - mean thickness of the film) / the
     latter, where oil is counted; 0 at the ends. films,
     contacts : evaluated on the way; convolutions : of the contacts. status : converged where both imbalances are within
     the tolerance (that of the oil, or what the contact's own tolerance leaves of it) and film and contact are converged
@@ -94,13 +110,14 @@ class Balance:
     status: Status
     notes: tuple[str, ...] = ()
     oil_imbalance: float = 0.0
+    refinement: float = 0.0
 
 
 def share_load(
     film: Film, rough: RoughContact, load: float, tolerance: float, whole: PatchFilm, start: BalanceStart
 ) -> Balance:
     """The balance of a load [N] to `tolerance`; `whole` is the film under all of it, or under the largest there is."""
-    effort = _Effort(film=whole, pressure=start.pressure)
+    effort = _Effort(films_known=(whole,), pressure=start.pressure)
     if whole.load >= load and rough.clears(whole):
         trial = _Trial(math.log(load), whole, None, _excess(whole, None, load))
         return _certified(trial, rough, load, tolerance, Regime.FULL_FILM, effort, start.slope)
@@ -109,10 +126,14 @@ def share_load(
     at, slope = min(max(math.log(start.film_load), bottom), top, math.log(load) - _LEAST_BEGUN), start.slope
     if at <= bottom + _SAME and top < math.log(load):
         at = top  # where the last one was at the boundary since the film's model ends, its end says so again
+    regime = Regime.MIXED
     for level, error in enumerate(film.errors):
         search = _Search(film, rough, load, max(tolerance, error), level, bottom, top, effort)
         effort.contact_tolerance = min(effort.contact_tolerance, search.contact_tolerance)
-        found = search.run(at, slope)
+        coarse = at
+        if level > 0 and regime is Regime.MIXED:
+            at = search.under_odds(search.odds(at) + start.refinement)
+        found = search.run(at, slope, known=start.known and level == 0)
         trial, slope, regime, at = found.trial, found.slope, found.regime, found.ahead
         if search.too_little(trial):
             at = trial.logarithm
@@ -121,7 +142,10 @@ def share_load(
             if search.is_no_film(trial):
                 return _certified(finest.under_the_rest(), rough, load, tolerance, Regime.BOUNDARY, effort, slope)
             return _certified(finest.under_the_rest(at), rough, load, tolerance, regime, effort, slope, short=True)
-    return _certified(trial, rough, load, tolerance, regime, effort, slope)
+    balance = _certified(trial, rough, load, tolerance, regime, effort, slope)
+    if regime is not Regime.MIXED or len(film.errors) == 1 or balance.status is not Status.CONVERGED:
+        return balance
+    return replace(balance, refinement=search.odds(at) - search.odds(coarse))
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,14 +170,27 @@ class _Found:
 
 @dataclass
 class _Effort:
-    """What all levels share: the last film and pressure as starts, the contact's tolerance, and counts."""
+    """What all levels share: films and the last pressure as starts, the contact's tolerance, and counts.
 
+    films_known : that under the whole load and the last `KEPT_FILMS`.
+    """
+
+    films_known: tuple[PatchFilm, ...]
     contact_tolerance: float = math.inf
-    film: PatchFilm | None = None
     pressure: FloatArray | None = None
     films: int = 0
     contacts: int = 0
     convolutions: float = 0.0
+
+    def keep(self, film: PatchFilm) -> None:
+        """A film that was solved, to start others from."""
+        self.films += 1
+        self.films_known = (self.films_known[0], *self.films_known[1:][1 - KEPT_FILMS :], film)
+
+    def nearest(self, load: float) -> PatchFilm:
+        """The known film under a load nearest to one [N], the latest of several: the last trial may lie at the other
+        end."""
+        return min(reversed(self.films_known), key=lambda one: abs(math.log(load / one.load)))
 
     def count(self, contact: Pressed) -> None:
         self.contacts += 1
@@ -178,20 +215,20 @@ class _Search:
     def contact_tolerance(self) -> float:
         """What a contact is solved to at first: as was asked for with the last films, before them no better than the
         balance needs of an opening as small as the film's oil."""
-        asked, film = self.rough.tolerance, self.effort.film
-        if self.level == len(self.film.errors) - 1 or asked == 0 or film is None:
+        asked, film = self.rough.tolerance, self.effort.films_known[-1]
+        if self.level == len(self.film.errors) - 1 or asked == 0:
             return asked
         share = _oil(film, self.rough) / max(float(film.gap.std()), 1e-300)
         return max(asked, CONTACT_SHARE * self.goal * min(share, 1.0))
 
-    def run(self, at: float, slope: float) -> _Found:
-        """From a film load by its logarithm and `BalanceStart.slope`."""
+    def run(self, at: float, slope: float, *, known: bool = False) -> _Found:
+        """From a film load by its logarithm and `BalanceStart.slope`, and whether that is `BalanceStart.known`."""
         beyond = self.load - self.rough.largest_load  # what surfaces that yield everywhere leave to the film at least
         yielded = math.log(beyond) + 1e-9 if beyond > 0 else -math.inf
         ends = self.odds(max(self.bottom, yielded)), self.odds(self.top)
         last: list[tuple[_Trial, bool]] = []
         sides: dict[bool, _Trial] = {}
-        missed: list[float] = []
+        missed: list[float] = [KNOWN_SLOPE] if known else []
 
         def evaluate(place: float) -> tuple[float, bool]:
             trial = self.under_the_rest(self.under_odds(place))
@@ -277,9 +314,9 @@ class _Search:
         return self.trial(logarithm, film, contact)
 
     def film_at(self, logarithm: float) -> PatchFilm:
-        film = self.film.under(math.exp(logarithm), self.level, self.effort.film)
-        self.effort.films += 1
-        self.effort.film = film
+        load = math.exp(logarithm)
+        film = self.film.under(load, self.level, self.effort.nearest(load))
+        self.effort.keep(film)
         return film
 
     def trial(self, logarithm: float, film: PatchFilm, contact: Pressed | None) -> _Trial:

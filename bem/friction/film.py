@@ -14,6 +14,7 @@ from bem.errors import InputError, Status
 from bem.friction.smooth import LineContact, SmoothContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, PointFilmSolution, solve_line_film
+from bem.lubrication.line_starts import on_mesh_of
 from bem.lubrication.steady import load_range
 from bem.lubrication.with_heat import film_with_heat
 
@@ -167,6 +168,9 @@ class SolvedFilm:
         points = self.points if level == len(self.errors) - 1 else BALANCE_POINTS
         initial = self.initial if start is None else line_solution(start.solution)
         tolerance = self.tolerance if level == len(self.errors) - 1 else COARSE_TOLERANCE
+        kept = None if self.contact.heat is not None else self.initial
+        if initial is not None and kept is not None and len(kept.position) == points != len(initial.position):
+            initial = on_mesh_of(initial, kept)
         film = solved_line_film(self.contact, self.speeds, load, points, initial=initial, tolerance=tolerance)
         return self.sampled(film, load)
 

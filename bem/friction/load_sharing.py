@@ -17,13 +17,14 @@ from typing import Any
 import numpy as np
 
 from bem.errors import InputError, Status
-from bem.friction.balance import Balance, BalanceStart, Regime, share_load
+from bem.friction.balance import Balance, Regime, share_load
 from bem.friction.boundary import BoundaryFrictionGiven
+from bem.friction.continuation import continuation, first_trial
 from bem.friction.curves import relative_difference
 from bem.friction.film import PatchFilm, SolvedFilm, middle_line
 from bem.friction.films import SolvedFilms, films_of
 from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, validity_notes
-from bem.friction.oil_beside import OilBeside, oil_notes
+from bem.friction.oil_beside import oil_notes
 from bem.friction.oil_on_contact import covered_notes
 from bem.friction.oil_sensitivity import oil_beside
 from bem.friction.oil_volume import OilVolume
@@ -32,6 +33,7 @@ from bem.friction.setup import FILM_CELLS, MixedSetup
 from bem.friction.solution import MixedSolution
 from bem.grid import FloatArray, Grid
 from bem.lubrication import FilmSolution, Lubricant, PointFilmSolution
+from bem.lubrication.line_starts import without_equations
 from bem.lubrication.rough_walls import WallFactors
 from bem.lubrication.supply import Supply
 from bem.materials import Body
@@ -227,35 +229,24 @@ def solve_setup(
         raise InputError(f"initial: {type(initial).__name__} is not a MixedSolution")
     film = films_of(setup, speeds, initial=None if initial is None else initial.film)
     rough = rough_contact(setup, height, film.speeds)
-    whole, films = _whole_film(film, rough, setup.load)
-    balance = share_load(film, rough, setup.load, setup.tolerance, whole, _start(setup, film.speeds, initial))
-    balance = dataclasses.replace(balance, films=balance.films + films)
-    return _solution(setup, height, film, rough, whole, balance, None if initial is None else initial.oil)
+    wholes = _whole_films(film, rough, setup.load, None if initial is None else initial.continuation.whole)
+    start = first_trial(setup, film.speeds, initial)
+    balance = share_load(film, rough, setup.load, setup.tolerance, wholes[-1], start)
+    balance = dataclasses.replace(balance, films=balance.films + len(wholes))
+    return _solution(setup, height, film, rough, wholes, balance, initial)
 
 
-def _whole_film(film: SolvedFilms, rough: RoughContact, load: float) -> tuple[PatchFilm, int]:
-    """Film under the whole load, or under as much as there are films for, and how many were solved: a finer one only
-    where the coarser clears the roughness, or says too little of the lambda ratio."""
+def _whole_films(film: SolvedFilms, rough: RoughContact, load: float, start: PatchFilm | None) -> tuple[PatchFilm, ...]:
+    """Films under the whole load, or under as much as there are films for, the last the best: a finer one only where
+    the coarser clears the roughness, or says too little of the lambda ratio."""
     load = min(load, film.largest_load)
-    whole: PatchFilm | None = None
+    wholes: list[PatchFilm] = []
     levels = [level for level, error in enumerate(film.errors) if error <= LARGEST_ERROR]
-    solved = 0
     for level in levels:
-        whole, solved = film.under(load, level, whole), solved + 1
-        if not rough.clears(whole):
+        wholes.append(film.under(load, level, wholes[-1] if wholes else start))
+        if not rough.clears(wholes[-1]):
             break
-    assert whole is not None
-    return whole, solved
-
-
-def _start(setup: MixedSetup, speeds: tuple[float, float], initial: MixedSolution | None) -> BalanceStart:
-    if initial is None or initial.grid != setup.grid or initial.contact is None:
-        return BalanceStart(0.5 * setup.load)
-    # at a given thickness the film carries in proportion to the speed
-    faster = abs(sum(speeds)) / abs(sum(initial.speeds))
-    share = min(faster * initial.film_load / initial.load, 0.98)
-    pressure = None if setup.repeated_cell else initial.contact_pressure
-    return BalanceStart(share * setup.load, initial.balance_slope, pressure)
+    return tuple(wholes)
 
 
 def _solution(
@@ -263,11 +254,12 @@ def _solution(
     height: FloatArray,
     film: SolvedFilms,
     rough: RoughContact,
-    whole: PatchFilm,
+    wholes: tuple[PatchFilm, ...],
     balance: Balance,
-    before: OilBeside | None,
+    initial: MixedSolution | None,
 ) -> MixedSolution:
-    found, contact = balance.film, balance.contact
+    found, contact, whole = balance.film, balance.contact, wholes[-1]
+    before = None if initial is None else initial.oil
     forces = friction_forces(found, contact, setup, film.speeds)
     friction, covered = (forces.boundary + forces.film) / setup.load, forces.covered / setup.load
     oil = oil_beside(setup, height, balance, whole, speeds=film.speeds, friction=friction, before=before)
@@ -286,7 +278,7 @@ def _solution(
         load=setup.load,
         contact_load=0.0 if contact is None else contact.load,
         film_load=found.load,
-        film=returned,
+        film=without_equations(returned) if isinstance(returned, FilmSolution) else returned,
         contact=None if contact is None else contact.solution,
         separation=_separation(seen, setup) if contact is None else contact.separation,
         lambda_ratio=lambda_ratio(whole, height),
@@ -299,6 +291,7 @@ def _solution(
         oil=oil,
         patch_film=seen,
         balance_slope=balance.slope,
+        continuation=continuation(film.speeds, balance, setup.load, wholes[0], initial),
         status=_status(balance.status, forces),
         grid=setup.grid,
         boundary_friction=_told(setup, forces),

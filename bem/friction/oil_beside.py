@@ -24,7 +24,8 @@ class OilBeside:
     share : of the film's oil on the patch, what lies beside Hertz' contact under the whole load. contact_share,
     friction : surfaces' share of the load, and friction, as found. loaded_contact_share, loaded_friction : the same
     with the oil counted where the film carries; as found at either end of the balance and where it was counted so;
-    not-a-number where that balance was not met.
+    not-a-number where that balance was not met. slope : of that balance, as of `Balance`, for the next one; None where
+    there was none.
     """
 
     share: float
@@ -32,6 +33,7 @@ class OilBeside:
     friction: float
     loaded_contact_share: float = math.nan
     loaded_friction: float = math.nan
+    slope: float | None = None
 
     @property
     def known(self) -> bool:

@@ -56,7 +56,11 @@ def oil_beside(
     film = films_of(counted, speeds, resolution=min(setup.film_resolution, few))
     if isinstance(film, SolvedFilm):
         film = replace(film, tolerance=COARSE_TOLERANCE)
-    start = BalanceStart(_first_load(found.film.load, setup.load, before), found.slope, found.contact.pressure)
+    first, load = _first_load(found.film.load, setup.load, before), setup.load
+    similar = found.film.load / load, found.slope
+    if before is not None and before.slope is not None:
+        similar = 1 - before.loaded_contact_share, before.slope
+    start = BalanceStart.after(*similar, load, first, found.contact.pressure)
     other = share_load(
         film, rough_contact(counted, height, speeds), setup.load, max(setup.tolerance, SEARCHED), whole, start
     )
@@ -66,7 +70,8 @@ def oil_beside(
     carried = 0.0 if other.contact is None else other.contact.load / setup.load
     more = _left_to_surfaces(other, setup.load) - carried if other.regime is Regime.MIXED else 0.0
     other_friction = float(forces.boundary + forces.film) / setup.load + more * _slides(forces, other)
-    return replace(own, loaded_contact_share=carried + more, loaded_friction=other_friction)
+    slope = other.slope if other.regime is Regime.MIXED else None
+    return replace(own, loaded_contact_share=carried + more, loaded_friction=other_friction, slope=slope)
 
 
 def _left_to_surfaces(found: Balance, load: float) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +12,7 @@ from bem.errors import Status
 from bem.friction.asperities import AsperityContact
 from bem.friction.balance import Regime
 from bem.friction.boundary import BoundaryFrictionGiven, boundary_law, filled_part
+from bem.friction.continuation import Continuation
 from bem.friction.film import PatchFilm, middle_line
 from bem.friction.oil_beside import OilBeside
 from bem.grid import FloatArray, Grid
@@ -44,6 +45,7 @@ class MixedSolution:
     evaluations : films solved; contact_solves : rough contacts solved.
     imbalance : (film_load + contact_load - load) / load, of these three.
     balance_slope : of ln(opening / film thickness) with ln(film_load): where the next speed's balance starts from.
+    continuation : what else the next speed's balance starts from.
     status : converged where the imbalance is within the tolerance and film and contact are converged themselves;
         infeasible where film and surfaces cannot carry the load within their models.
     grid, boundary_friction : as given; a law where one was.
@@ -83,6 +85,7 @@ class MixedSolution:
     oil: OilBeside
     patch_film: PatchFilm
     regime: Regime = Regime.MIXED
+    continuation: Continuation = field(default_factory=Continuation, repr=False, compare=False)
     contact_temperature: float | None = None
     flash_temperature: float | None = None
     oil_on_contact: float = 0.0

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_newton import (
+    MAX_IMBALANCE,
     Outcome,
     State,
     is_start,
@@ -29,7 +30,6 @@ SPIKE_SHIFT = 0.75
 """A spike's distance from the exit goes about like M^(-3/4), in units of the exit's abscissa."""
 MAX_SHIFT = 1.0
 """Cells by which a sharp spike may move on its mesh."""
-MAX_IMBALANCE = 5.0
 SKETCH = 250
 """Cells of a sketch: centres of films on them were within 1e-3 of those on 400 or 2000."""
 MIDDLE = 400

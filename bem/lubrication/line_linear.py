@@ -34,6 +34,11 @@ class Linear:
     equations: Equations
     elimination: Elimination
 
+    @property
+    def cells(self) -> int:
+        """Of the mesh that they are on."""
+        return len(self.equations.here)
+
 
 def solve(operator: LineOperator, equations: Equations) -> tuple[Change, Linear | None]:
     """The Newton step, and what `again` gives the next ones by without taking the equations apart once more; None of it

@@ -17,7 +17,7 @@ reasonable films from the first step on. That, more than anything, makes the ite
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -45,6 +45,8 @@ CHORD_RATE, LEAST_RATE = 3e-3, 0.1
 """By how much such a step reduces the errors at most, the equations being solved roughly, and must at least."""
 
 
+MAX_IMBALANCE = 5.0
+"""Of the cells of a mesh that was made for another state."""
 FEWEST_NODES = 8
 """Of a state that a mesh is made from."""
 
@@ -54,7 +56,8 @@ class State:
     """Node offsets from the exit (n+1,), their elastic operator, pressure, film, datum H0 and exit X_e.
 
     The datum is that of the kernel ln|x - x'|, whatever the operator's unit. far_field : 1 where the gap is full from
-    far upstream of the nodes on, 0 where it begins to be full at the first of them, a meniscus.
+    far upstream of the nodes on, 0 where it begins to be full at the first of them, a meniscus. linear : equations of
+    the last Newton step, for chords from this state to others next to it; None of a state that was not solved for.
     """
 
     offset: FloatArray
@@ -64,6 +67,7 @@ class State:
     datum: float
     exit: float
     far_field: float = 1.0
+    linear: Linear | None = field(default=None, repr=False, compare=False)
 
     @property
     def position(self) -> FloatArray:
@@ -138,11 +142,12 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
     """Solve from `start`, whose film (positive) and pressure need not belong together.
 
     A step with the equations of the one before reduces the errors by as much again as that did: where one or two of
-    them are enough, they are tried first, each for a tenth of the work (chords).
+    them are enough, they are tried first, each for a tenth of the work (chords); so with those that the start was found
+    by, if there are any.
     """
     mesh, at = _begun(problem, start)
     iterations = 0
-    linear: Linear | None = None
+    linear = None if start.linear is None or start.linear.cells != len(start.offset) - 1 else start.linear
     before = largest = np.inf
     while True:
         before, largest = largest, _largest(mesh, at)
@@ -160,7 +165,7 @@ def newton(problem: Problem, start: State, tolerance: float, max_iterations: int
         at = following
         iterations += 1
     datum = at.datum + DEFLECTION * mesh.operator.log_unit * float(mesh.quadrature @ at.pressure)
-    state = State(mesh.offset, mesh.operator, at.pressure, at.film, datum, at.exit, mesh.far_field)
+    state = State(mesh.offset, mesh.operator, at.pressure, at.film, datum, at.exit, mesh.far_field, linear)
     return Outcome(state, iterations, largest, converged)
 
 
@@ -311,6 +316,19 @@ def remesh(problem: Problem, state: State, cells: int, smallest: float | None) -
     return State(nodes, LineOperator.of(nodes), pressure, film, state.datum, state.exit, state.far_field)
 
 
+def carried(problem: Problem, state: State, mesh: State) -> State | None:
+    """The state on the mesh of another, stretched to its exit, whose weights are known; None where that is not a mesh
+    for it."""
+    factor = state.exit / mesh.exit
+    nodes, state = mesh.offset * factor, _with_inlet(state)
+    inside = np.clip(nodes, state.offset[0], 0.0)
+    pressure = np.maximum(MonotoneCubic(state.offset, state.pressure)(inside), 0.0)
+    film = np.exp(MonotoneCubic(state.offset, np.log(state.film))(inside))
+    operator = mesh.operator.stretched(factor)
+    there = State(nodes, operator, pressure, film, state.datum, state.exit, state.far_field)
+    return there if mesh_imbalance(problem, there) <= MAX_IMBALANCE else None
+
+
 def is_start(state: State) -> bool:
     """Whether a mesh can be made for a state: what did not converge may be anything, down to no pressure at all."""
     arrays = (state.pressure, state.film, np.array([state.exit, state.datum]))
@@ -380,6 +398,7 @@ def stretched(state: State, factor: float, pressure_factor: float, film_factor: 
         state.datum,
         state.exit * factor,
         state.far_field,
+        state.linear,
     )
 
 

@@ -1,0 +1,125 @@
+"""What one speed leaves to the next: fewer films and contacts, meshes whose weights are known, the same answers."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from mixed_case import mixed_case, steel_line
+
+from bem import Body, Grid, Lubricant, Material, Status, generate_surface, solve_line_film, solve_mixed, stribeck_curve
+from bem.friction.balance import BalanceStart, Regime
+from bem.lubrication import line_kernel, line_linear
+from bem.lubrication.line_starts import on_mesh_of, without_equations
+
+OIL = Lubricant(0.36, pressure_viscosity=25e-9)
+CASE = mixed_case(48, 90e-6 / 48, 4e-6, lubricant=OIL, boundary_friction=0.15, film_points=800)
+SPEEDS = np.geomspace(0.003, 0.2, 8)
+FILM = {"load": 300.0, "radius": 2e-3, "contact_modulus": 115.4e9, "lubricant": OIL}
+
+
+@pytest.fixture(scope="module")
+def curve():
+    return stribeck_curve(SPEEDS, **CASE)
+
+
+def test_a_curve_is_that_of_its_speeds_alone(curve):
+    cold = [solve_mixed(**CASE, speeds=(speed, 0.0)) for speed in SPEEDS]
+    assert {point.regime for point in curve} == {Regime.MIXED, Regime.FULL_FILM}
+    for one, other in zip(curve, cold, strict=True):
+        assert one.status is other.status is Status.CONVERGED
+        assert one.regime is other.regime
+        # balances within 1e-4, of the film's thickness; meshes of 800 nodes differ by some 1e-4 of it
+        assert one.friction == pytest.approx(other.friction, rel=1e-3)
+        assert one.film_load == pytest.approx(other.film_load, rel=1e-3)
+    mixed = [(a, b) for a, b in zip(curve[1:], cold[1:], strict=True) if a.regime is Regime.MIXED]
+    assert sum(a.evaluations for a, _ in mixed) <= sum(b.evaluations for _, b in mixed) - 2 * len(mixed)
+    assert sum(a.contact_solves for a, _ in mixed) <= sum(b.contact_solves for _, b in mixed) - 2 * len(mixed)
+
+
+def test_next_to_full_film_no_film_of_next_to_no_load_is_tried():
+    """A slope with ln(film load) is that with ln(film load / rest) over the rest: taken for the same at less rest, it
+    sent the search to the other end, 14 Newton steps and a contact of 19 convolutions, and back in 51 and more."""
+    roller = Material("steel", youngs_modulus=207e9, poissons_ratio=0.3)
+    modulus, pressure, radius, width = 207e9 / 0.91 / 2, 1.5e9, 8e-3, 10e-3
+    length = 6.4 * pressure * radius / modulus
+    grid = Grid((60, 20), (length / 60, length / 60), periodic=(False, True))
+    whole = Grid(grid.shape, grid.spacing, periodic=(True, True))
+    case = steel_line(
+        grid,
+        bodies=(Body(roller), Body(roller)),
+        height=generate_surface(whole, rms_height=150e-9, seed=5, correlation_length=30e-6),
+        radius=radius,
+        width=width,
+        load=np.pi * pressure**2 * radius * width / modulus,
+        lubricant=Lubricant(0.06, pressure_viscosity=20e-9),
+        boundary_friction=0.12,
+        film_points=800,
+    )
+    speeds = [(u, 0.95 * u) for u in np.geomspace(0.01, 0.9, 6)]
+    curve = stribeck_curve(speeds, **case)
+    assert all(point.status is Status.CONVERGED for point in curve)
+    shares = [point.film_load / point.load for point in curve]
+    assert 0.8 < min(shares) < max(shares) < 0.999
+    # the film under the whole load, one to three on few nodes, one or two on all
+    assert max(point.evaluations for point in curve[1:]) <= 6
+
+
+def test_a_slope_is_moved_with_the_odds():
+    start = BalanceStart.after(0.8, 2.0, 10.0, 9.0, None)
+    assert start.slope * (1 - 0.9) == pytest.approx(2.0 * (1 - 0.8), rel=1e-12)
+    assert start.known
+
+
+def test_a_curve_in_full_film_makes_weights_twice(monkeypatch):
+    """Of the coarse mesh and of the fine one; at every speed before."""
+    made = []
+    usual = line_kernel.LineOperator.of.__func__
+    monkeypatch.setattr(
+        line_kernel.LineOperator, "of", classmethod(lambda own, nodes: (made.append(len(nodes)), usual(own, nodes))[1])
+    )
+    case = CASE | {"height": 0.02 * CASE["height"]}
+    first = stribeck_curve([0.2], **case)
+    once = len(made)
+    curve = stribeck_curve(np.geomspace(0.2, 1.0, 6), **case)
+    assert all(point.regime is Regime.FULL_FILM for point in curve)
+    assert len(made) == 2 * once
+    assert curve[0].friction == first[0].friction
+
+
+def test_a_film_next_to_one_is_found_without_taking_equations_apart(monkeypatch):
+    near = solve_line_film(**FILM, speeds=(0.05, 0.0))
+    taken = []
+    usual = line_linear.eliminate
+    monkeypatch.setattr(line_linear, "eliminate", lambda *given: (taken.append(1), usual(*given))[1])
+    changed = FILM | {"load": 300.3}
+    film = solve_line_film(**changed, speeds=(0.05, 0.0), initial=near)
+    assert not taken
+    assert film.status is Status.CONVERGED
+    assert film.residual <= 1e-8
+    bare = solve_line_film(**changed, speeds=(0.05, 0.0), initial=without_equations(near))
+    assert taken
+    np.testing.assert_allclose(film.thickness, bare.thickness, rtol=1e-7)  # residuals of 1e-8 of the film
+    np.testing.assert_allclose(film.pressure, bare.pressure, atol=1e-6 * bare.pressure.max())
+
+
+def test_equations_are_not_kept_with_a_curve(curve):
+    for point in curve:
+        assert point.film.state.state.linear is None
+        assert point.film.state.flooded.linear is None
+        assert point.continuation.whole.solution.state.state.linear is None
+
+
+def test_a_film_on_the_mesh_of_another_is_itself():
+    coarse = solve_line_film(**FILM, speeds=(0.05, 0.0), points=400)
+    other = solve_line_film(**FILM, speeds=(0.08, 0.0), points=1500)
+    start = on_mesh_of(coarse, other)
+    state, mesh = start.state.state, other.state.state
+    assert state.operator.nodes is mesh.operator.nodes  # its weights are known
+    inside = (state.position > 2 * coarse.state.state.position[0] / 3) & (state.position < 0)
+    at = state.position[inside] * coarse.state.scales.length
+    # cubics through 400 nodes
+    np.testing.assert_allclose(state.film[inside] * coarse.state.scales.film, coarse.at(at)[1], rtol=2e-3)
+    found = solve_line_film(**FILM, speeds=(0.05, 0.0), points=1500, initial=start)
+    own = solve_line_film(**FILM, speeds=(0.05, 0.0), points=1500)
+    assert found.minimum_thickness == pytest.approx(own.minimum_thickness, rel=2e-4)
+    assert on_mesh_of(coarse, dataclasses.replace(other, state=None)) is coarse
