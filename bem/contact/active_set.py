@@ -33,7 +33,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact import passes
 from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl
 from bem.contact.coupled import solve_coupled
 from bem.contact.energy import Accepted, best_share, lowest_point
@@ -225,14 +224,13 @@ class _Step:
 
 def _judge(level: Level, control: Control, iterate: Iterate, before: Accepted | None, tolerance: Tolerance) -> _Round:
     """The true gap of a pressure, or of the lowest point on the way to it; the displacement is in the buffer."""
-    seen, share = level.survey(iterate), 1.0
+    seen, share = level.survey(iterate, None if before is None else before.iterate), 1.0
     lowest = None if before is None else lowest_point(level, before, iterate, seen)
     if lowest is not None:
         iterate, share = lowest
         seen = level.survey(iterate)
-    level.mark(iterate)
     approach = _approach(level, control, iterate, seen.total)
-    found, largest = passes.find_violations(level.flat["displacement"], level.gap, level.state, approach)
+    found, largest = level.violations(iterate, approach)
     violation = max(largest, seen.deepest - approach, approach - seen.nearest)
     goal = tolerance.of(approach, seen.reach)
     resolved = tolerance.resolves(violation, seen.reach)
@@ -246,7 +244,7 @@ def _approach(level: Level, control: Control, iterate: Iterate, total: float) ->
         if cells.size > _FEW * capped.size:
             return total / cells.size
         # hardly any cell says what the approach is: take the one that is violated least by all others
-        deepest, nearest = passes.separations(level.flat["displacement"], level.gap, level.state)
+        deepest, nearest = level.separations(iterate)
         return deepest if deepest <= nearest else 0.5 * (deepest + nearest)
     if isinstance(control, ApproachControl):
         return control.approach

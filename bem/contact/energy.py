@@ -5,16 +5,16 @@ The energy is p.Kp/2 + p.gap; at an approach d it is less by d times the sum of 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact import passes
+from bem.contact import passes, sets
 from bem.contact.controls import ApproachControl, Control
-from bem.contact.feasible import everywhere, held
-from bem.contact.level import Iterate, Level
-from bem.contact.passes import Survey
+from bem.contact.feasible import everywhere
+from bem.contact.judging import Survey
+from bem.contact.level import Indices, Iterate, Level
 
 FloatArray = NDArray[np.float64]
 
@@ -29,8 +29,7 @@ _GREATEST_SHARE = 0.75
 sets swing for long on some capped and free contacts; at 0.8 rounds that only lack precision are spoiled."""
 
 
-@dataclass(frozen=True)
-class Accepted:
+class Accepted(NamedTuple):
     """A pressure with its energy at approach zero, the size of the terms in it, its sum, and its work on the gap."""
 
     iterate: Iterate
@@ -57,15 +56,15 @@ class Accepted:
 
 def lowest_point(level: Level, before: Accepted, iterate: Iterate, now: Survey) -> tuple[Iterate, float] | None:
     """The lowest point between a round's ends, if the round went well beyond it; the displacement there replaces the
-    one in the buffer, without a convolution; and its share of the way. None where the round's end, which is `now`, will
-    do.
+    one in the buffer, without a convolution; and its share of the way. None where the round's end, which is `now` (the
+    other pressure's work is that of the beginning), will do.
 
     Changes of the sets that are each right by themselves can be too many together: without this they swing ever wider,
     or for long.
     """
     displacement, approach = level.flat["displacement"], before.approach
     # the energy's slope where the round ended, along the way from its beginning
-    slope = now.work - _work(level, before.iterate) - approach * (now.force - before.force)
+    slope = now.work - now.work_of_other - approach * (now.force - before.force)
     rise = now.energy - before.energy - approach * (now.force - before.force)
     curvature = 2 * (slope - rise)
     if not curvature > 10 * _ROUND_OFF * max(now.size, before.size):
@@ -73,27 +72,22 @@ def lowest_point(level: Level, before: Accepted, iterate: Iterate, now: Survey) 
     share = 1 - slope / curvature
     if not _LEAST_SHARE < share < _GREATEST_SHARE:
         return None
-    earlier = level.flat["before"]
-    earlier *= 1 - share
-    displacement *= share
-    displacement += earlier
-    full = everywhere(level, before.iterate)
-    full *= 1 - share
-    full[iterate.cells] += share * iterate.values
-    full[iterate.capped] += share * level.cap
-    # a cell at the cap at both ends must stay there whatever the rounding
-    full[np.intersect1d(before.iterate.capped, iterate.capped, assume_unique=True)] = level.cap
-    return held(full, level.cap), share
+    passes.in_blocks(displacement.size, 0, sets.mix, displacement, level.flat["before"], share)
+    cells, values = sets.blend(_pressed(before.iterate, level.cap), _pressed(iterate, level.cap), share, level.cap)
+    if before.iterate.capped.size == 0 and iterate.capped.size == 0:
+        return Iterate(cells, values, iterate.capped), share
+    capped = values >= level.cap
+    return Iterate(cells[~capped], values[~capped], cells[capped]), share
 
 
-def _work(level: Level, iterate: Iterate) -> float:
-    """Sum of p (gap + displacement), with the displacement in the buffer."""
-    total = passes.work(level.flat["displacement"], level.gap, iterate.cells, iterate.values)
-    if iterate.capped.size:
-        total += passes.work(
-            level.flat["displacement"], level.gap, iterate.capped, np.full(iterate.capped.size, level.cap)
-        )
-    return total
+def _pressed(iterate: Iterate, cap: float) -> tuple[Indices, FloatArray]:
+    """All cells with pressure in one ascending array, with their values."""
+    if iterate.capped.size == 0:
+        return iterate.cells, iterate.values
+    cells = np.concatenate([iterate.cells, iterate.capped])
+    values = np.concatenate([iterate.values, np.full(iterate.capped.size, cap)])
+    order = np.argsort(cells, kind="stable")
+    return cells[order], values[order]
 
 
 def best_share(level: Level, old: Accepted, new: Accepted, approach: float) -> float:

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact import gradients, passes
+from bem.contact import gradients, passes, sets
 from bem.contact.controls import ApproachControl, Control, LoadControl
+from bem.contact.inner import Ends, Reached, ended, solve_in_one_call, strides
 from bem.contact.inverse import Descent, Inverse, Step
+from bem.contact.judging import CAPPED, CONTACT
 from bem.contact.level import Effort, Indices, Iterate, Level
-from bem.contact.passes import CAPPED, CONTACT
 
 FloatArray = NDArray[np.float64]
 
@@ -39,18 +40,12 @@ class Opening:
 def take_in(level: Level, iterate: Iterate, found: NDArray[np.int32], approach: float) -> tuple[Iterate, Opening]:
     """Add violating cells to those in contact, with the pressure they have; and the gap there."""
     state, capped = level.state, iterate.capped
-    found_values = np.zeros(found.size)
+    surface = level.flat["displacement"], level.gap, approach
+    cells, values, residual, mean = sets.merge((iterate.cells, iterate.values), found, state, level.cap, surface)
     if capped.size:
-        found_values[state[found] == CAPPED] = level.cap
         state[found] = CONTACT
         capped = capped[state[capped] == CAPPED]
-    count = iterate.cells.size + found.size
-    cells, values, residual = np.empty(count, np.int64), np.empty(count), np.empty(count)
-    surface = (level.flat["displacement"], level.gap, approach)
-    total = passes.merge(
-        (iterate.cells, iterate.values), (found, found_values), surface, (cells, values, residual)
-    )  # fmt: skip
-    return Iterate(cells, values, capped), Opening(residual, total / max(1, count))
+    return Iterate(cells, values, capped), Opening(residual, mean)
 
 
 def solve_on_cells(
@@ -61,55 +56,67 @@ def solve_on_cells(
     balance = Balance.of(level, iterate, opening, control)
     if balance is None:
         return pressure
-    tuning = level.tuning
-    given, found = level.quick_fields
-    given.fill(0.0)
-    quick_in, quick_out = given.reshape(-1), found.reshape(-1)
-    n = cells.size
-    direction, preconditioned, response, previous = np.zeros(n), np.empty(n), np.empty(n), np.zeros(n)
-    state, way = (pressure, residual, previous), (direction, response)
+    tuning, stride = level.tuning, level.stride
     squares = gradients.squares(residual)
-    lowest, enough = squares * tuning.reduction**2, squares * tuning.least_reduction**2
-    last = math.inf  # the first direction is the residual's own
-    for _ in range(min(tuning.iterations_per_round, effort.left)):
-        known = Step(last, level.stride.length, level.cap)
+    ends = Ends(
+        lowest=squares * tuning.reduction**2,
+        enough=squares * tuning.least_reduction**2,
+        goal=tuning.final * tolerance,
+        clipping=tuning.clipping * level.self_response,
+        most=min(tuning.iterations_per_round, effort.left),
+        trusted=stride.trusted,
+        left=_LEFT,
+        left_at_last=_LEFT_AT_LAST,
+    )
+    first = Step(math.inf, stride.length, level.cap)  # the first direction is the residual's own
+    if cells.size <= passes.BLOCK:
+        own = balance.rise, balance.share, balance.shifted
+        found = solve_in_one_call(
+            balance.inverse, own, cells, pressure, (residual, squares), level.quick_fields, level.quick, ends, first
+        )
+    else:
+        found = _pass_by_pass(level, balance, cells, pressure, (residual, squares), ends, first)
+    effort.iterations += found.iterations
+    stride.length, stride.taken = found.length, found.strode
+    return found.pressure
+
+
+def _pass_by_pass(  # reason: conjugate gradients know their cells, equations, and when to begin and end
+    level: Level,
+    balance: Balance,
+    cells: Indices,
+    pressure: FloatArray,
+    residual: tuple[FloatArray, float],
+    ends: Ends,
+    first: Step,
+) -> Reached:
+    """Conjugate gradients on more cells than one block has: threads share each pass."""
+    given, convolved = level.quick_fields
+    given.fill(0.0)
+    quick_in, quick_out = given.reshape(-1), convolved.reshape(-1)
+    n, made, length, last = cells.size, 0, first.length, first.last
+    direction, preconditioned, response, previous = np.zeros(n), np.empty(n), np.empty(n), np.zeros(n)
+    (values, squares), way = residual, (direction, response)
+    state = pressure, values, previous
+    while made < ends.most:
+        known = Step(last, length, level.cap)
         descent = balance.descend(state, (preconditioned, direction, response), known)
         if not descent.full > 0:
             break
         beta, last = known.beta(descent.change), descent.full
-        effort.iterations += 1
-        if _strides(level, descent, tolerance, closing=_LEFT**2 * squares <= lowest):
-            pressure = response
-            break
-        slope = gradients.new_direction(direction, preconditioned, beta, cells, quick_in, residual)
-        level.quick.apply(given, found)
+        made += 1
+        if strides(ends, squares, descent.largest, descent.outside):
+            return Reached(response, made, length, True)
+        slope = gradients.new_direction(direction, preconditioned, beta, cells, quick_in, values)
+        level.quick.apply(given, convolved)
         mean, curvature = gradients.gather_dot(quick_out, cells, response, direction)
         if not curvature > 0:
             break
-        shift, step = mean / n if balance.kept else 0.0, slope / curvature
-        level.stride.length = step
-        squares, largest, outside = gradients.advance(state, way, shift, step, level.cap)
-        if squares <= lowest or largest <= tuning.final * tolerance:
+        shift, length = mean / n if balance.kept else 0.0, slope / curvature
+        squares, largest, outside = gradients.advance(state, way, shift, length, level.cap)
+        if ended(ends, squares, largest, outside):
             break
-        # clipping will bring back a residual of about this size: no use in going far below it
-        if squares <= enough and largest <= tuning.clipping * level.self_response * outside:
-            break
-    return pressure
-
-
-def _strides(level: Level, descent: Descent, tolerance: float, *, closing: bool) -> bool:
-    """Whether a step of a length known beforehand ends the round.
-
-    The preconditioned kernel is close to one, so the convolution that would tell the length says little: the round to
-    come applies the operator anyway, and goes back along the way if it was too long. The step is the last where it is
-    to reach the tolerance, what clipping will undo, or (`closing`) what single precision can.
-    """
-    stride, largest, outside = level.stride, descent.largest, descent.outside
-    if not stride.trusted:
-        return False
-    clipped = _LEFT * largest <= level.tuning.clipping * level.self_response * outside
-    stride.taken = clipped or closing or _LEFT_AT_LAST * largest <= level.tuning.final * tolerance
-    return stride.taken
+    return Reached(pressure, made, length, False)
 
 
 @dataclass(frozen=True)
@@ -162,10 +169,8 @@ class Balance:
         way: tuple[FloatArray, FloatArray, FloatArray],
         step: Step,
     ) -> Descent:
-        """The preconditioned residual, and where the step known beforehand leads; as `Inverse.descend` takes them."""
+        """The preconditioned residual, and where the step known beforehand leads; as `inverse._descend` takes them."""
         (pressure, residual, previous), (preconditioned, direction, out) = state, way
-        if residual.size <= passes.BLOCK:
-            return self.inverse.descend(state, way, (self.rise, self.share, self.shifted), step)
         full, change = self.precondition(residual, preconditioned, previous)
         turned = (preconditioned, direction, step.beta(change))
         return Descent(full, change, *gradients.stride(pressure, turned, step.length, step.cap, residual, out))

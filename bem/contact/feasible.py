@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact import passes
+from bem.contact import passes, sets
 from bem.contact.controls import Control, LoadControl, MeanGapControl
 from bem.contact.level import Begin, Iterate, Level
 
@@ -48,7 +48,11 @@ def clip(level: Level, control: Control, iterate: Iterate, raw: FloatArray) -> I
     What the bounds give to a region, or take from it, its other cells make up for: of load moved across the surface the
     elastic bodies make waves far longer, and higher, than the cells at the bounds are.
     """
-    passes.settle(iterate.cells, raw, level.cap, level.operator.grid.shape, _REGION)
+    shape = level.operator.grid.shape
+    if isinstance(control, LoadControl) and math.isinf(level.cap):
+        cells, values = sets.within(iterate.cells, raw, level.cap, shape, _REGION, control.force)
+        return Iterate(cells, values, iterate.capped)
+    sets.settle(iterate.cells, raw, level.cap, shape, _REGION)
     if isinstance(control, LoadControl):
         return restore_load(level, control, iterate, raw)
     below = raw <= 0
@@ -65,7 +69,7 @@ def restore_load(level: Level, control: LoadControl, iterate: Iterate, raw: Floa
     cap = level.cap
     cells, capped = iterate.cells, iterate.capped
     if math.isinf(cap):
-        cells, raw, total = passes.positive(cells, raw)
+        cells, raw, total = sets.positive(cells, raw)
         return Iterate(cells, raw * (control.force / total), capped)
     wanted = control.force - cap * capped.size
     if not 0 <= wanted <= cap * cells.size:

@@ -1,14 +1,14 @@
 """The approximate inverse of the kernel on the cells in contact: near neighbours by rows, long waves between them.
 
 It knows the sparse inverse and the long waves' factor on given cells, and no contact. Where the cells fit one block of
-`passes`, what conjugate gradients ask of it between two transforms is one compiled call, of the same passes in the same
-order; verified against them in tests/contact/test_contact_passes.py.
+`passes`, what conjugate gradients ask of it between two transforms is one compiled function, of the same passes in the
+same order (`inner` calls it).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from bem.contact import gradients, long_waves, preconditioner
 from bem.contact.long_waves import LongWavesOnCells
 from bem.contact.preconditioner import SparseInverseOnCells
+from bem.convolution import ScaledConvolution
 
 FloatArray = NDArray[np.float64]
 
@@ -58,31 +59,28 @@ class Inverse:
             self.far.apply(self.values)
         return self.near.collect(self.values, out)
 
-    def descend(
-        self,
-        state: tuple[FloatArray, FloatArray, FloatArray],
-        way: tuple[FloatArray, FloatArray, FloatArray],
-        balance: tuple[FloatArray, float, FloatArray],
-        step: Step,
-    ) -> Descent:
-        """The preconditioned residual, and where the step known beforehand leads, of cells that fit one block.
-
-        state : (p, r, r before). way : (z, written; t; p after the step, written). balance : as `face.Balance` has
-        them, rise, share and room, that of none where the residual's mean is let be.
-        """
+    def compiled(self) -> tuple[Any, ...]:
+        """What `_descend` takes of it: the rows, and the long waves. The caller holds the lock of `convolution` while
+        that runs, and counts what it made there."""
         own = (self.near.rows, self.near.outside, self.values)
         if self.far is None:
-            return Descent(*_descend(own, None, state, way, balance, step)[:4])
-        convolution = self.far.smooth.convolution
-        with convolution.transform.lock:
-            *found, applications = _descend(own, self.far.compiled(), state, way, balance, step)
-        convolution.counted(applications)
-        return Descent(*found)
+            return own, None
+        return own, self.far.compiled()
+
+    @property
+    def convolution(self) -> ScaledConvolution | None:
+        """The long waves' own, whose transform's lock is to be held while a compiled loop makes it."""
+        return None if self.far is None else self.far.smooth.convolution
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _descend(own, far, state, way, balance, step):  # type: ignore[no-untyped-def]
-    """`Inverse.descend` in one block; last comes how many convolutions the long waves took."""
+    """The preconditioned residual, and where the step known beforehand leads, of cells that fit one block: `Descent`,
+    and how many convolutions the long waves took.
+
+    state : (p, r, r before). way : (z, written; t; p after the step, written). balance : as `face.Balance` has them,
+    rise, share and room, that of none where the residual's mean is let be.
+    """
     rows, outside, values = own
     (pressure, residual, previous), (preconditioned, direction, out), (rise, share, shifted) = state, way, balance
     size, found, applications = values.size, np.zeros(2), 0

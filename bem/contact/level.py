@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from bem.contact import passes
 from bem.contact.inverse import Inverse
+from bem.contact.judging import NOTHING, Survey, find_violations, mark, separations, survey
 from bem.contact.long_waves import LongWaves, long_waves
-from bem.contact.passes import Survey
 from bem.contact.preconditioner import SparseInverse, sparse_inverse
 from bem.convolution import DisplacementOperator
 
@@ -200,22 +200,21 @@ class Level:
         self.flat["displacement"], self.flat["before"] = self.flat["before"], self.flat["displacement"]
         self.quick_fields, self._other_fields = self._other_fields, self.quick_fields
 
-    def mark(self, iterate: Iterate) -> None:
-        """Note the state of every cell."""
-        passes.mark(self.state, iterate.cells, iterate.capped)
+    def survey(self, iterate: Iterate, other: Iterate | None = None) -> Survey:
+        """Of a pressure with its displacement in the buffer, and the work of another one there."""
+        before = NOTHING if other is None else (other.cells, other.values, other.capped)
+        pressure = iterate.cells, iterate.values, iterate.capped
+        return survey(self.flat["displacement"], self.gap, pressure, self.cap, before)
 
-    def survey(self, iterate: Iterate) -> Survey:
-        """Of the cells between the bounds, with the displacement in the buffer; energy, force and work of all."""
-        displacement = self.flat["displacement"]
-        seen = passes.survey(displacement, self.gap, iterate.cells, iterate.values)
-        if iterate.capped.size == 0:
-            return seen
-        more = passes.survey(displacement, self.gap, iterate.capped, np.full(iterate.capped.size, self.cap))
-        return Survey(
-            *seen[:3],
-            seen.reach if iterate.cells.size else more.reach,
-            *(first + second for first, second in zip(seen[4:], more[4:], strict=True)),
-        )
+    def separations(self, iterate: Iterate) -> tuple[float, float]:
+        """Largest gap + displacement of cells with pressure, smallest of cells that are not at the cap."""
+        mark(self.state, iterate.cells, iterate.capped)
+        return separations(self.flat["displacement"], self.gap, self.state)
+
+    def violations(self, iterate: Iterate, approach: float) -> tuple[NDArray[np.int32], float]:
+        """Cells that should not have the state they have, and by how much at most; all states are noted."""
+        pressure = iterate.cells, iterate.values, iterate.capped
+        return find_violations(self.flat["displacement"], self.gap, self.state, pressure, approach)
 
     def preconditioner(self, cells: Indices) -> Inverse:
         """Approximate inverse of the kernel on the cells."""

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 from contact_oracles import FREE, PERIODIC, notes_surface, operator
 
-from bem.contact import face, gradients, long_waves, passes, preconditioner
+from bem.contact import face, gradients, inner, judging, long_waves, passes, preconditioner, sets
 from bem.contact.controls import ApproachControl, LoadControl
-from bem.contact.inverse import Step
-from bem.contact.level import Iterate, Level, Tuning
+from bem.contact.level import Effort, Iterate, Level, Stride, Tuning
 
 SIZE = 500
 # sums of a few hundred numbers of order one in another order
@@ -25,42 +24,51 @@ def fields(request, monkeypatch):
 
 def test_survey(fields):
     displacement, gap, cells, values = fields
-    seen = passes.survey(displacement, gap, cells, values)
+    capped, cap, nothing = np.setdiff1d(np.arange(150), cells), 1.5, cells[:0]
+    other = cells[::3], values[::3] ** 2, capped[::2]
+    seen = judging.survey(displacement, gap, (cells, values, nothing), cap, other)
     u, g = displacement[cells], gap[cells]
     plain = (
         (g + u).sum(), (g + u).max(), (g + u).min(), np.abs(u).max(), (values * (g + u / 2)).sum(),
         (np.abs(values * g) + np.abs(values * u)).sum(), values.sum(), (values * (g + u)).sum(),
+        (values**2 * (g + u))[::3].sum() + cap * (gap + displacement)[capped[::2]].sum(),
     )  # fmt: skip
     assert np.allclose(seen, plain, rtol=0, atol=ROUND_OFF * seen.size)
-    assert passes.survey(displacement, gap, cells[:0], values[:0])[1:3] == (-np.inf, np.inf)
+    both = judging.survey(displacement, gap, (cells, values, capped), cap)
+    more = judging.survey(displacement, gap, (capped, np.full(capped.size, cap), nothing), cap)
+    assert both[:4] == seen[:4]
+    assert np.allclose(both[4:8], np.add(seen[4:8], more[4:8]), rtol=0, atol=ROUND_OFF * seen.size)
+    assert both.work_of_other == 0
+    alone = judging.survey(displacement, gap, (nothing, values[:0], capped), cap)
+    assert alone[1:3] == (-np.inf, np.inf)
+    assert alone.reach == np.abs(displacement[capped]).max()
 
 
 def test_merge(fields):
     displacement, gap, cells, values = fields
     found = np.setdiff1d(np.arange(0, SIZE, 7), cells).astype(np.int32)
-    new = np.full(found.size, 2.0)
-    merged = (
-        np.empty(cells.size + found.size, np.int64),
-        np.empty(cells.size + found.size),
-        np.empty(700)[: cells.size + found.size],
-    )
-    total = passes.merge((cells, values), (found, new), (displacement, gap, 0.3), merged)
+    state = np.zeros(SIZE, np.uint8)
+    state[found[::2]] = judging.CAPPED
+    *merged, mean = sets.merge((cells, values), found, state, 2.0, (displacement, gap, 0.3))
     everywhere = np.zeros(SIZE)
-    everywhere[cells], everywhere[found] = values, new
+    everywhere[cells], everywhere[found[::2]] = values, 2.0
     both = np.union1d(cells, found)
     assert np.array_equal(merged[0], both)
     assert np.array_equal(merged[1], everywhere[both])
     assert np.allclose(merged[2], (gap + displacement - 0.3)[both], rtol=0, atol=1e-15)
-    assert total == pytest.approx(merged[2].sum(), abs=ROUND_OFF * SIZE)
+    assert mean == pytest.approx(merged[2].mean(), abs=ROUND_OFF)
 
 
 def test_violations_of_free_and_of_capped_cells(fields):
-    displacement, gap, cells, _ = fields
-    state = np.zeros(SIZE, np.uint8)
-    passes.mark(state, cells[:100], cells[100:])
+    displacement, gap, cells, values = fields
+    state = np.full(SIZE, 7, np.uint8)
+    pressure = cells[:100], values[:100], cells[100:]
+    found, largest = judging.find_violations(displacement, gap, state, pressure, 0.1)
+    plain = np.zeros(SIZE)
+    plain[pressure[0]], plain[pressure[2]] = judging.CONTACT, judging.CAPPED
+    assert np.array_equal(state, plain)
     value = 0.1 - gap - displacement
-    wrong = ((state == passes.FREE) & (value > 0)) | ((state == passes.CAPPED) & (value < 0))
-    found, largest = passes.find_violations(displacement, gap, state, 0.1)
+    wrong = ((state == judging.FREE) & (value > 0)) | ((state == judging.CAPPED) & (value < 0))
     assert np.array_equal(found, np.flatnonzero(wrong))
     assert largest == pytest.approx(np.abs(value[wrong]).max(), rel=1e-14)
 
@@ -73,7 +81,7 @@ def test_stride_and_positive(fields):
     assert np.allclose(out, values - 0.7 * (way + 0.2 * values), rtol=0, atol=1e-15)
     assert outside == pytest.approx(max(-out.min(), out.max() - 0.9), rel=1e-14)
     assert largest == np.abs(way).max()
-    kept, raw, total = passes.positive(cells, out)
+    kept, raw, total = sets.positive(cells, out)
     assert np.array_equal(kept, cells[out > 0])
     assert np.array_equal(raw, out[out > 0])
     assert total == pytest.approx(raw.sum(), rel=1e-13)
@@ -86,7 +94,7 @@ def test_regions_keep_their_load_where_pressures_are_clipped():
     raw = rng.uniform(-0.1, 0.8, cells.size)
     raw[cells // shape[1] < 4] -= 0.5  # more below zero there than half of what is left can make up for
     values = raw.copy()
-    passes.settle(cells, values, cap, shape, side)
+    sets.settle(cells, values, cap, shape, side)
     inside = (raw > 0) & (raw < cap)
     assert np.array_equal(values[~inside], raw[~inside])
     region = cells // shape[1] // side * 100 + cells % shape[1] // side
@@ -176,36 +184,64 @@ def test_a_weighed_mean_is_taken_off(size):
 
 
 @pytest.mark.parametrize("n", [24, 96])
-def test_no_cells_have_no_descent(n):
+def test_no_cells_take_no_iteration(n):
     level = Level(operator((n, n), (1 / n, 1 / n), PERIODIC), np.zeros(n * n), np.inf, Tuning())
-    inverse, nothing = level.preconditioner(np.empty(0, np.int64)), np.empty((6, 0))
-    before = level.operator.count.applications
-    balance = nothing[0], 0.0, nothing[1]
-    assert inverse.descend(tuple(nothing[:3]), tuple(nothing[3:]), balance, Step(2.0, 0.3, 0.9)) == (0, 0, 0, 0)
-    assert level.operator.count.applications == before
+    nothing = np.empty(0)
+    iterate = Iterate(np.empty(0, np.int64), nothing, np.empty(0, np.int64))
+    effort = Effort(9)
+    found = face.solve_on_cells(level, iterate, face.Opening(nothing, 0.0), ApproachControl(0.1), 1e-6, effort)
+    assert found.size == effort.iterations == level.operator.count.applications == 0
 
 
 @pytest.mark.parametrize("n", [24, 96])  # the smaller has no long waves
 @pytest.mark.parametrize("control", [LoadControl(30.0), ApproachControl(0.1)])
-def test_a_descent_in_one_call_is_its_passes(n, control, monkeypatch):
+@pytest.mark.parametrize("alone", [True, False])
+def test_conjugate_gradients_in_one_call_are_those_pass_by_pass(n, control, alone, monkeypatch):
     op = operator((n, n), (1 / n, 1 / n), PERIODIC)
     level = Level(op, np.zeros(n * n), np.inf, Tuning())
     height = notes_surface(n, rolloff=4).ravel()
     cells = np.flatnonzero(height > np.quantile(height, 0.8))
-    rng = np.random.default_rng(6)
-    pressure, residual, previous, direction = rng.random((4, cells.size))
-    iterate = Iterate(cells, pressure, cells[:0])
-    balance = face.Balance.of(level, iterate, face.Opening(residual, float(residual.mean())), control)
-    assert (balance.inverse.far is None) == (n == 24)
+    iterate = Iterate(cells, 5 + np.random.default_rng(6).random(cells.size), cells[:0])
+    monkeypatch.setattr(inner, "get_threads", lambda: 1 if alone else 2)
+    calls = []
+    monkeypatch.setattr(
+        face, "_pass_by_pass", lambda *given, plain=face._pass_by_pass: (calls.append(1), plain(*given))[1]
+    )
     results = []
     for block in (passes.BLOCK, 100):
         monkeypatch.setattr(passes, "BLOCK", block)
-        level.sparse_cells = None
-        own = face.Balance(level.preconditioner(cells), *[getattr(balance, name) for name in BALANCE])
-        out, ahead = np.empty((2, cells.size))
-        before = op.count.applications
-        found = own.descend((pressure, residual, previous), (out, direction, ahead), Step(2.0, 0.3, 0.9))
-        results.append((*found, op.count.applications - before, out, ahead))
-    assert results[0][4] == results[1][4]
-    for one, plain in zip(*results, strict=True):
-        np.testing.assert_allclose(one, plain, rtol=0, atol=ROUND_OFF * cells.size)
+        level.rise = level.sparse_cells = level.sparse = None
+        level.stride = Stride()
+        before, effort = op.count.weighted, Effort(50)
+        opening = 0.01 * np.sin(np.arange(cells.size))
+        found = face.solve_on_cells(level, iterate, face.Opening(opening, float(opening.mean())), control, 1e-6, effort)
+        results.append((effort.iterations, level.stride.taken, op.count.weighted - before, level.stride.length, found))
+    assert calls == [1]
+    assert results[0][0] >= 3
+    assert results[0][:3] == results[1][:3]
+    for one, plain in zip(results[0][3:], results[1][3:], strict=True):
+        # the transforms are in single precision
+        np.testing.assert_allclose(one, plain, rtol=0, atol=1e-6 * np.abs(plain).max())
+
+
+def test_two_pressures_are_blended():
+    rng = np.random.default_rng(8)
+    size, cap, share = 300, 0.8, 0.3
+    fields = [np.where(rng.random(size) < 0.5, np.minimum(rng.random(size), cap), 0.0) for _ in range(2)]
+    sides = [(np.flatnonzero(field), field[field > 0]) for field in fields]
+    cells, values = sets.blend(*sides, share, cap)
+    plain = (1 - share) * fields[0] + share * fields[1]
+    plain[(fields[0] == cap) & (fields[1] == cap)] = cap
+    assert (plain == cap).any()
+    assert np.array_equal(cells, np.flatnonzero(plain))
+    assert np.array_equal(values, plain[cells])
+
+
+def test_pressures_without_an_upper_bound_are_brought_to_their_load():
+    cells = np.sort(np.random.default_rng(9).choice(700, 400, replace=False))
+    raw = np.random.default_rng(10).uniform(-0.3, 1, cells.size)
+    settled = raw.copy()
+    sets.settle(cells, settled, np.inf, (20, 35), 8)
+    kept, values = sets.within(cells, raw, np.inf, (20, 35), 8, 3.0)
+    assert np.array_equal(kept, cells[settled > 0])
+    np.testing.assert_allclose(values, settled[settled > 0] * (3 / settled[settled > 0].sum()), rtol=1e-14)
