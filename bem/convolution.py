@@ -51,6 +51,11 @@ class ConvolutionCount:
     applications: int = 0
     weighted: float = 0.0
 
+    @staticmethod
+    def share(of: float) -> float:
+        """A weight in whole 2^-32: sums of these are exact to two million, whatever was counted before them."""
+        return round(of * 2.0**32) / 2.0**32
+
 
 @dataclass
 class KernelCount:
@@ -340,7 +345,7 @@ class DisplacementOperator:
                 self.bodies,
                 self.friction,
                 self.count,
-                self.weight * grid.cells / self.grid.cells,
+                ConvolutionCount.share(self.weight * grid.cells / self.grid.cells),
                 compliance=self.compliance,
             )
         )

@@ -224,7 +224,8 @@ class TangentialOperator:
 
 
 def _coarse(fine: TangentialOperator, grid: Grid) -> TangentialOperator:
-    return TangentialOperator(grid, fine.bodies, fine.count, fine.weight * grid.cells / fine.grid.cells)
+    weight = ConvolutionCount.share(fine.weight * grid.cells / fine.grid.cells)
+    return TangentialOperator(grid, fine.bodies, fine.count, weight)
 
 
 def _in_plane(grid: Grid, body: Body, padded: tuple[int, int]) -> FloatArray:

@@ -26,6 +26,15 @@ def problem():
     return -0.01 * rough(N, N), operator((N, N), (1 / N, 1 / N), PERIODIC)
 
 
+def test_a_contact_counts_the_same_however_much_its_operator_has_done():
+    """The count was a difference of sums of shares such as 32 x 23 / 64 x 45: its last digits told what came before."""
+    op = operator((45, 39), (1 / 45, 1 / 45), (False, True))
+    gap = -0.01 * rough(45, 39)
+    counts = {solve_contact(gap, op, load=0.002).convolutions for _ in range(4)}
+    assert len(counts) == 1
+    assert counts.pop() % 1.0 > 0.0  # coarser grids were among them
+
+
 def _count(cells, periodic, hardness=None):
     op = operator((cells, cells), (1 / cells, 1 / cells), periodic)
     before = op.count.weighted
