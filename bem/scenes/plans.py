@@ -49,7 +49,7 @@ def surfaces(grid: Grid, lower: build.AnySurface, upper: build.AnySurface) -> St
         transforms=130.0 * len(rough) + 200.0 * iterated,
         points=grid.cells,
         # measured at 2048 cells: 7.6 fields of a Gaussian surface, 8.6 of another, beside the other body's heights
-        memory=8.0 * grid.cells * 10,
+        memory=8.0 * grid.cells * (7.0 + len(rough) + (iterated > 0)),
         kept=8.0 * grid.cells * (1 + len(rough)),
         seconds=0.3,
     )
@@ -108,29 +108,32 @@ def stiffest(*bodies: Body | None) -> float:
 
 
 def convolutions(grid: Grid, capped: bool = False, stiffness: float = 1.0) -> float:
-    """Convolutions of one solve, coarse levels included: about 15 at 256 cells a side, growing slowly with them.
+    """Convolutions of one solve, coarse levels included: about 13 at 256 cells a side, growing slowly with them.
 
-    Counted from 256 to 2048 cells a side; of capped ones 19, 20, 27 and 33, the largest of several surfaces and shares.
-    A layer 10 times as stiff as its base took 19 to 44 at 256, one 40 times as stiff 39 to 172, capped ones half more.
+    Counted: 10 to 15 from 100 to 1024 cells a side, 13, 20, 30 and 44 from 2048 to 16384; of capped ones 11 (lightly
+    loaded, as elastic ones) to 18 at 256, 12 to 24 at 512, 12 to 20 at 1024. A layer 10 times as stiff as its base took
+    19 to 44 at 256, one 40 times as stiff 39 to 172, capped ones half more.
     """
-    most, growth = (19.0, 0.27) if capped else (15.0, 0.1)
+    side = max(grid.shape)
+    most, growth = (14.0, 0.3) if capped else (13.0, 0.1)
     bending = max(1.0, math.sqrt(stiffness / 2))
-    return most * bending * max(1.0, max(grid.shape) / 256) ** growth
+    return most * bending * max(1.0, side / 256) ** growth * max(1.0, side / 2048) ** 0.4
 
 
 def contact(grid: Grid, why: str, *, capped: bool = False, stiffness: float = 1.0) -> Step:
     """One contact, and nothing of it left out."""
     points = padded_points(grid.shape, grid.periodic)
+    count = convolutions(grid, capped, stiffness)
     return Step(
         "contact",
-        why,
-        transforms=CONVOLUTION * convolutions(grid, capped, stiffness),
+        f"{why}; about {count:.0f} convolutions",
+        transforms=CONVOLUTION * count,
         points=points,
         # measured from 2048 to 4096 cells without the gap: fields of the solver and of its coarser grids, 190 bytes of
         # every cell in contact (an eighth of all is planned for); buffers of transforms and spectra
         memory=_LIBRARIES + 8.0 * grid.cells * 6.0 + 12.0 * points,
         kept=_LIBRARIES + 8.0 * grid.cells * 4.2 + 8.0 * points,
-        seconds=1.0,
+        seconds=0.2,
         precision=SEARCHED_IN_SINGLE,
     )
 
@@ -219,6 +222,7 @@ def vtk(wanted: bool) -> Step:
 
 
 def figures(cells: int = 0) -> Step:
-    """Pictures and the report, with maps of so many cells."""
+    """Pictures and the report, with maps of so many cells; processor time measured on scenes of 100 to 1500 cells a
+    side, with and without stresses."""
     why = "pictures of the results, and the libraries for them"
-    return Step("figures and report", why, per="run", seconds=4.0, memory=2.2e8 + 8.0 * cells * 2)
+    return Step("figures and report", why, per="run", seconds=1.6 + 2e-6 * cells, memory=2.2e8 + 8.0 * cells * 2)
