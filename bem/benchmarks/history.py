@@ -6,7 +6,6 @@ import json
 import os
 import platform
 import subprocess
-import tempfile
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
@@ -18,8 +17,11 @@ from bem.arguments import named
 from bem.benchmarks.floor import Floor
 from bem.benchmarks.measure import Point
 from bem.errors import InputError, ResultsError
+from bem.results.atomic import replacing
 
 FORMAT = "bem-benchmarks 1"
+INTERRUPTED = "interrupted"
+"""Among the failures of a run: where it was when it was interrupted."""
 PACKAGES = ("bem", "numpy", "scipy", "pyfftw", "numba")
 
 
@@ -131,14 +133,17 @@ def _run_of(data: dict[str, Any]) -> Run:
 
 
 def append_run(path: Path, run: Run) -> None:
-    """Add a run to a file, which is replaced whole or not at all."""
+    """Add a run to a file, which is replaced whole or not at all.
+
+    Raises
+    ------
+    ResultsError : the file is no history, or cannot be written; what was there before is untouched.
+    """
     runs = [*read_history(path), run]
     text = json.dumps({"format": FORMAT, "runs": [asdict(item) for item in runs]}, indent=1)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False) as file:
-        file.write(text + "\n")
-    os.chmod(file.name, 0o644)
-    os.replace(file.name, path)
+    with replacing(path) as temporary:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        temporary.write_text(text + "\n")
 
 
 def find_run(runs: Sequence[Run], commit: str) -> Run:

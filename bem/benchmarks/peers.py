@@ -95,11 +95,12 @@ def environment(folder: Path, say: Callable[[str], None]) -> Path:
     if (folder / ".installed").is_file():
         return python
     say(f"installing {', '.join(PACKAGES[:4])} into {folder}")
+    begun = (folder / "pyvenv.cfg").is_file()  # and interrupted: uv makes no environment where one is
     uv = shutil.which("uv") or shutil.which("uv", path=str(Path(sys.executable).parent))
     commands: list[list[str]]
     if uv:
         commands = [
-            [uv, "venv", "-q", "--python", sys.executable, str(folder)],
+            *([] if begun else [[uv, "venv", "-q", "--python", sys.executable, str(folder)]]),
             [uv, "pip", "install", "-q", "--python", str(python), *PACKAGES],
         ]
     else:
@@ -171,14 +172,17 @@ def run_peer(python: Path, peer: str, cells: int, repeats: int) -> dict[str, Any
     }
 
 
-def compare_with_peers(
-    python: Path, cells: int, repeats: int, say: Callable[[str], None], peers: tuple[str, ...] = tuple(SCRIPTS)
-) -> tuple[list[dict[str, Any]], dict[str, str]]:
-    """Rows of all peers with bem's time at equal or smaller complementarity beside, and what failed."""
-    rows: list[dict[str, Any]] = []
-    failures: dict[str, str] = {}
+def compare_with_peers(  # reason: what is found is put where an interrupt leaves it
+    python: Path,
+    cells: int,
+    repeats: int,
+    say: Callable[[str], None],
+    rows: list[dict[str, Any]],
+    failures: dict[str, str],
+) -> None:
+    """Add rows of all peers with bem's time at equal or smaller complementarity beside, and what failed."""
     own: dict[int, Point] = {}
-    for peer in peers:
+    for peer in SCRIPTS:
         say(f"{peer} at {cells}")
         try:
             row = run_peer(python, peer, cells, repeats)
@@ -200,4 +204,3 @@ def compare_with_peers(
             "goal": GOALS.get((peer, cells)),
         }
         rows.append(row)
-    return rows, failures

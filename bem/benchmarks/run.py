@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import math
 import subprocess
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from bem.benchmarks.cases import CASES, Case
 from bem.benchmarks.floor import measure_floor
-from bem.benchmarks.history import Run, new_run
+from bem.benchmarks.history import INTERRUPTED, Run, new_run
 from bem.benchmarks.measure import Point, measure_apart
 from bem.benchmarks.names import refuse_unknown
+from bem.benchmarks.peers import compare_with_peers, environment
+from bem.errors import InputError
 
 
 def check_names(names: Sequence[str] | None) -> list[str]:
@@ -24,6 +28,18 @@ def check_names(names: Sequence[str] | None) -> list[str]:
         return list(CASES)
     refuse_unknown("--only", names, CASES, "a case")
     return list(names)
+
+
+def check_sizes(option: str, sizes: Sequence[float] | None, least: int = 1) -> None:
+    """Refuse sizes that nothing has.
+
+    Raises
+    ------
+    InputError : one message per size that is no whole number from `least`.
+    """
+    wrong = [size for size in sizes or () if not (math.isfinite(size) and size >= least and size == round(size))]
+    if wrong:
+        raise InputError([f"{option} {size:g}: allowed: whole numbers from {least}" for size in wrong])
 
 
 def sizes_of(case: Case, *, quick: bool, sizes: Sequence[float] | None, limit: float) -> tuple[float, ...]:
@@ -49,6 +65,7 @@ def run_cases(
     """Measure; a point that fails is named in `failures` and the rest goes on. An interrupt keeps what there is."""
     points: list[Point] = []
     failures: dict[str, str] = {}
+    floor, rows = None, list[dict[str, Any]]()
     wanted_points = [
         (name, size, count)
         for name in names
@@ -56,29 +73,23 @@ def run_cases(
         for count in threads or ((1, 2) if CASES[name].threads else (1,))
     ]
     counts = {count for _, _, count in wanted_points}
-    for name, size, count in wanted_points:
-        say(f"{name}: {size:g} {CASES[name].size_name}, {count} thread{'s' if count > 1 else ''}")
-        try:
-            points.append(measure_apart(name, size, count, min(repeats, CASES[name].most_repeats)))
-        except (RuntimeError, subprocess.TimeoutExpired) as error:
-            failures[f"{name} {size:g} ({count})"] = str(error)
-        except KeyboardInterrupt:
-            failures["interrupted"] = f"at {name} {size:g}; {len(points)} of {len(wanted_points)} points are kept"
-            return new_run(points, None, (), failures)
-    floor = None
-    if with_floor:
-        wanted = {int(p.size) for p in points if p.case.startswith("contact-") and p.size >= 32}
-        say("the machine's floor")
-        floor = measure_floor(tuple(sorted({240} | wanted)), tuple(sorted(counts)) or (1,))
-    rows = []
-    if peers is not None:
-        from bem.benchmarks.peers import compare_with_peers, environment
-
-        folder, cells = peers
-        python = environment(folder, say)
-        for n in cells:
+    at = "the start"
+    try:
+        python = Path() if peers is None else environment(peers[0], say)  # before anything that takes long
+        for name, size, count in wanted_points:
+            say(at := f"{name}: {size:g} {CASES[name].size_name}, {count} thread{'s' if count > 1 else ''}")
+            try:
+                points.append(measure_apart(name, size, count, min(repeats, CASES[name].most_repeats)))
+            except (RuntimeError, subprocess.TimeoutExpired) as error:
+                failures[f"{name} {size:g} ({count})"] = str(error)
+        if with_floor:
+            wanted = {int(p.size) for p in points if p.case.startswith("contact-") and p.size >= 32}
+            say(at := "the machine's floor")
+            floor = measure_floor(tuple(sorted({240} | wanted)), tuple(sorted(counts)) or (1,))
+        for n in () if peers is None else peers[1]:
+            at = f"peers at {n}"
             # minutes a solve from 2048 on: once is enough where ratios are of the order of ten
-            more, failed = compare_with_peers(python, n, min(repeats, 3) if n < 2048 else 1, say)
-            rows += more
-            failures |= failed
+            compare_with_peers(python, n, min(repeats, 3) if n < 2048 else 1, say, rows, failures)
+    except KeyboardInterrupt:
+        failures[INTERRUPTED] = f"at {at}; {len(points)} of {len(wanted_points)} points are kept"
     return new_run(points, floor, rows, failures)

@@ -11,6 +11,7 @@ from bem.benchmarks.cases import CASES
 from bem.benchmarks.history import Run, compare, find_run, read_history
 from bem.benchmarks.measure import Point, growth
 from bem.benchmarks.work_precision import CELLS_ALONE, OURS, TARGETS, Curve, best, curves
+from bem.results.atomic import replacing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -270,7 +271,19 @@ def work_precision(run: Run, names: Sequence[str], title: str, extra: Sequence[d
 
 def draw_run(run: Run, path: Path) -> None:
     """All cases in one figure."""
-    work_precision(run, list(CASES), "error against time and memory").savefig(path, dpi=150)
+    save_picture(work_precision(run, list(CASES), "error against time and memory"), path)
+
+
+def save_picture(picture: Figure, path: Path) -> None:
+    """Written whole or not at all, in the format of its ending.
+
+    Raises
+    ------
+    ResultsError : it cannot be written.
+    """
+    with replacing(path) as temporary:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        picture.savefig(temporary, dpi=150, format=path.suffix[1:].lower())
 
 
 def draw_reach(run: Run) -> Figure:

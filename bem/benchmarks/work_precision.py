@@ -13,10 +13,12 @@ import subprocess
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from bem.benchmarks.history import Run, new_run
+from bem.benchmarks.history import INTERRUPTED, Run, new_run
 from bem.benchmarks.measure import Point, measure_apart
 from bem.benchmarks.names import refuse_unknown
+from bem.benchmarks.peers import SCRIPTS, solve_by_peer
 from bem.benchmarks.physical_cases import PHYSICAL, RAW, PhysicalCase, pressure_figures, rough_surface, size_and_digits
 
 TARGETS = (0.1, 0.03, 0.01, 0.003)
@@ -72,32 +74,35 @@ def measure_kinds(
     say: Callable[[str], None] = lambda words: None,
 ) -> Run:
     """All points of some kinds, each in a process of its own, and the peers on the same rough surface where their
-    environment is given. What fails is named and the rest goes on."""
+    environment is given. What fails is named and the rest goes on; an interrupt keeps what there is."""
     points: list[Point] = []
     failures: dict[str, str] = {}
-    for case in (PHYSICAL[kind] for kind in kinds):
-        for code in case.points(quick=quick):
-            size, digits = size_and_digits(code)
-            say(f"{case.kind}: {size} {case.size_name}, {digits} digits")
-            try:
-                points.append(measure_apart(case.name, code, 1, repeats))
-            except (RuntimeError, subprocess.TimeoutExpired) as error:
-                failures[f"{case.kind} {size} ({digits})"] = str(error)
-    rows = []
-    if peers is not None and "contact" in kinds:
-        from bem.benchmarks.peers import SCRIPTS, solve_by_peer
-
-        for peer in SCRIPTS:
-            for cells in PEER_SIZES[:2] if quick else PEER_SIZES:
-                say(f"{peer} at {cells}")
-                gap = rough_surface(cells)
+    rows: list[dict[str, Any]] = []
+    at = "the start"
+    try:
+        for case in (PHYSICAL[kind] for kind in kinds):
+            for code in case.points(quick=quick):
+                size, digits = size_and_digits(code)
+                say(at := f"{case.kind}: {size} {case.size_name}, {digits} digits")
                 try:
-                    times, memory, pressure = solve_by_peer(peers, peer, gap, repeats if cells < 1024 else 1)
+                    points.append(measure_apart(case.name, code, 1, repeats))
                 except (RuntimeError, subprocess.TimeoutExpired) as error:
-                    failures[f"{peer} {cells}"] = str(error)
-                    continue
-                figures = pressure_figures(pressure, gap)
-                rows.append({"peer": peer, "cells": cells, "cpu": times, "memory": memory, "figures": figures})
+                    failures[f"{case.kind} {size} ({digits})"] = str(error)
+        pairs = [(peer, cells) for peer in SCRIPTS for cells in (PEER_SIZES[:2] if quick else PEER_SIZES)]
+        for peer, cells in pairs if "contact" in kinds else ():
+            if peers is None:
+                break
+            say(at := f"{peer} at {cells}")
+            gap = rough_surface(cells)
+            try:
+                times, memory, pressure = solve_by_peer(peers, peer, gap, repeats if cells < 1024 else 1)
+            except (RuntimeError, subprocess.TimeoutExpired) as error:
+                failures[f"{peer} {cells}"] = str(error)
+                continue
+            figures = pressure_figures(pressure, gap)
+            rows.append({"peer": peer, "cells": cells, "cpu": times, "memory": memory, "figures": figures})
+    except KeyboardInterrupt:
+        failures[INTERRUPTED] = f"at {at}; {len(points)} points are kept"
     return new_run(points, None, rows, failures)
 
 

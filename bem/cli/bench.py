@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
@@ -59,20 +61,36 @@ def bench(  # reason: the arguments are the options
 ) -> None:
     """Run time and memory against error, beside what the machine can do at best.
 
-    Times are processor times: medians of repeats with their quartile range. Exit code 1 where a point failed.
+    Times are processor times: medians of repeats with their quartile range. Ctrl-C keeps the points that are measured.
+    Exit codes: 1 where a point failed, 2 for a bad argument, 4 where a file cannot be written, 130 interrupted.
+
+    \b
+    Examples:
+      bem bench --quick
+      bem bench --only contact-periodic --size 512 --json bench.json
+      bem bench --compare -2 -1 --json bench.json
+      bem bench --kind contact --figure time-to-an-error.png
     """
     from bem.benchmarks.history import append_run
-    from bem.benchmarks.run import check_names, run_cases
+    from bem.benchmarks.run import check_names, check_sizes, run_cases
     from bem.benchmarks.show import draw_run, print_comparison, print_run
     from bem.cli._terminal import table
 
+    cases = {"--only": only, "--size": size, "--threads": threads, "--peers-size": peers_size}
     if compare is not None:
+        _refuse("--compare", cases | {"--kind": kind, "--peers": peers, "--figure": figure})
         print_comparison(json_ or Path("bench.json"), *compare, table)
         return
+    if not peers:
+        _refuse("a run without --peers", {"--peers-size": peers_size})
+    _check_files(json_, figure)
     if kind:
+        _refuse("--kind", cases)
         _bench_kinds(kind, quick, min(repeats, 3), peers_folder if peers else None, json_, figure)
         return
     names = check_names(only)
+    check_sizes("--size", size)
+    check_sizes("--peers-size", peers_size, least=16)
     run = run_cases(
         names,
         quick=quick,
@@ -94,13 +112,40 @@ def bench(  # reason: the arguments are the options
     _say_failures(run.failures)
 
 
+def _refuse(beside: str, given: Mapping[str, object]) -> None:
+    """Refuse options that would do nothing beside another."""
+    from bem.errors import InputError
+
+    if idle := [name for name, value in given.items() if value]:
+        raise InputError([f"{name}: does nothing with {beside}; allowed: one or the other" for name in idle])
+
+
+def _check_files(history: Path | None, figure: Path | None) -> None:
+    """Before minutes of work: whether what comes of it can be written."""
+    from bem.benchmarks.history import read_history
+    from bem.cli._quantity import new_file
+    from bem.errors import ResultsError
+
+    if figure is not None:
+        new_file(figure, "--figure", (".png", ".pdf", ".svg"))
+    for path in (history, figure):
+        if path is None:
+            continue
+        folder = next(parent for parent in path.absolute().parents if parent.exists())
+        if path.is_dir() or not folder.is_dir() or not os.access(folder, os.W_OK):
+            why = "it is a folder" if path.is_dir() else f"{folder} takes no files"
+            raise ResultsError(f"{path}: cannot be written ({why})")
+    if history is not None:
+        read_history(history)
+
+
 def _bench_kinds(
     names: list[str], quick: bool, repeats: int, peers: Path | None, history: Path | None, picture: Path | None
 ) -> None:
     """`--kind`."""
     from bem.benchmarks.history import append_run
     from bem.benchmarks.peers import environment
-    from bem.benchmarks.show import draw_reach
+    from bem.benchmarks.show import draw_reach, save_picture
     from bem.benchmarks.work_precision import (
         ERROR_HEADERS,
         REACH_HEADERS,
@@ -123,13 +168,16 @@ def _bench_kinds(
         append_run(history, run)
         print(f"history: {history}")
     if picture is not None:
-        draw_reach(run).savefig(picture, dpi=150)
+        save_picture(draw_reach(run), picture)
         print(f"figure: {picture}")
     _say_failures(run.failures)
 
 
 def _say_failures(failures: dict[str, str]) -> None:
+    """Name what failed, and end with the exit code of it."""
+    from bem.benchmarks.history import INTERRUPTED
+
     for what, why in failures.items():
-        typer.echo(f"bem: {what} failed: {why}", err=True)
+        typer.echo(f"bem: {what} {why}" if what == INTERRUPTED else f"bem: {what} failed: {why}", err=True)
     if failures:
-        raise typer.Exit(1)
+        raise typer.Exit(130 if INTERRUPTED in failures else 1)

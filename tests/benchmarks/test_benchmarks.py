@@ -11,10 +11,12 @@ from bem import InputError, ResultsError, displacement_operator, solve_contact
 from bem.benchmarks.cases import CASES
 from bem.benchmarks.contact_cases import UNIT, common_residual, rough_gap
 from bem.benchmarks.floor import Floor, bandwidth, transform_pair
-from bem.benchmarks.history import append_run, compare, find_run, new_run, read_history
+from bem.benchmarks.history import INTERRUPTED, append_run, compare, find_run, new_run, read_history
 from bem.benchmarks.measure import Point, growth, measure, measure_apart, watched
-from bem.benchmarks.run import check_names, sizes_of
-from bem.benchmarks.show import memory_rows, thread_rows
+from bem.benchmarks.run import check_names, check_sizes, run_cases, sizes_of
+from bem.benchmarks.show import draw_run, memory_rows, thread_rows
+from bem.benchmarks.work_precision import measure_kinds
+from bem.cli import main
 from bem.grid import Grid
 from bem.transforms import PaddedTransform
 
@@ -139,6 +141,94 @@ def test_names_and_sizes():
     assert sizes_of(case, quick=False, sizes=None, limit=512) == (256, 512)
     assert sizes_of(case, quick=True, sizes=None, limit=512) == case.quick
     assert sizes_of(case, quick=False, sizes=[64, 4096], limit=512) == (64, 4096)
+
+
+@pytest.mark.parametrize("size", [0, -5, 3.7, math.nan, math.inf])
+def test_a_size_that_nothing_has_is_refused_before_any_work(size):
+    check_sizes("--size", [1, 64])
+    check_sizes("--size", None)
+    with pytest.raises(InputError, match=r"--size .*whole numbers from 1"):
+        check_sizes("--size", [64, size])
+
+
+BENCH = "bench --only sinusoid --size 24 --no-floor --repeats 1"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "words"),
+    [
+        ("bench --size 0", 2, "whole numbers from 1"),
+        ("bench --peers-size 512", 2, "--peers-size: does nothing"),
+        ("bench --peers --peers-size 8", 2, "whole numbers from 16"),
+        ("bench --kind contact --only sinusoid", 2, "--only: does nothing with --kind"),
+        ("bench --compare -2 -1 --figure a.png", 2, "--figure: does nothing with --compare"),
+        (f"{BENCH} --figure a.xyz", 2, ".png, .pdf, .svg"),
+        (f"{BENCH} --json .", 4, "it is a folder"),
+        (f"{BENCH} --json plain/h.json", 4, "takes no files"),
+        (f"{BENCH} --json plain", 4, "not a history of benchmarks"),
+    ],
+)
+def test_a_mistake_of_bem_bench_is_one_message_before_any_work(arguments, code, words, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "plain").write_text("here before")
+    monkeypatch.setattr("sys.argv", ["bem", *arguments.split()])
+    monkeypatch.setattr("bem.benchmarks.run.measure_apart", None)  # nothing may be measured
+    with pytest.raises(SystemExit) as end:
+        main()
+    assert end.value.code == code
+    (line,) = capsys.readouterr().err.strip().splitlines()
+    assert words in line
+    assert [path.name for path in tmp_path.iterdir()] == ["plain"]
+    assert (tmp_path / "plain").read_text() == "here before"
+
+
+@pytest.mark.parametrize("stopped", ["measure_apart", "measure_floor"])
+def test_an_interrupt_keeps_what_is_measured(stopped, monkeypatch):
+    """Points were lost where the floor or the peers were interrupted."""
+    left = iter([point(), point(size=512)])
+
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("bem.benchmarks.run.measure_apart", lambda *_: next(left, None) or interrupt())
+    monkeypatch.setattr("bem.benchmarks.run.measure_floor", interrupt)
+    sizes = [256, 512, 1024] if stopped == "measure_apart" else [256, 512]
+    run = run_cases(["contact-free"], sizes=sizes, repeats=1)
+    assert len(run.points) == 2
+    assert f"2 of {len(sizes)} points are kept" in run.failures[INTERRUPTED]
+
+
+def test_an_interrupt_keeps_what_is_measured_of_kinds(monkeypatch):
+    left = iter([point(case="physical-contact", size=128.08)])
+
+    def measured(*_):
+        found = next(left, None)
+        if found is None:
+            raise KeyboardInterrupt
+        return found
+
+    monkeypatch.setattr("bem.benchmarks.work_precision.measure_apart", measured)
+    run = measure_kinds(["contact", "film"], quick=True)
+    assert len(run.points) == 1
+    assert "1 points are kept" in run.failures[INTERRUPTED]
+
+
+def test_a_history_or_picture_that_cannot_be_written_leaves_what_was_there(tmp_path, monkeypatch):
+    path = tmp_path / "history.json"
+    append_run(path, new_run([point()]))
+    before = path.read_bytes()
+
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("pathlib.Path.write_text", full)
+    with pytest.raises(ResultsError, match="No space left"):
+        append_run(path, new_run([point()]))
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", full)
+    with pytest.raises(ResultsError, match="No space left"):
+        draw_run(new_run([point()]), tmp_path / "a.png")
+    assert [one.name for one in tmp_path.iterdir()] == ["history.json"]
+    assert path.read_bytes() == before
 
 
 def test_growth_is_the_exponent_of_a_power_law():

@@ -100,7 +100,9 @@ def test_what_a_point_costs_besides_its_physics(tmp_path, here, monkeypatch):
     outright = os.replace
     folder = str(tmp_path)
 
-    def replace(source, target, **more):  # caches of compiled loops, which are written where they are cold, lie elsewhere
+    def replace(
+        source, target, **more
+    ):  # caches of compiled loops, which are written where they are cold, lie elsewhere
         if str(target).startswith(folder):
             counted.update(["files"])
         return outright(source, target, **more)
