@@ -85,24 +85,45 @@ def prolong(
     cap: float,
     shape: tuple[int, int],
     periodic: tuple[bool, bool],
-) -> FloatArray:
-    """Pressure (nx, ny) on the finer grid `shape`; the other arrays are those of the coarser grid, two-dimensional."""
-    phi = np.empty(pressure.shape)
-    scale = _edge_scale(pressure, displacement, gap, approach, cap)
-    _make_phi(pressure, displacement, gap, approach, cap, scale, phi)
-    fine = np.zeros(shape)
+) -> tuple[NDArray[np.int64], FloatArray]:
+    """Cells with pressure on the finer grid `shape`, by number, and their pressures, at most the cap; what is given are
+    the arrays (nx, ny) of the coarser grid.
+
+    No pressure is made where none of the sixteen cells that it is interpolated from has any.
+    """
+    phi, marks = _make_phi(pressure, displacement, gap, approach, *periodic)
+    _stretch(phi, _edge_scale(pressure, phi, marks, cap))
     rows = interpolation(pressure.shape[0], shape[0], periodic[0])
     columns = interpolation(pressure.shape[1], shape[1], periodic[1])
+    begins = _begins(pressure.shape[1], shape[1], periodic[1])
     lines = max(1, passes.BLOCK // shape[1])
+    cells, values = np.empty(shape[0] * shape[1], np.int64), np.empty(shape[0] * shape[1])  # only in part written
+    parts = [slice(0)] * -(-shape[0] // lines)
 
     def work(_worker: int, block: int) -> None:
-        part = slice(block * lines, (block + 1) * lines)
-        _prolong_phi(phi, rows[0][part], rows[1][part], *columns, cap, fine[part])
+        first, last = block * lines, min(shape[0], (block + 1) * lines)
+        part = slice(first * shape[1], last * shape[1])
+        count = _prolong_phi(phi, marks, rows, (first, last), columns, begins, cap, cells[part], values[part])
+        parts[block] = slice(part.start, part.start + count)
 
-    share(work, -(-shape[0] // lines))
+    share(work, len(parts))
+    if len(parts) > 1:
+        cells, values = (np.concatenate([array[part] for part in parts]) for array in (cells, values))
+    else:
+        cells, values = cells[parts[0]].copy(), values[parts[0]].copy()
     along = [_regions(n, m, wraps) for n, m, wraps in zip(pressure.shape, shape, periodic, strict=True)]
-    _keep_loads(pressure, fine, along[0], along[1], cap)
-    return fine
+    _keep_loads(pressure, (cells, values), shape[1], along[0], along[1], cap)
+    return cells, values
+
+
+@lru_cache(maxsize=64)
+def _begins(cells: int, onto: int, periodic: bool) -> NDArray[np.int64]:
+    """The first of `onto` points at or beyond each of `cells` points along an axis, and how many there are."""
+    position = np.arange(onto) * _spacing(cells, onto, periodic)
+    begins = np.searchsorted(position, np.arange(cells + 1))
+    begins[-1] = onto
+    begins.flags.writeable = False
+    return begins
 
 
 class _Regions(NamedTuple):
@@ -128,22 +149,67 @@ def _regions(cells: int, onto: int, periodic: bool) -> _Regions:
     return _Regions(int(coarse[-1]) + 1, coarse, coarse[below], coarse[above], position - below, spacing)
 
 
-def _edge_scale(pressure: FloatArray, displacement: FloatArray, gap: FloatArray, approach: float, cap: float) -> float:
+def _edge_scale(pressure: FloatArray, phi: FloatArray, marks: NDArray[np.uint8], cap: float) -> float:
     """c of phi outside, so that phi has the same slope on both sides of the edges: by mean values next to them."""
-    squares, opening, edges = _edge_means(pressure, displacement, gap, approach, cap)
+    squares, opening, edges = _edge_means(pressure, phi, marks, cap)
     if edges == 0 or not opening > 0:
         return 0.0 if not squares > 0 else squares
     return float(squares / opening)
 
 
+_NEAR, _WITHIN = 1, 2
+"""Bits of a cell's mark: a cell with pressure lies no more than three columns away, so that both are in four in a row;
+it is one of the four that are interpolated from beyond this one."""
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
-def _edge_means(pressure, displacement, gap, approach, cap):  # type: ignore[no-untyped-def]
+def _make_phi(pressure, displacement, gap, approach, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
+    """phi with c = 1 outside, and the marks; zero where no cell with pressure is within three lines and columns, as
+    nothing is interpolated from there."""
+    nx, ny = pressure.shape
+    marks = np.empty((nx, ny), np.uint8)
+    wide = np.zeros(ny + 6, np.uint8)  # with three columns before and behind
+    for i in range(nx):
+        line = pressure[i]
+        for j in range(ny):
+            wide[j + 3] = line[j] > 0
+        if wraps_y:
+            for j in range(3):
+                wide[j], wide[ny + 3 + j] = wide[3 + (j - 3) % ny], wide[3 + j % ny]
+        for j in range(ny):
+            within = wide[j + 2] | wide[j + 3] | wide[j + 4] | wide[j + 5]
+            marks[i, j] = _WITHIN * within | wide[j] | wide[j + 1] | within | wide[j + 6]
+    phi = np.empty((nx, ny))
+    near = np.empty(ny, np.uint8)
+    for i in range(nx):
+        near[:] = 0
+        for k in range(i - 3, i + 4):
+            if 0 <= k < nx or wraps_x:
+                line = marks[k % nx]
+                for j in range(ny):
+                    near[j] |= line[j]
+        for j in range(ny):
+            p = pressure[i, j]
+            if p > 0:
+                phi[i, j] = p * p
+            elif near[j]:
+                phi[i, j] = -(max(gap[i, j] + displacement[i, j] - approach, 0.0) ** (2.0 / 3.0))
+            else:
+                phi[i, j] = 0.0
+    return phi, marks
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _edge_means(pressure, phi, marks, cap):  # type: ignore[no-untyped-def]
+    """Sums of p^2 and of -phi over the links from a cell with pressure below the cap to one without; their number."""
     nx, ny = pressure.shape
     squares = 0.0
     opening = 0.0
     edges = 0
     for i in range(nx):
         for j in range(ny):
+            if marks[i, j] | marks[min(i + 1, nx - 1), j] == 0:
+                continue
             p = pressure[i, j]
             for axis in range(2):
                 k = i + (axis == 0)
@@ -152,79 +218,98 @@ def _edge_means(pressure, displacement, gap, approach, cap):  # type: ignore[no-
                     continue
                 q = pressure[k, m]
                 if p > 0 and p < cap and q <= 0:
-                    g = gap[k, m] + displacement[k, m] - approach
                     squares += p * p
+                    opening -= phi[k, m]
                 elif q > 0 and q < cap and p <= 0:
-                    g = gap[i, j] + displacement[i, j] - approach
                     squares += q * q
+                    opening -= phi[i, j]
                 else:
                     continue
-                opening += max(g, 0.0) ** (2.0 / 3.0)
                 edges += 1
     return squares, opening, edges
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _make_phi(pressure, displacement, gap, approach, cap, scale, phi):  # type: ignore[no-untyped-def]
-    nx, ny = pressure.shape
-    for i in range(nx):
-        for j in range(ny):
-            p = pressure[i, j]
-            if p > 0:
-                phi[i, j] = p * p
-            else:
-                g = max(gap[i, j] + displacement[i, j] - approach, 0.0)
-                phi[i, j] = -scale * g ** (2.0 / 3.0)
+def _stretch(phi, scale):  # type: ignore[no-untyped-def]
+    """phi outside with the factor c."""
+    phi = phi.reshape(-1)
+    for cell in range(phi.size):
+        phi[cell] *= scale if phi[cell] < 0 else 1.0
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _prolong_phi(phi, rows, row_weights, columns, column_weights, cap, fine):  # type: ignore[no-untyped-def]
-    nx, ny = fine.shape
-    width = phi.shape[1]
+def _prolong_phi(phi, marks, rows, lines, columns, begins, cap, cells, values):  # type: ignore[no-untyped-def]
+    """Cells with pressure on those lines of the finer grid, and their pressures; returns how many."""
+    (rows, row_weights), (columns, column_weights) = rows, columns
+    width, ny = phi.shape[1], columns.shape[0]
     line = np.empty(width)
-    for i in range(nx):
+    within = np.zeros(8 * ((width + 7) // 8), np.uint8)
+    words = within.view(np.uint64)
+    count = 0
+    for i in range(*lines):
         a, b, c, d = rows[i, 0], rows[i, 1], rows[i, 2], rows[i, 3]
         u, v, w, x = row_weights[i, 0], row_weights[i, 1], row_weights[i, 2], row_weights[i, 3]
         for j in range(width):
             line[j] = u * phi[a, j] + v * phi[b, j] + w * phi[c, j] + x * phi[d, j]
-        for j in range(ny):
-            e, f, g, h = columns[j, 0], columns[j, 1], columns[j, 2], columns[j, 3]
-            value = (
-                column_weights[j, 0] * line[e]
-                + column_weights[j, 1] * line[f]
-                + column_weights[j, 2] * line[g]
-                + column_weights[j, 3] * line[h]
-            )
-            if value > 0:
-                fine[i, j] = min(np.sqrt(value), cap)
+            within[j] = (marks[a, j] | marks[b, j] | marks[c, j] | marks[d, j]) & _WITHIN
+        for word in range(words.size):
+            if words[word] == 0:
+                continue
+            for k in range(8 * word, min(8 * word + 8, width)):
+                begin = begins[k]
+                if within[k] == 0 or begin == begins[k + 1]:
+                    continue
+                # all points up to the next column of the coarser grid are made from the same four
+                e, f = line[columns[begin, 0]], line[columns[begin, 1]]
+                g, h = line[columns[begin, 2]], line[columns[begin, 3]]
+                for j in range(begin, begins[k + 1]):
+                    value = (
+                        column_weights[j, 0] * e
+                        + column_weights[j, 1] * f
+                        + column_weights[j, 2] * g
+                        + column_weights[j, 3] * h
+                    )
+                    if value > 0:
+                        cells[count] = i * ny + j
+                        values[count] = min(np.sqrt(value), cap)
+                        count += 1
+    return count
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _keep_loads(pressure, fine, rows, columns, cap):  # type: ignore[no-untyped-def]
-    """Multiply each region without a cell at the cap so that it has the load that it has on the coarser grid."""
+def _keep_loads(pressure, fine, width, rows, columns, cap):  # type: ignore[no-untyped-def]
+    """Multiply each region without a cell at the cap so that it has the load that it has on the coarser grid.
+
+    fine : cells of the finer grid, of so many columns, and their pressures."""
+    cells, values = fine
     missing = np.zeros((rows.number, columns.number))
     inside = np.zeros(missing.shape)
     for i in range(pressure.shape[0]):
+        region = missing[rows.coarse[i]]
         for j in range(pressure.shape[1]):
-            missing[rows.coarse[i], columns.coarse[j]] += pressure[i, j]
+            if pressure[i, j] != 0:
+                region[columns.coarse[j]] += pressure[i, j]
     cell = rows.length * columns.length
-    for i in range(fine.shape[0]):
+    i = 0
+    for n in range(cells.size):
+        while cells[n] >= (i + 1) * width:
+            i += 1
+        j = cells[n] - i * width
         a, b, s = rows.first[i], rows.second[i], rows.share[i]
-        for j in range(fine.shape[1]):
-            p = fine[i, j] * cell
-            if p == 0:
-                continue
-            c, d, t = columns.first[j], columns.second[j], columns.share[j]
-            missing[a, c] -= (1 - s) * (1 - t) * p
-            missing[a, d] -= (1 - s) * t * p
-            missing[b, c] -= s * (1 - t) * p
-            missing[b, d] -= s * t * p
-            inside[a, c] += p if fine[i, j] < cap else -np.inf
+        c, d, t = columns.first[j], columns.second[j], columns.share[j]
+        p = values[n] * cell
+        missing[a, c] -= (1 - s) * (1 - t) * p
+        missing[a, d] -= (1 - s) * t * p
+        missing[b, c] -= s * (1 - t) * p
+        missing[b, d] -= s * t * p
+        inside[a, c] += p if values[n] < cap else -np.inf
     for i in range(rows.number):
         for j in range(columns.number):
             more = missing[i, j] / inside[i, j] if inside[i, j] > 0 else 0.0
             missing[i, j] = 1 + max(-_MOST, min(_MOST, more))
-    for i in range(fine.shape[0]):
-        for j in range(fine.shape[1]):
-            if fine[i, j] > 0:
-                fine[i, j] = min(fine[i, j] * missing[rows.first[i], columns.first[j]], cap)
+    i = 0
+    for n in range(cells.size):
+        while cells[n] >= (i + 1) * width:
+            i += 1
+        j = cells[n] - i * width
+        values[n] = min(values[n] * missing[rows.first[i], columns.first[j]], cap)

@@ -19,8 +19,16 @@ _REGION = 8
 
 def held(pressure: FloatArray, cap: float) -> Iterate:
     """A pressure within the bounds, without its zeros; its array may go."""
-    inside = np.flatnonzero((pressure > 0) & (pressure < cap))
-    return Iterate(inside, pressure[inside], np.flatnonzero(pressure >= cap))
+    cells = np.flatnonzero(pressure > 0)
+    return below(cells, pressure[cells], cap)
+
+
+def below(cells: NDArray[np.int64], values: FloatArray, cap: float) -> Iterate:
+    """Cells with pressure, and their pressures, told from those at the cap."""
+    capped = values >= cap
+    if not capped.any():
+        return Iterate(cells, values, cells[:0])
+    return Iterate(cells[~capped], values[~capped], cells[capped])
 
 
 def first_pressure(level: Level, control: Control, start: Begin) -> Iterate:

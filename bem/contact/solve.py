@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from bem.contact import cascade, passes
 from bem.contact.certificate import certify, elastic_length
 from bem.contact.controls import ApproachControl, Control, LoadControl
-from bem.contact.feasible import held
+from bem.contact.feasible import below
 from bem.contact.level import Effort, LevelResult, is_flat
 from bem.contact.one_grid import (
     COARSE_TOLERANCE,
@@ -172,7 +172,7 @@ def _from_coarser(problem: Problem, control: Control) -> Start:
     start = _from_coarser(there, asked)
     tolerance = max(problem.shared.tolerance, COARSE_TOLERANCE * problem.shared.scale)
     result = solve_on_grid(there, asked, start, tolerance)
-    fine = cascade.prolong(
+    cells, pressure = cascade.prolong(
         result.pressure.reshape(shape),
         result.displacement.reshape(shape),
         gap,
@@ -181,8 +181,8 @@ def _from_coarser(problem: Problem, control: Control) -> Start:
         operator.grid.shape,
         periodic,
     )
-    fine /= factor
-    return Start(held(fine.reshape(-1), problem.cap), result.approach)
+    pressure /= factor
+    return Start(below(cells, pressure, problem.cap), result.approach)
 
 
 def _on_coarser(control: Control, fine: Problem, coarse: Problem, factor: float) -> Control:

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from contact_oracles import FREE, HALF_X, PERIODIC, notes_surface, operator, rough
+from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, notes_surface, operator, rough
 
 from bem.contact import cascade, solve_contact
+from bem.threads import set_threads
 
 
 def _loads(pressure, side, spacing):
@@ -19,6 +20,68 @@ def _loads(pressure, side, spacing):
     return totals
 
 
+def prolonged(fields, cap, shape, periodic):
+    """`cascade.prolong` as a field."""
+    cells, values = cascade.prolong(*fields, cap, shape, periodic)
+    assert (values > 0).all()
+    assert (np.diff(cells) > 0).all()
+    fine = np.zeros(shape)
+    fine.reshape(-1)[cells] = values
+    return fine
+
+
+def plain(fields, cap, shape, periodic):
+    """The same as whole fields in numpy, before regions get their loads."""
+    pressure, displacement, gap, approach = fields
+    squares, openings = [], []
+    root = np.cbrt(np.maximum(gap + displacement - approach, 0.0)) ** 2
+    for axis in (0, 1):
+        here, root_here = np.moveaxis(pressure, axis, 0), np.moveaxis(root, axis, 0)
+        for a, b in ((np.s_[:-1], np.s_[1:]), (np.s_[1:], np.s_[:-1])):
+            edges = (here[a] > 0) & (here[a] < cap) & (here[b] <= 0)
+            squares.append(here[a][edges] ** 2)
+            openings.append(root_here[b][edges])
+    scale = np.concatenate(squares).sum() / np.concatenate(openings).sum()
+    phi, near = np.where(pressure > 0, pressure**2, -scale * root), pressure > 0
+    for axis in (0, 1):
+        indices, weights = cascade.interpolation(pressure.shape[axis], shape[axis], periodic[axis])
+        phi, near = np.moveaxis(phi, axis, 0), np.moveaxis(near, axis, 0)
+        phi = sum(weights[:, k, None] * phi[indices[:, k]] for k in range(4))
+        near = np.any([near[indices[:, k]] for k in range(4)], axis=0)
+        phi, near = np.moveaxis(phi, 0, axis), np.moveaxis(near, 0, axis)
+    return np.where(near & (phi > 0), np.minimum(np.sqrt(np.maximum(phi, 0.0)), cap), 0.0)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize(
+    ("shape", "finer", "periodic"),
+    [
+        ((32, 24), (64, 48), PERIODIC),
+        ((32, 25), (64, 49), HALF_X),
+        ((33, 20), (65, 40), HALF_Y),
+        ((24, 48), (36, 48), PERIODIC),
+        ((1, 30), (1, 60), PERIODIC),
+        ((2, 12), (4, 23), HALF_X),
+        ((17, 17), (33, 33), FREE),
+    ],
+)
+def test_pressures_on_the_finer_grid_are_those_of_whole_fields(shape, finer, periodic, threads, monkeypatch):
+    rng = np.random.default_rng(shape[0])
+    monkeypatch.setattr(cascade.passes, "BLOCK", 5 * finer[1])
+    monkeypatch.setattr(cascade, "_keep_loads", lambda *_: None)
+    set_threads(threads)
+    for cap in (np.inf, 0.8):
+        for share in (0.03, 0.3):
+            pressure = np.where(rng.random(shape) < share, np.minimum(rng.random(shape), cap), 0.0)
+            pressure[0, 0], pressure[-1, -1] = 0.5, 0.7  # round the ends
+            gap = np.where(pressure > 0, 0.0, rng.random(shape))
+            fields = pressure, 0.2 * rng.random(shape), gap, 0.1
+            expected = plain(fields, cap, finer, periodic)
+            assert 0 < np.count_nonzero(expected) < expected.size
+            np.testing.assert_allclose(prolonged(fields, cap, finer, periodic), expected, rtol=1e-9, atol=1e-9)
+    set_threads(1)
+
+
 @pytest.mark.parametrize("shape", [(64, 64), (64, 90), (40, 32)])
 def test_a_region_has_the_same_load_on_the_finer_grid(shape):
     """But for what its neighbours' factors do to the line of cells that they share; half of it was lost here and there
@@ -26,8 +89,8 @@ def test_a_region_has_the_same_load_on_the_finer_grid(shape):
     op = operator(shape, (1.0, 1.0), PERIODIC)
     solution = solve_contact(-rough(*shape), op, load=0.15 * shape[0] * shape[1], tolerance=1e-6)
     finer = (2 * shape[0], 2 * shape[1])
-    fine = cascade.prolong(
-        solution.pressure, solution.displacement, -rough(*shape), solution.approach, np.inf, finer, PERIODIC
+    fine = prolonged(
+        (solution.pressure, solution.displacement, -rough(*shape), solution.approach), np.inf, finer, PERIODIC
     )
     assert (fine >= 0).all()
     wanted = _loads(solution.pressure, 8, (1.0, 1.0))
@@ -40,7 +103,7 @@ def test_regions_with_cells_at_the_cap_are_left_alone():
     pressure[2:6, 2:6] = 1.0
     pressure[18:22, 18:22] = 0.5
     fields = (pressure, np.zeros((32, 32)), np.where(pressure > 0, 0.0, 1.0), 0.0)
-    fine = cascade.prolong(*fields, 1.0, (64, 64), FREE)
+    fine = prolonged(fields, 1.0, (64, 64), FREE)
     assert (fine[4:11, 4:11] == 1.0).all()  # none came down from the cap
     np.testing.assert_allclose(_loads(fine, 16, (0.5, 0.5))[1, 1], 16 * 0.5, rtol=1e-12)
 
