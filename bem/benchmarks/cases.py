@@ -20,6 +20,7 @@ from bem.benchmarks.contact_cases import (
     SEMI,
     cylinder,
     film_on_base,
+    load_area_curve,
     peer_tolerance,
     rough,
     row,
@@ -83,6 +84,13 @@ CASES = {
             "Rough contact of a coated body, free",
             functools.partial(rough, periodic=FREE, bodies=film_on_base),
             sizes=(128, 256, 512, 1024),
+        ),
+        _cells(
+            "load-area",
+            "Load-area curve of 20 loads, each begun with those before",
+            load_area_curve,
+            sizes=(128, 256, 512, 1024),
+            most_repeats=5,
         ),
         _cells("surface", "Rough surface of these contacts", surface, error_name="error of the rms slope"),
         _cells(

@@ -9,7 +9,7 @@ and McEwen's closed forms, in tests/frugality for memory, and by the gates of `b
 
 from bem.stress.below import StressBelow, stress_below
 from bem.stress.bound import von_mises_limit
-from bem.stress.reach import ReachedStress, reached_stress
+from bem.stress.reach import ReachedStress, cleared, reached_stress
 from bem.stress.spectra import COUNT, set_stress_memory, stress_memory
 from bem.stress.sweeps import subsurface_stress, von_mises, von_mises_field, von_mises_planes
 
@@ -17,6 +17,7 @@ __all__ = [
     "COUNT",
     "ReachedStress",
     "StressBelow",
+    "cleared",
     "reached_stress",
     "set_stress_memory",
     "stress_below",

@@ -12,6 +12,7 @@ Verified in tests/stress/test_reach.py against whole planes.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numba import njit
@@ -30,17 +31,22 @@ _TERMS = len(_WEIGHTS)
 
 @dataclass(frozen=True, eq=False)
 class ReachedStress:
-    """Von Mises stress (nz, nx, ny) [Pa] of the first depths, zero in rows that were left out.
+    """Von Mises stress of the first depths.
 
-    computed : (nz, nx) rows that were computed. exceeding : (nx, ny) whether the limit is exceeded at any depth.
-    passes : depths whose transforms along x were made, those made twice, for rows that only a deeper one led to,
-    counted twice.
+    planes : (nz, nx, ny) [Pa], anything in rows that were left out. computed : (nz, nx) rows that were computed.
+    exceeding : (nx, ny) whether the limit is exceeded at any depth. passes : depths whose transforms along x were made,
+    those made twice, for rows that only a deeper one led to, counted twice.
     """
 
-    stress: FloatArray
+    planes: FloatArray
     computed: NDArray[np.bool_]
     exceeding: NDArray[np.bool_]
     passes: int
+
+    @cached_property
+    def stress(self) -> FloatArray:
+        """(nz, nx, ny) [Pa], zero in rows that were left out: a pass over half of the stack, made when asked for."""
+        return cleared(self.planes, self.computed)
 
 
 def reached_stress(  # reason: a request as of `von_mises_planes`, its limit and its reach
@@ -72,13 +78,13 @@ def reached_stress(  # reason: a request as of `von_mises_planes`, its limit and
     exceeding = np.zeros(grid.shape, np.bool_)
     wanted[:1] = True
     squares = transform.empty_squares(_WEIGHTS)
-    passes, waiting = 0, {0} if number else set()
+    passes, waiting, starts = 0, {0} if number else set(), _starts(grid)
     while waiting:
         index = min(waiting)
         waiting.remove(index)
         asked = wanted[index] & ~computed[index]
         if get_threads() == 1:
-            squares.begun[:] = np.logical_or.reduceat(asked, _starts(grid))
+            squares.begun[:] = np.logical_or.reduceat(asked, starts)
         _along_x(part, sweep.depths[index], squares, stress[index])
         passes += 1
         rows = wanted[index], computed[index], exceeding
@@ -89,8 +95,13 @@ def reached_stress(  # reason: a request as of `von_mises_planes`, its limit and
             if (wanted[other] & ~computed[other]).any():
                 waiting.add(other)
     used = int(computed.any(axis=1).sum())
-    _clear(stress[:used], computed)
     return ReachedStress(stress[:used], computed[:used], exceeding, passes)
+
+
+def cleared(planes: FloatArray, rows: NDArray[np.bool_]) -> FloatArray:
+    """Planes (nz, nx, ny) with zeros written into all but these rows (nz, nx)."""
+    _clear(planes, rows)
+    return planes
 
 
 def _starts(grid: Grid) -> NDArray[np.intp]:

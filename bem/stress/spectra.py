@@ -70,6 +70,7 @@ class SweepCache:
         self.kept: dict[Any, _Kept] = {}
         self.used = 0
         self.sweep = 0
+        self.families: dict[Any, int] = {}
         self.lock = threading.Lock()
 
     def begin(self) -> int:
@@ -77,6 +78,11 @@ class SweepCache:
         with self.lock:
             self.sweep += 1
             return self.sweep
+
+    def family(self, key: Any) -> int:
+        """A number for what the keys of a sweep have in common: hashed once, not for each depth."""
+        with self.lock:
+            return self.families.setdefault(key, len(self.families))
 
     def get(self, key: Any, sweep: int) -> Any:
         """What is kept under a key, from now on in use by this sweep; None if nothing."""

@@ -261,12 +261,12 @@ class Part:
         return self.transform.empty_field()
 
     @cached_property
-    def _elastic(self) -> tuple[float, ...]:
-        return elastic(self.body)
+    def _family(self) -> int:
+        return SPECTRA.family((self.grid, elastic(self.body), self.acting))
 
     def factors(self, depth: float) -> Factors:
         """Spectra of t, d, e, yz, xz, xy at a depth."""
-        key = (self.grid, self._elastic, depth, self.acting)
+        key = (self._family, depth)
         found: Factors | None = SPECTRA.get(key, self.number)
         if found is None:
             found = factors_of(self.grid, self.body, depth, self.acting)

@@ -44,7 +44,7 @@ class Segmentation:
     reaches_bottom: NDArray[np.bool_]
 
 
-def segment(
+def segment(  # reason: a request as users make it, and what is known of the stack
     equivalent_stress: FloatArray,
     depths: FloatArray,
     *,
@@ -55,6 +55,7 @@ def segment(
     connectivity: int = 6,
     removal: str | RemovalLaw = "cap",
     columns: NDArray[np.int64] | None = None,
+    rows: NDArray[np.bool_] | None = None,
 ) -> Segmentation:
     """Find the connected regions above yield that reach the free surface.
 
@@ -73,6 +74,8 @@ def segment(
         of `bem.wear.removal`.
     columns : numbers in the flattened map, rising, of all columns in which anything yields, from whoever has computed
         the stress and looked at it, those with what is no number among them; None to look for them.
+    rows : (nz, nx) of the stack that count; what the others hold is taken for zero. Only with `columns`, the first
+        depth all of it.
 
     Raises
     ------
@@ -93,7 +96,8 @@ def segment(
     candidates = columns
     if candidates is None:
         candidates = yielding_columns(flat, limits) if at_surface else np.empty(0, np.int64)
-    values, cubic = gather_columns(flat, candidates), REFINEMENTS[refinement] == 3
+    counted = np.ones((nz, 1), dtype=np.bool_) if rows is None else np.ascontiguousarray(rows)
+    values, cubic = gather_columns(flat, candidates, counted), REFINEMENTS[refinement] == 3
     if columns is not None and not _is_finite(values.ravel()):
         raise InputError(_NOT_FINITE)
     labels = np.zeros((nx, ny), dtype=np.int32)

@@ -44,12 +44,13 @@ def yielding_columns(stack, strength):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def gather_columns(stack, candidates):  # type: ignore[no-untyped-def]
-    """(candidates, nz): depth runs fastest."""
+def gather_columns(stack, candidates, rows):  # type: ignore[no-untyped-def]
+    """(candidates, nz): depth runs fastest. rows : (nz, n) whether each of n parts of a plane counts; else zeros."""
     out = np.empty((candidates.size, stack.shape[0]))
+    size = stack.shape[1] // rows.shape[1]
     for k in range(stack.shape[0]):
         for own in range(candidates.size):
-            out[own, k] = stack[k, candidates[own]]
+            out[own, k] = stack[k, candidates[own]] if rows[k, candidates[own] // size] else 0.0
     return out
 
 

@@ -8,13 +8,14 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray
-from bem.stress import reached_stress, subsurface_stress, von_mises_limit, von_mises_planes
+from bem.stress import cleared, reached_stress, subsurface_stress, von_mises_limit, von_mises_planes
 from bem.wear.criterion import WearCriterion
 from bem.wear.loads import Removal, SurfaceLoad
 from bem.wear.removal import RemovalLaw
@@ -79,15 +80,22 @@ def depths_for(setup: WearSetup, model: WearModel, body: int) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class YieldedStress:
-    """Equivalent stress (nz, nx, ny) [Pa] at depths (nz,) [m] from the surface down, as far as pieces can reach; no
-    depth where nothing yields at the surface. computed : depths that were. seconds : it took. yielding : (nx, ny)
-    whether anything there yields, where that was found on the way."""
+    """Equivalent stress `planes` (nz, nx, ny) [Pa] at depths (nz,) [m] from the surface down, as far as pieces can
+    reach; no depth where nothing yields at the surface. computed : depths that were. seconds : it took. yielding :
+    (nx, ny) whether anything there yields, where that was found on the way. rows : (nz, nx) of the planes that were
+    written; None for all."""
 
-    stress: FloatArray
+    planes: FloatArray
     depths: FloatArray
     computed: int
     seconds: float
     yielding: NDArray[np.bool_] | None = None
+    rows: NDArray[np.bool_] | None = None
+
+    @cached_property
+    def stress(self) -> FloatArray:
+        """The planes, zero in rows that no piece reaches."""
+        return self.planes if self.rows is None else cleared(self.planes, self.rows)
 
 
 def yielded_stress(
@@ -147,16 +155,18 @@ def piece_stress(
     reach = 2 if model.refinement == "monotone_cubic" else 1
     solid, shear = setup.bodies[body], first.shear(body)
     reached = reached_stress(first.pressure, grid, solid, depths, strength, reach=reach, **shear)
-    found = reached.stress
+    found, rows = reached.planes, reached.computed
     used = len(found) if len(found) > 1 else 0  # of the first depth alone where nothing yields in it
-    return YieldedStress(found[:used], depths[:used], len(found), time.perf_counter() - start, reached.exceeding)
+    seconds = time.perf_counter() - start
+    return YieldedStress(found[:used], depths[:used], len(found), seconds, reached.exceeding, rows[:used])
 
 
 def yielded_pieces(load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearModel, body: int) -> Removal:
     """The pieces that come off one body where its stress exceeds the yield stress; arguments as in `yielded_stress`."""
     found = piece_stress(load, setup, model, body)
     start = time.perf_counter()
-    pieces = pieces_above(found.stress, found.depths, setup.yield_stress(body), setup, model, found.yielding)
+    strength, where = setup.yield_stress(body), (found.yielding, found.rows)
+    pieces = pieces_above(found.planes, found.depths, strength, setup, model, *where)
     return Removal(body, pieces, found.computed, found.seconds, time.perf_counter() - start)
 
 
@@ -167,10 +177,12 @@ def pieces_above(
     setup: WearSetup,
     model: WearModel,
     exceeding: NDArray[np.bool_] | None = None,
+    rows: NDArray[np.bool_] | None = None,
 ) -> Segmentation:
     """The pieces in which a stack (nz, nx, ny), refined as the model says, exceeds a limit; none without depths.
 
     exceeding : (nx, ny) whether it does so in a column, where that is known: the stack is not searched for it then.
+    rows : (nz, nx) of the stack that count, with `exceeding`; the others are zero, whatever is written there.
     """
     if len(depths) == 0:
         return no_pieces(setup.grid.shape)
@@ -186,6 +198,7 @@ def pieces_above(
         connectivity=model.connectivity,
         removal=model.removal,
         columns=columns,
+        rows=rows,
     )
 
 

@@ -40,7 +40,16 @@ def point(**change):
 
 @pytest.mark.parametrize(
     "name",
-    ["contact-periodic", "hertz-sphere", "hertz-cylinder", "sinusoid", "stress", "von-mises-warm", "partial-slip"],
+    [
+        "contact-periodic",
+        "load-area",
+        "hertz-sphere",
+        "hertz-cylinder",
+        "sinusoid",
+        "stress",
+        "von-mises-warm",
+        "partial-slip",
+    ],
 )
 def test_a_point_of_a_case(name):
     case = CASES[name]
@@ -51,6 +60,14 @@ def test_a_point_of_a_case(name):
     # counters are read one after another: what they found is part of the whole, up to the clock's tick
     assert sum(v for k, v in found.split.items() if k != "whole") <= found.split["whole"] + 1e-3
     assert found.split["transforms"] > 0
+
+
+def test_loads_of_a_curve_begin_with_those_before():
+    curve = measure("load-area", 128, 1, CASES["load-area"].prepare, 1)
+    assert curve.values["converged"] == 1
+    assert curve.error <= 1e-8
+    # 9.3 a load; 11.6 where each begins with nothing, 10.4 with the last one's pressures
+    assert curve.counts["convolutions_a_load"] < 10
 
 
 def test_errors_of_closed_forms_fall_with_the_mesh():

@@ -163,3 +163,19 @@ def test_a_criterion_derived_from_von_mises_with_a_stress_of_its_own_is_asked_fo
     twice = piece_stress(pressure, fixed, model, 0).stress
     # the same transforms in other portions
     assert twice[: len(once)] == pytest.approx(2 * once, rel=1e-10, abs=1e-10 * once.max())
+
+
+def test_rows_that_were_left_out_are_never_looked_at():
+    """They are not even written: pieces are found from the others."""
+    fixed, model = setup((96, 48), (False, True)), WearModel()
+    pressure = np.zeros(fixed.grid.shape)
+    pressure[40:48, 20:28] = 1.8e9
+    wanted = yielded_pieces(pressure, fixed, model, 0).pieces
+    found = piece_stress(pressure, fixed, model, 0)
+    assert not found.rows.all()
+    found.planes[~found.rows] = np.nan
+    strength = fixed.yield_stress(0)
+    pieces = pieces_above(found.planes, found.depths, strength, fixed, model, found.yielding, found.rows)
+    assert np.array_equal(pieces.labels, wanted.labels)
+    assert np.array_equal(pieces.thickness, wanted.thickness)
+    assert not found.stress[~found.rows].any()  # zeros where they are asked for
