@@ -37,24 +37,6 @@ def provide_folder() -> None:
             return
 
 
-def load_registries() -> None:
-    """Load what numba knows of arrays without the linear algebra that it looks for on the way, which brings all of
-    `scipy.linalg` and f2py along: a tenth of a second of every run. A compiled function that multiplies matrices looks
-    for it again, and finds it."""
-    if "numba.np.arraymath" in sys.modules:
-        return
-    import numba.np.linalg
-
-    looks = numba.np.linalg.ensure_blas
-    numba.np.linalg.ensure_blas = lambda: None
-    try:
-        import numba.np.arraymath
-
-        assert numba.np.arraymath
-    finally:
-        numba.np.linalg.ensure_blas = looks
-
-
 def is_cold() -> bool:
     """Whether the next run has to compile first: none of the transforms' loops is newer than their source."""
     named = os.environ.get("NUMBA_CACHE_DIR")

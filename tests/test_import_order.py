@@ -9,7 +9,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1] / "bem"
 
 ORDER = [
-    {"errors", "lazy", "representation", "small_files", "compiled", "pocketfft"},
+    {"errors", "lazy", "representation", "small_files", "compiled", "pocketfft", "quick_loads"},
     {"extensions", "arguments", "kept", "monotone"},
     {"grid", "materials", "threads", "fftw", "laws"},
     {"kernels", "reference_solutions", "subcell"},

@@ -19,9 +19,9 @@ from bem.campaigns.collect import Given, collect, words_of_bars
 from bem.campaigns.context import CaseContext, Silent, Watcher
 from bem.campaigns.jobs import Staff, hand_out, words_of
 from bem.campaigns.refine import solve_case, words_of_levels
-from bem.compiled import load_registries
 from bem.errors import BemError, ConvergenceError, InputError, ResultsError, Status
 from bem.lazy import collecting
+from bem.quick_loads import quicken
 from bem.results.checkpoint import load_checkpoint, save_checkpoint
 from bem.results.directory import CASES, CHECKPOINT
 from bem.scenes.context import Outcome
@@ -69,7 +69,7 @@ class CaseJob:
     def compute(self, watcher: Watcher) -> Result:
         """Run the case, going on from its checkpoint; errors that a scene can cause come back as words."""
         state = None if self.file is None else load_checkpoint(self.file)
-        load_registries()
+        quicken()
         context = CaseContext(self.case, self.file, state, watcher, self.epoch)
         try:
             with collecting():

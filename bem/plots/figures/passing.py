@@ -44,8 +44,9 @@ def _interferogram(run: Any, figure: Figure) -> None:
 
 def _animate(run: Any, path: Path) -> None:
     """The film as light shows it over time, above its section through the middle."""
-    from matplotlib.animation import FuncAnimation, PillowWriter
     from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    from bem.plots.animation import write_animation
 
     x, y, times, frames = (_array(run, name) for name in ("film_x", "film_y", "frame", "frame_thickness"))
     figure = Figure(figsize=(4.6, 6.0), layout="constrained")
@@ -64,17 +65,13 @@ def _animate(run: Any, path: Path) -> None:
     below.set_xlabel(label("x, through the middle", unit))
     below.set_ylabel(label("film thickness", film_unit))
     factor, time_unit = prefix(times, "s")
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")
 
-    def show(index: int) -> tuple[Any, ...]:
+    def show(index: int) -> None:
         image.set_data(finely_coloured(frames[index]).transpose(1, 0, 2))
         line.set_ydata(frames[index][:, middle] * film)
         above.set_title(f"{times[index] * factor:.3g} {time_unit}")
-        return image, line
 
-    animation = FuncAnimation(figure, show, frames=len(frames), init_func=lambda: ())
-    animation.save(str(path), writer=PillowWriter(fps=5), dpi=90)
+    write_animation(figure, (image, line, above.title), show, len(frames), path, dots=90, per_second=5)
 
 
 def _highest(run: Any) -> float:

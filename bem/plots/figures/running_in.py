@@ -131,8 +131,9 @@ def _pressure_image(axes: Axes, values: Array, extent: tuple[float, float, float
 
 def _animate(run: Any, path: Path) -> None:
     """Pressure over the cycles, beside the friction up to then."""
-    from matplotlib.animation import FuncAnimation, PillowWriter
     from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    from bem.plots.animation import write_animation
 
     frames, extent, highest = _touched_strip(run)
     cycles, friction = run.dataset["frame"].values, grouped(run, "friction_over_cycles")[0][1][0]
@@ -148,17 +149,13 @@ def _animate(run: Any, path: Path) -> None:
     right.set_xlabel("cycle")
     right.set_ylabel("coefficient of friction")
     right.set_ylim(0)
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")
 
-    def show(index: int) -> tuple[Any, ...]:
+    def show(index: int) -> None:
         image.set_data(np.where(frames[index] > 0, frames[index], np.nan))
         line.set_data(np.arange(1, cycles[index] + 1), friction[: int(cycles[index])])
         left.set_title(f"cycle {int(cycles[index])}")
-        return image, line
 
-    animation = FuncAnimation(figure, show, frames=len(frames), init_func=lambda: ())
-    animation.save(str(path), writer=PillowWriter(fps=4), dpi=110)
+    write_animation(figure, (image, line, left.title), show, len(frames), path, dots=110, per_second=4)
 
 
 def _many_hardnesses(run: Any) -> bool:
