@@ -207,6 +207,12 @@ class ScaledConvolution:
         self.count.weighted += self.weight
         return self.transform.convolve(values, self.multiplier, out)
 
+    def apply_to_cells(self, cells: NDArray[np.int64], values: FloatArray, out: NDArray[Any]) -> NDArray[Any]:
+        """Convolve `values` on some cells (flat indices, ascending), zero elsewhere, into `out` (nx, ny)."""
+        self.count.applications += 1
+        self.count.weighted += self.weight
+        return self.transform.convolve_cells(cells, values, self.multiplier, out)
+
     def counted(self, applications: int) -> None:
         """Add applications that a compiled loop made by itself, with `transforms.loops.convolve`."""
         self.count.applications += applications

@@ -78,6 +78,26 @@ def test_convolution_with_even_and_odd_kernels(shape, padded, parity):
     assert np.abs(transform.inverse(transform.forward(field), factor) - expected).max() <= 1e-14 * scale
 
 
+@pytest.mark.parametrize(("shape", "padded"), [*SHAPES, ((700, 64), (1400, 64)), ((300, 250), (300, 500))])
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("share", [0.0, 0.02, 0.3, 1.0])
+def test_a_convolution_of_cells_is_that_of_their_field_bit_for_bit(shape, padded, dtype, share, one_thread):
+    rng = np.random.default_rng(11)
+    kernel = transforms.multiplier([(rng.standard_normal((padded[1] // 2 + 1, padded[0] // 2 + 1)), (1, 1), 1.0)])
+    kernel = kernel.astype(dtype)
+    transform = transforms.PaddedTransform(shape, padded, dtype)
+    touching = rng.random(shape) < share
+    touching[: shape[0] // 2] &= share > 0.02  # blocks of rows without a cell
+    cells = np.flatnonzero(touching)
+    values, field = rng.standard_normal(cells.size), np.zeros(shape, dtype)
+    field.reshape(-1)[cells] = values
+    for threads_used in (1, 2):
+        threads.set_threads(threads_used)
+        plain = transform.convolve(field, kernel)
+        np.testing.assert_array_equal(transform.convolve_cells(cells, values, kernel, np.empty(shape, dtype)), plain)
+        np.testing.assert_array_equal(transform.convolve(field, kernel), plain)  # scratch is as it was
+
+
 def test_even_and_odd_parts_add_to_one_multiplier():
     rng = np.random.default_rng(3)
     shape, padded = (6, 5), (12, 10)

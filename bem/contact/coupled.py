@@ -111,13 +111,11 @@ def solve_coupled(
 def _response(level: Level, iterate: Iterate, control: Control, balance: Balance) -> Callable[[FloatArray], FloatArray]:
     """Of the gap on the cells to a direction: less its mean under load control, less what the approach follows by
     where the mean gap is given."""
-    given, found = level.quick_fields
-    given.fill(0.0)
+    found = level.quick_field
     sunk = found.reshape(-1)
 
     def respond(direction: FloatArray) -> FloatArray:
-        given.reshape(-1)[iterate.cells] = direction
-        level.quick.apply(given, found)
+        level.quick.apply_to_cells(iterate.cells, direction, found)
         response = sunk[iterate.cells].astype(np.float64)
         if balance.kept:
             response -= response.mean()

@@ -72,7 +72,7 @@ def solve_on_cells(
     if cells.size <= passes.BLOCK:
         own = balance.rise, balance.share, balance.shifted
         found = solve_in_one_call(
-            balance.inverse, own, cells, pressure, (residual, squares), level.quick_fields, level.quick, ends, first
+            balance.inverse, own, cells, pressure, (residual, squares), level.quick_field, level.quick, ends, first
         )
     else:
         found = _pass_by_pass(level, balance, cells, pressure, (residual, squares), ends, first)
@@ -91,9 +91,7 @@ def _pass_by_pass(  # reason: conjugate gradients know their cells, equations, a
     first: Step,
 ) -> Reached:
     """Conjugate gradients on more cells than one block has: threads share each pass."""
-    given, convolved = level.quick_fields
-    given.fill(0.0)
-    quick_in, quick_out = given.reshape(-1), convolved.reshape(-1)
+    convolved = level.quick_field.reshape(-1)
     n, made, length, last = cells.size, 0, first.length, first.last
     direction, preconditioned, response, previous = np.zeros(n), np.empty(n), np.empty(n), np.zeros(n)
     (values, squares), way = residual, (direction, response)
@@ -107,9 +105,9 @@ def _pass_by_pass(  # reason: conjugate gradients know their cells, equations, a
         made += 1
         if strides(ends, squares, descent.largest, descent.outside):
             return Reached(response, made, length, True)
-        slope = gradients.new_direction(direction, preconditioned, beta, cells, quick_in, values)
-        level.quick.apply(given, convolved)
-        mean, curvature = gradients.gather_dot(quick_out, cells, response, direction)
+        slope = gradients.new_direction(direction, preconditioned, beta, values)
+        level.quick.apply_to_cells(cells, direction, level.quick_field)
+        mean, curvature = gradients.gather_dot(convolved, cells, response, direction)
         if not curvature > 0:
             break
         shift, length = mean / n if balance.kept else 0.0, slope / curvature

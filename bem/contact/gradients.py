@@ -108,29 +108,19 @@ def _turn(start, stop, result, preconditioned, rise, share, residual, previous):
     result[1] = change
 
 
-def new_direction(
-    direction: FloatArray,
-    preconditioned: FloatArray,
-    beta: float,
-    cells: NDArray[Any],
-    field: NDArray[Any],
-    residual: FloatArray,
-) -> float:
-    """t = z + beta t, also written to field[cells]; returns t.r."""
-    return passes.sums(cells.size, 1, _new_direction, direction, preconditioned, beta, cells, field, residual)[0]
+def new_direction(direction: FloatArray, preconditioned: FloatArray, beta: float, residual: FloatArray) -> float:
+    """t = z + beta t; returns t.r."""
+    return passes.sums(residual.size, 1, _new_direction, direction, preconditioned, beta, residual)[0]
 
 
 @_fast
-def _new_direction(start, stop, result, direction, preconditioned, beta, cells, field, residual):  # type: ignore[no-untyped-def]
-    cells, residual = cells[start:stop], residual[start:stop]
-    preconditioned, direction = preconditioned[start:stop], direction[start:stop]
+def _new_direction(start, stop, result, direction, preconditioned, beta, residual):  # type: ignore[no-untyped-def]
+    residual, preconditioned, direction = residual[start:stop], preconditioned[start:stop], direction[start:stop]
     slope = 0.0
-    for k in range(cells.size):
+    for k in range(residual.size):
         t = preconditioned[k] + beta * direction[k]
         direction[k] = t
         slope += t * residual[k]
-    for k in range(cells.size):
-        field[np.uint64(cells[k])] = direction[k]
     result[0] = slope
 
 

@@ -17,7 +17,7 @@ from bem.contact import gradients, inverse
 from bem.contact.inverse import Inverse, Step
 from bem.convolution import ScaledConvolution
 from bem.threads import get_threads
-from bem.transforms.loops import convolve
+from bem.transforms.loops import convolve_cells
 
 FloatArray = NDArray[np.float64]
 
@@ -89,14 +89,14 @@ def solve_in_one_call(  # reason: conjugate gradients know their cells, equation
     cells: NDArray[np.int64],
     pressure: FloatArray,
     residual: tuple[FloatArray, float],
-    fields: tuple[NDArray[np.float32], NDArray[np.float32]],
+    convolved: NDArray[np.float32],
     quick: ScaledConvolution,
     ends: Ends,
     first: Step,
 ) -> Reached:
     """Conjugate gradients from a pressure and its residual (with its sum of squares), both overwritten.
 
-    balance : as `inverse._descend` takes it. fields : what `quick` takes and gives, both written. first : the length of
+    balance : as `inverse._descend` takes it. convolved : room for what `quick` gives. first : the length of
     a first step known beforehand, and the cap.
     """
     transform, coarse = quick.transform, preconditioner.convolution
@@ -107,8 +107,8 @@ def solve_in_one_call(  # reason: conjugate gradients know their cells, equation
     with transform.lock, transform.lock if coarse is None else coarse.transform.lock:
         engine = transform.room, transform.ready(1), quick.multiplier.factor(transform.dtype)
         inverted = preconditioner.compiled()
-        while _iterate(now, inverted, vectors, balance, cells, fields, engine, ends, first.cap, alone):
-            quick.apply(*fields)
+        while _iterate(now, inverted, vectors, balance, cells, convolved, engine, ends, first.cap, alone):
+            quick.apply_to_cells(cells, way[1], convolved)
     _, made, _, _, _, length, strode, on_coarse, applied = now.tolist()
     quick.counted(int(applied))
     if coarse is not None:
@@ -118,33 +118,30 @@ def solve_in_one_call(  # reason: conjugate gradients know their cells, equation
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _iterate(  # type: ignore[no-untyped-def]  # reason: compiled, so each array is an argument
-    now, inverted, vectors, balance, cells, fields, engine, ends, cap, alone
+    now, inverted, vectors, balance, cells, convolved, engine, ends, cap, alone
 ):
     """From one convolution on to the next, all of them if `alone`; whether one is to be made before it is called again.
 
     vectors : p, r, r before, t, z, q; the last is p where the step known beforehand leads.
     """
     own, far = inverted
-    given, found = fields
     room, scratch, factor = engine
-    given_flat, found_flat = given.reshape(-1), found.reshape(-1)
-    if now[_MADE] == 0:
-        given_flat[:] = 0
+    flat = convolved.reshape(-1)
     while True:
-        if now[_DUE] and _advance(now, vectors, balance, cells, found_flat, ends, cap):
+        if now[_DUE] and _advance(now, vectors, balance, cells, flat, ends, cap):
             return False
-        if now[_MADE] == ends.most or _turn(now, own, far, vectors, balance, cells, given_flat, ends, cap):
+        if now[_MADE] == ends.most or _turn(now, own, far, vectors, balance, ends, cap):
             return False
         now[_DUE] = 1
         if not alone:
             return True
-        convolve(room, scratch, factor, given, found)
+        convolve_cells(room, scratch, factor, cells, vectors[3], convolved)
         now[_APPLIED] += 1
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _turn(now, own, far, vectors, balance, cells, given, ends, cap):  # type: ignore[no-untyped-def]
-    """The next direction, into the field that is to be convolved; whether the round ends without it."""
+def _turn(now, own, far, vectors, balance, ends, cap):  # type: ignore[no-untyped-def]
+    """The next direction, whose convolution is due; whether the round ends without it."""
     pressure, residual, previous, direction, preconditioned, response = vectors
     state, way = (pressure, residual, previous), (preconditioned, direction, response)
     full, change, outside, largest, coarse = inverse._descend(
@@ -160,7 +157,7 @@ def _turn(now, own, far, vectors, balance, cells, given, ends, cap):  # type: ig
         now[_STRODE] = 1
         return True
     slope = np.zeros(1)
-    gradients._new_direction(0, cells.size, slope, direction, preconditioned, beta, cells, given, residual)
+    gradients._new_direction(0, residual.size, slope, direction, preconditioned, beta, residual)
     now[_SLOPE] = slope[0]
     return False
 

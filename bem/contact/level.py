@@ -135,10 +135,9 @@ class Stride:
         self.taken, self.before = False, violation
 
 
-def _halves(field: FloatArray) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Two fields of single precision in the memory of one of double."""
-    both = field.reshape(-1).view(np.float32).reshape(2, *field.shape)
-    return both[0], both[1]
+def _quick_field(field: FloatArray) -> NDArray[np.float32]:
+    """A field of single precision in the memory of one of double."""
+    return field.reshape(-1).view(np.float32).reshape(2, *field.shape)[0]
 
 
 class Level:
@@ -156,9 +155,9 @@ class Level:
         self.before = self.exact.transform.empty_field()
         names = ("displacement", "before")
         self.flat: dict[str, NDArray[Any]] = {name: getattr(self, name).reshape(-1) for name in names}
-        # what the quick operator takes and gives is where the displacement before is: nobody asks for that between the
-        # end of one round and the beginning of the next
-        self.quick_fields, self._other_fields = _halves(self.before), _halves(self.displacement)
+        # what the quick operator gives is where the displacement before is: nobody asks for that between the end of one
+        # round and the beginning of the next
+        self.quick_field, self._other_field = _quick_field(self.before), _quick_field(self.displacement)
         self.kept = False
         self.self_response = float(operator.near_field(0)[0, 0])
         self.stride = Stride()
@@ -188,6 +187,9 @@ class Level:
 
     def displace(self, iterate: Iterate) -> None:
         """Write the displacement of a pressure into the buffer."""
+        if iterate.capped.size == 0:
+            self.exact.apply_to_cells(iterate.cells, iterate.values, self.displacement)
+            return
         passes.place(self.flat["displacement"], iterate.cells, iterate.values, iterate.capped, self.cap)
         self.exact.apply(self.displacement, self.displacement)
 
@@ -198,7 +200,7 @@ class Level:
         self.kept = True
         self.displacement, self.before = self.before, self.displacement
         self.flat["displacement"], self.flat["before"] = self.flat["before"], self.flat["displacement"]
-        self.quick_fields, self._other_fields = self._other_fields, self.quick_fields
+        self.quick_field, self._other_field = self._other_field, self.quick_field
 
     def survey(self, iterate: Iterate, other: Iterate | None = None) -> Survey:
         """Of a pressure with its displacement in the buffer, and the work of another one there."""

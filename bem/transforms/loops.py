@@ -111,14 +111,56 @@ def convolve(room, scratch, factor, values, out):  # type: ignore[no-untyped-def
 
 
 @_plain
-def rows_forward(room, scratch, values, first, last):  # type: ignore[no-untyped-def]
-    """Blocks of rows of a contiguous field, transformed along y and written transposed."""
-    direct = room.fits and values.ctypes.data % ALIGNMENT == 0
-    half, rows = room.half, scratch.rows
+def convolve_cells(room, scratch, factor, cells, values, out):  # type: ignore[no-untyped-def]
+    """The same of a field that is zero but on some cells (`rows_forward_of_cells`)."""
+    row_blocks = -(-room.nx // room.row_block)
+    rows_forward_of_cells(room, scratch, cells, values, 0, row_blocks)
+    columns_through(room, scratch, factor, 0, room.lengths.size)
+    rows_back(room, scratch, out, 0, row_blocks)
+
+
+@_plain
+def rows_forward_of_cells(room, scratch, cells, values, first, last):  # type: ignore[no-untyped-def]
+    """`rows_forward` of a field with these values on `cells` (flat indices, ascending), zero elsewhere: it is nowhere
+    but in scratch, and blocks of rows without a cell are not transformed."""
+    half, rows, ny = room.half, scratch.rows, room.ny
     for block in range(first, last):
         start = block * room.row_block
         count = min(room.nx, start + room.row_block) - start
-        plan = room.row_plans[0, 0 if count == room.row_block else 1]
+        begin, end = np.searchsorted(cells, start * ny), np.searchsorted(cells, (start + count) * ny)
+        if begin == end:
+            for j in range(room.spectra):
+                half[j, start : start + count] = 0
+            continue
+        rows[:count, :ny] = 0
+        i, stop = 0, (start + 1) * ny
+        for k in range(begin, end):
+            while cells[k] >= stop:
+                i += 1
+                stop += ny
+            rows[i, cells[k] - stop + ny] = values[k]
+        _rows_out(room, scratch, rows.ctypes.data, start, count)
+
+
+@_plain
+def _rows_out(room, scratch, source, start, count):  # type: ignore[no-untyped-def]
+    """A block of rows at an address, transformed along y and written transposed."""
+    plan = room.row_plans[0, 0 if count == room.row_block else 1]
+    if room.transposes:
+        execute(room.executors[0], plan, source, scratch.rows_spectrum.ctypes.data)
+        _transpose(scratch.rows_spectrum, room.half, start, count, room.spectra)
+    else:
+        execute(room.executors[0], plan, source, room.half[0, start:].ctypes.data)
+
+
+@_plain
+def rows_forward(room, scratch, values, first, last):  # type: ignore[no-untyped-def]
+    """Blocks of rows of a contiguous field, transformed along y and written transposed."""
+    direct = room.fits and values.ctypes.data % ALIGNMENT == 0
+    rows = scratch.rows
+    for block in range(first, last):
+        start = block * room.row_block
+        count = min(room.nx, start + room.row_block) - start
         if direct:
             source = values[start:].ctypes.data
         else:
@@ -126,11 +168,7 @@ def rows_forward(room, scratch, values, first, last):  # type: ignore[no-untyped
                 for j in range(room.ny):
                     rows[i, j] = values[start + i, j]
             source = rows.ctypes.data
-        if room.transposes:
-            execute(room.executors[0], plan, source, scratch.rows_spectrum.ctypes.data)
-            _transpose(scratch.rows_spectrum, half, start, count, room.spectra)
-        else:
-            execute(room.executors[0], plan, source, half[0, start:].ctypes.data)
+        _rows_out(room, scratch, source, start, count)
 
 
 @_plain

@@ -279,6 +279,23 @@ class PaddedTransform:
             out[...] = plain
         return out
 
+    def convolve_cells(
+        self, cells: NDArray[np.int64], values: FloatArray, factor: Multiplier, out: FloatArray
+    ) -> FloatArray:
+        """`convolve` of a field with these values on some cells (flat indices, ascending), zero elsewhere, into a
+        contiguous field of this precision."""
+        parts, threads = factor.factor(self.dtype), get_threads()
+        with self.lock:
+            scratch = self.ready(threads)
+            if threads == 1:
+                loops.convolve_cells(self.room, scratch, parts, cells, values, out)
+            else:
+                self._each(loops.rows_forward_of_cells, self._row_blocks, cells, values)
+                self._each(loops.columns_through, self._column_blocks, parts)
+                self._each(loops.rows_back, self._row_blocks, out)
+        self.counted(1)
+        return out
+
     def counted(self, convolutions: int) -> None:
         """Add convolutions to this process's count: here, or by a compiled loop that called `loops.convolve`."""
         self._count(forward=convolutions, inverse=convolutions, blocks=self._column_blocks)
