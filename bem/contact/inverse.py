@@ -62,7 +62,7 @@ class Inverse:
     def compiled(self) -> tuple[Any, ...]:
         """What `_descend` takes of it: the rows, and the long waves. The caller holds the lock of `convolution` while
         that runs, and counts what it made there."""
-        own = (self.near.rows, self.near.outside, self.values)
+        own = (self.near.rows, self.near.seam, self.near.outside, self.values)
         if self.far is None:
             return own, None
         return own, self.far.compiled()
@@ -81,20 +81,21 @@ def _descend(own, far, state, way, balance, step):  # type: ignore[no-untyped-de
     state : (p, r, r before). way : (z, written; t; p after the step, written). balance : as `face.Balance` has them,
     rise, share and room, that of none where the residual's mean is let be.
     """
-    rows, outside, values = own
+    rows, seam, outside, values = own
     (pressure, residual, previous), (preconditioned, direction, out), (rise, share, shifted) = state, way, balance
     size, found, applications = values.size, np.zeros(2), 0
     if size == 0:  # no cells, no block of them to read
         return 0.0, 0.0, 0.0, 0.0, 0
     if shifted.size:
         gradients._weighed_free(residual, rise, 1 / share, shifted)
-        preconditioner._spread(0, size, found, rows, shifted, values)
-    else:
-        preconditioner._spread(0, size, found, rows, residual, values)
+    given = shifted if shifted.size else residual
+    preconditioner._spread(0, size, found, rows, given, values)
+    preconditioner._spread_seam(seam, given, values)
     if far is not None:
         applications = long_waves._apply(values, far, long_waves._REDUCTION, long_waves._ITERATIONS)
     preconditioner._collect(0, size, found, rows, values, preconditioned, outside, size)
-    gradients._turn(0, size, found, preconditioned, rise, share * found[0], residual, previous)
+    total = found[0] + preconditioner._collect_seam(seam, values, preconditioned)
+    gradients._turn(0, size, found, preconditioned, rise, share * total, residual, previous)
     full, change = found[0], found[1]
     turned = (preconditioned, direction, max(0.0, change / step.last))
     gradients._stride(0, size, found, pressure, turned, step.length, step.cap, residual, out)

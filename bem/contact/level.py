@@ -163,7 +163,6 @@ class Level:
         self.stride = Stride()
         self.rise: tuple[Indices, FloatArray] | None = None
         self.sparse: SparseInverse | None = None
-        self.sparse_cells: Indices | None = None
         self.smooth: LongWaves | None = None
 
     @property
@@ -229,8 +228,7 @@ class Level:
                 self.tuning.squared_radius,
             )
             self.smooth = long_waves(self.operator, self.sparse.near)
-        near = self.sparse.on(cells, self.sparse_cells)
-        self.sparse_cells = cells
+        near = self.sparse.on(cells)
         far = None if self.smooth is None else self.smooth.on(cells, near.row_sums())
         return Inverse(near, far, np.empty(cells.size))
 

@@ -26,6 +26,8 @@ from bem.transforms.loops import convolve
 
 FloatArray = NDArray[np.float64]
 
+_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
+
 _LARGEST = 128
 """Cells along the longer side of the coarse grid, if three halvings of the grid come to less than that."""
 
@@ -120,22 +122,26 @@ def long_waves(operator: DisplacementOperator, near: float) -> LongWaves | None:
     )
 
 
-@njit(cache=True, nogil=True)
+@_fast
 def _assign(cells, rows, columns, width, weights, blocks, root, inverse):  # type: ignore[no-untyped-def]
     """The coarse cell of each cell, the root of the sum of squared weights in each coarse cell, and its inverse."""
     ny = columns.size
+    line, end, first = 0, 0, 0
     for k in range(cells.size):
-        i = cells[k] // ny
-        b = rows[i] * width + columns[cells[k] - i * ny]
+        cell = cells[k]
+        if cell >= end:
+            i = cell // ny
+            line, end, first = i * ny, (i + 1) * ny, rows[i] * width
+        b = first + columns[np.uint64(cell - line)]
         blocks[k] = b
-        root[b] += weights[k] * weights[k]
+        root[np.uint64(b)] += weights[k] * weights[k]
     for b in range(root.size):
         if root[b] > 0:
             root[b] = np.sqrt(root[b])
             inverse[b] = 1.0 / root[b]
 
 
-@njit(cache=True, nogil=True)
+@_fast
 def _apply(values, far, reduction, limit):  # type: ignore[no-untyped-def]
     """The middle factor; returns how many convolutions it took."""
     cells, diagonal, workspace, transform = far
@@ -144,17 +150,17 @@ def _apply(values, far, reduction, limit):  # type: ignore[no-untyped-def]
     given, solution = workspace.given, workspace.solution
     given[:] = 0.0
     for k in range(values.size):
-        given[blocks[k]] += weights[k] * values[k]
+        given[np.uint64(blocks[k])] += weights[k] * values[k]
     given *= inverse_root
     applications = _solve(workspace, root, transform, reduction, limit)
     for b in range(given.size):
         given[b] = (given[b] - solution[b]) * inverse_root[b]
     for k in range(values.size):
-        values[k] -= weights[k] * given[blocks[k]]
+        values[k] -= weights[k] * given[np.uint64(blocks[k])]
     return applications
 
 
-@njit(cache=True, nogil=True)
+@_fast
 def _solve(workspace, root, transform, reduction, limit):  # type: ignore[no-untyped-def]
     """Conjugate gradients for (1 + D^1/2 F D^1/2) solution = given, on the whole coarse grid."""
     given, solution, residual, direction, response, field = workspace

@@ -1,18 +1,16 @@
 """Factorised sparse approximate inverse of the kernel on the cells in contact: G^T G, no transform needed.
 
-It sees the near neighbours only; `long_waves` adds the rest, between G and its transpose.
-
-Row k of the sparse triangular G solves the small system of the kernel on cell k and its earlier neighbours that are in
-contact too, scaled to give (G K G^T)_kk = 1 (Kolotilina & Yeremin, SIAM J. Matrix Anal. Appl. 14, 1993). Which
-neighbours are in contact is a bit pattern, and every pattern is solved once per kernel.
+It sees the near neighbours only; `long_waves` adds the rest, between G and its transpose. `patterns` has G's rows by
+pattern of neighbours. The cells ascend, so those in contact among a line's neighbours follow one another: a row is kept
+as the number of the first of them in each line, and its pattern. Rows whose neighbours lie across a periodic edge, and
+those of stencils other than the usual, are kept with the number of every neighbour (`Seam`). Verified against G by its
+definition in tests/contact/test_sparse_rows.py.
 """
 
 from __future__ import annotations
 
 import math
-import threading
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,103 +18,85 @@ from numba import njit
 from numpy.typing import NDArray
 
 from bem.contact import passes
+from bem.contact.patterns import NEIGHBOURS, PACKED, Patterns, patterns
 
 FloatArray = NDArray[np.float64]
 
 _fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
+_plain: Any = njit(cache=True, nogil=True, error_model="numpy")
+_ordered: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+"""Sums in the order written: rows of the seam and others have the same bits where their entries are the same."""
 
+_HEAD, _TAIL = 2, 4
+"""Cells at the list's ends that are of the seam, so that no packed row reaches beyond it: a row's first neighbour in a
+line before has a number no higher than the cell's own."""
 
-def stencil(squared_radius: int) -> NDArray[np.int64]:
-    """Offsets (i, j) before the cell itself in memory order and within the radius; shape (m, 2)."""
-    reach = int(np.sqrt(squared_radius))
-    return np.array(
-        [
-            (i, j)
-            for i in range(-reach, 1)
-            for j in range(-reach, reach + 1)
-            if i * i + j * j <= squared_radius and (i, j) < (0, 0)
-        ],
-        dtype=np.int64,
-    ).reshape(-1, 2)
-
-
-@dataclass(frozen=True)
-class Patterns:
-    """Rows of G by pattern of neighbours; `solved` says which have been filled in so far."""
-
-    offsets: NDArray[np.int64]
-    near_field: FloatArray
-    table: FloatArray
-    solved: NDArray[np.uint8]
-
-    def solve(self, wanted: NDArray[np.int32]) -> None:
-        """Fill in the rows of these patterns; one thread at a time, for contacts side by side share them."""
-        with _SOLVING:
-            _solve_patterns(wanted, self.offsets, self.near_field, self.table, self.solved)
-
-
-_SOLVING = threading.Lock()
-
-
-@dataclass(frozen=True)
-class SparseInverse:
-    """Rows of G by pattern, and room for the numbers of the cells in contact."""
-
-    shape: tuple[int, int]
-    periodic: tuple[bool, bool]
-    patterns: Patterns
-    position: NDArray[np.int32]
-
-    @property
-    def near(self) -> float:
-        """Response to a uniform unit pressure on a cell with all its neighbours, as G has it."""
-        return float(1 / self.patterns.table[-1].sum() ** 2)
-
-    def on(self, cells: NDArray[Any], previous: NDArray[Any] | None) -> SparseInverseOnCells:
-        """The inverse on some cells (ascending flat indices); `previous` are those of the call before."""
-        if previous is not None:
-            _mark(self.position, previous, False)
-        _mark(self.position, cells, True)
-        columns = np.empty((cells.size, self.patterns.offsets.shape[0]), np.int32)
-        pattern = np.empty(cells.size, np.int32)
-        distant = passes.in_blocks(
-            cells.size,
-            2,
-            _connect,
-            cells,
-            self.position,
-            (*self.shape, *self.periodic),
-            self.patterns.offsets,
-            columns,
-            pattern,
-        )
-        self.patterns.solve(pattern)
-        starts = np.zeros(len(distant) + 1, np.int64)
-        if len(distant) > 1:  # a single block leads nowhere out of itself
-            np.cumsum(distant[:, 0].astype(np.int64), out=starts[1:])
-        outside = int(starts[-1])
-        entries = Outside(distant[:, 1].astype(np.int64), starts, np.empty(outside, np.int32), np.empty(outside))
-        return SparseInverseOnCells(Rows(columns, pattern, self.patterns.table), entries)
+_COUNTS = np.array([bits.bit_count() for bits in range(32)], np.int64)
 
 
 class Rows(NamedTuple):
-    """G's rows: for each cell the numbers of its neighbours, (n, m), and the pattern that says where its values are."""
+    """G's rows, packed: of each cell the number of its first neighbour two lines before and in the line before, (n,),
+    and which row of `table`, as `patterns.ENTRIES` says, has its values; those of the seam's cells are zero there."""
 
+    upper: NDArray[np.int32]
+    lower: NDArray[np.int32]
+    pattern: NDArray[np.int32]
+    table: FloatArray
+
+
+class Seam(NamedTuple):
+    """Rows of G with all their columns: cells (s,), numbers of their neighbours (s, m), a missing one being the cell
+    itself, and which row of `table` (., m + 1) has the values, zero where a neighbour is missing."""
+
+    cells: NDArray[np.int32]
     columns: NDArray[np.int32]
     pattern: NDArray[np.int32]
     table: FloatArray
 
 
 class Outside(NamedTuple):
-    """Entries of G that lead out of their block of cells, numbered by `starts`: whereto, and what is added there.
+    """What blocks add to cells before their own: those of block b begin at number `heads[b]`, are kept in `amounts`
+    from `starts[b]` on, and end where the block begins."""
 
-    `inner` : for each block the first cell from which on no entry leads out.
-    """
-
-    inner: NDArray[np.int64]
+    heads: NDArray[np.int64]
     starts: NDArray[np.int64]
-    targets: NDArray[np.int32]
     amounts: FloatArray
+
+
+@dataclass(frozen=True)
+class SparseInverse:
+    """Rows of G by pattern, on a grid."""
+
+    shape: tuple[int, int]
+    periodic: tuple[bool, bool]
+    patterns: Patterns
+
+    @property
+    def near(self) -> float:
+        """Response to a uniform unit pressure on a cell with all its neighbours, as G has it."""
+        return float(1 / self.patterns.table[-1].sum() ** 2)
+
+    def on(self, cells: NDArray[Any]) -> SparseInverseOnCells:
+        """The inverse on some cells (ascending flat indices)."""
+        n, known = cells.size, self.patterns
+        upper, lower, pattern, listed = np.empty((4, n), np.int32)
+        grid, lines = (*self.shape, *self.periodic), np.empty(self.shape[0] + 1, np.int32)
+        if known.offsets.shape[0] == NEIGHBOURS:
+            rows = (upper, lower, pattern, listed, lines)
+            found = passes.in_blocks(n, 2, _connect, cells, grid, known.solved, rows)
+            unsolved = bool(found[:, 1].any())
+            parts = [listed[b * passes.BLOCK :][: int(count)] for b, count in enumerate(found[:, 0])]
+            listed = parts[0] if len(parts) == 1 else np.concatenate([listed[:0], *parts])
+        else:
+            unsolved = True
+            listed[:] = upper[:] = lower[:] = np.arange(n)
+            lines[:] = np.searchsorted(cells, np.arange(lines.size) * self.shape[1])
+        columns, own = np.empty((listed.size, known.offsets.shape[0]), np.int32), np.empty(listed.size, np.int32)
+        if _look_up((cells, lines), grid, known.offsets, known.solved, listed, columns, own, pattern):
+            unsolved = True
+        known.solve(pattern, unsolved=unsolved)
+        rows_on = Rows(upper, lower, pattern, known.packed)
+        return SparseInverseOnCells(rows_on, Seam(listed, columns, own, known.table), _outside(upper))
 
 
 @dataclass(frozen=True)
@@ -124,6 +104,7 @@ class SparseInverseOnCells:
     """G on a given set of cells."""
 
     rows: Rows
+    seam: Seam
     outside: Outside
 
     def row_sums(self) -> FloatArray:
@@ -135,231 +116,315 @@ class SparseInverseOnCells:
     def spread(self, residual: FloatArray, out: FloatArray) -> None:
         """out = G residual."""
         passes.in_blocks(residual.size, 0, _spread, self.rows, residual, out)
+        _spread_seam(self.seam, residual, out)
 
     def collect(self, values: FloatArray, out: FloatArray) -> float:
         """out = G^T values; returns its sum.
 
-        Each block adds to its own cells at once; what belongs to the cells of other blocks is kept and added at the
-        end, in order.
+        Each block adds to its own cells at once; what belongs to the cells before them is kept and added at the end, in
+        order, and what the seam adds after that.
         """
         partial = passes.in_blocks(values.size, 1, _collect, self.rows, values, out, self.outside, passes.BLOCK)
-        if partial.shape[0] == 1:
-            return float(partial[0, 0])
-        return float(partial[:, 0].sum() + _add(out, self.outside.targets, self.outside.amounts))
+        total = float(partial[:, 0].sum())
+        if partial.shape[0] > 1:
+            total += _add(out, self.outside)
+        return total + float(_collect_seam(self.seam, values, out))
 
 
 def sparse_inverse(
-    shape: tuple[int, int], periodic: tuple[bool, bool], near_field: FloatArray, squared_radius: int = 2
+    shape: tuple[int, int], periodic: tuple[bool, bool], near_field: FloatArray, squared_radius: int = PACKED
 ) -> SparseInverse:
     """Prepare for an operator whose kernel near the origin is `near_field` (offset zero in the middle)."""
     # neighbours that would wrap on to one another on a very short axis are left out
     reach = 2 * math.isqrt(squared_radius)
-    patterns = _patterns(
-        squared_radius, shape[0] <= reach, shape[1] <= reach, near_field.shape[0], near_field.tobytes()
-    )
-    return SparseInverse(shape, periodic, patterns, np.full(shape[0] * shape[1], -1, np.int32))
+    short = shape[0] <= reach, shape[1] <= reach
+    return SparseInverse(shape, periodic, patterns(squared_radius, *short, near_field.shape[0], near_field.tobytes()))
 
 
-@lru_cache(maxsize=64)
-def _patterns(squared_radius: int, short_x: bool, short_y: bool, width: int, near_field: bytes) -> Patterns:
-    """The rows of a kernel that are known so far; kept, so that the next contact under it begins with them."""
-    offsets = stencil(squared_radius)
-    keep = [not ((short_x and i != 0) or (short_y and j != 0)) for i, j in offsets]
-    offsets = np.ascontiguousarray(offsets[np.array(keep, dtype=bool)])
-    count = 1 << offsets.shape[0]
-    kernel = np.frombuffer(near_field).reshape(width, width).copy()
-    found = Patterns(offsets, kernel, np.zeros((count, offsets.shape[0] + 1)), np.zeros(count, np.uint8))
-    found.solve(np.array([count - 1], np.int32))
-    return found
+def _outside(upper: NDArray[np.int32]) -> Outside:
+    """Room for what the blocks of cells with these first neighbours add to cells before their own."""
+    if upper.size <= passes.BLOCK:
+        return _NOTHING_OUTSIDE
+    begins = np.arange(0, upper.size, passes.BLOCK)
+    heads = upper[begins].astype(np.int64)
+    starts = np.zeros(begins.size + 1, np.int64)
+    np.cumsum(begins - heads, out=starts[1:])
+    return Outside(heads, starts, np.empty(int(starts[-1])))
 
 
-@njit(cache=True, nogil=True)
-def _mark(position, cells, numbered):  # type: ignore[no-untyped-def]
-    for k in range(cells.size):
-        position[cells[k]] = k if numbered else -1
+_NOTHING_OUTSIDE = Outside(np.zeros(1, np.int64), np.zeros(2, np.int64), np.empty(0))
 
 
-@njit(cache=True, nogil=True)
-def _connect(start, stop, result, cells, position, grid, offsets, columns, pattern):  # type: ignore[no-untyped-def]
+@_plain
+def _first_from(cells, value):  # type: ignore[no-untyped-def]
+    """The number of the first cell that is no lower."""
+    low, high = 0, cells.size
+    while low < high:
+        middle = (low + high) >> 1
+        if cells[middle] < value:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+@_plain
+def _connect(start, stop, result, cells, grid, solved, rows):  # type: ignore[no-untyped-def]
+    """Patterns and first neighbours of a block of cells, by windows that go along the lines before with them; the cells
+    of the seam are listed, and where lines begin. Result: how many the former are, whether a pattern is unsolved."""
+    _, ny, wrap_x, wrap_y = grid
+    upper, lower, pattern, listed, lines = rows
+    n = cells.size
+    cell = cells[start]
+    ahead = np.uint64(_first_from(cells, cell - ny - 2))  # the cells after both windows
+    further = np.uint64(_first_from(cells, cell - 2 * ny - 1))
+    line = cell // ny * ny
+    for i in range(0 if start == 0 else cells[start - 1] // ny + 1, line // ny + 1):
+        lines[i] = start
+    last = cell - ny
+    near, far, own = 0, 0, 0  # bits from the left: five columns a line before, three two lines before, two in this one
+    edge = 2 * ny if wrap_x else 0
+    left, right = (2, ny - 2) if wrap_y else (0, ny)
+    seam, unsolved = 0, False
+    if start > 0 and cell - cells[start - 1] <= 2:
+        own |= 4 >> (cell - cells[start - 1])
+        if start > 1 and cell - cells[start - 2] == 2:
+            own |= 1
+    for k in range(start, stop):
+        cell = cells[np.uint64(k)]
+        if cell >= line + ny:
+            for i in range(line // ny + 1, cell // ny + 1):
+                lines[i] = k
+            line = cell // ny * ny
+            near, far, own = 0, 0, 0
+        step = min(cell - last, 8)
+        near >>= step
+        far >>= step
+        if k > start:
+            own >>= step
+        ahead, near = _enter(cells, ahead, near, cell - ny - 2, min(cell - ny + 2, line - 1))
+        further, far = _enter(cells, further, far, cell - 2 * ny - 1, min(cell - 2 * ny + 1, line - ny - 1))
+        j = cell - line
+        if j < 2:  # what the windows have of the ends of the lines before
+            near &= 28 if j == 0 else 30
+            far &= 6 if j == 0 else 7
+            own &= 0 if j == 0 else 2
+        lower[k] = ahead - np.uint64(_COUNTS[np.uint64(near)])
+        upper[k] = further - np.uint64(_COUNTS[np.uint64(far)])
+        bits = far | near << 3 | (own & 3) << 8
+        pattern[k] = bits
+        if cell < edge or j < left or j >= right or k < _HEAD or k >= n - _TAIL:
+            listed[start + seam] = k
+            seam += 1
+        elif not solved[np.uint64(bits)]:
+            unsolved = True
+        own |= 4
+        last = cell
+    if stop == n:
+        lines[line // ny + 1 :] = n
+    result[0] = seam
+    result[1] = unsolved
+
+
+@_plain
+def _enter(cells, ahead, window, begin, end):  # type: ignore[no-untyped-def]
+    """Cells from number `ahead` on and up to `end` go into a window whose first column is `begin`."""
+    while cells[ahead] <= end:
+        place = cells[ahead] - begin
+        if place >= 0:
+            window |= 1 << place
+        ahead += np.uint64(1)
+    return ahead, window
+
+
+@_plain
+def _look_up(where, grid, offsets, solved, listed, columns, own, pattern):  # type: ignore[no-untyped-def]
+    """The seam's rows, and where their sums are in the packed table; returns whether a pattern is unsolved."""
+    cells, lines = where
     nx, ny, wrap_x, wrap_y = grid
     m = offsets.shape[0]
-    reach = 0
-    for a in range(m):
-        reach = max(reach, abs(offsets[a, 0]), abs(offsets[a, 1]))
-    shifts = offsets[:, 0] * ny + offsets[:, 1]
-    distant = 0
-    inner = start
-    i = cells[start] // ny
-    for k in range(start, stop):
-        cell = cells[k]
-        while cell >= (i + 1) * ny:
-            i += 1
-        j = cell - i * ny
+    unsolved = False
+    for q in range(listed.size):
+        k = listed[q]
+        i = cells[k] // ny
+        j = cells[k] - i * ny
         bits = 0
-        before = distant
-        # a missing neighbour is the cell itself, with a zero in the table: no branch where it is used
-        if i >= reach and j >= reach and j < ny - reach:
-            for a in range(m):
-                neighbour = position[np.uint64(cell + shifts[a])]
-                present = neighbour >= 0
-                column = neighbour if present else k
-                columns[k, a] = column
-                bits |= present << a
-                distant += (column < start) | (column >= stop)
-        else:
-            for a in range(m):
-                ii = i + offsets[a, 0]
-                jj = j + offsets[a, 1]
-                if ii < 0:
-                    ii = ii + nx if wrap_x else -1
-                if jj < 0:
-                    jj = jj + ny if wrap_y else -1
-                elif jj >= ny:
-                    jj = jj - ny if wrap_y else -1
-                neighbour = position[ii * ny + jj] if ii >= 0 and jj >= 0 else -1
-                present = neighbour >= 0
-                column = neighbour if present else k
-                columns[k, a] = column
-                bits |= present << a
-                distant += (column < start) | (column >= stop)
-        pattern[k] = bits
-        if distant > before:
-            inner = k + 1
-    result[0] = distant
-    result[1] = inner
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def row_of_inverse(factor, active, row, out):  # type: ignore[no-untyped-def]
-    """The last row of (L L^T)^-1 over the root of its last entry, L the factor of n rows, into the places `active` (n,)
-    of `out`; `row` is scratch."""
-    n = active.size
-    row[n - 1] = 1 / factor[n - 1, n - 1] ** 2
-    for a in range(n - 2, -1, -1):
-        s = 0.0
-        for c in range(a + 1, n):
-            s -= factor[c, a] * row[c]
-        row[a] = s / factor[a, a]
-    scale = 1 / np.sqrt(row[n - 1])
-    for a in range(n):
-        out[active[a]] = row[a] * scale
-
-
-@njit(cache=True, nogil=True)
-def _solve_patterns(pattern, offsets, near_field, table, solved):  # type: ignore[no-untyped-def]
-    m = offsets.shape[0]
-    middle = near_field.shape[0] // 2
-    factor = np.empty((m + 1, m + 1))
-    active = np.empty(m + 1, np.int64)
-    row = np.empty(m + 1)
-    for k in range(pattern.size):
-        bits = pattern[k]
-        if solved[bits]:
-            continue
-        solved[bits] = 1
-        n = 0
         for a in range(m):
-            if bits >> a & 1:
-                active[n] = a
-                n += 1
-        active[n] = m
-        n += 1
-        regular = True
-        for a in range(n):
-            for b in range(a + 1):
-                di = (offsets[active[a], 0] if active[a] < m else 0) - (offsets[active[b], 0] if active[b] < m else 0)
-                dj = (offsets[active[a], 1] if active[a] < m else 0) - (offsets[active[b], 1] if active[b] < m else 0)
-                s = near_field[middle + di, middle + dj]
-                for c in range(b):
-                    s -= factor[a, c] * factor[b, c]
-                if a == b:
-                    if s <= 1e-12 * near_field[middle, middle]:
-                        regular = False
-                        s = near_field[middle, middle]
-                    factor[a, a] = np.sqrt(s)
-                else:
-                    factor[a, b] = s / factor[b, b]
-        if not regular:
-            table[bits, m] = 1 / np.sqrt(abs(near_field[middle, middle]))
-            continue
-        row_of_inverse(factor, active[:n], row, table[bits])
+            ii = i + offsets[a, 0]
+            jj = j + offsets[a, 1]
+            if wrap_x and ii < 0:
+                ii += nx
+            if wrap_y:
+                jj += ny if jj < 0 else -ny if jj >= ny else 0
+            found = -1
+            if ii >= 0 and jj >= 0 and jj < ny:
+                found = _in_line(cells, ii * ny + jj, lines[ii], lines[ii + 1], jj < 4, jj >= ny - 4)
+            columns[q, a] = found if found >= 0 else k
+            if found >= 0:
+                bits |= 1 << a
+        own[q] = bits
+        pattern[k] = (1 << m) + bits
+        unsolved |= solved[bits] == 0
+    return unsolved
+
+
+@_plain
+def _in_line(cells, cell, low, high, early, late):  # type: ignore[no-untyped-def]
+    """The number of a cell in a line, whose cells have the numbers from `low` to before `high`; -1 if it is not there.
+    Near the line's ends, where most of the seam looks, it is sought from there."""
+    if early:
+        while low < high and cells[low] < cell:
+            low += 1
+    elif late:
+        while low < high and cells[high - 1] > cell:
+            high -= 1
+        low = max(low, high - 1)
+    else:
+        last = high
+        while low < last:
+            middle = (low + last) >> 1
+            if cells[middle] < cell:
+                low = middle + 1
+            else:
+                last = middle
+    return low if low < high and cells[low] == cell else -1
+
+
+@_plain
+def neighbours(rows, k, out):  # type: ignore[no-untyped-def]
+    """The numbers of a packed row's neighbours by offset, where they are there, into `out` (10,)."""
+    bits = rows.pattern[k]
+    upper, lower, own = rows.upper[k], rows.lower[k], k
+    for a in range(8):
+        if bits >> a & 1:
+            if a < 3:
+                out[a] = upper
+                upper += 1
+            else:
+                out[a] = lower
+                lower += 1
+    for a in range(9, 7, -1):
+        if bits >> a & 1:
+            own -= 1
+            out[a] = own
 
 
 @_fast
 def _row_sums(rows, out):  # type: ignore[no-untyped-def]
-    columns, pattern, table = rows
-    for k in range(pattern.size):
-        s = 0.0
-        for a in range(columns.shape[1] + 1):
-            s += table[np.uint64(pattern[k]), a]
+    for k in range(out.size):
+        out[k] = rows.table[np.uint64(rows.pattern[k]), 11]
+
+
+@_ordered
+def _spread(start, stop, result, rows, residual, out):  # type: ignore[no-untyped-def]
+    upper, lower, pattern, table = rows
+    first, last = max(start, _HEAD), min(stop, residual.size - _TAIL)
+    one, two, three, four = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
+    for k in range(first, last):
+        row, up, low, own = np.uint64(pattern[k]), np.uint64(upper[k]), np.uint64(lower[k]), np.uint64(k)
+        s = table[row, 10] * residual[own]
+        s += table[row, 0] * residual[up]
+        s += table[row, 1] * residual[up + one]
+        s += table[row, 2] * residual[up + two]
+        s += table[row, 3] * residual[low]
+        s += table[row, 4] * residual[low + one]
+        s += table[row, 5] * residual[low + two]
+        s += table[row, 6] * residual[low + three]
+        s += table[row, 7] * residual[low + four]
+        s += table[row, 8] * residual[own - two]
+        s += table[row, 9] * residual[own - one]
         out[k] = s
 
 
-@_fast
-def _spread(start, stop, result, rows, residual, out):  # type: ignore[no-untyped-def]
-    columns, pattern, table = rows
+@_ordered
+def _spread_seam(seam, residual, out):  # type: ignore[no-untyped-def]
+    cells, columns, pattern, table = seam
     m = columns.shape[1]
-    if m == 10:  # the usual stencil, unrolled
-        for k in range(start, stop):
-            bits = np.uint64(pattern[k])
-            s = table[bits, 10] * residual[k]
-            for a in range(10):
-                s += table[bits, a] * residual[np.uint64(columns[k, a])]
-            out[k] = s
-        return
-    for k in range(start, stop):
-        bits = pattern[k]
+    for q in range(cells.size):
+        k, bits = cells[q], pattern[q]
         s = table[bits, m] * residual[k]
         for a in range(m):
-            s += table[bits, a] * residual[columns[k, a]]
+            s += table[bits, a] * residual[columns[q, a]]
         out[k] = s
 
 
 @_fast
 def _collect(start, stop, result, rows, values, out, outside, block):  # type: ignore[no-untyped-def]
-    columns, pattern, table = rows
-    inner, starts, targets, amounts = outside
-    m = columns.shape[1]
-    place = starts[start // block]
-    first = inner[start // block]
-    for k in range(start, stop):
-        out[k] = 0
-    for k in range(start, first):
-        bits = pattern[k]
-        s = values[k]
-        for a in range(m):
-            c = columns[k, a]
-            if c >= start and c < stop:
-                out[c] += table[bits, a] * s
-            else:
-                targets[place] = c
-                amounts[place] = table[bits, a] * s
-                place += 1
-        out[k] += table[bits, m] * s
-    if m == 10:  # the usual stencil, unrolled
-        for k in range(first, stop):
-            bits = np.uint64(pattern[k])
+    upper, lower, pattern, table = rows
+    out[start:stop] = 0.0
+    halo = outside.amounts[outside.starts[start // block] : outside.starts[start // block + 1]]
+    halo[:] = 0.0
+    # within: rows that lead to no cell before the block and, zeros included, to no place beyond it
+    end = min(stop, values.size - _TAIL)
+    first, last = max(start, _HEAD), min(stop - _TAIL, end)
+    while start > 0 and first < last and (upper[first] < start or first < start + 2):
+        first += 1
+    _collect_with_care(start if start > 0 else first, first, start, rows, values, out, halo)
+    if first < last:
+        one, two, three, four = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
+        before, latest = 0.0, 0.0  # what the last two cells have of the rows so far
+        for k in range(first, last):
+            row, up, low, own = np.uint64(pattern[k]), np.uint64(upper[k]), np.uint64(lower[k]), np.uint64(k)
             s = values[k]
-            for a in range(10):
-                out[np.uint64(columns[k, a])] += table[bits, a] * s
-            out[k] += table[bits, 10] * s
-    else:
-        for k in range(first, stop):
-            bits = pattern[k]
-            s = values[k]
-            for a in range(m):
-                out[columns[k, a]] += table[bits, a] * s
-            out[k] += table[bits, m] * s
+            out[low] += table[row, 3] * s
+            out[low + one] += table[row, 4] * s
+            out[low + two] += table[row, 5] * s
+            out[low + three] += table[row, 6] * s
+            out[low + four] += table[row, 7] * s
+            out[up] += table[row, 0] * s
+            out[up + one] += table[row, 1] * s
+            out[up + two] += table[row, 2] * s
+            out[own - two] += before + table[row, 8] * s
+            before = latest + table[row, 9] * s
+            latest = table[row, 10] * s
+        out[last - 2] += before
+        out[last - 1] += latest
+    _collect_with_care(max(first, last), end, start, rows, values, out, halo)
     total = 0.0
     for k in range(start, stop):
         total += out[k]
     result[0] = total
 
 
-@njit(cache=True, nogil=True)
-def _add(out, targets, amounts):  # type: ignore[no-untyped-def]
+@_fast
+def _collect_with_care(first, last, start, rows, values, out, halo):  # type: ignore[no-untyped-def]
+    """Rows of a block from `start` on, place by place; what is for cells before goes to the halo, which ends there."""
+    upper, lower, pattern, table = rows
+    shift = halo.size - start
+    for k in range(first, last):
+        row, s = pattern[k], values[k]
+        for a in range(11):
+            column = upper[k] + a if a < 3 else lower[k] + a - 3 if a < 8 else k + a - 10
+            if table[row, a] == 0:  # no neighbour: the place is another row's
+                continue
+            if column < start:
+                halo[column + shift] += table[row, a] * s
+            else:
+                out[column] += table[row, a] * s
+
+
+@_plain
+def _collect_seam(seam, values, out):  # type: ignore[no-untyped-def]
+    cells, columns, pattern, table = seam
+    m = columns.shape[1]
     total = 0.0
-    for k in range(targets.size):
-        out[targets[k]] += amounts[k]
-        total += amounts[k]
+    for q in range(cells.size):
+        k, bits = cells[q], pattern[q]
+        s = values[k]
+        for a in range(m):
+            out[columns[q, a]] += table[bits, a] * s
+            total += table[bits, a] * s
+        out[k] += table[bits, m] * s
+        total += table[bits, m] * s
+    return total
+
+
+@_plain
+def _add(out, outside):  # type: ignore[no-untyped-def]
+    total = 0.0
+    for b in range(outside.heads.size):
+        for t in range(outside.starts[b + 1] - outside.starts[b]):
+            amount = outside.amounts[outside.starts[b] + t]
+            out[outside.heads[b] + t] += amount
+            total += amount
     return total

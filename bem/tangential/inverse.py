@@ -18,7 +18,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from bem.contact.long_waves import LongWaves, LongWavesOnCells, long_waves
-from bem.contact.preconditioner import Rows, SparseInverse, SparseInverseOnCells, row_of_inverse, sparse_inverse
+from bem.contact.patterns import Patterns, pack, row_of_inverse
+from bem.contact.preconditioner import Rows, Seam, SparseInverse, SparseInverseOnCells, neighbours, sparse_inverse
 from bem.grid import FloatArray
 from bem.tangential.along import AlongOperator
 from bem.tangential.operator import TangentialOperator
@@ -46,10 +47,9 @@ class _Kernel:
 
     def on(self, numbers: NDArray[np.int64], diagonal: FloatArray | None = None) -> _Part:
         """On cells of these flat indices, with a diagonal (n,) added to the kernel [m/Pa]."""
-        near = self.sparse.on(numbers, None)
-        self.sparse.position[numbers] = -1
+        near = self.sparse.on(numbers)
         if diagonal is not None:
-            near = _with_diagonal(near, self.sparse, diagonal / self.unit)
+            near = _with_diagonal(near, self.sparse.patterns, diagonal / self.unit)
         return _Part(near, None if self.waves is None else self.waves.on(numbers, near.row_sums()), self.unit)
 
 
@@ -125,51 +125,66 @@ class InverseOnCells:
         return out
 
 
-def _with_diagonal(on: SparseInverseOnCells, inverse: SparseInverse, diagonal: FloatArray) -> SparseInverseOnCells:
+def _with_diagonal(on: SparseInverseOnCells, patterns: Patterns, diagonal: FloatArray) -> SparseInverseOnCells:
     """The sparse inverse of the kernel with a diagonal (n,) added: rows of their own where it is not zero around."""
-    patterns = inverse.patterns
-    table = _rows_with_diagonal(on.rows, patterns.offsets, patterns.near_field, diagonal)
+    rows, seam = on.rows, on.seam
+    near_field = patterns.near_field
+    table, packed = _rows_with_diagonal(rows, seam, patterns.offsets, near_field, patterns.table, diagonal)
     own = np.arange(diagonal.size, dtype=np.int32)
-    return SparseInverseOnCells(Rows(on.rows.columns, own, table), on.outside)
+    return SparseInverseOnCells(
+        Rows(rows.upper, rows.lower, own, packed), Seam(seam.cells, seam.columns, seam.cells, table), on.outside
+    )
 
 
 @_fast
-def _rows_with_diagonal(rows: Rows, offsets: Any, near_field: FloatArray, diagonal: FloatArray) -> FloatArray:
-    """Rows (n, m + 1) of G, one for each cell; as `bem.contact.preconditioner` makes those of a pattern."""
-    columns, pattern, table = rows
-    n, m = columns.shape
+def _rows_with_diagonal(
+    rows: Rows, seam: Seam, offsets: Any, near_field: FloatArray, table: FloatArray, diagonal: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Rows (n, m + 1) of G, one for each cell, as `bem.contact.patterns` makes those of a pattern; and packed."""
+    n, m = diagonal.size, offsets.shape[0]
     middle = near_field.shape[0] // 2
-    out = np.zeros((n, m + 1))
+    out, packed = np.zeros((n, m + 1)), np.zeros((n, rows.table.shape[1]))
     factor = np.empty((m + 1, m + 1))
     active = np.empty(m + 1, np.int64)
     row = np.empty(m + 1)
+    columns = np.empty(m, np.int64)
+    listed = 0
     for k in range(n):
-        bits = pattern[k]
+        bits = rows.pattern[k] & (table.shape[0] - 1)
+        apart = listed < seam.cells.size and seam.cells[listed] == k
+        if apart:
+            columns[:] = seam.columns[listed]
+            listed += 1
+        else:
+            neighbours(rows, k, columns)
         added = diagonal[k]
         count = 0
         for a in range(m):
             if bits >> a & 1:
                 active[count] = a
                 count += 1
-                added = max(added, diagonal[columns[k, a]])
-        if not added > 0:
-            out[k] = table[bits]
-            continue
+                added = max(added, diagonal[columns[a]])
         active[count] = m
         count += 1
-        for a in range(count):
-            one = active[a]
-            for b in range(a + 1):
-                two = active[b]
-                di = (offsets[one, 0] if one < m else 0) - (offsets[two, 0] if two < m else 0)
-                dj = (offsets[one, 1] if one < m else 0) - (offsets[two, 1] if two < m else 0)
-                s = near_field[middle + di, middle + dj]
-                for c in range(b):
-                    s -= factor[a, c] * factor[b, c]
-                if a == b:
-                    s += diagonal[columns[k, one]] if one < m else diagonal[k]
-                    factor[a, a] = np.sqrt(max(s, 1e-12 * near_field[middle, middle]))
-                else:
-                    factor[a, b] = s / factor[b, b]
-        row_of_inverse(factor, active[:count], row, out[k])
-    return out
+        if added > 0:
+            for a in range(count):
+                one = active[a]
+                for b in range(a + 1):
+                    two = active[b]
+                    di = (offsets[one, 0] if one < m else 0) - (offsets[two, 0] if two < m else 0)
+                    dj = (offsets[one, 1] if one < m else 0) - (offsets[two, 1] if two < m else 0)
+                    s = near_field[middle + di, middle + dj]
+                    for c in range(b):
+                        s -= factor[a, c] * factor[b, c]
+                    if a == b:
+                        s += diagonal[columns[one]] if one < m else diagonal[k]
+                        factor[a, a] = np.sqrt(max(s, 1e-12 * near_field[middle, middle]))
+                    else:
+                        factor[a, b] = s / factor[b, b]
+            row_of_inverse(factor, active[:count], row, out[k])
+        else:
+            out[k] = table[bits]
+        pack(out[k], bits, packed[k])
+        if apart:
+            packed[k, : packed.shape[1] - 1] = 0.0
+    return out, packed

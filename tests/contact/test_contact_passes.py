@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from contact_oracles import FREE, PERIODIC, notes_surface, operator
 
-from bem.contact import face, gradients, inner, judging, long_waves, passes, preconditioner, sets
+from bem.contact import face, gradients, inner, judging, long_waves, passes, sets
 from bem.contact.controls import ApproachControl, LoadControl
 from bem.contact.level import Effort, Iterate, Level, Stride, Tuning
 
@@ -120,7 +120,7 @@ def test_long_waves_are_the_plain_conjugate_gradients(periodic):
     height = notes_surface(n, rolloff=4).ravel()
     cells = np.flatnonzero(height > np.quantile(height, 0.8))
     level.preconditioner(cells)
-    near = level.sparse.on(cells, cells)
+    near = level.sparse.on(cells)
     far = level.smooth.on(cells, near.row_sums())
     values = np.random.default_rng(3).standard_normal(cells.size)
     before = op.count.applications
@@ -146,25 +146,6 @@ def test_long_waves_are_the_plain_conjugate_gradients(periodic):
     assert applications == made
     # the transforms are in single precision
     assert np.abs(result - plain).max() <= 1e-5 * np.abs(plain).max()
-
-
-def test_entries_that_leave_a_block_are_told_from_the_rest(monkeypatch):
-    n = 64
-    op = operator((n, n), (1 / n, 1 / n), PERIODIC)
-    cells = np.sort(np.random.default_rng(4).permutation(n * n)[:2500])
-    results = []
-    for block in (1 << 15, 300):
-        monkeypatch.setattr(passes, "BLOCK", block)
-        near = preconditioner.sparse_inverse((n, n), PERIODIC, op.near_field(4), 5).on(cells, None)
-        out = np.empty(cells.size)
-        total = near.collect(np.sin(np.arange(cells.size)), out)
-        results.append((out, total))
-        if block == 300:
-            # a block's entries look back two rows at most: far fewer than its cells leave it
-            assert 0 < near.outside.targets.size < near.rows.columns.size / 2
-            assert (near.outside.inner < np.minimum(300 * np.arange(1, 10), cells.size)).any()
-    assert np.allclose(results[0][0], results[1][0], rtol=0, atol=1e-13)
-    assert results[0][1] == pytest.approx(results[1][1], abs=1e-11)
 
 
 def test_values_are_carried_from_cells_to_cells():
@@ -210,7 +191,7 @@ def test_conjugate_gradients_in_one_call_are_those_pass_by_pass(n, control, alon
     results = []
     for block in (passes.BLOCK, 100):
         monkeypatch.setattr(passes, "BLOCK", block)
-        level.rise = level.sparse_cells = level.sparse = None
+        level.rise = level.sparse = None
         level.stride = Stride()
         before, effort = op.count.weighted, Effort(50)
         opening = 0.01 * np.sin(np.arange(cells.size))
