@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from bem.contact import passes, sets
 from bem.contact.controls import Control, LoadControl, MeanGapControl
+from bem.contact.imposing import impose
 from bem.contact.level import Begin, Iterate, Level
 
 FloatArray = NDArray[np.float64]
@@ -53,14 +54,17 @@ def first_pressure(level: Level, control: Control, start: Begin) -> Iterate:
 def clip(level: Level, control: Control, iterate: Iterate, raw: FloatArray) -> Iterate:
     """Back into the bounds, with the load restored; `raw` is overwritten.
 
-    What the bounds give to a region, or take from it, its other cells make up for: of load moved across the surface the
-    elastic bodies make waves far longer, and higher, than the cells at the bounds are.
+    The neighbours of a cell that pulls make up for what is taken off it (`imposing`). What a cap takes off, the other
+    cells of the region do: of load moved across the surface the elastic bodies make waves far longer, and higher, than
+    the cells at the bounds are. So they do where displacements have no mean, and no load is given: nothing would answer
+    to the load that is lost.
     """
-    shape = level.operator.grid.shape
-    if isinstance(control, LoadControl) and math.isinf(level.cap):
-        cells, values = sets.within(iterate.cells, raw, level.cap, shape, _REGION, control.force)
-        return Iterate(cells, values, iterate.capped)
-    sets.settle(iterate.cells, raw, level.cap, shape, _REGION)
+    near = level.near_on(iterate.cells)
+    keeps = math.isfinite(level.cap) or (level.operator.mean_free and not isinstance(control, LoadControl))
+    if near is None or keeps:
+        sets.settle(iterate.cells, raw, level.cap, level.operator.grid.shape, _REGION)
+    else:
+        impose(near, raw)
     if isinstance(control, LoadControl):
         return restore_load(level, control, iterate, raw)
     below = raw <= 0

@@ -16,7 +16,7 @@ from bem.contact import passes
 from bem.contact.inverse import Inverse
 from bem.contact.judging import NOTHING, Survey, find_violations, mark, separations, survey
 from bem.contact.long_waves import LongWaves, long_waves
-from bem.contact.preconditioner import SparseInverse, sparse_inverse
+from bem.contact.preconditioner import SparseInverse, SparseInverseOnCells, sparse_inverse
 from bem.convolution import DisplacementOperator
 
 FloatArray = NDArray[np.float64]
@@ -97,7 +97,7 @@ class Tuning:
 
     reduction: float = 1e-4
     least_reduction: float = 0.3
-    clipping: float = 0.5
+    clipping: float = 0.3
     iterations_per_round: int = 80
     final: float = 0.8
     squared_radius: int = 5
@@ -163,6 +163,7 @@ class Level:
         self.stride = Stride()
         self.rise: tuple[Indices, FloatArray] | None = None
         self.sparse: SparseInverse | None = None
+        self.near: tuple[Indices, SparseInverseOnCells] | None = None
         self.smooth: LongWaves | None = None
 
     @property
@@ -228,9 +229,15 @@ class Level:
                 self.tuning.squared_radius,
             )
             self.smooth = long_waves(self.operator, self.sparse.near)
+        self.near = None  # the old rows go before the new ones come
         near = self.sparse.on(cells)
+        self.near = cells, near
         far = None if self.smooth is None else self.smooth.on(cells, near.row_sums())
         return Inverse(near, far, np.empty(cells.size))
+
+    def near_on(self, cells: Indices) -> SparseInverseOnCells | None:
+        """The preconditioner's near part; None where the last one was for other cells."""
+        return self.near[1] if self.near is not None and self.near[0] is cells else None
 
     def begin_round(self, iterate: Iterate, *, keep: bool) -> None:
         """Displace, with the last displacement kept as the one before if so asked."""

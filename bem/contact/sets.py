@@ -84,18 +84,6 @@ def mix(start, stop, result, displacement, earlier, share):  # type: ignore[no-u
         displacement[k] = displacement[k] * share + earlier[k] * rest
 
 
-@_strict
-def within(cells, raw, cap, shape, side, force):  # type: ignore[no-untyped-def]
-    """Pressures (overwritten) without an upper bound, clipped at zero by regions (`settle`), with a given sum: cells
-    and values."""
-    settle(cells, raw, cap, shape, side)
-    kept, values, total = positive(cells, raw)
-    factor = force / total
-    for k in range(values.size):
-        values[k] *= factor
-    return kept, values
-
-
 @_fast
 def positive(cells, values):  # type: ignore[no-untyped-def]
     """The cells with values above zero, these, and their sum; what is given where that is all of them."""

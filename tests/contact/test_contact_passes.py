@@ -216,13 +216,3 @@ def test_two_pressures_are_blended():
     assert (plain == cap).any()
     assert np.array_equal(cells, np.flatnonzero(plain))
     assert np.array_equal(values, plain[cells])
-
-
-def test_pressures_without_an_upper_bound_are_brought_to_their_load():
-    cells = np.sort(np.random.default_rng(9).choice(700, 400, replace=False))
-    raw = np.random.default_rng(10).uniform(-0.3, 1, cells.size)
-    settled = raw.copy()
-    sets.settle(cells, settled, np.inf, (20, 35), 8)
-    kept, values = sets.within(cells, raw, np.inf, (20, 35), 8, 3.0)
-    assert np.array_equal(kept, cells[settled > 0])
-    np.testing.assert_allclose(values, settled[settled > 0] * (3 / settled[settled > 0].sum()), rtol=1e-14)

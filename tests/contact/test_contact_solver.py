@@ -315,7 +315,7 @@ def test_semi_periodic_contact_of_a_wide_slice_is_the_free_one_far_from_the_ends
     assert np.abs(a.pressure - b.pressure).max() <= 0.02 * a.pressure.max()
 
 
-@pytest.mark.parametrize(("cells", "convolutions", "most"), [(128, 11.69, 3500), (256, 11.41, 4380)])
+@pytest.mark.parametrize(("cells", "convolutions", "most"), [(128, 10.80, 3500), (256, 10.80, 4380)])
 def test_convolutions_and_python_calls_of_the_surfaces_they_are_quoted_for(cells, convolutions, most):
     """Small grids are what wear cycles and load sharing run on: there the calls between convolutions are the cost. The
     mean of eight surfaces was 11.81 and 11.59 when each grid began with what interpolation made of its load."""
@@ -340,16 +340,17 @@ def test_a_first_step_without_a_convolution_saves_them_and_leaves_the_answer(mon
 
 
 def test_regions_that_keep_their_load_save_convolutions_and_leave_the_answer(monkeypatch):
-    """Load that clipping moves across the surface makes long waves: contacts of 40 % took 30 convolutions."""
-    gap = -notes_surface(512)
-    op = operator((512, 512), (1 / 512, 1 / 512), FREE)
-    kept = solve_contact(gap, op, load=0.022)
-    monkeypatch.setattr(feasible, "_REGION", 512)  # one region: the load of all is restored anyway
-    monkeypatch.setattr(cascade, "_REGION", 512)
+    """Load that a cap moves across the surface makes long waves: a round or two of each contact go into these."""
+    gap = -notes_surface(256)
+    op = operator((256, 256), (1 / 256, 1 / 256), FREE)
+    assert solve_contact(gap, op, load=0.022).convolutions <= 16  # 14.1, without a cap neighbours make up for it
+    kept = solve_contact(gap, op, load=0.022, hardness=0.05)
+    monkeypatch.setattr(feasible, "_REGION", 256)  # one region: the load of all is restored anyway
+    monkeypatch.setattr(cascade, "_REGION", 256)
     cascade._regions.cache_clear()
-    moved = solve_contact(gap, op, load=0.022)
+    moved = solve_contact(gap, op, load=0.022, hardness=0.05)
     cascade._regions.cache_clear()
-    assert kept.convolutions <= 17.5  # the most over five seeds is 14.6
+    assert kept.convolutions <= 18  # 15.6 and 28.6 counted
     assert kept.convolutions < 0.7 * moved.convolutions
     assert np.abs(kept.pressure - moved.pressure).max() <= 1e-5 * moved.pressure.max()  # both certified to 1e-8
 
