@@ -101,6 +101,23 @@ def load_what_draws() -> None:
         importlib.import_module(name)
 
 
+def draw_for_nobody() -> None:
+    """A small figure, drawn and thrown away: fonts are there for those that follow, half of what the first one takes
+    beside the others."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    from bem.plots.pictures import DOTS, settle
+    from bem.plots.style import style
+
+    with style():
+        figure = Figure(figsize=(2.0, 2.0), dpi=DOTS, layout="constrained")
+        canvas = FigureCanvasAgg(figure)
+        figure.subplots().imshow([[0.0, 1.0]])
+        settle(figure)
+        canvas.draw()
+
+
 def draw(
     run: Any,
     kind: FigureKind,

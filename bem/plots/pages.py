@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from bem.errors import ResultsError
-from bem.plots.draw import draw_all, load_what_draws
+from bem.plots.draw import draw_all, draw_for_nobody, load_what_draws
 from bem.plots.figures import all_figures
 from bem.plots.report import write_report
 from bem.plots.side_by_side import INTERRUPTS, answer_of, at_once, copied, ended, taken
@@ -171,6 +171,7 @@ def _wait(orders: int) -> _Answer | None:
         load_what_draws()
         all_figures()
         _load_what_writes()
+        draw_for_nobody()
         order: _Order = pickle.load(stream)
         pages = order.pages
         try:

@@ -129,3 +129,30 @@ def test_a_plan_says_that_loops_are_not_compiled_yet(tmp_path):
     warm.mkdir(parents=True)
     (warm / f"loops.convolve-1.py{sys.version_info[0]}{sys.version_info[1]}.nbi").write_text("")
     assert "not compiled yet" not in plan(NUMBA_CACHE_DIR=str(tmp_path / "warm"))
+
+
+LOADED = """
+import importlib, sys
+from bem.runs import run_scene
+from bem.warm_up import SCENES
+name, module, *loops = sys.argv[1:]
+run_scene(name, "run", settings=dict(SCENES)[name], figures=False)
+print([loop for loop in loops if not getattr(importlib.import_module(module), loop).signatures])
+"""
+
+
+@pytest.mark.parametrize(
+    ("scene", "module", "loops"),
+    [
+        ("film-rough-ball", "bem.lubrication.point.supply_loops", ("contents", "nothing_dragged", "carried")),
+        ("film-rough-ball", "bem.lubrication.point.touching", ("_oil_rows",)),
+        ("hot-film", "bem.lubrication.thermal.made", ("_gather", "_gather_expansion")),
+        ("fretting-wear", "bem.tangential.operator", ("_combine",)),
+    ],
+)
+def test_loops_that_first_runs_had_to_compile_are_passed_through(tmp_path, scene, module, loops):
+    done = subprocess.run(
+        [sys.executable, "-c", LOADED, scene, module, *loops],
+        cwd=tmp_path, capture_output=True, text=True, timeout=600, check=True,
+    )  # fmt: skip
+    assert done.stdout.splitlines()[-1] == "[]"

@@ -181,3 +181,19 @@ def test_powers_of_ten_are_plain_text(value, text):
     formatter.set_axis(axes.yaxis)
     formatter.set_locs([value])
     assert formatter(value).replace("-", "−") == text
+
+
+def test_what_is_drawn_for_nobody_leaves_the_fonts_of_all_figures(tmp_path):
+    code = """
+from matplotlib import font_manager
+from bem.plots.draw import draw_all, draw_for_nobody
+draw_for_nobody()
+read = []
+usual = font_manager._get_font
+font_manager._get_font = lambda *given, **more: read.append(usual.cache_info().misses) or usual(*given, **more)
+before = usual.cache_info().misses
+done = run(sys.argv[1] + "/run", workers=1)
+assert before > 0 and read
+assert usual.cache_info().misses == before, (before, usual.cache_info())
+"""
+    told(code, tmp_path)
