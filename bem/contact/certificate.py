@@ -51,8 +51,8 @@ def certify(
         operator.scaled().apply(pressure, displacement)
     approach = _approach(request, units, result)
     deformed = np.empty(grid.shape)
-    depth = np.empty(grid.shape)
-    largest, reach, force, _, _, volume = passes.assemble(
+    depth = np.zeros(grid.shape)
+    largest, reach, force, _, capped, volume = passes.assemble(
         (pressure.reshape(-1), displacement.reshape(-1), request.gap.reshape(-1)),
         (units.pressure, units.length),
         approach,
@@ -68,7 +68,7 @@ def certify(
         largest = max(largest, abs(approach - request.approach))
     elif request.load is not None:
         missed = _relative(abs(load - request.load), request.load)
-    contact, plastic, doubt = _regions(request, pressure, deformed, load)
+    contact, plastic, doubt = _regions(request, pressure, deformed, load, capped=capped > 0)
     reach = max(reach, elastic_length(request))
     residual = max(_relative(largest, reach if is_flat(roughness, reach) else roughness), missed)
     return ContactSolution(
@@ -106,9 +106,11 @@ _SHORT, _MANY = 0.98, 1.1
 
 
 def _regions(
-    request: Request, pressure: FloatArray, deformed: FloatArray, load: float
+    request: Request, pressure: FloatArray, deformed: FloatArray, load: float, *, capped: bool
 ) -> tuple[Region, Region, tuple[str, ...]]:
-    """What touches, what of that is at the cap, and a sentence where the cells do not tell the area."""
+    """What touches, what of that is at the cap, and a sentence where the cells do not tell the area.
+
+    capped : whether a cell is at the cap."""
     operator, grid, cap = request.operator, request.operator.grid, request.cap
     modulus = operator.modulus_at(0.5 * math.pi / math.sqrt(grid.cell_area))
     contact = contact_region(pressure, deformed, request.gap, grid, modulus)
@@ -121,7 +123,7 @@ def _regions(
             "grid",
         )
     contact = contact.of_area(max(contact.area, least))
-    if not (pressure >= cap).any():
+    if not capped:
         return contact, Region(0.0, 0.0, 0.0, 0.0), doubt
     plastic = plastic_region(pressure, deformed, request.gap, cap, grid, modulus)
     # the rest carries what the load has beyond it

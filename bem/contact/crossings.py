@@ -94,9 +94,10 @@ def _find_links(inside, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
     (a gap that reaches a free edge has no end); of the squares those of their lowest cells, with a bit for each centre
     inside, counter-clockwise from the lowest; and where each row begins among the three."""
     nx, ny = inside.shape
-    down, down_runs = np.empty(ny, np.int32), np.empty((ny, 2))
-    across, across_runs = np.empty(ny, np.int32), np.empty((ny, 2))
-    squares, codes = np.empty(ny, np.int32), np.empty(ny, np.uint8)
+    room = 8 * (nx + ny)
+    down, down_runs = np.empty(room, np.int32), np.empty((room, 2))
+    across, across_runs = np.empty(room, np.int32), np.empty((room, 2))
+    squares, codes = np.empty(room, np.int32), np.empty(room, np.uint8)
     starts = np.zeros((nx + 1, 3), np.int64)
     first, last = np.full((2, ny), -1), np.full((2, ny), -1)  # of the links down each column: which, and its row
     row = np.zeros(8 * ((ny + 7) // 8), np.uint8)

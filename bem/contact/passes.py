@@ -134,9 +134,9 @@ def assemble(
     """Turn scaled results into SI units in place, and judge them from the pressure's own values.
 
     fields : (pressure, displacement, gap), the first two scaled by `units` of pressure and length. results : (deformed
-    gap, plastic depth), written. Returns the largest violation of the contact conditions (infinite for a pressure
-    beyond its bounds), the largest displacement, the sum of pressures, the numbers of cells in contact and at the cap,
-    and the sum of positive gaps.
+    gap, plastic depth), written; the latter zero before. Returns the largest violation of the contact conditions
+    (infinite for a pressure beyond its bounds), the largest displacement, the sum of pressures, the numbers of cells in
+    contact and at the cap, and the sum of positive gaps.
     """
     partial = in_blocks(fields[0].size, 6, _assemble, fields, units, approach, cap, results)
     largest, reach = partial[:, 0].max(), partial[:, 1].max()
@@ -144,48 +144,85 @@ def assemble(
     return float(largest), float(reach), float(force), int(contact), int(capped), float(volume)
 
 
+_STRETCH = 128
+"""Cells that are judged at a time: without branches, so in vectors, and what is made of them is still in the cache."""
+
+_MAGNITUDE = np.iinfo(np.int64).max
+_INFINITE = int(np.float64(np.inf).view(np.int64))
+"""Numbers that are not negative are in the order of their bits, and what is no number comes after infinity: the largest
+is found in vectors, which the order of numbers, with those that are none, forbids."""
+
+
 @_strict
 def _assemble(start, stop, result, fields, units, approach, cap, results):  # type: ignore[no-untyped-def]
-    pressure, displacement, gap = fields
-    to_pressure, length = units
-    deformed, depth = results
-    largest = 0.0
-    reach = 0.0
-    force = 0.0
-    contact = 0
-    capped = 0
-    volume = 0.0
-    for c in range(start, stop):
-        p = pressure[c] * to_pressure
-        outside = not (p >= 0 and p <= cap * (1 + 1e-14))  # round-off of the units
-        p = min(p, cap)
-        u = displacement[c] * length
-        pressure[c] = p
-        displacement[c] = u
-        reach = max(reach, abs(u))
-        opening = gap[c] + u - approach
-        depth[c] = 0.0
-        if p <= 0:
-            violation = -opening
-            opening = max(opening, 0.0)
-            volume += opening
-        else:
-            contact += 1
-            force += p
-            if p >= cap:
-                violation = opening
-                capped += 1
-                depth[c] = max(-opening, 0.0)
-            else:
-                violation = abs(opening)
-        if outside:
-            violation = np.inf
-        deformed[c] = opening
-        if not violation <= largest:
-            largest = violation
-    result[0] = largest
-    result[1] = reach
+    force, volume, contact, capped = 0.0, 0.0, 0, 0
+    bits = np.zeros(2, np.int64)
+    violations, openings = np.empty(_STRETCH), np.empty(_STRETCH)
+    for first in range(start, stop, _STRETCH):
+        last = min(first + _STRETCH, stop)
+        pressure, displacement, gap = fields[0][first:last], fields[1][first:last], fields[2][first:last]
+        deformed = results[0][first:last]
+        given = pressure, displacement, gap
+        touching = _judge(given, units, approach, cap, deformed, violations, openings)
+        _raise_largest(bits, violations[: gap.size].view(np.int64), displacement.view(np.int64))
+        volume += _sum(openings[: gap.size])
+        if touching == 0:
+            continue
+        contact += touching
+        for k in range(gap.size):
+            p = pressure[k]
+            if not p <= 0:
+                force += p
+                if p >= cap:
+                    capped += 1
+                    results[1][first + k] = max(-deformed[k], 0.0)
+    largest = bits.view(np.float64)
+    result[0] = largest[0] if bits[1] <= _INFINITE else np.nan
+    result[1] = largest[1]
     result[2] = force
     result[3] = contact
     result[4] = capped
     result[5] = volume
+
+
+@_strict
+def _judge(given, units, approach, cap, deformed, violations, openings):  # type: ignore[no-untyped-def]
+    """Into SI units; violation, deformed gap and, where no pressure is, its positive part. How many have pressure."""
+    pressure, displacement, gap = given
+    to_pressure, length = units
+    most = cap * (1 + 1e-14)  # round-off of the units
+    touching = 0
+    for k in range(gap.size):
+        p = pressure[k] * to_pressure
+        inside = (p >= 0) & (p <= most)
+        p = min(p, cap)
+        u = displacement[k] * length
+        pressure[k] = p
+        displacement[k] = u
+        opening = gap[k] + u - approach
+        apart = max(opening, 0.0)
+        free = p <= 0
+        deformed[k] = apart if free else opening
+        openings[k] = apart if free else 0.0
+        violation = -opening if free else opening if p >= cap else abs(opening)
+        violations[k] = violation if inside else np.inf
+        touching += not free
+    return touching
+
+
+@_strict
+def _raise_largest(bits, violations, displacement):  # type: ignore[no-untyped-def]
+    """Bits of the largest violation above zero, and of the largest displacement either way."""
+    largest, reach = bits[0], bits[1]
+    for k in range(displacement.size):
+        largest = max(largest, violations[k])
+        reach = max(reach, displacement[k] & _MAGNITUDE)
+    bits[0], bits[1] = largest, reach
+
+
+@_fast
+def _sum(values):  # type: ignore[no-untyped-def]
+    total = 0.0
+    for k in range(values.size):
+        total += values[k]
+    return total

@@ -87,6 +87,42 @@ def test_stride_and_positive(fields):
     assert total == pytest.approx(raw.sum(), rel=1e-13)
 
 
+@pytest.mark.parametrize("cap", [np.inf, 1.4])
+@pytest.mark.parametrize("wrong", [None, -1e-3, 2.0, np.nan])
+def test_what_is_returned_is_judged_cell_by_cell(fields, cap, wrong):
+    displacement, gap, cells, values = fields
+    scaled = np.zeros(SIZE)
+    scaled[cells] = np.minimum(values, 0.7)  # half the cap
+    if wrong is not None:
+        scaled[cells[3]] = wrong
+    pressure, moved = scaled.copy(), displacement.copy()
+    deformed, depth = np.empty(SIZE), np.zeros(SIZE)
+    found = passes.assemble((pressure, moved, gap), (2.0, 0.25), 0.1, cap, (deformed, depth))
+    p, u = np.minimum(2.0 * scaled, cap), 0.25 * displacement
+    opening = gap + u - 0.1
+    free, capped = p <= 0, p >= cap
+    violation = np.where(free, -opening, np.where(capped, opening, np.abs(opening)))
+    assert found[0] == (np.inf if wrong is not None and not 0 <= wrong <= cap / 2 else violation.max())
+    assert found[1] == np.abs(u).max()
+    assert found[2] == pytest.approx(p[~free].sum(), rel=1e-14, nan_ok=True)
+    assert found[3:5] == (np.count_nonzero(~free), np.count_nonzero(capped))
+    assert found[5] == pytest.approx(opening[free & (opening > 0)].sum(), rel=1e-13)
+    assert np.array_equal(pressure, p, equal_nan=True)
+    assert np.array_equal(moved, u)
+    assert np.array_equal(deformed, np.where(free, np.maximum(opening, 0.0), opening))
+    assert np.array_equal(depth, np.where(capped, np.maximum(-opening, 0.0), 0.0))
+
+
+@pytest.mark.parametrize("value", [np.nan, -np.nan, np.inf, -np.inf])
+def test_no_displacement_that_is_no_number_passes(value):
+    for size in (5, 300):
+        displacement = np.full(size, 0.5)
+        displacement[size - 2] = value
+        fields = np.zeros(size), displacement, np.ones(size)
+        largest, reach, *_ = passes.assemble(fields, (1.0, 1.0), 0.0, np.inf, (np.empty(size), np.zeros(size)))
+        assert not largest / reach <= 1e-8 if value != np.inf else reach == np.inf
+
+
 def test_regions_keep_their_load_where_pressures_are_clipped():
     cap, side, shape = 0.7, 8, (21, 35)  # regions at the ends are cut off
     rng = np.random.default_rng(5)
