@@ -298,10 +298,14 @@ def _keep_loads(pressure, fine, width, rows, columns, cap):  # type: ignore[no-u
         a, b, s = rows.first[i], rows.second[i], rows.share[i]
         c, d, t = columns.first[j], columns.second[j], columns.share[j]
         p = values[n] * cell
-        missing[a, c] -= (1 - s) * (1 - t) * p
-        missing[a, d] -= (1 - s) * t * p
-        missing[b, c] -= s * (1 - t) * p
-        missing[b, d] -= s * t * p
+        if a == b and c == d:  # nearly always: one number is not stored and fetched four times
+            left = missing[a, c] - (1 - s) * (1 - t) * p
+            missing[a, c] = left - (1 - s) * t * p - s * (1 - t) * p - s * t * p
+        else:
+            missing[a, c] -= (1 - s) * (1 - t) * p
+            missing[a, d] -= (1 - s) * t * p
+            missing[b, c] -= s * (1 - t) * p
+            missing[b, d] -= s * t * p
         inside[a, c] += p if values[n] < cap else -np.inf
     for i in range(rows.number):
         for j in range(columns.number):
