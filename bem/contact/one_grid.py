@@ -144,7 +144,8 @@ def solve_on_grid(problem: Problem, control: Control, start: Start, tolerance: f
 
 def _with_mean_gap(problem: Problem, mean_gap: float, start: Start, tolerance: float) -> LevelResult:
     """The mean gap, else by way of the approach; below a hardness also of the load, and first where most cells that
-    touch are at it; without one by looking for the least there is."""
+    touch are at it, at last of approaches up to that at which all are; without one by looking for the least there is.
+    """
     gap, cap, scale = problem.gap, problem.cap, problem.shared.scale
     # displacements are not negative on average, so this approach is not enough
     least = float(gap.mean()) - mean_gap
@@ -162,9 +163,20 @@ def _with_mean_gap(problem: Problem, mean_gap: float, start: Start, tolerance: f
     def by_load(before: LevelResult) -> LevelResult:
         return mean_gap_by_load(mean_gap, gap, cap, before.pressure, scale, tolerance, problem.direct)
 
+    def below_plastic(before: LevelResult) -> LevelResult:
+        # from where all cells are at the cap none is open: an approach below gives the mean gap, and one is enough
+        shape = problem.operator.grid.shape
+        sunk = problem.operator.scaled().apply(np.full(shape, cap), np.empty(shape)).reshape(-1)
+        bracket = least, float((gap + sunk).max())
+        guess = before.approach if bracket[0] < before.approach < bracket[1] else None
+        return mean_gap_by_approach(
+            mean_gap, gap, before.pressure, scale, tolerance, problem.direct, bracket=bracket, guess=guess
+        )
+
     ways: list[Callable[[LevelResult], LevelResult]] = [by_approach]
     if math.isfinite(cap):
         ways.insert(int(not _mostly_capped(result, cap)), by_load)
+        ways.append(below_plastic)
     for way in ways:
         result = way(result)
         missed = not result.converged or abs(mean_opening(gap, result) - mean_gap) > tolerance

@@ -79,3 +79,24 @@ def test_every_mean_gap_exists_below_a_hardness(hardness):
     opening = gap + (columns(operator) @ solution.pressure.ravel()).reshape(gap.shape) - solution.approach
     assert np.maximum(opening, 0)[solution.pressure == 0].sum() / gap.size == pytest.approx(wanted, rel=1e-4)
     assert 0 <= solution.pressure.min() <= solution.pressure.max() <= hardness * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("case", [25, 53, 59])
+def test_mean_gaps_below_a_hardness_are_found_between_approaches(case):
+    """Of sixty drawn like these, three stalled by way of the approach and of the load: the mean gap rises with either
+    before it falls. Up to the approach at which all cells are at the cap there is one."""
+    rng = np.random.default_rng(5000 + case)
+    operator = stiff_layer(FREE if case % 2 == 0 else (False, True), 0.0, ratio=10 ** rng.uniform(1, 2.3))
+    gap = 2.5e-3 * rough(15, 8, seed=int(rng.integers(1000)))
+    gap -= gap.min()
+    hardness, wanted = 10 ** rng.uniform(-2, 2.5), gap.mean() * 10 ** rng.uniform(-3, -0.1)
+    solution = solve_contact(gap, operator, mean_gap=wanted, hardness=hardness, tolerance=1e-6)
+    assert solution.status == Status.CONVERGED
+    pressure = solution.pressure
+    opening = gap + (columns(operator) @ pressure.ravel()).reshape(gap.shape) - solution.approach
+    allowed = 1e-6 * gap.std()
+    assert np.maximum(opening, 0)[pressure == 0].sum() / gap.size == pytest.approx(wanted, abs=allowed)
+    inside = (pressure > 0) & (pressure < hardness)
+    assert np.abs(opening[inside]).max(initial=0) <= allowed
+    assert opening[pressure == 0].min(initial=0) >= -allowed
+    assert opening[pressure >= hardness].max(initial=-1) <= allowed
