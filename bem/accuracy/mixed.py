@@ -257,7 +257,7 @@ def _shares(case: MixedCase, points: int, heat_mesh: float = 1.0) -> Shares:
     )
     film = films_of(setup, solution.speeds, at=(x, y), initial=solution.film)
     rough = rough_contact(setup, height, solution.speeds)
-    whole = film.under(min(setup.load, film.largest_load), len(film.errors) - 1, None)
+    whole = film.under(min(setup.load, film.largest_load), len(film.errors) - 1, solution.continuation.whole)
     pressure = None
     if solution.contact is not None:
         pressure = np.clip(sample(solution.contact_pressure, grid.shape, grid.periodic), 0.0, setup.hardness)

@@ -19,6 +19,7 @@ from bem.errors import Status
 from bem.friction.film import BALANCE_CELLS, PatchFilm, smooth_gap
 from bem.friction.smooth import PointContact
 from bem.grid import FloatArray
+from bem.kept import KeptValues
 from bem.lubrication import Lubricant, PointFilmSolution, solve_point_film
 from bem.lubrication.point.scales import nijenbanning_film, point_scales
 from bem.lubrication.point.solve import MOES_LOADS
@@ -246,9 +247,34 @@ def _fitted_film(contact: PointContact, speeds: Sequence[float], load: float) ->
     return scales.film * nijenbanning_film(scales.load, oil.pressure_viscosity * scales.pressure, scales.ratio)
 
 
+@dataclass(frozen=True, eq=False)
+class _Kept:
+    """A film, and its size."""
+
+    film: PointFilmSolution
+
+    @property
+    def nbytes(self) -> int:
+        return sum(value.nbytes for value in vars(self.film).values() if isinstance(value, np.ndarray))
+
+
+KEPT = KeptValues(1 << 26)
+"""Films of this process: a film begins from the dry contact whatever was before it, so one asked for again is the same.
+Under loads beyond the largest all trials of a balance go on from one film; error bars ask for it, too."""
+
+
 def solved_point_film(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:
     """The film under a load [N] up to the largest, without the solver's state; of rigid bodies where the load is so
-    small that the elastic film is outside its range. What its error is a balance finds by itself."""
+    small that the elastic film is outside its range. What its error is a balance finds by itself. Solved once."""
+    key = (solve_point_film, contact, tuple(map(float, speeds)), float(load), cells)
+    try:
+        hash(key)
+    except TypeError:  # laws, or factors of walls, that are no keys
+        return _solved(contact, speeds, load, cells)
+    return KEPT.of(key, lambda: _Kept(_solved(contact, speeds, load, cells))).film
+
+
+def _solved(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:
     modulus = contact.film_modulus(load)
     scales = point_scales(load, contact.radii, modulus, abs(sum(speeds)), contact.lubricant.viscosity)
     film = solve_point_film(

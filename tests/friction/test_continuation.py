@@ -4,9 +4,10 @@ import dataclasses
 
 import numpy as np
 import pytest
-from mixed_case import mixed_case, steel_line
+from mixed_case import BALL, mixed_case, rough_patch, steel_line
 
 from bem import Body, Grid, Lubricant, Material, Status, generate_surface, solve_line_film, solve_mixed, stribeck_curve
+from bem.friction import point_film
 from bem.friction.balance import BalanceStart, Regime
 from bem.lubrication import line_kernel, line_linear
 from bem.lubrication.line_starts import on_mesh_of, without_equations
@@ -123,3 +124,24 @@ def test_a_film_on_the_mesh_of_another_is_itself():
     own = solve_line_film(**FILM, speeds=(0.05, 0.0), points=1500)
     assert found.minimum_thickness == pytest.approx(own.minimum_thickness, rel=2e-4)
     assert on_mesh_of(coarse, dataclasses.replace(other, state=None)) is coarse
+
+
+def test_a_ball_under_more_than_films_are_solved_for_solves_one(monkeypatch):
+    """All trials of its balance go on from one film: five were solved for two."""
+    point_film.KEPT.clear()
+    asked = []
+    usual = point_film.solve_point_film
+
+    def counted(**case):
+        asked.append((case["load"], case["shape"]))
+        return usual(**case)
+
+    monkeypatch.setattr(point_film, "solve_point_film", counted)
+    creeping = BALL | {"height": rough_patch(200e-9), "film_cells": 32}
+    point = solve_mixed(**creeping, speeds=(1e-3, 1e-3))
+    assert point.status is Status.CONVERGED
+    assert len(asked) == len(set(asked))
+    assert len(asked) < point.evaluations
+    again = solve_mixed(**creeping, speeds=(1e-3, 1e-3))
+    assert len(asked) == len(set(asked))
+    assert again.friction == point.friction
