@@ -39,6 +39,7 @@ class RunDirectory:
         self.resumed = False
         self._made = list(made)
         self._filled = False
+        self._sums: dict[str, str] = {}
         try:
             for folder in (*reversed(path.parents), path):
                 if not folder.is_dir():
@@ -148,11 +149,16 @@ class RunDirectory:
         """The last checkpoint, or None."""
         return load_checkpoint(self.path / CHECKPOINT)
 
+    def sum_up(self) -> None:
+        """Take the checksums of the results and volumes, which are written and stay so, while pictures are drawn."""
+        names = [name for name in names_of_files(self.path) if name == RESULTS or name.startswith("volume")]
+        self._sums = {name: checksum(self.path / name) for name in names}
+
     def finish(self, summary: Mapping[str, Any]) -> None:
         """Write checksums and, last of all, the summary; the checkpoint goes, and so does the run that was replaced."""
         self.remove_leftovers()
         text = summary_text(summary)
-        known = checksums(self.path) | {SUMMARY: hashlib.sha256(text.encode()).hexdigest()}
+        known = checksums(self.path, self._sums) | {SUMMARY: hashlib.sha256(text.encode()).hexdigest()}
         write_text(self.path / CHECKSUMS, json.dumps(known, indent=1) + "\n")
         for folder in dict.fromkeys((self.path / name).parent for name in known):
             force_names(folder)  # a summary must not be there before what it speaks of
@@ -278,9 +284,11 @@ def names_of_files(folder: Path) -> list[str]:
     return [name for name in sorted(names) if (folder / name).is_file() and not Path(name).name.startswith(".")]
 
 
-def checksums(folder: Path) -> dict[str, str]:
-    """SHA-256 of every finished file of a run but the summary, by its path in the folder."""
-    return {name: checksum(folder / name) for name in names_of_files(folder)}
+def checksums(folder: Path, known: Mapping[str, str] | None = None) -> dict[str, str]:
+    """SHA-256 of every finished file of a run but the summary, by its path in the folder; `known` ones are not taken
+    again."""
+    found = known or {}
+    return {name: found.get(name) or checksum(folder / name) for name in names_of_files(folder)}
 
 
 def checksum(path: Path) -> str:

@@ -203,6 +203,7 @@ def _write(
         with _timed(seconds, "writing results"):
             write_volumes(directory.path, outcome.variables, outcome.volumes)
     if drawn_as:
+        directory.sum_up()
         with _timed(seconds, "figures and report"):
             missing = None if ahead is None else ahead.result()
             if missing is None:

@@ -326,3 +326,18 @@ def test_files_are_forced_to_disk_once_and_their_names_folder_by_folder(tmp_path
     assert sorted(folders) == [".", ".", "figures"]
     assert "summary.json" in forced[-2]
     assert forced[-1] == "."
+
+
+def test_every_file_is_summed_once_and_large_ones_before_pictures_are_waited_for(tmp_path, monkeypatch):
+    import bem.plots.pages as pages
+    import bem.results.directory as directory
+
+    order, real, make = [], directory.checksum, pages.make
+    monkeypatch.setattr(directory, "checksum", lambda path: order.append(path.name) or real(path))
+    monkeypatch.setattr(pages, "make", lambda *given: order.append("pictures") or make(*given))
+    run = run_scene(SCENE, tmp_path, workers=1)
+    before, after = order[: order.index("pictures")], order[order.index("pictures") + 1 :]
+    assert "results.nc" in before
+    assert len(set(order)) == len(order)
+    assert "scene.toml" in after
+    assert damaged_files(run.path) == []
