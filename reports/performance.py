@@ -12,15 +12,15 @@ from typing import Any
 
 from bem.benchmarks.cases import CASES
 from bem.benchmarks.history import Run, compare, read_history
-from bem.benchmarks.measure import Point
 from bem.benchmarks.show import (
+    FLOOR_HEADERS,
     MEMORY_HEADERS,
-    PAIR_GOALS,
     PEER_HEADERS,
     POINT_HEADERS,
     SPLIT_HEADERS,
     THREAD_HEADERS,
     by_case,
+    floor_rows,
     memory_rows,
     peer_rows,
     point_rows,
@@ -31,7 +31,7 @@ from bem.benchmarks.show import (
 from bem.benchmarks.show import (
     work_precision as residual_curves,
 )
-from reports import large, work_precision
+from reports import goals, large, shared, work_precision
 from reports.builder import Page, Section, figure, table, text
 from reports.experiments.kept import age, found, result_of
 from reports.validation_origin import changed_since_stored
@@ -136,55 +136,6 @@ LIMITS = (
 """Part, range that tests/stress holds, and what happens beyond."""
 
 
-def _find(run: Run, case: str, size: float, threads: int = 1) -> Point | None:
-    return next((p for p in run.points if (p.case, p.size, p.threads) == (case, size, threads)), None)
-
-
-def goal_rows(run: Run) -> list[tuple[Any, ...]]:
-    """(what, goal, measured, verdict) for every goal; measured is None where it was not part of the run."""
-    rows: list[tuple[Any, ...]] = []
-
-    def add(what: str, goal: str, value: float | None, met: bool | None, words: str = "{:.3g}") -> None:
-        verdict = "not in this run" if met is None else ("reached" if met else "not yet")
-        rows.append((what, goal, None if value is None else words.format(value), verdict))
-
-    for peer, cells, wanted in (("tamaas", 1024, 60), ("aspher", 1024, 8), ("tamaas", 2048, 80), ("aspher", 2048, 10)):
-        row = next((r for r in run.peers if (r["peer"], r["cells"]) == (peer, cells)), None)
-        ratio = None if row is None else float(row["ratio"])
-        add(f"times faster than {peer}, {cells}", f">= {wanted}", ratio, None if ratio is None else ratio >= wanted)
-    for cells, pairs in PAIR_GOALS.items():
-        point = _find(run, "contact-periodic", cells)
-        value = None if point is None else point.counts["convolutions"]
-        add(
-            f"convolutions to 1e-8, periodic {cells}", f"<= {pairs:g}", value, None if value is None else value <= pairs
-        )
-        free = _find(run, "contact-free", cells)
-        value = None if free is None else free.counts["convolutions"]
-        add(f"convolutions to 1e-8, free {cells}", f"<= {pairs:g}", value, None if value is None else value <= pairs)
-    one, two = _find(run, "contact-periodic", 2048), _find(run, "contact-periodic", 2048, 2)
-    gain = None if one is None or two is None else one.wall_median / two.wall_median
-    add("two threads over one, 2048 (wall time)", ">= 1.6", gain, None if gain is None else gain >= 1.6)
-    largest = _find(run, "contact-periodic", 4096)
-    memory = None if largest is None else largest.memory / 2**30
-    add("memory of 4096 x 4096, GiB", "<= 3", memory, None if memory is None else memory <= 3)
-    for case, limit in (("stress-warm", 0.4), ("von-mises-warm", 0.4)):
-        point = _find(run, case, 256)
-        value = None if point is None else point.cpu_median
-        add(f"{CASES[case].title}, 256 x 256 x 64, s", f"<= {limit}", value, None if value is None else value <= limit)
-    point = _find(run, "stress-warm", 256)
-    value = None if point is None else point.memory / 2**30
-    what = "memory of 256 x 256 x 64 stresses, result and kernels, GiB"
-    add(what, "<= 0.5", value, None if value is None else value <= 0.5)
-    point = _find(run, "wear-cycle", 64)
-    value = None if point is None else 1e3 * point.cpu_median
-    add("wear cycle 240 x 240 x 64, ms", "<= 50", value, None if value is None else value <= 50)
-    point = _find(run, "campaign", 200)
-    value = None if point is None else point.values["speedup"]
-    what = "wear-steel-steel as it is, all cores over one (wall time)"
-    add(what, ">= 1.8", value, None if value is None else value >= 1.8)
-    return rows
-
-
 def finite_elements() -> list[dict[str, Any]]:
     """Stored finite-element spheres: unknowns, seconds, and errors against Hertz where the body is uncoated."""
     rows = []
@@ -274,11 +225,9 @@ def build() -> Page:
 
 
 def _goals(run: Run) -> Section:
-    words = text(
-        "Times are processor times of one thread unless said otherwise: medians of repeats, after kernels and "
-        "plans are made. Where a column is empty the point was not part of the run."
+    return Section(
+        "Goals and what was measured", goals.section(run, changed_since_stored(RESULTS, work_precision.KINDS))
     )
-    return Section("Goals and what was measured", words + table(("goal", "wanted", "measured", ""), goal_rows(run)))
 
 
 def _work_sections(run: Run) -> Iterator[Section]:
@@ -306,11 +255,11 @@ def _peer_sections(run: Run) -> Iterator[Section]:
             "routine (sum p |g| / sum p over the rms height); bem is timed at the first tolerance whose "
             "pressure is at least as good."
         )
-        yield Section("Beside other codes", words + table(PEER_HEADERS, peer_rows(run)))
+        yield Section("Beside other codes", words + table(PEER_HEADERS, peer_rows(run)) + shared.missing())
     if result_of(SLIP).exists():
         yield Section("Partial slip beside ASPHER", _slip())
     notes = [(name, *(times.get(n) for n in (512, 1024, 2048))) for name, times in NOTES_TIMES.items()]
-    mine = [_find(run, "contact-periodic", n) for n in (512, 1024, 2048)]
+    mine = [goals.find(run, "contact-periodic", n) for n in (512, 1024, 2048)]
     notes.append(("bem, this run, to 1e-8", *(None if p is None else p.cpu_median for p in mine)))
     headers, caption = ("code, s", "512", "1024", "2048"), "On a quiet machine, to a residual near 1e-6."
     yield Section("Earlier measurement of the peers", table(headers, notes, caption=caption))
@@ -387,6 +336,9 @@ def _split(run: Run) -> str:
         "there were convolutions, with FFTW's measured plans and nothing else."
     )
     body += table(SPLIT_HEADERS, split_rows(run))
+    if rows := floor_rows(run):
+        caption = "Time over that of as many FFTW pairs as there were convolutions."
+        body += table(FLOOR_HEADERS, rows, caption=caption)
     if run.floor is not None:
         pairs = [(key, 1e3 * value) for key, value in run.floor.pairs.items()]
         body += table(("cells - bits - threads", "FFTW pair, ms"), pairs, caption="Floor of this machine.")
@@ -395,12 +347,9 @@ def _split(run: Run) -> str:
 
 
 def _threads_and_memory(run: Run) -> str:
-    words = (
-        "What four and eight threads would gain follows from what two did: the share of the work that a second one "
-        "does not help with is taken as serial, waiting for memory included. Below 1024 cells threads are better spent "
-        "on cases than within one."
-    )
-    body = text(words) + table(THREAD_HEADERS, thread_rows(run))
+    words = "Wall times of two threads over one, in the stored run; where the second core was busy it tells little."
+    headers, rows = THREAD_HEADERS[:3], [row[:3] for row in thread_rows(run)]
+    body = shared.gains() + text(words) + table(headers, rows)
     caption = "Beyond what the process held before, arrays that are asked for included."
     return body + table(MEMORY_HEADERS, memory_rows(run), caption=caption) + large.contacts() + large.slabs()
 

@@ -23,7 +23,13 @@ from bem.errors import InputError
 from bem.grid import FloatArray
 
 PACKAGES = ("tamaas", "ContactMechanics", "SurfaceTopography", "aspher", "numpy", "scipy")
-GOALS = {("tamaas", 1024): 60.0, ("aspher", 1024): 8.0, ("tamaas", 2048): 80.0, ("aspher", 2048): 10.0}
+GOALS = {
+    ("tamaas", 512): 60.0,
+    ("tamaas", 1024): 100.0,
+    ("aspher", 1024): 15.0,
+    ("tamaas", 2048): 200.0,
+    ("aspher", 2048): 20.0,
+}
 """How many times faster bem is meant to be, at equal residual on one thread."""
 
 _TIMER = """

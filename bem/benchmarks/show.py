@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 Table = Callable[..., None]
 
-PAIR_GOALS = {512: 26.0, 1024: 32.0, 2048: 42.0}
-"""Convolutions to 1e-8 of the periodic case."""
+FLOOR_GOALS = {256: 2.5, 512: 1.8, 1024: 1.6, 2048: 1.5}
+"""Time of the periodic contact over that of as many FFTW pairs as it has convolutions, by cells a side."""
 _LEAST_MEMORY = 2**20
 """Bytes below which a solve fitted into what its process held from before: its own share is not known."""
 
@@ -49,6 +49,24 @@ def floor_share(run: Run, point: Point) -> float | None:
         return None
     pair = run.floor.pair(int(point.size), 32, 1)
     return None if pair is None else point.cpu_median / (point.counts["convolutions"] * pair)
+
+
+def floor_rows(run: Run) -> list[tuple[str, ...]]:
+    """Time beside convolutions and FFTW pairs, for each size that both were measured at."""
+    rows: list[tuple[str, ...]] = []
+    for points in by_case(run).values():
+        for p in points:
+            share = floor_share(run, p)
+            if share is not None and run.floor is not None:
+                pair = 1e3 * (run.floor.pair(int(p.size), 32, 1) or math.nan)
+                count, goal = p.counts["convolutions"], FLOOR_GOALS.get(int(p.size))
+                wanted = "" if goal is None or p.case != "contact-periodic" else f"{goal:g}"
+                cells = f"{p.size:g}", f"{1e3 * p.cpu_median:.3g}", f"{count:.1f}", f"{pair:.3g}"
+                rows.append((p.case, *cells, f"{share:.2f}", wanted))
+    return rows
+
+
+FLOOR_HEADERS = ("case", "cells a side", "CPU ms", "convolutions", "FFTW pair, ms", "time / floor", "goal")
 
 
 def point_rows(run: Run) -> list[tuple[str, ...]]:
