@@ -45,7 +45,7 @@ FEM_RESULTS = Path(__file__).resolve().parents[1] / "bem" / "verification" / "fe
 GROUPS = (
     (
         "Dry contact of rough surfaces",
-        ("contact-periodic", "contact-free", "contact-semi-periodic", "contact-tolerance", "partial-slip"),
+        ("contact-periodic", "contact-free", "contact-semi-periodic", "contact-tolerance", "load-area", "partial-slip"),
     ),
     ("Capped and coated contact", ("contact-capped", "contact-layered")),
     ("Surfaces", ("surface",)),

@@ -14,7 +14,7 @@ MISSING = (
     ("tamaas with OpenMP", "all", "its wheel has none, and the package index has no source of it to build"),
     ("tamaas, ContactMechanics, ASPHER", "4096", "half an hour a solve for two of them: never run"),
     ("stresses below the surface", "all", "not timed beside another code"),
-    ("a curve of 20 loads, each from the one before", "all", "not timed beside another code"),
+    ("a curve of 20 loads, each from those before", "all", "timed alone (`load-area`), not beside another code"),
 )
 """What, cells a side, and why it is not in the tables of peers."""
 
