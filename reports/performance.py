@@ -332,6 +332,7 @@ def random_convolutions() -> str:
 def _split(run: Run) -> str:
     body = text(
         "Processor time of one solve of the largest size, by counters around transforms (with their products), "
+        "rounds that are compiled whole (small grids: transforms, passes and preconditioner in one call), "
         "elementwise passes, preconditioner and segmentation. The floor is as many float32 pairs of transforms as "
         "there were convolutions, with FFTW's measured plans and nothing else."
     )

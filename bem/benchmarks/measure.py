@@ -162,7 +162,7 @@ def watched() -> Iterator[dict[str, float]]:
     Counters stand around the functions only here, so that a timed solve does not pay for them.
     """
     import bem.stress.sweeps
-    from bem.contact import gradients, long_waves, passes, preconditioner
+    from bem.contact import face, gradients, long_waves, passes, preconditioner
     from bem.transforms import PaddedTransform
     from bem.wear import yielding
 
@@ -184,9 +184,8 @@ def watched() -> Iterator[dict[str, float]]:
 
         return inner
 
-    targets: list[tuple[Any, str, str]] = [
-        (PaddedTransform, name, "transforms") for name in ("convolve", "forward", "inverse", "inverse_squared")
-    ]
+    kinds = ("convolve", "convolve_cells", "forward", "inverse", "inverse_squared")
+    targets: list[tuple[Any, str, str]] = [(PaddedTransform, name, "transforms") for name in kinds]
     targets += [
         (module, name, "elementwise")
         for module in (passes, gradients)
@@ -194,6 +193,7 @@ def watched() -> Iterator[dict[str, float]]:
         if not name.startswith("_") and callable(value) and getattr(value, "__module__", "") == module.__name__
     ]
     targets += [
+        (face, "solve_in_one_call", "rounds"),  # transforms, passes and preconditioner, compiled together
         (preconditioner.SparseInverse, "on", "preconditioner"),
         (preconditioner.SparseInverseOnCells, "spread", "preconditioner"),
         (preconditioner.SparseInverseOnCells, "collect", "preconditioner"),

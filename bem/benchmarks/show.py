@@ -119,7 +119,8 @@ def split_rows(run: Run) -> list[tuple[str, ...]]:
             continue
         rest = max(0.0, 1 - sum(shares.values()))
         words = [
-            f"{100 * shares.get(key, 0.0):.0f}" for key in ("transforms", "elementwise", "preconditioner", "pieces")
+            f"{100 * shares.get(key, 0.0):.0f}"
+            for key in ("transforms", "rounds", "elementwise", "preconditioner", "pieces")
         ]
         share = floor_share(run, points[-1])
         rows.append(
@@ -170,6 +171,7 @@ SPLIT_HEADERS = (
     "case",
     "size",
     "transforms %",
+    "compiled rounds %",
     "elementwise %",
     "preconditioner %",
     "pieces %",
@@ -207,7 +209,7 @@ def print_run(run: Run, table: Table) -> None:
     if exponents:
         table(("case", "time grows with size to the power"), exponents, right=(1,))
     if rows := split_rows(run):
-        table(SPLIT_HEADERS, rows, title="where the time goes", right=range(1, 8))
+        table(SPLIT_HEADERS, rows, title="where the time goes", right=range(1, 9))
     if rows := peer_rows(run):
         table(PEER_HEADERS, rows, title="peers at equal residual, one thread", right=range(1, 8))
     if run.floor is not None:

@@ -226,4 +226,4 @@ def figures(cells: int = 0) -> Step:
     """Pictures and the report, with maps of so many cells; processor time measured on scenes of 100 to 1500 cells a
     side, with and without stresses."""
     why = "pictures of the results, and the libraries for them"
-    return Step("figures and report", why, per="run", seconds=1.6 + 2e-6 * cells, memory=2.2e8 + 8.0 * cells * 2)
+    return Step("figures and report", why, per="run", seconds=1.6 + 2e-6 * cells, memory=2.2e8 + 8.0 * cells * 6)
