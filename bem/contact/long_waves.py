@@ -28,8 +28,10 @@ FloatArray = NDArray[np.float64]
 
 _fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
 
-_LARGEST = 128
-"""Cells along the longer side of the coarse grid, if three halvings of the grid come to less than that."""
+_LARGEST = 256
+"""Cells along the longer side of the coarse grid, if three halvings of the grid come to less than that. A coarse cell
+of 16 cells in place of 8 takes 1.3 to 4.6 convolutions more, one of 32 another 6 to 10 (rough contacts of 1024 and 2048
+cells a side, periodic and free, 7 and 58 % in contact)."""
 
 _REDUCTION = 0.03
 """Of the residual on the coarse grid; 0.1 costs as much outside as it saves inside."""

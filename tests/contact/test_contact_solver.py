@@ -61,8 +61,8 @@ def test_convolutions_to_the_tolerance(cells, periodic, hardness, most):
         (1024, PERIODIC, None, 18),
         (1024, FREE, None, 19),
         (1024, PERIODIC, 0.05, 23),
-        (2048, PERIODIC, None, 20),
-        (2048, FREE, None, 25),
+        (2048, PERIODIC, None, 15),
+        (2048, FREE, None, 15),
     ],
 )
 def test_convolutions_to_the_tolerance_on_large_grids(cells, periodic, hardness, most):
