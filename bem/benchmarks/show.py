@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from bem.benchmarks.cases import CASES
 from bem.benchmarks.history import Run, compare, find_run, read_history
 from bem.benchmarks.measure import Point, growth
+from bem.benchmarks.peers import GOALS
 from bem.benchmarks.work_precision import CELLS_ALONE, OURS, TARGETS, Curve, best, curves
 from bem.results.atomic import replacing
 
@@ -193,7 +194,7 @@ def peer_rows(run: Run) -> list[tuple[str, ...]]:
             f"{row['bem_complementarity']:.1e}",
             f"{median(row['bem_cpu']):.3g}",
             f"{row['ratio']:.1f}",
-            "" if row.get("goal") is None else f"{row['goal']:g}",
+            f"{GOALS[of]:g}" if (of := (row["peer"], row["cells"])) in GOALS else "",  # of today, not of the run
         )
         for row in run.peers
     ]
