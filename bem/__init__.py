@@ -8,10 +8,11 @@ from __future__ import annotations
 from typing import Any
 
 from bem import surfaces
-from bem.compiled import provide_folder
+from bem.compiled import drop_stale, provide_folder
 from bem.lazy import loader
 
 provide_folder()
+drop_stale()
 
 _HOMES = {
     "grid": ["Grid"],

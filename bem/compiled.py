@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
+import zlib
 from pathlib import Path
 
 _HERE = Path(__file__).resolve().parent
@@ -35,6 +37,78 @@ def provide_folder() -> None:
             if "numba" in sys.modules:  # it has read the variable already
                 sys.modules["numba"].config.CACHE_DIR = str(folder)
             return
+
+
+_IMPORTED = re.compile(r"^from bem([\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
+
+
+def drop_stale(root: Path = _HERE) -> list[str]:
+    """Remove compiled loops that are older than a file whose functions or numbers were compiled into them, and return
+    their names: numba looks at a loop's own file alone, so that who edits one that others call would run what it was.
+
+    Only of a checkout, whose sources are edited; a millisecond where none is newer than at the last look.
+    """
+    if not (root.parent / "pyproject.toml").exists():
+        return []
+    named = os.environ.get("NUMBA_CACHE_DIR")
+    kept = (Path(named) if named else root / "__pycache__") / f"sources-{zlib.crc32(str(root).encode()):08x}"
+    times = _times(str(root))
+    stamp = "\n".join(f"{time} {path}" for path, time in sorted(times.items()))
+    try:
+        if kept.exists() and kept.read_text() == stamp:
+            return []
+        dropped = _drop_older(root, Path(named) if named else None, times)
+        beside = kept.with_name(f"{kept.name}.{os.getpid()}")
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        beside.write_text(stamp)
+        beside.replace(kept)
+    except OSError:  # read-only, or another process was here first
+        return []
+    return dropped
+
+
+def _times(folder: str) -> dict[str, int]:
+    """When each source in a folder and those within was last written [ns]."""
+    found: dict[str, int] = {}
+    with os.scandir(folder) as entries:
+        for entry in entries:
+            if entry.is_dir() and entry.name != "__pycache__":
+                found |= _times(entry.path)
+            elif entry.name.endswith(".py"):
+                found[entry.path] = entry.stat().st_mtime_ns
+    return found
+
+
+def _drop_older(root: Path, named: Path | None, times: dict[str, int]) -> list[str]:
+    """Remove indices of compiled loops older than what their files import, those files in turn where they have loops
+    themselves."""
+    texts = {path: Path(path).read_text(encoding="utf-8") for path in times}
+    looped = {path for path, text in texts.items() if "njit" in text}
+    imports = {path: _imports(root, texts[path]) & times.keys() for path in looped}
+    dropped = []
+    for path in sorted(looped):
+        seen, ahead = {path}, [path]
+        while ahead:
+            new = imports.get(ahead.pop(), set()) - seen
+            seen |= new
+            ahead += new
+        newest, source = max(times[each] for each in seen), Path(path)
+        folders = [source.parent / "__pycache__"] if named is None else named.glob("*")
+        for index in (index for folder in folders for index in folder.glob(f"{source.stem}.*.nbi")):
+            if index.stat().st_mtime_ns < newest:
+                index.unlink(missing_ok=True)
+                dropped.append(index.name)
+    return dropped
+
+
+def _imports(root: Path, text: str) -> set[str]:
+    """Paths that a source's imports from this package may mean: of modules, and of names that are modules."""
+    found: set[str] = set()
+    for module, names in _IMPORTED.findall(text):
+        home = root.joinpath(*module.split(".")[1:])
+        places = [home, *(home / name for name in re.findall(r"\w+", names))]
+        found |= {f"{place}.py" for place in places} | {str(home / "__init__.py")}
+    return found
 
 
 def is_cold() -> bool:

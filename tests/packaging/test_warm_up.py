@@ -73,6 +73,55 @@ def test_what_was_compiled_once_is_not_compiled_again(tmp_path):
     assert compilations("second", name, *settings, "contact.load=11 N") == 0
 
 
+@pytest.mark.parametrize("named", [False, True])
+def test_loops_go_with_what_was_compiled_into_them(named, tmp_path, monkeypatch):
+    """numba keeps them while their own file is as it was."""
+    root = tmp_path / "bem"
+    sources = {
+        "threads.py": "",
+        "loops.py": "from numba import njit\nfrom bem.threads import share\n",
+        "contact/passes.py": "from numba import njit\nfrom bem.loops import one, two\n",
+        "contact/round.py": "from numba import njit\nfrom bem.contact import (\n    passes,\n    plain,\n)\n",
+        "contact/plain.py": "from bem.contact import alone\n",
+        "contact/alone.py": "from numba import njit\n",
+    }
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache") if named else "")
+
+    def folder(name):
+        return tmp_path / "cache" / "contact_0" if named else (root / name).parent / "__pycache__"
+
+    def write():
+        for name in sources:
+            folder(name).mkdir(parents=True, exist_ok=True)
+            index = folder(name) / f"{Path(name).stem}.go-1.py311.nbi"
+            index.touch()
+            os.utime(index, (2000, 2000))
+
+    def edit(name):
+        os.utime(root / name, (3000, 3000))
+        dropped = sorted(index.split(".")[0] for index in compiled.drop_stale(root))
+        assert compiled.drop_stale(root) == []
+        write()
+        os.utime(root / name, (1000, 1000))
+        compiled.drop_stale(root)
+        return dropped
+
+    assert compiled.drop_stale(root) == []  # of an installation nothing is looked at
+    (tmp_path / "pyproject.toml").touch()
+    for name, text in sources.items():
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(text)
+        os.utime(root / name, (1000, 1000))
+    write()
+    assert compiled.drop_stale(root) == []
+    assert edit("loops.py") == ["loops", "passes", "round"]
+    assert edit("contact/passes.py") == ["passes", "round"]
+    assert edit("contact/round.py") == ["round"]
+    assert edit("threads.py") == ["loops", "passes", "round"]  # a number of it may be in a loop
+    assert edit("contact/plain.py") == ["round"]
+    assert edit("contact/alone.py") == ["alone"]  # nothing compiled calls it by way of a plain file
+
+
 @pytest.fixture
 def locked(monkeypatch, tmp_path):
     """An installation that cannot be written, and a home in `tmp_path`; numba's variable is put back afterwards."""
