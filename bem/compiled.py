@@ -84,7 +84,7 @@ def _drop_older(root: Path, named: Path | None, times: dict[str, int]) -> list[s
     themselves."""
     texts = {path: Path(path).read_text(encoding="utf-8") for path in times}
     looped = {path for path, text in texts.items() if "njit" in text}
-    imports = {path: _imports(root, texts[path]) & times.keys() for path in looped}
+    imports = {path: _imports(root, texts[path], looped) & times.keys() for path in looped}
     dropped = []
     for path in sorted(looped):
         seen, ahead = {path}, [path]
@@ -101,13 +101,15 @@ def _drop_older(root: Path, named: Path | None, times: dict[str, int]) -> list[s
     return dropped
 
 
-def _imports(root: Path, text: str) -> set[str]:
-    """Paths that a source's imports from this package may mean: of modules, and of names that are modules."""
+def _imports(root: Path, text: str, looped: set[str]) -> set[str]:
+    """Paths of what a source imports from this package that may be in its loops: modules, and functions and numbers of
+    modules, of those without loops numbers alone."""
     found: set[str] = set()
     for module, names in _IMPORTED.findall(text):
-        home = root.joinpath(*module.split(".")[1:])
-        places = [home, *(home / name for name in re.findall(r"\w+", names))]
-        found |= {f"{place}.py" for place in places} | {str(home / "__init__.py")}
+        home, each = root.joinpath(*module.split(".")[1:]), re.findall(r"\w+", names)
+        found |= {f"{home / name}.py" for name in each}
+        places = {f"{home}.py", str(home / "__init__.py")}
+        found |= places if any(name.isupper() for name in each) else places & looped
     return found
 
 

@@ -143,14 +143,14 @@ class Balance:
             if cells.size == 1:
                 return None
             inverse = level.preconditioner(cells)
-            rise = _rise(level, cells, inverse)
-            return cls(inverse, True, rise, 1 / float(rise.sum()), np.empty(cells.size))
+            rise, total = _rise(level, cells, inverse)
+            return cls(inverse, True, rise, 1 / total, np.empty(cells.size))
         inverse = level.preconditioner(cells)
         if isinstance(control, ApproachControl):
             return cls(inverse, False, np.empty(0), 0.0, np.empty(0))
-        rise = _rise(level, cells, inverse)
+        rise, total = _rise(level, cells, inverse)
         follows = level.follows(iterate)
-        return cls(inverse, False, rise, -follows / max(1 - follows * float(rise.sum()), _STEEPEST), np.empty(0))
+        return cls(inverse, False, rise, -follows / max(1 - follows * total, _STEEPEST), np.empty(0))
 
     def precondition(self, residual: FloatArray, out: FloatArray, previous: FloatArray) -> tuple[float, float]:
         """Write the preconditioned residual z; returns z.r and z.(r - r_previous)."""
@@ -174,19 +174,16 @@ class Balance:
         return Descent(full, change, *gradients.stride(pressure, turned, step.length, step.cap, residual, out))
 
 
-def _rise(level: Level, cells: Indices, inverse: Inverse) -> FloatArray:
-    """The pressures for a rise of the approach: the preconditioner's in the first round on a grid. Later rounds have
-    them from the one before, with their mean on new cells, while these are the fewer and all sum up to more than half
-    of what their number would have: another application of the preconditioner would change no count."""
+def _rise(level: Level, cells: Indices, inverse: Inverse) -> tuple[FloatArray, float]:
+    """The pressures for a rise of the approach, and their sum: the preconditioner's in the first round on a grid. Later
+    rounds have them from the one before, with their mean on new cells, while these are the fewer and all sum up to more
+    than half of what their number would have: another application of the preconditioner would change no count."""
     rise = np.empty(cells.size)
-    if level.rise is not None:
-        before, values = level.rise
-        known, total = gradients.carry(before, values, cells, rise)
-        if 2 * known > cells.size and 2 * total * values.size > values.sum() * known > 0:
-            rise[np.isnan(rise)] = total / known
-            level.rise = cells, rise
-            return rise
-    if not inverse(np.ones(cells.size), rise) > 0:
-        rise[:] = 1.0
-    level.rise = cells, rise
-    return rise
+    total = 0.0 if level.rise is None else gradients.carry(*level.rise, cells, rise)
+    if not total > 0:
+        total = inverse(np.ones(cells.size), rise)
+        if not total > 0:
+            rise[:] = 1.0
+            total = float(cells.size)
+    level.rise = cells, rise, total
+    return rise, total

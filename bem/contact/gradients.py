@@ -65,22 +65,31 @@ def _less(start, stop, result, values, shift, out):  # type: ignore[no-untyped-d
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def carry(before, values, cells, out):  # type: ignore[no-untyped-def]
-    """out = the values on the cells `before` where these are among `cells` (both ascend), elsewhere not a number;
-    returns how many are and their sum."""
+def carry(before, values, total, cells, out):  # type: ignore[no-untyped-def]
+    """out = the values on the cells `before` where these are among `cells` (both ascend), elsewhere their mean; returns
+    the sum. `total` : of the values. Zero where those known are no more than half, or sum up to no more than half of
+    what their number would have."""
     a = 0
     known = 0
-    total = 0.0
+    sum_known = 0.0
     for k in range(cells.size):
         while a < before.size and before[a] < cells[k]:
             a += 1
         if a < before.size and before[a] == cells[k]:
             out[k] = values[a]
             known += 1
-            total += values[a]
+            sum_known += values[a]
         else:
             out[k] = np.nan
-    return known, total
+    if not (2 * known > cells.size and 2 * sum_known * values.size > total * known > 0):
+        return 0.0
+    mean = sum_known / known
+    carried = 0.0
+    for k in range(cells.size):
+        if np.isnan(out[k]):
+            out[k] = mean
+        carried += out[k]
+    return carried
 
 
 def turn(

@@ -161,7 +161,7 @@ class Level:
         self.kept = False
         self.self_response = float(operator.near_field(0)[0, 0])
         self.stride = Stride()
-        self.rise: tuple[Indices, FloatArray] | None = None
+        self.rise: tuple[Indices, FloatArray, float] | None = None
         self.sparse: SparseInverse | None = None
         self.near: tuple[Indices, SparseInverseOnCells] | None = None
         self.smooth: LongWaves | None = None

@@ -186,10 +186,12 @@ def test_long_waves_are_the_plain_conjugate_gradients(periodic):
 
 def test_values_are_carried_from_cells_to_cells():
     before, values = np.array([2, 3, 7, 9]), np.array([1.0, 2.0, 3.0, 4.0])
-    cells = np.array([0, 3, 4, 9, 11])
     out = np.empty(5)
-    assert gradients.carry(before, values, cells, out) == (2, 6.0)
-    np.testing.assert_array_equal(out, [np.nan, 2.0, np.nan, 4.0, np.nan])
+    assert gradients.carry(before, values, 10.0, np.array([0, 3, 7, 9, 11]), out) == 15.0
+    np.testing.assert_array_equal(out, [3.0, 2.0, 3.0, 4.0, 3.0])
+    assert gradients.carry(before, values, 10.0, np.array([0, 3, 4, 9, 11]), out) == 0.0  # most are new
+    fallen = np.array([1.0, 0.1, 0.1, 0.1])  # those known have too little of the sum
+    assert gradients.carry(before, fallen, 1.3, np.array([3, 7, 9]), out[:3]) == 0.0
 
 
 @pytest.mark.parametrize("size", [1, 1000, 2 * passes.BLOCK + 5])

@@ -79,7 +79,8 @@ def test_loops_go_with_what_was_compiled_into_them(named, tmp_path, monkeypatch)
     root = tmp_path / "bem"
     sources = {
         "threads.py": "",
-        "loops.py": "from numba import njit\nfrom bem.threads import share\n",
+        "sizes.py": "",
+        "loops.py": "from numba import njit\nfrom bem.threads import share\nfrom bem.sizes import LINE, size\n",
         "contact/passes.py": "from numba import njit\nfrom bem.loops import one, two\n",
         "contact/round.py": "from numba import njit\nfrom bem.contact import (\n    passes,\n    plain,\n)\n",
         "contact/plain.py": "from bem.contact import alone\n",
@@ -117,7 +118,8 @@ def test_loops_go_with_what_was_compiled_into_them(named, tmp_path, monkeypatch)
     assert edit("loops.py") == ["loops", "passes", "round"]
     assert edit("contact/passes.py") == ["passes", "round"]
     assert edit("contact/round.py") == ["round"]
-    assert edit("threads.py") == ["loops", "passes", "round"]  # a number of it may be in a loop
+    assert edit("threads.py") == []  # nothing in a loop is plain Python
+    assert edit("sizes.py") == ["loops", "passes", "round"]  # but for numbers
     assert edit("contact/plain.py") == ["round"]
     assert edit("contact/alone.py") == ["alone"]  # nothing compiled calls it by way of a plain file
 
