@@ -36,7 +36,10 @@ def impose(inverse: SparseInverseOnCells, pressure: FloatArray) -> None:
 @_fast
 def _impose(rows, seam, pressure, iterations):  # type: ignore[no-untyped-def]
     pulls = pressure < 0
-    if not pulls.any():
+    count = 0
+    for k in range(pulls.size):  # numpy's `any` would bring linear algebra into a run
+        count += pulls[k]
+    if count == 0:
         return
     given, found = np.zeros(pressure.size), np.zeros(pressure.size)
     near = _reaching(rows, seam, pulls)
@@ -109,7 +112,12 @@ def _column(upper, lower, k, a):  # type: ignore[no-untyped-def]
 @_fast
 def _answer(near, pulls, pressure, iterations, given, found):  # type: ignore[no-untyped-def]
     """found = B y, for B y = p on the cells marked."""
-    cells = np.flatnonzero(pulls)
+    cells, count = np.empty(pulls.size, np.int64), 0
+    for k in range(pulls.size):  # numpy's search would bring linear algebra into a run
+        if pulls[k]:
+            cells[count] = k
+            count += 1
+    cells = cells[:count]
     missed, y = np.empty(cells.size), np.zeros(cells.size)
     squares = 0.0
     for a in range(cells.size):

@@ -127,7 +127,7 @@ def rows_forward_of_cells(room, scratch, cells, values, first, last):  # type: i
     for block in range(first, last):
         start = block * room.row_block
         count = min(room.nx, start + room.row_block) - start
-        begin, end = np.searchsorted(cells, start * ny), np.searchsorted(cells, (start + count) * ny)
+        begin, end = _below(cells, start * ny), _below(cells, (start + count) * ny)
         if begin == end:
             for j in range(room.spectra):
                 half[j, start : start + count] = 0
@@ -140,6 +140,19 @@ def rows_forward_of_cells(room, scratch, cells, values, first, last):  # type: i
                 stop += ny
             rows[i, cells[k] - stop + ny] = values[k]
         _rows_out(room, scratch, rows.ctypes.data, start, count)
+
+
+@_plain
+def _below(cells, bound):  # type: ignore[no-untyped-def]
+    """How many of the cells, which ascend, are below a bound; numpy's search would bring linear algebra into a run."""
+    low, high = 0, cells.size
+    while low < high:
+        middle = (low + high) // 2
+        if cells[middle] < bound:
+            low = middle + 1
+        else:
+            high = middle
+    return low
 
 
 @_plain
