@@ -27,7 +27,7 @@ _plain: Any = njit(cache=True, nogil=True, error_model="numpy")
 _ordered: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
 """Sums in the order written: rows of the seam and others have the same bits where their entries are the same."""
 
-_HEAD, _TAIL = 2, 4
+HEAD, TAIL = 2, 4
 """Cells at the list's ends that are of the seam, so that no packed row reaches beyond it: a row's first neighbour in a
 line before has a number no higher than the cell's own."""
 
@@ -213,7 +213,7 @@ def _connect(start, stop, result, cells, grid, solved, rows):  # type: ignore[no
         upper[k] = further - np.uint64(_COUNTS[np.uint64(far)])
         bits = far | near << 3 | (own & 3) << 8
         pattern[k] = bits
-        if cell < edge or j < left or j >= right or k < _HEAD or k >= n - _TAIL:
+        if cell < edge or j < left or j >= right or k < HEAD or k >= n - TAIL:
             listed[start + seam] = k
             seam += 1
         elif not solved[np.uint64(bits)]:
@@ -318,7 +318,7 @@ def _row_sums(rows, out):  # type: ignore[no-untyped-def]
 @_ordered
 def _spread(start, stop, result, rows, residual, out):  # type: ignore[no-untyped-def]
     upper, lower, pattern, table = rows
-    first, last = max(start, _HEAD), min(stop, residual.size - _TAIL)
+    first, last = max(start, HEAD), min(stop, residual.size - TAIL)
     one, two, three, four = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
     for k in range(first, last):
         row, up, low, own = np.uint64(pattern[k]), np.uint64(upper[k]), np.uint64(lower[k]), np.uint64(k)
@@ -355,8 +355,8 @@ def _collect(start, stop, result, rows, values, out, outside, block):  # type: i
     halo = outside.amounts[outside.starts[start // block] : outside.starts[start // block + 1]]
     halo[:] = 0.0
     # within: rows that lead to no cell before the block and, zeros included, to no place beyond it
-    end = min(stop, values.size - _TAIL)
-    first, last = max(start, _HEAD), min(stop - _TAIL, end)
+    end = min(stop, values.size - TAIL)
+    first, last = max(start, HEAD), min(stop - TAIL, end)
     while start > 0 and first < last and (upper[first] < start or first < start + 2):
         first += 1
     _collect_with_care(start if start > 0 else first, first, start, rows, values, out, halo)
