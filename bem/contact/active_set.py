@@ -49,6 +49,10 @@ Close = Callable[[Level, Iterate, Opening, Control, float, Effort], FloatArray]
 _FALL = 1e-9
 """Fall of the energy, relative to the sum of its terms, that counts as progress where no round may raise it."""
 
+_REPEATED = 3
+"""Rounds in a row that end where the last did, to the last bit: the pressures that close the gap were not looked for,
+since the way there had no curvature, as where a doubly periodic kernel answers a load that only it has with nothing."""
+
 _RESOLVED = 5
 """Rounds without progress that are made where all that is missed is round-off of the transforms."""
 
@@ -149,6 +153,7 @@ class _Progress:
 
     best, mark, lowest : least violation, the same in larger strides, least energy. waited : rounds since the latter two
     got better. unimproved : rounds since the first did. release : violation at which rounds are free again, 0 if free.
+    last, repeated : violation and energy of the last round, and how many before it had the very same.
     """
 
     tuning: Tuning
@@ -159,6 +164,8 @@ class _Progress:
     waited: int = 0
     unimproved: int = 0
     release: float = 0.0
+    last: tuple[float, float] = (math.inf, math.inf)
+    repeated: int = 0
 
     def stalls(self, violation: float, potential: float, size: float, *, resolved: bool) -> bool:
         """Whether there is no use in going on: neither the violation nor, where it must, the energy falls. `resolved`
@@ -166,6 +173,10 @@ class _Progress:
         fell = self.tuning.patience == 0 and potential < self.lowest - _FALL * size
         self.waited = 0 if violation < 0.7 * self.mark or fell else self.waited + 1
         self.mark, self.lowest = min(self.mark, violation), min(self.lowest, potential)
+        self.repeated = self.repeated + 1 if self.last == (violation, potential) else 0
+        self.last = violation, potential
+        if self.repeated >= _REPEATED:
+            return True
         return self.waited > (min(_RESOLVED, self.tuning.stall) if resolved else self.tuning.stall)
 
     def improves(self, violation: float) -> bool:

@@ -130,7 +130,7 @@ def test_approach_of_a_step_near_full_contact(low):
     assert solution.status == "converged"
     assert violation(op, gap, solution) <= 1e-8 * gap.std() + 1e-12 * np.abs(solution.displacement).max()
     assert np.ptp(solution.pressure, axis=1).max() <= 1e-6 * solution.pressure.max()  # nothing varies along the step
-    assert solution.convolutions < 100  # 76, 21 and 16; all 5000 iterations were used up on a coarse grid
+    assert solution.convolutions < 100  # 15 to 87; rounds that repeat to the last bit took 150, a coarse grid 5000
 
 
 @pytest.mark.parametrize("seed", [0, 2])
