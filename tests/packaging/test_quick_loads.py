@@ -110,3 +110,39 @@ def test_loops_that_are_compiled_later_take_in_what_was_read_quickly(package):
     # of the loops that are called, two are read, and the third is compiled around them
     assert output(CALL, "halves", "kinds", "quarters") == [[8.0, "none", 2, 6.0, "none"], 2, True]
     assert output(CALL, "quarters", "kinds") == [[6.0, "none", 2], 2, False]
+
+
+def test_files_that_were_cut_off_are_compiled_anew_and_read_again(package, tmp_path):
+    assert output(CALL, "halves", "kinds")[1] == 0
+    for ending, kept in (("nbc", 50), ("nbi", 50), ("nbi", 0)):
+        (cut,) = (tmp_path / "compiled").rglob(f"*.halves-*.{ending}")
+        cut.write_bytes(cut.read_bytes()[:kept])
+        assert output(CALL, "halves", "kinds") == [[8.0, "none", 2], 1, True]
+        assert output(CALL, "halves", "kinds") == [[8.0, "none", 2], 2, False]
+
+
+OTHERWISE = """
+from numba.core import caching, codegen
+from numba.core.runtime.nrt import rtsys
+if sys.argv[1] == "lacks":
+    codegen.JitEngine.other = codegen.JitEngine._load_defined_symbols
+    del codegen.JitEngine._load_defined_symbols
+    codegen.JitEngine.__getattr__ = lambda self, name: self.other if name == "_load_defined_symbols" else None
+elif sys.argv[1] == "reads":
+    usual = codegen.CPUCodeLibrary._unserialize.__func__
+    codegen.CPUCodeLibrary._unserialize = classmethod(lambda cls, made, state: usual(cls, made, state))
+elif sys.argv[1] == "remembers":
+    type(rtsys).initialize = type(rtsys).initialize.__wrapped__
+del sys.argv[1]
+"""
+
+
+@pytest.mark.parametrize("how", ["lacks", "reads", "remembers"])
+def test_a_numba_that_is_made_differently_loads_as_it_does(package, how):
+    code = CALL.replace(
+        "quicken()\n",
+        OTHERWISE + "quicken()\nassert caching.FunctionCache.load_overload.__module__.startswith('numba')\n",
+        1,
+    )
+    assert output(CALL, "halves")[1:] == [0, True]
+    assert output(code, how, "halves") == [[8.0, "none"], 1, True]
