@@ -14,7 +14,7 @@ from bem.errors import InputError, Status
 from bem.friction.smooth import LineContact, SmoothContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, PointFilmSolution, solve_line_film
-from bem.lubrication.line_starts import on_mesh_of
+from bem.lubrication.line_starts import on_mesh_of, without_equations
 from bem.lubrication.steady import load_range
 from bem.lubrication.with_heat import film_with_heat
 
@@ -180,8 +180,8 @@ class SolvedFilm:
         return self.contact.parabola(self.position, self.position[:0])
 
     def solve(self, load: float, initial: FilmSolution | None) -> FilmSolution:
-        """As `TabulatedFilms`."""
-        return solved_line_film(self.contact, self.speeds, load, self.points, initial=initial)
+        """As `TabulatedFilms`: a table's films lie too far apart to start by one another's equations."""
+        return without_equations(solved_line_film(self.contact, self.speeds, load, self.points, initial=initial))
 
     def sampled(self, film: FilmSolution, load: float, stretch: float = 1.0) -> PatchFilm:
         """As `TabulatedFilms`."""

@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
@@ -257,6 +257,13 @@ class _Kept:
     def nbytes(self) -> int:
         return sum(value.nbytes for value in vars(self.film).values() if isinstance(value, np.ndarray))
 
+    def own(self) -> PointFilmSolution:
+        """The film with arrays of its own: a caller may write into them."""
+        arrays: dict[str, Any] = {
+            name: value.copy() for name, value in vars(self.film).items() if isinstance(value, np.ndarray)
+        }
+        return replace(self.film, **arrays)
+
 
 KEPT = KeptValues(1 << 26)
 """Films of this process: a film begins from the dry contact whatever was before it, so one asked for again is the same.
@@ -269,9 +276,11 @@ def solved_point_film(contact: PointContact, speeds: Sequence[float], load: floa
     key = (solve_point_film, contact, tuple(map(float, speeds)), float(load), cells)
     try:
         hash(key)
-    except TypeError:  # laws, or factors of walls, that are no keys
+    except TypeError:  # laws that are no keys
         return _solved(contact, speeds, load, cells)
-    return KEPT.of(key, lambda: _Kept(_solved(contact, speeds, load, cells))).film
+    if not isinstance(contact.flow_factors, str):  # keys by what they are, not by what they hold, which may change
+        return _solved(contact, speeds, load, cells)
+    return KEPT.of(key, lambda: _Kept(_solved(contact, speeds, load, cells))).own()
 
 
 def _solved(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:

@@ -24,10 +24,15 @@ def of_curve(speeds: int, points: int, cells: int | None) -> Step:
     a ball's films take longer, and have no start."""
     what = f"for each of {speeds} speeds of a curve, most of them on "
     if cells is None:
-        seconds = speeds * (0.05 + 2e-5 * points)
-        return Step("films", f"about 6 {what}a coarser mesh", seconds=seconds, memory=_HELD * points)
-    seconds = speeds * (2.0 + 2e-4 * cells**2)
-    return Step("films", f"about 10 {what}fewer cells", seconds=seconds, memory=900.0 * cells**2)
+        seconds = speeds * (0.02 + 1.7e-5 * points)
+        return Step("films", f"about 5 {what}a coarser mesh", seconds=seconds, memory=_HELD * points)
+    seconds = speeds * (0.4 + 5e-5 * cells**2)
+    return Step(
+        "films",
+        f"about 5 for each of {speeds} speeds of a curve, some of them on fewer cells",
+        seconds=seconds,
+        memory=900.0 * cells**2,
+    )
 
 
 def heat(thermal: str, speeds: int, cells: int) -> Step:
@@ -48,7 +53,7 @@ def oil_beside(oil_volume: str, speeds: int) -> Step:
     return Step(
         "balance without the oil beside the contact",
         why,
-        seconds=speeds * 0.03,
+        seconds=speeds * 0.015,
         skipped=loaded,
         precision=SEARCHED_IN_SINGLE,
     )

@@ -1,6 +1,7 @@
 """What one speed leaves to the next: fewer films and contacts, meshes whose weights are known, the same answers."""
 
 import dataclasses
+import pickle
 
 import numpy as np
 import pytest
@@ -9,6 +10,9 @@ from mixed_case import BALL, mixed_case, rough_patch, steel_line
 from bem import Body, Grid, Lubricant, Material, Status, generate_surface, solve_line_film, solve_mixed, stribeck_curve
 from bem.friction import point_film
 from bem.friction.balance import BalanceStart, Regime
+from bem.friction.film_table import FilmTable
+from bem.friction.films import films_of
+from bem.friction.setup import MixedSetup
 from bem.lubrication import line_kernel, line_linear
 from bem.lubrication.line_starts import on_mesh_of, without_equations
 
@@ -145,3 +149,43 @@ def test_a_ball_under_more_than_films_are_solved_for_solves_one(monkeypatch):
     again = solve_mixed(**creeping, speeds=(1e-3, 1e-3))
     assert len(asked) == len(set(asked))
     assert again.friction == point.friction
+
+
+def test_a_film_that_is_kept_is_not_changed_by_who_got_it():
+    """In micrometres for a picture, in place: the next balance was that of a film a million times as thick."""
+    point_film.KEPT.clear()
+    rolling = BALL | {"height": rough_patch(200e-9), "film_cells": 32}
+    first = solve_mixed(**rolling, speeds=(0.5, 0.5))
+    first.film.thickness[:] *= 1e6
+    first.film.pressure[:] = np.nan
+    again = solve_mixed(**rolling, speeds=(0.5, 0.5))
+    assert (again.friction, again.film_load) == (first.friction, first.film_load)
+    assert again.film.thickness.min() < 1e-6
+
+
+def test_equations_are_not_kept_in_a_table():
+    """Megabytes each; its films lie too far apart to start by them."""
+    given = {name: value for name, value in CASE.items() if name != "height"}
+    setup = MixedSetup(**given)
+    table = FilmTable(films_of(setup, (0.02, 0.0)), load=setup.load)
+    for index in range(3):
+        assert table.entry(index).status is Status.CONVERGED
+        assert table.entry(index).state.state.linear is None
+        assert table.entry(index).state.flooded.linear is None
+
+
+@pytest.mark.parametrize("speeds", [SPEEDS[3::-1], [0.02, 0.5, 0.003], [0.02, 0.02], [1e-6, 0.05]])
+def test_a_curve_goes_on_from_what_was_written_down(speeds):
+    """Down, from regime to regime, at the same speed again, decades apart: the bits of an uninterrupted one."""
+    whole, last = stribeck_curve(speeds, **CASE), None
+    for speed, point in zip(speeds, whole, strict=True):
+        last = solve_mixed(**CASE, speeds=(speed, 0.0), initial=pickle.loads(pickle.dumps(last)))
+        assert (last.friction, last.film_load, last.minimum_film) == (
+            point.friction,
+            point.film_load,
+            point.minimum_film,
+        )
+        cold = solve_mixed(**CASE, speeds=(speed, 0.0))
+        assert (last.status, last.regime) == (cold.status, cold.regime)
+        # both within 1e-4 of the film's oil; friction moves by a few times as much at most
+        assert last.friction == pytest.approx(cold.friction, rel=1e-3)

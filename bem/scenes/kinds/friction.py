@@ -33,10 +33,11 @@ if TYPE_CHECKING:
     from bem.friction.curves import Curve
     from bem.friction.setup import MixedSetup
 
-_CONVOLUTIONS = 45  # of the contacts of one speed: 19 to 57 were counted
+_CONVOLUTIONS = 30  # of the contacts of one speed: 11 to 21 were counted, and those that tell of the oil beside them
 _SEPARATIONS = 10  # of the flow factors' table
-_FILMS_AGAIN = 0.6
-"""Of the time of films and their heat, for both balances of error bars: 0.4 to 0.8 was measured, heat or none."""
+_FILMS_AGAIN, _HEAT_AGAIN = 1.2, 0.6
+"""Of the time of films, and of that of their heat, for both balances of error bars: 0.8 to 2 of films was measured, 0.4
+to 0.8 of both with heat."""
 
 
 class FrictionScene(CurveScene):
@@ -88,7 +89,7 @@ def plan(scene: FrictionScene) -> Plan:
         plans.error_bars(
             scene.outputs.errors,
             "each balance on the grid of twice the cell, and there with half the film's points",
-            seconds=_FILMS_AGAIN * (films.seconds + (0.0 if heat.skipped else heat.seconds)),
+            seconds=_FILMS_AGAIN * films.seconds + (0.0 if heat.skipped else _HEAT_AGAIN * heat.seconds),
             **plans.coarser_contacts(grid, _CONVOLUTIONS * speeds if coupled else 0, 2.0),
         ),
         plans.flow_factors(grid, _SEPARATIONS, wanted=scene.sharing.flow_factors != "off"),
