@@ -11,6 +11,7 @@ that single precision cannot overflow and no digit changes with the system of un
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -44,12 +45,15 @@ _SAME = 1e-14
 """Relative difference of moduli below which two bodies count as elastically equal (round-off of input)."""
 
 
-@dataclass
-class ConvolutionCount:
-    """Applications of an operator, and the same weighed by cells with its coarser versions included."""
+class ConvolutionCount(threading.local):
+    """Applications of an operator, and the same weighed by cells with its coarser versions included; of each thread its
+    own, so that contacts solved side by side on one operator are told theirs."""
 
     applications: int = 0
     weighted: float = 0.0
+
+    def __reduce__(self) -> tuple[type[ConvolutionCount], tuple[()]]:
+        return ConvolutionCount, ()  # an operator read back has done nothing yet
 
     @staticmethod
     def share(of: float) -> float:

@@ -5,6 +5,8 @@ import dataclasses
 import pstats
 import subprocess
 import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -33,6 +35,22 @@ def test_a_contact_counts_the_same_however_much_its_operator_has_done():
     counts = {solve_contact(gap, op, load=0.002).convolutions for _ in range(4)}
     assert len(counts) == 1
     assert counts.pop() % 1.0 > 0.0  # coarser grids were among them
+
+
+def test_contacts_side_by_side_on_one_operator_count_their_own(problem):
+    """The operator's count was everybody's: three at once were told the convolutions of all."""
+    gap, op = problem
+    alone = solve_contact(gap, op, load=0.002)
+    begun = threading.Barrier(3)
+
+    def solve(_):
+        begun.wait()
+        return solve_contact(gap, op, load=0.002)
+
+    with ThreadPoolExecutor(3) as pool:
+        for beside in pool.map(solve, range(3)):
+            assert beside.convolutions == alone.convolutions
+            assert np.array_equal(beside.pressure, alone.pressure)
 
 
 def _count(cells, periodic, hardness=None):
