@@ -49,10 +49,6 @@ Close = Callable[[Level, Iterate, Opening, Control, float, Effort], FloatArray]
 _FALL = 1e-9
 """Fall of the energy, relative to the sum of its terms, that counts as progress where no round may raise it."""
 
-_REPEATED = 3
-"""Rounds in a row that end where the last did, to the last bit: the pressures that close the gap were not looked for,
-since the way there had no curvature, as where a doubly periodic kernel answers a load that only it has with nothing."""
-
 _RESOLVED = 5
 """Rounds without progress that are made where all that is missed is round-off of the transforms."""
 
@@ -153,7 +149,6 @@ class _Progress:
 
     best, mark, lowest : least violation, the same in larger strides, least energy. waited : rounds since the latter two
     got better. unimproved : rounds since the first did. release : violation at which rounds are free again, 0 if free.
-    last, repeated : violation and energy of the last round, and how many before it had the very same.
     """
 
     tuning: Tuning
@@ -164,8 +159,6 @@ class _Progress:
     waited: int = 0
     unimproved: int = 0
     release: float = 0.0
-    last: tuple[float, float] = (math.inf, math.inf)
-    repeated: int = 0
 
     def stalls(self, violation: float, potential: float, size: float, *, resolved: bool) -> bool:
         """Whether there is no use in going on: neither the violation nor, where it must, the energy falls. `resolved`
@@ -173,10 +166,6 @@ class _Progress:
         fell = self.tuning.patience == 0 and potential < self.lowest - _FALL * size
         self.waited = 0 if violation < 0.7 * self.mark or fell else self.waited + 1
         self.mark, self.lowest = min(self.mark, violation), min(self.lowest, potential)
-        self.repeated = self.repeated + 1 if self.last == (violation, potential) else 0
-        self.last = violation, potential
-        if self.repeated >= _REPEATED:
-            return True
         return self.waited > (min(_RESOLVED, self.tuning.stall) if resolved else self.tuning.stall)
 
     def improves(self, violation: float) -> bool:
@@ -268,18 +257,18 @@ def _next(level: Level, control: Control, now: _Round, effort: Effort, close: Cl
     iterate, opening = take_in(level, now.iterate, now.found, now.approach)
     if iterate.cells.size == 0:
         return None
-    lifted = _at_full_contact(level, control, iterate, opening.mean, now.goal)
-    if lifted:
-        iterate = lift(level, iterate, opening.mean)
+    if _at_full_contact(level, control, iterate, opening.mean, now.goal):
+        lifted = lift(level, iterate, opening.mean)
+        if lifted is not None:
+            return _Step(lifted, lifted=True)
+        # it is at a bound already: what varies is closed first, or the next round would be this one
         opening = Opening(opening.values - opening.mean, 0.0)
-        if iterate.cells.size < level.gap.size:
-            return _Step(iterate, lifted)
     raw = close(level, iterate, opening, control, now.goal, effort)
     clipped = clip(level, control, iterate, raw.copy())
     if clipped.cells.size <= _FEW * clipped.capped.size and clipped.cells.size < 0.5 * iterate.cells.size:
         # fully plastic: bounds matter, elasticity hardly does, and unbounded pressures say nothing
-        return _Step(gradient_step(level, control, iterate, now.approach, 1 / level.self_response), lifted)
-    return _Step(clipped, lifted, iterate, raw)
+        return _Step(gradient_step(level, control, iterate, now.approach, 1 / level.self_response))
+    return _Step(clipped, begun=iterate, raw=raw)
 
 
 def _at_full_contact(level: Level, control: Control, iterate: Iterate, mean: float, goal: float) -> bool:

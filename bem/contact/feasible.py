@@ -164,13 +164,16 @@ def gradient_step(level: Level, control: Control, iterate: Iterate, approach: fl
     return project(level, control, everywhere(level, iterate) - step * gradient)
 
 
-def lift(level: Level, iterate: Iterate, mean: float) -> Iterate:
-    """Change the pressure of doubly periodic full contact uniformly until a cell reaches a bound.
+def lift(level: Level, iterate: Iterate, mean: float) -> Iterate | None:
+    """Change the pressure of doubly periodic full contact uniformly until a cell reaches a bound; None if one is there.
 
     This leaves the displacement as it is, so it is the only way out of a mean gap that is not the wanted one.
     """
     values = iterate.values
-    values = values - values.min() if mean > 0 else values + (level.cap - values.max())
+    first, bound = (values.min(), 0.0) if mean > 0 else (values.max(), level.cap)
+    if first == bound:
+        return None
+    values = bound + (values - first)
     inside = (values > 0) & (values < level.cap)
     capped = iterate.cells[values >= level.cap]
     return Iterate(iterate.cells[inside], values[inside], capped)
