@@ -207,6 +207,5 @@ def compare_with_peers(  # reason: what is found is put where an interrupt leave
             "bem_complementarity": mine.errors["complementarity"],
             "bem_convolutions": mine.counts["convolutions"],
             "ratio": float(np.median(row["cpu"])) / mine.cpu_median,
-            "goal": GOALS.get((peer, cells)),
         }
         rows.append(row)

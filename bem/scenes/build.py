@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from bem.errors import InputError
 from bem.grid import Grid
+from bem.kept import KeptValues
 from bem.laws import Law
 from bem.materials import Body, contact_modulus, softer_hardness
 from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, SceneModel, SmoothSurface
@@ -224,13 +225,36 @@ def _statistics(surface: GeneratedSurface) -> dict[str, Any]:
 
 
 def _generated(surface: GeneratedSurface, grid: Grid, seed: int) -> FloatArray:
-    from bem.surfaces import generate_surface
     from bem.surfaces.waves import on_cells
 
     seed = seed if surface.seed is None else surface.seed
-    drawn = on_cells(generate_surface(_drawn_on(surface, grid), seed=seed, **_statistics(surface)), grid.shape)
+    waves = on_cells(_waves(surface, _drawn_on(surface, grid), seed), grid.shape)
     marks = marks_of(surface, grid, seed)
-    return drawn if marks is None else drawn + (marks - marks.mean())
+    if marks is not None:
+        return waves + (marks - marks.mean())
+    return waves if waves.flags.writeable else waves.copy()
+
+
+KEPT = KeptValues(1 << 25)
+"""Generated heights of this process without marks of tools, read-only: a run's plan looks at what the run then takes,
+and points of a sweep share them. One surface of 2048 x 2048 cells, or several smaller ones."""
+
+
+def _waves(surface: GeneratedSurface, grid: Grid, seed: int) -> FloatArray:
+    """Heights [m] of a generated surface on the grid that it is drawn on, marks left out; those that are kept are
+    read-only."""
+    from bem.surfaces import generate_surface
+
+    statistics = _statistics(surface)
+
+    def make() -> FloatArray:
+        heights = generate_surface(grid, seed=seed, **statistics)
+        heights.flags.writeable = False
+        return heights
+
+    if 8 * grid.cells > KEPT.limit:  # it would not be kept, and a copy of its own would be for nothing
+        return generate_surface(grid, seed=seed, **statistics)
+    return KEPT.of((grid, seed, *statistics.values()), make)
 
 
 def marks_of(surface: GeneratedSurface, grid: Grid, seed: int) -> FloatArray | None:

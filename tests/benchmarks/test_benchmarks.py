@@ -17,6 +17,7 @@ from bem.benchmarks.run import check_names, check_sizes, run_cases, sizes_of
 from bem.benchmarks.show import draw_run, memory_rows, thread_rows
 from bem.benchmarks.work_precision import measure_kinds
 from bem.cli import main
+from bem.fftw import pyfftw
 from bem.grid import Grid
 from bem.transforms import PaddedTransform
 
@@ -287,6 +288,24 @@ def test_a_point_keeps_its_memory_by_the_cell(name, monkeypatch):
 def test_the_floor_is_positive():
     assert transform_pair(32, 32, 1) > 0
     assert bandwidth() > 1e8
+
+
+def test_the_floor_is_the_best_of_several_plannings(monkeypatch):
+    times = iter([7.8e-3, 4.3e-3, 5.0e-3, 4.4e-3])
+    monkeypatch.setattr("bem.benchmarks.floor._planned_pair", lambda *given: next(times))
+    assert transform_pair(1024, 64, 1) == 4.3e-3
+
+
+def test_the_floor_leaves_what_fftw_knows():
+    """Solvers' plans follow what is known, measured or not: their bits would follow the benchmark."""
+    before = pyfftw.export_wisdom()
+    transform_pair(34, 64, 1)
+    assert pyfftw.export_wisdom() == before
+    pyfftw.FFTW(np.empty((34, 34)), np.empty((34, 18), complex), axes=(0, 1), flags=("FFTW_MEASURE",))
+    after = pyfftw.export_wisdom()
+    pyfftw.forget_wisdom()
+    pyfftw.import_wisdom(before)
+    assert after != before, "such a plan leaves something, and nothing was known of it"
 
 
 def test_the_report_is_built_from_a_history(tmp_path, monkeypatch):

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from mixed_case import BALL, STEEL, rough_patch
 
 from bem import (
     Body,
@@ -27,7 +28,6 @@ from bem.friction.point_film import SolvedPointFilm, sampled_point, solved_point
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
 from bem.reference_solutions.hertz import ellipse_contact
-from tests.mixed_case import BALL, STEEL, rough_patch
 
 MODULUS = 210e9 / 2 / (1 - 0.3**2)
 GRID, OIL = BALL["grid"], BALL["lubricant"]

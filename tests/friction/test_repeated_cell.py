@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from mixed_case import BALL as WHOLE
 
-from bem import Body, Grid, Lubricant, Material, solve_mixed
+from bem import Grid, solve_mixed
 from bem.accuracy import MixedCase, solve_coarser_mixed
 from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
@@ -19,17 +20,8 @@ from bem.friction.setup import MixedSetup
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.wear.mixed import MixedContact
 
-STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 MODULUS = 210e9 / 2 / (1 - 0.3**2)
-BALL = {
-    "bodies": (Body(STEEL), Body(STEEL)),
-    "radii": (0.01, 0.01),
-    "load": 20.0,  # 0.79 GPa on 110 um
-    "lubricant": Lubricant(0.03, pressure_viscosity=18e-9),
-    "boundary_friction": 0.12,
-    "film_cells": 48,
-    "oil_volume": "loaded",
-}
+BALL = {key: value for key, value in WHOLE.items() if key != "grid"}
 WAVE, A_WAVE = 20e-6, 16
 CELL = Grid((A_WAVE, A_WAVE), (WAVE / A_WAVE, WAVE / A_WAVE), periodic=(True, True))
 PATCH = Grid((15 * A_WAVE, 15 * A_WAVE), CELL.spacing)

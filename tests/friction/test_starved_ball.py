@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from mixed_case import BALL, rough_patch
 
 from bem import Grid, InputError, generate_surface, solve_mixed
 from bem.errors import Status
 from bem.friction.setup import MixedSetup
 from bem.lubrication.supply import InletDistance
 from bem.reference_solutions.hertz import ellipse_contact
-from tests.mixed_case import BALL, rough_patch
 
 STEEL, GRID, OIL = BALL["bodies"][0], BALL["grid"], BALL["lubricant"]
 ROUGH = rough_patch(40e-9)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -97,6 +98,7 @@ def _patch(grid: Grid) -> Grid:
     return Grid((nx, ny), grid.spacing, periodic=grid.periodic)
 
 
+@lru_cache(maxsize=64)  # points of a sweep have the same ones
 def _generated(body: str, table: GeneratedSurface, grid: Grid, seed: int) -> RoughSurface:
     if table.hurst is not None:
         cutoff = "two cells" if table.cutoff_wavelength is None else si(table.cutoff_wavelength, "m")
