@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+if TYPE_CHECKING:
+    from bem.benchmarks.history import Run
 
 
 def register(app: typer.Typer) -> None:
@@ -71,8 +74,7 @@ def bench(  # reason: the arguments are the options
       bem bench --compare -2 -1 --json bench.json
       bem bench --kind contact --figure time-to-an-error.png
     """
-    from bem.benchmarks.history import append_run
-    from bem.benchmarks.run import check_names, check_sizes, run_cases
+    from bem.benchmarks.run import check_names, run_cases
     from bem.benchmarks.show import draw_run, print_comparison, print_run
     from bem.cli._terminal import table
 
@@ -81,18 +83,12 @@ def bench(  # reason: the arguments are the options
         _refuse("--compare", cases | {"--kind": kind, "--peers": peers, "--figure": figure})
         print_comparison(json_ or Path("bench.json"), *compare, table)
         return
-    if not peers:
-        _refuse("a run without --peers", {"--peers-size": peers_size})
-    _check_files(json_, figure)
+    _check(cases, peers, kind, json_, figure)
     if kind:
-        _refuse("--kind", cases)
         _bench_kinds(kind, quick, min(repeats, 3), peers_folder if peers else None, json_, figure)
         return
-    names = check_names(only)
-    check_sizes("--size", size)
-    check_sizes("--peers-size", peers_size, least=16)
     run = run_cases(
-        names,
+        check_names(only),
         quick=quick,
         sizes=size,
         limit=limit,
@@ -100,16 +96,26 @@ def bench(  # reason: the arguments are the options
         repeats=repeats,
         with_floor=floor,
         peers=(peers_folder, tuple(peers_size or [512])) if peers else None,
-        say=lambda words: typer.echo(words, err=True),
+        say=_say,
     )
     print_run(run, table)
-    if json_ is not None:
-        append_run(json_, run)
-        print(f"history: {json_}")
-    if figure is not None:
-        draw_run(run, figure)
-        print(f"figure: {figure}")
-    _say_failures(run.failures)
+    _keep(run, json_, figure, lambda path: draw_run(run, path))
+
+
+def _check(
+    cases: Mapping[str, Any], peers: bool, kind: list[str] | None, history: Path | None, figure: Path | None
+) -> None:
+    """Before minutes of work: options of cases that do nothing here, or name what nothing has, and files that cannot be
+    written."""
+    from bem.benchmarks.run import check_sizes
+
+    if not peers:
+        _refuse("a run without --peers", {"--peers-size": cases["--peers-size"]})
+    _check_files(history, figure)
+    if kind:
+        _refuse("--kind", cases)
+    check_sizes("--size", cases["--size"])
+    check_sizes("--peers-size", cases["--peers-size"], least=16)
 
 
 def _refuse(beside: str, given: Mapping[str, object]) -> None:
@@ -121,7 +127,7 @@ def _refuse(beside: str, given: Mapping[str, object]) -> None:
 
 
 def _check_files(history: Path | None, figure: Path | None) -> None:
-    """Before minutes of work: whether what comes of it can be written."""
+    """Whether what comes of a run can be written."""
     from bem.benchmarks.history import read_history
     from bem.cli._quantity import new_file
     from bem.errors import ResultsError
@@ -143,7 +149,6 @@ def _bench_kinds(
     names: list[str], quick: bool, repeats: int, peers: Path | None, history: Path | None, picture: Path | None
 ) -> None:
     """`--kind`."""
-    from bem.benchmarks.history import append_run
     from bem.benchmarks.peers import environment
     from bem.benchmarks.show import draw_reach, save_picture
     from bem.benchmarks.work_precision import (
@@ -156,28 +161,29 @@ def _bench_kinds(
     )
     from bem.cli._terminal import table
 
-    def say(words: str) -> None:
-        typer.echo(words, err=True)
-
     kinds = check_kinds(names)
-    python = None if peers is None else environment(peers, say)
-    run = measure_kinds(kinds, quick=quick, repeats=repeats, peers=python, say=say)
+    python = None if peers is None else environment(peers, _say)
+    run = measure_kinds(kinds, quick=quick, repeats=repeats, peers=python, say=_say)
     table(ERROR_HEADERS, error_rows(run), title="errors against the limit of the two finest grids", right=range(3, 8))
     table(REACH_HEADERS, reach_rows(run), title="processor time to an error; in brackets: drawn on", right=range(3, 7))
+    _keep(run, history, picture, lambda path: save_picture(draw_reach(run), path))
+
+
+def _say(words: str) -> None:
+    typer.echo(words, err=True)
+
+
+def _keep(run: Run, history: Path | None, picture: Path | None, draw: Callable[[Path], None]) -> None:
+    """Write what was asked for, name what failed, and end with the exit code of it."""
+    from bem.benchmarks.history import INTERRUPTED, append_run
+
     if history is not None:
         append_run(history, run)
         print(f"history: {history}")
     if picture is not None:
-        save_picture(draw_reach(run), picture)
+        draw(picture)
         print(f"figure: {picture}")
-    _say_failures(run.failures)
-
-
-def _say_failures(failures: dict[str, str]) -> None:
-    """Name what failed, and end with the exit code of it."""
-    from bem.benchmarks.history import INTERRUPTED
-
-    for what, why in failures.items():
-        typer.echo(f"bem: {what} {why}" if what == INTERRUPTED else f"bem: {what} failed: {why}", err=True)
-    if failures:
-        raise typer.Exit(130 if INTERRUPTED in failures else 1)
+    for what, why in run.failures.items():
+        _say(f"bem: {what} {why}" if what == INTERRUPTED else f"bem: {what} failed: {why}")
+    if run.failures:
+        raise typer.Exit(130 if INTERRUPTED in run.failures else 1)

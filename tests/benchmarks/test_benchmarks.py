@@ -298,14 +298,18 @@ def test_the_floor_is_the_best_of_several_plannings(monkeypatch):
 
 def test_the_floor_leaves_what_fftw_knows():
     """Solvers' plans follow what is known, measured or not: their bits would follow the benchmark."""
+
+    def entries(wisdom):  # a table of hashes: their order follows what came in first
+        return [sorted(part.splitlines()) for part in wisdom]
+
     before = pyfftw.export_wisdom()
     transform_pair(34, 64, 1)
-    assert pyfftw.export_wisdom() == before
+    assert entries(pyfftw.export_wisdom()) == entries(before)
     pyfftw.FFTW(np.empty((34, 34)), np.empty((34, 18), complex), axes=(0, 1), flags=("FFTW_MEASURE",))
     after = pyfftw.export_wisdom()
     pyfftw.forget_wisdom()
     pyfftw.import_wisdom(before)
-    assert after != before, "such a plan leaves something, and nothing was known of it"
+    assert entries(after) != entries(before), "such a plan leaves something, and nothing was known of it"
 
 
 def test_the_report_is_built_from_a_history(tmp_path, monkeypatch):
