@@ -81,7 +81,7 @@ def solve_on_cells(
     return found.pressure
 
 
-def _pass_by_pass(  # reason: conjugate gradients know their cells, equations, and when to begin and end
+def _pass_by_pass(
     level: Level,
     balance: Balance,
     cells: Indices,

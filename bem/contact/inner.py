@@ -83,7 +83,7 @@ class Reached(NamedTuple):
     strode: bool
 
 
-def solve_in_one_call(  # reason: conjugate gradients know their cells, equations, fields, and when to begin and end
+def solve_in_one_call(
     preconditioner: Inverse,
     balance: tuple[FloatArray, float, FloatArray],
     cells: NDArray[np.int64],

@@ -190,7 +190,7 @@ def _mark_and_find(displacement, gap, state, pressure, approach, found):  # type
 def _find_violations(start, stop, result, displacement, gap, state, approach, found):  # type: ignore[no-untyped-def]
     place = start
     largest = 0.0
-    # most stretches have none: these are only counted, without branches
+    # most stretches have none: these are only counted, without branches, 1 less the state being the sign that counts
     for first in range(start, stop, 256):
         last = min(first + 256, stop)
         own_state, own_gap, own_displacement = state[first:last], gap[first:last], displacement[first:last]
@@ -200,10 +200,10 @@ def _find_violations(start, stop, result, displacement, gap, state, approach, fo
         if count == 0:
             continue
         for c in range(first, last):
-            if state[c] == 1:
+            if state[c] == CONTACT:
                 continue
             value = approach - gap[c] - displacement[c]
-            if state[c] == 2:
+            if state[c] == CAPPED:
                 value = -value
             if value > 0:
                 found[place] = c
@@ -225,7 +225,7 @@ def _separations(start, stop, result, displacement, gap, state):  # type: ignore
     nearest = np.inf
     for c in range(start, stop):
         value = gap[c] + displacement[c]
-        deepest = max(deepest, value if state[c] != 0 else -np.inf)
-        nearest = min(nearest, value if state[c] != 2 else np.inf)
+        deepest = max(deepest, value if state[c] != FREE else -np.inf)
+        nearest = min(nearest, value if state[c] != CAPPED else np.inf)
     result[0] = deepest
     result[1] = nearest

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from bem.contact import passes
 from bem.contact.patterns import NEIGHBOURS, PACKED, Patterns, patterns
+from bem.transforms.loops import first_from
 
 FloatArray = NDArray[np.float64]
 
@@ -156,19 +157,6 @@ _NOTHING_OUTSIDE = Outside(np.zeros(1, np.int64), np.zeros(2, np.int64), np.empt
 
 
 @_plain
-def _first_from(cells, value):  # type: ignore[no-untyped-def]
-    """The number of the first cell that is no lower."""
-    low, high = 0, cells.size
-    while low < high:
-        middle = (low + high) >> 1
-        if cells[middle] < value:
-            low = middle + 1
-        else:
-            high = middle
-    return low
-
-
-@_plain
 def _connect(start, stop, result, cells, grid, solved, rows):  # type: ignore[no-untyped-def]
     """Patterns and first neighbours of a block of cells, by windows that go along the lines before with them; the cells
     of the seam are listed, and where lines begin. Result: how many the former are, whether a pattern is unsolved."""
@@ -176,8 +164,8 @@ def _connect(start, stop, result, cells, grid, solved, rows):  # type: ignore[no
     upper, lower, pattern, listed, lines = rows
     n = cells.size
     cell = cells[start]
-    ahead = np.uint64(_first_from(cells, cell - ny - 2))  # the cells after both windows
-    further = np.uint64(_first_from(cells, cell - 2 * ny - 1))
+    ahead = np.uint64(first_from(cells, cell - ny - 2, 0, start))  # the cells after both windows
+    further = np.uint64(first_from(cells, cell - 2 * ny - 1, 0, start))
     line = cell // ny * ny
     for i in range(0 if start == 0 else cells[start - 1] // ny + 1, line // ny + 1):
         lines[i] = start
@@ -280,13 +268,7 @@ def _in_line(cells, cell, low, high, early, late):  # type: ignore[no-untyped-de
             high -= 1
         low = max(low, high - 1)
     else:
-        last = high
-        while low < last:
-            middle = (low + last) >> 1
-            if cells[middle] < cell:
-                low = middle + 1
-            else:
-                last = middle
+        low = first_from(cells, cell, low, high)
     return low if low < high and cells[low] == cell else -1
 
 

@@ -127,7 +127,8 @@ def rows_forward_of_cells(room, scratch, cells, values, first, last):  # type: i
     for block in range(first, last):
         start = block * room.row_block
         count = min(room.nx, start + room.row_block) - start
-        begin, end = _below(cells, start * ny), _below(cells, (start + count) * ny)
+        begin = first_from(cells, start * ny, 0, cells.size)
+        end = first_from(cells, (start + count) * ny, begin, cells.size)
         if begin == end:
             for j in range(room.spectra):
                 half[j, start : start + count] = 0
@@ -143,12 +144,12 @@ def rows_forward_of_cells(room, scratch, cells, values, first, last):  # type: i
 
 
 @_plain
-def _below(cells, bound):  # type: ignore[no-untyped-def]
-    """How many of the cells, which ascend, are below a bound; numpy's search would bring linear algebra into a run."""
-    low, high = 0, cells.size
+def first_from(cells, value, low, high):  # type: ignore[no-untyped-def]
+    """The number of the first of the cells from `low` to before `high`, which ascend, that is no lower than a value;
+    numpy's search would bring linear algebra into a run."""
     while low < high:
-        middle = (low + high) // 2
-        if cells[middle] < bound:
+        middle = (low + high) >> 1
+        if cells[middle] < value:
             low = middle + 1
         else:
             high = middle

@@ -1,6 +1,5 @@
-"""The edge of contact square by square and link by link, in plain Python: for `bem.contact.crossings`."""
-
-import math
+"""The edge of contact square by square and link by link, in plain Python: for the walk and cuts of
+`bem.contact.crossings`. What a square's polygon and chord are is the same there, and tested by itself."""
 
 import numpy as np
 
@@ -24,8 +23,8 @@ def sum_squares(given, spacing, wraps, factors, constants, ends):
             m = j + 1 if j + 1 < ny else 0
             low, high = high, 0.5
             left, rights[j] = rights[j], 0.5
-            a, b, c, d = inside[i, j], inside[k, j], inside[k, m], inside[i, m]
-            number = int(a) + int(b) + int(c) + int(d)
+            a, b, c, d = (int(inside[centre]) for centre in ((i, j), (k, j), (k, m), (i, m)))
+            number = a + b + c + d
             if number == 0 or number == 4:
                 continue
             # where the edge crosses the four sides, from their lower end; 0.5 where it does not
@@ -39,13 +38,13 @@ def sum_squares(given, spacing, wraps, factors, constants, ends):
                 sides += 0.0 if wraps_x else dx * (a != d)
             right = _cut(inside, strength, opening, shape, blurred, (k, j, 1), place, constants)
             rights[j] = right
-            share, u, v, turn = _polygon((a, b, c, d), number, (low, high, left, right))
+            share, u, v, turn = crossings._polygon((a, b, c, d), number, (low, high, left, right))
             corners += turn
             # across the smoothed edge: where it runs at 45 degrees crossings change places and a chord runs back
             lower, upper = float(blurred[i, j]), float(blurred[k, m])
             ahead, aside = float(blurred[k, j]), float(blurred[i, m])
             along, across = (upper + ahead - lower - aside) / dx, (upper + aside - lower - ahead) / dy
-            chord = _chord(u * dx, v * dy, along, across)
+            chord = crossings._chord(u * dx, v * dy, along, across)
             area += (share - 0.25 * number) * dx * dy
             length += chord
             chords += abs(chord)
@@ -53,55 +52,9 @@ def sum_squares(given, spacing, wraps, factors, constants, ends):
     return area, length, sides, chords, cubes, 0.25 * corners
 
 
-def _polygon(centres, number, crossings):
-    """Of a square with some of its four centres inside: share of it inside, chord from crossing to crossing with the
-    region on the left [sides], and a quarter turn to the left (1), to the right (-1) or neither.
-
-    centres : whether inside, counter-clockwise from the lowest; `number` of them are. crossings : of the lower, upper,
-    left and right side, from their lower end.
-    """
-    a, b, c, d = centres
-    low, high, left, right = crossings
-    if number == 2 and a == c:
-        # a saddle: the mean of both centres joined and parted
-        first = 0.5 * (low * left + (1 - high) * (1 - right))
-        second = 0.5 * ((1 - low) * right + high * (1 - left))
-        return 0.5 * (first + 1 - second) if a else 0.5 * (second + 1 - first), 0.0, 0.0, 0
-    turn = 0
-    if number == 2 and a == b:
-        share, u, v = 0.5 * (left + right), -1.0, left - right
-    elif number == 2:
-        share, u, v = 0.5 * (low + high), high - low, 1.0
-    else:
-        one = number == 1
-        turn = 1 if one else -1
-        if a == one and b != one and c != one and d != one:
-            share, u, v = 0.5 * low * left, -low, left
-        elif b == one and a != one and c != one and d != one:
-            share, u, v = 0.5 * (1 - low) * right, low - 1, -right
-        elif c == one and a != one and b != one and d != one:
-            share, u, v = 0.5 * (1 - high) * (1 - right), 1 - high, right - 1
-        else:
-            share, u, v = 0.5 * high * (1 - left), high, 1 - left
-    if (number == 2 and not a) or number == 3:
-        share, u, v = 1 - share, -u, -v
-    return share, u, v, turn
-
-
-def _chord(u, v, along, across):
-    """Length of the chord (u, v) [m], negative where it runs backwards along an edge whose normal is (along, across);
-    that of a saddle is none."""
-    length, norm = np.hypot(u, v), np.hypot(along, across)
-    if not norm > 0:
-        return length
-    forward = (u * across - v * along) / norm
-    return math.copysign(min(length, crossings._ASLANT * abs(forward)), forward)
-
-
 def _cut(inside, strength, opening, shape, blurred, link, place, constants):
     """Where the edge crosses the link from (i, j) along an axis, as a fraction of it; 0.5 where it does not.
 
-    Fields are arguments of their own, by address: others are counted as held, and as no longer, at every call.
     link : (i, j, axis).
     """
     i, j, axis = link

@@ -284,6 +284,57 @@ def test_the_edge_is_what_single_links_and_squares_make(wraps, shape, hardness, 
         np.testing.assert_allclose(found[0], plain, rtol=1e-13, atol=1e-13 * inside.size)
 
 
+def walked(centres, crossings):
+    """Polygon of a square's part inside, counter-clockwise; and which of its corners are crossings."""
+    low, high, left, right = crossings
+    corners = (0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)
+    sides = (low, 0.0), (1.0, right), (high, 1.0), (0.0, left)
+    polygon, crossed = [], []
+    for k in range(4):
+        if centres[k]:
+            polygon.append(corners[k])
+            crossed.append(False)
+        if centres[k] != centres[(k + 1) % 4]:
+            polygon.append(sides[k])
+            crossed.append(True)
+    return np.array(polygon), crossed
+
+
+def shoelace(polygon):
+    x, y = polygon.T
+    return 0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1))
+
+
+@pytest.mark.parametrize("code", range(1, 15))
+def test_a_square_has_what_its_polygon_bounds(code):
+    centres = tuple(code >> k & 1 for k in range(4))
+    number = sum(centres)
+    for sides in np.random.default_rng(code).uniform(-0.3, 1.3, (20, 4)):
+        share, u, v, turn = crossings._polygon(centres, number, tuple(sides))
+        polygon, crossed = walked(centres, sides)
+        if sum(crossed) == 4:
+            # joined it is all of the polygon; parted it is what the other centres, joined, leave
+            outside, _ = walked(tuple(1 - c for c in centres), sides)
+            joined, parted = shoelace(polygon), 1 - shoelace(outside)
+            assert share == pytest.approx(0.5 * (joined + parted), abs=1e-14)
+            assert (u, v, turn) == (0, 0, 0)
+            continue
+        assert share == pytest.approx(shoelace(polygon), abs=1e-14)
+        out = next(k for k in range(len(crossed)) if crossed[k] and crossed[(k + 1) % len(crossed)])
+        # the walk has the region on its left, and passes from one crossing to the other along the chord
+        assert (u, v) == pytest.approx(tuple(polygon[(out + 1) % len(polygon)] - polygon[out]), abs=1e-14)
+        assert turn == {1: 1, 2: 0, 3: -1}[number]
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.4, 1.0, 1.4, 2.0, 3.1])
+def test_a_chord_counts_by_what_it_runs_along_the_edge(turned):
+    """The normal points into the region, on the left of the way: (0, 1) where the edge runs along x."""
+    u, v = 0.6 * np.cos(turned), 0.6 * np.sin(turned)
+    along = np.cos(turned)
+    assert crossings._chord(u, v, 0.0, 3.0) == pytest.approx(np.sign(along) * 0.6 * min(1, 1.5 * abs(along)))
+    assert crossings._chord(u, v, 0.0, 0.0) == pytest.approx(0.6)
+
+
 @pytest.mark.parametrize("wraps", ENDS)
 def test_like_cells_are_counted_from_link_to_link(wraps):
     inside = (np.random.default_rng(7).random((25, 19)) < 0.6).astype(np.uint8)

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from contact_oracles import FREE, PERIODIC, notes_surface, operator
+from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, notes_surface, operator
 
-from bem.contact.imposing import impose
+from bem.contact.imposing import _ITERATIONS, impose
 from bem.contact.level import Level, Tuning
+from bem.contact.preconditioner import sparse_inverse
 
 N = 32
 
@@ -30,6 +31,16 @@ def contact_of(periodic, share, seed):
     matrix = kernel(op, cells) + 1e-6 * np.eye(cells.size)  # a doubly periodic grid has none for a uniform pressure
     closing = height[cells] - height[cells].min()
     return level.near_on(cells), matrix, np.linalg.solve(matrix, closing)
+
+
+def dense_rows(near, size):
+    """G as a matrix, by its products with unit vectors; these are held against its definition in test_sparse_rows."""
+    rows = np.empty((size, size))
+    for k, unit in enumerate(np.eye(size)):
+        column = np.empty(size)
+        near.spread(unit, column)
+        rows[:, k] = column
+    return rows
 
 
 @pytest.mark.parametrize("periodic", [FREE, PERIODIC])
@@ -58,12 +69,8 @@ def test_neighbours_make_up_for_what_is_taken_off(periodic, share, seed):
 def test_a_single_cell_is_taken_off_as_the_sparse_inverse_says():
     near, _, raw = contact_of(FREE, 0.4, 3)
     size = raw.size
-    g = np.empty((size, size))
-    for k, unit in enumerate(np.eye(size)):
-        column = np.empty(size)
-        near.spread(unit, column)
-        g[:, k] = column
-    inverse = g.T @ g
+    rows = dense_rows(near, size)
+    inverse = rows.T @ rows
     raw = np.full(size, 5.0)
     raw[size // 2] = -1.0
     found = raw.copy()
@@ -79,3 +86,45 @@ def test_pressures_that_push_are_left_as_they_are():
     found = pushing.copy()
     impose(near, found)
     assert np.array_equal(found, pushing)
+
+
+def plainly(inverse, raw):
+    """`impose` with a dense inverse B, in numpy: what two conjugate gradients for B y = p take off those that pull."""
+
+    def take_off(pulls, taken):
+        missed = (raw - taken)[pulls]
+        way = missed.copy()
+        for _ in range(_ITERATIONS):
+            if not missed @ missed > 0:
+                break
+            response = inverse[:, pulls] @ way
+            squares = missed @ missed
+            step = squares / (way @ response[pulls])
+            taken = taken + step * response
+            missed = missed - step * response[pulls]
+            way = missed + missed @ missed / squares * way
+        return taken
+
+    pulls = raw < 0
+    taken = take_off(pulls, np.zeros(raw.size))
+    more = pulls | (raw < taken)
+    if (more != pulls).any():
+        taken = take_off(more, taken)
+    return np.where(more, 0.0, raw - taken)
+
+
+@pytest.mark.parametrize("periodic", [FREE, HALF_X, HALF_Y, PERIODIC])
+@pytest.mark.parametrize("shape", [(2, 9), (9, 2), (3, 11), (11, 3), (5, 7), (1, 30), (30, 1), (19, 23)])
+def test_rows_of_the_seam_and_at_the_ends_of_the_list_take_part(shape, periodic):
+    """On narrow and periodic grids most rows are of the seam; on few cells all are, as the list's first and last."""
+    rng = np.random.default_rng(shape[0])
+    near = sparse_inverse(shape, periodic, operator((24, 24), (1.0, 1.0), FREE).near_field(4))
+    for share in (0.05, 0.3, 0.7, 1.0):
+        cells = np.sort(rng.permutation(shape[0] * shape[1])[: max(1, round(share * shape[0] * shape[1]))])
+        on = near.on(cells)
+        raw = rng.standard_normal(cells.size) + rng.uniform(-0.5, 1.5)
+        found = raw.copy()
+        impose(on, found)
+        rows = dense_rows(on, cells.size)
+        # a few hundred products of order one
+        np.testing.assert_allclose(found, plainly(rows.T @ rows, raw), rtol=0, atol=1e-12 * np.abs(raw).max())
