@@ -18,6 +18,7 @@ from bem.stress import (
     von_mises_planes,
 )
 from bem.stress.packed import pack
+from bem.stress.spectra import MOST_FAMILIES, SweepCache
 from bem.threads import set_threads
 from bem.transforms import COUNT as TRANSFORMS
 
@@ -371,3 +372,16 @@ def test_packed_spectra_give_the_stresses_of_whole_ones(monkeypatch, friction):
         assert found[1][1] < 0.85 * found[0][1]
     room.set_stress_memory(0)
     room.set_stress_memory(1 << 29)
+
+
+def test_names_of_bodies_are_few_and_never_given_twice():
+    """They were kept for every material of a session."""
+    cache = SweepCache(1 << 20)
+    used = cache.family("in use")
+    names = []
+    for body in range(3 * MOST_FAMILIES):
+        names.append(cache.family(body))
+        assert cache.family("in use") == used
+    assert len({used, *names}) == 1 + len(names)
+    assert len(cache.families) == MOST_FAMILIES
+    assert cache.family(0) not in {used, *names}

@@ -58,6 +58,10 @@ class _Kept:
     sweep: int
 
 
+MOST_FAMILIES = 256
+"""Bodies on grids that a store tells apart at a time: a session of sweeps over materials would name more and more."""
+
+
 class SweepCache:
     """Bounded store for values that are asked for in repeated sweeps.
 
@@ -71,6 +75,7 @@ class SweepCache:
         self.used = 0
         self.sweep = 0
         self.families: dict[Any, int] = {}
+        self.named = 0
         self.lock = threading.Lock()
 
     def begin(self) -> int:
@@ -80,9 +85,15 @@ class SweepCache:
             return self.sweep
 
     def family(self, key: Any) -> int:
-        """A number for what the keys of a sweep have in common: hashed once, not for each depth."""
+        """A number for what the keys of a sweep have in common: hashed once, not for each depth. One that has not been
+        asked for in a long time gets a new one; what is kept under the old one gives way as what is not used does."""
         with self.lock:
-            return self.families.setdefault(key, len(self.families))
+            number = self.families.pop(key, self.named)
+            self.named = max(self.named, number + 1)
+            self.families[key] = number  # the latest last
+            if len(self.families) > MOST_FAMILIES:
+                del self.families[next(iter(self.families))]
+            return number
 
     def get(self, key: Any, sweep: int) -> Any:
         """What is kept under a key, from now on in use by this sweep; None if nothing."""
