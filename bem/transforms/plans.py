@@ -11,6 +11,7 @@ import ctypes
 import threading
 from collections.abc import Iterator
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,14 @@ from numba import types
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
+from bem.errors import InputError
 from bem.fftw import pyfftw
+
+if import_module("numba.core.config").DISABLE_JIT:  # loops that call FFTW by address cannot be run by Python
+    raise InputError(
+        "NUMBA_DISABLE_JIT is set, so that nothing is compiled: transforms, and with them contacts and stresses, run "
+        "compiled only; unset it (env -u NUMBA_DISABLE_JIT bem ...)"
+    )
 
 _DESTROY_INPUT, _ESTIMATE = 1 << 0, 1 << 6
 _FORWARD, _BACKWARD = -1, 1

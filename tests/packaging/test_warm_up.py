@@ -207,3 +207,15 @@ def test_loops_that_first_runs_had_to_compile_are_passed_through(tmp_path, scene
         cwd=tmp_path, capture_output=True, text=True, timeout=600, check=True,
     )  # fmt: skip
     assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_a_numba_that_compiles_nothing_is_one_message(tmp_path):
+    """Loops that call FFTW by address ended in a traceback from within numba."""
+    env = os.environ | {"NUMBA_DISABLE_JIT": "1"}
+    command = [sys.executable, "-m", "bem", "run", "hertz-sphere", "--out", str(tmp_path / "run")]
+    done = subprocess.run(command, env=env, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr.startswith("bem: NUMBA_DISABLE_JIT is set")
+    assert "unset it" in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert not (tmp_path / "run").exists()
