@@ -229,8 +229,8 @@ class DisplacementOperator:
     """Callable: pressure (nx, ny) [Pa] -> normal surface displacement (nx, ny) [m], the sum over both bodies.
 
     On a doubly periodic grid the mean displacement is zero by definition: the mean pressure moves the datum only.
-    `unit` is the power of two [m/Pa] that scales the kernel inside; `count` the applications so far. `compliance` is
-    what each place gives way besides, in proportion to its own pressure [m/Pa].
+    `unit` is the power of two [m/Pa] that scales the kernel inside; `count` the applications so far, of the thread that
+    asks. `compliance` is what each place gives way besides, in proportion to its own pressure [m/Pa].
     """
 
     grid: Grid

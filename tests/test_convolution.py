@@ -1,5 +1,9 @@
 """The displacement operator: against direct sums, what it shares, what it skips."""
 
+import copy
+import pickle
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -230,3 +234,32 @@ def test_a_compliance_of_each_place_adds_its_own_pressure(periodic):
     assert soft.coarsened() is None or soft.coarsened().compliance == give
     with pytest.raises(InputError, match="compliance"):
         displacement_operator(grid, body, compliance=-1.0)
+
+
+@pytest.mark.parametrize("moved", [copy.deepcopy, lambda operator: pickle.loads(pickle.dumps(operator))])
+def test_an_operator_that_was_moved_counts_its_own_with_its_coarser_ones(moved):
+    operator = displacement_operator(Grid((64, 64), (1.0, 1.0)), Body(STEEL), friction=0.1)
+    operator(np.ones((64, 64)))
+    operator.coarsened()(np.ones((32, 32)))
+    other = moved(operator)
+    assert other == operator
+    assert (other.count.applications, other.count.weighted) == (0, 0.0)
+    other(np.ones((64, 64)))
+    other.coarsened()(np.ones((32, 32)))
+    other.frictionless(np.ones((64, 64)))
+    assert (other.count.applications, other.count.weighted) == (3, 2.25)
+    assert (operator.count.applications, operator.count.weighted) == (2, 1.25)
+
+
+def test_each_thread_is_told_its_own_applications():
+    operator = displacement_operator(Grid((64, 64), (1.0, 1.0)), Body(STEEL))
+    operator(np.ones((64, 64)))
+
+    def beside():
+        before = operator.count.applications
+        operator(np.ones((64, 64)))
+        return before, operator.count.applications
+
+    with ThreadPoolExecutor(1) as pool:
+        assert pool.submit(beside).result() == (0, 1)
+    assert operator.count.applications == 1
