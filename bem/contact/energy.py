@@ -30,19 +30,18 @@ sets swing for long on some capped and free contacts; at 0.8 rounds that only la
 
 
 class Accepted(NamedTuple):
-    """A pressure with its energy at approach zero, the size of the terms in it, its sum, and its work on the gap."""
+    """A pressure with its approach, its energy at approach zero, the size of the terms in that, and its sum."""
 
     iterate: Iterate
     approach: float
     energy: float
     size: float
     force: float
-    work: float
 
     @classmethod
     def of(cls, iterate: Iterate, approach: float, seen: Survey) -> Accepted:
         """A pressure with what was seen of it."""
-        return cls(iterate, approach, seen.energy, seen.size, seen.force, seen.work)
+        return cls(iterate, approach, seen.energy, seen.size, seen.force)
 
     def potential(self, control: Control) -> float:
         """The energy that falls under a control: at the approach where that is given."""

@@ -38,13 +38,13 @@ def sum_squares(given, spacing, wraps, factors, constants, ends):
                 sides += 0.0 if wraps_x else dx * (a != d)
             right = _cut(inside, strength, opening, shape, blurred, (k, j, 1), place, constants)
             rights[j] = right
-            share, u, v, turn = crossings._polygon((a, b, c, d), number, (low, high, left, right))
+            share, u, v, turn = crossings._polygon.py_func((a, b, c, d), number, (low, high, left, right))
             corners += turn
             # across the smoothed edge: where it runs at 45 degrees crossings change places and a chord runs back
             lower, upper = float(blurred[i, j]), float(blurred[k, m])
             ahead, aside = float(blurred[k, j]), float(blurred[i, m])
             along, across = (upper + ahead - lower - aside) / dx, (upper + aside - lower - ahead) / dy
-            chord = crossings._chord(u * dx, v * dy, along, across)
+            chord = crossings._chord.py_func(u * dx, v * dy, along, across)
             area += (share - 0.25 * number) * dx * dy
             length += chord
             chords += abs(chord)
