@@ -138,6 +138,8 @@ def draw(
         figure = Figure(figsize=size or kind.size, dpi=DOTS, layout="constrained")
         FigureCanvasAgg(figure)
         kind.draw(run, figure)
+        if size is not None:  # what is asked for goes before what the maps need
+            figure.set_size_inches(size)
         settle(figure)
         paths = write(figure, folder, kind.name, formats)
         if kind.animate is not None:

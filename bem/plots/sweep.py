@@ -72,6 +72,7 @@ def _chosen(variables: Mapping[str, Variable], keys: Sequence[str], headline: Se
     """Figures worth a panel: numbers that exist and, where possible, vary."""
     others = [name for name in variables if name not in keys and name not in headline]
     known = [name for name in (*headline, *others) if name in variables and _drawable(variables[name], name)]
+    known = [name for name in known if not any(_is_key(variables, name, key) for key in keys)]
     varying = [name for name in known if np.nanmax(variables[name].values) > np.nanmin(variables[name].values)]
     preferred = [name for name in varying if name in headline]
     return (preferred or varying or known)[:_MOST_PANELS]
@@ -82,6 +83,16 @@ def _drawable(variable: Variable, name: str) -> bool:
     if name.startswith("speed_") and variable.dimensions[-1] == "speed":  # what the curves run over themselves
         return False
     return plain and name not in ("wall_time_s", "seed", "iterations", "convolutions", "residual")
+
+
+def _is_key(variables: Mapping[str, Variable], name: str, key: str) -> bool:
+    """Whether a figure is what was asked for, such as the load over contact.load: a straight line says nothing."""
+    at, figure = variables.get(key), variables[name]
+    if at is None or at.values.dtype.kind not in "if" or key not in figure.dimensions:
+        return False
+    asked = at.values.reshape([-1 if each == key else 1 for each in figure.dimensions])
+    # loads of solvers are those asked for but for their tolerance, 1e-8 where nothing else is said
+    return bool(np.allclose(figure.values, asked, rtol=1e-6, atol=0.0))
 
 
 def _panel(

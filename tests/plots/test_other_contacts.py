@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from bem.plots.cases import along
-from bem.plots.figures import friction, point_film, running_in, wear
+from bem.plots.figures import contact, friction, friction_map, point_film, running_in, wear
 from bem.plots.report import with_error
 from bem.plots.sweep import fill
 from bem.plots.tables import figure_tables
@@ -152,3 +152,44 @@ def test_panels_over_keys_name_each_unit_once():
     figure = Figure()
     fill(figure, {"central_thickness_nm": films, "speed": speeds}, {"speed": "list"}, ("central_thickness_nm",))
     assert figure.axes[0].get_ylabel() == "central thickness (nm)"
+
+
+def test_the_panel_of_what_was_asked_for_is_left_out():
+    """Load over contact.load was the first of four panels."""
+    asked = np.array([1.0, 10.0, 100.0])
+    variables = {
+        "contact.load": Variable(("contact.load",), asked, "N", "load"),
+        "load": Variable(("contact.load",), asked * (1 + 1e-9), "N", "load"),
+        "approach": Variable(("contact.load",), 1e-7 * asked ** (2 / 3), "m", "approach"),
+    }
+    figure = Figure()
+    fill(figure, variables, {"contact.load": "logarithmic"}, ("load", "approach"))
+    assert [axes.get_ylabel().split(" (")[0] for axes in figure.axes] == ["approach"]
+
+
+def test_the_surface_of_one_body_leaves_no_half_empty():
+    heights = np.random.default_rng(3).normal(0, 1e-7, (16, 16))
+    x = y = 1e-6 * np.arange(16.0)
+    (kind,) = (each for each in contact.FIGURES if each.name == "surface-maps")
+    one = run_of(x=x, y=y, lower_height=(("x", "y"), heights))
+    both = one.dataset.assign(upper_height=(("x", "y"), heights))
+    widths = [drawn(kind.draw, run).get_figwidth() for run in (one, SimpleNamespace(dataset=both, scene=CYCLES))]
+    assert widths == [kind.size[0] / 2, kind.size[0]]
+
+
+def test_maps_of_friction_fill_their_figure_however_long_the_patch_is():
+    """Of a patch twice as long as wide they were small, one below the other in a wide figure."""
+    (kind,) = friction_map.FIGURES
+    for cells in ((16, 16), (32, 16), (64, 16)):
+        x, y = (1e-6 * (np.arange(n) - (n - 1) / 2) for n in cells)
+        stress = np.full(cells, 1e8)
+        stress[::4] = 0.0
+        run = run_of(
+            x=x, y=y, boundary_stress=(("x", "y"), stress), oil_stress=(("x", "y"), 1e8 - stress),
+            shown_speed=0.1, speed=[0.1], boundary_part=("speed", [0.1]), film_part=("speed", [0.1]),
+        )  # fmt: skip
+        figure = Figure(figsize=kind.size, layout="constrained")
+        kind.draw(run, figure)
+        figure.draw_without_rendering()
+        left = min(axes.get_tightbbox().x0 for axes in figure.axes) / figure.bbox.width
+        assert left < 0.1, cells

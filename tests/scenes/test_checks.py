@@ -239,6 +239,14 @@ def test_a_check_of_scenes_fires_where_it_should_and_not_next_to_it(name):
     assert fired(name, good) == []
 
 
+def test_only_a_body_stiffer_than_any_solid_may_be_meant_as_rigid():
+    for key, rigid in (("lower__material", True), ("lower__layer", False)):
+        stiff = material("3 TPa")
+        scene = with_(BALL, **{key: stiff if rigid else {"material": stiff, "thickness": "20 um"}})
+        (words,) = fired("implausible_modulus", scene)
+        assert ("rigid" in words) is rigid
+
+
 @pytest.mark.parametrize("kind", ["point-film", "point-film-time"])
 def test_a_ball_in_oil_that_yields_is_told_as_a_dry_one(kind):
     """Under 20 kN it was solved at 8 GPa, and all that was said was about the oil."""

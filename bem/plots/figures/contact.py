@@ -147,6 +147,7 @@ def _convergence(run: Any, figure: Figure) -> None:
 
 def _surfaces(run: Any, figure: Figure) -> None:
     names = [name for name in ("lower_height", "upper_height") if name in run.dataset]
+    figure.set_size_inches(4.5 * len(names), figure.get_figheight())  # of one the other half was empty
     for axes, name in zip(np.atleast_1d(figure.subplots(1, len(names))), names, strict=True):
         values = _array(run, name)
         map_of_heights(figure, axes, _array(run, "x"), _array(run, "y"), values)

@@ -16,6 +16,8 @@ from bem.plots.style import OPEN, field_axes, label, prefix, thinned
 
 _BEYOND = 1.15
 """Of the half-axes of what carries friction, what is shown."""
+_WIDE, _WIDTH = 2.0, 6.0
+"""Length along x over that along y from which maps are one below the other, and the figure's width then [inch]."""
 _SOME = 0.02
 """Of the largest stress, what counts as carrying friction."""
 
@@ -46,8 +48,11 @@ def _friction_map(run: Any, figure: Figure) -> None:
     factor, unit = prefix(carries, "Pa")
     # a few spikes would take all colours
     most = float(np.percentile(thinned(carries[window])[thinned(seen[window])], 99.5)) * factor
-    tall = (y[window[1]][-1] - y[window[1]][0]) > (x[window[0]][-1] - x[window[0]][0])
-    panels = figure.subplots(*((1, 2) if tall or len(x) < 2 * len(y) else (2, 1)))
+    ratio = float(np.ptp(x[window[0]])) / max(float(np.ptp(y[window[1]])), y[1] - y[0])
+    side_by_side = ratio < _WIDE
+    if not side_by_side:  # maps as high as the usual figure has room for left half of it empty
+        figure.set_size_inches(_WIDTH, 2 * (0.8 + (_WIDTH - 1.6) / min(ratio, 4.0)))
+    panels = figure.subplots(*((1, 2) if side_by_side else (2, 1)))
     named = (("surfaces in contact", boundary), ("oil between them", oil))
     for axes, (text, stress), share in zip(panels, named, _shares(run), strict=True):
         shown = stress[window]

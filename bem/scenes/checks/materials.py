@@ -30,10 +30,10 @@ def implausible_modulus(facts: Facts) -> Iterator[str]:
                 f'youngs_modulus = "{value:g} GPa" if that is meant'
             )
         elif value > _MODULI[1] and "rigid" not in material.name.lower():
+            rigid = "" if "layer" in key else ', or leave upper.material out (or name it "rigid") for a rigid body'
             yield (
                 f"{key}: Young's modulus {si(value, 'Pa')} is above that of any solid (diamond 1.1 TPa); check its "
-                "unit, or "
-                'leave upper.material out (or name it "rigid") for a rigid body'
+                f"unit{rigid}"
             )
 
 
