@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     import xarray
 
 DEFINITION, DATASET, TABLE, FIGURE = "sweep.json", "sweep.nc", "sweep.csv", "sweep"
+_MOST_NOTES = 20
 _POINTS = "points"
 
 
@@ -139,6 +141,7 @@ def run_sweep(  # reason: a promise to users' scripts
         computed, failed = _compute(missing, len(summaries), staff, watcher or Silent())
         summaries |= computed
         in_order = [summaries[name] for name in names]
+        _tell_notes(in_order, watcher or Silent())
         variables = _collect(folder, scenes[0], axes, in_order)
         write_text(folder / TABLE, table_text(axes, in_order, names, failed))
         if any(in_order):
@@ -150,6 +153,15 @@ def run_sweep(  # reason: a promise to users' scripts
         force_names(folder)
     stuck = [name for name, summary in summaries.items() if summary and summary.get("status") != "converged"]
     return FinishedSweep(folder, len(missing) - len(failed), failed, tuple(stuck))
+
+
+def _tell_notes(summaries: Sequence[Mapping[str, Any] | None], watcher: Watcher) -> None:
+    """What the points' summaries say of their validity, each once, most frequent first."""
+    told = Counter(text for summary in summaries if summary for text in dict.fromkeys(summary.get("notes") or ()))
+    for text, number in told.most_common(_MOST_NOTES):
+        watcher.note(f"{number} of {len(summaries)} points: {text}")
+    if len(told) > _MOST_NOTES:
+        watcher.note(f"and {len(told) - _MOST_NOTES} more, in the summary.json of points")
 
 
 def _plan_points(
