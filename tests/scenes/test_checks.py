@@ -499,6 +499,14 @@ def test_particles_of_running_in_that_the_depths_cut_are_told():
     assert words.startswith(f"{100 * share:.2g} % of the settled particles")
 
 
+def test_particles_that_end_at_an_interface_need_no_deeper_depths():
+    """All pieces of a layer of 1 um reached its interface, and 10 um of depths were told to be too few."""
+    cut = Outcome({"truncated_particles": [40], "particles_per_cycle": [2.0]}, {})
+    for name, coated in (("wear-brass-transfer-film", True), ("wear-steel-brass", False)):
+        (words,) = OUTCOME_CHECKS["particles_cut_by_the_depths"](facts_of(name), cut)
+        assert ("wear.within_layer" in words) is coated
+
+
 def test_roughness_does_not_drift_where_nothing_came_off():
     """The strip in contact moves, and its roughness with it."""
     worn = loop_outcome(100.0)

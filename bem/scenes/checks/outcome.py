@@ -287,9 +287,12 @@ def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[str]
     settled = facts.scene.cycles.settled
     shares = [c / (n * settled) for c, n in zip(numbers(cut), numbers(number), strict=False) if n > 0]
     if shares and max(shares) > 0.02:
+        coated = any("layer" in key for key in facts.materials)
+        held = any(case.wear is not None and case.wear.within_layer for case in facts.cases)
         yield (
             f"{percent(max(shares))} of the settled particles reach the deepest depth and go on below it: their volume "
             "is too small; take more or wider depths"
+            + (", unless they end at the interface, where wear.within_layer ends them" if coated and held else "")
         )
 
 
