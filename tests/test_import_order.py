@@ -10,7 +10,7 @@ ROOT = Path(__file__).resolve().parents[1] / "bem"
 
 ORDER = [
     {"errors", "lazy", "representation", "small_files", "compiled", "pocketfft", "quick_loads"},
-    {"extensions", "arguments", "kept", "monotone"},
+    {"extensions", "arguments", "kept", "monotone", "pieces"},
     {"grid", "materials", "threads", "fftw", "laws"},
     {"kernels", "reference_solutions", "subcell"},
     {"transforms"},

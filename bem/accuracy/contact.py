@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bem import pieces
 from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars, Rule
 from bem.accuracy.sharp import is_sharp
 from bem.contact import ContactSolution, solve_contact
@@ -137,14 +138,14 @@ def solve_coarser(case: ContactCase, max_iterations: int = 2000) -> Coarser:
     if operator is None:
         return Coarser(None, None, _COARSE)
     grid = operator.grid
-    gap = np.array(sample(case.undeformed, grid.shape, grid.periodic))
+    gap = sample(case.undeformed, grid.shape, grid.periodic)
     if case.from_touch:
-        gap -= gap.min()
+        gap = gap - gap.min()
     mean_gap = case.mean_gap
     if mean_gap is not None and not all(grid.periodic):
         mean_gap = mean_opening(sample(case.solution.gap, grid.shape, grid.periodic))
-    start = np.clip(sample(case.solution.pressure, grid.shape, grid.periodic), 0.0, case.hardness)
-    for pressure in (start, None):
+    start: FloatArray | None = np.clip(sample(case.solution.pressure, grid.shape, grid.periodic), 0.0, case.hardness)
+    for _ in range(2):  # once more from coarser grids where that start leads nowhere
         try:
             solution = solve_contact(
                 gap,
@@ -154,13 +155,14 @@ def solve_coarser(case: ContactCase, max_iterations: int = 2000) -> Coarser:
                 mean_gap=mean_gap,
                 hardness=case.hardness,
                 tolerance=_TOLERANCE,
-                initial_pressure=pressure,
+                initial_pressure=start,
                 max_iterations=max_iterations,
             )
         except InfeasibleError:  # an approach in full contact, a mean gap that other cells do not have
             return Coarser(None, None, _IMPOSSIBLE)
         if solution.status is Status.CONVERGED:
             return Coarser(grid, solution)
+        start = None
     return Coarser(None, None, _UNSOLVED)
 
 
@@ -236,11 +238,15 @@ def _is_smooth(gap: FloatArray, grid: Grid, share: float) -> bool:
     """Whether a surface's curvature changes from cell to cell by no more than this share of itself (rms)."""
     turns, bends = 0.0, 0.0
     for axis in (0, 1):
-        if grid.shape[axis] < 4:
+        n = grid.shape[axis]
+        if n < 4:
             continue
-        second = np.diff(gap, 2, axis=axis) / grid.spacing[axis] ** 2
-        bends += float(np.mean(second**2))
-        turns += float(np.mean(np.diff(second, axis=axis) ** 2))
+        lines, square, across = np.moveaxis(gap, axis, 0), grid.spacing[axis] ** 2, gap.size // n
+        for first, last in pieces.row_blocks(lines.shape):
+            second = np.diff(lines[first : last + 3], 2, axis=0) / square  # one more than those of the block
+            third = np.diff(second, axis=0)
+            bends += float(np.sum(second[: last - first] ** 2)) / ((n - 2) * across)
+            turns += float(np.sum(third[: last - first] ** 2)) / ((n - 3) * across)
     return turns <= share**2 * bends
 
 
@@ -252,7 +258,7 @@ def touches_sharply(case: ContactCase) -> bool:
 
 def mean_opening(gap: FloatArray) -> float:
     """Mean of the positive part of a gap."""
-    return float(np.maximum(gap, 0).mean())
+    return pieces.mean(gap, lambda piece: np.maximum(piece, 0))
 
 
 def share_at_edge(case: ContactCase) -> float:
@@ -278,7 +284,7 @@ def _further(case: ContactCase, *, resolved: bool) -> dict[str, float]:
     cap = math.inf if case.hardness is None else case.hardness
     highest = case.solution.maximum_pressure
     peak = (_PEAK if resolved else _ROUGH_PEAK) * abs(highest - float(case.solution.pressure.max()))
-    touch = _TOUCH * rise(-case.undeformed, case.grid) if case.from_touch else 0.0
+    touch = _TOUCH * _rise_below(case.undeformed, case.grid) if case.from_touch else 0.0
     # N spots of width d that know nothing of one another are as stiff as N E* d, which is E* perimeter / pi
     perimeter = case.solution.contact_perimeter
     spot = math.pi * case.solution.contact_area / perimeter if perimeter > 0 else math.sqrt(case.grid.cell_area)
@@ -312,9 +318,12 @@ def _bend_in_cells(case: ContactCase) -> float:
     for axis in (0, 1):
         if case.grid.periodic[axis] or case.grid.shape[axis] < 3:
             continue
-        second = np.diff(np.moveaxis(case.undeformed, axis, 0), 2, axis=0)
-        touching = np.moveaxis(inside, axis, 0)[1:-1]
-        bend += float(second[touching].sum()) / 24 / np.count_nonzero(inside)
+        lines, touching = np.moveaxis(case.undeformed, axis, 0), np.moveaxis(inside, axis, 0)[1:-1]
+        second = [
+            np.diff(lines[first : last + 2], 2, axis=0)[touching[first:last]]
+            for first, last in pieces.row_blocks(touching.shape)
+        ]
+        bend += float(np.concatenate(second).sum()) / 24 / np.count_nonzero(inside)
     return abs(bend)
 
 
@@ -324,6 +333,14 @@ def rise(field: FloatArray, grid: Grid) -> float:
     patch = around(field, grid, (int(place[0]), int(place[1])))
     found = None if patch is None else top(patch)
     return 0.0 if found is None else found - float(field[place])
+
+
+def _rise_below(field: FloatArray, grid: Grid) -> float:
+    """The same of the lowest value, and below it."""
+    row, column = (int(i) for i in np.unravel_index(int(np.argmin(field)), field.shape))
+    patch = around(field, grid, (row, column))
+    found = None if patch is None else top(-patch)
+    return 0.0 if found is None else found + float(field[row, column])
 
 
 def _ends(case: ContactCase) -> float:
@@ -373,7 +390,7 @@ def _at_mean_gap(case: ContactCase, ends: float, bent: float, touch: float) -> d
 def _algebraic(case: ContactCase, fine: Mapping[str, float]) -> dict[str, float]:
     """What surfaces that miss contact by the residual change at most: as much of the approach and of gaps, and the
     pressure that waves of two cells of that height take, E* q h / 2."""
-    size = float(np.std(case.undeformed)) or float(np.abs(case.solution.displacement).max())
+    size = pieces.deviation(case.undeformed) or float(np.abs(case.solution.displacement).max())
     height = case.solution.residual * size
     wavenumber = math.pi / math.sqrt(case.grid.cell_area)
     pressure = 0.5 * case.operator.modulus_at(wavenumber) * wavenumber * height

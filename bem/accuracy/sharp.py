@@ -9,10 +9,13 @@ cell, of a sharp one they stand alone. Knows no contact but its pressure. Verifi
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bem.grid import FloatArray, Grid
+from bem.pieces import around, row_blocks
 
 _STEP, _STEPS = 5.0, 0.25
 """An edge is sharp where the undeformed gap changes by so many times what it does on both sides; a contact has sharp
@@ -41,45 +44,88 @@ def is_sharp(undeformed: FloatArray, pressure: FloatArray, grid: Grid, modulus: 
 
 
 def _ends_at_steps(undeformed: FloatArray, pressure: FloatArray, grid: Grid) -> bool:
-    inside = pressure > 0
     edges, sharp = 0, 0
     for axis in (0, 1):
-        if grid.shape[axis] < 4:
+        n = grid.shape[axis]
+        if n < 4:
             continue
-        steps = np.moveaxis(np.abs(np.diff(undeformed, axis=axis)), axis, 0)
-        ends = np.moveaxis(np.diff(inside.astype(np.int8), axis=axis) != 0, axis, 0)[1:-1]
-        edges += int(ends.sum())
-        sharp += int((ends & (steps[1:-1] > _STEP * np.maximum(steps[:-2], steps[2:]))).sum())
+        for first, last in row_blocks(grid.shape):
+            place = np.arange(first, last) if axis == 0 else np.arange(n)
+            steps = np.abs(np.diff(around(undeformed, axis, first, last, 2), axis=0))
+            inside = around(pressure, axis, first, last, 1) > 0
+            # from a cell to the next; of the axis' ends one side is not known
+            ends = (inside[2:] != inside[1:-1]) & ((place > 0) & (place < n - 2))[:, None]
+            edges += int(np.count_nonzero(ends))
+            sharp += int(np.count_nonzero(ends & (steps[2:-1] > _STEP * np.maximum(steps[1:-2], steps[3:]))))
     return sharp > _STEPS * edges
+
+
+class _Kinks(NamedTuple):
+    """Cells where second differences along an axis stand alone and may have the highest pressure at a tip: their
+    numbers, second differences [m], and whether it may be that of a ridge."""
+
+    cells: NDArray[np.int64]
+    bends: FloatArray
+    ridges: NDArray[np.bool_]
 
 
 def _touches_at_kinks(undeformed: FloatArray, pressure: FloatArray, grid: Grid, modulus: float) -> bool:
     """Whether there are kinks that may have the highest pressure. Johnson: a wedge of slope t has E* t/pi arcosh(a/x),
     a cone E* t/2 arcosh(a/r); slopes change by 2 t there, in a cell or two."""
-    inside, missing = pressure > 0, float(pressure.max()) - pressure
-    rise = modulus * math.log(_FINER)
-    ridges: list[FloatArray] = []
-    round_off = _ROUND_OFF * float(np.ptp(undeformed))
-    over: list[FloatArray] = []
+    highest, tips = float(pressure.max()), []
     for axis in (0, 1):
-        n = grid.shape[axis]
-        if n < 8:
+        if grid.shape[axis] < 8:
             continue
-        # across a free edge of the grid nothing follows; no contact that has bars reaches it
-        bend = np.roll(undeformed, 1, axis) - 2 * undeformed + np.roll(undeformed, -1, axis)
-        if not grid.periodic[axis]:
-            np.moveaxis(bend, axis, 0)[[0, -1]] = 0.0
-        size = np.abs(bend)
-        beside = np.maximum(np.roll(size, 2, axis), np.roll(size, -2, axis))
-        usual = max(float(np.quantile(size, 0.75)), round_off / _UNUSUAL)
+        kinks = _kinks(undeformed, pressure, grid, axis, modulus * math.log(_FINER), highest)
+        if kinks.cells.size == 0:
+            continue
+        usual = _usual_bend(undeformed, grid, axis)
         if not usual > 0:  # flat
             continue
+        unusual = kinks.bends / usual
+        if bool((unusual[kinks.ridges] > _UNUSUAL).any()):
+            return True
+        tips.append(kinks.cells[unusual > _UNUSUAL_TIP])
+    return len(tips) == 2 and np.intersect1d(tips[0], tips[1]).size > 0
+
+
+def _kinks(undeformed: FloatArray, pressure: FloatArray, grid: Grid, axis: int, rise: float, highest: float) -> _Kinks:
+    """Those along an axis, whose pressure may be `rise` times their change of slope [Pa] above what it is."""
+    found = []
+    for first, last in row_blocks(grid.shape):
+        bend = _bends(undeformed, grid, axis, first, last, 2)
+        size = np.abs(bend)
+        here, inside = bend[2:-2], np.moveaxis(pressure[first:last], axis, 0)
         # towards the other body: what is grooved bears nothing
-        alone = inside & (bend > _ALONE * beside)
-        next_to = np.maximum(np.roll(bend, 1, axis), np.roll(bend, -1, axis))
-        turns = np.where(alone, (bend + np.maximum(next_to, 0.0)) / grid.spacing[axis], 0.0)
-        reached = np.full(turns.shape, math.inf) if math.isinf(rise) else rise * turns
-        over.append(np.where(alone & (reached / 4 >= missing), bend / usual, 0.0))
-        ridges.append(np.where(alone & (reached / (2 * math.pi) >= missing), bend / usual, 0.0))
-    ridge = any(bool((each > _UNUSUAL).any()) for each in ridges)
-    return ridge or (len(over) == 2 and bool((np.minimum(*over) > _UNUSUAL_TIP).any()))
+        alone = np.nonzero((inside > 0) & (here > _ALONE * np.maximum(size[:-4], size[4:])))
+        kink = here[alone]
+        turn = kink + np.maximum(np.maximum(bend[1:-3][alone], bend[3:-1][alone]), 0.0)
+        reached = np.full(turn.shape, math.inf) if math.isinf(rise) else rise * (turn / grid.spacing[axis])
+        missing = highest - inside[alone]
+        counts = reached / 4 >= missing
+        row, column = alone[axis] + first, alone[1 - axis]
+        found.append((row * grid.shape[1] + column, kink, reached / (2 * math.pi) >= missing, counts))
+    parts = [tuple(each[counts] for each in more) for *more, counts in found]
+    return _Kinks(*(np.concatenate(each) for each in zip(*parts, strict=True)))
+
+
+def _bends(undeformed: FloatArray, grid: Grid, axis: int, first: int, last: int, reach: int) -> FloatArray:
+    """Second differences along an axis [m], which comes first, of some rows and so many cells on both sides.
+
+    Across a free edge of the grid nothing follows; no contact that has bars reaches it."""
+    near = around(undeformed, axis, first, last, reach + 1)
+    bend = near[:-2] - 2 * near[1:-1] + near[2:]
+    if not grid.periodic[axis]:
+        n, begin = grid.shape[axis], first if axis == 0 else 0
+        place = (np.arange(bend.shape[0]) + begin - reach) % n
+        bend[(place == 0) | (place == n - 1)] = 0.0
+    return bend
+
+
+def _usual_bend(undeformed: FloatArray, grid: Grid, axis: int) -> float:
+    """What three second differences in four along an axis are below, round-off at least [m]."""
+    size = np.empty(grid.shape)
+    for first, last in row_blocks(grid.shape):
+        size[first:last] = np.moveaxis(np.abs(_bends(undeformed, grid, axis, first, last, 0)), 0, axis)
+    usual = float(np.quantile(size.reshape(-1), 0.75, overwrite_input=True))
+    return max(usual, _ROUND_OFF * float(np.ptp(undeformed)) / _UNUSUAL)

@@ -132,7 +132,7 @@ def _solution(problem: Problem, control: Control, start: FloatArray | None, *, f
     if start is None:
         begin = _from_coarser(problem, control)
     else:
-        begin = Start(np.clip(start, 0.0, problem.cap), -math.inf)
+        begin = Start(np.clip(start, 0.0, problem.cap, out=start), -math.inf)  # nobody else has it
     return solve_on_grid(problem, control, begin, problem.shared.tolerance)
 
 
