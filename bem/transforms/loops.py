@@ -276,14 +276,19 @@ def terms_back(  # type: ignore[no-untyped-def]  # reason: compiled, so each arr
     """The terms (first, last) of a spectrum times `factors` along x, into half-way arrays of their own, and along y in
     the groups that are begun, while they are near. share : this thread's number, and of how many."""
     given, source, done = spectrum.ctypes.data, scratch.columns[0].ctypes.data, scratch.columns_out[0]
-    result, (stride, itemsize) = done.ctypes.data, spectrum.strides
+    result, (stride, itemsize), line = done.ctypes.data, spectrum.strides, squares.halves.shape[2]
     columns, lengths, scales, executor = singles.columns, singles.lengths, singles.scales, room.executors[1]
     for term in range(terms[0], terms[1]):
         half, count, rows = squares.halves[term], squares.columns[term], rows_of(factors[term])
-        for number in range(share[0] * count // share[1], (share[0] + 1) * count // share[1]):
+        begin, end = half.ctypes.data, (share[0] + 1) * count // share[1]
+        for number in range(share[0] * count // share[1], end):
             length = lengths[number]
             multiply_column(rows, number, given + number * stride, source, scales[number], length)
             _fetch_rows(rows, number + 1, (length // 2 + 1) * itemsize // 2)
+            if length <= (end - number) * line:
+                # what goes beyond the field lies where this thread writes its next columns
+                execute(executor, columns[number], source, begin + number * line * itemsize)
+                continue
             execute(executor, columns[number], source, result)
             for j in range(room.nx):
                 half[number, j] = done[j]

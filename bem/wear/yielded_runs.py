@@ -43,14 +43,22 @@ def yielding_columns(stack, strength):  # type: ignore[no-untyped-def]
     return np.flatnonzero(above)
 
 
+_TOGETHER = 64
+"""Columns that are gathered at a time: what is written stays near while all depths are gone through."""
+
+
 @njit(cache=True)
 def gather_columns(stack, candidates, rows):  # type: ignore[no-untyped-def]
     """(candidates, nz): depth runs fastest. rows : (nz, n) whether each of n parts of a plane counts; else zeros."""
     out = np.empty((candidates.size, stack.shape[0]))
-    size = stack.shape[1] // rows.shape[1]
-    for k in range(stack.shape[0]):
-        for own in range(candidates.size):
-            out[own, k] = stack[k, candidates[own]] if rows[k, candidates[own] // size] else 0.0
+    size, part = stack.shape[1] // rows.shape[1], np.empty(_TOGETHER, np.int64)
+    for first in range(0, candidates.size, _TOGETHER):
+        last = min(first + _TOGETHER, candidates.size)
+        for own in range(first, last):
+            part[own - first] = candidates[own] // size
+        for k in range(stack.shape[0]):
+            for own in range(first, last):
+                out[own, k] = stack[k, candidates[own]] if rows[k, part[own - first]] else 0.0
     return out
 
 
