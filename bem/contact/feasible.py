@@ -20,8 +20,7 @@ _REGION = 8
 
 def held(pressure: FloatArray, cap: float) -> Iterate:
     """A pressure within the bounds, without its zeros; its array may go."""
-    cells = np.flatnonzero(pressure > 0)
-    return below(cells, pressure[cells], cap)
+    return Iterate(*sets.held(pressure, cap))
 
 
 def below(cells: NDArray[np.int64], values: FloatArray, cap: float) -> Iterate:
@@ -160,8 +159,11 @@ def between(level: Level, control: Control, old: Iterate, new: Iterate, share: f
 
 def gradient_step(level: Level, control: Control, iterate: Iterate, approach: float, step: float) -> Iterate:
     """A projected gradient step; one over the largest eigenvalue cannot raise the energy."""
-    gradient = level.gap + level.flat["displacement"] - approach
-    return project(level, control, everywhere(level, iterate) - step * gradient)
+    raw = np.empty(level.gap.size)
+    passes.in_blocks(raw.size, 0, sets.descend, level.flat["displacement"], level.gap, approach, step, raw)
+    raw[iterate.cells] += iterate.values
+    raw[iterate.capped] += level.cap
+    return project(level, control, raw)
 
 
 def lift(level: Level, iterate: Iterate, mean: float) -> Iterate | None:

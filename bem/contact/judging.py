@@ -13,6 +13,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from bem.contact import passes
+from bem.contact.ordered import ABOVE_ALL, BELOW_ALL, number_at, place_of
 
 FloatArray = NDArray[np.float64]
 Cells = tuple[NDArray[np.int64], FloatArray, NDArray[np.int64]]
@@ -108,9 +109,7 @@ def _both(inside, capped):  # type: ignore[no-untyped-def]
 @_fast
 def _survey(start, stop, result, displacement, gap, cells, values):  # type: ignore[no-untyped-def]
     total = 0.0
-    deepest = -np.inf
-    nearest = np.inf
-    reach = 0.0
+    deepest, nearest, reach = BELOW_ALL, ABOVE_ALL, place_of(0.0)
     energy = 0.0
     size = 0.0
     force = 0.0
@@ -123,9 +122,10 @@ def _survey(start, stop, result, displacement, gap, cells, values):  # type: ign
         u = displacement[c]
         opening = g + u
         total += opening
-        deepest = max(deepest, opening)
-        nearest = min(nearest, opening)
-        reach = max(reach, abs(u))
+        place, far, known = place_of(opening), place_of(abs(u)), opening == opening
+        deepest = max(deepest, place if known else BELOW_ALL)
+        nearest = min(nearest, place if known else ABOVE_ALL)
+        reach = max(reach, far if u == u else BELOW_ALL)
         by_gap = p * g
         by_displacement = p * u
         energy += by_gap + 0.5 * by_displacement
@@ -133,9 +133,9 @@ def _survey(start, stop, result, displacement, gap, cells, values):  # type: ign
         force += p
         work += by_gap + by_displacement
     result[0] = total
-    result[1] = deepest
-    result[2] = nearest
-    result[3] = reach
+    result[1] = number_at(deepest)
+    result[2] = number_at(nearest)
+    result[3] = number_at(reach)
     result[4] = energy
     result[5] = size
     result[6] = force
@@ -221,11 +221,12 @@ def separations(displacement: FloatArray, gap: FloatArray, state: NDArray[np.uin
 
 @_strict
 def _separations(start, stop, result, displacement, gap, state):  # type: ignore[no-untyped-def]
-    deepest = -np.inf
-    nearest = np.inf
-    for c in range(start, stop):
-        value = gap[c] + displacement[c]
-        deepest = max(deepest, value if state[c] != FREE else -np.inf)
-        nearest = min(nearest, value if state[c] != CAPPED else np.inf)
-    result[0] = deepest
-    result[1] = nearest
+    displacement, gap, state = displacement[start:stop], gap[start:stop], state[start:stop]
+    deepest, nearest = BELOW_ALL, ABOVE_ALL
+    for k in range(gap.size):
+        value = gap[k] + displacement[k]
+        place, known = place_of(value), value == value
+        deepest = max(deepest, place if known & (state[k] != FREE) else BELOW_ALL)
+        nearest = min(nearest, place if known & (state[k] != CAPPED) else ABOVE_ALL)
+    result[0] = number_at(deepest)
+    result[1] = number_at(nearest)

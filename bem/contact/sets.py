@@ -84,6 +84,37 @@ def mix(start, stop, result, displacement, earlier, share):  # type: ignore[no-u
         displacement[k] = displacement[k] * share + earlier[k] * rest
 
 
+@_strict
+def descend(start, stop, result, displacement, gap, approach, step, out):  # type: ignore[no-untyped-def]
+    """out = -step (gap + displacement - approach)."""
+    displacement, gap, out = displacement[start:stop], gap[start:stop], out[start:stop]
+    for k in range(out.size):
+        out[k] = -(step * (gap[k] + displacement[k] - approach))
+
+
+@_strict
+def held(pressure, cap):  # type: ignore[no-untyped-def]
+    """Of a field: cells with a pressure above zero and below the cap, their pressures, and cells at the cap."""
+    inside, capped = 0, 0
+    for k in range(pressure.size):
+        inside += pressure[k] > 0
+        capped += pressure[k] >= cap
+    inside -= capped
+    cells, values, others = np.empty(inside, np.int64), np.empty(inside), np.empty(capped, np.int64)
+    a = 0
+    b = 0
+    for k in range(pressure.size):
+        p = pressure[k]
+        if p >= cap:
+            others[b] = k
+            b += 1
+        elif p > 0:
+            cells[a] = k
+            values[a] = p
+            a += 1
+    return cells, values, others
+
+
 @_fast
 def positive(cells, values):  # type: ignore[no-untyped-def]
     """The cells with values above zero, these, and their sum; what is given where that is all of them."""

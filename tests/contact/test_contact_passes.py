@@ -44,6 +44,42 @@ def test_survey(fields):
     assert alone.reach == np.abs(displacement[capped]).max()
 
 
+def test_the_deepest_and_the_nearest_are_those_of_numbers(fields):
+    displacement, gap, cells, values = fields
+    displacement[cells[:6]] = np.inf, -np.inf, np.nan, -np.nan, -0.0, 3.5
+    gap[cells[4:6]] = 0.0, -3.5
+    opening, capped = gap + displacement, np.setdiff1d(np.arange(150), cells)
+    # what is no number counts for nothing: it is told by the sum
+    known = opening[cells][~np.isnan(opening[cells])]
+    seen = judging.survey(displacement, gap, (cells, values, cells[:0]), 1.5)
+    assert seen[1:4] == (known.max(), known.min(), np.inf)
+    assert np.isnan(seen.total)
+    finite = cells[6:], values[6:], cells[:0]
+    assert judging.survey(displacement, gap, finite, 1.5)[1:4] == (
+        opening[cells[6:]].max(), opening[cells[6:]].min(), np.abs(displacement[cells[6:]]).max()
+    )  # fmt: skip
+    state = np.zeros(SIZE, np.uint8)
+    judging.mark(state, cells, capped)
+    pressed, open_to = np.union1d(cells, capped), np.setdiff1d(np.arange(SIZE), capped)
+    wanted = np.nanmax(opening[pressed]), np.nanmin(opening[open_to])
+    assert judging.separations(displacement, gap, state) == wanted
+    state[:] = judging.CAPPED
+    assert judging.separations(displacement, gap, state)[1] == np.inf
+
+
+@pytest.mark.parametrize("cap", [0.6, np.inf])
+def test_what_is_held_of_a_field(cap, fields):
+    displacement, gap, _, _ = fields
+    pressure = np.clip(displacement, 0, cap)
+    cells, values, capped = sets.held(pressure, cap)
+    assert np.array_equal(cells, np.flatnonzero((pressure > 0) & (pressure < cap)))
+    assert np.array_equal(values, pressure[cells])
+    assert np.array_equal(capped, np.flatnonzero(pressure >= cap))
+    out = np.empty(SIZE)
+    passes.in_blocks(SIZE, 0, sets.descend, displacement, gap, 0.3, 0.7, out)
+    assert np.array_equal(out, -(0.7 * (gap + displacement - 0.3)))
+
+
 def test_merge(fields):
     displacement, gap, cells, values = fields
     found = np.setdiff1d(np.arange(0, SIZE, 7), cells).astype(np.int32)
