@@ -126,8 +126,9 @@ def _sweeps() -> Section:
             "dies is replaced. With --resume a sweep goes on and values may be added: no finished "
             "point is computed "
             "again. All figures end up in sweep.nc with the swept keys as dimensions, in sweep.csv and in a figure. "
-            "Every point is a run in a folder of its own under points/, without pictures and volumes for ParaView: "
-            "bem plot draws those of a point, bem run with its scene.toml makes all."
+            "Every point is a run in a folder of its own under points/, without pictures and volumes for ParaView, and "
+            "with single maps only: stresses at all depths and frames over time are kept with --fields. "
+            "bem plot draws what a point has, bem run with its scene.toml makes all."
         )
         + code(EXAMPLES["sweep"])
         + text(

@@ -36,6 +36,9 @@ def sweep(  # reason: each argument is an option of the command, with its help
     workers: WorkersOption = None,
     scheduler: SchedulerOption = None,
     threads: Annotated[int, typer.Option(min=1, max=1024, help="Threads of each run.")] = 1,
+    fields: Annotated[
+        bool, typer.Option("--fields", help="Keep stacks of maps of points: stresses at all depths, frames over time.")
+    ] = False,
     pdf: Annotated[bool, typer.Option("--pdf", help="Draw the figure as PDF too, for print.")] = False,
 ) -> None:
     """Run a scene at every combination of values: sweep.nc, sweep.csv and a figure.
@@ -48,6 +51,7 @@ def sweep(  # reason: each argument is an option of the command, with its help
       bem sweep hertz-sphere --over contact.load="log:1 N:100 N:5"
       bem sweep rough-contact --over seed=1:5 --over contact.friction=0,0.2 --out s
       bem sweep rough-contact --over seed=1:8 --out s --resume
+      bem sweep rough-contact --over seed=1:4 --set outputs.von_mises=true --fields
       bem sweep rough-contact --over seed=1:9 --scheduler tcp://10.0.0.1:8786
     """
     from bem.cli._terminal import resumable
@@ -66,6 +70,7 @@ def sweep(  # reason: each argument is an option of the command, with its help
             resume=resume,
             watcher=terminal,
             pdf=pdf,
+            fields=fields,
         )
     print(f"points computed: {done.computed}")
     for what, name in (("dataset", DATASET), ("table  ", TABLE), ("figure ", f"{FIGURE}.png")):

@@ -13,7 +13,7 @@ from bem.lazy import collecting
 from bem.plots.cases import axes_of, first_case, first_figures
 from bem.plots.figures import FigureKind, all_figures
 from bem.plots.side_by_side import side_by_side
-from bem.results.arrays import Arrays
+from bem.results.arrays import LEFT_OUT, Arrays
 from bem.results.atomic import replacing
 from bem.results.read import FinishedRun
 from bem.scenes.validate import nearest
@@ -162,6 +162,13 @@ def figure_kind(run: Any, name: str) -> FigureKind:
     if name not in known:
         raise InputError(
             f'--figure "{name}": no such figure{nearest(name, fitting)}; allowed for this run: {", ".join(fitting)}'
+        )
+    lacking = set(str(run.dataset.attrs.get(LEFT_OUT, "")).split()).intersection(known[name].needs)
+    if lacking:
+        raise InputError(
+            f'--figure "{name}": cannot be drawn from this point of a sweep that was run without --fields: it has no '
+            f"{' and no '.join(sorted(lacking))}; allowed: bem run with its scene.toml, bem sweep --resume --fields, "
+            f"or {', '.join(fitting)}"
         )
     if name not in fitting:
         raise InputError(f'--figure "{name}": cannot be drawn from this run; allowed: {", ".join(fitting)}')

@@ -77,6 +77,16 @@ class Arrays(Mapping[str, Array]):
         return len(self.variables)
 
 
+LEFT_OUT = "left_out"
+"""Attribute of a file of results: names of the arrays that the run had and the file has not."""
+
+
+def stacks_of_maps(variables: Mapping[str, Variable]) -> list[str]:
+    """Names of maps at each of several depths, times or cases: most of what a run writes, where it has any."""
+    maps = (("x", "y"), ("film_x", "film_y"))
+    return [name for name, item in variables.items() if len(item.dimensions) > 2 and item.dimensions[-2:] in maps]
+
+
 def to_arrays(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> Arrays:
     """Variables of an outcome as they would be read back."""
 

@@ -12,8 +12,9 @@ from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.jobs import Staff, words_of
 from bem.errors import BemError, ResultsError
 from bem.results import open_run
+from bem.results.arrays import LEFT_OUT, read_arrays
 from bem.results.atomic import force_names, write_bytes
-from bem.results.directory import SUMMARY, RunDirectory
+from bem.results.directory import RESULTS, SUMMARY, RunDirectory
 from bem.runs.scene import run_planned
 from bem.scenes.common import SceneModel
 from bem.scenes.load import dump_scene
@@ -30,6 +31,7 @@ class Point:
     scene, plan : resolved, and what it takes.
     root : folder of the sweep; None where it is on another disk.
     name : the point's folder in it.
+    fields : whether its file of results has stacks of maps, too; see `run_planned`.
     """
 
     index: int
@@ -37,6 +39,7 @@ class Point:
     plan: Plan
     root: Path | None
     name: str
+    fields: bool = False
 
     def compute(self, watcher: Watcher) -> Done:
         """Run the point, going on from its checkpoint if it was begun.
@@ -65,14 +68,14 @@ class Point:
         return Done(self.name, error=why)
 
     def _run(self, folder: Path) -> dict[str, Any]:
-        found = finished_summary(folder)  # a process may have died after its last line
+        found = finished_summary(folder, self.fields)  # a process may have died after its last line
         if found is not None:
             return found
-        damaged = (folder / SUMMARY).exists()  # finished once, but what is there now cannot be trusted
+        old = (folder / SUMMARY).exists()  # finished once, but what is there now cannot be trusted or is not all
         with RunDirectory.start(
-            folder, self.scene.name, dump_scene(self.scene), resume=not damaged, overwrite=damaged
+            folder, self.scene.name, dump_scene(self.scene), resume=not old, overwrite=old
         ) as directory:
-            return run_planned(directory, self.scene, self.plan, Staff(workers=1), (), Silent())
+            return run_planned(directory, self.scene, self.plan, Staff(workers=1), (), Silent(), fields=self.fields)
 
 
 @dataclass(frozen=True)
@@ -85,12 +88,19 @@ class Done:
     files: dict[str, bytes] = field(default_factory=dict)
 
 
-def finished_summary(folder: Path) -> dict[str, Any] | None:
-    """The summary of the sound finished run in the folder, None where there is none."""
+def finished_summary(folder: Path, fields: bool) -> dict[str, Any] | None:
+    """The summary of the sound finished run in the folder; None where there is none, or not with the fields wanted."""
     try:
-        return open_run(folder).summary if (folder / SUMMARY).is_file() else None
+        if not (folder / SUMMARY).is_file() or (fields and left_out(folder)):
+            return None
+        return open_run(folder).summary
     except ResultsError:
         return None
+
+
+def left_out(folder: Path) -> list[str]:
+    """Names of the arrays that the finished run in the folder had and did not write."""
+    return str(read_arrays(folder / RESULTS).attrs.get(LEFT_OUT, "")).split()
 
 
 def store(done: Done, folder: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +14,7 @@ from bem.campaigns import Computed, campaign_of, compute, plan
 from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.jobs import Staff
 from bem.errors import ConvergenceError, InputError, Status
+from bem.results.arrays import LEFT_OUT, stacks_of_maps, to_arrays
 from bem.results.directory import RESULTS, RunDirectory, plain
 from bem.results.read import FinishedRun, open_run
 from bem.scenes.asked import Asked, with_accuracy
@@ -121,9 +122,12 @@ def run_planned(
     formats: tuple[str, ...],
     watcher: Watcher,
     ahead: Ahead | None = None,
+    fields: bool = True,
 ) -> dict[str, Any]:
     """Compute and write all of a run; pictures as named in `formats` ("vtu", "png", "pdf"), by the copy `ahead` where
     there is one. Its summary.
+
+    Without `fields` the file of results has single maps but no stacks of them (stresses at depths, frames over time).
 
     Raises as `run_scene`.
     """
@@ -153,7 +157,8 @@ def run_planned(
     for text in outcome_warnings(facts, computed.outcome):
         computed.notes.append(text)
         watcher.note(text)
-    return _write(directory, scene, computed, formats, watcher, staff.workers, ahead)
+    left_out = [] if fields else stacks_of_maps(computed.outcome.variables)
+    return _write(directory, scene, computed, formats, watcher, staff.workers, ahead, left_out)
 
 
 def _write(
@@ -164,10 +169,10 @@ def _write(
     watcher: Watcher,
     processes: int | None,
     ahead: Ahead | None,
+    left_out: Collection[str],
 ) -> dict[str, Any]:
-    """Arrays, volumes, figures with the report (neither without a format of figures); the summary last."""
+    """Arrays but those left out, volumes, figures with the report (neither without a format of them); the summary last."""
     from bem.plots.pages import Pages, make
-    from bem.results.arrays import to_arrays
     from bem.results.dataset import write_variables
     from bem.results.vtk import write_volumes
 
@@ -175,8 +180,11 @@ def _write(
     about = {"scene": scene.name, "kind": scene.kind, "version": bem.__version__, "seed": scene.seed}
     attributes = {"title": scene.description or scene.name, "Conventions": "CF-1.11", **about}
     attributes["axes"] = " ".join(outcome.axes)
+    variables = {name: item for name, item in outcome.variables.items() if name not in left_out}
+    if left_out:
+        attributes[LEFT_OUT] = " ".join(left_out)
     with _timed(seconds, "writing results"):
-        write_variables(directory.path / RESULTS, outcome.variables, attributes)
+        write_variables(directory.path / RESULTS, variables, attributes)
     summary = {
         **about,
         "wall_time_s": 0.0,
@@ -192,7 +200,7 @@ def _write(
     pages = Pages(
         directory.path, scene_table(scene), summary, kind.figures, drawn_as, headline, computed.epoch, processes
     )
-    arrays = to_arrays(outcome.variables, attributes)
+    arrays = to_arrays(variables, attributes)
     if drawn_as and ahead is not None:
         ahead.begin(pages, arrays)
     tell = getattr(watcher, "numbers", None)

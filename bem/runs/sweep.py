@@ -81,6 +81,7 @@ def run_sweep(  # reason: a promise to users' scripts
     resume: bool = False,
     watcher: Watcher | None = None,
     pdf: bool = False,
+    fields: bool = False,
 ) -> FinishedSweep:
     """Run a scene at every combination of values.
 
@@ -99,6 +100,9 @@ def run_sweep(  # reason: a promise to users' scripts
         a finished sweep, and no finished point is computed again.
     watcher : told of progress and notes.
     pdf : draw the figure as PDF too, for print.
+    fields : keep what of a point is a map at each of several depths, times or cases, too (`von_mises`, `stress`,
+        frames), which takes most of its place; single maps are kept always. With `resume`, points that are there
+        without are computed again.
 
     Returns
     -------
@@ -130,10 +134,10 @@ def run_sweep(  # reason: a promise to users' scripts
         held.discard()
         raise
     with held:
-        summaries = {name: finished_summary(folder / name) for name in dict.fromkeys(names)}
+        summaries = {name: finished_summary(folder / name, fields) for name in dict.fromkeys(names)}
         root = folder.resolve()
         missing = [
-            Point(names.index(name), *planned[names.index(name)], root, name)
+            Point(names.index(name), *planned[names.index(name)], root, name, fields)
             for name, summary in summaries.items()
             if summary is None
         ]

@@ -20,6 +20,7 @@ from small_scenes import PATCH
 
 from bem.campaigns.jobs import processes
 from bem.errors import InputError, ResultsError
+from bem.plots.draw import figure_kind
 from bem.results import RunDirectory, open_run
 from bem.results.dataset import read_dataset
 from bem.runs import run_sweep
@@ -83,6 +84,38 @@ def test_dataset_table_and_figure(tmp_path, here):
     for name in ("sweep.png", "sweep.pdf"):
         assert (tmp_path / "s" / name).stat().st_size > 5000
     assert not (tmp_path / "s" / ".campaign-token").exists()
+
+
+def test_points_leave_out_stacks_of_maps_unless_they_are_asked_for(tmp_path, here):
+    """Neither table nor figure of a sweep uses them; asked for later, what lacks them is computed again, no more."""
+    scene = SCENE | {"outputs": {"von_mises": True, "stresses": True, "depths": {"deepest": "4 um", "count": 6}}}
+    over, folder = ["seed=1:2"], tmp_path / "s"
+    done = run_sweep(scene, over, folder, workers=1)
+    points = sorted((folder / "points").iterdir())
+    small = [open_run(path) for path in points]
+    for run in small:
+        assert {"pressure", "gap", "depth"} <= set(run.arrays)
+        assert not {"von_mises", "stress"} & set(run.arrays)
+        assert run.arrays.attrs["left_out"] == "von_mises stress"
+        assert run.summary["max_von_mises_Pa"] > 0
+        with pytest.raises(InputError, match="without --fields: it has no von_mises"):
+            figure_kind(run, "von-mises-section")
+    assert figure_kind(small[0], "pressure-map").name == "pressure-map"
+    figures = done.dataset.drop_vars("wall_time_s")
+    assert len(here) == 2
+
+    whole = run_sweep(scene, [*over, "contact.friction=0"], folder, workers=1, resume=True, fields=True)
+    assert (whole.computed, len(here)) == (2, 4)
+    for run, path in zip(small, points, strict=True):
+        again = open_run(path)
+        assert again.arrays["stress"].shape == (6, 6, 16, 16)
+        assert again.arrays["von_mises"].values.max() == run.summary["max_von_mises_of_points_Pa"]
+        for name, item in run.arrays.items():
+            np.testing.assert_array_equal(item.values, again.arrays[name].values, err_msg=name)
+    after = whole.dataset.drop_vars("wall_time_s").isel({"contact.friction": 0}, drop=True)
+    assert figures.equals(after)
+    for fields in (True, False):
+        assert run_sweep(scene, over, folder, workers=1, resume=True, fields=fields).computed == 0
 
 
 def test_what_a_point_costs_besides_its_physics(tmp_path, here, monkeypatch):
