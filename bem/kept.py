@@ -42,6 +42,8 @@ class KeptValues:
         with self.lock:
             found = self.kept.get(key)
         made = make() if found is None else found
+        if self.least == 0 and made.nbytes > self.limit:  # it would drive out all others and go itself
+            return cast("_Value", made)
         with self.lock:
             value = self.kept.setdefault(key, made)
             self.kept.move_to_end(key)

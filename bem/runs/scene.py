@@ -171,7 +171,7 @@ def _write(
     ahead: Ahead | None,
     left_out: Collection[str],
 ) -> dict[str, Any]:
-    """Arrays but those left out, volumes, figures with the report (neither without a format of them); the summary last."""
+    """Arrays but those left out, volumes, figures with the report (neither without a format); the summary last."""
     from bem.plots.pages import Pages, make
     from bem.results.dataset import write_variables
     from bem.results.vtk import write_volumes

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -17,7 +18,9 @@ from bem.kept import KeptValues
 from bem.laws import Law
 from bem.materials import Body, contact_modulus, softer_hardness
 from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, SceneModel, SmoothSurface
+from bem.scenes.paths import checksum_of
 from bem.scenes.tables.shape import ShapeScene
+from bem.surfaces.examples import example_path
 
 if TYPE_CHECKING:
     from bem.convolution import DisplacementOperator
@@ -85,7 +88,10 @@ def heights_of(
         return np.zeros(grid.shape)
     if isinstance(surface, GeneratedSurface):
         return _generated(surface, grid, seed)
-    return fitted(surface, read_map(surface), grid, note)
+    on_grid = map_on(surface, grid)
+    for text in on_grid.notes:
+        note(text)
+    return on_grid.heights if on_grid.heights.flags.writeable else on_grid.heights.copy()
 
 
 def shape_of(scene: ShapeScene, grid: Grid) -> FloatArray:
@@ -236,8 +242,9 @@ def _generated(surface: GeneratedSurface, grid: Grid, seed: int) -> FloatArray:
 
 
 KEPT = KeptValues(1 << 25)
-"""Generated heights of this process without marks of tools, read-only: a run's plan looks at what the run then takes,
-and points of a sweep share them. One surface of 2048 x 2048 cells, or several smaller ones."""
+"""Heights of this process, read-only: a run's plan looks at what the run then takes, and points of a sweep share them.
+Generated ones without marks of tools; measured maps as they were read, and on grids. One surface of 2048 x 2048 cells,
+or several smaller ones."""
 
 
 def _waves(surface: GeneratedSurface, grid: Grid, seed: int) -> FloatArray:
@@ -290,13 +297,70 @@ def _drawn_on(surface: GeneratedSurface, grid: Grid) -> Grid:
     return Grid((nx, ny), (grid.lengths[0] / nx, grid.lengths[1] / ny), periodic=grid.periodic)
 
 
+def content_of(surface: MeasuredSurface) -> str:
+    """SHA-256 of a measured surface's file, by which what is made of it is kept; empty where it cannot be read, and
+    where its format is a user's own, whose reader may look at more than the file."""
+    from bem.surfaces.formats import format_of
+
+    file = example_path(surface.path) or Path(surface.path)
+    return "" if format_of(file) is not None else checksum_of(str(file))
+
+
 def read_map(surface: MeasuredSurface) -> Surface:
     """The measured map: read, levelled, filled and cropped."""
     from bem.surfaces import crop, read_surface
 
     asked = surface.model_dump(include={"detrend", "fill", "channel", "spacing", "height_unit", "despike"})
-    found = read_surface(surface.path, **asked)
-    return found if surface.crop is None else crop(found, surface.crop, centre=surface.centre)
+
+    def read() -> _KeptMap:
+        found = read_surface(surface.path, **asked)
+        return _KeptMap(found if surface.crop is None else crop(found, surface.crop, centre=surface.centre))
+
+    content = content_of(surface)
+    if not content:
+        return read().surface
+    key = ("map", content, surface.path, *asked.values(), surface.crop, surface.crop and surface.centre)
+    return KEPT.of(key, read).surface
+
+
+@dataclass(frozen=True)
+class _KeptMap:
+    """A map as it was read."""
+
+    surface: Surface
+
+    @property
+    def nbytes(self) -> int:
+        """Memory [bytes]."""
+        return self.surface.heights.nbytes
+
+
+@dataclass(frozen=True)
+class MapOnGrid:
+    """A measured surface on a grid: heights [m], read-only where they are kept, and what had to be done to it."""
+
+    heights: FloatArray
+    notes: tuple[str, ...]
+
+    @property
+    def nbytes(self) -> int:
+        """Memory [bytes]."""
+        return self.heights.nbytes
+
+
+def map_on(surface: MeasuredSurface, grid: Grid) -> MapOnGrid:
+    """A measured surface on a grid, made once for a file's content, its treatment and the grid."""
+    content = content_of(surface)
+    kept = bool(content) and 8 * grid.cells <= KEPT.limit
+
+    def make() -> MapOnGrid:
+        notes: list[str] = []
+        heights = fitted(surface, read_map(surface), grid, notes.append)
+        heights.flags.writeable = not kept
+        return MapOnGrid(heights, tuple(notes))
+
+    key = ("on grid", content, surface.model_copy(update={"sha256": None}), grid)
+    return KEPT.of(key, make) if kept else make()
 
 
 def _map_size(surface: MeasuredSurface) -> tuple[tuple[int, int], tuple[float, float]]:

@@ -1,4 +1,4 @@
-"""Generated surfaces are made once for plan, run and points of a sweep, and are what the generator makes."""
+"""Surfaces are made, or read, once for plan, run and points of a sweep, and are what they are without."""
 
 from collections import Counter
 
@@ -8,10 +8,13 @@ from small_scenes import CONTACT
 
 import bem.surfaces
 from bem import Grid, generate_surface, run_scene
+from bem.kept import KeptValues
+from bem.results import open_run
 from bem.runs import run_sweep
 from bem.scenes import build
 from bem.scenes.checks import surfaces_of
-from bem.scenes.common import GeneratedSurface
+from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface
+from bem.surfaces import Surface, write_surface
 
 GRID = Grid((24, 16), (1e-6, 1e-6), periodic=(True, True))
 PLAIN = {"rms_height": 1e-7, "correlation_length": 3e-6}
@@ -33,9 +36,13 @@ def made(monkeypatch):
         return make(grid, seed=seed, **more)
 
     monkeypatch.setattr(bem.surfaces, "generate_surface", counting)
+    read, fit = bem.surfaces.read_surface, build.fitted
+    monkeypatch.setattr(bem.surfaces, "read_surface", lambda *of, **how: counted.update(["read"]) or read(*of, **how))
+    monkeypatch.setattr(build, "fitted", lambda *of: counted.update(["fitted"]) or fit(*of))
     monkeypatch.setattr(surfaces_of, "_described", lambda *of: counted.update(["described"]) or describe(*of))
     build.KEPT.clear()
     surfaces_of._generated.cache_clear()
+    surfaces_of._described_map.cache_clear()
     yield counted
     build.KEPT.clear()
 
@@ -100,3 +107,67 @@ def test_surfaces_that_are_too_large_are_not_kept(made, monkeypatch):
         build.heights_of(surface(), GRID, 5)
     assert made[5] == 2
     assert build.KEPT.nbytes == 0
+
+
+def write_map(path, seed=1):
+    rng = np.random.default_rng(seed)
+    return write_surface(path, Surface(1e-8 * rng.standard_normal((30, 20)), (1e-6, 1e-6)))
+
+
+def measured(path, **change):
+    return MeasuredSurface.model_validate({"kind": "measured", "path": str(path)} | change)
+
+
+def test_points_of_a_sweep_share_measured_maps(made, tmp_path):
+    """Read, put on the grid and described once, with the same notes at every point; a file that has changed anew."""
+    path = write_map(tmp_path / "map.npz")
+    scene = CONTACT | {"lower": CONTACT["lower"] | {"surface": {"kind": "measured", "path": str(path)}}}
+    over = ["contact.mean_pressure=20 MPa,40 MPa,80 MPa"]
+    found = run_sweep(scene, over, tmp_path / "s", workers=1)
+    assert (found.computed, made) == (3, {"read": 1, "fitted": 1, "described": 1})
+    notes = [open_run(point).summary["notes"] for point in (tmp_path / "s" / "points").iterdir()]
+    assert all(any("taken as 16 x 16 cells" in text for text in of) for of in notes)
+    alone = build.fitted(measured(path), bem.surfaces.read_surface(path), found_grid(found), lambda text: None)
+    for point in (tmp_path / "s" / "points").iterdir():
+        np.testing.assert_array_equal(open_run(point).arrays["lower_height"].values, alone)
+    made.clear()
+    write_map(path, seed=2)
+    run_sweep(scene, over, tmp_path / "t", workers=1)
+    assert made == {"read": 1, "fitted": 1, "described": 1}
+
+
+def found_grid(sweep):
+    return build.grid_of(GridScene.model_validate(open_run(next((sweep.path / "points").iterdir())).scene["grid"]))
+
+
+@pytest.mark.parametrize("change", [{"detrend": "none"}, {"crop": [2e-5, 1.5e-5]}, {"mirror": "both"}, {"fill": False}])
+def test_other_treatments_of_a_map_are_others(made, tmp_path, change):
+    path = write_map(tmp_path / "map.npz")
+    grid = Grid((16, 12), (1e-6, 1e-6))
+    for surface in (measured(path), measured(path, **change)):
+        for _ in range(2):
+            told = []
+            heights = build.heights_of(surface, grid, 0, told.append)
+            np.testing.assert_array_equal(
+                heights, build.fitted(surface, build.read_map(surface), grid, lambda text: None)
+            )
+            assert any("taken as" in text for text in told)
+            heights += 1.0  # the caller's own
+    assert made["read"] == (1 if "mirror" in change else 2)
+    assert made["fitted"] == 2 + 4  # four of the test's own
+
+
+def test_maps_of_a_users_own_format_are_read_each_time(made, tmp_path, monkeypatch):
+    """Whose reader may look at more than the file."""
+    path = write_map(tmp_path / "map.npz")
+    monkeypatch.setattr("bem.surfaces.formats.format_of", lambda file: object())
+    for _ in range(2):
+        build.heights_of(measured(path), Grid((16, 12), (1e-6, 1e-6)), 0)
+    assert made == {"read": 2, "fitted": 2}
+
+
+def test_a_value_that_is_too_large_drives_out_no_other():
+    store = KeptValues(100)
+    small = store.of("a", lambda: np.zeros(5))
+    assert store.of("b", lambda: np.zeros(50)).nbytes == 400
+    assert store.of("a", lambda: np.zeros(6)) is small

@@ -79,7 +79,7 @@ def rough_surface(body: str, table: build.AnySurface, grid: Grid, seed: int) -> 
     if isinstance(table, GeneratedSurface):
         return _generated(body, table, grid, seed)
     if isinstance(table, MeasuredSurface):
-        return _measured(body, table, grid)
+        return _measured(body, table, grid, build.content_of(table))
     return None
 
 
@@ -176,9 +176,15 @@ def _marks_said(table: GeneratedSurface, grid: Grid) -> str:
     return ""
 
 
-def _measured(body: str, table: MeasuredSurface, grid: Grid) -> RoughSurface:
+def _measured(body: str, table: MeasuredSurface, grid: Grid, content: str) -> RoughSurface:
+    """Made once for a file's content; of one that is not known by its content, each time."""
+    return (_described_map if content else _described_map.__wrapped__)(body, table, grid, content)
+
+
+@lru_cache(maxsize=64)
+def _described_map(body: str, table: MeasuredSurface, grid: Grid, content: str) -> RoughSurface:
     found = build.read_map(table)
-    done: list[str] = []
+    done: tuple[str, ...]
     mirrored = (table.mirror in ("x", "both"), table.mirror in ("y", "both"))
     under = [n / (1 + m) * d for n, d, m in zip(grid.shape, grid.spacing, mirrored, strict=True)]
     points = (under[0] / found.spacing[0], under[1] / found.spacing[1])
@@ -186,11 +192,12 @@ def _measured(body: str, table: MeasuredSurface, grid: Grid) -> RoughSurface:
     if grid.cells <= 4 * _CELLS:
         if table.rms_height is not None:
             plain = table.model_copy(update={"rms_height": None})
-            scaled = table.rms_height / float(build.fitted(plain, found, grid, _unheard).std() or math.nan)
-        description = _described(build.fitted(table, found, grid, done.append), grid)
+            scaled = table.rms_height / float(build.map_on(plain, grid).heights.std() or math.nan)
+        on_grid = build.map_on(table, grid)
+        description, done = _described(on_grid.heights, grid), on_grid.notes
     else:
         description = _described(found.heights, found.grid())
-        done.append("Sq, slope and correlation length are those of the map as it was measured")
+        done = ("Sq, slope and correlation length are those of the map as it was measured",)
     missing, whole = _missing(found)
     return RoughSurface(
         body,
@@ -203,10 +210,6 @@ def _measured(body: str, table: MeasuredSurface, grid: Grid) -> RoughSurface:
         source_spacing=found.spacing,
         scaled=scaled,
     )
-
-
-def _unheard(text: str) -> None:
-    """Notes that are told elsewhere."""
 
 
 def _missing(found: Surface) -> tuple[float, float]:
