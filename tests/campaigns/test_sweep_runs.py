@@ -214,10 +214,10 @@ def test_bad_points_are_found_before_any_work(tmp_path, here):
 
 
 def test_a_point_that_fails_does_not_end_the_sweep(tmp_path, here, monkeypatch):
-    def some(directory, scene, *more):
+    def some(directory, scene, *more, **named):
         if scene.seed == 2:
             raise InputError("lower.surface: cannot be generated")
-        return run_planned(directory, scene, *more)
+        return run_planned(directory, scene, *more, **named)
 
     monkeypatch.setattr("bem.runs.point.run_planned", some)
     watcher = Telling()
