@@ -29,7 +29,6 @@ ROWS = 15
 
 # Columns of the table of media, outermost first, the half-space last (its thickness is not read).
 THICKNESS, MODULUS, KAPPA = range(3)
-MEDIUM = 3
 
 # What `_climb` leaves for each layer: impedance below (over its g); the displacements' way through (thin: the 2 x 2
 # matrix from the bottom to the top, thick: transmission uu, uw, ww); reflection and round trip pp, pn, nn (thick);

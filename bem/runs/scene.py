@@ -18,7 +18,7 @@ from bem.results.arrays import LEFT_OUT, stacks_of_maps, to_arrays
 from bem.results.directory import RESULTS, RunDirectory, plain
 from bem.results.read import FinishedRun, open_run
 from bem.scenes.asked import Asked, with_accuracy
-from bem.scenes.checks import examine, outcome_warnings, scene_warnings
+from bem.scenes.checks import examine, outcome_warnings, scene_warnings, suspected_units
 from bem.scenes.common import SceneModel
 from bem.scenes.kind import get_kind
 from bem.scenes.load import dump_scene, load_scene, scene_table
@@ -44,9 +44,14 @@ def plan_scene(
         scene = load_scene(source, settings)
     else:
         scene = load_scene(scene_table(source), settings) if settings else source
-    if scene.over is None:  # else each of its cases is resolved by itself
-        scene = get_kind(scene.kind).resolved(scene)
-    return scene, plan(campaign_of(scene))
+    try:
+        if scene.over is None:  # else each of its cases is resolved by itself
+            scene = get_kind(scene.kind).resolved(scene)
+        return scene, plan(campaign_of(scene))
+    except InputError as error:
+        if suspected := suspected_units(scene):
+            raise InputError(suspected) from error
+        raise
 
 
 def run_scene(  # reason: a promise to users' scripts; each is an option of the command

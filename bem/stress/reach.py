@@ -12,7 +12,6 @@ Verified in tests/stress/test_reach.py against whole planes.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numba import njit
@@ -33,20 +32,15 @@ _TERMS = len(_WEIGHTS)
 class ReachedStress:
     """Von Mises stress of the first depths.
 
-    planes : (nz, nx, ny) [Pa], anything in rows that were left out. computed : (nz, nx) rows that were computed.
-    exceeding : (nx, ny) whether the limit is exceeded at any depth. passes : depths whose transforms along x were made,
-    those made twice, for rows that only a deeper one led to, counted twice.
+    planes : (nz, nx, ny) [Pa], anything in rows that were left out (`cleared` writes zeros there). computed : (nz, nx)
+    rows that were computed. exceeding : (nx, ny) whether the limit is exceeded at any depth. passes : depths whose
+    transforms along x were made, those made twice, for rows that only a deeper one led to, counted twice.
     """
 
     planes: FloatArray
     computed: NDArray[np.bool_]
     exceeding: NDArray[np.bool_]
     passes: int
-
-    @cached_property
-    def stress(self) -> FloatArray:
-        """(nz, nx, ny) [Pa], zero in rows that were left out: a pass over half of the stack, made when asked for."""
-        return cleared(self.planes, self.computed)
 
 
 def reached_stress(  # reason: a request as of `von_mises_planes`, its limit and its reach

@@ -80,10 +80,6 @@ class RunningIn:
         """Heights of the (first) wearing body at the end [m]."""
         return (self.lower_heights, self.upper_heights)[self.wearing[0]]
 
-    def settled_particles(self, last_cycles: int) -> NDArray[np.void]:
-        """Particles of the last so many cycles."""
-        return self.particles[self.particles["cycle"] > self.state.cycle - last_cycles]
-
     def __repr__(self) -> str:
         radius = equivalent_radius(self.particles["volume"])
         mean = f"{1e9 * radius.mean():.0f} nm" if radius.size else "none"

@@ -30,7 +30,6 @@ RESULT = Path(__file__).resolve().parents[1] / "results" / "contact_area.json"
 CELLS = (128, 256, 512, 1024)
 LOADS = (0.001, 0.004, 0.02)
 """Mean pressures over E*."""
-WAYS = ("counted", "perimeter", "edge")
 _STEP = 0.05
 
 

@@ -5,13 +5,13 @@ import os
 import time
 
 import pytest
+from small_scenes import CONTACT
 
 from bem import InputError, ResultsError, load_scene
 from bem.app.downloads import WHAT, download, overlay
 from bem.app.planning import shown_plan
 from bem.app.workspace import OWN, PID, Workspace
 from bem.results.directory import LOCK
-from tests.small_scenes import CONTACT
 
 SMALL = {key: CONTACT[key] for key in ("kind", "grid", "lower", "contact")} | {"outputs": {"errors": False}}
 

@@ -8,6 +8,10 @@ from typing import Annotated, Literal
 
 import numpy as np
 import pytest
+from small_scenes import FILM, WEAR
+from small_scenes import PATCH as PATCH_OF_A_LINE
+from test_engine import Telling, content
+from test_inside_a_case import ARRAY, GROWTH, TRIBOFILM
 
 import bem.accuracy
 import bem.contact
@@ -28,10 +32,6 @@ from bem.scenes.records import Figure, Record, Series, described
 from bem.scenes.resolutions import Resolution
 from bem.surfaces import Surface, write_surface
 from reports.experiments.accuracy_asked import RESULT, draw, rows_of
-from tests.campaigns.test_engine import Telling, content
-from tests.campaigns.test_inside_a_case import ARRAY, GROWTH, TRIBOFILM
-from tests.small_scenes import FILM, WEAR
-from tests.small_scenes import PATCH as PATCH_OF_A_LINE
 
 STEEL = {"lower": {"material": "steel-52100"}, "upper": {"material": "steel-52100"}}
 BALL = STEEL | {

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
+from test_full_thermal import duct, flat
 
 from bem.lubrication import Lubricant
 from bem.lubrication.shear import Carreau, Eyring, Newtonian
@@ -14,7 +15,6 @@ from bem.lubrication.shear_profile import shear_profile
 from bem.lubrication.thermal.field import temperature_field
 from bem.lubrication.thermal.layers import middles, sums_of
 from bem.lubrication.thermal.section import Section
-from tests.lubrication.test_full_thermal import duct, flat
 
 LAWS = {
     "eyring": Eyring(shear_stress_limit=5e6),

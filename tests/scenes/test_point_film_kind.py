@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from small_scenes import oiled_ball
 
 from bem import InputError, load_scene, solve_point_film
 from bem.plots.figures.point_film import colours_of
 from bem.runs import run_scene
-from tests.small_scenes import oiled_ball
 
 
 def scene(**changes):

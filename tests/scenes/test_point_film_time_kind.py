@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from small_scenes import oiled_ball
 
 from bem import InputError, load_scene
 from bem.runs import run_scene
-from tests.small_scenes import oiled_ball
 
 
 def scene(**changes):

@@ -4,7 +4,7 @@ import pytest
 
 from bem.errors import InputError
 from bem.runs import plan_scene, run_scene
-from bem.scenes.checks import examine, scene_warnings
+from bem.scenes.checks import examine, scene_warnings, suspected_units
 from bem.scenes.checks.refusals import refusals
 
 
@@ -54,3 +54,39 @@ def test_rubber_that_cannot_give_way_bears_more_than_its_contact_modulus():
     assert "3.8 times the contact modulus, 1.32 MPa" in told
     (told,) = refused(rubber("20 MPa", periodic=True))
     assert "1.2 times the softer body's uniaxial modulus, 17.1 MPa" in told
+
+
+@pytest.mark.parametrize(
+    ("source", "setting", "words"),
+    [
+        ("stribeck-mineral-oil", 'lower.material={youngs_modulus="3 Pa",poissons_ratio=0.3}', ("3 Pa", "3e-09 GPa")),
+        ("wear-steel-steel", "lower.material={youngs_modulus=210,poissons_ratio=0.3}", ("210 Pa", '"210 GPa" if')),
+        ("contact-to-accuracy", 'lower.material={youngs_modulus="3 Pa",poissons_ratio=0.3}', ("3 Pa", "1 kPa (gels)")),
+        ("stribeck-mineral-oil", 'contact.radius="6 km"', ("contact.radius: was read as 6e+03 m", "1000 m")),
+        ("wear-steel-steel", 'cylinder.radius="6 km"', ("cylinder.radius", "check its unit")),
+        ("stribeck-ball-on-disc", 'contact.ball="6 km"', ("contact.ball",)),
+    ],
+)
+def test_a_unit_is_suspected_before_the_grid(source, setting, words, tmp_path):
+    with pytest.raises(InputError) as caught:
+        run_scene(source, tmp_path / "r", settings=[setting])
+    (told,) = caught.value.messages
+    assert told.startswith(setting.partition("=")[0])
+    for text in words:
+        assert text in told
+    assert not (tmp_path / "r").exists()
+
+
+@pytest.mark.parametrize("modulus", ["1 kPa", "1.2 TPa", "210 GPa"])
+def test_what_solids_have_is_not_suspected(modulus):
+    """A gel under 10 N is refused for what it is, diamond not at all."""
+    setting = f'lower.material={{youngs_modulus="{modulus}",poissons_ratio=0.3}}'
+    assert suspected_units(plan_scene("hertz-sphere", [setting])[0]) == []
+    assert all("check its unit:" not in told for told in refused("hertz-sphere", setting))
+
+
+def test_a_ball_of_three_pascal_is_refused_for_its_unit_and_a_rigid_one_is_meant():
+    (told,) = refused("hertz-sphere", 'lower.material={youngs_modulus="3 Pa",poissons_ratio=0.3}')
+    assert told.startswith("lower.material.youngs_modulus: was read as 3 Pa")
+    rigid = 'lower.material={name="rigid",youngs_modulus="1e20 Pa",poissons_ratio=0.3}'
+    assert suspected_units(plan_scene("hertz-sphere", [rigid])[0]) == []

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from small_scenes import oiled_ball
 
 from bem import Grid, InputError, generate_surface, load_scene, solve_rough_point_film
 from bem.accuracy.rough_point import COUNTED
@@ -11,7 +12,6 @@ from bem.lubrication import MeasuredHeights
 from bem.lubrication.point.rough_film import LEAST_FILM
 from bem.runs import plan_scene, run_scene
 from bem.scenes.tables.touching import REMEDY, SET_BY_LEAST, TouchingScene
-from tests.small_scenes import oiled_ball
 
 WAVES = {"hurst": 0.8, "rolloff_wavelength": 100e-6, "cutoff_wavelength": 60e-6}
 BUMPS = {"kind": "generated", "rms_height": "40 nm", "seed": 5} | WAVES

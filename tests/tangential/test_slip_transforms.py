@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from slip_oracle import oracle
 
 from bem import Body, Grid, Material, displacement_operator, generate_surface, solve_contact, solve_partial_slip
 from bem.tangential import tangential_operator
-from tests.tangential.slip_oracle import oracle
 
 STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
 BODIES = (STEEL, STEEL)

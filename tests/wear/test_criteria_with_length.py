@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from wear_loops import goes_on
 
 from bem import Body, Grid, InputError, Layer, Material, Status, generate_surface, run_in, subsurface_stress
 from bem.contact.edge import count_spots, label_spots
@@ -15,7 +16,6 @@ from bem.wear.cycle import ContactOutcome
 from bem.wear.damage import move_up
 from bem.wear.junctions import half_spheres, junctions
 from bem.wear.lengths import averaged, disc, holding
-from tests.wear_loops import goes_on
 
 STEEL = Material("disk", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9, yield_stress=0.64e9)
 SOFT, HARD = Body(STEEL), Body(Material("cylinder", youngs_modulus=210e9, poissons_ratio=0.3, hardness=6e9))

@@ -4,12 +4,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from wear_loops import goes_on
 
 from bem import Body, Grid, InputError, Material, contact_modulus, generate_surface, run_in
 from bem.wear import WearModel
 from bem.wear.criterion import Archard, ArchardOverHardness, EnergyWear
 from bem.wear.outcome import step_error
-from tests.wear_loops import goes_on
 
 STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
 HARDENED = Body(Material("hardened", youngs_modulus=210e9, poissons_ratio=0.3, hardness=7e9))

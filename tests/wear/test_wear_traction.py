@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from test_cycle import ARGUMENTS, GRID, SOFT, setup, surfaces
+from wear_loops import goes_on
 
 from bem import Body, Grid, InputError, Material, contact_modulus, run_in
 from bem.reference_solutions.partial_slip import PushedBall
@@ -15,7 +16,6 @@ from bem.wear.criterion import Archard, AveragedVonMises, EnergyWear
 from bem.wear.loads import LOWER, UPPER, SurfaceLoad
 from bem.wear.traction import OscillatingForce, OscillatingShift
 from bem.wear.traction.oscillating import ALL_SLIPS, AT_ONCE
-from tests.wear_loops import goes_on
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 RADIUS, LOAD, FRICTION, RATE = 5e-3, 5.0, 0.3, 1e-17

@@ -29,6 +29,7 @@ from bem.scenes.checks import contact, cycles, materials, mesh, operation, outco
 from bem.scenes.checks.facts import Case, Facts, examine
 from bem.scenes.checks.refusals import refusals
 from bem.scenes.checks.registry import OUTCOME_CHECKS, SCENE_CHECKS
+from bem.scenes.checks.units_of import suspected_units
 from bem.scenes.context import Outcome
 
 _ORDER = [module.__name__ for module in (materials, operation, surfaces, contact, mesh, outcome, cycles)]
@@ -83,4 +84,5 @@ __all__ = [
     "outcome_warnings",
     "scene_warnings",
     "surfaces",
+    "suspected_units",
 ]

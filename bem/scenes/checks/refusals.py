@@ -11,14 +11,17 @@ from collections.abc import Iterator
 
 from bem.materials import contact_modulus
 from bem.scenes.checks.facts import Case, Facts
+from bem.scenes.checks.units_of import suspected_units
 from bem.scenes.checks.words import si
 
 _REMEDY = "lower the load, or check the units of load, modulus and lengths"
 
 
 def refusals(facts: Facts) -> list[str]:
-    """Why a scene is not run, a sentence for each of its contacts at most; empty where it is."""
-    return list(dict.fromkeys(words for case in facts.cases for words in _why(case)))
+    """Why a scene is not run, a sentence for each of its contacts at most, or for each unit that is likely the reason;
+    empty where it is."""
+    why = list(dict.fromkeys(words for case in facts.cases for words in _why(case)))
+    return (suspected_units(facts.scene) or why) if why else []
 
 
 def _why(case: Case) -> Iterator[str]:
