@@ -1,4 +1,4 @@
-"""Animations of a figure of which little moves: the rest is drawn once.
+"""Animations of a figure of which little moves: the rest is drawn once, and all frames have one palette.
 
 Knows nothing of results. Verified in tests/plots/test_animation.py: frames are as if each were drawn anew.
 """
@@ -9,11 +9,18 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
+from bem.plots.pictures import settle
+from bem.plots.quick_ticks import ticks_found_once
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+_COLOURS = 256
+"""Of a GIF."""
 
 
 def write_animation(
@@ -40,14 +47,13 @@ def write_animation(
     assert isinstance(canvas, FigureCanvasAgg)
     figure.dpi = dots
     show(0)
-    if figure.get_layout_engine() is not None:
-        figure.draw_without_rendering()
-        figure.set_layout_engine("none")
+    settle(figure)
     spines = [spine for axes in dict.fromkeys(item.axes for item in moving) for spine in axes.spines.values()]
     over = [*moving, *spines]
     for item in over:
         item.set_animated(True)
-    canvas.draw()
+    with ticks_found_once():
+        canvas.draw()
     rest = canvas.copy_from_bbox(figure.bbox)
     frames = []
     for index in range(count):
@@ -58,4 +64,23 @@ def write_animation(
         size = canvas.get_width_height(physical=True)
         picture = Image.frombytes("RGBA", size, bytes(canvas.buffer_rgba()))
         frames.append(picture.convert("RGB"))
-    frames[0].save(path, format="gif", save_all=True, append_images=frames[1:], duration=int(1000 / per_second), loop=0)
+    first, *more = _of_one_palette(frames)
+    first.save(path, format="gif", save_all=True, append_images=more, duration=int(1000 / per_second), loop=0)
+
+
+def _of_one_palette(frames: Sequence[Any]) -> list[Any]:
+    """Frames in the colours that all of them together need: looked for once, and in a dot that never changes once."""
+    dots = np.stack([np.asarray(frame) for frame in frames])
+    first, moves = dots[0].reshape(-1, 3), (dots != dots[0]).any(axis=(0, 3))
+    seen = np.concatenate([first, dots[:, moves].reshape(-1, 3)])
+    palette = Image.fromarray(seen[None]).quantize(_COLOURS)
+    numbers = np.asarray(palette)[0]
+    still = numbers[: len(first)].reshape(moves.shape)
+    found = []
+    for changed in numbers[len(first) :].reshape(len(frames), -1):
+        shown = still.copy()
+        shown[moves] = changed
+        frame = Image.fromarray(shown)
+        frame.putpalette(palette.getpalette() or [])
+        found.append(frame)
+    return found

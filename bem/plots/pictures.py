@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation
 from PIL import Image
 
+from bem.plots.quick_ticks import ticks_found_once
 from bem.results.atomic import replacing
 
 DOTS = 200
@@ -46,7 +47,8 @@ def settle(figure: Figure) -> None:
                     axis.set_minor_formatter(PlainPowers(labelOnlyBase=False))
     engine = figure.get_layout_engine()
     if engine is not None:
-        engine.execute(figure)
+        with ticks_found_once():
+            engine.execute(figure)
         figure.set_layout_engine("none")
 
 
@@ -74,7 +76,8 @@ def _write_png(figure: Figure, path: Path) -> None:
     """Nothing shines through a figure: its opacity is left out."""
     canvas = figure.canvas
     assert isinstance(canvas, FigureCanvasAgg)
-    canvas.draw()
+    with ticks_found_once():
+        canvas.draw()
     size = canvas.get_width_height(physical=True)
     picture = Image.frombuffer("RGBA", size, canvas.buffer_rgba(), "raw", "RGBA", 0, 1).convert("RGB")
     picture.save(path, format="png", dpi=(figure.dpi, figure.dpi), compress_type=_RUNS)

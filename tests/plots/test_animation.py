@@ -53,6 +53,22 @@ def test_frames_are_as_if_each_were_drawn_anew(tmp_path, monkeypatch):
                 assert np.percentile(away, 99) < 40
 
 
+def test_colours_of_all_frames_are_looked_for_once(tmp_path, monkeypatch):
+    values = np.random.default_rng(2).random((4, 8, 8))
+    looked, look = [], Image.Image.quantize
+    monkeypatch.setattr(Image.Image, "quantize", lambda self, *given: looked.append(self.size) or look(self, *given))
+    with style():
+        figure, moving, show = moving_figure(values)
+        for axes in figure.axes[1:]:
+            axes.remove()
+        write_animation(figure, moving[:1], lambda i: show(i), 4, tmp_path / "moving.gif", dots=80, per_second=5)
+    (size,) = looked
+    dots = 240 * 320
+    assert dots < size[0] * size[1] < 4 * dots  # what does not change is looked at once
+    with Image.open(tmp_path / "moving.gif") as animation:
+        assert animation.convert("RGB").getpixel((0, 0)) == (255, 255, 255)
+
+
 def test_a_single_frame_is_a_picture(tmp_path):
     with style():
         figure, moving, show = moving_figure(np.zeros((1, 4, 4)))

@@ -7,7 +7,7 @@ import pytest
 from small_scenes import oiled_ball
 
 from bem import InputError, load_scene, solve_point_film
-from bem.plots.figures.point_film import colours_of
+from bem.plots.figures.point_film import colours_of, finely_coloured
 from bem.runs import run_scene
 
 
@@ -112,3 +112,12 @@ def test_colours_are_dark_without_a_film_and_bright_where_beams_agree():
     assert colours_of(np.zeros((2, 2))).max() == 0
     # half a wavelength of green in oil there and back
     assert colours_of(np.array([532e-9 / 6]))[0, 1] > 0.95
+
+
+def test_colours_of_a_table_are_those_of_the_film_to_one_of_255():
+    thickness = np.random.default_rng(1).random((40, 30)) * np.geomspace(1e-9, 1e-4, 30)
+    found = finely_coloured(thickness, dots=10)  # more cells than dots: nothing in between
+    assert found.shape == (40, 30, 3)
+    assert np.abs(found - 255 * colours_of(thickness)).max() < 2
+    assert finely_coloured(np.array([[-1e-9, np.nan], [0.0, 1.0]]), dots=2).shape == (2, 2, 3)
+    assert finely_coloured(thickness, dots=64).shape == (64, 64, 3)

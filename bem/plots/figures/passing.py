@@ -17,6 +17,10 @@ _MOST = 3.0
 """Median films of the loaded middle that a section shows."""
 _BRIGHT = 0.6
 """Of that, where colours of the film over time end."""
+_DOTS = 90
+"""Per inch of an animation."""
+_WIDE = 4.6
+"""Inches of it, of which a map of its films takes three quarters."""
 
 
 def _array(run: Any, name: str) -> Any:
@@ -49,13 +53,16 @@ def _animate(run: Any, path: Path) -> None:
     from bem.plots.animation import write_animation
 
     x, y, times, frames = (_array(run, name) for name in ("film_x", "film_y", "frame", "frame_thickness"))
-    figure = Figure(figsize=(4.6, 6.0), layout="constrained")
+    figure = Figure(figsize=(_WIDE, 6.0), layout="constrained")
     FigureCanvasAgg(figure)
     above, below = figure.subplots(2, 1, height_ratios=(3, 2))
     extent = field_axes(above, x, y, along="x")
-    image = above.imshow(
-        finely_coloured(frames[0]).transpose(1, 0, 2), extent=extent, origin="lower", aspect=above.get_aspect()
-    )
+    dots = round(_DOTS * _WIDE)  # more than it has there
+
+    def shown(index: int) -> Any:
+        return finely_coloured(frames[index], dots).transpose(1, 0, 2)
+
+    image = above.imshow(shown(0), extent=extent, origin="lower", aspect=above.get_aspect())
     middle = np.abs(y).argmin()
     film, film_unit = prefix([_highest(run)], "m")
     along, unit = prefix(x, "m")
@@ -67,11 +74,11 @@ def _animate(run: Any, path: Path) -> None:
     factor, time_unit = prefix(times, "s")
 
     def show(index: int) -> None:
-        image.set_data(finely_coloured(frames[index]).transpose(1, 0, 2))
+        image.set_data(shown(index))
         line.set_ydata(frames[index][:, middle] * film)
         above.set_title(f"{times[index] * factor:.3g} {time_unit}")
 
-    write_animation(figure, (image, line, above.title), show, len(frames), path, dots=90, per_second=5)
+    write_animation(figure, (image, line, above.title), show, len(frames), path, dots=_DOTS, per_second=5)
 
 
 def _highest(run: Any) -> float:
