@@ -227,7 +227,9 @@ def _enter(cells, ahead, window, begin, end):  # type: ignore[no-untyped-def]
 
 @_plain
 def _look_up(where, grid, offsets, solved, listed, columns, own, pattern):  # type: ignore[no-untyped-def]
-    """The seam's rows, and where their sums are in the packed table; returns whether a pattern is unsolved."""
+    """The seam's rows, and where their sums are in the packed table; returns whether a pattern is unsolved.
+
+    Neighbours one after the other in a line are one search, and a step for each."""
     cells, lines = where
     nx, ny, wrap_x, wrap_y = grid
     m = offsets.shape[0]
@@ -237,6 +239,7 @@ def _look_up(where, grid, offsets, solved, listed, columns, own, pattern):  # ty
         i = cells[k] // ny
         j = cells[k] - i * ny
         bits = 0
+        line, column, place, end = -1, -1, 0, 0  # the last place that was sought, and what is there or next in its line
         for a in range(m):
             ii = i + offsets[a, 0]
             jj = j + offsets[a, 1]
@@ -246,7 +249,14 @@ def _look_up(where, grid, offsets, solved, listed, columns, own, pattern):  # ty
                 jj += ny if jj < 0 else -ny if jj >= ny else 0
             found = -1
             if ii >= 0 and jj >= 0 and jj < ny:
-                found = _in_line(cells, ii * ny + jj, lines[ii], lines[ii + 1], jj < 4, jj >= ny - 4)
+                cell = ii * ny + jj
+                if ii == line and jj == column + 1:
+                    place += place < end and cells[place] < cell
+                else:
+                    line, end = ii, lines[ii + 1]
+                    place = first_from(cells, cell, lines[ii], end)
+                column = jj
+                found = place if place < end and cells[place] == cell else -1
             columns[q, a] = found if found >= 0 else k
             if found >= 0:
                 bits |= 1 << a
@@ -254,22 +264,6 @@ def _look_up(where, grid, offsets, solved, listed, columns, own, pattern):  # ty
         pattern[k] = (1 << m) + bits
         unsolved |= solved[bits] == 0
     return unsolved
-
-
-@_plain
-def _in_line(cells, cell, low, high, early, late):  # type: ignore[no-untyped-def]
-    """The number of a cell in a line, whose cells have the numbers from `low` to before `high`; -1 if it is not there.
-    Near the line's ends, where most of the seam looks, it is sought from there."""
-    if early:
-        while low < high and cells[low] < cell:
-            low += 1
-    elif late:
-        while low < high and cells[high - 1] > cell:
-            high -= 1
-        low = max(low, high - 1)
-    else:
-        low = first_from(cells, cell, low, high)
-    return low if low < high and cells[low] == cell else -1
 
 
 @_plain
