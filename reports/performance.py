@@ -31,7 +31,7 @@ from bem.benchmarks.show import (
 from bem.benchmarks.show import (
     work_precision as residual_curves,
 )
-from reports import goals, large, shared, work_precision
+from reports import beside, goals, large, shared, work_precision
 from reports.builder import Page, Section, figure, table, text
 from reports.experiments.kept import age, found, result_of
 from reports.validation_origin import changed_since_stored
@@ -256,6 +256,7 @@ def _peer_sections(run: Run) -> Iterator[Section]:
             "pressure is at least as good."
         )
         yield Section("Beside other codes", words + table(PEER_HEADERS, peer_rows(run)) + shared.missing())
+    yield from beside.sections(run)
     if result_of(SLIP).exists():
         yield Section("Partial slip beside ASPHER", _slip())
     notes = [(name, *(times.get(n) for n in (512, 1024, 2048))) for name, times in NOTES_TIMES.items()]

@@ -2,7 +2,7 @@
 
 To add a case, write a function of the size that returns `Timed` and enter it in `CASES`; tables, figures, the history
 and the command line follow. The functions are in `contact_cases`, `lubricated_cases`, `surface_change_cases`,
-`tangential_cases`, `campaign_cases` and `checkpoint_cases`.
+`tangential_cases`, `campaign_cases` and `checkpoint_cases`, those beside other codes in `peer_cases`.
 Verified in tests/benchmarks/test_benchmarks.py: every case runs at its smallest size.
 """
 
@@ -30,6 +30,7 @@ from bem.benchmarks.contact_cases import (
 )
 from bem.benchmarks.lubricated_cases import line_film, load_sharing, stribeck
 from bem.benchmarks.measure import Timed
+from bem.benchmarks.peer_cases import AXES, ball_mises, ball_stress, load_area
 from bem.benchmarks.physical_cases import PHYSICAL
 from bem.benchmarks.surface_change_cases import one_wear_cycle, stress_of_sphere, tribofilm
 from bem.benchmarks.tangential_cases import partial_slip
@@ -224,8 +225,23 @@ CASES = {
     )
 }
 
-INNER = {"peer-tolerance": _cells("peer-tolerance", "Beside peers", peer_tolerance, warm_size=64.02)} | {
-    case.name: Case(case.name, case.title, case.prepare, (), (), case.points(quick=True)[0], case.size_name, "")
-    for case in PHYSICAL.values()
-}
+INNER = (
+    {
+        "peer-tolerance": _cells("peer-tolerance", "Beside peers", peer_tolerance, warm_size=64.02),
+        "peer-curve": _cells("peer-curve", "Load-area curve beside peers", load_area, warm_size=64.02),
+    }
+    | {
+        name: _cells(name, "Stresses beside peers", functools.partial(prepare, axes=axes, **more), warm_size=32)
+        for axes in AXES
+        for name, prepare, more in (
+            (f"peer-stress-{axes}", ball_stress, {"kept": False}),
+            (f"peer-stress-{axes}-kept", ball_stress, {"kept": True}),
+            (f"peer-mises-{axes}", ball_mises, {}),
+        )
+    }
+    | {
+        case.name: Case(case.name, case.title, case.prepare, (), (), case.points(quick=True)[0], case.size_name, "")
+        for case in PHYSICAL.values()
+    }
+)
 """Cases that other modules measure; they are not part of a run of their own."""

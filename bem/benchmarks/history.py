@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from bem.arguments import named
+from bem.benchmarks.beside import CurveBeside, StressBeside, beside_of
 from bem.benchmarks.floor import Floor
 from bem.benchmarks.measure import Point
 from bem.errors import InputError, ResultsError
@@ -27,7 +28,8 @@ PACKAGES = ("bem", "numpy", "scipy", "pyfftw", "numba")
 
 @dataclass(frozen=True)
 class Run:
-    """One run: what was measured, on what, at which commit. `peers` : rows of `bem.benchmarks.peers`."""
+    """One run: what was measured, on what, at which commit. `peers` : rows of `bem.benchmarks.peers`; runs of before
+    have neither curves nor stresses beside other codes."""
 
     commit: str
     date: str
@@ -37,6 +39,8 @@ class Run:
     floor: Floor | None = None
     peers: tuple[dict[str, Any], ...] = ()
     failures: dict[str, str] = field(default_factory=dict)
+    peer_curves: tuple[CurveBeside, ...] = ()
+    peer_stresses: tuple[StressBeside, ...] = ()
 
 
 def present_commit() -> str:
@@ -78,6 +82,8 @@ def new_run(
     floor: Floor | None = None,
     peers: Sequence[dict[str, Any]] = (),
     failures: dict[str, str] | None = None,
+    curves: Sequence[CurveBeside] = (),
+    stresses: Sequence[StressBeside] = (),
 ) -> Run:
     """A run of now, here."""
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
@@ -96,6 +102,8 @@ def new_run(
         floor=floor,
         peers=tuple(peers),
         failures=failures or {},
+        peer_curves=tuple(curves),
+        peer_stresses=tuple(stresses),
     )
 
 
@@ -127,6 +135,8 @@ def _run_of(data: dict[str, Any]) -> Run:
                 "points": tuple(Point.of(item) for item in data["points"]),
                 "floor": None if data["floor"] is None else Floor(**data["floor"]),
                 "peers": tuple(data["peers"]),
+                "peer_curves": tuple(beside_of(CurveBeside, item) for item in data.get("peer_curves", ())),
+                "peer_stresses": tuple(beside_of(StressBeside, item) for item in data.get("peer_stresses", ())),
             }
         )
     )

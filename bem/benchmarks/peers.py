@@ -1,17 +1,20 @@
 """Other codes on the same surface, in an environment of their own: tamaas, ContactMechanics, ASPHER from PyPI.
 
-Each peer solves in its own interpreter and hands back its pressure; its residual is then recomputed here from the
-pressure by the routine that judges bem too. bem is timed at the coarsest tolerance whose pressure is at least as good.
+Here are the environment, how a peer runs, and single contacts; `peer_curves` and `peer_stresses` have the rest. Each
+peer solves in its own interpreter and hands back its pressure; its residual is then recomputed here from the pressure
+by the routine that judges bem too. bem is timed at the coarsest tolerance whose pressure is at least as good.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -32,8 +35,8 @@ GOALS = {
 }
 """How many times faster bem is meant to be, at equal residual on one thread."""
 
-_TIMER = """
-import sys, time, numpy as np
+TIMER = """
+import json, sys, time, numpy as np
 folder, pressure, tolerance = sys.argv[1], float(sys.argv[2]), float(sys.argv[3])
 gap = np.load(folder + "/gap.npy")
 n = gap.shape[0]
@@ -42,17 +45,27 @@ def held(name):
         return 1024.0 * int(open("/proc/self/status").read().split(name + ":")[1].split()[0])
     except (OSError, IndexError):
         return 0.0
-def keep(solve):
+def keep(solve, **more):
     try:
         open("/proc/self/clear_refs", "w").write("5")
     except OSError:
         pass
-    times, before = [], held("VmRSS")
-    for _ in range(int(sys.argv[4])):
-        start = time.process_time(); result = solve(); times.append(time.process_time() - start)
-    np.save(folder + "/pressure.npy", np.ascontiguousarray(result, dtype=float))
-    print(repr(times)); print(max(0.0, held("VmHWM") - before))
+    before = held("VmRSS")
+    def timed(work):
+        times = []
+        for _ in range(int(sys.argv[4])):
+            start = time.process_time(); result = work(); times.append(time.process_time() - start)
+        return times, result
+    times, result = timed(solve)
+    memory = max(0.0, held("VmHWM") - before)
+    np.save(folder + "/result.npy", np.ascontiguousarray(result, dtype=float))
+    del result
+    others = {name: timed(work) for name, work in more.items()}
+    print(json.dumps({"times": times, "memory": memory, "more": {
+        name: [times, float(np.max(result))] for name, (times, result) in others.items()}}))
 """
+"""Begins every script. `keep` times `solve`, whose result it saves, and other work by name, whose largest number it
+tells. A script finds the first array in `gap`, `n` its side, and two numbers in `pressure` and `tolerance`."""
 SCRIPTS = {
     "tamaas": """
 import tamaas as tm
@@ -90,8 +103,10 @@ TOLERANCES = {"tamaas": 1e-8, "ContactMechanics": 1e-5, "aspher": 1e-6}
 """Tolerances, each in the meaning of its code, that give about the same complementarity, near 1e-6."""
 
 
-def environment(folder: Path, say: Callable[[str], None]) -> Path:
-    """The interpreter of the peers' environment, made if it is not there.
+def environment(
+    folder: Path, say: Callable[[str], None], packages: Sequence[str] = PACKAGES, alone: Sequence[str] = ()
+) -> Path:
+    """The interpreter of the peers' environment, made if it is not there. `alone` : packages without what they ask for.
 
     Raises
     ------
@@ -100,20 +115,16 @@ def environment(folder: Path, say: Callable[[str], None]) -> Path:
     python = folder / "bin" / "python"
     if (folder / ".installed").is_file():
         return python
-    say(f"installing {', '.join(PACKAGES[:4])} into {folder}")
+    say(f"installing {', '.join([*packages, *alone])} into {folder}")
     begun = (folder / "pyvenv.cfg").is_file()  # and interrupted: uv makes no environment where one is
     uv = shutil.which("uv") or shutil.which("uv", path=str(Path(sys.executable).parent))
-    commands: list[list[str]]
     if uv:
-        commands = [
-            *([] if begun else [[uv, "venv", "-q", "--python", sys.executable, str(folder)]]),
-            [uv, "pip", "install", "-q", "--python", str(python), *PACKAGES],
-        ]
+        commands = [] if begun else [[uv, "venv", "-q", "--python", sys.executable, str(folder)]]
+        install = [uv, "pip", "install", "-q", "--python", str(python)]
     else:
-        commands = [
-            [sys.executable, "-m", "venv", str(folder)],
-            [str(python), "-m", "pip", "install", "-q", *PACKAGES],
-        ]
+        commands = [[sys.executable, "-m", "venv", str(folder)]]
+        install = [str(python), "-m", "pip", "install", "-q"]
+    commands += [[*install, *packages], *([[*install, "--no-deps", *alone]] if alone else [])]
     for command in commands:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
@@ -121,6 +132,51 @@ def environment(folder: Path, say: Callable[[str], None]) -> Path:
             raise InputError(f"--peers: {' '.join(command[:3])} failed ({last}); allowed: a network that reaches PyPI")
     (folder / ".installed").write_text("")
     return python
+
+
+@dataclass(frozen=True)
+class PeerRun:
+    """What a script left: processor times [s], memory beyond its inputs [bytes], its result, and of other work by name
+    the times [s] with the largest number that it gave."""
+
+    times: list[float]
+    memory: float
+    result: FloatArray
+    more: dict[str, tuple[list[float], float]]
+
+
+def run_script(  # reason: what a script finds, and how long it may take
+    python: Path,
+    what: str,
+    script: str,
+    array: FloatArray,
+    numbers: tuple[float, float],
+    repeats: int,
+    limit: float = 1800.0,
+) -> PeerRun:
+    """A script behind `TIMER` in a process of its own, on one thread.
+
+    Raises
+    ------
+    RuntimeError : it failed; its last line says why.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        np.save(f"{folder}/gap.npy", array)
+        done = subprocess.run(
+            [str(python), "-c", TIMER + script, folder, *map(repr, numbers), str(repeats)],
+            capture_output=True,
+            text=True,
+            timeout=limit,
+            env=os.environ | dict.fromkeys(THREAD_VARIABLES, "1"),
+            check=False,
+        )
+        if done.returncode != 0:
+            last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+            raise RuntimeError(f"{what}: {last}")
+        told = json.loads(done.stdout.strip().splitlines()[-1])
+        result = np.load(f"{folder}/result.npy")
+    more = {name: (times, value) for name, (times, value) in told["more"].items()}
+    return PeerRun(told["times"], told["memory"], result, more)
 
 
 def solve_by_peer(
@@ -132,30 +188,9 @@ def solve_by_peer(
     ------
     RuntimeError : it failed; its last line says why.
     """
-    with tempfile.TemporaryDirectory() as folder:
-        np.save(f"{folder}/gap.npy", gap)
-        done = subprocess.run(
-            [
-                str(python),
-                "-c",
-                _TIMER + SCRIPTS[peer],
-                folder,
-                repr(MEAN_PRESSURE),
-                repr(TOLERANCES[peer]),
-                str(repeats),
-            ],
-            capture_output=True,
-            text=True,
-            timeout=limit,
-            env=os.environ | dict.fromkeys(THREAD_VARIABLES, "1"),
-            check=False,
-        )
-        if done.returncode != 0:
-            last = (done.stderr.strip().splitlines() or ["no message"])[-1]
-            raise RuntimeError(f"{peer} at {gap.shape[0]}: {last}")
-        times, memory = done.stdout.strip().splitlines()[-2:]
-        pressure = np.maximum(np.load(f"{folder}/pressure.npy"), 0.0)
-    return [float(word) for word in times.strip("[]").split(",")], float(memory), pressure
+    what, numbers = f"{peer} at {gap.shape[0]}", (MEAN_PRESSURE, TOLERANCES[peer])
+    done = run_script(python, what, SCRIPTS[peer], gap, numbers, repeats, limit)
+    return done.times, done.memory, np.maximum(done.result, 0.0)
 
 
 def run_peer(python: Path, peer: str, cells: int, repeats: int) -> dict[str, Any]:

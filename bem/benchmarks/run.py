@@ -8,6 +8,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from bem.benchmarks import peer_curves, peer_stresses
+from bem.benchmarks.beside import CurveBeside, StressBeside
 from bem.benchmarks.cases import CASES, Case
 from bem.benchmarks.floor import measure_floor
 from bem.benchmarks.history import INTERRUPTED, Run, new_run
@@ -66,6 +68,7 @@ def run_cases(
     points: list[Point] = []
     failures: dict[str, str] = {}
     floor, rows = None, list[dict[str, Any]]()
+    curves, stresses = list[CurveBeside](), list[StressBeside]()
     wanted_points = [
         (name, size, count)
         for name in names
@@ -90,6 +93,12 @@ def run_cases(
             at = f"peers at {n}"
             # minutes a solve from 2048 on: once is enough where ratios are of the order of ten
             compare_with_peers(python, n, min(repeats, 3) if n < 2048 else 1, say, rows, failures)
+        if peers is not None:
+            at = "load-area curves of peers"
+            peer_curves.curves_beside(python, quick, min(repeats, 3), say, curves, failures)
+            at = "stresses of peers"
+            pythons = peer_stresses.interpreters(peers[0], say, failures)
+            peer_stresses.stresses_beside(pythons, quick, min(repeats, 3), say, stresses, failures)
     except KeyboardInterrupt:
         failures[INTERRUPTED] = f"at {at}; {len(points)} of {len(wanted_points)} points are kept"
-    return new_run(points, floor, rows, failures)
+    return new_run(points, floor, rows, failures, curves, stresses)

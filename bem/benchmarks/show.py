@@ -7,6 +7,14 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bem.benchmarks.beside import (
+    CURVE_HEADERS,
+    MISES_HEADERS,
+    STRESS_HEADERS,
+    curve_rows,
+    mises_rows,
+    stress_rows,
+)
 from bem.benchmarks.cases import CASES
 from bem.benchmarks.history import Run, compare, find_run, read_history
 from bem.benchmarks.measure import Point, growth
@@ -213,6 +221,14 @@ def print_run(run: Run, table: Table) -> None:
         table(SPLIT_HEADERS, rows, title="where the time goes", right=range(1, 9))
     if rows := peer_rows(run):
         table(PEER_HEADERS, rows, title="peers at equal residual, one thread", right=range(1, 8))
+    if run.peer_curves:
+        title = "peers: 20 loads, at equal residual and at equal error of the area"
+        table(CURVE_HEADERS, curve_rows(run.peer_curves), title=title, right=range(2, 15))
+    if run.peer_stresses:
+        title = "peers: six stresses on the same points"
+        table(STRESS_HEADERS, stress_rows(run.peer_stresses), title=title, right=range(2, 13))
+        title = "peers: highest von Mises stress at equal error"
+        table(MISES_HEADERS, mises_rows(run.peer_stresses), title=title, right=range(2, 10))
     if run.floor is not None:
         pairs = [(key, f"{1e3 * value:.3g}") for key, value in run.floor.pairs.items()]
         pairs.append(("memory bandwidth, GB/s", f"{run.floor.bandwidth / 1e9:.3g}"))

@@ -49,10 +49,17 @@ def bench(  # reason: the arguments are the options
     repeats: Annotated[int, typer.Option(min=1, max=1000, help="Timed solves of each point.")] = 5,
     floor: Annotated[bool, typer.Option("--floor/--no-floor", help="Measure what the machine can do at best.")] = True,
     peers: Annotated[
-        bool, typer.Option("--peers", help="Also time tamaas, ContactMechanics and ASPHER, installed from PyPI.")
+        bool,
+        typer.Option(
+            "--peers",
+            help="Also time tamaas, ContactMechanics, ASPHER and slippy, installed from PyPI: contacts, load-area "
+            "curves and stresses.",
+        ),
     ] = False,
     peers_folder: Annotated[Path, typer.Option(help="Environment of the peers.")] = Path(".venv-peers"),
-    peers_size: Annotated[list[int] | None, typer.Option(help="Cells a side for the peers; 512 without it.")] = None,
+    peers_size: Annotated[
+        list[int] | None, typer.Option(help="Cells a side for the peers' contacts; 512 without it.")
+    ] = None,
     json_: Annotated[
         Path | None, typer.Option("--json", metavar="FILE", help="Append the run to this history.")
     ] = None,

@@ -1,0 +1,199 @@
+"""A load-area curve of 20 loads by other codes, beside bem's at equal residual and at equal error of the area.
+
+The surface has no waves shorter than 1/48 of its side, so that its areas have a limit: from bem's two finest grids, by
+the order that they converge with. Every peer solves the same discrete problem and begins each load as it does best:
+tamaas with the pressure that its model holds, ContactMechanics with the forces of the load before, scaled; ASPHER both
+from coarser grids, as it is meant (no start is taken there), and on the grid alone with a start and its preconditioner.
+Counted cells are a peer's area; bem's edge lies inside of cells. Verified in tests/benchmarks/test_beside_peers.py.
+"""
+
+from __future__ import annotations
+
+import math
+import subprocess
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from bem.benchmarks.beside import CurveBeside
+from bem.benchmarks.contact_cases import LOADS, PERIODIC, UNIT, common_residual, deformed_gap
+from bem.benchmarks.measure import Point, measure_apart
+from bem.benchmarks.peer_cases import area_and_gap
+from bem.benchmarks.peers import TOLERANCES, run_script
+from bem.benchmarks.physical_cases import rough_surface
+from bem.convolution import displacement_operator
+from bem.grid import FloatArray, Grid
+
+SIZES, QUICK = (256, 512), (128,)
+LIMIT, QUICK_LIMIT = (512, 1024), (256, 512)
+"""Cells a side that the limit is drawn from."""
+_DIGITS, _ORDER = 4, 2.0
+"""Of the tolerance where an area's error counts, a hundredth of what 512 cells leave; what areas converge with."""
+_LOADS = f"loads = {LOADS!r}\n"
+SCRIPTS = {
+    ("tamaas", "with the pressure before"): """
+import tamaas as tm
+tm.initialize(1); tm.set_log_level(tm.LogLevel.error)
+def solve():
+    model = tm.Model(tm.model_type.basic_2d, [1.0, 1.0], [n, n]); model.E = 1.0; model.nu = 0.0
+    solver = tm.PolonskyKeerRey(model, np.ascontiguousarray(-gap), tolerance)
+    solver.max_iter = 20000
+    curve = []
+    for load in loads:
+        solver.solve(load)
+        curve.append(np.array(model.traction))
+    return curve
+keep(solve)
+""",
+    ("ContactMechanics", "with the forces before"): """
+from ContactMechanics import PeriodicFFTElasticHalfSpace
+from ContactMechanics.Systems import NonSmoothContactSystem
+from SurfaceTopography import Topography
+def solve():
+    substrate = PeriodicFFTElasticHalfSpace((n, n), 1.0, (1.0, 1.0))
+    system = NonSmoothContactSystem(substrate, Topography(-gap, (1.0, 1.0), periodic=True))
+    curve, start, before = [], {}, None
+    for load in loads:
+        if before is not None:
+            start = {"initial_forces": forces * (load / before), "initial_displacements": displacements}
+        result = system.minimize_proxy(external_force=load, pentol=tolerance * gap.std(), maxiter=20000, **start)
+        forces, displacements, before = np.array(result.jac), np.array(result.x), load
+        curve.append(np.abs(forces) * n * n)
+    return curve
+keep(solve)
+""",
+    ("aspher", "on coarser grids"): """
+import aspher
+def solve():
+    found = (aspher.solve_nested(n, gap - gap.min(), load, 1.0, 1.0, tol=tolerance, backend="periodic")
+             for load in loads)
+    return [np.array(one.pressure).reshape(n, n) for one in found]
+keep(solve)
+""",
+    ("aspher", "with the pressure before"): """
+import aspher
+def solve():
+    solver = aspher.ContactSolver(n, 1.0, 1.0, backend="periodic")
+    curve, start, before = [], {}, None
+    for load in loads:
+        if before is not None:
+            start = {"p_init": curve[-1] * (load / before)}
+        result = solver.solve(gap - gap.min(), load, tol=tolerance, precond="fourier", max_iter=20000, **start)
+        curve.append(np.array(result.pressure).reshape(n, n)); before = load
+    return curve
+keep(solve)
+""",
+}
+
+
+def curves_beside(  # reason: what is found is put where an interrupt leaves it
+    python: Path,
+    quick: bool,
+    repeats: int,
+    say: Callable[[str], None],
+    found: list[CurveBeside],
+    failures: dict[str, str],
+) -> None:
+    """Add all peers' curves with bem's beside, and what failed."""
+    own: dict[tuple[int, int], Point] = {}
+    sizes, limit_from = (QUICK, QUICK_LIMIT) if quick else (SIZES, LIMIT)
+
+    def bem(cells: int, digits: int) -> Point:
+        if (cells, digits) not in own:
+            say(f"load-area curve, {cells} cells a side, {digits} digits")
+            own[cells, digits] = measure_apart("peer-curve", cells + digits / 100, 1, repeats if cells < 512 else 1)
+        return own[cells, digits]
+
+    try:
+        limit = limit_areas([bem(cells, 8) for cells in limit_from], limit_from)
+        grids = sorted({128, *sizes})
+        errors = [(cells, area_error(values_of(bem(cells, _DIGITS), "area"), limit)) for cells in grids]
+    except (RuntimeError, subprocess.TimeoutExpired) as error:
+        failures["load-area curve"] = str(error)
+        return
+    for cells in sizes:
+        for (peer, start), script in SCRIPTS.items():
+            say(f"{peer}: load-area curve, {cells} cells a side, {start}")
+            what = f"{peer}, curve {start}, {cells}"
+            try:
+                gap, times = rough_surface(cells), repeats if cells < 256 else 1
+                done = run_script(python, what, _LOADS + script, gap, (0.0, TOLERANCES[peer]), times)
+                found.append(_beside(peer, start, gap, done.times, done.result, limit, errors, bem))
+            except (RuntimeError, subprocess.TimeoutExpired) as error:
+                failures[what] = str(error)
+
+
+def _beside(  # reason: what a row is made of
+    peer: str,
+    start: str,
+    gap: FloatArray,
+    times: list[float],
+    pressures: FloatArray,
+    limit: FloatArray,
+    errors: Sequence[tuple[int, float]],
+    bem: Callable[[int, int], Point],
+) -> CurveBeside:
+    cells = gap.shape[0]
+    operator = displacement_operator(Grid(gap.shape, (1 / cells, 1 / cells), periodic=PERIODIC), UNIT)
+    positive = [np.maximum(pressure, 0.0) for pressure in pressures]
+    residual = max(common_residual(one, gap, operator)[0] for one in positive)
+    areas, gaps = np.transpose([area_and_gap(one, deformed_gap(one, gap, operator)) for one in positive])
+    digits = loosest(residual, lambda number: bem(cells, number).errors["residual"])
+    equal, own = bem(cells, digits), bem(cells, 8)
+    error = area_error(areas, limit)
+    enough = coarsest(errors, error)
+    area = None if enough is None else bem(enough, _DIGITS)
+    return CurveBeside(
+        peer=peer,
+        start=start,
+        cells=cells,
+        cpu=tuple(times),
+        residual=residual,
+        load_error=max(abs(float(one.mean()) / load - 1) for one, load in zip(positive, LOADS, strict=True)),
+        area_difference=float(np.abs(areas / values_of(own, "counted") - 1).max()),
+        gap_difference=float(np.abs(gaps / values_of(own, "gap") - 1).max()),
+        bem_digits=digits,
+        bem_residual=equal.errors["residual"],
+        bem_cpu=equal.cpu,
+        area_error=error,
+        bem_area_cells=enough or 0,
+        bem_area_error=dict(errors)[enough] if enough else 0.0,
+        bem_area_cpu=() if area is None else area.cpu,
+    )
+
+
+def loosest(wanted: float, residual_of: Callable[[int], float]) -> int:
+    """Digits of the loosest tolerance, 2 to 11, that leaves at most this residual; begins where it should be."""
+    digits = min(11, max(2, math.floor(-math.log10(wanted)) - 1)) if wanted > 0 else 11
+    while digits < 11 and not residual_of(digits) <= wanted:
+        digits += 1
+    while digits > 2 and residual_of(digits - 1) <= wanted:
+        digits -= 1
+    return digits
+
+
+def values_of(point: Point, name: str) -> FloatArray:
+    """Of all loads."""
+    return np.array([point.values[f"{name}_{k}"] for k in range(len(LOADS))])
+
+
+def limit_areas(points: Sequence[Point], sizes: tuple[int, int]) -> FloatArray:
+    """Shares in contact that fine grids lead to, for all loads."""
+    coarse, fine = (values_of(point, "area") for point in points)
+    return np.asarray(fine + (fine - coarse) / ((sizes[1] / sizes[0]) ** _ORDER - 1))
+
+
+def area_error(areas: FloatArray, limit: FloatArray) -> float:
+    """Of all loads, rms and relative."""
+    return float(np.sqrt(np.mean((areas / limit - 1) ** 2)))
+
+
+def coarsest(errors: Sequence[tuple[int, float]], wanted: float) -> int | None:
+    """The coarsest grid whose error, and that of all finer ones, is at most what is wanted."""
+    enough = None
+    for cells, error in sorted(errors, reverse=True):
+        if not error <= wanted:
+            break
+        enough = cells
+    return enough
